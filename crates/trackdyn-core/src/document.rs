@@ -1,0 +1,142 @@
+//! TOML files that users write, and errors that point into them.
+
+use serde::de::DeserializeOwned;
+use std::ops::Range;
+use std::path::Path;
+
+/// A TOML text and the name under which errors mention it.
+#[derive(Clone, Debug)]
+pub struct Document {
+    name: String,
+    text: String,
+}
+
+/// A file that cannot be read, is not TOML, or holds a value that is not accepted.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum DocumentError {
+    /// The file cannot be read.
+    #[error("{path}: cannot be read: {cause}")]
+    Unreadable {
+        /// Path as given.
+        path: String,
+        /// What the system says.
+        cause: std::io::Error,
+    },
+    /// Not TOML, an unknown or missing key, or a value of the wrong type.
+    #[error("{name}:{line}:{column}: {message}\n{excerpt}")]
+    Syntax {
+        /// Name of the document.
+        name: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What was expected.
+        message: String,
+        /// The line itself.
+        excerpt: String,
+    },
+    /// A value that is not accepted.
+    #[error("{name}:{line}: {key} = {value}: expected {expected}\n{excerpt}")]
+    Value {
+        /// Name of the document.
+        name: String,
+        /// Line, from 1.
+        line: usize,
+        /// Key with the tables it stands in.
+        key: String,
+        /// The value as written.
+        value: String,
+        /// What was expected.
+        expected: String,
+        /// The line itself.
+        excerpt: String,
+    },
+}
+
+impl Document {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`DocumentError::Unreadable`].
+    pub fn read(path: &Path) -> Result<Self, DocumentError> {
+        let text = std::fs::read_to_string(path).map_err(|cause| DocumentError::Unreadable {
+            path: path.display().to_string(),
+            cause,
+        })?;
+        Ok(Self::new(path.display().to_string(), text))
+    }
+
+    /// A text that is at hand.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { name: name.into(), text: text.into() }
+    }
+
+    /// The name under which errors mention it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The contents as a `T`.
+    ///
+    /// # Errors
+    /// [`DocumentError::Syntax`] with the place that does not fit.
+    pub fn parse<T: DeserializeOwned>(&self) -> Result<T, DocumentError> {
+        toml::from_str(&self.text).map_err(|error| {
+            let start = error.span().map_or(0, |span| span.start);
+            let (line, column) = self.position(start);
+            DocumentError::Syntax {
+                name: self.name.clone(),
+                line,
+                column,
+                message: error.message().to_owned(),
+                excerpt: self.excerpt(line),
+            }
+        })
+    }
+
+    /// The error of a value that was read and is not accepted; `span` is where it stands.
+    pub fn value_error(
+        &self,
+        span: Range<usize>,
+        key: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> DocumentError {
+        let (line, _) = self.position(span.start);
+        DocumentError::Value {
+            name: self.name.clone(),
+            line,
+            key: key.into(),
+            value: self.text.get(span).unwrap_or_default().to_owned(),
+            expected: expected.into(),
+            excerpt: self.excerpt(line),
+        }
+    }
+
+    /// Line and column, from 1, of a byte offset.
+    fn position(&self, offset: usize) -> (usize, usize) {
+        let before = self.text.get(..offset).unwrap_or(&self.text);
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let line = before.matches('\n').count() + 1;
+        (line, before[line_start..].chars().count() + 1)
+    }
+
+    fn excerpt(&self, line: usize) -> String {
+        let text = self.text.lines().nth(line - 1).unwrap_or_default();
+        format!("  |\n{line} | {text}\n  |")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_from_one() {
+        let document = Document::new("x.toml", "a = 1\nb = \"ü\"\nc = 3\n");
+        assert_eq!(document.position(0), (1, 1));
+        assert_eq!(document.position(6), (2, 1));
+        assert_eq!(document.position(15), (3, 2));
+    }
+}

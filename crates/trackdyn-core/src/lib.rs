@@ -1,0 +1,22 @@
+//! Planar geometry and the scalar type that every other crate of trackdyn speaks.
+//!
+//! Units are SI and radians throughout. Two frames exist: [`frames`] names them and holds the only
+//! code that knows both.
+
+pub mod document;
+pub mod frames;
+pub mod output;
+pub mod pose;
+pub mod scalar;
+pub mod side;
+pub mod twist;
+pub mod wrench;
+
+pub use pose::Pose;
+pub use scalar::Scalar;
+pub use side::{PerSide, Side};
+pub use twist::Twist;
+pub use wrench::Wrench;
+
+/// Standard gravity g in m/s² (exact by definition, CGPM 1901).
+pub const STANDARD_GRAVITY: f64 = 9.806_65;

@@ -1,0 +1,97 @@
+//! Files that the tool writes: whole or not at all, and traceable to their source.
+
+use sha2::{Digest, Sha256};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// A file that could not be written.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: cannot be written: {cause}", path.display())]
+pub struct OutputError {
+    /// The file or folder.
+    pub path: PathBuf,
+    /// What the system says.
+    pub cause: io::Error,
+}
+
+/// Writes a file by way of a temporary one beside it: a reader sees the old file or the new one,
+/// never half of it.
+///
+/// # Errors
+/// [`OutputError`]; the old file is then untouched.
+pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let write = || -> io::Result<()> {
+        let mut temporary = tempfile::Builder::new()
+            .prefix(".trackdyn-")
+            .permissions(permissions())
+            .tempfile_in(folder)?;
+        temporary.write_all(contents)?;
+        temporary.persist(path).map_err(|failure| failure.error)?;
+        Ok(())
+    };
+    write().map_err(|cause| OutputError { path: path.to_owned(), cause })
+}
+
+/// Makes a folder and its parents where they are missing, and makes sure that files can be written
+/// into it.
+///
+/// # Errors
+/// [`OutputError`] with the folder.
+pub fn prepare_folder(path: &Path) -> Result<(), OutputError> {
+    std::fs::create_dir_all(path)
+        .and_then(|()| tempfile::tempfile_in(path))
+        .map(drop)
+        .map_err(|cause| OutputError { path: path.to_owned(), cause })
+}
+
+/// The first 16 hexadecimal digits of the SHA-256 of what an output was made from.
+pub fn fingerprint(source: &[u8]) -> String {
+    let digest = Sha256::digest(source);
+    digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Ordinary permissions; temporary files are private by default.
+#[cfg(unix)]
+fn permissions() -> std::fs::Permissions {
+    use std::os::unix::fs::PermissionsExt;
+    std::fs::Permissions::from_mode(0o644)
+}
+
+#[cfg(not(unix))]
+fn permissions() -> std::fs::Permissions {
+    std::env::temp_dir().metadata().map_or_else(
+        |_| unreachable!("the folder for temporary files exists"),
+        |folder| folder.permissions(),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn writing_replaces_the_whole_file_and_leaves_nothing_else() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("a.toml");
+        write_file(&path, b"a long first text").expect("written");
+        write_file(&path, b"short").expect("written");
+        assert_eq!(std::fs::read(&path).expect("readable"), b"short");
+        assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), 1);
+    }
+
+    #[test]
+    fn a_missing_folder_is_named() {
+        let error = write_file(Path::new("/nonexistent/a.toml"), b"").expect_err("no such folder");
+        assert!(error.to_string().starts_with("/nonexistent/a.toml: cannot be written"));
+    }
+
+    #[test]
+    fn fingerprints_are_those_of_sha_256() {
+        // FIPS 180-2, appendix B.1
+        assert_eq!(fingerprint(b"abc"), "ba7816bf8f01cfea");
+    }
+}

@@ -1,0 +1,43 @@
+//! Contact of one side's running gear with the ground.
+//!
+//! Friction is the anisotropic Coulomb law of eqs (22)-(23), `τ = −[μ] p s/|s|`, under a pressure
+//! that is linear along the track. [`closed_form`] integrates it exactly; [`quadrature`] integrates
+//! what effects change about it.
+
+pub mod closed_form;
+pub mod patch;
+pub mod pressure;
+pub mod quadrature;
+pub mod slip;
+
+pub use patch::Patch;
+pub use pressure::Pressure;
+pub use slip::SlipField;
+
+use trackdyn_core::{Scalar, Wrench};
+
+/// Friction coefficients of the ground under one side: the diagonal of `[μ]` in eq. (23).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Friction {
+    /// Coefficient across the track, μ_x.
+    pub across: f64,
+    /// Coefficient along the track, μ_y.
+    pub along: f64,
+}
+
+/// Friction wrench on the body from the patches of one side, about the frame's origin.
+///
+/// Closed form wherever it keeps its digits; where the ICR is so far away that the closed form
+/// would cancel, the integrand is smooth and a fixed Gauss rule is exact to rounding.
+pub fn friction_wrench<S: Scalar>(
+    patches: &[Patch],
+    friction: Friction,
+    pressure: &Pressure<S>,
+    slip: &SlipField<S>,
+) -> Wrench<S> {
+    if patches.iter().all(|patch| closed_form::applies(patch, slip)) {
+        closed_form::friction_wrench(patches, friction, pressure, slip)
+    } else {
+        quadrature::far_field_wrench(patches, friction, pressure, slip)
+    }
+}

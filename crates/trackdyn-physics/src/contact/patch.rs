@@ -1,0 +1,40 @@
+//! Contact rectangles.
+
+/// A rectangular contact area with its sides along the axes of the paper's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    /// Left and right edge, m.
+    pub x: [f64; 2],
+    /// Rear and front edge, m.
+    pub y: [f64; 2],
+}
+
+impl Patch {
+    /// The rectangle of the given centre, width (along x) and length (along y), m.
+    pub fn centred(centre: [f64; 2], width: f64, length: f64) -> Self {
+        Self {
+            x: [centre[0] - width / 2.0, centre[0] + width / 2.0],
+            y: [centre[1] - length / 2.0, centre[1] + length / 2.0],
+        }
+    }
+
+    /// Centre (x, y), m.
+    pub fn centre(&self) -> [f64; 2] {
+        [f64::midpoint(self.x[0], self.x[1]), f64::midpoint(self.y[0], self.y[1])]
+    }
+
+    /// Extent along x, m.
+    pub fn width(&self) -> f64 {
+        self.x[1] - self.x[0]
+    }
+
+    /// Extent along y, m.
+    pub fn length(&self) -> f64 {
+        self.y[1] - self.y[0]
+    }
+
+    /// Area, m².
+    pub fn area(&self) -> f64 {
+        self.width() * self.length()
+    }
+}

@@ -1,0 +1,138 @@
+//! What an effect is: a card, parameters, and hooks on the pipeline.
+//!
+//! An effect is physics that the base model leaves out. It is written once, in one file of
+//! [`effects`](crate::effects), and serves the simulator and the diagnosis alike.
+
+use crate::model::{Circumstance, Ground, Site, Situation};
+use trackdyn_core::{PerSide, Scalar, Wrench};
+
+/// A mechanism that the base model leaves out.
+///
+/// A hook adds to or multiplies what it is given and never assigns, so effects combine in any order.
+/// A hook that an effect does not override does nothing. [`Card::stages`] names the hooks that act;
+/// the conformance tests hold the two together.
+pub trait Effect: Copy + Sized {
+    /// Description and parameters.
+    const CARD: Card;
+
+    /// The effect with its parameters in the order and the units of the card, each within its range.
+    fn from_values(values: &[f64]) -> Self;
+
+    /// Stage `ground`: friction under each side and gravity at this place, heading and time.
+    fn ground(&self, _circumstance: &Circumstance, _ground: &mut Ground) {}
+
+    /// Stage `load`: centre of pressure of the whole machine, (x, y) in m.
+    fn load<S: Scalar>(&self, _situation: &Situation<S>, _centre_of_pressure: &mut [S; 2]) {}
+
+    /// Stage `shear`: factors on μ_x and μ_y at a point of the contact.
+    fn shear<S: Scalar>(&self, _site: &Site<S>, _mobilised: &mut [S; 2]) {}
+
+    /// Stage `wrench`: forces on the body beside friction and weight.
+    fn wrench<S: Scalar>(
+        &self,
+        _situation: &Situation<S>,
+        _normal_load: &PerSide<S>,
+        _wrench: &mut Wrench<S>,
+    ) {
+    }
+}
+
+/// What a reader of the catalogue sees of an effect.
+#[derive(Debug, PartialEq)]
+pub struct Card {
+    /// Name in files and on the command line, kebab-case.
+    pub id: &'static str,
+    /// One line: what it is.
+    pub title: &'static str,
+    /// The law, in the letters of the parameters.
+    pub law: &'static str,
+    /// What is assumed, and where the law ends.
+    pub assumes: &'static str,
+    /// Where in a map or a recording it shows.
+    pub shows: &'static str,
+    /// Invariances of the ICR triple that it breaks.
+    pub breaks: &'static [Symmetry],
+    /// Pipeline stages at which it acts.
+    pub stages: &'static [Stage],
+    /// Parameters, in the order of [`Effect::from_values`].
+    pub parameters: &'static [Parameter],
+    /// Where the law comes from.
+    pub sources: &'static [&'static str],
+}
+
+/// A parameter of an effect.
+#[derive(Debug, PartialEq)]
+pub struct Parameter {
+    /// Name in files; ends in the unit where there is one.
+    pub key: &'static str,
+    /// Letter in the law.
+    pub symbol: &'static str,
+    /// Unit, `1` for pure numbers.
+    pub unit: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// Smallest and largest value that is physical.
+    pub range: [f64; 2],
+    /// A size that a roboticist may meet; the default where none is given.
+    pub typical: f64,
+}
+
+/// An invariance that the ICR triple (x_l, x_r, y) has in the base model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Symmetry {
+    /// S: all speeds scaled by one factor.
+    SpeedScale,
+    /// R: all speeds reversed.
+    Reversal,
+    /// P: same-sign arc, counter-rotation, spin.
+    Manoeuvre,
+    /// M: left and right exchanged (on a machine with its centre of gravity in the middle).
+    Mirror,
+    /// H: turned to another heading.
+    Heading,
+}
+
+impl Symmetry {
+    /// All invariances, in the order in which tables list them.
+    pub const ALL: [Self; 5] =
+        [Self::SpeedScale, Self::Reversal, Self::Manoeuvre, Self::Mirror, Self::Heading];
+
+    /// The letter that tables use.
+    pub fn letter(self) -> char {
+        match self {
+            Self::SpeedScale => 'S',
+            Self::Reversal => 'R',
+            Self::Manoeuvre => 'P',
+            Self::Mirror => 'M',
+            Self::Heading => 'H',
+        }
+    }
+}
+
+/// A stage of the pipeline from belt speeds to the balance of forces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// What the ground is at this place, heading and time.
+    Ground,
+    /// How the weight spreads over the patches.
+    Load,
+    /// How much friction a point of the contact mobilises.
+    Shear,
+    /// What else acts on the body.
+    Wrench,
+}
+
+impl Stage {
+    /// The stages in the order in which the model walks them.
+    pub const ALL: [Self; 4] = [Self::Ground, Self::Load, Self::Shear, Self::Wrench];
+
+    /// Name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ground => "ground",
+            Self::Load => "load",
+            Self::Shear => "shear",
+            Self::Wrench => "wrench",
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! Effects that are switched on.
+
+use super::{CATALOGUE, EffectError, Law};
+use crate::effect::Card;
+use crate::model::{Circumstance, Ground, Site, Situation};
+use trackdyn_core::{PerSide, Scalar, Wrench};
+
+/// An effect of the catalogue with the values of its parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActiveEffect {
+    index: usize,
+    values: Vec<f64>,
+    law: Law,
+}
+
+impl ActiveEffect {
+    /// The effect `id` with `settings` (key, value) and the typical size of every parameter that
+    /// they leave out.
+    ///
+    /// # Errors
+    /// Unknown effect or parameter (with the nearest name), a parameter given twice, or a value
+    /// outside its physical range.
+    pub fn new(id: &str, settings: &[(&str, f64)]) -> Result<Self, EffectError> {
+        let index = CATALOGUE
+            .iter()
+            .position(|card| card.id == id)
+            .ok_or_else(|| EffectError::UnknownEffect { id: id.to_owned() })?;
+        let card = &CATALOGUE[index];
+        let mut values: Vec<Option<f64>> = vec![None; card.parameters.len()];
+        for &(key, value) in settings {
+            let position = card
+                .parameters
+                .iter()
+                .position(|parameter| parameter.key == key)
+                .ok_or_else(|| EffectError::UnknownParameter { card, key: key.to_owned() })?;
+            let parameter = &card.parameters[position];
+            let [low, high] = parameter.range;
+            if !(low..=high).contains(&value) {
+                return Err(EffectError::OutOfRange { card, parameter, value });
+            }
+            if values[position].replace(value).is_some() {
+                return Err(EffectError::Repeated { card, parameter });
+            }
+        }
+        let values: Vec<f64> = values
+            .into_iter()
+            .zip(card.parameters)
+            .map(|(value, parameter)| value.unwrap_or(parameter.typical))
+            .collect();
+        Ok(Self { index, law: Law::from_values(index, &values), values })
+    }
+
+    /// The effect's card.
+    pub fn card(&self) -> &'static Card {
+        &CATALOGUE[self.index]
+    }
+
+    /// Parameter values in the order and units of the card.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+}
+
+/// `id:key=value,key=value`, the form that the command line takes.
+impl std::fmt::Display for ActiveEffect {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let card = self.card();
+        write!(f, "{}", card.id)?;
+        for (k, (parameter, value)) in card.parameters.iter().zip(&self.values).enumerate() {
+            let separator = if k == 0 { ':' } else { ',' };
+            write!(f, "{separator}{}={value}", parameter.key)?;
+        }
+        Ok(())
+    }
+}
+
+/// Reads `id` or `id:key=value,key=value`.
+impl std::str::FromStr for ActiveEffect {
+    type Err = EffectError;
+
+    fn from_str(text: &str) -> Result<Self, EffectError> {
+        let malformed = || EffectError::Malformed { text: text.to_owned() };
+        let (id, settings) = text.split_once(':').map_or((text, None), |(id, s)| (id, Some(s)));
+        let settings = settings
+            .map(|settings| settings.split(','))
+            .into_iter()
+            .flatten()
+            .map(|setting| {
+                let (key, value) = setting.split_once('=').ok_or_else(malformed)?;
+                let value = value.trim().parse().map_err(|_| malformed())?;
+                Ok((key.trim(), value))
+            })
+            .collect::<Result<Vec<_>, EffectError>>()?;
+        Self::new(id.trim(), &settings)
+    }
+}
+
+/// The effects of a model, each at most once, in the catalogue's order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Effects(Vec<ActiveEffect>);
+
+impl Effects {
+    /// No effects: the base model.
+    pub fn none() -> Self {
+        Self::default()
+    }
+
+    /// Switches an effect on; it replaces one of the same id.
+    pub fn insert(&mut self, effect: ActiveEffect) {
+        match self.0.binary_search_by_key(&effect.index, |present| present.index) {
+            Ok(position) => self.0[position] = effect,
+            Err(position) => self.0.insert(position, effect),
+        }
+    }
+
+    /// The effects, in the catalogue's order.
+    pub fn iter(&self) -> std::slice::Iter<'_, ActiveEffect> {
+        self.0.iter()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl<'a> IntoIterator for &'a Effects {
+    type Item = &'a ActiveEffect;
+    type IntoIter = std::slice::Iter<'a, ActiveEffect>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+impl FromIterator<ActiveEffect> for Effects {
+    fn from_iter<I: IntoIterator<Item = ActiveEffect>>(effects: I) -> Self {
+        let mut all = Self::none();
+        for effect in effects {
+            all.insert(effect);
+        }
+        all
+    }
+}
+
+/// The hooks, forwarded to the law.
+impl ActiveEffect {
+    #[inline]
+    pub(crate) fn ground(&self, circumstance: &Circumstance, ground: &mut Ground) {
+        self.law.ground(circumstance, ground);
+    }
+
+    #[inline]
+    pub(crate) fn load<S: Scalar>(
+        &self,
+        situation: &Situation<S>,
+        centre_of_pressure: &mut [S; 2],
+    ) {
+        self.law.load(situation, centre_of_pressure);
+    }
+
+    #[inline]
+    pub(crate) fn shear<S: Scalar>(&self, site: &Site<S>, mobilised: &mut [S; 2]) {
+        self.law.shear(site, mobilised);
+    }
+
+    #[inline]
+    pub(crate) fn wrench<S: Scalar>(
+        &self,
+        situation: &Situation<S>,
+        normal_load: &PerSide<S>,
+        wrench: &mut Wrench<S>,
+    ) {
+        self.law.wrench(situation, normal_load, wrench);
+    }
+}

@@ -1,0 +1,55 @@
+//! What the list of effects expands to.
+
+/// Declares the modules of the catalogue, the list of cards and the dispatch of the hooks.
+///
+/// The expansion is the only place that knows effects by name.
+macro_rules! catalogue {
+    ($($module:ident :: $effect:ident),+ $(,)?) => {
+        $(pub mod $module;)+
+
+        /// The cards of all effects, in the catalogue's order.
+        pub const CATALOGUE: &[Card] = &[$(<$module::$effect as Effect>::CARD),+];
+
+        /// One effect of the catalogue with its parameters.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        enum Law {
+            $($effect($module::$effect)),+
+        }
+
+        impl Law {
+            /// The effect of `CATALOGUE[index]`.
+            fn from_values(index: usize, values: &[f64]) -> Self {
+                let constructors: &[fn(&[f64]) -> Self] =
+                    &[$(|values| Self::$effect(Effect::from_values(values))),+];
+                constructors[index](values)
+            }
+
+            #[inline]
+            fn ground(&self, circumstance: &Circumstance, ground: &mut Ground) {
+                match self { $(Self::$effect(effect) => effect.ground(circumstance, ground)),+ }
+            }
+
+            #[inline]
+            fn load<S: Scalar>(&self, situation: &Situation<S>, centre_of_pressure: &mut [S; 2]) {
+                match self { $(Self::$effect(effect) => effect.load(situation, centre_of_pressure)),+ }
+            }
+
+            #[inline]
+            fn shear<S: Scalar>(&self, site: &Site<S>, mobilised: &mut [S; 2]) {
+                match self { $(Self::$effect(effect) => effect.shear(site, mobilised)),+ }
+            }
+
+            #[inline]
+            fn wrench<S: Scalar>(
+                &self,
+                situation: &Situation<S>,
+                normal_load: &PerSide<S>,
+                wrench: &mut Wrench<S>,
+            ) {
+                match self {
+                    $(Self::$effect(effect) => effect.wrench(situation, normal_load, wrench)),+
+                }
+            }
+        }
+    };
+}

@@ -1,0 +1,156 @@
+//! The balance of forces on the body: the pipeline that every effect hooks into.
+//!
+//! ```text
+//! belt speeds, place, heading, time
+//!   -> ground (friction per side, gravity) -> load (pressure) -> shear (friction) -> wrench
+//! ```
+
+mod ground;
+mod motion;
+mod situation;
+
+pub use ground::{Circumstance, Ground};
+pub use motion::Motion;
+pub use situation::{Site, Situation};
+
+use crate::contact::pressure::Footprint;
+use crate::contact::{Patch, Pressure, friction_wrench, quadrature};
+use crate::effect::Stage;
+use crate::effects::Effects;
+use crate::vehicle::Vehicle;
+use trackdyn_core::{PerSide, Scalar, Side, Wrench};
+
+/// A vehicle with its effects: what pushes it at a given motion.
+///
+/// # Law
+/// Stationary motion, eqs (14)-(15): friction + weight along the slope + what effects add = 0.
+///
+/// # Assumes
+/// A rigid hull on flat patches, the pressure linear along the track and constant across it (Fig. 5),
+/// anisotropic Coulomb friction (22)-(23).
+///
+/// # Sources
+/// Martinez et al., IJRR 24(10), 2005.
+#[derive(Clone, Debug)]
+pub struct Model {
+    vehicle: Vehicle,
+    effects: Effects,
+    patches: PerSide<Vec<Patch>>,
+    footprint: Footprint,
+    has_shear_law: bool,
+}
+
+/// All that the pipeline knows of one motion: the result of [`Model::balance`].
+#[derive(Clone, Copy, Debug)]
+pub struct Balance<S = f64> {
+    /// Friction on each side.
+    pub friction: PerSide<Wrench<S>>,
+    /// All else: weight along the slope and what effects add.
+    pub load: Wrench<S>,
+    /// Weight on each side, N; negative where a side would have to pull.
+    pub normal_load: PerSide<S>,
+    /// Pressure under each side.
+    pub pressure: PerSide<Pressure<S>>,
+}
+
+impl Model {
+    /// The model of a vehicle on ground with these effects.
+    pub fn new(vehicle: Vehicle, effects: Effects) -> Self {
+        let patches = PerSide::from_fn(|side| vehicle.patches(side));
+        let footprint = Footprint::of(&patches.left);
+        let has_shear_law =
+            effects.iter().any(|effect| effect.card().stages.contains(&Stage::Shear));
+        Self { vehicle, effects, patches, footprint, has_shear_law }
+    }
+
+    /// The vehicle.
+    pub fn vehicle(&self) -> &Vehicle {
+        &self.vehicle
+    }
+
+    /// The effects, in the catalogue's order.
+    pub fn effects(&self) -> &Effects {
+        &self.effects
+    }
+
+    /// Contact patches of each side.
+    pub fn patches(&self) -> &PerSide<Vec<Patch>> {
+        &self.patches
+    }
+
+    /// Extent and second moment of one side's contact.
+    pub fn footprint(&self) -> &Footprint {
+        &self.footprint
+    }
+
+    /// Stage `ground`: friction and gravity in these circumstances.
+    pub fn ground(&self, circumstance: &Circumstance) -> Ground {
+        let mut ground = Ground::level(self.vehicle.friction);
+        for effect in self.effects.iter() {
+            effect.ground(circumstance, &mut ground);
+        }
+        ground
+    }
+
+    /// Stages `load`, `shear` and `wrench`: the balance of forces at a motion.
+    pub fn balance<S: Scalar>(&self, ground: &Ground, motion: &Motion<S>) -> Balance<S> {
+        let situation = Situation { vehicle: &self.vehicle, ground, motion };
+        let (normal_load, pressure) = self.pressure(&situation);
+
+        let friction = PerSide::from_fn(|side| {
+            let mut wrench = friction_wrench(
+                &self.patches[side],
+                ground.friction[side],
+                &pressure[side],
+                &motion.slip[side],
+            );
+            if self.has_shear_law {
+                wrench += self.shear_departure(&situation, side, &pressure[side]);
+            }
+            wrench
+        });
+        let mass = self.vehicle.mass;
+        let mut load = Wrench::zero();
+        load.add_force(ground.gravity_along.map(|g| S::from(mass * g)), self.vehicle.cog);
+        for effect in self.effects.iter() {
+            effect.wrench(&situation, &normal_load, &mut load);
+        }
+        Balance { friction, load, normal_load, pressure }
+    }
+
+    fn pressure<S: Scalar>(&self, situation: &Situation<S>) -> (PerSide<S>, PerSide<Pressure<S>>) {
+        let mut centre_of_pressure = self.vehicle.cog.map(S::from);
+        for effect in self.effects.iter() {
+            effect.load(situation, &mut centre_of_pressure);
+        }
+        let [x, y] = centre_of_pressure;
+        let weight = self.vehicle.mass * situation.ground.gravity_normal;
+        // Moments about the other track's centre-line: N_l = W (½ − x_p/L), N_r = W (½ + x_p/L)
+        let share = x * (weight / self.vehicle.gauge);
+        let normal_load = PerSide::new(-share + weight / 2.0, share + weight / 2.0);
+        let pressure = normal_load.map(|load| self.footprint.pressure(load, y));
+        (normal_load, pressure)
+    }
+
+    fn shear_departure<S: Scalar>(
+        &self,
+        situation: &Situation<S>,
+        side: Side,
+        pressure: &Pressure<S>,
+    ) -> Wrench<S> {
+        quadrature::departure_wrench(
+            &self.patches[side],
+            situation.ground.friction[side],
+            pressure,
+            &situation.motion.slip[side],
+            |patch, slip| {
+                let site = Site { situation, side, patch, slip };
+                let mut mobilised = [S::from(1.0); 2];
+                for effect in self.effects.iter() {
+                    effect.shear(&site, &mut mobilised);
+                }
+                mobilised
+            },
+        )
+    }
+}

@@ -1,0 +1,60 @@
+//! Motion of hull and belts.
+
+use crate::contact::SlipField;
+use trackdyn_core::{PerSide, Scalar, Side, Twist};
+
+/// Motion of the hull and the slip that it gives to both belts.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<S = f64> {
+    /// Belt speeds relative to the hull, forward positive, m/s.
+    pub belt_speed: PerSide<f64>,
+    /// Twist of the hull at the origin, paper's frame.
+    pub twist: Twist<S>,
+    /// Slip of each belt over the ground.
+    pub slip: PerSide<SlipField<S>>,
+}
+
+impl<S: Scalar> Motion<S> {
+    /// The motion at which the track `anchor` has its ICR at (x, y) and the hull turns by
+    /// `turn` = w/(V_r − V_l) = 1/(x_r − x_l) ≥ 0, 1/m.
+    ///
+    /// At `turn` = 0 the anchor track sticks while the other one slips straight; its slip direction is
+    /// the limit from above. Where the belt speeds are equal the robot moves straight, and both slip
+    /// directions are the limit of a vanishing left turn.
+    #[inline]
+    pub fn anchored(belt_speed: PerSide<f64>, anchor: Side, icr: [S; 2], turn: S) -> Self {
+        let [x, y] = icr;
+        let difference = belt_speed.right - belt_speed.left;
+        let sense = if difference < 0.0 { -1.0 } else { 1.0 };
+        // w = (V_r − V_l)/(x_r − x_l), eq. (9)
+        let w = turn * difference;
+        // s = w (−(Y_point − y), X_point − x), in units of |w|
+        let anchor_slip = SlipField {
+            lateral: y * sense,
+            forward: x * -sense,
+            rotation: S::from(sense),
+            speed: turn * difference.abs(),
+        };
+        // The other belt slips by V_anchor − V_other = ±(V_r − V_l) more along y, in units of |V_r − V_l|.
+        let other_slip = SlipField {
+            lateral: turn * y * sense,
+            forward: (turn * x - anchor.sign()) * -sense,
+            rotation: turn * sense,
+            speed: S::from(difference.abs()),
+        };
+        Self {
+            belt_speed,
+            twist: Twist {
+                // y = v_x/w
+                v_x: w * y,
+                // x = (V_anchor − v_y)/w
+                v_y: -w * x + belt_speed[anchor],
+                w,
+            },
+            slip: match anchor {
+                Side::Left => PerSide::new(anchor_slip, other_slip),
+                Side::Right => PerSide::new(other_slip, anchor_slip),
+            },
+        }
+    }
+}

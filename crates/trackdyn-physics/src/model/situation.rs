@@ -1,0 +1,58 @@
+//! What the hooks of an effect see.
+
+use crate::contact::quadrature::SlipSite;
+use crate::contact::{Patch, SlipField};
+use crate::model::{Ground, Motion};
+use crate::vehicle::Vehicle;
+use trackdyn_core::{Scalar, Side};
+
+/// The vehicle, the ground and the motion.
+#[derive(Clone, Copy)]
+pub struct Situation<'a, S> {
+    /// The vehicle.
+    pub vehicle: &'a Vehicle,
+    /// The ground, after all effects of stage `ground`.
+    pub ground: &'a Ground,
+    /// The motion of hull and belts.
+    pub motion: &'a Motion<S>,
+}
+
+impl<S: Scalar> Situation<'_, S> {
+    /// Acceleration of the centre of gravity in stationary motion, (x, y) in m/s².
+    #[inline]
+    pub fn cog_acceleration(&self) -> [S; 2] {
+        self.motion.twist.steady_acceleration_at(self.vehicle.cog)
+    }
+}
+
+/// A point of the contact under one side.
+pub struct Site<'a, S> {
+    /// The vehicle, the ground and the motion.
+    pub situation: &'a Situation<'a, S>,
+    /// The side.
+    pub side: Side,
+    /// The patch that holds the point.
+    pub patch: &'a Patch,
+    /// Position and slip direction of the point.
+    pub slip: &'a SlipSite<S>,
+}
+
+impl<S: Scalar> Site<'_, S> {
+    /// Belt speed relative to the hull, m/s.
+    #[inline]
+    pub fn belt_speed(&self) -> f64 {
+        self.situation.motion.belt_speed[self.side]
+    }
+
+    /// Slip field of the belt.
+    #[inline]
+    pub fn slip_field(&self) -> &SlipField<S> {
+        &self.situation.motion.slip[self.side]
+    }
+
+    /// Slip velocity |s|, m/s.
+    #[inline]
+    pub fn slip_speed(&self) -> S {
+        self.slip.unit_slip_length * self.slip_field().speed
+    }
+}

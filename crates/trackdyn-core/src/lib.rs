@@ -4,6 +4,7 @@
 //! code that knows both.
 
 pub mod document;
+pub mod dual;
 pub mod frames;
 pub mod output;
 pub mod pose;
@@ -12,6 +13,7 @@ pub mod side;
 pub mod twist;
 pub mod wrench;
 
+pub use dual::Dual;
 pub use pose::Pose;
 pub use scalar::Scalar;
 pub use side::{PerSide, Side};

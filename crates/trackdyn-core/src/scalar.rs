@@ -1,41 +1,84 @@
 //! The number type of the physics: plain `f64`, or a dual number that carries derivatives.
 
-use num_dual::DualNum;
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 
 /// A real number, with or without derivatives.
 ///
-/// Every law of trackdyn is written once over this type. `f64` gives the value alone, the dual
-/// numbers of `num-dual` give the value and its exact derivatives.
-pub trait Scalar: DualNum<Primitive = f64> + Copy {}
+/// Every law of trackdyn is written once over this type: `f64` gives the value alone,
+/// [`Dual`](crate::Dual) the value and its exact derivatives.
+pub trait Scalar:
+    Copy
+    + Debug
+    + From<f64>
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<Output = Self>
+    + Div<f64, Output = Self>
+    + AddAssign
+    + MulAssign
+    + 'static
+{
+    /// The value without its derivatives.
+    fn value(self) -> f64;
 
-impl<S: DualNum<Primitive = f64> + Copy> Scalar for S {}
+    /// A function of several numbers from its value and its partial derivatives there: the chain rule
+    /// for a derivative that was worked out by hand. `partials[k]` belongs to `arguments[k]`.
+    #[must_use]
+    fn chain<const K: usize>(value: f64, partials: [f64; K], arguments: [Self; K]) -> Self;
 
-/// A value with known partial derivatives as a [`Scalar`]: the chain rule for a hand-written
-/// derivative.
-///
-/// `partials[k]` is the derivative of `value` with respect to `arguments[k]`. Exact to first order.
-#[inline]
-pub fn chain<S: Scalar, const K: usize>(value: f64, partials: [f64; K], arguments: [S; K]) -> S {
-    // f(a) = f(a₀) + Σₖ ∂f/∂aₖ · (aₖ − a₀ₖ); the bracket has value zero and keeps aₖ's derivatives.
-    let mut sum = S::from(value);
-    for (partial, argument) in partials.into_iter().zip(arguments) {
-        sum += (argument - argument.re()) * partial;
+    /// A function of this number from its value and its derivative there.
+    #[must_use]
+    #[inline]
+    fn map(self, value: f64, derivative: f64) -> Self {
+        Self::chain(value, [derivative], [self])
     }
-    sum
+
+    /// 1/a.
+    #[must_use]
+    #[inline]
+    fn recip(self) -> Self {
+        let inverse = self.value().recip();
+        self.map(inverse, -inverse * inverse)
+    }
+
+    /// √a.
+    #[must_use]
+    #[inline]
+    fn sqrt(self) -> Self {
+        let root = self.value().sqrt();
+        self.map(root, 0.5 / root)
+    }
+
+    /// |a|.
+    #[must_use]
+    #[inline]
+    fn abs(self) -> Self {
+        self.map(self.value().abs(), self.value().signum())
+    }
+
+    /// eᵃ − 1, exact near zero.
+    #[must_use]
+    #[inline]
+    fn exp_m1(self) -> Self {
+        let value = self.value().exp_m1();
+        self.map(value, value + 1.0)
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::chain;
-    use num_dual::{Dual64, DualNum};
+impl Scalar for f64 {
+    #[inline]
+    fn value(self) -> f64 {
+        self
+    }
 
-    #[test]
-    fn chain_equals_automatic_differentiation() {
-        let a = Dual64::from(0.7).derivative();
-        let b = a.sin();
-        let by_hand = chain(a.re * b.re * b.re, [b.re * b.re, 2.0 * a.re * b.re], [a, b]);
-        let automatic = a * b * b;
-        assert!((by_hand.re - automatic.re).abs() < 1e-15);
-        assert!((by_hand.eps - automatic.eps).abs() < 1e-15);
+    #[inline]
+    fn chain<const K: usize>(value: f64, _partials: [f64; K], _arguments: [Self; K]) -> Self {
+        value
     }
 }

@@ -40,17 +40,13 @@ pub struct Model {
     has_shear_law: bool,
 }
 
-/// All that the pipeline knows of one motion: the result of [`Model::balance`].
+/// The forces on the body, by origin: the result of [`Model::balance`].
 #[derive(Clone, Copy, Debug)]
 pub struct Balance<S = f64> {
     /// Friction on each side.
     pub friction: PerSide<Wrench<S>>,
     /// All else: weight along the slope and what effects add.
     pub load: Wrench<S>,
-    /// Weight on each side, N; negative where a side would have to pull.
-    pub normal_load: PerSide<S>,
-    /// Pressure under each side.
-    pub pressure: PerSide<Pressure<S>>,
 }
 
 impl Model {
@@ -86,7 +82,7 @@ impl Model {
     /// Stage `ground`: friction and gravity in these circumstances.
     pub fn ground(&self, circumstance: &Circumstance) -> Ground {
         let mut ground = Ground::level(self.vehicle.friction);
-        for effect in self.effects.iter() {
+        for effect in &self.effects {
             effect.ground(circumstance, &mut ground);
         }
         ground
@@ -95,7 +91,7 @@ impl Model {
     /// Stages `load`, `shear` and `wrench`: the balance of forces at a motion.
     pub fn balance<S: Scalar>(&self, ground: &Ground, motion: &Motion<S>) -> Balance<S> {
         let situation = Situation { vehicle: &self.vehicle, ground, motion };
-        let (normal_load, pressure) = self.pressure(&situation);
+        let (normal_load, pressure) = self.load(&situation);
 
         let friction = PerSide::from_fn(|side| {
             let mut wrench = friction_wrench(
@@ -112,15 +108,27 @@ impl Model {
         let mass = self.vehicle.mass;
         let mut load = Wrench::zero();
         load.add_force(ground.gravity_along.map(|g| S::from(mass * g)), self.vehicle.cog);
-        for effect in self.effects.iter() {
+        for effect in &self.effects {
             effect.wrench(&situation, &normal_load, &mut load);
         }
-        Balance { friction, load, normal_load, pressure }
+        Balance { friction, load }
     }
 
-    fn pressure<S: Scalar>(&self, situation: &Situation<S>) -> (PerSide<S>, PerSide<Pressure<S>>) {
+    /// Whether some of the contact would have to pull at this motion.
+    pub fn lifts(&self, ground: &Ground, motion: &Motion) -> bool {
+        let situation = Situation { vehicle: &self.vehicle, ground, motion };
+        let (normal_load, pressure) = self.load(&situation);
+        Side::BOTH.iter().any(|&side| {
+            normal_load[side] <= 0.0
+                || self.footprint.ends.iter().any(|&y| pressure[side].at(y) <= 0.0)
+        })
+    }
+
+    /// Stage `load`: weight on each side (N; negative where it would have to pull) and the pressure.
+    #[inline]
+    fn load<S: Scalar>(&self, situation: &Situation<S>) -> (PerSide<S>, PerSide<Pressure<S>>) {
         let mut centre_of_pressure = self.vehicle.cog.map(S::from);
-        for effect in self.effects.iter() {
+        for effect in &self.effects {
             effect.load(situation, &mut centre_of_pressure);
         }
         let [x, y] = centre_of_pressure;
@@ -146,7 +154,7 @@ impl Model {
             |patch, slip| {
                 let site = Site { situation, side, patch, slip };
                 let mut mobilised = [S::from(1.0); 2];
-                for effect in self.effects.iter() {
+                for effect in &self.effects {
                     effect.shear(&site, &mut mobilised);
                 }
                 mobilised

@@ -19,7 +19,6 @@
 //! the ICR lies, inside, on an edge or on a corner.
 
 use crate::contact::{Friction, Patch, Pressure, SlipField};
-use trackdyn_core::scalar::chain;
 use trackdyn_core::{Scalar, Wrench};
 
 /// Distance to the ICR, in half diagonals of the patch, up to which the closed form is used.
@@ -32,7 +31,8 @@ const REACH: f64 = 6.0;
 #[inline]
 pub fn applies<S: Scalar>(patch: &Patch, slip: &SlipField<S>) -> bool {
     let [x, y] = patch.centre();
-    let (lateral, forward, rotation) = (slip.lateral.re(), slip.forward.re(), slip.rotation.re());
+    let (lateral, forward, rotation) =
+        (slip.lateral.value(), slip.forward.value(), slip.rotation.value());
     // |s(centre)| = |rotation| · distance from the centre to the ICR
     let slip_squared = (lateral - rotation * y).powi(2) + (forward + rotation * x).powi(2);
     let half_diagonal_squared = (patch.width().powi(2) + patch.length().powi(2)) / 4.0;
@@ -49,12 +49,12 @@ pub fn friction_wrench<S: Scalar>(
     slip: &SlipField<S>,
 ) -> Wrench<S> {
     let icr = slip.icr();
-    let position = icr.map(|coordinate| coordinate.re());
+    let position = icr.map(|coordinate| coordinate.value());
     let mut sum = Integrals::default();
     for patch in patches {
         sum.add(patch, friction, position);
     }
-    sum.wrench(friction, slip.rotation.re().signum(), icr, pressure)
+    sum.wrench(friction, slip.rotation.value().signum(), icr, pressure)
 }
 
 /// Integrals of 1/r, t/r, t²/r, t³/r along an edge t₁..t₂ at the distance c from the ICR.
@@ -209,9 +209,9 @@ impl Integrals {
     ) -> Wrench<S> {
         let lift = |integral: &Integral, factor: f64| -> S {
             let Pressure { at_origin, gradient } = pressure;
-            let (p0, p1) = (at_origin.re(), gradient.re());
+            let (p0, p1) = (at_origin.value(), gradient.value());
             let under = |by: [f64; 2]| factor * (p0 * by[0] + p1 * by[1]);
-            chain(
+            S::chain(
                 under(integral.value),
                 [
                     under(integral.by_x),

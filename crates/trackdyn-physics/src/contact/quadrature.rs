@@ -117,7 +117,7 @@ fn integrate<S: Scalar>(
                     let unit_slip = slip.direction_at([x, y]);
                     let squared = unit_slip[0] * unit_slip[0] + unit_slip[1] * unit_slip[1];
                     // A node on the ICR itself: no direction, and no area.
-                    if squared.re() < f64::MIN_POSITIVE {
+                    if squared.value() < f64::MIN_POSITIVE {
                         continue;
                     }
                     let [stress_x, stress_y] = stress(SlipSite {
@@ -139,7 +139,7 @@ fn integrate<S: Scalar>(
 /// The interval, cut in two where `cut` lies inside it.
 fn panels<S: Scalar>([low, high]: [f64; 2], cut: S) -> [Option<[S; 2]>; 2] {
     let (low_edge, high_edge) = (S::from(low), S::from(high));
-    if cut.re() > low && cut.re() < high {
+    if cut.value() > low && cut.value() < high {
         [Some([low_edge, cut]), Some([cut, high_edge])]
     } else {
         [Some([low_edge, high_edge]), None]

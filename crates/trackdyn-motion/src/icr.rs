@@ -1,0 +1,54 @@
+//! The ICRs of both tracks.
+
+/// Instantaneous centres of rotation of the two tracks in the paper's frame, m.
+///
+/// Both lie on one line across the vehicle: they share y with the ICR of the hull.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Icrs {
+    /// x of the left track's ICR, x_l; negative in ordinary motion.
+    pub x_left: f64,
+    /// x of the right track's ICR, x_r.
+    pub x_right: f64,
+    /// y of both, and of the hull's ICR.
+    pub y: f64,
+}
+
+impl Icrs {
+    /// x_l, x_r, y: names in tables and files, in the order of [`Icrs::to_array`].
+    pub const NAMES: [&'static str; 3] = ["x_l", "x_r", "y"];
+
+    /// The triple [x_l, x_r, y].
+    pub fn from_array([x_left, x_right, y]: [f64; 3]) -> Self {
+        Self { x_left, x_right, y }
+    }
+
+    /// The triple [x_l, x_r, y].
+    pub fn to_array(self) -> [f64; 3] {
+        [self.x_left, self.x_right, self.y]
+    }
+
+    /// Steering efficiency χ of a vehicle with this gauge: 1 for an ideal differential drive.
+    pub fn steering_efficiency(&self, gauge: f64) -> f64 {
+        // χ = L/(x_r − x_l), eq. (12)
+        gauge / (self.x_right - self.x_left)
+    }
+
+    /// Eccentricity e: 0 where the ICRs lie symmetrically, positive where the centre of turning is
+    /// right of the middle.
+    pub fn eccentricity(&self) -> f64 {
+        // e = (x_r + x_l)/(x_r − x_l), eq. (13)
+        (self.x_right + self.x_left) / (self.x_right - self.x_left)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Icrs;
+
+    #[test]
+    fn ideal_differential_drive_has_efficiency_one_and_no_eccentricity() {
+        let ideal = Icrs { x_left: -0.21, x_right: 0.21, y: 0.0 };
+        assert_eq!(ideal.steering_efficiency(0.42), 1.0);
+        assert_eq!(ideal.eccentricity(), 0.0);
+    }
+}

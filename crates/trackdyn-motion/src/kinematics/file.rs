@@ -1,0 +1,204 @@
+//! The kinematics file, schema `trackdyn.kinematics/1`.
+
+use crate::icr::Icrs;
+use crate::kinematics::Kinematics;
+use crate::map::{Sector, Statistics};
+use serde::{Deserialize, Serialize};
+use toml::Spanned;
+use trackdyn_core::PerSide;
+use trackdyn_core::document::{Document, DocumentError};
+
+const SCHEMA: &str = "trackdyn.kinematics/1";
+
+/// Where the numbers of a file come from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Source {
+    /// The command line.
+    pub command: String,
+    /// Version of the program.
+    pub version: String,
+    /// Name of the vehicle.
+    pub vehicle: String,
+    /// Fingerprint of the vehicle file with its effects, or of the recording.
+    pub fingerprint: String,
+    /// Speeds per track and largest speed, m/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grid: Option<GridSource>,
+    /// Effects that were switched on, with their parameters.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub effects: Vec<String>,
+    /// Seed of the random numbers, where any were drawn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
+    /// Motions of each kind in the map.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motions: Option<toml::Table>,
+}
+
+/// The grid of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GridSource {
+    /// Speeds per track.
+    pub points: usize,
+    /// Largest speed, m/s.
+    pub max_speed_m_s: f64,
+}
+
+/// A kinematics file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KinematicsFile {
+    schema: Spanned<String>,
+    frame: Spanned<String>,
+    /// x_l, m.
+    pub x_icr_left_m: Spanned<f64>,
+    /// x_r, m.
+    pub x_icr_right_m: Spanned<f64>,
+    /// y, m.
+    pub y_icr_m: f64,
+    /// χ of the mean ICRs.
+    pub steering_efficiency: f64,
+    /// e of the mean ICRs.
+    pub eccentricity: f64,
+    /// Mean of χ over the map.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_steering_efficiency: Option<f64>,
+    /// Mean of e over the map.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_eccentricity: Option<f64>,
+    /// α_l, where fitted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub alpha_left: Option<f64>,
+    /// α_r, where fitted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub alpha_right: Option<f64>,
+    /// Standard deviations over the map.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spread: Option<Spread>,
+    /// Where the numbers come from.
+    pub source: Source,
+    /// One set per sector, where the map is piecewise.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sector: Vec<SectorTable>,
+}
+
+/// Standard deviations of the ICRs over a map.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Spread {
+    /// Of x_l, m.
+    pub x_icr_left_m: f64,
+    /// Of x_r, m.
+    pub x_icr_right_m: f64,
+    /// Of y, m.
+    pub y_icr_m: f64,
+}
+
+/// The parameters of one sector.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SectorTable {
+    /// Sign of V_l.
+    pub sign_left: i8,
+    /// Sign of V_r.
+    pub sign_right: i8,
+    /// Sign of |V_r| − |V_l|.
+    pub sign_difference: i8,
+    /// x_l, m.
+    pub x_icr_left_m: f64,
+    /// x_r, m.
+    pub x_icr_right_m: f64,
+    /// y, m.
+    pub y_icr_m: f64,
+    /// χ.
+    pub steering_efficiency: f64,
+    /// e.
+    pub eccentricity: f64,
+}
+
+impl KinematicsFile {
+    /// The file of a map.
+    pub fn of_map(statistics: &Statistics, sectors: &[Sector], source: Source) -> Self {
+        let Statistics { mean, spread, .. } = *statistics;
+        Self {
+            schema: Spanned::new(0..0, SCHEMA.to_owned()),
+            frame: Spanned::new(0..0, "paper".to_owned()),
+            x_icr_left_m: Spanned::new(0..0, mean.x_left),
+            x_icr_right_m: Spanned::new(0..0, mean.x_right),
+            y_icr_m: mean.y,
+            steering_efficiency: statistics.steering_efficiency,
+            eccentricity: statistics.eccentricity,
+            mean_steering_efficiency: Some(statistics.mean_steering_efficiency),
+            mean_eccentricity: Some(statistics.mean_eccentricity),
+            alpha_left: None,
+            alpha_right: None,
+            spread: Some(Spread {
+                x_icr_left_m: spread.x_left,
+                x_icr_right_m: spread.x_right,
+                y_icr_m: spread.y,
+            }),
+            source,
+            sector: sectors.iter().map(SectorTable::of).collect(),
+        }
+    }
+
+    /// Reads and checks a file.
+    ///
+    /// # Errors
+    /// A [`DocumentError`] that points at the line and key.
+    pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
+        let file: Self = document.parse()?;
+        for (text, key, expected) in
+            [(&file.schema, "schema", SCHEMA), (&file.frame, "frame", "paper")]
+        {
+            if text.get_ref() != expected {
+                return Err(document.value_error(text.span(), key, format!("\"{expected}\"")));
+            }
+        }
+        let (left, right) = (*file.x_icr_left_m.get_ref(), *file.x_icr_right_m.get_ref());
+        if !(right - left > 0.0 && (right - left).is_finite()) {
+            let expected = format!("a number of m above x_icr_left_m = {left}");
+            return Err(document.value_error(file.x_icr_right_m.span(), "x_icr_right_m", expected));
+        }
+        Ok(file)
+    }
+
+    /// The file's text.
+    ///
+    /// # Panics
+    /// Never: the fields hold only what TOML can say.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("numbers, texts and tables are TOML")
+    }
+
+    /// The kinematic model of the file, without its sectors.
+    pub fn kinematics(&self) -> Kinematics {
+        Kinematics {
+            icrs: Icrs {
+                x_left: *self.x_icr_left_m.get_ref(),
+                x_right: *self.x_icr_right_m.get_ref(),
+                y: self.y_icr_m,
+            },
+            alpha: PerSide::new(self.alpha_left.unwrap_or(1.0), self.alpha_right.unwrap_or(1.0)),
+        }
+    }
+}
+
+impl SectorTable {
+    fn of(sector: &Sector) -> Self {
+        let [sign_left, sign_right, sign_difference] = sector.signs;
+        let Statistics { mean, .. } = sector.statistics;
+        Self {
+            sign_left,
+            sign_right,
+            sign_difference,
+            x_icr_left_m: mean.x_left,
+            x_icr_right_m: mean.x_right,
+            y_icr_m: mean.y,
+            steering_efficiency: sector.statistics.steering_efficiency,
+            eccentricity: sector.statistics.eccentricity,
+        }
+    }
+}

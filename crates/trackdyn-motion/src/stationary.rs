@@ -1,0 +1,207 @@
+//! The stationary motion at a pair of track speeds.
+//!
+//! # Law
+//! Find the twist at which all forces on the body balance, eqs (14)-(15).
+//!
+//! # Unknowns
+//! The ICR (x, y) of one track, the *anchor*, and the turn t = w/(V_r − V_l) = 1/(x_r − x_l). All three
+//! stay finite: at small speed differences, where the twist degenerates, and at t → 0, where the other
+//! track's ICR runs to infinity.
+//!
+//! # When a robot does not turn
+//! A track with much more load than the other can hold the robot: it sticks, the robot drives straight
+//! at its speed, and the other track slips. No slip direction exists on the sticking track, so the
+//! balance has no solution with t > 0. The residual is continued to t < 0 by multiplying the force of
+//! the slipping track by 1 − L t: there, a root says that the anchor breaks loose only under so much
+//! more force, that is, that it holds. One Newton iteration thus decides between turning and holding.
+
+mod newton;
+mod solution;
+
+pub use solution::{Solution, Status};
+
+use crate::icr::Icrs;
+use nalgebra::Vector3;
+use newton::{Convergence, Evaluation};
+use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist, Wrench};
+use trackdyn_physics::{Circumstance, Ground, Model, Motion};
+
+/// Speed, m/s, of the spin that stands for the limit of slow driving.
+const CREEP: f64 = 1e-6;
+
+/// Solver for the stationary motions of one model at one place, heading and time.
+#[derive(Clone, Debug)]
+pub struct Stationary<'m> {
+    model: &'m Model,
+    ground: Ground,
+    /// Force and moment that count as 1 in the residual, N and N·m.
+    scale: [f64; 2],
+    /// ICRs of a spin at creeping speed.
+    creeping: Option<Icrs>,
+}
+
+impl<'m> Stationary<'m> {
+    /// The solver for a model.
+    ///
+    /// Solves one slow spin: without effects all motions share its ICRs (the constancy theorem), and
+    /// with effects it is a good start for any of them.
+    pub fn new(model: &'m Model, circumstance: &Circumstance) -> Self {
+        let weight = model.vehicle().mass * trackdyn_core::STANDARD_GRAVITY;
+        let scale = [weight, weight * model.vehicle().gauge];
+        let mut solver = Self { model, ground: model.ground(circumstance), scale, creeping: None };
+        let spin = solver.solve(PerSide::new(-CREEP, CREEP));
+        solver.creeping = spin.icrs.filter(|_| spin.status == Status::Turning);
+        solver
+    }
+
+    /// The stationary motion at these track speeds, m/s.
+    ///
+    /// No pair of speeds knows of another, so the order of solves does not matter. The result carries
+    /// its status; read it before the numbers.
+    pub fn solve(&self, belt_speed: PerSide<f64>) -> Solution {
+        let first = self.better_anchor();
+        let mut best: Option<Root> = None;
+        for anchor in [first, first.other()] {
+            let problem = Problem { solver: self, belt_speed, anchor };
+            for start in problem.starts() {
+                let root = problem.solve(start);
+                if root.convergence.is_root {
+                    return root.solution();
+                }
+                if best.as_ref().is_none_or(|best| root.residual() < best.residual()) {
+                    best = Some(root);
+                }
+            }
+        }
+        best.expect("several starts were tried").solution()
+    }
+
+    /// The side with more grip: it holds on longer.
+    fn better_anchor(&self) -> Side {
+        let vehicle = self.model.vehicle();
+        let grip = |side: Side| {
+            let share = 0.5 + side.sign() * vehicle.cog[0] / vehicle.gauge;
+            share * self.ground.friction[side].along
+        };
+        if grip(Side::Right) > grip(Side::Left) { Side::Right } else { Side::Left }
+    }
+}
+
+/// One pair of speeds, anchored at one track.
+#[derive(Clone, Copy)]
+struct Problem<'s> {
+    solver: &'s Stationary<'s>,
+    belt_speed: PerSide<f64>,
+    anchor: Side,
+}
+
+/// Where Newton's iteration ended.
+struct Root<'s> {
+    problem: Problem<'s>,
+    convergence: Convergence,
+}
+
+impl<'s> Problem<'s> {
+    /// Starting points, the most promising first.
+    fn starts(&self) -> impl Iterator<Item = Vector3<f64>> {
+        let model = self.solver.model;
+        let (gauge, cog_y) = (model.vehicle().gauge, model.vehicle().cog[1]);
+        let outwards = self.anchor.sign();
+        let creeping = self.solver.creeping.map(|icrs| {
+            let x = match self.anchor {
+                Side::Left => icrs.x_left,
+                Side::Right => icrs.x_right,
+            };
+            Vector3::new(x, icrs.y, 1.0 / (icrs.x_right - icrs.x_left))
+        });
+        // Both tracks turn about points a quarter of the contact length outside their centre-lines.
+        let [rear, front] = model.footprint().ends;
+        let x = gauge / 2.0 + (front - rear) / 4.0;
+        let turning = Vector3::new(outwards * x, cog_y, 0.5 / x);
+        // The anchor breaks loose under twice the other track's friction, whose lever is the gauge.
+        let x = gauge / 2.0 + model.footprint().gyration_squared / gauge;
+        let holding = Vector3::new(outwards * x, cog_y, -1.0 / gauge);
+        creeping.into_iter().chain([turning, holding])
+    }
+
+    fn solve(self, start: Vector3<f64>) -> Root<'s> {
+        let model = self.solver.model;
+        let [rear, front] = model.footprint().ends;
+        let half_size = model.vehicle().gauge.hypot(front - rear) / 2.0;
+        let convergence = newton::solve(
+            start,
+            half_size,
+            |z| Evaluation::of_dual(self.residual(Dual::variables(z.into()))),
+            |z| Vector3::from(self.residual([z[0], z[1], z[2]])),
+        );
+        Root { problem: self, convergence }
+    }
+
+    fn motion<S: Scalar>(&self, [x, y, turn]: [S; 3]) -> Motion<S> {
+        let turn = if turn.value() > 0.0 { turn } else { S::from(0.0) };
+        Motion::anchored(self.belt_speed, self.anchor, [x, y], turn)
+    }
+
+    /// Force over weight and moment over weight times gauge.
+    #[inline]
+    fn residual<S: Scalar>(&self, z: [S; 3]) -> [S; 3] {
+        let balance = self.solver.model.balance(&self.solver.ground, &self.motion(z));
+        let mut slipping = balance.friction[self.anchor.other()];
+        if z[2].value() <= 0.0 {
+            let excess = -z[2] * self.solver.model.vehicle().gauge + 1.0;
+            slipping = Wrench {
+                force_x: slipping.force_x * excess,
+                force_y: slipping.force_y * excess,
+                moment: slipping.moment * excess,
+            };
+        }
+        let mut sum = balance.load;
+        sum += balance.friction[self.anchor];
+        sum += slipping;
+        let [force, moment] = self.solver.scale;
+        [sum.force_x * force.recip(), sum.force_y * force.recip(), sum.moment * moment.recip()]
+    }
+}
+
+impl Root<'_> {
+    fn residual(&self) -> f64 {
+        self.convergence.residual
+    }
+
+    fn solution(&self) -> Solution {
+        let Problem { solver, belt_speed, anchor, .. } = self.problem;
+        let z = self.convergence.point;
+        let motion = self.problem.motion([z[0], z[1], z[2]]);
+        let [x, y, turn] = [z[0], z[1], z[2]];
+        let status = if !self.convergence.is_root {
+            Status::NotConverged
+        } else if solver.model.lifts(&solver.ground, &motion) {
+            Status::Lifts
+        } else if turn <= 0.0 {
+            Status::Holds(anchor)
+        } else if belt_speed.left == belt_speed.right {
+            Status::Straight
+        } else {
+            Status::Turning
+        };
+        let other = x - anchor.sign() / turn;
+        let icrs = (turn > 0.0).then(|| match anchor {
+            Side::Left => Icrs { x_left: x, x_right: other, y },
+            Side::Right => Icrs { x_left: other, x_right: x, y },
+        });
+        // A robot that is held, or whose tracks run alike, moves straight.
+        let twist = if turn <= 0.0 || belt_speed.left == belt_speed.right {
+            Twist { v_x: 0.0, v_y: belt_speed[anchor], w: 0.0 }
+        } else {
+            motion.twist
+        };
+        Solution {
+            status,
+            belt_speed,
+            twist,
+            icrs,
+            residual: self.convergence.residual,
+            iterations: self.convergence.iterations,
+        }
+    }
+}

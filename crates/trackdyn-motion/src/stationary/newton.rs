@@ -1,0 +1,135 @@
+//! Newton's method for three equations, damped so that each step reduces the residual.
+
+use nalgebra::{Matrix3, Vector3};
+use trackdyn_core::Dual;
+
+/// Residual at which the iteration stops.
+const CONVERGED: f64 = 1e-13;
+
+/// Residual up to which a point counts as a root when rounding keeps it from [`CONVERGED`].
+const ROUNDING: f64 = 1e-11;
+
+/// Residual below which one more step of a quadratic method is expected to be the last, so that
+/// its derivatives are not asked for.
+const NEARLY: f64 = 1e-6;
+
+const MAX_ITERATIONS: usize = 80;
+
+/// Share of the predicted decrease of the residual's norm that a step must bring.
+const SUFFICIENT_DECREASE: f64 = 1e-4;
+
+/// Smallest fraction of a Newton step that is tried.
+const SMALLEST_STEP: f64 = 1e-9;
+
+/// Residual and Jacobian at a point.
+pub struct Evaluation {
+    residual: Vector3<f64>,
+    jacobian: Matrix3<f64>,
+}
+
+impl Evaluation {
+    /// From the residual in dual numbers whose derivatives are by the three unknowns.
+    #[inline]
+    pub fn of_dual(residual: [Dual<3>; 3]) -> Self {
+        Self {
+            residual: Vector3::from(residual.map(|r| r.value)),
+            jacobian: Matrix3::from_fn(|row, column| residual[row].gradient[column]),
+        }
+    }
+}
+
+/// Where the iteration ended.
+#[derive(Clone, Copy, Debug)]
+pub struct Convergence {
+    /// The last point.
+    pub point: Vector3<f64>,
+    /// Norm of the residual there.
+    pub residual: f64,
+    /// Newton steps taken.
+    pub iterations: usize,
+    /// Whether the point is a root to rounding.
+    pub is_root: bool,
+}
+
+/// Iterates from `start`. `evaluate` gives residual and Jacobian, `residual` the residual alone; no step
+/// moves the first two unknowns by more than `longest_step`.
+#[inline]
+pub fn solve(
+    start: Vector3<f64>,
+    longest_step: f64,
+    evaluate: impl Fn(Vector3<f64>) -> Evaluation,
+    residual: impl Fn(Vector3<f64>) -> Vector3<f64>,
+) -> Convergence {
+    let mut point = start;
+    let mut at = evaluate(point);
+    let mut norm = at.residual.norm();
+    let mut iterations = 0;
+    let ended = |point, norm: f64, iterations| Convergence {
+        point,
+        residual: norm,
+        iterations,
+        is_root: norm <= ROUNDING,
+    };
+    while norm > CONVERGED && iterations < MAX_ITERATIONS {
+        let Some(inverse) = at.jacobian.try_inverse() else { break };
+        let step = -(inverse * at.residual);
+        if norm < NEARLY {
+            let last = point + step;
+            let last_norm = residual(last).norm();
+            if last_norm <= CONVERGED {
+                return ended(last, last_norm, iterations + 1);
+            }
+        }
+        let mut fraction = (longest_step / step.xy().norm()).min(1.0);
+        let accepted = loop {
+            let trial = point + step * fraction;
+            let next = evaluate(trial);
+            let next_norm = next.residual.norm();
+            if next_norm <= (1.0 - SUFFICIENT_DECREASE * fraction) * norm {
+                break Some((trial, next, next_norm));
+            }
+            fraction *= 0.5;
+            if fraction < SMALLEST_STEP {
+                break None;
+            }
+        };
+        let Some((trial, next, next_norm)) = accepted else { break };
+        (point, at, norm) = (trial, next, next_norm);
+        iterations += 1;
+    }
+    ended(point, norm, iterations)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quadratic(root: Vector3<f64>) -> impl Fn(Vector3<f64>) -> Evaluation {
+        move |z| {
+            let d = z - root;
+            Evaluation {
+                residual: d + d.component_mul(&d) * 0.3,
+                jacobian: Matrix3::from_diagonal(&d.map(|d| 1.0 + 0.6 * d)),
+            }
+        }
+    }
+
+    #[test]
+    fn finds_a_root_quadratically() {
+        let root = Vector3::new(1.0, -2.0, 0.5);
+        let f = quadratic(root);
+        let found = solve(Vector3::zeros(), 10.0, &f, |z| f(z).residual);
+        assert!(found.is_root && found.iterations <= 8);
+        assert!((found.point - root).norm() < 1e-12);
+    }
+
+    #[test]
+    fn says_so_where_there_is_no_root() {
+        let f = |z: Vector3<f64>| Evaluation {
+            residual: Vector3::new(1.0 + z[0] * z[0], z[1], z[2]),
+            jacobian: Matrix3::from_diagonal(&Vector3::new(2.0 * z[0], 1.0, 1.0)),
+        };
+        let found = solve(Vector3::new(0.7, 0.1, 0.1), 10.0, f, |z| f(z).residual);
+        assert!(!found.is_root && found.residual >= 1.0);
+    }
+}

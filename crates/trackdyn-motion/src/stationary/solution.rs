@@ -1,0 +1,53 @@
+//! What a solve returns.
+
+use crate::icr::Icrs;
+use trackdyn_core::{PerSide, Side, Twist};
+
+/// A stationary motion, or why there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solution {
+    /// What kind of motion it is; read it before the numbers.
+    pub status: Status,
+    /// Track speeds, m/s.
+    pub belt_speed: PerSide<f64>,
+    /// Twist of the hull, paper's frame.
+    pub twist: Twist,
+    /// The ICRs of the tracks; none where the robot is held. In straight driving they are the limit of
+    /// a vanishing turn.
+    pub icrs: Option<Icrs>,
+    /// Norm of the sum of forces over the weight and moments over weight times gauge.
+    pub residual: f64,
+    /// Newton steps.
+    pub iterations: usize,
+}
+
+/// Kind of stationary motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// The robot turns, and both tracks slip about their ICRs.
+    Turning,
+    /// The track speeds are equal: both tracks stick, and the robot drives straight.
+    Straight,
+    /// The track speeds differ, but this track holds the robot straight while the other one slips.
+    Holds(Side),
+    /// The forces balance only where part of the contact pulls: the patch lifts.
+    Lifts,
+    /// No balance was found.
+    NotConverged,
+}
+
+impl Status {
+    /// The kinds, in the order in which summaries list them.
+    pub const NAMES: [&'static str; 5] = ["turning", "straight", "held", "lifts", "not converged"];
+
+    /// Position in [`Status::NAMES`].
+    pub fn index(self) -> usize {
+        match self {
+            Self::Turning => 0,
+            Self::Straight => 1,
+            Self::Holds(_) => 2,
+            Self::Lifts => 3,
+            Self::NotConverged => 4,
+        }
+    }
+}

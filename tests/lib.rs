@@ -1,0 +1,64 @@
+//! Models and vehicles that several test suites share.
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use trackdyn_physics::contact::Friction;
+use trackdyn_physics::{Effects, Model, RunningGear, Vehicle, VehicleFile};
+
+/// Auriga-alpha with this centre of gravity and these effects (`id:key=value`).
+///
+/// # Panics
+/// Where an effect is not of the catalogue.
+pub fn auriga(cog: [f64; 2], effects: &[&str]) -> Model {
+    let vehicle = Vehicle { cog, ..VehicleFile::auriga_alpha().vehicle };
+    vehicle.check().expect("a vehicle that stands");
+    Model::new(vehicle, parse_effects(effects))
+}
+
+/// The effects of these texts.
+///
+/// # Panics
+/// Where an effect is not of the catalogue.
+pub fn parse_effects(effects: &[&str]) -> Effects {
+    effects.iter().map(|text| text.parse().expect("an effect of the catalogue")).collect()
+}
+
+/// A uniform number between two bounds.
+pub fn uniform(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
+    low + (high - low) * random.random::<f64>()
+}
+
+/// A vehicle of any proportion: μ_x/μ_y from 0.2 to 5, contact from 0.15 to 7 gauges long, tracks or
+/// two to four axles, the centre of gravity anywhere up to `support` of the tipping limit.
+pub fn random_vehicle(random: &mut ChaCha8Rng, support: f64) -> Vehicle {
+    let mu_y = uniform(random, 0.1, 1.5);
+    let ratio = uniform(random, 0.2_f64.ln(), 5.0_f64.ln()).exp();
+    let gauge = uniform(random, -1.5, 1.5).exp();
+    let length = gauge * uniform(random, -2.0, 2.0).exp();
+    let width = gauge * uniform(random, 0.02, 1.0);
+    let running_gear = if random.random::<f64>() < 0.7 {
+        RunningGear::Track { contact_length: length, belt_width: width }
+    } else {
+        let axles: u32 = random.random_range(2..=4);
+        let pitch = length / f64::from(axles);
+        RunningGear::Wheels {
+            contact_length: pitch * uniform(random, 0.1, 0.9),
+            width,
+            axles: (0..axles)
+                .map(|k| pitch * (f64::from(k) - f64::from(axles - 1) / 2.0))
+                .collect(),
+        }
+    };
+    let mut vehicle = Vehicle {
+        name: "random".to_owned(),
+        mass: uniform(random, 1.0, 1000.0),
+        gauge,
+        cog: [0.0, 0.0],
+        running_gear,
+        friction: Friction { across: mu_y * ratio, along: mu_y },
+    };
+    let [rear, front] = Model::new(vehicle.clone(), Effects::none()).footprint().support();
+    vehicle.cog =
+        [uniform(random, -0.5, 0.5) * gauge * support, uniform(random, rear, front) * support];
+    vehicle
+}

@@ -1,0 +1,3 @@
+//! Properties that hold for every vehicle, ground and speed.
+
+mod stationary;

@@ -137,6 +137,8 @@ mod tests {
         let document = Document::new("x.toml", "a = 1\nb = \"ü\"\nc = 3\n");
         assert_eq!(document.position(0), (1, 1));
         assert_eq!(document.position(6), (2, 1));
-        assert_eq!(document.position(15), (3, 2));
+        // Columns count characters, not bytes.
+        assert_eq!(document.position(13), (2, 7));
+        assert_eq!(document.position(15), (3, 1));
     }
 }

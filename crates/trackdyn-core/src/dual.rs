@@ -167,6 +167,7 @@ impl<const N: usize> MulAssign for Dual<N> {
 mod tests {
     use super::*;
     use num_dual::{Dual64, DualNum};
+    use num_traits::Signed;
 
     /// The same expression in ours and in num-dual's numbers: every operation of [`Scalar`].
     macro_rules! expression {

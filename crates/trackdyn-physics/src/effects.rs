@@ -3,6 +3,8 @@
 #[macro_use]
 mod dispatch;
 mod active;
+#[cfg(test)]
+mod conformance;
 mod error;
 
 pub use active::{ActiveEffect, Effects};

@@ -1,0 +1,142 @@
+//! What every effect of the catalogue must satisfy.
+
+use super::{ActiveEffect, CATALOGUE};
+use crate::contact::quadrature::SlipSite;
+use crate::effect::Stage;
+use crate::model::{Circumstance, Ground, Model, Motion, Site, Situation};
+use crate::{Effects, VehicleFile};
+use std::collections::BTreeSet;
+use trackdyn_core::{Dual, PerSide, Scalar, Side, Wrench};
+
+/// Every effect with the typical sizes of its parameters.
+fn all() -> impl Iterator<Item = ActiveEffect> {
+    CATALOGUE.iter().map(|card| ActiveEffect::new(card.id, &[]).expect("typical sizes are in range"))
+}
+
+/// A fast left turn.
+fn turn<S: Scalar>(z: [S; 3]) -> Motion<S> {
+    Motion::anchored(PerSide::new(0.3, 0.9), Side::Left, [z[0], z[1]], z[2])
+}
+
+const ICR: [f64; 3] = [-0.37, 0.05, 1.2];
+
+#[test]
+fn every_file_is_registered() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/effects");
+    let own = ["active", "conformance", "dispatch", "error"];
+    let files: BTreeSet<String> = std::fs::read_dir(folder)
+        .expect("the folder of the catalogue")
+        .map(|entry| entry.expect("readable").path())
+        .map(|path| path.file_stem().expect("a file name").to_string_lossy().into_owned())
+        .filter(|stem| !own.contains(&stem.as_str()))
+        .collect();
+    let ids: BTreeSet<String> = CATALOGUE.iter().map(|card| card.id.replace('-', "_")).collect();
+    assert_eq!(files, ids, "one file per effect, one line per file in effects.rs");
+    assert_eq!(ids.len(), CATALOGUE.len(), "ids are unique");
+}
+
+#[test]
+fn cards_are_complete() {
+    for card in CATALOGUE {
+        for text in [card.title, card.law, card.assumes, card.shows] {
+            assert!(text.len() > 10 && !text.ends_with(' '), "{}: {text:?}", card.id);
+        }
+        assert!(!card.sources.is_empty() && !card.stages.is_empty(), "{}", card.id);
+        assert!(card.breaks.is_sorted(), "{}: symmetries in the order of the tables", card.id);
+        for parameter in card.parameters {
+            let [low, high] = parameter.range;
+            assert!(low < high && (low..=high).contains(&parameter.typical), "{}", card.id);
+            assert!(parameter.typical.is_finite() && !parameter.meaning.is_empty());
+            let suffix = parameter.unit.replace('/', "_per_");
+            assert!(parameter.unit == "1" || parameter.key.ends_with(&suffix), "{}", parameter.key);
+        }
+    }
+}
+
+#[test]
+fn hooks_act_at_the_stages_of_the_card_and_nowhere_else() {
+    let vehicle = VehicleFile::auriga_alpha().vehicle;
+    let motion = turn(ICR);
+    for effect in all() {
+        let level = Ground::level(vehicle.friction);
+        let mut ground = level;
+        effect.ground(&Circumstance { heading: 0.4 }, &mut ground);
+
+        let situation = Situation { vehicle: &vehicle, ground: &level, motion: &motion };
+        let mut centre_of_pressure = vehicle.cog;
+        effect.load(&situation, &mut centre_of_pressure);
+
+        let patch = &vehicle.patches(Side::Left)[0];
+        let position = [patch.centre()[0], 0.1];
+        let unit_slip = motion.slip.left.direction_at(position);
+        let unit_slip_length = unit_slip[0].hypot(unit_slip[1]);
+        let slip = SlipSite { position, unit_slip, unit_slip_length };
+        let site = Site { situation: &situation, side: Side::Left, patch, slip: &slip };
+        let mut mobilised = [1.0, 1.0];
+        effect.shear(&site, &mut mobilised);
+
+        let mut wrench = Wrench::zero();
+        effect.wrench(&situation, &PerSide::new(1000.0, 1200.0), &mut wrench);
+
+        for (stage, acts) in [
+            (Stage::Ground, ground != level),
+            (Stage::Load, centre_of_pressure != vehicle.cog),
+            (Stage::Shear, mobilised != [1.0, 1.0]),
+            (Stage::Wrench, wrench != Wrench::zero()),
+        ] {
+            let listed = effect.card().stages.contains(&stage);
+            assert_eq!(acts, listed, "{} at stage {}", effect.card().id, stage.name());
+        }
+    }
+}
+
+#[test]
+fn derivatives_of_the_balance_equal_difference_quotients() {
+    const STEP: f64 = 1e-6;
+    for effect in all() {
+        let vehicle = VehicleFile::auriga_alpha().vehicle;
+        let weight = vehicle.mass * trackdyn_core::STANDARD_GRAVITY;
+        let model = Model::new(vehicle, Effects::from_iter([effect.clone()]));
+        let ground = model.ground(&Circumstance { heading: 0.4 });
+        let exact = total(&model, &ground, Dual::variables(ICR));
+        for variable in 0..3 {
+            let at = |step: f64| {
+                let mut z = ICR;
+                z[variable] += step;
+                total(&model, &ground, z)
+            };
+            let (ahead, behind) = (at(STEP), at(-STEP));
+            for k in 0..3 {
+                let quotient = (ahead[k] - behind[k]) / (2.0 * STEP);
+                let error = (exact[k].gradient[variable] - quotient).abs();
+                assert!(error < 1e-7 * weight, "{effect}: d{k}/d{variable} off by {error}");
+            }
+        }
+    }
+}
+
+fn total<S: Scalar>(model: &Model, ground: &Ground, z: [S; 3]) -> [S; 3] {
+    let balance = model.balance(ground, &turn(z));
+    let mut sum = balance.load;
+    sum += balance.friction.left;
+    sum += balance.friction.right;
+    [sum.force_x, sum.force_y, sum.moment]
+}
+
+#[test]
+fn text_form_is_read_back() {
+    for effect in all() {
+        assert_eq!(effect.to_string().parse(), Ok(effect));
+    }
+}
+
+#[test]
+fn mistakes_name_what_would_have_been_right() {
+    let message = |text: &str| text.parse::<ActiveEffect>().expect_err("a mistake").to_string();
+    assert!(message("centripedal").contains("such as \"centripetal\""));
+    assert!(message("load-transfer:cog_hight_m=0.3").contains("such as \"cog_height_m\""));
+    assert!(message("load-transfer:cog_height_m=-1").contains("between 0 and 5 m"));
+    assert!(message("load-transfer:cog_height_m=nan").contains("between 0 and 5 m"));
+    assert!(message("load-transfer:cog_height_m").contains("the form"));
+    assert!(message("slope:angle_deg=1,angle_deg=2").contains("each parameter once"));
+}

@@ -1,3 +1,6 @@
 //! Properties that hold for every vehicle, ground and speed.
 
+mod contact;
+mod map;
 mod stationary;
+mod tanh_sinh;

@@ -1,0 +1,4 @@
+//! What the project promises of its own structure and catalogue.
+
+mod arrows;
+mod parity;

@@ -160,12 +160,10 @@ fn far_field_takes_over_without_a_step() {
             centre[1] + 6.0 * half_diagonal * direction.sin(),
         ];
         let arguments = (&[case.patch], case.friction, case.pressure(), case.slip());
-        let near = closed_form::friction_wrench(
-            arguments.0, arguments.1, &arguments.2, &arguments.3,
-        );
-        let far = quadrature::far_field_wrench(
-            arguments.0, arguments.1, &arguments.2, &arguments.3,
-        );
+        let near =
+            closed_form::friction_wrench(arguments.0, arguments.1, &arguments.2, &arguments.3);
+        let far =
+            quadrature::far_field_wrench(arguments.0, arguments.1, &arguments.2, &arguments.3);
         for ((a, b), scale) in components(&near).iter().zip(components(&far)).zip(case.scale()) {
             assert!((a - b).abs() < 1e-11 * scale, "{a} {b} {case:?}");
         }

@@ -61,7 +61,10 @@ fn mirrored_vehicles_move_mirrored() {
         let (p, q) = (a.icrs.expect("turns"), b.icrs.expect("turns"));
         for error in [p.x_left + q.x_right, p.x_right + q.x_left, p.y - q.y] {
             // Straight drives are limits of a left turn, which the mirror makes a right turn.
-            assert!(error.abs() < 1e-10 || a.status == Status::Straight, "{error} at {left} {right}");
+            assert!(
+                error.abs() < 1e-10 || a.status == Status::Straight,
+                "{error} at {left} {right}"
+            );
         }
         assert!((a.twist.w + b.twist.w).abs() < 1e-12);
     }
@@ -109,7 +112,10 @@ fn lifted_patches_are_gaps() {
     let model = auriga([0.0, 0.0], &["load-transfer:cog_height_m=3"]);
     let map = map(&model, 21);
     let counts = map.counts();
-    assert!(counts[Status::Lifts.index()] > 20 && counts[Status::Turning.index()] > 100, "{counts:?}");
+    assert!(
+        counts[Status::Lifts.index()] > 20 && counts[Status::Turning.index()] > 100,
+        "{counts:?}"
+    );
     assert_eq!(map.statistics().expect("slow turns").count, counts[Status::Turning.index()]);
 }
 

@@ -29,11 +29,14 @@ fn solve_random(count: u32, seed: u64) {
         let context = || format!("case {case} of seed {seed}: {solution:?}, {:?}", model.vehicle());
         assert!(solution.residual <= TOLERANCE, "{}", context());
         match solution.status {
-            Status::Turning | Status::Straight => {
+            Status::Turning => {
                 turning += 1;
                 let icrs = solution.icrs.expect("a turning robot has ICRs");
-                assert!(icrs.x_right > icrs.x_left, "{}", context());
-                assert_eq!(solution.status == Status::Straight, left == right);
+                assert!(icrs.x_right > icrs.x_left && left != right, "{}", context());
+            }
+            Status::Straight => {
+                assert_eq!(left, right);
+                assert_eq!((solution.twist.v_y, solution.twist.w), (left, 0.0));
             }
             Status::Holds(side) => {
                 held += 1;

@@ -2,7 +2,7 @@
 
 mod file;
 
-pub use file::{KinematicsFile, Source};
+pub use file::{GridSource, KinematicsFile, Source};
 
 use crate::icr::Icrs;
 use trackdyn_core::{PerSide, Twist};

@@ -177,10 +177,10 @@ impl Root<'_> {
             Status::NotConverged
         } else if solver.model.lifts(&solver.ground, &motion) {
             Status::Lifts
-        } else if turn <= 0.0 {
-            Status::Holds(anchor)
         } else if belt_speed.left == belt_speed.right {
             Status::Straight
+        } else if turn <= 0.0 {
+            Status::Holds(anchor)
         } else {
             Status::Turning
         };

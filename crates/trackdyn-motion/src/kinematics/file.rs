@@ -11,7 +11,7 @@ use trackdyn_core::document::{Document, DocumentError};
 const SCHEMA: &str = "trackdyn.kinematics/1";
 
 /// Where the numbers of a file come from.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
     /// The command line.
@@ -122,22 +122,23 @@ impl KinematicsFile {
     /// The file of a map.
     pub fn of_map(statistics: &Statistics, sectors: &[Sector], source: Source) -> Self {
         let Statistics { mean, spread, .. } = *statistics;
+        let unplaced = |value| Spanned::new(0..0, rounded(value));
         Self {
             schema: Spanned::new(0..0, SCHEMA.to_owned()),
             frame: Spanned::new(0..0, "paper".to_owned()),
-            x_icr_left_m: Spanned::new(0..0, mean.x_left),
-            x_icr_right_m: Spanned::new(0..0, mean.x_right),
-            y_icr_m: mean.y,
-            steering_efficiency: statistics.steering_efficiency,
-            eccentricity: statistics.eccentricity,
-            mean_steering_efficiency: Some(statistics.mean_steering_efficiency),
-            mean_eccentricity: Some(statistics.mean_eccentricity),
+            x_icr_left_m: unplaced(mean.x_left),
+            x_icr_right_m: unplaced(mean.x_right),
+            y_icr_m: rounded(mean.y),
+            steering_efficiency: rounded(statistics.steering_efficiency),
+            eccentricity: rounded(statistics.eccentricity),
+            mean_steering_efficiency: Some(rounded(statistics.mean_steering_efficiency)),
+            mean_eccentricity: Some(rounded(statistics.mean_eccentricity)),
             alpha_left: None,
             alpha_right: None,
             spread: Some(Spread {
-                x_icr_left_m: spread.x_left,
-                x_icr_right_m: spread.x_right,
-                y_icr_m: spread.y,
+                x_icr_left_m: rounded(spread.x_left),
+                x_icr_right_m: rounded(spread.x_right),
+                y_icr_m: rounded(spread.y),
             }),
             source,
             sector: sectors.iter().map(SectorTable::of).collect(),
@@ -173,20 +174,51 @@ impl KinematicsFile {
         toml::to_string(self).expect("numbers, texts and tables are TOML")
     }
 
-    /// The kinematic model of the file, without its sectors.
+    /// The kinematic model with the parameters of the whole map.
     pub fn kinematics(&self) -> Kinematics {
+        self.with_icrs(Icrs {
+            x_left: *self.x_icr_left_m.get_ref(),
+            x_right: *self.x_icr_right_m.get_ref(),
+            y: self.y_icr_m,
+        })
+    }
+
+    /// The kinematic model for these track speeds, m/s: that of their sector where the map is
+    /// piecewise, else that of the whole map.
+    pub fn kinematics_at(&self, speed: PerSide<f64>) -> Kinematics {
+        let signs = Sector::signs_of(speed);
+        let sector = self.sector.iter().find(|sector| sector.signs() == signs);
+        sector.map_or_else(|| self.kinematics(), |sector| self.with_icrs(sector.icrs()))
+    }
+
+    /// Track speeds, m/s, for a forward speed and a yaw rate, and the model that gives them: one whose
+    /// sector holds the speeds, else that of the whole map.
+    pub fn track_speeds(&self, forward: f64, yaw_rate: f64) -> (PerSide<f64>, Kinematics) {
+        let of = |kinematics: Kinematics| (kinematics.track_speeds(forward, yaw_rate), kinematics);
+        self.sector
+            .iter()
+            .map(|sector| (sector.signs(), of(self.with_icrs(sector.icrs()))))
+            .find(|(signs, (speed, _))| Sector::signs_of(*speed) == *signs)
+            .map_or_else(|| of(self.kinematics()), |(_, found)| found)
+    }
+
+    fn with_icrs(&self, icrs: Icrs) -> Kinematics {
         Kinematics {
-            icrs: Icrs {
-                x_left: *self.x_icr_left_m.get_ref(),
-                x_right: *self.x_icr_right_m.get_ref(),
-                y: self.y_icr_m,
-            },
+            icrs,
             alpha: PerSide::new(self.alpha_left.unwrap_or(1.0), self.alpha_right.unwrap_or(1.0)),
         }
     }
 }
 
 impl SectorTable {
+    fn signs(&self) -> [i8; 3] {
+        [self.sign_left, self.sign_right, self.sign_difference]
+    }
+
+    fn icrs(&self) -> Icrs {
+        Icrs { x_left: self.x_icr_left_m, x_right: self.x_icr_right_m, y: self.y_icr_m }
+    }
+
     fn of(sector: &Sector) -> Self {
         let [sign_left, sign_right, sign_difference] = sector.signs;
         let Statistics { mean, .. } = sector.statistics;
@@ -194,11 +226,65 @@ impl SectorTable {
             sign_left,
             sign_right,
             sign_difference,
-            x_icr_left_m: mean.x_left,
-            x_icr_right_m: mean.x_right,
-            y_icr_m: mean.y,
-            steering_efficiency: sector.statistics.steering_efficiency,
-            eccentricity: sector.statistics.eccentricity,
+            x_icr_left_m: rounded(mean.x_left),
+            x_icr_right_m: rounded(mean.x_right),
+            y_icr_m: rounded(mean.y),
+            steering_efficiency: rounded(sector.statistics.steering_efficiency),
+            eccentricity: rounded(sector.statistics.eccentricity),
         }
+    }
+}
+
+/// The number to twelve decimals: what is below is rounding, and would differ between machines.
+fn rounded(value: f64) -> f64 {
+    (value * 1e12).round() / 1e12
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::{Grid, IcrMap};
+    use trackdyn_physics::{Circumstance, Model, VehicleFile};
+
+    fn file(effect: &str) -> KinematicsFile {
+        let effects = effect.split_whitespace().map(|e| e.parse().expect("an effect")).collect();
+        let model = Model::new(VehicleFile::auriga_alpha().vehicle, effects);
+        let grid = Grid::new(9, 1.0).expect("a grid");
+        let map = IcrMap::solve(&model, grid, &Circumstance::default(), &|_| ());
+        KinematicsFile::of_map(
+            &map.statistics().expect("it turns"),
+            &map.sectors(),
+            Source::default(),
+        )
+    }
+
+    #[test]
+    fn a_written_file_reads_back() {
+        for effect in ["", "motion-resistance"] {
+            let file = file(effect);
+            assert_eq!(file.sector.is_empty(), effect.is_empty());
+            let back = KinematicsFile::from_document(&Document::new("k.toml", file.to_toml()));
+            assert_eq!(back.expect("valid").to_toml(), file.to_toml());
+        }
+    }
+
+    #[test]
+    fn sectors_are_found_both_ways() {
+        let file = file("motion-resistance");
+        for speed in [PerSide::new(0.2, 0.9), PerSide::new(-0.9, 0.3), PerSide::new(-0.5, 0.5)] {
+            let twist = file.kinematics_at(speed).twist(speed);
+            let (back, _) = file.track_speeds(twist.v_y, twist.w);
+            assert!((back.left - speed.left).abs() < 1e-12, "{speed:?} {back:?}");
+            assert!((back.right - speed.right).abs() < 1e-12, "{speed:?} {back:?}");
+        }
+    }
+
+    #[test]
+    fn exchanged_icrs_are_refused_with_their_line() {
+        let text = file("").to_toml().replace("x_icr_right_m = 0.4", "x_icr_right_m = -0.4");
+        let error = KinematicsFile::from_document(&Document::new("k.toml", text))
+            .expect_err("right of left")
+            .to_string();
+        assert!(error.starts_with("k.toml:4: x_icr_right_m = -0.4"), "{error}");
     }
 }

@@ -33,8 +33,10 @@ impl Sector {
     }
 }
 
-/// The sectors of a map if they explain more than half of the variance of x_l, x_r or y; empty
-/// otherwise.
+/// Share of the variance of a coordinate that a piecewise map leaves within its sectors, at most.
+const WITHIN: f64 = 0.1;
+
+/// The sectors of a map if they explain nine tenths of the variance of x_l, x_r or y; empty otherwise.
 pub(super) fn sectors(map: &IcrMap) -> Vec<Sector> {
     let Some(whole) = map.statistics() else { return Vec::new() };
     let mut members: BTreeMap<[i8; 3], Vec<Icrs>> = BTreeMap::new();
@@ -58,7 +60,7 @@ pub(super) fn sectors(map: &IcrMap) -> Vec<Sector> {
                 share * sector.statistics.spread.to_array()[k].powi(2)
             })
             .sum();
-        variance > EQUAL.powi(2) && within < variance / 2.0
+        variance > EQUAL.powi(2) && within < WITHIN * variance
     });
     if explained { sectors } else { Vec::new() }
 }

@@ -10,7 +10,9 @@ use trackdyn_core::{Dual, PerSide, Scalar, Side, Wrench};
 
 /// Every effect with the typical sizes of its parameters.
 fn all() -> impl Iterator<Item = ActiveEffect> {
-    CATALOGUE.iter().map(|card| ActiveEffect::new(card.id, &[]).expect("typical sizes are in range"))
+    CATALOGUE
+        .iter()
+        .map(|card| ActiveEffect::new(card.id, &[]).expect("typical sizes are in range"))
 }
 
 /// A fast left turn.

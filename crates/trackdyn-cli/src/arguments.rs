@@ -1,0 +1,108 @@
+//! What the command line accepts.
+
+use crate::commands;
+use clap::{Args, Parser, Subcommand};
+use std::path::{Path, PathBuf};
+use trackdyn_core::document::Document;
+use trackdyn_physics::{ActiveEffect, Circumstance, Model, VehicleFile};
+
+/// Kinematics of tracked and skid-steer robots: simulate the ICRs of the tracks, check them, use them.
+#[derive(Parser)]
+#[command(name = "trackdyn", version, max_term_width = 100)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands, one file each in `commands`.
+#[derive(Subcommand)]
+pub enum Command {
+    /// Solve the stationary motion for every pair of track speeds: ICR map, kinematic parameters, picture
+    Map(commands::map::Options),
+    /// Evaluate the kinematics: track speeds to motion of the robot, or back
+    Kinematics(commands::kinematics::Options),
+    /// Recompute chi, e and the ICRs, and fail where they leave the tolerances of a reference file
+    Check(commands::check::Options),
+    /// List the effects that a vehicle file or --effect can switch on
+    Effects(commands::effects::Options),
+    /// Print completions for a shell
+    Completions(commands::completions::Options),
+    /// Print the manual page
+    Man,
+}
+
+/// The vehicle, its effects and where it stands.
+#[derive(Args)]
+pub struct ModelOptions {
+    /// Vehicle file (schema trackdyn.vehicle/1) [default: Auriga-alpha, embedded]
+    #[arg(long, value_name = "FILE")]
+    pub vehicle: Option<PathBuf>,
+    /// Centre of gravity in m from the centre of the contact area: right, forward
+    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
+    pub cog: Option<[f64; 2]>,
+    /// Switch an effect on, with its typical size or this one; repeatable (see `trackdyn effects`)
+    #[arg(long = "effect", value_name = "ID[:PARAMETER=VALUE,...]")]
+    pub effects: Vec<ActiveEffect>,
+    /// Heading of the robot in the world in degrees, for effects that know directions
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true,
+          value_parser = finite)]
+    pub heading: f64,
+}
+
+impl ModelOptions {
+    /// The vehicle file with the changes of the command line.
+    ///
+    /// # Errors
+    /// A message that names the file, line and key, or the option.
+    pub fn vehicle_file(&self) -> Result<VehicleFile, Box<dyn std::error::Error>> {
+        let mut file = match &self.vehicle {
+            Some(path) => read_vehicle(path)?,
+            None => VehicleFile::auriga_alpha(),
+        };
+        if let Some(cog) = self.cog {
+            file.vehicle.cog = cog;
+            file.vehicle.check().map_err(|error| format!("--cog: {error}"))?;
+        }
+        for effect in &self.effects {
+            file.effects.insert(effect.clone());
+        }
+        Ok(file)
+    }
+
+    /// The place, heading and time.
+    pub fn circumstance(&self) -> Circumstance {
+        Circumstance { heading: self.heading.to_radians() }
+    }
+}
+
+/// Reads a vehicle file.
+///
+/// # Errors
+/// A message that names file, line and key.
+pub fn read_vehicle(path: &Path) -> Result<VehicleFile, Box<dyn std::error::Error>> {
+    Ok(VehicleFile::from_document(&Document::read(path)?)?)
+}
+
+/// The model of a vehicle file.
+pub fn model(file: &VehicleFile) -> Model {
+    Model::new(file.vehicle.clone(), file.effects.clone())
+}
+
+/// Two numbers, separated by a comma.
+///
+/// # Errors
+/// What was expected.
+pub fn pair(text: &str) -> Result<[f64; 2], String> {
+    let expected = || "expected two numbers separated by a comma, such as -0.015,0.04".to_owned();
+    let (first, second) = text.split_once(',').ok_or_else(expected)?;
+    let number = |text: &str| finite(text.trim()).map_err(|_| expected());
+    Ok([number(first)?, number(second)?])
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err("expected a finite number".to_owned()),
+    }
+}

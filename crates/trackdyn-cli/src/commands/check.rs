@@ -1,0 +1,92 @@
+//! `trackdyn check`: the regression check that a user's CI calls.
+
+mod reference;
+
+use crate::arguments::{model, read_vehicle};
+use crate::commands::Outcome;
+use crate::exit::Exit;
+use clap::Args;
+use reference::{Case, Reference};
+use std::error::Error;
+use std::path::PathBuf;
+use trackdyn_core::document::Document;
+use trackdyn_motion::map::Statistics;
+use trackdyn_motion::{Grid, IcrMap};
+use trackdyn_physics::{Circumstance, VehicleFile};
+
+/// Options of `trackdyn check`.
+#[derive(Args)]
+pub struct Options {
+    /// Reference file (schema trackdyn.reference/1)
+    reference: PathBuf,
+    /// Check this vehicle instead of those that the cases name
+    #[arg(long, value_name = "FILE")]
+    vehicle: Option<PathBuf>,
+}
+
+/// Recomputes every case, prints a table, and fails where a number leaves its tolerance.
+pub fn run(options: &Options) -> Outcome {
+    let document = Document::read(&options.reference)?;
+    let reference = Reference::from_document(&document)?;
+    let override_vehicle = options.vehicle.as_deref().map(read_vehicle).transpose()?;
+
+    let mut misses = 0;
+    let mut checked = 0;
+    for case in &reference.cases {
+        let vehicle = vehicle(case, override_vehicle.as_ref(), options)?;
+        let statistics = solve(&vehicle, reference.grid, case)?;
+        println!("{}: {}", case.name, vehicle.vehicle.name);
+        println!(
+            "  {:26}{:>12}{:>12}{:>12}{:>12}",
+            "", "expected", "computed", "off by", "tolerance"
+        );
+        for (quantity, expected) in &case.expect {
+            let computed = quantity.of(&statistics);
+            let error = computed - expected.value;
+            // NaN is a miss.
+            let holds = error.abs() <= expected.tolerance;
+            misses += usize::from(!holds);
+            checked += 1;
+            println!(
+                "  {:26}{:>12.6}{computed:>12.6}{error:>12.1e}{:>12.1e}  {}",
+                quantity.key(),
+                expected.value,
+                expected.tolerance,
+                if holds { "ok" } else { "MISS" }
+            );
+        }
+    }
+    println!("{} of {checked} values within tolerance", checked - misses);
+    Ok(if misses == 0 { Exit::Done } else { Exit::BadInput })
+}
+
+/// The vehicle of a case: that of the command line, of the case, or the embedded one.
+fn vehicle(
+    case: &Case,
+    override_vehicle: Option<&VehicleFile>,
+    options: &Options,
+) -> Result<VehicleFile, Box<dyn Error>> {
+    let mut file = match (override_vehicle, &case.vehicle) {
+        (Some(file), _) => file.clone(),
+        (None, Some(path)) => {
+            let folder = options.reference.parent().unwrap_or(std::path::Path::new("."));
+            read_vehicle(&folder.join(path))?
+        }
+        (None, None) => VehicleFile::auriga_alpha(),
+    };
+    if let Some(cog) = case.cog {
+        file.vehicle.cog = cog;
+        file.vehicle.check().map_err(|error| format!("case \"{}\": {error}", case.name))?;
+    }
+    for effect in &case.effects {
+        file.effects.insert(effect.clone());
+    }
+    Ok(file)
+}
+
+fn solve(file: &VehicleFile, grid: Grid, case: &Case) -> Result<Statistics, Box<dyn Error>> {
+    let map = IcrMap::solve(&model(file), grid, &Circumstance::default(), &|_| ());
+    map.statistics().ok_or_else(|| {
+        format!("case \"{}\": no motion turns, so there are no ICRs to check", case.name).into()
+    })
+}

@@ -1,0 +1,155 @@
+//! Reference files, schema `trackdyn.reference/1`.
+
+use serde::Deserialize;
+use std::path::PathBuf;
+use toml::Spanned;
+use trackdyn_core::document::{Document, DocumentError};
+use trackdyn_motion::Grid;
+use trackdyn_motion::map::Statistics;
+use trackdyn_physics::ActiveEffect;
+
+const SCHEMA: &str = "trackdyn.reference/1";
+
+/// What `trackdyn check` recomputes.
+pub struct Reference {
+    /// Track speeds of every case.
+    pub grid: Grid,
+    /// The cases, in the file's order.
+    pub cases: Vec<Case>,
+}
+
+/// One vehicle and the numbers that it must give.
+pub struct Case {
+    /// Name in the table.
+    pub name: String,
+    /// Vehicle file, relative to the reference file.
+    pub vehicle: Option<PathBuf>,
+    /// Centre of gravity that replaces the vehicle's, m.
+    pub cog: Option<[f64; 2]>,
+    /// Effects on top of the vehicle's own.
+    pub effects: Vec<ActiveEffect>,
+    /// What must come out.
+    pub expect: Vec<(Quantity, Expected)>,
+}
+
+/// A number and how far off it may be.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expected {
+    /// The number.
+    pub value: f64,
+    /// Largest deviation.
+    pub tolerance: f64,
+}
+
+/// A number of a kinematics file.
+#[derive(Clone, Copy)]
+pub struct Quantity {
+    key: &'static str,
+    of: fn(&Statistics) -> f64,
+}
+
+/// The quantities that can be checked, under their names in `kinematics.toml`.
+const QUANTITIES: [Quantity; 7] = [
+    Quantity { key: "x_icr_left_m", of: |s| s.mean.x_left },
+    Quantity { key: "x_icr_right_m", of: |s| s.mean.x_right },
+    Quantity { key: "y_icr_m", of: |s| s.mean.y },
+    Quantity { key: "steering_efficiency", of: |s| s.steering_efficiency },
+    Quantity { key: "eccentricity", of: |s| s.eccentricity },
+    Quantity { key: "mean_steering_efficiency", of: |s| s.mean_steering_efficiency },
+    Quantity { key: "mean_eccentricity", of: |s| s.mean_eccentricity },
+];
+
+impl Quantity {
+    /// Name in files.
+    pub fn key(&self) -> &'static str {
+        self.key
+    }
+
+    /// Its value in a map.
+    pub fn of(&self, statistics: &Statistics) -> f64 {
+        (self.of)(statistics)
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Tables {
+    schema: Spanned<String>,
+    grid: Spanned<usize>,
+    #[serde(default = "paper_speed")]
+    max_speed_m_s: Spanned<f64>,
+    case: Vec<CaseTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CaseTable {
+    name: String,
+    vehicle: Option<PathBuf>,
+    cog_m: Option<[f64; 2]>,
+    #[serde(default)]
+    effects: Vec<Spanned<String>>,
+    expect: std::collections::BTreeMap<Spanned<String>, Spanned<Expected>>,
+}
+
+fn paper_speed() -> Spanned<f64> {
+    Spanned::new(0..0, Grid::PAPER_SPEED)
+}
+
+impl Reference {
+    /// Reads and checks a reference file.
+    ///
+    /// # Errors
+    /// A [`DocumentError`] that points at the line and key.
+    pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
+        let tables: Tables = document.parse()?;
+        if tables.schema.get_ref() != SCHEMA {
+            let expected = format!("\"{SCHEMA}\"");
+            return Err(document.value_error(tables.schema.span(), "schema", expected));
+        }
+        let (points, speed) = (*tables.grid.get_ref(), *tables.max_speed_m_s.get_ref());
+        let grid = Grid::new(points, speed).map_err(|_| {
+            let expected = format!("2 to {} points and a positive speed", Grid::MAX_POINTS);
+            document.value_error(tables.grid.span(), "grid", expected)
+        })?;
+        let cases = tables
+            .case
+            .into_iter()
+            .map(|table| table.case(document))
+            .collect::<Result<Vec<Case>, DocumentError>>()?;
+        Ok(Self { grid, cases })
+    }
+}
+
+impl CaseTable {
+    fn case(self, document: &Document) -> Result<Case, DocumentError> {
+        let effects = self
+            .effects
+            .iter()
+            .map(|text| {
+                text.get_ref()
+                    .parse::<ActiveEffect>()
+                    .map_err(|error| document.value_error(text.span(), "effects", error.expected()))
+            })
+            .collect::<Result<_, _>>()?;
+        let expect = self
+            .expect
+            .iter()
+            .map(|(key, expected)| {
+                let name = key.get_ref();
+                let quantity = QUANTITIES.into_iter().find(|q| q.key == name).ok_or_else(|| {
+                    let keys = QUANTITIES.map(|quantity| quantity.key).join(", ");
+                    document.value_error(key.span(), "expect", format!("one of {keys}"))
+                })?;
+                let Expected { value, tolerance } = *expected.get_ref();
+                if !(value.is_finite() && tolerance >= 0.0) {
+                    let expected_text = "a finite value and a tolerance that is not negative";
+                    return Err(document.value_error(expected.span(), name, expected_text));
+                }
+                Ok((quantity, Expected { value, tolerance }))
+            })
+            .collect::<Result<_, _>>()?;
+        Ok(Case { name: self.name, vehicle: self.vehicle, cog: self.cog_m, effects, expect })
+    }
+}

@@ -1,0 +1,124 @@
+//! `trackdyn effects`: the catalogue.
+
+use crate::commands::Outcome;
+use crate::exit::Exit;
+use clap::Args;
+use std::fmt::Write;
+use trackdyn_physics::effect::{Card, Symmetry};
+use trackdyn_physics::{ActiveEffect, CATALOGUE};
+
+/// Options of `trackdyn effects`.
+#[derive(Args)]
+pub struct Options {
+    /// Show one effect in full
+    id: Option<String>,
+    /// Print the catalogue as the Markdown of docs/effects.md
+    #[arg(long)]
+    markdown: bool,
+}
+
+/// Prints the catalogue or one card.
+pub fn run(options: &Options) -> Outcome {
+    let text = match &options.id {
+        Some(id) => {
+            let effect = ActiveEffect::new(id, &[])?;
+            if options.markdown { markdown_card(effect.card()) } else { card(effect.card()) }
+        }
+        None if options.markdown => markdown(),
+        None => list(),
+    };
+    print!("{text}");
+    Ok(Exit::Done)
+}
+
+/// The letters of the symmetries that an effect breaks.
+fn letters(card: &Card) -> String {
+    let of = |symmetry| if card.breaks.contains(&symmetry) { symmetry.letter() } else { '.' };
+    Symmetry::ALL.map(of).into_iter().collect()
+}
+
+fn stages(card: &Card) -> String {
+    card.stages.iter().map(|stage| stage.name()).collect::<Vec<_>>().join(", ")
+}
+
+fn list() -> String {
+    let width = CATALOGUE.iter().map(|card| card.id.len()).max().unwrap_or(0);
+    let mut text = format!("{:width$}  breaks  what it is\n", "effect");
+    for card in CATALOGUE {
+        text += &format!("{:width$}  {}   {}\n", card.id, letters(card), card.title);
+    }
+    text += "\n\
+        breaks: the ICRs change with S speed, R reversal, P manoeuvre, M mirror, H heading.\n\
+        `trackdyn effects ID` shows law, parameters and sources.\n\
+        Switch one on: --effect load-transfer:cog_height_m=0.3, or in a vehicle file\n\
+        [effect.load-transfer]\n\
+        cog_height_m = 0.3\n";
+    text
+}
+
+fn card(card: &Card) -> String {
+    let mut text = format!("{}: {}\n\n", card.id, card.title);
+    let mut row = |name: &str, value: &str| {
+        text.push_str(format!("{name:9}{value}").trim_end());
+        text.push('\n');
+    };
+    row("law", card.law);
+    row("assumes", card.assumes);
+    row("shows", card.shows);
+    row("breaks", &letters(card));
+    row("acts at", &stages(card));
+    for parameter in card.parameters {
+        let [low, high] = parameter.range;
+        row("", "");
+        row(parameter.symbol, &format!("{} [{}]", parameter.key, parameter.unit));
+        row("", parameter.meaning);
+        row("", &format!("{low} to {high}, typically {}", parameter.typical));
+    }
+    row("", "");
+    for (k, source) in card.sources.iter().enumerate() {
+        row(if k == 0 { "source" } else { "" }, source);
+    }
+    text
+}
+
+fn markdown() -> String {
+    let mut text = "# Effects\n\n\
+        Physics beyond the base model, each in one file of `crates/trackdyn-physics/src/effects`. This page \
+        is printed by `trackdyn effects --markdown`.\n\n\
+        An effect *breaks* a symmetry when the ICRs change under it: **S** all speeds scaled, **R** all \
+        speeds reversed, **P** another manoeuvre, **M** left and right exchanged, **H** another heading.\n\n\
+        | effect | what it is | S | R | P | M | H | acts at |\n\
+        |---|---|---|---|---|---|---|---|\n"
+        .to_owned();
+    for card in CATALOGUE {
+        let marks: String = Symmetry::ALL
+            .map(|symmetry| if card.breaks.contains(&symmetry) { " x |" } else { "  |" })
+            .concat();
+        let (id, title, stages) = (card.id, card.title, stages(card));
+        let _ = writeln!(text, "| [{id}](#{id}) | {title} |{marks} {stages} |");
+    }
+    for card in CATALOGUE {
+        text += "\n";
+        text += &markdown_card(card);
+    }
+    text
+}
+
+fn markdown_card(card: &Card) -> String {
+    let mut text = format!("## {}\n\n{}.\n\n", card.id, card.title);
+    let _ = writeln!(text, "**Law.** {}\n", card.law);
+    let _ = writeln!(text, "**Assumes.** {}\n", card.assumes);
+    let _ = writeln!(text, "**Shows.** {}\n", card.shows);
+    text +=
+        "| parameter | symbol | unit | range | typical | meaning |\n|---|---|---|---|---|---|\n";
+    for parameter in card.parameters {
+        let [low, high] = parameter.range;
+        let _ = writeln!(
+            text,
+            "| `{}` | {} | {} | {low} to {high} | {} | {} |",
+            parameter.key, parameter.symbol, parameter.unit, parameter.typical, parameter.meaning
+        );
+    }
+    let _ = writeln!(text, "\n**Sources.** {}.", card.sources.join("; "));
+    text
+}

@@ -1,0 +1,80 @@
+//! `trackdyn kinematics`: direct and inverse kinematics, eqs (7)-(11).
+
+use crate::arguments::{ModelOptions, model, pair};
+use crate::commands::Outcome;
+use crate::exit::Exit;
+use clap::{ArgGroup, Args};
+use std::error::Error;
+use std::path::PathBuf;
+use trackdyn_core::document::Document;
+use trackdyn_core::frames::ros_twist_from_paper;
+use trackdyn_core::{PerSide, Twist};
+use trackdyn_motion::kinematics::{KinematicsFile, Source};
+use trackdyn_motion::{Grid, IcrMap, Kinematics};
+
+/// Options of `trackdyn kinematics`.
+#[derive(Args)]
+#[command(group(ArgGroup::new("given").required(true).args(["speeds", "twist"])))]
+pub struct Options {
+    /// Track speeds in m/s; prints the motion of the robot
+    #[arg(long, value_name = "LEFT,RIGHT", value_parser = pair, allow_hyphen_values = true)]
+    speeds: Option<[f64; 2]>,
+    /// Forward speed in m/s and yaw rate in rad/s; prints the track speeds
+    #[arg(long, value_name = "FORWARD,YAW_RATE", value_parser = pair, allow_hyphen_values = true)]
+    twist: Option<[f64; 2]>,
+    /// Parameters from a file (schema trackdyn.kinematics/1) [default: from the vehicle's map]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["vehicle", "cog", "effects"])]
+    kinematics: Option<PathBuf>,
+    #[command(flatten)]
+    model: ModelOptions,
+}
+
+/// Prints the motion for track speeds, or track speeds for a motion.
+pub fn run(options: &Options) -> Outcome {
+    let file = parameters(options)?;
+    let (speed, kinematics) = match (options.speeds, options.twist) {
+        (Some([left, right]), _) => {
+            let speed = PerSide::new(left, right);
+            (speed, file.kinematics_at(speed))
+        }
+        (None, Some([forward, yaw_rate])) => file.track_speeds(forward, yaw_rate),
+        (None, None) => return Err("one of --speeds and --twist is needed".into()),
+    };
+    print_motion(speed, &kinematics);
+    Ok(Exit::Done)
+}
+
+/// The kinematics file, or one made from the vehicle's map.
+fn parameters(options: &Options) -> Result<KinematicsFile, Box<dyn Error>> {
+    if let Some(path) = &options.kinematics {
+        return Ok(KinematicsFile::from_document(&Document::read(path)?)?);
+    }
+    let vehicle = options.model.vehicle_file()?;
+    let grid = Grid::new(21, Grid::PAPER_SPEED)?;
+    let map = IcrMap::solve(&model(&vehicle), grid, &options.model.circumstance(), &|_| ());
+    let statistics = map
+        .statistics()
+        .ok_or("the vehicle does not turn at any pair of track speeds: it has no ICRs")?;
+    Ok(KinematicsFile::of_map(&statistics, &map.sectors(), Source::default()))
+}
+
+fn print_motion(speed: PerSide<f64>, kinematics: &Kinematics) {
+    let twist = kinematics.twist(speed);
+    let Twist { v_x: forward, v_y: left, w } = ros_twist_from_paper(&twist);
+    let icrs = kinematics.icrs;
+    println!("  ICRs          x_l {:.5}  x_r {:.5}  y {:.5} m", icrs.x_left, icrs.x_right, icrs.y);
+    if kinematics.alpha != PerSide::new(1.0, 1.0) {
+        println!(
+            "  alpha         left {:.5}  right {:.5}",
+            kinematics.alpha.left, kinematics.alpha.right
+        );
+    }
+    println!("  track speeds  left {:.5}  right {:.5} m/s", speed.left, speed.right);
+    println!(
+        "  paper frame   v_x {:.5} (right)  v_y {:.5} (forward) m/s  w {w:.5} rad/s",
+        twist.v_x, twist.v_y
+    );
+    println!(
+        "  ROS frame     v_x {forward:.5} (forward)  v_y {left:.5} (left) m/s  w {w:.5} rad/s"
+    );
+}

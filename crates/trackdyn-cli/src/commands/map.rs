@@ -1,0 +1,81 @@
+//! `trackdyn map`: ICR map, kinematic parameters, picture.
+
+mod summary;
+
+use crate::arguments::{ModelOptions, model};
+use crate::commands::Outcome;
+use crate::exit::Exit;
+use crate::progress::Progress;
+use clap::Args;
+use std::path::PathBuf;
+use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
+use trackdyn_motion::kinematics::{GridSource, KinematicsFile, Source};
+use trackdyn_motion::{Grid, IcrMap, Status};
+use trackdyn_physics::VehicleFile;
+
+/// Options of `trackdyn map`.
+#[derive(Args)]
+pub struct Options {
+    #[command(flatten)]
+    model: ModelOptions,
+    /// Speeds per track
+    #[arg(long, value_name = "N", default_value_t = 21, allow_negative_numbers = true)]
+    grid: usize,
+    /// Largest track speed in m/s
+    #[arg(long, value_name = "SPEED", default_value_t = Grid::PAPER_SPEED,
+          allow_negative_numbers = true)]
+    speed: f64,
+    /// Folder for kinematics.toml and icr_map.png
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+}
+
+/// Solves the map, prints its parameters and writes the files.
+pub fn run(options: &Options) -> Outcome {
+    let grid = Grid::new(options.grid, options.speed).map_err(|error| format!("--{error}"))?;
+    let file = options.model.vehicle_file()?;
+    prepare_folder(&options.out)?;
+
+    let model = model(&file);
+    let progress = Progress::new(grid.points() * grid.points());
+    let map = IcrMap::solve(&model, grid, &options.model.circumstance(), &|pairs| {
+        progress.advance(pairs);
+    });
+    progress.finish();
+
+    let statistics = map.statistics();
+    print!("{}", summary::text(&file, &map, statistics.as_ref()));
+    let picture = options.out.join("icr_map.png");
+    write_file(&picture, &trackdyn_report::icr_map(&map, &model, "")?)?;
+    let Some(statistics) = statistics else {
+        eprintln!("wrote {}; no kinematics.toml, for no motion turns", picture.display());
+        return Ok(Exit::NoResult);
+    };
+    let parameters = options.out.join("kinematics.toml");
+    let contents = KinematicsFile::of_map(&statistics, &map.sectors(), source(&file, &map));
+    write_file(&parameters, contents.to_toml().as_bytes())?;
+    eprintln!("wrote {} and {}", parameters.display(), picture.display());
+    Ok(Exit::Done)
+}
+
+/// Where the numbers come from.
+fn source(file: &VehicleFile, map: &IcrMap) -> Source {
+    let mut arguments: Vec<String> = std::env::args().skip(1).collect();
+    arguments.insert(0, "trackdyn".to_owned());
+    let motions = Status::NAMES
+        .iter()
+        .zip(map.counts())
+        .filter(|(_, count)| *count > 0)
+        .map(|(name, count)| (name.replace(' ', "_"), toml::Value::from(count as u64 as i64)))
+        .collect();
+    Source {
+        command: arguments.join(" "),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        vehicle: file.vehicle.name.clone(),
+        fingerprint: fingerprint(file.to_toml().as_bytes()),
+        grid: Some(GridSource { points: map.grid.points(), max_speed_m_s: map.grid.max_speed() }),
+        effects: file.effects.iter().map(ToString::to_string).collect(),
+        seed: None,
+        motions: Some(motions),
+    }
+}

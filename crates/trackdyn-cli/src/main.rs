@@ -1,0 +1,32 @@
+//! The command line of trackdyn: one file per command in `commands`.
+//!
+//! Results go to stdout, talk and progress to stderr. Exit status: see [`exit::Exit`].
+
+mod arguments;
+mod commands;
+mod exit;
+mod progress;
+
+use arguments::Arguments;
+use clap::Parser;
+use exit::Exit;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(message) => {
+            let exit = if message.use_stderr() { Exit::BadInput } else { Exit::Done };
+            // Nothing is left to do where even the message cannot be printed.
+            let _ = message.print();
+            return exit.into();
+        }
+    };
+    match commands::run(&arguments.command) {
+        Ok(exit) => exit.into(),
+        Err(error) => {
+            eprintln!("error: {error}");
+            Exit::BadInput.into()
+        }
+    }
+}

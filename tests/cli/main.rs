@@ -1,0 +1,85 @@
+//! The program as a user meets it.
+
+mod bad_input;
+mod check;
+mod documents;
+mod map;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use tempfile::TempDir;
+
+/// What a run left behind.
+struct Run {
+    status: i32,
+    stdout: String,
+    stderr: String,
+}
+
+/// An empty folder in which the program runs.
+struct Workplace(TempDir);
+
+impl Workplace {
+    fn new() -> Self {
+        Self(TempDir::new().expect("a temporary folder"))
+    }
+
+    fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        std::fs::write(self.path().join(name), text).expect("written");
+    }
+
+    fn read(&self, name: &str) -> Vec<u8> {
+        std::fs::read(self.path().join(name)).expect(name)
+    }
+
+    /// Runs `trackdyn` with these arguments, separated by white space.
+    fn run(&self, arguments: &str) -> Run {
+        self.run_with_threads(arguments, 2)
+    }
+
+    fn run_with_threads(&self, arguments: &str, threads: u32) -> Run {
+        let output = Command::new(env!("CARGO_BIN_EXE_trackdyn"))
+            .args(arguments.split_whitespace())
+            .current_dir(self.path())
+            .env("RAYON_NUM_THREADS", threads.to_string())
+            .output()
+            .expect("the program starts");
+        Run {
+            status: output.status.code().expect("no signal"),
+            stdout: String::from_utf8(output.stdout).expect("text"),
+            stderr: String::from_utf8(output.stderr).expect("text"),
+        }
+    }
+
+    /// Names of all files below the folder.
+    fn files(&self) -> Vec<PathBuf> {
+        let mut found = Vec::new();
+        let mut folders = vec![self.path().to_owned()];
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(folder).expect("a folder") {
+                let path = entry.expect("an entry").path();
+                if path.is_dir() {
+                    folders.push(path);
+                } else {
+                    found.push(path.strip_prefix(self.path()).expect("below").to_owned());
+                }
+            }
+        }
+        found.sort();
+        found
+    }
+}
+
+/// A file of the project.
+fn project_file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name)
+}
+
+/// The text of a file of the project.
+fn project_text(name: &str) -> String {
+    std::fs::read_to_string(project_file(name)).expect(name)
+}

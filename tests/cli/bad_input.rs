@@ -140,7 +140,7 @@ fn options_of_the_command_line() {
         ("kinematics", "--speeds"),
         ("kinematics --speeds 1,2,3", "two numbers separated by a comma"),
         ("effects slop", "such as \"slope\""),
-        ("mpa", "map"),
+        ("maps", "map"),
     ] {
         let run = place.run(arguments);
         assert_eq!(run.status, 1, "{arguments}: {}", run.stderr);

@@ -80,8 +80,11 @@ fn every_effect_breaks_what_its_card_says() {
         let effect = ActiveEffect::new(card.id, &[]).expect("typical sizes");
         let model = model(Some(effect));
         let changes = Symmetry::ALL.map(|symmetry| change(&model, symmetry));
-        let row: String = changes.iter().map(|m| format!("{:8.2}", 1e3 * m)).collect();
-        println!("{:20}{row}", card.id);
+        print!("{:20}", card.id);
+        for change in changes {
+            print!("{:8.2}", 1e3 * change);
+        }
+        println!();
         for (symmetry, change) in Symmetry::ALL.into_iter().zip(changes) {
             let breaks = card.breaks.contains(&symmetry);
             if (breaks && change < BROKEN) || (!breaks && change > INTACT) {

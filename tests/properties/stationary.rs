@@ -1,9 +1,10 @@
 //! The stationary solver over random vehicles and speeds.
 
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use trackdyn_core::PerSide;
+use trackdyn_core::{PerSide, STANDARD_GRAVITY, Side};
 use trackdyn_motion::{Stationary, Status};
+use trackdyn_physics::contact::{SlipField, friction_wrench};
 use trackdyn_physics::{Circumstance, Effects, Model};
 use trackdyn_tests::{random_vehicle, uniform};
 
@@ -61,4 +62,50 @@ fn ten_thousand_random_vehicles_converge() {
 #[ignore = "a million solves take seconds in release and minutes in debug: cargo test --release -- --ignored"]
 fn a_million_random_vehicles_converge() {
     solve_random(1_000_000, 2);
+}
+
+/// A track that is said to hold can hold. With μ_x = μ_y friction is associated, and a wrench W is within
+/// a track's limit surface if and only if W·ξ ≤ D(ξ) for every slip ξ, D being the power that friction
+/// dissipates (the principle of maximum dissipation): no equation of the solver enters.
+#[test]
+fn tracks_that_hold_stay_within_their_limit_surface() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let mut held = 0;
+    while held < 300 {
+        let mut vehicle = random_vehicle(&mut random, 0.99);
+        vehicle.friction.along = vehicle.friction.across;
+        let (friction, gauge) = (vehicle.friction, vehicle.gauge);
+        let model = Model::new(vehicle, Effects::none());
+        let speed = PerSide::new(-0.2, 0.7);
+        let solution = Stationary::new(&model, &Circumstance::default()).solve(speed);
+        let Status::Holds(anchor) = solution.status else { continue };
+        held += 1;
+
+        let weight = model.vehicle().mass * STANDARD_GRAVITY;
+        let share = |side: Side| 0.5 + side.sign() * model.vehicle().cog[0] / gauge;
+        let pressure = |side| {
+            let load = weight * share(side);
+            model.footprint().pressure(load, model.vehicle().cog[1])
+        };
+        // The other belt slips straight, s = (0, V_anchor − V_other), with all its friction.
+        let other = anchor.other();
+        let pull = friction.along * weight * share(other);
+        let force_y = -pull * (speed[anchor] - speed[other]).signum();
+        let demand = [0.0, -force_y, -other.sign() * gauge / 2.0 * force_y];
+        for _ in 0..200 {
+            let centre = anchor.sign() * gauge / 2.0;
+            let x = centre + gauge * uniform(&mut random, -2.0, 2.0).powi(3);
+            let y = gauge * uniform(&mut random, -2.0, 2.0).powi(3);
+            let sense = if random.random() { 1.0 } else { -1.0 };
+            let slip =
+                SlipField { lateral: sense * y, forward: -sense * x, rotation: sense, speed: 1.0 };
+            let patches = &model.patches()[anchor];
+            let wrench = friction_wrench(patches, friction, &pressure(anchor), &slip);
+            let power = |[x, y, moment]: [f64; 3]| {
+                x * slip.lateral + y * slip.forward + moment * slip.rotation
+            };
+            let dissipated = -power([wrench.force_x, wrench.force_y, wrench.moment]);
+            assert!(power(demand) <= dissipated * (1.0 + 1e-9), "{:?}", model.vehicle());
+        }
+    }
 }

@@ -1,5 +1,7 @@
 //! Dual numbers: a value with its exact first derivatives.
 
+#![expect(clippy::suspicious_arithmetic_impl, reason = "product and quotient rule")]
+
 use crate::Scalar;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 

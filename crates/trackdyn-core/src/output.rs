@@ -50,8 +50,9 @@ pub fn prepare_folder(path: &Path) -> Result<(), OutputError> {
 
 /// The first 16 hexadecimal digits of the SHA-256 of what an output was made from.
 pub fn fingerprint(source: &[u8]) -> String {
-    let digest = Sha256::digest(source);
-    digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    let mut head = [0; 8];
+    head.copy_from_slice(&Sha256::digest(source)[..8]);
+    format!("{:016x}", u64::from_be_bytes(head))
 }
 
 /// Ordinary permissions; temporary files are private by default.

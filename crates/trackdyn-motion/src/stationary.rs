@@ -58,6 +58,9 @@ impl<'m> Stationary<'m> {
     ///
     /// No pair of speeds knows of another, so the order of solves does not matter. The result carries
     /// its status; read it before the numbers.
+    ///
+    /// # Panics
+    /// Never: at least four starts are tried.
     pub fn solve(&self, belt_speed: PerSide<f64>) -> Solution {
         let first = self.better_anchor();
         let mut best: Option<Root> = None;
@@ -185,7 +188,7 @@ impl Root<'_> {
             Status::Turning
         };
         let other = x - anchor.sign() / turn;
-        let icrs = (turn > 0.0).then(|| match anchor {
+        let icrs = (turn > 0.0).then_some(match anchor {
             Side::Left => Icrs { x_left: x, x_right: other, y },
             Side::Right => Icrs { x_left: other, x_right: x, y },
         });

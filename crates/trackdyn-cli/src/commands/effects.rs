@@ -45,7 +45,7 @@ fn list() -> String {
     let width = CATALOGUE.iter().map(|card| card.id.len()).max().unwrap_or(0);
     let mut text = format!("{:width$}  breaks  what it is\n", "effect");
     for card in CATALOGUE {
-        text += &format!("{:width$}  {}   {}\n", card.id, letters(card), card.title);
+        let _ = writeln!(text, "{:width$}  {}   {}", card.id, letters(card), card.title);
     }
     text += "\n\
         breaks: the ICRs change with S speed, R reversal, P manoeuvre, M mirror, H heading.\n\

@@ -66,7 +66,7 @@ fn source(file: &VehicleFile, map: &IcrMap) -> Source {
         .iter()
         .zip(map.counts())
         .filter(|(_, count)| *count > 0)
-        .map(|(name, count)| (name.replace(' ', "_"), toml::Value::from(count as u64 as i64)))
+        .map(|(name, count)| (name.replace(' ', "_"), count))
         .collect();
     Source {
         command: arguments.join(" "),

@@ -4,6 +4,7 @@ use crate::icr::Icrs;
 use crate::kinematics::Kinematics;
 use crate::map::{Sector, Statistics};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use toml::Spanned;
 use trackdyn_core::PerSide;
 use trackdyn_core::document::{Document, DocumentError};
@@ -33,7 +34,7 @@ pub struct Source {
     pub seed: Option<u64>,
     /// Motions of each kind in the map.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub motions: Option<toml::Table>,
+    pub motions: Option<BTreeMap<String, usize>>,
 }
 
 /// The grid of a map.

@@ -49,7 +49,7 @@ pub fn friction_wrench<S: Scalar>(
     slip: &SlipField<S>,
 ) -> Wrench<S> {
     let icr = slip.icr();
-    let position = icr.map(|coordinate| coordinate.value());
+    let position = icr.map(Scalar::value);
     let mut sum = Integrals::default();
     for patch in patches {
         sum.add(patch, friction, position);

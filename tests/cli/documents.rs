@@ -25,6 +25,30 @@ fn catalogue_lists_every_effect() {
 }
 
 #[test]
+fn sessions_of_the_readme_are_fresh() {
+    let readme = project_text("README.md");
+    let place = Workplace::new();
+    for command in ["map --cog -0.015,0.04", "kinematics --speeds 0.3,0.9"] {
+        assert!(readme.contains(command), "{command} is not in the README");
+        let printed = place.run(command).stdout;
+        assert!(
+            readme.contains(&printed),
+            "the README does not show what {command} prints:\n{printed}"
+        );
+    }
+}
+
+#[test]
+fn vehicles_and_references_are_valid() {
+    let place = Workplace::new();
+    for entry in std::fs::read_dir(crate::project_file("configs/vehicles")).expect("vehicles") {
+        let path = entry.expect("an entry").path();
+        let run = place.run(&format!("map --grid 3 --vehicle {}", path.display()));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+    }
+}
+
+#[test]
 fn completions_and_manual_are_printed() {
     let place = Workplace::new();
     let bash = place.run("completions bash");

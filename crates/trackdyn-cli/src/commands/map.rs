@@ -46,13 +46,16 @@ pub fn run(options: &Options) -> Outcome {
     let statistics = map.statistics();
     print!("{}", summary::text(&file, &map, statistics.as_ref()));
     let picture = options.out.join("icr_map.png");
-    write_file(&picture, &trackdyn_report::icr_map(&map, &model, "")?)?;
+    let source = source(&file, &map);
+    let caption =
+        format!("trackdyn {}, vehicle and effects {}", source.version, source.fingerprint);
+    write_file(&picture, &trackdyn_report::icr_map(&map, &model, &caption)?)?;
     let Some(statistics) = statistics else {
         eprintln!("wrote {}; no kinematics.toml, for no motion turns", picture.display());
         return Ok(Exit::NoResult);
     };
     let parameters = options.out.join("kinematics.toml");
-    let contents = KinematicsFile::of_map(&statistics, &map.sectors(), source(&file, &map));
+    let contents = KinematicsFile::of_map(&statistics, &map.sectors(), source);
     write_file(&parameters, contents.to_toml().as_bytes())?;
     eprintln!("wrote {} and {}", parameters.display(), picture.display());
     Ok(Exit::Done)

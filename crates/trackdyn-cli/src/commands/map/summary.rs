@@ -33,8 +33,9 @@ fn parameters(text: &mut String, statistics: &Statistics) {
         ("x_r  ICR of the right track", mean.x_right, spread.x_right),
         ("y    ICR of both, forward", mean.y, spread.y),
     ] {
-        // Rounding is not a spread.
+        // Rounding is neither a spread nor a sign.
         let spread = if spread < 1e-9 { 0.0 } else { 1e3 * spread };
+        let mean = if mean.abs() < 1e-9 { 0.0 } else { mean };
         let _ = writeln!(text, "  {name:34}{mean:>10.5} m{spread:>11.3} mm");
     }
     let _ = writeln!(text, "\n  {:34}{:>12}{:>14}", "", "of the means", "mean over map");

@@ -1,0 +1,101 @@
+//! Colours.
+
+/// Red, green, blue.
+pub type Rgb = [u8; 3];
+
+/// Paper.
+pub const WHITE: Rgb = [255, 255, 255];
+/// Text and markers.
+pub const INK: Rgb = [26, 26, 26];
+/// Text of second rank.
+pub const GREY: Rgb = [96, 96, 96];
+/// Frames and ticks.
+pub const FRAME: Rgb = [90, 90, 90];
+/// Grid lines.
+pub const GRID: Rgb = [226, 226, 226];
+
+/// Last index of a [`ColourMap::table`]; even, so that noise about the middle of a range keeps one
+/// colour.
+pub const LAST: u8 = 254;
+
+/// A map from 0..1 to colours of rising lightness, readable with any kind of colour vision.
+#[derive(Clone, Copy, Debug)]
+pub struct ColourMap {
+    /// Colours at equal distances, from 0 to 1.
+    anchors: &'static [Rgb],
+}
+
+/// Viridis (van der Walt and Smith, 2015).
+pub const VIRIDIS: ColourMap = ColourMap {
+    anchors: &[
+        [68, 1, 84],
+        [72, 36, 117],
+        [65, 68, 135],
+        [53, 95, 141],
+        [42, 120, 142],
+        [33, 145, 140],
+        [34, 168, 132],
+        [68, 191, 112],
+        [122, 209, 81],
+        [189, 223, 38],
+        [253, 231, 37],
+    ],
+};
+
+/// The darker four fifths of Plasma (van der Walt and Smith, 2015): points on white paper.
+pub const DARK_PLASMA: ColourMap = ColourMap {
+    anchors: &[
+        [13, 8, 135],
+        [65, 4, 157],
+        [106, 0, 168],
+        [143, 13, 164],
+        [177, 42, 144],
+        [204, 71, 120],
+        [225, 100, 98],
+        [242, 132, 75],
+        [252, 166, 54],
+    ],
+};
+
+impl ColourMap {
+    /// The colour at a place from 0 to 1; the nearer end outside.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "places are clamped to 0..1 and channels to 0..255"
+    )]
+    pub fn at(&self, place: f64) -> Rgb {
+        let last = self.anchors.len() - 1;
+        let place = place.clamp(0.0, 1.0) * last as f64;
+        let below = (place as usize).min(last - 1);
+        let share = place - below as f64;
+        let (low, high) = (self.anchors[below], self.anchors[below + 1]);
+        std::array::from_fn(|k| {
+            (f64::from(low[k]) * (1.0 - share) + f64::from(high[k]) * share).round() as u8
+        })
+    }
+
+    /// The colours at places from 0 to 1, [`LAST`] + 1 of them.
+    pub fn table(&self) -> Vec<Rgb> {
+        (0..=LAST).map(|k| self.at(f64::from(k) / f64::from(LAST))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn maps_rise_in_lightness_and_end_at_their_anchors() {
+        for map in [VIRIDIS, DARK_PLASMA] {
+            let luminance = |[r, g, b]: Rgb| {
+                0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)
+            };
+            let table = map.table();
+            assert!(table.windows(2).all(|pair| luminance(pair[1]) >= luminance(pair[0]) - 1.0));
+            assert_eq!(map.at(-1.0), map.anchors[0]);
+            assert_eq!(Some(&map.at(2.0)), map.anchors.last());
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! What can go wrong with a figure.
+
+use plotters::drawing::DrawingAreaErrorKind;
+use std::convert::Infallible;
+
+/// A figure that could not be drawn.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The embedded font is damaged.
+    #[error("the embedded font cannot be read")]
+    Font(#[from] ab_glyph::InvalidFont),
+    /// The axes could not be drawn.
+    #[error("the axes cannot be drawn: {0}")]
+    Axes(String),
+    /// The picture could not be encoded.
+    #[error("the picture cannot be encoded")]
+    Encoding(#[from] png::EncodingError),
+}
+
+impl From<DrawingAreaErrorKind<Infallible>> for Error {
+    fn from(cause: DrawingAreaErrorKind<Infallible>) -> Self {
+        Self::Axes(cause.to_string())
+    }
+}

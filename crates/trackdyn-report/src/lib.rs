@@ -1,0 +1,22 @@
+//! Figures.
+//!
+//! A figure is a function from results to the bytes of a PNG; writing them to disk is the caller's
+//! business. Pictures are drawn at twice the size at which they are usually read.
+//!
+//! - [`canvas`]: the pixels, and what is drawn straight into them.
+//! - [`text`]: text in the embedded font.
+//! - [`brush`]: the canvas as a backend of `plotters`.
+//! - [`panel`]: axes around a rectangle of the canvas.
+//! - [`colour`]: colours and colour maps.
+//! - [`icr_map()`]: the figure of an ICR map.
+
+pub mod brush;
+pub mod canvas;
+pub mod colour;
+mod error;
+mod icr_map;
+pub mod panel;
+pub mod text;
+
+pub use error::Error;
+pub use icr_map::icr_map;

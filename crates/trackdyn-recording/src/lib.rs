@@ -10,13 +10,18 @@
 //!
 //! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
 
+pub mod clock;
 pub mod error;
 pub mod folder;
 pub mod format;
+pub mod hold;
+pub mod noise;
 pub mod operating_points;
 pub mod recording;
 mod robust;
 pub mod rosbag;
+pub mod segment;
+pub mod synthetic;
 mod table;
 pub mod tum;
 
@@ -27,3 +32,4 @@ pub use recording::{
     ImuSample, PoseSample, Recording, Run, Series, Source, StatedNoise, TrackSample, UncheckedRun,
     Warning,
 };
+pub use segment::{Segment, SegmentOptions, segments};

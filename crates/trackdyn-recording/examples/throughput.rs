@@ -1,6 +1,7 @@
-//! How fast recordings are read: makes a folder and a bag of some 100 MB and times the readers.
+//! How fast recordings are read: makes a folder and bags of some 100 MB and times the readers, or
+//! times the inspection of the bag that is named.
 //!
-//! `cargo run --release -p trackdyn-recording --example throughput`
+//! `cargo run --release -p trackdyn-recording --example throughput [bag]`
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -13,10 +14,13 @@ use trackdyn_recording::synthetic::{Synthetic, random_steps};
 use trackdyn_recording::{folder, rosbag};
 
 fn main() -> Result<(), Box<dyn Error>> {
+    if let Some(bag) = std::env::args_os().nth(1) {
+        let bag = Path::new(&bag);
+        return time("inspection", megabytes(bag)?, || rosbag::inspect(bag).map(drop));
+    }
     let place = tempfile::tempdir()?;
-    let steps = 12_000;
     let synthetic = Synthetic {
-        schedules: (0..4).map(|run| random_steps(steps, 6.0, 1.0, run)).collect(),
+        schedules: (0..4).map(|run| random_steps(3_000, 6.0, 1.0, run)).collect(),
         encoder_noise: 0.05,
         position_noise: 0.005,
         yaw_noise: 0.002,
@@ -27,18 +31,18 @@ fn main() -> Result<(), Box<dyn Error>> {
     let size = megabytes(&csv.join("tracks.csv"))? + megabytes(&csv.join("poses.csv"))?;
     time("CSV", size, || folder::read(&csv).map(drop))?;
 
-    for (name, compression) in [
-        ("none", None),
-        ("lz4", Some(mcap::Compression::Lz4)),
-        ("zstd", Some(mcap::Compression::Zstd)),
-    ] {
-        let path = place.path().join(format!("{name}.mcap"));
-        write_bag(&path, compression)?;
-        let options = RosbagOptions { wheel_radius: Some(0.1), ..RosbagOptions::default() };
-        let size = megabytes(&path)?;
-        time(&format!("mcap, compression {name}"), size, || {
-            rosbag::read(&path, &options).map(drop)
-        })?;
+    let bag = place.path().join("bag.mcap");
+    let options = RosbagOptions { wheel_radius: Some(0.1), ..RosbagOptions::default() };
+    for lidar in [false, true] {
+        let content = if lidar { "joints, odometry and lidar" } else { "joints and odometry" };
+        write_bag(&bag, None, lidar)?;
+        let raw = megabytes(&bag)?;
+        time(&format!("mcap, {content}"), raw, || rosbag::read(&bag, &options).map(drop))?;
+        for compression in [mcap::Compression::Lz4, mcap::Compression::Zstd] {
+            write_bag(&bag, Some(compression), lidar)?;
+            let what = format!("mcap, {content}, {compression:?} ({:.0} MB)", megabytes(&bag)?);
+            time(&what, raw, || rosbag::read(&bag, &options).map(drop))?;
+        }
     }
     Ok(())
 }
@@ -63,8 +67,12 @@ fn megabytes(path: &Path) -> Result<f64, Box<dyn Error>> {
     Ok(f64::from(u32::try_from(std::fs::metadata(path)?.len() / 1000)?) / 1000.0)
 }
 
-/// A bag as robots make them: joints at 50 Hz, odometry at 20 Hz, and a lidar that is passed over.
-fn write_bag(path: &Path, compression: Option<mcap::Compression>) -> Result<(), Box<dyn Error>> {
+/// A bag as robots make them: joints at 50 Hz, odometry at 20 Hz, maybe a lidar that is passed over.
+fn write_bag(
+    path: &Path,
+    compression: Option<mcap::Compression>,
+    with_lidar: bool,
+) -> Result<(), Box<dyn Error>> {
     let options = mcap::WriteOptions::new().compression(compression).chunk_size(Some(786_432));
     let mut writer = options.create(BufWriter::new(File::create(path)?))?;
     let channel = |topic: &str, kind: &str, writer: &mut mcap::Writer<_>| {
@@ -81,7 +89,7 @@ fn write_bag(path: &Path, compression: Option<mcap::Compression>) -> Result<(), 
     })
     .take(20_000)
     .collect();
-    for tick in 0..100_000_u32 {
+    for tick in 0..200_000_u32 {
         let nanoseconds = u64::from(tick) * 10_000_000;
         let mut put = |channel_id, data: &[u8]| {
             let (log_time, publish_time) = (nanoseconds, nanoseconds);
@@ -96,7 +104,7 @@ fn write_bag(path: &Path, compression: Option<mcap::Compression>) -> Result<(), 
         if tick % 5 == 0 {
             put(odometry, &odometry_message(tick, [t, t.sin(), 0.1 * t]))?;
         }
-        if tick % 20 == 0 {
+        if with_lidar && tick % 20 == 0 {
             put(lidar, &cloud)?;
         }
     }

@@ -2,6 +2,7 @@
 //! with the readers here.
 
 use std::path::{Path, PathBuf};
+use trackdyn_recording::recording::Finding;
 use trackdyn_recording::rosbag::{self, JointSignal, Role, RosbagOptions};
 use trackdyn_recording::{Error, Recording, Warning};
 
@@ -131,6 +132,35 @@ fn what_is_missing_is_said_with_what_is_there() {
     assert!(text.contains("the joints have no such signal"), "{text}");
     let text = of(RosbagOptions::default());
     assert!(text.contains("give the radius of wheel or sprocket"), "{text}");
+}
+
+#[test]
+fn messages_without_a_stamp_are_dated_by_their_logging() {
+    let recording = rosbag::read(&fixture("undated.mcap"), &options()).expect("readable");
+    assert_tracks(&recording, COUNT);
+    assert_poses(&recording, COUNT);
+    assert_eq!(recording.source().epoch_ns, Some(1_700_000_000_002_000_000));
+    for topic in ["/joints", "/odom"] {
+        let said = Warning::LogTime { topic: topic.to_owned(), count: COUNT as u64 };
+        assert!(recording.warnings().contains(&said));
+    }
+}
+
+#[test]
+fn a_folder_without_metadata_is_read_file_by_file() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for name in ["a_10.mcap", "a_9.mcap"] {
+        std::fs::copy(fixture("drive.mcap"), folder.path().join(name)).expect("copied");
+    }
+    let recording = rosbag::read(folder.path(), &options()).expect("readable");
+    assert_tracks(&recording, COUNT);
+    let repeats = recording.warnings().iter().filter(|warning| match warning {
+        Warning::Cleaned(cleaning) => {
+            cleaning.finding == Finding::Repeated && cleaning.count == COUNT
+        }
+        _ => false,
+    });
+    assert_eq!(repeats.count(), 3, "all rows of tracks, poses and imu stand there twice");
 }
 
 #[test]

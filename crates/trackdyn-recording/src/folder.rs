@@ -2,19 +2,22 @@
 //!
 //! `tracks.csv` (`t,v_left,v_right`) and `poses.csv` (`t,x,y,yaw`) must be there, `imu.csv`
 //! (`t,gyro_z,acc_x,acc_y`) may. An integer column `run` splits all of them into runs. Further
-//! columns are kept.
+//! columns are kept. Where a CSV file is not there, a Parquet file of the same columns may be
+//! (`tracks.parquet`; needs the feature `parquet`).
 
 use crate::recording::{Recording, Sample, Series, Source, TrackSample, UncheckedRun};
 use crate::{Error, Format};
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 mod manifest;
+#[cfg(feature = "parquet")]
+mod parquet_table;
 mod rows;
 mod writer;
 
 use manifest::Manifest;
-use rows::read_rows;
+use rows::{Rows, read_rows};
 pub use writer::write;
 
 /// Name of the file that makes a folder a recording.
@@ -37,9 +40,9 @@ pub fn read(folder: &Path) -> Result<Recording, Error> {
     let manifest = Manifest::read(&path)?;
     let mut runs: BTreeMap<i64, UncheckedRun> = BTreeMap::new();
     let mut split = None;
-    fill(&folder.join("tracks.csv"), &mut runs, &mut split, |run| &mut run.tracks)?;
-    fill(&folder.join("poses.csv"), &mut runs, &mut split, |run| &mut run.poses)?;
-    let imu = folder.join("imu.csv");
+    fill(&table(folder, "tracks"), &mut runs, &mut split, |run| &mut run.tracks)?;
+    fill(&table(folder, "poses"), &mut runs, &mut split, |run| &mut run.poses)?;
+    let imu = table(folder, "imu");
     if imu.exists() {
         fill(&imu, &mut runs, &mut split, |run| &mut run.imu)?;
     }
@@ -47,6 +50,28 @@ pub fn read(folder: &Path) -> Result<Recording, Error> {
     let runs = runs.into_values().collect();
     Recording::new(manifest.name, manifest.robot, runs, source, Vec::new())
         .map(|recording| recording.with_stated_noise(manifest.noise))
+}
+
+/// The CSV file of a table, or the Parquet file where only that is there.
+fn table(folder: &Path, name: &str) -> PathBuf {
+    let (csv, parquet) = (folder.join(name).with_extension("csv"), folder.join(name));
+    let parquet = parquet.with_extension("parquet");
+    if !csv.exists() && parquet.exists() { parquet } else { csv }
+}
+
+/// The rows of a table in either format.
+fn read_table<S: Sample>(path: &Path) -> Result<Rows<S>, Error> {
+    if path.extension().is_none_or(|extension| extension != "parquet") {
+        return read_rows(path);
+    }
+    #[cfg(feature = "parquet")]
+    return parquet_table::read_rows(path);
+    #[cfg(not(feature = "parquet"))]
+    Err(Error::NotARecording {
+        path: path.to_owned(),
+        found: "a Parquet file".to_owned(),
+        expected: "a CSV file, or a build with the feature parquet",
+    })
 }
 
 /// The series of one file, put into their runs. `split` says whether the files so far have a
@@ -57,7 +82,7 @@ fn fill<S: Sample>(
     split: &mut Option<bool>,
     series_of: impl Fn(&mut UncheckedRun) -> &mut Series<S>,
 ) -> Result<(), Error> {
-    let rows = read_rows::<S>(path)?;
+    let rows = read_table::<S>(path)?;
     if *split.get_or_insert(rows.has_runs) != rows.has_runs {
         let (found, expected) = if rows.has_runs {
             ("with run", "no column run, as in tracks.csv")

@@ -70,7 +70,7 @@ fn the_measured_map_is_read() {
 }
 
 #[test]
-fn marmotte_s_poses_are_late_as_its_sources_say() {
+fn the_poses_of_marmotte_are_late_as_its_sources_say() {
     let Some(path) = real("marmotte-boreal") else { return };
     let recording = folder::read(&path).expect("readable");
     let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");

@@ -52,7 +52,7 @@ pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut
         report(Finding::Repeated, before - kept.len(), t);
     }
     if kept.len() < samples.len() || !back.is_empty() {
-        series.take(&kept);
+        *series = series.part(&kept);
     }
     intervals(&series.samples, report);
 }

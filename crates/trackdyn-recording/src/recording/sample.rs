@@ -151,11 +151,13 @@ impl<S> From<Vec<S>> for Series<S> {
 }
 
 impl<S: Sample> Series<S> {
-    /// Keeps these rows, in this order.
-    pub(crate) fn take(&mut self, rows: &[usize]) {
-        self.samples = rows.iter().map(|&row| self.samples[row]).collect();
-        for column in &mut self.extra {
-            column.cells.take(rows);
+    /// These rows, in this order.
+    pub(crate) fn part(&self, rows: &[usize]) -> Self {
+        let column =
+            |column: &Column| Column { name: column.name.clone(), cells: column.cells.part(rows) };
+        Self {
+            samples: rows.iter().map(|&row| self.samples[row]).collect(),
+            extra: self.extra.iter().map(column).collect(),
         }
     }
 }
@@ -193,10 +195,10 @@ impl PartialEq for Cells {
 }
 
 impl Cells {
-    fn take(&mut self, rows: &[usize]) {
+    fn part(&self, rows: &[usize]) -> Self {
         match self {
-            Self::Numbers(cells) => *cells = rows.iter().map(|&row| cells[row]).collect(),
-            Self::Texts(cells) => *cells = rows.iter().map(|&row| cells[row].clone()).collect(),
+            Self::Numbers(cells) => Self::Numbers(rows.iter().map(|&row| cells[row]).collect()),
+            Self::Texts(cells) => Self::Texts(rows.iter().map(|&row| cells[row].clone()).collect()),
         }
     }
 }

@@ -52,8 +52,7 @@ impl Default for ClockSearch {
 pub struct ClockOffset {
     /// τ, s: positive where poses are late ([`hold`](crate::hold)).
     pub tau: f64,
-    /// Standard error of τ, s, from the spread of the score over blocks of time: correlated and
-    /// uneven noise is in it.
+    /// Standard error of τ, s, by leaving out blocks of time: correlated and uneven noise is in it.
     pub standard_error: f64,
     /// Correlation of yaw increments and encoders at its peak.
     pub correlation: f64,

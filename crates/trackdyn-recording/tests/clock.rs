@@ -8,7 +8,7 @@ use trackdyn_recording::{Error, Recording, Source};
 /// Noise as in lidar odometry of a small robot: 5 mm, 2 mrad, 5 % of the speed.
 fn noisy(tau: f64, seed: u64) -> Synthetic {
     Synthetic {
-        schedules: (0..3).map(|run| random_steps(10, 3.0, 1.0, 100 * seed + run)).collect(),
+        schedules: (0..3).map(|run| random_steps(30, 3.0, 1.0, 100 * seed + run)).collect(),
         encoder_noise: 0.05,
         position_noise: 0.005,
         yaw_noise: 0.002,
@@ -95,7 +95,7 @@ fn outlying_poses_widen_the_error_and_do_not_hide_the_offset() {
     let clean = clock_offset(&recording, &ClockSearch::default()).expect("turning");
     let runs = recording.runs().iter().cloned().map(|run| {
         let mut rows = run.into_rows();
-        for sample in rows.poses.samples.iter_mut().step_by(40) {
+        for sample in rows.poses.samples.iter_mut().step_by(13) {
             sample.pose.yaw += 0.1;
         }
         rows

@@ -103,37 +103,43 @@ impl<'a> Moments<'a> {
         Some(terms.sum())
     }
 
-    /// Standard error by the sandwich formula G⁻¹ B G⁻ᵀ, with G = Σ Z Jᵀ and B the sum over blocks
-    /// of (Σ Z r)(Σ Z r)ᵀ, n/(n − 1) for n blocks.
+    /// Standard error by the jackknife over blocks, linear in the parameters: leaving block g out
+    /// moves them by Δg = (G − Gg)⁻¹ sg, with G = Σ Z Jᵀ and sg = Σ Z r over the block; the
+    /// covariance is (n − 1)/n Σ Δg Δgᵀ for n blocks. With few blocks the sandwich formula, which has
+    /// G⁻¹ instead, is too small.
+    ///
+    /// # Sources
+    /// Bell and `McCaffrey`, Survey Methodology 28 (2002), 169-181.
     pub(super) fn estimate(&self, tau: f64) -> Estimate {
         let parameters = self.linear(tau).unwrap_or_default();
         let gain = parameters[0];
         // D is piecewise linear in τ: its slope is taken over the length of a piece.
         let half = self.track_interval.max(1e-3) / 2.0;
-        let mut slopes = Matrix3::zeros();
-        let mut spread = Matrix3::zeros();
-        let mut blocks = 0;
-        for block in self.rows.chunk_by(|a, b| a.block == b.block) {
-            let mut score = Vector3::zeros();
-            for row in block {
-                let instruments = Vector3::from(row.instruments);
-                let at = |tau| row.run.difference(row.turn, tau);
-                let slope = (at(tau + half) - at(tau - half)) / (2.0 * half);
-                let gradient = Vector3::new(at(tau), row.instruments[1], gain * slope);
-                slopes += instruments * gradient.transpose();
-                score += instruments * row.residual(tau, &parameters);
-            }
-            spread += score * score.transpose();
-            blocks += 1;
-        }
-        let standard_error = match slopes.try_inverse() {
-            Some(inverse) if blocks > 1 => {
-                let scale = real(blocks) / real(blocks - 1);
-                (inverse * spread * inverse.transpose() * scale)[(2, 2)].sqrt()
-            }
-            _ => f64::INFINITY,
+        let blocks: Vec<(Matrix3<f64>, Vector3<f64>)> = self
+            .rows
+            .chunk_by(|a, b| a.block == b.block)
+            .map(|block| {
+                let mut slopes = Matrix3::zeros();
+                let mut score = Vector3::zeros();
+                for row in block {
+                    let instruments = Vector3::from(row.instruments);
+                    let at = |tau| row.run.difference(row.turn, tau);
+                    let slope = (at(tau + half) - at(tau - half)) / (2.0 * half);
+                    let gradient = Vector3::new(at(tau), row.instruments[1], gain * slope);
+                    slopes += instruments * gradient.transpose();
+                    score += instruments * row.residual(tau, &parameters);
+                }
+                (slopes, score)
+            })
+            .collect();
+        let whole: Matrix3<f64> = blocks.iter().map(|(slopes, _)| slopes).sum();
+        let moved = |(slopes, score): &(Matrix3<f64>, Vector3<f64>)| {
+            (whole - slopes).lu().solve(score).map_or(f64::INFINITY, |moves| moves[2] * moves[2])
         };
-        Estimate { gain, standard_error }
+        let count = real(blocks.len());
+        let squares: f64 = blocks.iter().map(moved).sum();
+        let variance = if count > 1.0 { (count - 1.0) / count * squares } else { f64::INFINITY };
+        Estimate { gain, standard_error: variance.sqrt() }
     }
 }
 

@@ -1,0 +1,170 @@
+//! How fast recordings are read: makes a folder and bags of some 100 MB and times the readers, or
+//! times the inspection of the bag that is named.
+//!
+//! `cargo run --release -p trackdyn-recording --example throughput [bag]`
+
+use std::collections::BTreeMap;
+use std::error::Error;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::Path;
+use std::time::Instant;
+use trackdyn_recording::rosbag::RosbagOptions;
+use trackdyn_recording::synthetic::{Synthetic, random_steps};
+use trackdyn_recording::{folder, rosbag};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    if let Some(bag) = std::env::args_os().nth(1) {
+        let bag = Path::new(&bag);
+        return time("inspection", megabytes(bag)?, || rosbag::inspect(bag).map(drop));
+    }
+    let place = tempfile::tempdir()?;
+    let synthetic = Synthetic {
+        schedules: (0..4).map(|run| random_steps(3_000, 6.0, 1.0, run)).collect(),
+        encoder_noise: 0.05,
+        position_noise: 0.005,
+        yaw_noise: 0.002,
+        ..Synthetic::default()
+    };
+    let csv = place.path().join("folder");
+    folder::write(&synthetic.recording()?, &csv)?;
+    let size = megabytes(&csv.join("tracks.csv"))? + megabytes(&csv.join("poses.csv"))?;
+    time("CSV", size, || folder::read(&csv).map(drop))?;
+
+    let bag = place.path().join("bag.mcap");
+    let options = RosbagOptions { wheel_radius: Some(0.1), ..RosbagOptions::default() };
+    for lidar in [false, true] {
+        let content = if lidar { "joints, odometry and lidar" } else { "joints and odometry" };
+        write_bag(&bag, None, lidar)?;
+        let raw = megabytes(&bag)?;
+        time(&format!("mcap, {content}"), raw, || rosbag::read(&bag, &options).map(drop))?;
+        for compression in [mcap::Compression::Lz4, mcap::Compression::Zstd] {
+            write_bag(&bag, Some(compression), lidar)?;
+            let what = format!("mcap, {content}, {compression:?} ({:.0} MB)", megabytes(&bag)?);
+            time(&what, raw, || rosbag::read(&bag, &options).map(drop))?;
+        }
+    }
+    Ok(())
+}
+
+/// Best of five.
+fn time(
+    what: &str,
+    size: f64,
+    mut read: impl FnMut() -> Result<(), trackdyn_recording::Error>,
+) -> Result<(), Box<dyn Error>> {
+    let mut best = f64::INFINITY;
+    for _ in 0..5 {
+        let start = Instant::now();
+        read()?;
+        best = best.min(start.elapsed().as_secs_f64());
+    }
+    println!("{what}: {size:.0} MB in {best:.3} s, {:.0} MB/s", size / best);
+    Ok(())
+}
+
+fn megabytes(path: &Path) -> Result<f64, Box<dyn Error>> {
+    Ok(f64::from(u32::try_from(std::fs::metadata(path)?.len() / 1000)?) / 1000.0)
+}
+
+/// A bag as robots make them: joints at 50 Hz, odometry at 20 Hz, maybe a lidar that is passed over.
+fn write_bag(
+    path: &Path,
+    compression: Option<mcap::Compression>,
+    with_lidar: bool,
+) -> Result<(), Box<dyn Error>> {
+    let options = mcap::WriteOptions::new().compression(compression).chunk_size(Some(786_432));
+    let mut writer = options.create(BufWriter::new(File::create(path)?))?;
+    let channel = |topic: &str, kind: &str, writer: &mut mcap::Writer<_>| {
+        let schema = writer.add_schema(kind, "ros2msg", b"")?;
+        writer.add_channel(schema, topic, "cdr", &BTreeMap::new())
+    };
+    let joints = channel("/joint_states", "sensor_msgs/msg/JointState", &mut writer)?;
+    let odometry = channel("/odom", "nav_msgs/msg/Odometry", &mut writer)?;
+    let lidar = channel("/points", "sensor_msgs/msg/PointCloud2", &mut writer)?;
+    let mut noise = 1_u32;
+    let cloud: Vec<u8> = std::iter::repeat_with(|| {
+        noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        noise.to_le_bytes()[3]
+    })
+    .take(20_000)
+    .collect();
+    for tick in 0..200_000_u32 {
+        let nanoseconds = u64::from(tick) * 10_000_000;
+        let mut put = |channel_id, data: &[u8]| {
+            let (log_time, publish_time) = (nanoseconds, nanoseconds);
+            let header =
+                mcap::records::MessageHeader { channel_id, sequence: tick, log_time, publish_time };
+            writer.write_to_known_channel(&header, data)
+        };
+        let t = f64::from(tick) * 0.01;
+        if tick % 2 == 0 {
+            put(joints, &joint_state(tick, [t.sin(), t.cos()]))?;
+        }
+        if tick % 5 == 0 {
+            put(odometry, &odometry_message(tick, [t, t.sin(), 0.1 * t]))?;
+        }
+        if with_lidar && tick % 20 == 0 {
+            put(lidar, &cloud)?;
+        }
+    }
+    writer.finish()?;
+    Ok(())
+}
+
+/// Little-endian CDR.
+struct Message(Vec<u8>);
+
+impl Message {
+    fn new(tick: u32, frame: &str) -> Self {
+        let mut message = Self(vec![0, 1, 0, 0]);
+        message.u32(1 + tick / 100);
+        message.u32(tick % 100 * 10_000_000);
+        message.text(frame);
+        message
+    }
+
+    fn align(&mut self, size: usize) {
+        while !(self.0.len() - 4).is_multiple_of(size) {
+            self.0.push(0);
+        }
+    }
+
+    fn u32(&mut self, value: u32) {
+        self.align(4);
+        self.0.extend(value.to_le_bytes());
+    }
+
+    fn text(&mut self, text: &str) {
+        self.u32(u32::try_from(text.len() + 1).unwrap_or(u32::MAX));
+        self.0.extend(text.as_bytes());
+        self.0.push(0);
+    }
+
+    fn numbers(&mut self, values: &[f64]) {
+        for value in values {
+            self.align(8);
+            self.0.extend(value.to_le_bytes());
+        }
+    }
+}
+
+fn joint_state(tick: u32, speeds: [f64; 2]) -> Vec<u8> {
+    let mut message = Message::new(tick, "");
+    message.u32(2);
+    message.text("left_sprocket");
+    message.text("right_sprocket");
+    message.u32(0);
+    message.u32(2);
+    message.numbers(&speeds);
+    message.u32(0);
+    message.0
+}
+
+fn odometry_message(tick: u32, [x, y, yaw]: [f64; 3]) -> Vec<u8> {
+    let mut message = Message::new(tick, "odom");
+    message.text("base_link");
+    message.numbers(&[x, y, 0.0, 0.0, 0.0, (yaw / 2.0).sin(), (yaw / 2.0).cos()]);
+    message.numbers(&[0.0; 36 + 6 + 36]);
+    message.0
+}

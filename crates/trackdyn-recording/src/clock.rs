@@ -1,0 +1,129 @@
+//! How late the poses are against the encoders.
+//!
+//! # Law
+//! Between neighbouring poses, Δψᵢ = k Dᵢ(τ) + b Δtᵢ + noise, where Dᵢ(τ) = ∫ (Vᵣ − Vₗ) dt over the
+//! pose interval moved back by τ. k is the inverse of the distance between the ICRs, b takes up a
+//! constant yaw rate.
+//!
+//! The correlation of Δψ and D (b removed) is searched for its peak. The peak itself is not the
+//! estimate: encoder noise averages better where D cuts readings in two, which pulls the peak by up
+//! to half a reading. From there on, the residual is made orthogonal to D before and after the
+//! interval (lead minus lag for τ, lead plus lag for k, Δt for b). These instruments share no
+//! reading with Dᵢ, so that white encoder noise drops out.
+//!
+//! # Assumes
+//! k may be any constant: no kinematic model is needed. A belt that lags behind its encoder shows as
+//! a clock offset just so; the two are told apart elsewhere, if at all. τ goes with readings that
+//! are held ([`hold`](crate::hold)): where a reading stands for the time before or around its stamp,
+//! the delay itself is a whole or half an interval of the readings longer.
+//!
+//! # Sources
+//! Instrumental variables: Wooldridge, Econometric Analysis of Cross Section and Panel Data, 2nd
+//! ed., chapter 5 and section 14.1.
+
+use crate::recording::Recording;
+use crate::{Error, robust};
+
+mod intervals;
+mod moments;
+mod regression;
+
+use intervals::Intervals;
+use moments::{Estimate, Moments};
+use regression::Fit;
+
+/// Where to look for the clock offset.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClockSearch {
+    /// Smallest offset, s.
+    pub earliest: f64,
+    /// Largest offset, s.
+    pub latest: f64,
+}
+
+impl Default for ClockSearch {
+    fn default() -> Self {
+        Self { earliest: -0.5, latest: 1.0 }
+    }
+}
+
+/// The clock offset of a recording.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClockOffset {
+    /// τ, s: positive where poses are late ([`hold`](crate::hold)).
+    pub tau: f64,
+    /// Standard error of τ, s, by leaving out blocks of time: correlated and uneven noise is in it.
+    pub standard_error: f64,
+    /// Correlation of yaw increments and encoders at its peak.
+    pub correlation: f64,
+    /// k, rad/m: the inverse of the distance between the ICRs.
+    pub yaw_per_difference: f64,
+    /// Pose intervals that were used.
+    pub intervals: usize,
+}
+
+/// Step of the first search, s.
+const COARSE: f64 = 0.02;
+
+/// Fewer pose intervals than this say nothing.
+const FEWEST: usize = 20;
+
+/// Encoders and poses that correlate less than this do not show the same turning.
+const WEAKEST: f64 = 0.5;
+
+/// Estimates the clock offset.
+///
+/// # Errors
+/// [`Error::NotEstimable`] without enough turning that changes, with the best offset at an end of
+/// the search, or with left and right swapped.
+pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<ClockOffset, Error> {
+    let refuse = |reason: String| Error::NotEstimable { what: "the clock offset", reason };
+    let intervals = Intervals::new(recording);
+    let steps = (0..).map(|step| search.earliest + COARSE * robust::real(step));
+    let mut best: Option<(f64, Fit)> = None;
+    let mut most = 0;
+    for tau in steps.take_while(|tau| *tau <= search.latest + COARSE / 2.0) {
+        let fit = intervals.fit(tau);
+        most = most.max(fit.count);
+        let better = best.is_none_or(|(_, best)| fit.correlation.abs() > best.correlation.abs());
+        if fit.count >= FEWEST && better {
+            best = Some((tau, fit));
+        }
+    }
+    let Some((coarse, fit)) = best else {
+        return Err(refuse(format!("{most} pose intervals with readings, {FEWEST} needed")));
+    };
+    let Fit { correlation, count, .. } = fit;
+    if correlation.abs() < WEAKEST {
+        return Err(refuse(format!(
+            "no turning that encoders and poses both show: their best correlation is \
+             {correlation:.2} over {count} pose intervals, {WEAKEST} needed"
+        )));
+    }
+    if correlation < 0.0 {
+        return Err(refuse(format!(
+            "yaw falls where the right track is faster (correlation {correlation:.2}): left and \
+             right are swapped, or the sign of yaw is"
+        )));
+    }
+    if coarse < search.earliest + COARSE / 2.0 || coarse > search.latest - COARSE * 1.5 {
+        return Err(refuse(format!(
+            "the best offset, {coarse:.2} s, lies at an end of the search from {} to {} s",
+            search.earliest, search.latest
+        )));
+    }
+    let Some(moments) = Moments::new(&intervals, coarse) else {
+        return Err(refuse("the readings end too close to the pose intervals".to_owned()));
+    };
+    let Some(tau) = moments.root() else {
+        return Err(refuse(format!("the correlation has no clear peak around {coarse:.2} s")));
+    };
+    let Estimate { gain, standard_error } = moments.estimate(tau);
+    Ok(ClockOffset {
+        tau,
+        standard_error,
+        correlation,
+        yaw_per_difference: gain,
+        intervals: moments.count(),
+    })
+}

@@ -1,0 +1,109 @@
+//! Pose intervals and what the encoders did in them.
+
+use super::regression::{Fit, Sums};
+use crate::hold::holding;
+use crate::recording::{Recording, Run, TrackSample};
+use crate::robust::median;
+
+/// Pose intervals longer than this many medians are not used.
+const GAP: f64 = 5.0;
+
+/// The pose intervals of all runs.
+pub(super) struct Intervals {
+    pub(super) runs: Vec<RunIntervals>,
+    /// Median time between readings, s.
+    pub(super) track_interval: f64,
+    /// Median time between readings that differ, s.
+    pub(super) update_interval: f64,
+}
+
+/// The pose intervals of one run.
+pub(super) struct RunIntervals {
+    pub(super) turns: Vec<Turn>,
+    tracks: Vec<TrackSample>,
+    /// ∫ (Vᵣ − Vₗ) dt from the first reading to each, m.
+    sums: Vec<f64>,
+}
+
+/// The time between neighbouring poses, s, and the yaw between them, rad.
+pub(super) struct Turn {
+    pub(super) start: f64,
+    pub(super) end: f64,
+    pub(super) yaw: f64,
+}
+
+impl Intervals {
+    pub(super) fn new(recording: &Recording) -> Self {
+        let mut intervals = Vec::new();
+        let mut updates = Vec::new();
+        for run in recording.runs() {
+            let tracks = run.tracks();
+            intervals.extend(tracks.windows(2).map(|pair| pair[1].t - pair[0].t));
+            let same =
+                |a: &TrackSample, b: &TrackSample| a.v_left == b.v_left && a.v_right == b.v_right;
+            let firsts: Vec<f64> = tracks.chunk_by(same).map(|held| held[0].t).collect();
+            updates.extend(firsts.windows(2).map(|pair| pair[1] - pair[0]));
+        }
+        let track_interval = median(&mut intervals).unwrap_or(0.0);
+        // Without noise, speeds change only where they are told to: half a second is enough.
+        let update_interval = median(&mut updates).unwrap_or(0.0).clamp(track_interval, 0.5);
+        let runs = recording.runs().iter().map(RunIntervals::new).collect();
+        Self { runs, track_interval, update_interval }
+    }
+
+    /// Least squares at one offset.
+    pub(super) fn fit(&self, tau: f64) -> Fit {
+        let mut sums = Sums::default();
+        for run in &self.runs {
+            for turn in run.turns.iter().filter(|turn| run.covers(turn, [tau, tau])) {
+                sums.add([run.difference(turn, tau), turn.end - turn.start], turn.yaw);
+            }
+        }
+        sums.fit()
+    }
+}
+
+impl RunIntervals {
+    fn new(run: &Run) -> Self {
+        let poses = run.poses();
+        let mut lengths: Vec<f64> = poses.windows(2).map(|pair| pair[1].t - pair[0].t).collect();
+        let longest = GAP * median(&mut lengths).unwrap_or(0.0);
+        let turns = poses.windows(2).filter(|pair| pair[1].t - pair[0].t <= longest);
+        let turns = turns
+            .map(|pair| Turn {
+                start: pair[0].t,
+                end: pair[1].t,
+                yaw: pair[1].pose.yaw - pair[0].pose.yaw,
+            })
+            .collect();
+        let tracks = run.tracks().to_vec();
+        let mut sum = 0.0;
+        let mut sums = Vec::with_capacity(tracks.len());
+        for (index, sample) in tracks.iter().enumerate() {
+            sums.push(sum);
+            let until = tracks.get(index + 1).map_or(sample.t, |next| next.t);
+            sum += (until - sample.t) * (sample.v_right - sample.v_left);
+        }
+        Self { turns, tracks, sums }
+    }
+
+    /// Whether there are readings for all offsets between these two.
+    pub(super) fn covers(&self, turn: &Turn, [least, most]: [f64; 2]) -> bool {
+        match self.tracks.as_slice() {
+            [first, .., last] => turn.start - most >= first.t && turn.end - least <= last.t,
+            _ => false,
+        }
+    }
+
+    /// D at an offset, m.
+    pub(super) fn difference(&self, turn: &Turn, tau: f64) -> f64 {
+        self.integral(turn.end - tau) - self.integral(turn.start - tau)
+    }
+
+    /// ∫ (Vᵣ − Vₗ) dt from the first reading to `t`.
+    fn integral(&self, t: f64) -> f64 {
+        let index = holding(&self.tracks, t).unwrap_or(0);
+        let Some(sample) = self.tracks.get(index) else { return 0.0 };
+        self.sums[index] + (t - sample.t) * (sample.v_right - sample.v_left)
+    }
+}

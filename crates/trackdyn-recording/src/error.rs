@@ -1,0 +1,117 @@
+//! What can go wrong with a recording.
+
+use std::path::PathBuf;
+use trackdyn_core::document::DocumentError;
+use trackdyn_core::output::OutputError;
+
+/// A recording that cannot be read, written or used.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// `recording.toml` is not accepted.
+    #[error(transparent)]
+    Manifest(Box<DocumentError>),
+    /// A file cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A file cannot be read.
+    #[error("{}: cannot be read: {cause}", path.display())]
+    Unreadable {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        cause: std::io::Error,
+    },
+    /// The path holds no recording in any known format.
+    #[error("{}: {found}: expected {expected}", path.display())]
+    NotARecording {
+        /// The file or folder.
+        path: PathBuf,
+        /// What is there instead.
+        found: String,
+        /// What would be accepted.
+        expected: &'static str,
+    },
+    /// A table without a column it needs.
+    #[error("{}:{line}: columns {found}: expected {expected}", path.display())]
+    Header {
+        /// The file.
+        path: PathBuf,
+        /// Line of the header, from 1.
+        line: u64,
+        /// The columns that are there.
+        found: String,
+        /// The columns that must be there.
+        expected: String,
+    },
+    /// A row with too many or too few cells.
+    #[error("{}:{line}: {found} cells: expected {expected}", path.display())]
+    Row {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// Cells in the row.
+        found: u64,
+        /// Cells that must be there.
+        expected: u64,
+    },
+    /// A cell that is not what its column holds.
+    #[error("{}:{line}:{column}: {name} = {value:?}: expected {expected}", path.display())]
+    Cell {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// Place of the cell in its row, from 1.
+        column: usize,
+        /// Name of the column.
+        name: String,
+        /// The cell as written.
+        value: String,
+        /// What was expected.
+        expected: &'static str,
+    },
+    /// A file with nothing in it that can be used.
+    #[error("{}: {message}", path.display())]
+    Empty {
+        /// The file or folder.
+        path: PathBuf,
+        /// What is missing.
+        message: String,
+    },
+    /// A bag that cannot be opened.
+    #[error("{}: not a readable bag: {message}", path.display())]
+    Bag {
+        /// The file.
+        path: PathBuf,
+        /// What its reader says.
+        message: String,
+    },
+    /// No topic, or several, for something that is needed.
+    #[error("{}: {what}: {problem}; the bag has {available}", path.display())]
+    Topic {
+        /// The bag.
+        path: PathBuf,
+        /// What the topic is needed for.
+        what: &'static str,
+        /// Why none was taken.
+        problem: String,
+        /// Topics with their types.
+        available: String,
+    },
+    /// The recording does not hold what an estimate needs.
+    #[error("{what} cannot be estimated: {reason}")]
+    NotEstimable {
+        /// The quantity.
+        what: &'static str,
+        /// What is missing, with numbers.
+        reason: String,
+    },
+}
+
+impl From<DocumentError> for Error {
+    fn from(error: DocumentError) -> Self {
+        Self::Manifest(Box::new(error))
+    }
+}

@@ -1,0 +1,35 @@
+//! What was seen: recordings of tracked robots, and what they say before any kinematic model.
+//!
+//! - [`recording`]: the one in-memory type, cleaned on the way in.
+//! - [`folder`], [`rosbag`], [`tum`]: one reader per format; [`read`] picks by path.
+//! - [`operating_points`]: tables of steady motion, a measured map of ICRs.
+//! - [`segment`], [`hold`]: pieces between two poses and the track speeds within them.
+//! - [`clock`]: how late the poses are against the encoders.
+//! - [`noise`]: how noisy poses and encoders are, from the recording itself.
+//! - [`synthetic`]: recordings with known truth.
+//!
+//! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
+
+pub mod clock;
+pub mod error;
+pub mod folder;
+pub mod format;
+pub mod hold;
+pub mod noise;
+pub mod operating_points;
+pub mod recording;
+mod robust;
+pub mod rosbag;
+pub mod segment;
+pub mod synthetic;
+mod table;
+pub mod tum;
+
+pub use error::Error;
+pub use format::{Format, read};
+pub use operating_points::{OperatingPoint, OperatingPoints};
+pub use recording::{
+    ImuSample, PoseSample, Recording, Run, Series, Source, StatedNoise, TrackSample, UncheckedRun,
+    Warning,
+};
+pub use segment::{Segment, SegmentOptions, segments};

@@ -1,0 +1,53 @@
+//! Noise of encoder speeds.
+
+use super::{EncoderNoise, Method};
+use crate::recording::{Recording, TrackSample};
+use crate::robust::{deviation_about_zero, median};
+use trackdyn_core::Side;
+
+/// Fewer triples than this say nothing.
+const FEWEST: usize = 30;
+
+/// The noise of one side while its track runs.
+pub(super) fn noise(recording: &Recording, side: Side) -> Option<EncoderNoise> {
+    let speed = |sample: &TrackSample| match side {
+        Side::Left => sample.v_left,
+        Side::Right => sample.v_right,
+    };
+    let mut residuals = Vec::new();
+    let mut speeds = Vec::new();
+    let mut intervals = Vec::new();
+    for run in recording.runs() {
+        let mut updates: Vec<(f64, f64)> = Vec::with_capacity(run.tracks().len());
+        for sample in run.tracks() {
+            let v = speed(sample);
+            if updates.last().is_none_or(|(_, before)| *before != v) {
+                updates.push((sample.t, v));
+            }
+        }
+        for triple in updates.windows(3) {
+            let [(t_a, a), (t_b, b), (t_c, c)] = [triple[0], triple[1], triple[2]];
+            if a == 0.0 || b == 0.0 || c == 0.0 {
+                continue;
+            }
+            let lambda = (t_b - t_a) / (t_c - t_a);
+            let between = (1.0 - lambda) * a + lambda * c;
+            let amplification = 1.0 + lambda * lambda + (1.0 - lambda) * (1.0 - lambda);
+            residuals.push((b - between) / amplification.sqrt());
+            speeds.push(b.abs());
+            intervals.push(t_b - t_a);
+        }
+    }
+    if residuals.len() < FEWEST {
+        return None;
+    }
+    let triples = residuals.len();
+    let deviation = deviation_about_zero(&mut residuals)?;
+    Some(EncoderNoise {
+        deviation,
+        relative: deviation / median(&mut speeds)?,
+        update_interval: median(&mut intervals)?,
+        triples,
+        method: Method::ReadingDifferences,
+    })
+}

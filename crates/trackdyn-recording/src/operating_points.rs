@@ -1,0 +1,64 @@
+//! Tables of steady motion: a measured map of instantaneous centres of rotation.
+
+use crate::Error;
+use crate::table::Table;
+use std::path::Path;
+
+const COLUMNS: [&str; 5] = ["v_left", "v_right", "v_forward", "v_lateral", "yaw_rate"];
+
+/// Steady motion at constant track speeds; what was not measured is `None`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OperatingPoint {
+    /// Speed of the left track, m/s.
+    pub v_left: f64,
+    /// Speed of the right track, m/s.
+    pub v_right: f64,
+    /// Velocity of the origin forward, m/s.
+    pub v_forward: Option<f64>,
+    /// Velocity of the origin to the left, m/s.
+    pub v_lateral: Option<f64>,
+    /// Yaw rate, counter-clockwise positive, rad/s.
+    pub yaw_rate: Option<f64>,
+}
+
+/// A table of steady motions.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OperatingPoints {
+    /// Name for titles and outputs: that of the file.
+    pub name: String,
+    /// The points, in the order of the file.
+    pub points: Vec<OperatingPoint>,
+}
+
+impl OperatingPoints {
+    /// Reads a table `v_left,v_right,v_forward,v_lateral,yaw_rate`; an empty cell was not measured.
+    ///
+    /// # Errors
+    /// [`Error::Header`], [`Error::Cell`] with line and column (also for NaN, an infinity, or an
+    /// empty track speed), [`Error::Empty`] without rows.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let mut table = Table::open(path, &COLUMNS)?;
+        let places = COLUMNS.map(|name| table.column(name).unwrap_or_default());
+        let mut points = Vec::new();
+        while table.advance()? {
+            let speed = |place: usize| table.finite(places[place]);
+            let measured = |place: usize| {
+                let empty = table.cell(places[place]).is_empty();
+                if empty { Ok(None) } else { speed(place).map(Some) }
+            };
+            points.push(OperatingPoint {
+                v_left: speed(0)?,
+                v_right: speed(1)?,
+                v_forward: measured(2)?,
+                v_lateral: measured(3)?,
+                yaw_rate: measured(4)?,
+            });
+        }
+        if points.is_empty() {
+            let message = "no rows below the header".to_owned();
+            return Err(Error::Empty { path: path.to_owned(), message });
+        }
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { name, points })
+    }
+}

@@ -1,0 +1,159 @@
+//! The one in-memory type that everything else in the tool sees.
+
+use crate::Error;
+use crate::format::Format;
+use std::path::PathBuf;
+
+mod cleaning;
+mod content;
+mod run;
+mod sample;
+mod warning;
+
+pub(crate) use cleaning::clean;
+pub use run::{Run, UncheckedRun};
+pub use sample::{Cells, Column, ImuSample, PoseSample, Sample, Series, Stream, TrackSample};
+pub use warning::{Cleaning, Finding, Warning};
+
+/// Track speeds, poses and, where there are any, readings of an IMU.
+///
+/// # Assumes
+/// REP-103 axes, SI. Stamps of every series increase strictly within a run, all numbers are finite
+/// and yaw is continuous: [`Recording::new`] sees to it and [`Recording::warnings`] says what it
+/// had to do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    name: String,
+    robot: String,
+    runs: Vec<Run>,
+    stated_noise: Option<StatedNoise>,
+    source: Source,
+    warnings: Vec<Warning>,
+    fingerprint: String,
+}
+
+/// Pose noise as the maker of the recording states it.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Deserialize, serde::Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct StatedNoise {
+    /// Standard deviation of x and of y, m.
+    #[serde(rename = "pose_xy_m")]
+    pub position: f64,
+    /// Standard deviation of yaw, rad.
+    #[serde(rename = "pose_yaw_rad")]
+    pub yaw: f64,
+}
+
+/// Where a recording comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// The format it was read from.
+    pub format: Format,
+    /// File or folder; none for a recording that was computed.
+    pub path: Option<PathBuf>,
+    /// Unix time of t = 0 in nanoseconds, where the source keeps absolute time.
+    pub epoch_ns: Option<i64>,
+}
+
+impl Source {
+    /// A recording that was computed.
+    pub fn computed() -> Self {
+        Self { format: Format::Memory, path: None, epoch_ns: None }
+    }
+}
+
+impl Recording {
+    /// Cleans the runs and makes a recording of them. `warnings` are those of the reader.
+    ///
+    /// Runs are put in the order of their ids; a run without readings or with fewer than two poses
+    /// is left out, with a warning.
+    ///
+    /// # Errors
+    /// [`Error::Empty`] when no run is left.
+    pub fn new(
+        name: impl Into<String>,
+        robot: impl Into<String>,
+        runs: Vec<UncheckedRun>,
+        source: Source,
+        mut warnings: Vec<Warning>,
+    ) -> Result<Self, Error> {
+        let name = name.into();
+        let mut cleanings = Vec::new();
+        let mut kept: Vec<Run> = Vec::with_capacity(runs.len());
+        for run in runs {
+            let run = Run::new(run, &mut cleanings);
+            if run.tracks().is_empty() || run.poses().len() < 2 {
+                warnings.push(Warning::RunLeftOut {
+                    run: run.id(),
+                    readings: run.tracks().len(),
+                    poses: run.poses().len(),
+                });
+            } else {
+                kept.push(run);
+            }
+        }
+        if kept.is_empty() {
+            let path = source.path.clone().unwrap_or_else(|| PathBuf::from(&name));
+            let message = "no run with track speeds and at least two poses".to_owned();
+            return Err(Error::Empty { path, message });
+        }
+        kept.sort_by_key(Run::id);
+        warnings.extend(warning::gather(cleanings).into_iter().map(Warning::Cleaned));
+        let fingerprint = content::fingerprint(&kept);
+        Ok(Self {
+            name,
+            robot: robot.into(),
+            runs: kept,
+            stated_noise: None,
+            source,
+            warnings,
+            fingerprint,
+        })
+    }
+
+    /// The same recording with a statement of its pose noise.
+    pub fn with_stated_noise(mut self, noise: Option<StatedNoise>) -> Self {
+        self.stated_noise = noise;
+        self
+    }
+
+    /// Name for titles and outputs.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The robot that was recorded.
+    pub fn robot(&self) -> &str {
+        &self.robot
+    }
+
+    /// The runs, in the order of their ids; each continuous and with its own pose frame.
+    pub fn runs(&self) -> &[Run] {
+        &self.runs
+    }
+
+    /// Pose noise as its maker states it.
+    pub fn stated_noise(&self) -> Option<StatedNoise> {
+        self.stated_noise
+    }
+
+    /// Where it comes from.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// What was cleaned, left out or guessed on the way in.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// Fingerprint of the cleaned numbers: the same samples have the same one in every format.
+    pub fn fingerprint(&self) -> &str {
+        &self.fingerprint
+    }
+
+    /// Time covered by the readings, summed over the runs, s.
+    pub fn duration(&self) -> f64 {
+        self.runs.iter().map(Run::duration).sum()
+    }
+}

@@ -1,0 +1,52 @@
+//! The numbers of a recording as bytes.
+
+use super::{Cells, Run, Sample, Series};
+use trackdyn_core::output;
+
+/// Fingerprint of ids, samples and further columns; the name, the robot and the format do not
+/// count.
+pub(super) fn fingerprint(runs: &[Run]) -> String {
+    let mut bytes = Vec::new();
+    let mut row = Vec::new();
+    for run in runs {
+        bytes.extend(run.id().to_le_bytes());
+        push(run.track_series(), &mut row, &mut bytes);
+        push(run.pose_series(), &mut row, &mut bytes);
+        push(run.imu_series(), &mut row, &mut bytes);
+    }
+    output::fingerprint(&bytes)
+}
+
+fn push<S: Sample>(series: &Series<S>, row: &mut Vec<f64>, bytes: &mut Vec<u8>) {
+    bytes.extend((series.samples.len() as u64).to_le_bytes());
+    for sample in &series.samples {
+        row.clear();
+        sample.push_columns(row);
+        for value in row.iter() {
+            push_number(*value, bytes);
+        }
+    }
+    for column in &series.extra {
+        bytes.extend(column.name.as_bytes());
+        bytes.push(0);
+        match &column.cells {
+            Cells::Numbers(cells) => {
+                for value in cells {
+                    push_number(*value, bytes);
+                }
+            }
+            Cells::Texts(cells) => {
+                for text in cells {
+                    bytes.extend(text.as_bytes());
+                    bytes.push(0);
+                }
+            }
+        }
+    }
+}
+
+/// Zeros of both signs are the same number, and so are all NaNs.
+fn push_number(value: f64, bytes: &mut Vec<u8>) {
+    let value = if value.is_nan() { f64::NAN } else { value + 0.0 };
+    bytes.extend(value.to_le_bytes());
+}

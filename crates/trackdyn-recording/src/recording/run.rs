@@ -1,0 +1,85 @@
+//! A continuous part of a recording.
+
+use super::cleaning::{clean, unwrap_yaw};
+use super::warning::Cleaning;
+use super::{ImuSample, PoseSample, Series, TrackSample};
+
+/// The rows of a run as a reader found them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct UncheckedRun {
+    /// Its number in the recording.
+    pub id: i64,
+    /// Track speeds.
+    pub tracks: Series<TrackSample>,
+    /// Poses.
+    pub poses: Series<PoseSample>,
+    /// Readings of the IMU; empty where there is none.
+    pub imu: Series<ImuSample>,
+}
+
+/// A continuous stretch of driving with its own pose frame, cleaned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    id: i64,
+    tracks: Series<TrackSample>,
+    poses: Series<PoseSample>,
+    imu: Series<ImuSample>,
+}
+
+impl Run {
+    pub(super) fn new(mut rows: UncheckedRun, cleanings: &mut Vec<Cleaning>) -> Self {
+        clean(&mut rows.tracks, rows.id, cleanings);
+        clean(&mut rows.poses, rows.id, cleanings);
+        clean(&mut rows.imu, rows.id, cleanings);
+        unwrap_yaw(&mut rows.poses.samples, rows.id, cleanings);
+        Self { id: rows.id, tracks: rows.tracks, poses: rows.poses, imu: rows.imu }
+    }
+
+    /// Its number in the recording.
+    pub fn id(&self) -> i64 {
+        self.id
+    }
+
+    /// Track speeds, in the order of time.
+    pub fn tracks(&self) -> &[TrackSample] {
+        &self.tracks.samples
+    }
+
+    /// Poses, in the order of time.
+    pub fn poses(&self) -> &[PoseSample] {
+        &self.poses.samples
+    }
+
+    /// Readings of the IMU, in the order of time; empty where there is none.
+    pub fn imu(&self) -> &[ImuSample] {
+        &self.imu.samples
+    }
+
+    /// Track speeds with the columns beside them.
+    pub fn track_series(&self) -> &Series<TrackSample> {
+        &self.tracks
+    }
+
+    /// Poses with the columns beside them.
+    pub fn pose_series(&self) -> &Series<PoseSample> {
+        &self.poses
+    }
+
+    /// Readings of the IMU with the columns beside them.
+    pub fn imu_series(&self) -> &Series<ImuSample> {
+        &self.imu
+    }
+
+    /// Time from the first to the last reading of the tracks, s.
+    pub fn duration(&self) -> f64 {
+        match self.tracks.samples.as_slice() {
+            [first, .., last] => last.t - first.t,
+            _ => 0.0,
+        }
+    }
+
+    /// The rows, to change and check again.
+    pub fn into_rows(self) -> UncheckedRun {
+        UncheckedRun { id: self.id, tracks: self.tracks, poses: self.poses, imu: self.imu }
+    }
+}

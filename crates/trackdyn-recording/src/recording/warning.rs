@@ -1,0 +1,162 @@
+//! What was done to a recording on its way in.
+
+use super::Stream;
+use std::fmt;
+use std::path::PathBuf;
+
+/// Something the user should know about a recording that can be used all the same.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// Rows were changed, dropped or found odd.
+    Cleaned(Cleaning),
+    /// A run was left out.
+    RunLeftOut {
+        /// Its number.
+        run: i64,
+        /// Readings of the tracks in it.
+        readings: usize,
+        /// Poses in it.
+        poses: usize,
+    },
+    /// A file ends early or is damaged; what stands before is used.
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What its reader says.
+        message: String,
+        /// Messages that were read before.
+        messages: u64,
+    },
+    /// Messages that are not what their type says, or lack what is needed.
+    MessagesSkipped {
+        /// Their topic.
+        topic: String,
+        /// How many.
+        count: u64,
+        /// What is wrong with the first of them.
+        reason: String,
+    },
+    /// Messages without a stamp; the time they were logged at stands in.
+    LogTime {
+        /// Their topic.
+        topic: String,
+        /// How many.
+        count: u64,
+    },
+    /// A choice that the reader made.
+    Chosen {
+        /// What it was for.
+        what: &'static str,
+        /// What was taken.
+        taken: String,
+    },
+}
+
+/// One kind of finding in one series, gathered over the runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cleaning {
+    /// The series.
+    pub stream: Stream,
+    /// What was found.
+    pub finding: Finding,
+    /// Rows or intervals it was found in.
+    pub count: usize,
+    /// Runs it was found in.
+    pub runs: usize,
+    /// The first of these runs.
+    pub run: i64,
+    /// Stamp of the first place in that run, s.
+    pub t: f64,
+}
+
+/// What can be wrong with rows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Finding {
+    /// An empty cell, NaN or an infinity: the row is dropped.
+    NotFinite,
+    /// A stamp before the one above it: the rows are sorted.
+    Unsorted,
+    /// A stamp that stands there already: the first row is kept.
+    Repeated,
+    /// Stamps closer than a tenth of the median interval: both stay, but one of them is likely wrong.
+    Crowded,
+    /// An interval of more than five times the median one.
+    Gap {
+        /// The longest, s.
+        longest: f64,
+    },
+    /// A jump of yaw by more than half a turn: whole turns are added from there on.
+    YawUnwrapped,
+}
+
+impl Finding {
+    /// Whether rows were dropped or moved because of it.
+    pub(crate) fn changes_rows(self) -> bool {
+        matches!(self, Self::NotFinite | Self::Unsorted | Self::Repeated)
+    }
+}
+
+/// Gathers findings of the same kind in the same series; the first place stands for all.
+pub(super) fn gather(cleanings: Vec<Cleaning>) -> Vec<Cleaning> {
+    let mut gathered: Vec<Cleaning> = Vec::new();
+    for next in cleanings {
+        let same = gathered.iter_mut().find(|sum| {
+            sum.stream == next.stream
+                && std::mem::discriminant(&sum.finding) == std::mem::discriminant(&next.finding)
+        });
+        let Some(sum) = same else {
+            gathered.push(next);
+            continue;
+        };
+        sum.count += next.count;
+        sum.runs += next.runs;
+        if let (Finding::Gap { longest }, Finding::Gap { longest: other }) =
+            (&mut sum.finding, next.finding)
+        {
+            *longest = longest.max(other);
+        }
+    }
+    gathered.sort_by_key(|cleaning| cleaning.stream);
+    gathered
+}
+
+impl fmt::Display for Cleaning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { count, runs, run, t, .. } = self;
+        write!(f, "{}: {count} ", self.stream.name())?;
+        match self.finding {
+            Finding::NotFinite => write!(f, "rows with an empty cell, NaN or infinity dropped")?,
+            Finding::Unsorted => write!(f, "steps back in time, rows sorted")?,
+            Finding::Repeated => write!(f, "rows with a repeated stamp dropped, the first kept")?,
+            Finding::Crowded => {
+                write!(f, "intervals below a tenth of the median: stamps may be wrong")?;
+            }
+            Finding::Gap { longest } => write!(f, "gaps, the longest {longest:.3} s")?,
+            Finding::YawUnwrapped => write!(f, "jumps of yaw unwrapped")?,
+        }
+        write!(f, " ({runs} runs, first at t = {t} s of run {run})")
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cleaned(cleaning) => cleaning.fmt(f),
+            Self::RunLeftOut { run, readings, poses } => {
+                write!(f, "run {run} left out: {readings} track readings, {poses} poses")
+            }
+            Self::Damaged { path, message, messages } => {
+                write!(f, "{}: {message}; the {messages} messages before are used", path.display())
+            }
+            Self::MessagesSkipped { topic, count, reason } => {
+                write!(f, "{topic}: {count} messages skipped, the first because {reason}")
+            }
+            Self::LogTime { topic, count } => {
+                write!(f, "{topic}: {count} messages without a stamp, dated by their logging")
+            }
+            Self::Chosen { what, taken } => write!(f, "{what}: took {taken}"),
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Median-based statistics.
+
+/// Ratio of the standard deviation to the median absolute deviation of a normal distribution,
+/// 1 / Φ⁻¹(3/4).
+pub(crate) const NORMAL_FROM_MAD: f64 = 1.482_602_218_505_602;
+
+/// Ratio of the median of squares to the mean of squares of a normal distribution, Φ⁻¹(3/4)².
+pub(crate) const MEDIAN_OF_CHI_SQUARE: f64 = 0.454_936_423_119_572_9;
+
+/// The median; `None` where there is nothing. Reorders the values.
+pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
+    if values.is_empty() {
+        return None;
+    }
+    let (middle, odd) = (values.len() / 2, values.len() % 2 == 1);
+    let (below, &mut upper, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
+    if odd {
+        return Some(upper);
+    }
+    let lower = below.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    Some(f64::midpoint(lower, upper))
+}
+
+/// Standard deviation of zero-mean normal values, from the median of their squares: outliers do
+/// not count. Reorders the values.
+pub(crate) fn deviation_about_zero(values: &mut [f64]) -> Option<f64> {
+    for value in values.iter_mut() {
+        *value = value.abs();
+    }
+    Some(median(values)? * NORMAL_FROM_MAD)
+}
+
+/// A count as a real number.
+#[expect(clippy::cast_precision_loss, reason = "counts of samples stay far below 2⁵³")]
+pub(crate) fn real(count: usize) -> f64 {
+    count as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn medians_of_odd_even_and_no_values() {
+        assert_eq!(median(&mut [3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(&mut [4.0, 1.0, 2.0, 3.0]), Some(2.5));
+        assert_eq!(median(&mut []), None);
+    }
+
+    #[test]
+    fn an_outlier_does_not_move_the_deviation() {
+        let normal_scores = [-1.5, -0.674_489_750_196_081_7, 0.0, 0.674_489_750_196_081_7, 99.0];
+        let mut values = normal_scores;
+        let deviation = deviation_about_zero(&mut values).expect("values");
+        assert!((deviation - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_two_constants_belong_together() {
+        assert!((MEDIAN_OF_CHI_SQUARE * NORMAL_FROM_MAD * NORMAL_FROM_MAD - 1.0).abs() < 1e-12);
+    }
+}

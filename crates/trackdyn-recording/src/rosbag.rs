@@ -1,0 +1,52 @@
+//! Bags of ROS 2: `.mcap` and `.db3` files, alone or in the folder that `ros2 bag record` makes.
+//!
+//! Track speeds come from `sensor_msgs/JointState`, poses from `nav_msgs/Odometry`,
+//! `geometry_msgs/PoseStamped`, `PoseWithCovarianceStamped`, `TransformStamped` or
+//! `tf2_msgs/TFMessage`, readings of the IMU from `sensor_msgs/Imu`. The layouts of these types are
+//! known here: the message definitions in the bag do not matter. All of a bag is one run.
+
+use crate::recording::{Recording, Source, Warning};
+use crate::{Error, Format};
+use std::path::Path;
+
+mod cdr;
+mod collector;
+mod inspection;
+mod joints;
+mod mcap_file;
+mod message;
+mod options;
+mod sqlite_file;
+mod storage;
+mod topic;
+
+pub use inspection::{Inspection, TopicSummary, inspect};
+pub(crate) use message::yaw_of_quaternion;
+pub use options::{JointSignal, RosbagOptions};
+pub(crate) use storage::is_bag;
+pub use topic::Role;
+
+/// Reads a bag.
+///
+/// Where the options name no topic and the bag has just one that fits, that one is taken, with a
+/// warning. A damaged file gives what stands before the damage, with a warning.
+///
+/// # Errors
+/// [`Error::Topic`] when nothing or several things fit, [`Error::Bag`], [`Error::Unreadable`].
+pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
+    let mut collector = collector::Collector::new(options);
+    let mut warnings = storage::scan(path, &mut collector)?;
+    let collected = collector.finish(path)?;
+    warnings.extend(collected.warnings);
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let robot = options.robot.clone().unwrap_or_else(|| {
+        warnings.push(Warning::Chosen { what: "robot", taken: "unknown".to_owned() });
+        "unknown".to_owned()
+    });
+    let source = Source {
+        format: Format::Rosbag,
+        path: Some(path.to_owned()),
+        epoch_ns: Some(collected.epoch_ns),
+    };
+    Recording::new(name, robot, vec![collected.run], source, warnings)
+}

@@ -1,0 +1,196 @@
+//! From messages to a run.
+
+use super::cdr::Cdr;
+use super::joints::{Joints, Reading};
+use super::message::{header, imu, planar_pose};
+use super::options::RosbagOptions;
+use super::storage::Visitor;
+use super::topic::{Layout, Role, Topic};
+use crate::Error;
+use crate::recording::{UncheckedRun, Warning};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+mod choice;
+mod speeds;
+
+use choice::Sources;
+
+/// A value and when it was measured, Unix time in nanoseconds.
+type Stamped<T> = (i64, T);
+
+/// What the messages of a bag say, kept by source until it is clear which one to use.
+pub(super) struct Collector<'a> {
+    options: &'a RosbagOptions,
+    joints: Joints,
+    seen: Vec<Topic>,
+    readings: BTreeMap<String, Vec<Stamped<Reading>>>,
+    poses: BTreeMap<PoseKey, Vec<Stamped<[f64; 3]>>>,
+    imu: BTreeMap<String, Vec<Stamped<[f64; 3]>>>,
+    /// Per topic: messages dated by their logging.
+    undated: BTreeMap<String, u64>,
+    /// Per topic: messages that were skipped, and why the first was.
+    skipped: BTreeMap<String, (u64, String)>,
+}
+
+/// Topic, frame and child frame of poses.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct PoseKey {
+    topic: String,
+    parent: String,
+    child: String,
+}
+
+/// A run and how it came about.
+pub(super) struct Collected {
+    /// The rows; t = 0 at `epoch_ns`.
+    pub(super) run: UncheckedRun,
+    /// Unix time of t = 0, ns.
+    pub(super) epoch_ns: i64,
+    /// What was chosen, dated or skipped.
+    pub(super) warnings: Vec<Warning>,
+}
+
+impl<'a> Collector<'a> {
+    pub(super) fn new(options: &'a RosbagOptions) -> Self {
+        Self {
+            options,
+            joints: Joints::new(options),
+            seen: Vec::new(),
+            readings: BTreeMap::new(),
+            poses: BTreeMap::new(),
+            imu: BTreeMap::new(),
+            undated: BTreeMap::new(),
+            skipped: BTreeMap::new(),
+        }
+    }
+
+    /// Chooses among the sources and makes the run.
+    pub(super) fn finish(self, path: &Path) -> Result<Collected, Error> {
+        let mut warnings = Vec::new();
+        for (topic, &count) in &self.undated {
+            warnings.push(Warning::LogTime { topic: topic.clone(), count });
+        }
+        for (topic, (count, reason)) in &self.skipped {
+            let (topic, reason) = (topic.clone(), reason.clone());
+            warnings.push(Warning::MessagesSkipped { topic, count: *count, reason });
+        }
+        let sources = Sources { path, options: self.options, seen: &self.seen };
+        let readings = sources.tracks(self.readings, &self.skipped, &mut warnings)?;
+        let poses = sources.poses(self.poses, &mut warnings)?;
+        let imu = sources.imu(self.imu, &mut warnings)?;
+        speeds::run(path, self.options, &readings, poses, imu, warnings)
+    }
+
+    /// The stamp of a message, or the time of its logging where it has none.
+    fn date(&mut self, topic: &Topic, stamp_ns: Option<i64>, log_ns: i64) -> i64 {
+        stamp_ns.unwrap_or_else(|| {
+            *self.undated.entry(topic.name.clone()).or_default() += 1;
+            log_ns
+        })
+    }
+
+    fn keep_pose(&mut self, topic: &Topic, frames: [&str; 2], stamped: Stamped<[f64; 3]>) {
+        let fits = |wanted: &Option<String>, frame: &str| {
+            wanted.as_deref().is_none_or(|name| same_frame(name, frame))
+        };
+        let [parent, child] = frames;
+        if !fits(&self.options.parent_frame, parent) || !fits(&self.options.child_frame, child) {
+            return;
+        }
+        let key = PoseKey {
+            topic: topic.name.clone(),
+            parent: parent.to_owned(),
+            child: child.to_owned(),
+        };
+        self.poses.entry(key).or_default().push(stamped);
+    }
+
+    fn take(
+        &mut self,
+        topic: &Topic,
+        layout: Layout,
+        log_ns: i64,
+        payload: &[u8],
+    ) -> Result<(), String> {
+        let decode = |error: super::cdr::CdrError| error.to_string();
+        let mut cdr = Cdr::new(payload).map_err(decode)?;
+        if layout == Layout::Transforms {
+            let count = cdr.length().map_err(decode)?;
+            for _ in 0..count {
+                self.take_pose(topic, true, log_ns, &mut cdr).map_err(decode)?;
+            }
+            return Ok(());
+        }
+        match layout {
+            Layout::JointState => {
+                let stamp_ns = header(&mut cdr).map_err(decode)?.stamp_ns;
+                let reading = self.joints.reading(&mut cdr).map_err(|error| error.to_string())?;
+                let date = self.date(topic, stamp_ns, log_ns);
+                push(&mut self.readings, &topic.name, (date, reading));
+            }
+            Layout::Imu => {
+                let stamp_ns = header(&mut cdr).map_err(decode)?.stamp_ns;
+                let values = imu(&mut cdr).map_err(decode)?;
+                let date = self.date(topic, stamp_ns, log_ns);
+                push(&mut self.imu, &topic.name, (date, values));
+            }
+            Layout::Pose | Layout::PoseOfChild | Layout::Transforms => {
+                let has_child = layout == Layout::PoseOfChild;
+                self.take_pose(topic, has_child, log_ns, &mut cdr).map_err(decode)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn take_pose(
+        &mut self,
+        topic: &Topic,
+        has_child: bool,
+        log_ns: i64,
+        cdr: &mut Cdr,
+    ) -> Result<(), super::cdr::CdrError> {
+        let header = header(cdr)?;
+        let child = if has_child { cdr.text()? } else { "" };
+        let pose = planar_pose(cdr)?;
+        let date = self.date(topic, header.stamp_ns, log_ns);
+        self.keep_pose(topic, [header.frame, child], (date, pose));
+        Ok(())
+    }
+}
+
+/// Appends without making a new key where there is one.
+fn push<T>(series: &mut BTreeMap<String, Vec<T>>, name: &str, value: T) {
+    if let Some(values) = series.get_mut(name) {
+        values.push(value);
+    } else {
+        series.insert(name.to_owned(), vec![value]);
+    }
+}
+
+/// Frames are the same with and without a leading slash.
+fn same_frame(a: &str, b: &str) -> bool {
+    a.trim_start_matches('/') == b.trim_start_matches('/')
+}
+
+impl Visitor for Collector<'_> {
+    fn wants(&mut self, topic: &Topic) -> bool {
+        if !self.seen.contains(topic) {
+            self.seen.push(topic.clone());
+        }
+        let Some(layout) = topic.layout() else { return false };
+        let named = match layout.role() {
+            Role::Tracks => &self.options.tracks_topic,
+            Role::Poses => &self.options.pose_topic,
+            Role::Imu => &self.options.imu_topic,
+        };
+        named.as_ref().is_none_or(|name| *name == topic.name)
+    }
+
+    fn message(&mut self, topic: &Topic, log_ns: i64, payload: &[u8]) {
+        let Some(layout) = topic.layout() else { return };
+        if let Err(reason) = self.take(topic, layout, log_ns, payload) {
+            self.skipped.entry(topic.name.clone()).or_insert((0, reason)).0 += 1;
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Which of several sources to use.
+
+use super::{PoseKey, Reading, RosbagOptions, Stamped};
+use crate::Error;
+use crate::recording::Warning;
+use crate::rosbag::topic::{Topic, list};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// What the choice is made by, and what its errors mention.
+pub(super) struct Sources<'a> {
+    pub(super) path: &'a Path,
+    pub(super) options: &'a RosbagOptions,
+    pub(super) seen: &'a [Topic],
+}
+
+impl Sources<'_> {
+    pub(super) fn tracks(
+        &self,
+        readings: BTreeMap<String, Vec<Stamped<Reading>>>,
+        skipped: &BTreeMap<String, (u64, String)>,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Vec<Stamped<Reading>>, Error> {
+        let mut kinds = vec!["no sensor_msgs/JointState with both sides".to_owned()];
+        kinds.extend(skipped.iter().map(|(topic, (count, reason))| {
+            format!("{topic}: {count} messages skipped, because {reason}")
+        }));
+        let named = self.options.tracks_topic.as_ref();
+        self.only(
+            "track speeds",
+            &kinds.join("; "),
+            named.is_some(),
+            readings,
+            warnings,
+            Clone::clone,
+        )
+    }
+
+    pub(super) fn poses(
+        &self,
+        poses: BTreeMap<PoseKey, Vec<Stamped<[f64; 3]>>>,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Vec<Stamped<[f64; 3]>>, Error> {
+        let kind = "no Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or \
+                    TFMessage of these frames";
+        let named = self.options.pose_topic.is_some();
+        self.only("poses", kind, named, poses, warnings, |key| match key.child.as_str() {
+            "" => format!("{} in {:?}", key.topic, key.parent),
+            child => format!("{} of {child:?} in {:?}", key.topic, key.parent),
+        })
+    }
+
+    /// An IMU is welcome and not needed: where several could be it, none is taken.
+    pub(super) fn imu(
+        &self,
+        imu: BTreeMap<String, Vec<Stamped<[f64; 3]>>>,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Vec<Stamped<[f64; 3]>>, Error> {
+        match (&self.options.imu_topic, imu.len()) {
+            (None, 0) => Ok(Vec::new()),
+            (None, 2..) => {
+                let names: Vec<&str> = imu.keys().map(String::as_str).collect();
+                let taken = format!("none of {}: name one", names.join(", "));
+                warnings.push(Warning::Chosen { what: "imu", taken });
+                Ok(Vec::new())
+            }
+            (named, _) => {
+                let kind = "no sensor_msgs/Imu";
+                self.only("imu", kind, named.is_some(), imu, warnings, Clone::clone)
+            }
+        }
+    }
+
+    /// The only source there is.
+    fn only<K, V>(
+        &self,
+        what: &'static str,
+        kind: &str,
+        named: bool,
+        sources: BTreeMap<K, V>,
+        warnings: &mut Vec<Warning>,
+        name: impl Fn(&K) -> String,
+    ) -> Result<V, Error> {
+        let refuse = |problem: String| Error::Topic {
+            path: self.path.to_owned(),
+            what,
+            problem,
+            available: list(self.seen.iter()),
+        };
+        let names: Vec<String> = sources.keys().map(&name).collect();
+        if names.len() > 1 {
+            return Err(refuse(format!("several fit, name one: {}", names.join(", "))));
+        }
+        let Some((key, values)) = sources.into_iter().next() else {
+            return Err(refuse(kind.to_owned()));
+        };
+        if !named {
+            warnings.push(Warning::Chosen { what, taken: name(&key) });
+        }
+        Ok(values)
+    }
+}

@@ -1,0 +1,197 @@
+//! What a bag holds, and which options would read it.
+
+use super::cdr::{Cdr, CdrError};
+use super::joints;
+use super::message::header;
+use super::options::RosbagOptions;
+use super::storage::{self, Visitor};
+use super::topic::{Layout, Role, Topic};
+use crate::Error;
+use crate::recording::Warning;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::Path;
+
+/// Contents of a bag.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inspection {
+    /// The topics, in the order of their names.
+    pub topics: Vec<TopicSummary>,
+    /// Options that would read it; what the bag leaves open, and the wheel radius, are left open.
+    pub suggested: RosbagOptions,
+    /// Damage to the files.
+    pub warnings: Vec<Warning>,
+}
+
+/// A topic and what was seen of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TopicSummary {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub kind: String,
+    /// How its messages are encoded.
+    pub encoding: String,
+    /// What it can be used for.
+    pub role: Option<Role>,
+    /// Number of messages.
+    pub messages: u64,
+    /// Time from the first to the last logging, s.
+    pub duration: f64,
+    /// Joints in its first message, where they are joints.
+    pub joints: Vec<String>,
+    /// Signals of these joints.
+    pub signals: Vec<&'static str>,
+    /// Frames (parent, child) in its messages, where they are poses; the child may be empty.
+    pub frames: Vec<(String, String)>,
+}
+
+/// Lists topics, types, counts and durations, and suggests options.
+///
+/// # Errors
+/// [`Error::NotARecording`], [`Error::Bag`], [`Error::Unreadable`].
+pub fn inspect(path: &Path) -> Result<Inspection, Error> {
+    let mut observer = Observer::default();
+    let warnings = storage::scan(path, &mut observer)?;
+    let topics: Vec<TopicSummary> =
+        observer.topics.into_iter().map(|(topic, seen)| seen.summary(topic)).collect();
+    let suggested = suggest(&topics);
+    Ok(Inspection { topics, suggested, warnings })
+}
+
+#[derive(Default)]
+struct Observer {
+    topics: BTreeMap<Topic, Seen>,
+}
+
+#[derive(Default)]
+struct Seen {
+    messages: u64,
+    span_ns: Option<(i64, i64)>,
+    joints: Vec<String>,
+    signals: Vec<&'static str>,
+    frames: Vec<(String, String)>,
+}
+
+impl Visitor for Observer {
+    fn wants(&mut self, topic: &Topic) -> bool {
+        self.topics.entry(topic.clone()).or_default();
+        true
+    }
+
+    fn message(&mut self, topic: &Topic, log_ns: i64, payload: &[u8]) {
+        let Some(seen) = self.topics.get_mut(topic) else { return };
+        seen.messages += 1;
+        let (first, last) = seen.span_ns.unwrap_or((log_ns, log_ns));
+        seen.span_ns = Some((first.min(log_ns), last.max(log_ns)));
+        if let Some(layout) = topic.layout() {
+            // A message that cannot be decoded has no frames and no joints to show.
+            let _ = seen.look_into(layout, payload);
+        }
+    }
+}
+
+impl Seen {
+    fn look_into(&mut self, layout: Layout, payload: &[u8]) -> Result<(), CdrError> {
+        let mut cdr = Cdr::new(payload)?;
+        match layout {
+            Layout::JointState if self.joints.is_empty() => {
+                header(&mut cdr)?;
+                let (names, positions, velocities) = joints::names(&mut cdr)?;
+                self.joints = names.into_iter().map(str::to_owned).collect();
+                let signals = [(positions, "position"), (velocities, "velocity")];
+                self.signals =
+                    signals.into_iter().filter_map(|(has, name)| has.then_some(name)).collect();
+            }
+            Layout::Pose => {
+                let frame = header(&mut cdr)?.frame;
+                self.note_frames(frame, "");
+            }
+            Layout::PoseOfChild => {
+                let frame = header(&mut cdr)?.frame;
+                self.note_frames(frame, cdr.text()?);
+            }
+            Layout::Transforms => {
+                for _ in 0..cdr.length()? {
+                    let frame = header(&mut cdr)?.frame;
+                    self.note_frames(frame, cdr.text()?);
+                    // translation and rotation
+                    cdr.skip_f64s(7)?;
+                }
+            }
+            Layout::JointState | Layout::Imu => {}
+        }
+        Ok(())
+    }
+
+    fn note_frames(&mut self, parent: &str, child: &str) {
+        if !self.frames.iter().any(|(p, c)| p == parent && c == child) {
+            self.frames.push((parent.to_owned(), child.to_owned()));
+        }
+    }
+
+    #[expect(clippy::cast_precision_loss, reason = "recordings last less than 2⁵³ ns, 104 days")]
+    fn summary(self, topic: Topic) -> TopicSummary {
+        let (first, last) = self.span_ns.unwrap_or_default();
+        TopicSummary {
+            role: topic.layout().map(Layout::role),
+            name: topic.name,
+            kind: topic.kind,
+            encoding: topic.encoding,
+            messages: self.messages,
+            duration: (last - first) as f64 / 1e9,
+            joints: self.joints,
+            signals: self.signals,
+            frames: self.frames,
+        }
+    }
+}
+
+/// Names what the bag has one of; among several poses, an Odometry or stamped pose before tf.
+fn suggest(topics: &[TopicSummary]) -> RosbagOptions {
+    let of = |role| topics.iter().filter(move |t| t.role == Some(role) && t.messages > 0);
+    let only = |candidates: Vec<&TopicSummary>| match candidates.as_slice() {
+        [topic] => Some(topic.name.clone()),
+        _ => None,
+    };
+    let tracks = only(of(Role::Tracks).collect());
+    let side = |word: &str| {
+        let named = topics.iter().find(|topic| Some(&topic.name) == tracks.as_ref());
+        let joints = named.map(|topic| topic.joints.as_slice()).unwrap_or_default();
+        joints.iter().filter(|joint| joint.to_lowercase().contains(word)).cloned().collect()
+    };
+    let direct = |topic: &&TopicSummary| !topic.kind.ends_with("/TFMessage");
+    let pose =
+        only(of(Role::Poses).filter(direct).collect()).or_else(|| only(of(Role::Poses).collect()));
+    let frames = topics
+        .iter()
+        .find(|topic| Some(&topic.name) == pose.as_ref())
+        .and_then(|topic| if let [pair] = topic.frames.as_slice() { Some(pair) } else { None });
+    RosbagOptions {
+        left_joints: side("left"),
+        right_joints: side("right"),
+        tracks_topic: tracks,
+        parent_frame: frames.map(|(parent, _)| parent.clone()),
+        child_frame: frames.map(|(_, child)| child.clone()).filter(|child| !child.is_empty()),
+        pose_topic: pose,
+        imu_topic: only(of(Role::Imu).collect()),
+        ..RosbagOptions::default()
+    }
+}
+
+impl fmt::Display for TopicSummary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, kind, messages, duration, .. } = self;
+        write!(f, "{name}  {kind}  {messages} messages in {duration:.3} s")?;
+        if !self.joints.is_empty() {
+            write!(f, "  joints {} ({})", self.joints.join(", "), self.signals.join(", "))?;
+        }
+        for (parent, child) in &self.frames {
+            match child.as_str() {
+                "" => write!(f, "  in {parent}")?,
+                child => write!(f, "  {child} in {parent}")?,
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,130 @@
+//! Track speeds from the joints of wheels or sprockets.
+
+use super::cdr::{Cdr, CdrError};
+use super::options::{JointSignal, RosbagOptions};
+use trackdyn_core::{PerSide, Side};
+
+/// Mean of a side's joints in one message.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reading {
+    /// Speed in rad/s or position in rad.
+    pub(super) sides: PerSide<f64>,
+    /// Whether it is a position.
+    pub(super) is_position: bool,
+}
+
+/// Why a message gives no reading.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum JointProblem {
+    /// It cannot be decoded.
+    Cdr(CdrError),
+    /// Joints of a side are not in it.
+    Absent(Side),
+    /// It has neither velocities nor positions of the kind wanted.
+    NoSignal,
+}
+
+impl std::fmt::Display for JointProblem {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Cdr(error) => error.fmt(f),
+            Self::Absent(Side::Left) => write!(f, "the left joints are not in it"),
+            Self::Absent(Side::Right) => write!(f, "the right joints are not in it"),
+            Self::NoSignal => write!(f, "the joints have no such signal"),
+        }
+    }
+}
+
+impl From<CdrError> for JointProblem {
+    fn from(error: CdrError) -> Self {
+        Self::Cdr(error)
+    }
+}
+
+/// Which joints belong to which side.
+#[derive(Clone, Debug)]
+pub(super) struct Joints {
+    names: PerSide<Vec<String>>,
+    signal: JointSignal,
+}
+
+impl Joints {
+    pub(super) fn new(options: &RosbagOptions) -> Self {
+        let names = PerSide::new(options.left_joints.clone(), options.right_joints.clone());
+        Self { names, signal: options.joint_signal }
+    }
+
+    /// +1 or −1 for a joint of this side, `None` for any other.
+    fn sign(&self, side: Side, joint: &str) -> Option<f64> {
+        let names = &self.names[side];
+        if names.is_empty() {
+            let word = match side {
+                Side::Left => "left",
+                Side::Right => "right",
+            };
+            return joint.to_lowercase().contains(word).then_some(1.0);
+        }
+        names.iter().find_map(|name| match name.strip_prefix('-') {
+            Some(reversed) if reversed == joint => Some(-1.0),
+            _ => (name == joint).then_some(1.0),
+        })
+    }
+
+    /// How many joints a side must have in a message; at least one where none is named.
+    fn needed(&self, side: Side) -> usize {
+        self.names[side].len().max(1)
+    }
+
+    /// The reading of a `sensor_msgs/JointState` after its header: `string[] name, float64[]
+    /// position, velocity, effort`.
+    pub(super) fn reading(&self, cdr: &mut Cdr) -> Result<Reading, JointProblem> {
+        let count = cdr.length()?;
+        let names_at = cdr.clone();
+        for _ in 0..count {
+            cdr.text()?;
+        }
+        let (positions, position_count) = cdr.f64_sequence()?;
+        let (velocities, velocity_count) = cdr.f64_sequence()?;
+        let has_velocity = count > 0 && velocity_count == count;
+        let has_position = count > 0 && position_count == count;
+        let is_position = match self.signal {
+            JointSignal::Any => !has_velocity && has_position,
+            JointSignal::Velocity => false,
+            JointSignal::Position => true,
+        };
+        if !(if is_position { has_position } else { has_velocity }) {
+            return Err(JointProblem::NoSignal);
+        }
+        let (mut names, mut values) = (names_at, if is_position { positions } else { velocities });
+        let mut sums = PerSide::new(0.0, 0.0);
+        let mut found = PerSide::new(0_u32, 0_u32);
+        for _ in 0..count {
+            let (name, value) = (names.text()?, values.f64()?);
+            for side in Side::BOTH {
+                if let Some(sign) = self.sign(side, name) {
+                    sums[side] += sign * value;
+                    found[side] += 1;
+                }
+            }
+        }
+        for side in Side::BOTH {
+            if (found[side] as usize) < self.needed(side) {
+                return Err(JointProblem::Absent(side));
+            }
+        }
+        let sides = PerSide::from_fn(|side| sums[side] / f64::from(found[side]));
+        Ok(Reading { sides, is_position })
+    }
+}
+
+/// The names of the joints in a message and the signals it has (position, velocity).
+pub(super) fn names<'a>(cdr: &mut Cdr<'a>) -> Result<(Vec<&'a str>, bool, bool), CdrError> {
+    let count = cdr.length()?;
+    let mut names = Vec::new();
+    for _ in 0..count {
+        names.push(cdr.text()?);
+    }
+    let (_, positions) = cdr.f64_sequence()?;
+    let (_, velocities) = cdr.f64_sequence()?;
+    Ok((names, positions == count && count > 0, velocities == count && count > 0))
+}

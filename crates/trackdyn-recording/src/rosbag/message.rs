@@ -1,0 +1,63 @@
+//! The message types, from their definitions in `common_interfaces` and `geometry2`.
+
+use super::cdr::{Cdr, CdrError};
+
+/// Time stamp and frame of a message.
+pub(super) struct Header<'a> {
+    /// Nanoseconds of Unix time; none where the stamp is zero.
+    pub(super) stamp_ns: Option<i64>,
+    /// The frame that the message is expressed in.
+    pub(super) frame: &'a str,
+}
+
+/// `std_msgs/Header`: `builtin_interfaces/Time stamp, string frame_id`.
+pub(super) fn header<'a>(cdr: &mut Cdr<'a>) -> Result<Header<'a>, CdrError> {
+    let (seconds, nanoseconds) = (cdr.i32()?, cdr.u32()?);
+    let stamp = i64::from(seconds) * 1_000_000_000 + i64::from(nanoseconds);
+    Ok(Header { stamp_ns: (stamp != 0).then_some(stamp), frame: cdr.text()? })
+}
+
+/// `geometry_msgs/Pose` or `Transform`: three coordinates and a quaternion (x, y, z, w), as
+/// (x, y, yaw).
+pub(super) fn planar_pose(cdr: &mut Cdr) -> Result<[f64; 3], CdrError> {
+    let [x, y, _, quaternion @ ..]: [f64; 7] = cdr.f64s()?;
+    Ok([x, y, yaw_of_quaternion(quaternion)])
+}
+
+/// `sensor_msgs/Imu` after its header: yaw rate, acceleration forward and to the left.
+pub(super) fn imu(cdr: &mut Cdr) -> Result<[f64; 3], CdrError> {
+    // orientation and its covariance
+    cdr.skip_f64s(4 + 9)?;
+    let [_, _, gyro_z]: [f64; 3] = cdr.f64s()?;
+    cdr.skip_f64s(9)?;
+    let [acc_x, acc_y]: [f64; 2] = cdr.f64s()?;
+    Ok([gyro_z, acc_x, acc_y])
+}
+
+/// Yaw of a rotation that need not be normalised; NaN for the zero quaternion.
+pub(crate) fn yaw_of_quaternion([x, y, z, w]: [f64; 4]) -> f64 {
+    if [x, y, z, w] == [0.0; 4] {
+        return f64::NAN;
+    }
+    // yaw = atan2(2 (w z + x y), w² + x² − y² − z²)
+    (2.0 * (w * z + x * y)).atan2(w * w + x * x - y * y - z * z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::yaw_of_quaternion;
+
+    #[test]
+    fn yaw_survives_scale_sign_and_tilt() {
+        let (sin, cos) = (0.6_f64 / 2.0).sin_cos();
+        for scale in [1.0, -1.0, 3.0] {
+            let yaw = yaw_of_quaternion([0.0, 0.0, scale * sin, scale * cos]);
+            assert!((yaw - 0.6).abs() < 1e-15);
+        }
+        // yaw 0.6 after a roll of 0.3: q = q_z(0.6) q_x(0.3)
+        let (roll_sin, roll_cos) = 0.15_f64.sin_cos();
+        let tilted = [cos * roll_sin, sin * roll_sin, sin * roll_cos, cos * roll_cos];
+        assert!((yaw_of_quaternion(tilted) - 0.6).abs() < 1e-15);
+        assert!(yaw_of_quaternion([0.0; 4]).is_nan());
+    }
+}

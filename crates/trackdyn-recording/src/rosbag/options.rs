@@ -1,0 +1,39 @@
+//! What to take from a bag.
+
+/// Topics, joints and frames; what is left open is taken where the bag leaves no choice.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RosbagOptions {
+    /// Name of the robot.
+    pub robot: Option<String>,
+    /// Topic of the `sensor_msgs/JointState`.
+    pub tracks_topic: Option<String>,
+    /// Joints of the left side; their mean counts, and a `-` before a name reverses its sign.
+    /// Empty: those with `left` in their name.
+    pub left_joints: Vec<String>,
+    /// Joints of the right side, in the same way.
+    pub right_joints: Vec<String>,
+    /// Which of the joint's signals to take.
+    pub joint_signal: JointSignal,
+    /// Belt speed per joint speed, m: the radius of wheel or sprocket, with any gear.
+    pub wheel_radius: Option<f64>,
+    /// Topic of the poses.
+    pub pose_topic: Option<String>,
+    /// Frame that the poses are expressed in.
+    pub parent_frame: Option<String>,
+    /// Frame whose poses they are.
+    pub child_frame: Option<String>,
+    /// Topic of the `sensor_msgs/Imu`, whose axes must be those of the body.
+    pub imu_topic: Option<String>,
+}
+
+/// Signal of a joint.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum JointSignal {
+    /// The velocity where the messages have one, else the position.
+    #[default]
+    Any,
+    /// Velocity, rad/s.
+    Velocity,
+    /// Position, rad, continuous over turns; its difference quotient is the speed.
+    Position,
+}

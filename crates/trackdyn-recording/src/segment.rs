@@ -1,0 +1,166 @@
+//! Segments: pieces between two poses with several track readings in them.
+
+use crate::hold::holding;
+use crate::recording::{Recording, Run};
+use crate::robust::median;
+use std::ops::Range;
+use trackdyn_core::Pose;
+
+/// How to cut a recording.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentOptions {
+    /// A segment lasts at least this long, s.
+    pub minimum_duration: f64,
+    /// A segment spans at least this many readings of the tracks.
+    pub minimum_readings: usize,
+    /// A longer interval between two poses is not bridged, s; none: five times the run's median.
+    pub longest_pose_interval: Option<f64>,
+    /// A longer interval between two readings is not bridged, s; none: five times the run's median.
+    pub longest_track_interval: Option<f64>,
+    /// Clock offset of the poses against the encoders, s ([`hold`](crate::hold)).
+    pub tau: f64,
+    /// Readings must also be there for clock offsets that differ from `tau` by this much, s.
+    pub tau_margin: f64,
+}
+
+impl Default for SegmentOptions {
+    /// # Sources
+    /// Martinez et al. 2005, section 5: a segment lasts 0.27 s. Theirs has nine readings of 30 ms;
+    /// five let readings at 20 Hz in.
+    fn default() -> Self {
+        Self {
+            minimum_duration: 0.27,
+            minimum_readings: 5,
+            longest_pose_interval: None,
+            longest_track_interval: None,
+            tau: 0.0,
+            tau_margin: 0.0,
+        }
+    }
+}
+
+/// A piece between two poses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    /// Index of its run in [`Recording::runs`].
+    pub run: usize,
+    /// Indices of its first and last pose in the run.
+    pub poses: [usize; 2],
+    /// Stamps of these poses, s of the pose clock.
+    pub start: f64,
+    /// See `start`.
+    pub end: f64,
+    /// Indices of the readings that hold at some time within it, at the clock offset of the
+    /// options.
+    pub readings: Range<usize>,
+    /// Observed motion `start_from_end`: the last pose seen from the first, yaw over whole turns.
+    pub observed: Pose,
+    /// Whether its first pose is the last pose of the segment before it. The noise of the shared
+    /// pose then enters both with opposite signs: increments along a line correlate by −1/2.
+    pub follows: bool,
+}
+
+impl Segment {
+    /// Time between its poses, s.
+    pub fn duration(&self) -> f64 {
+        self.end - self.start
+    }
+}
+
+/// Cuts all runs, each from its first pose on; segments are as short as the options allow.
+pub fn segments(recording: &Recording, options: &SegmentOptions) -> Vec<Segment> {
+    let runs = recording.runs().iter().enumerate();
+    runs.flat_map(|(index, run)| Cut::new(index, run, options).segments()).collect()
+}
+
+/// Intervals beyond this many medians are gaps.
+const GAP: f64 = 5.0;
+
+struct Cut<'a> {
+    index: usize,
+    run: &'a Run,
+    options: &'a SegmentOptions,
+    longest_pose_interval: f64,
+    /// Indices of readings after which none comes for too long.
+    track_gaps: Vec<usize>,
+}
+
+impl<'a> Cut<'a> {
+    fn new(index: usize, run: &'a Run, options: &'a SegmentOptions) -> Self {
+        let longest = |chosen: Option<f64>, stamps: &[f64]| {
+            let mut intervals: Vec<f64> = stamps.windows(2).map(|pair| pair[1] - pair[0]).collect();
+            chosen.or_else(|| median(&mut intervals).map(|usual| GAP * usual)).unwrap_or(0.0)
+        };
+        let poses: Vec<f64> = run.poses().iter().map(|sample| sample.t).collect();
+        let tracks: Vec<f64> = run.tracks().iter().map(|sample| sample.t).collect();
+        let longest_track = longest(options.longest_track_interval, &tracks);
+        let gap = |pair: &[f64]| pair[1] - pair[0] > longest_track;
+        let gaps = tracks.windows(2).enumerate().filter(|(_, pair)| gap(pair));
+        Self {
+            index,
+            run,
+            options,
+            longest_pose_interval: longest(options.longest_pose_interval, &poses),
+            track_gaps: gaps.map(|(before, _)| before).collect(),
+        }
+    }
+
+    fn segments(&self) -> Vec<Segment> {
+        let poses = self.run.poses();
+        let mut segments: Vec<Segment> = Vec::new();
+        let mut first = 0;
+        for last in 1..poses.len() {
+            if poses[last].t - poses[last - 1].t > self.longest_pose_interval {
+                first = last;
+                continue;
+            }
+            // Rounding of the stamps must not lengthen a segment by a whole interval of the poses.
+            let duration = poses[last].t - poses[first].t;
+            if duration < self.options.minimum_duration * (1.0 - 1e-9) {
+                continue;
+            }
+            let Some(readings) = self.covered(poses[first].t, poses[last].t) else {
+                // The piece up to here cannot be used: the next one starts where this one did not
+                // end.
+                first += 1;
+                continue;
+            };
+            if readings.len() < self.options.minimum_readings {
+                continue;
+            }
+            let follows = segments.last().is_some_and(|before| before.poses[1] == first);
+            segments.push(Segment {
+                run: self.index,
+                poses: [first, last],
+                start: poses[first].t,
+                end: poses[last].t,
+                readings,
+                observed: poses[first].pose.relative(&poses[last].pose),
+                follows,
+            });
+            first = last;
+        }
+        segments
+    }
+
+    /// The readings that hold between two times of the pose clock; none where there are none for
+    /// every clock offset within the margin, or a gap lies within.
+    fn covered(&self, start: f64, end: f64) -> Option<Range<usize>> {
+        let SegmentOptions { tau, tau_margin, .. } = *self.options;
+        let tracks = self.run.tracks();
+        let earliest = holding(tracks, start - tau - tau_margin)?;
+        // The last reading holds until its stamp: what comes after was not measured.
+        let latest_end = end - tau + tau_margin;
+        if tracks.last()?.t < latest_end {
+            return None;
+        }
+        let latest = holding(tracks, latest_end)?;
+        let gap_from = self.track_gaps.partition_point(|before| *before < earliest);
+        if self.track_gaps.get(gap_from).is_some_and(|before| *before <= latest) {
+            return None;
+        }
+        let from = holding(tracks, start - tau)?;
+        let until = tracks.partition_point(|sample| sample.t < end - tau);
+        Some(from..until.max(from + 1))
+    }
+}

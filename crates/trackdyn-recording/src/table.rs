@@ -1,0 +1,128 @@
+//! CSV tables with a header: rows of numbers, and errors that point at the cell.
+
+use crate::Error;
+use csv::{ByteRecord, ErrorKind, Reader, ReaderBuilder};
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+/// A table that is being read, one row at a time.
+pub(crate) struct Table {
+    path: PathBuf,
+    reader: Reader<File>,
+    header: Vec<String>,
+    row: ByteRecord,
+}
+
+impl Table {
+    /// Opens a file and reads its header.
+    ///
+    /// # Errors
+    /// [`Error::Unreadable`]; [`Error::Header`] when a name stands there twice or `required` lacks.
+    pub(crate) fn open(path: &Path, required: &[&str]) -> Result<Self, Error> {
+        let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
+        let mut reader = ReaderBuilder::new().buffer_capacity(1 << 18).from_reader(file);
+        let header = reader.byte_headers().map_err(|error| csv_error(path, error))?;
+        let line = header.position().map_or(1, csv::Position::line);
+        let header: Vec<String> =
+            header.iter().map(|name| String::from_utf8_lossy(name.trim_ascii()).into()).collect();
+        let twice = header.iter().enumerate().any(|(at, name)| header[..at].contains(name));
+        let lacks = required.iter().any(|name| !header.iter().any(|column| column == name));
+        if twice || lacks {
+            let expected = format!("{}, each name once", required.join(","));
+            let found = header.join(",");
+            let found = if found.is_empty() { "(none)".to_owned() } else { found };
+            return Err(Error::Header { path: path.to_owned(), line, found, expected });
+        }
+        Ok(Self { path: path.to_owned(), reader, header, row: ByteRecord::new() })
+    }
+
+    /// Names of the columns.
+    pub(crate) fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// Place of a column.
+    pub(crate) fn column(&self, name: &str) -> Option<usize> {
+        self.header.iter().position(|column| column == name)
+    }
+
+    /// Goes to the next row; false at the end.
+    ///
+    /// # Errors
+    /// [`Error::Row`] where the number of cells is wrong, [`Error::Unreadable`].
+    pub(crate) fn advance(&mut self) -> Result<bool, Error> {
+        self.reader.read_byte_record(&mut self.row).map_err(|error| csv_error(&self.path, error))
+    }
+
+    /// The cell of the current row without the blanks around it.
+    pub(crate) fn cell(&self, column: usize) -> &[u8] {
+        self.row.get(column).unwrap_or_default().trim_ascii()
+    }
+
+    /// The cell as a number; NaN where it is empty.
+    ///
+    /// # Errors
+    /// [`Error::Cell`].
+    pub(crate) fn number(&self, column: usize) -> Result<f64, Error> {
+        number(self.cell(column)).ok_or_else(|| self.cell_error(column, "a number"))
+    }
+
+    /// The cell as a finite number.
+    ///
+    /// # Errors
+    /// [`Error::Cell`].
+    pub(crate) fn finite(&self, column: usize) -> Result<f64, Error> {
+        number(self.cell(column))
+            .filter(|value| value.is_finite())
+            .ok_or_else(|| self.cell_error(column, "a finite number"))
+    }
+
+    /// The cell as a whole number.
+    ///
+    /// # Errors
+    /// [`Error::Cell`].
+    pub(crate) fn integer(&self, column: usize) -> Result<i64, Error> {
+        std::str::from_utf8(self.cell(column))
+            .ok()
+            .and_then(|text| text.parse().ok())
+            .ok_or_else(|| self.cell_error(column, "an integer"))
+    }
+
+    fn cell_error(&self, column: usize, expected: &'static str) -> Error {
+        Error::Cell {
+            path: self.path.clone(),
+            line: self.row.position().map_or(0, csv::Position::line),
+            column: column + 1,
+            name: self.header[column].clone(),
+            value: String::from_utf8_lossy(self.cell(column)).into(),
+            expected,
+        }
+    }
+}
+
+/// A number as spreadsheets, numpy and C write it; NaN for nothing.
+pub(crate) fn number(text: &[u8]) -> Option<f64> {
+    if text.is_empty() {
+        return Some(f64::NAN);
+    }
+    fast_float2::parse(text).ok()
+}
+
+/// The error of a file that the system does not let us read.
+pub(crate) fn unreadable(path: &Path, cause: std::io::Error) -> Error {
+    Error::Unreadable { path: path.to_owned(), cause }
+}
+
+fn csv_error(path: &Path, error: csv::Error) -> Error {
+    let path = path.to_owned();
+    match error.into_kind() {
+        ErrorKind::Io(cause) => Error::Unreadable { path, cause },
+        ErrorKind::UnequalLengths { pos, expected_len, len } => Error::Row {
+            path,
+            line: pos.map_or(0, |position| position.line()),
+            found: len,
+            expected: expected_len,
+        },
+        other => Error::Empty { path, message: format!("not a table: {other:?}") },
+    }
+}

@@ -1,0 +1,80 @@
+//! Trajectories of the TUM RGB-D benchmark, with the track speeds in a CSV beside them.
+//!
+//! A line is `t x y z qx qy qz qw`, blanks between, `#` before a remark
+//! (<https://cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats>). The motion is planar: x, y
+//! and the yaw of the quaternion count, the rest is dropped.
+
+use crate::recording::{PoseSample, Recording, Series, Source, UncheckedRun};
+use crate::rosbag::yaw_of_quaternion;
+use crate::table::{number, unreadable};
+use crate::{Error, Format, folder};
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use trackdyn_core::Pose;
+
+const COLUMNS: [&str; 8] = ["t", "x", "y", "z", "qx", "qy", "qz", "qw"];
+
+/// Reads a trajectory and the track speeds (`t,v_left,v_right`) of the same clock.
+///
+/// # Errors
+/// Errors that name file, line and column.
+pub fn read(trajectory: &Path, tracks: &Path, robot: &str) -> Result<Recording, Error> {
+    let run = UncheckedRun {
+        id: 0,
+        tracks: folder::read_single_tracks(tracks)?,
+        poses: read_poses(trajectory)?,
+        imu: Series::default(),
+    };
+    let name = trajectory.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let source = Source { format: Format::Tum, path: Some(trajectory.to_owned()), epoch_ns: None };
+    Recording::new(name, robot, vec![run], source, Vec::new())
+}
+
+fn read_poses(path: &Path) -> Result<Series<PoseSample>, Error> {
+    let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
+    let mut reader = BufReader::with_capacity(1 << 18, file);
+    let mut poses = Vec::new();
+    let mut text = Vec::new();
+    let mut line = 0;
+    loop {
+        text.clear();
+        if reader.read_until(b'\n', &mut text).map_err(|cause| unreadable(path, cause))? == 0 {
+            break;
+        }
+        line += 1;
+        let row = text.trim_ascii();
+        if !row.is_empty() && row[0] != b'#' {
+            poses.push(parse_row(row, path, line)?);
+        }
+    }
+    if poses.is_empty() {
+        let message = "no poses: expected lines t x y z qx qy qz qw".to_owned();
+        return Err(Error::Empty { path: path.to_owned(), message });
+    }
+    Ok(poses.into())
+}
+
+fn parse_row(row: &[u8], path: &Path, line: u64) -> Result<PoseSample, Error> {
+    let mut values = [0.0; 8];
+    let mut found = 0;
+    for word in row.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()) {
+        if let Some(value) = values.get_mut(found) {
+            *value = number(word).ok_or_else(|| Error::Cell {
+                path: path.to_owned(),
+                line,
+                column: found + 1,
+                name: COLUMNS[found].to_owned(),
+                value: String::from_utf8_lossy(word).into_owned(),
+                expected: "a number",
+            })?;
+        }
+        found += 1;
+    }
+    if found != COLUMNS.len() {
+        let (found, expected) = (found as u64, COLUMNS.len() as u64);
+        return Err(Error::Row { path: path.to_owned(), line, found, expected });
+    }
+    let [t, x, y, _, quaternion @ ..] = values;
+    Ok(PoseSample { t, pose: Pose::new(x, y, yaw_of_quaternion(quaternion)) })
+}

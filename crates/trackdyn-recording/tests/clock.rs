@@ -1,0 +1,107 @@
+//! The clock offset of synthetic recordings, over seeds.
+
+use trackdyn_core::PerSide;
+use trackdyn_recording::clock::{ClockSearch, clock_offset};
+use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
+use trackdyn_recording::{Error, Recording, Source};
+
+/// Noise as in lidar odometry of a small robot: 5 mm, 2 mrad, 5 % of the speed.
+fn noisy(tau: f64, seed: u64) -> Synthetic {
+    Synthetic {
+        schedules: (0..3).map(|run| random_steps(30, 3.0, 1.0, 100 * seed + run)).collect(),
+        encoder_noise: 0.05,
+        position_noise: 0.005,
+        yaw_noise: 0.002,
+        tau,
+        seed,
+        ..Synthetic::default()
+    }
+}
+
+fn refusal(recording: &Recording) -> String {
+    let error = clock_offset(recording, &ClockSearch::default()).expect_err("refused");
+    assert!(matches!(error, Error::NotEstimable { .. }));
+    error.to_string()
+}
+
+#[test]
+fn the_offset_is_recovered_within_its_error() {
+    let mut squares = 0.0;
+    let mut within_two = 0_u32;
+    let seeds = 60_u32;
+    for seed in 0..seeds {
+        let tau = 0.3 - 0.01 * f64::from(seed);
+        let recording = noisy(tau, u64::from(seed)).recording().expect("long enough");
+        let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+        // 1/(x_r − x_l), less the attenuation by encoder noise
+        assert!((found.yaw_per_difference - 1.0 / 0.832).abs() < 0.02);
+        assert!(found.standard_error < 0.01, "{found:?}");
+        let score = (found.tau - tau) / found.standard_error;
+        squares += score * score;
+        within_two += u32::from(score.abs() < 2.0);
+    }
+    // 95 % of 60 is 57; 51 or fewer has a chance below 1 %. The mean square is 1 ± 0.18: from 0.5
+    // to 1.6 is beyond three deviations on either side.
+    let mean_square = squares / f64::from(seeds);
+    println!("{within_two} of {seeds} within two standard errors, mean square {mean_square:.2}");
+    assert!(within_two > 51, "{within_two} of {seeds}");
+    assert!((0.5..1.6).contains(&mean_square), "{mean_square}");
+}
+
+#[test]
+fn without_noise_the_offset_is_exact() {
+    for tau in [-0.31, 0.0, 0.275, 0.7] {
+        let recording = Synthetic { tau, ..Synthetic::default() }.recording().expect("long enough");
+        let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+        // 10 µs: the golden section ends at 1 µs, on a minimum that rounding flattens.
+        assert!((found.tau - tau).abs() < 1e-5, "{found:?}");
+    }
+}
+
+#[test]
+fn straight_or_steady_driving_is_refused() {
+    let straight = |speeds: PerSide<f64>| {
+        let schedule = vec![Stretch { duration: 60.0, speeds }];
+        let synthetic = Synthetic { schedules: vec![schedule], ..noisy(0.2, 5) };
+        refusal(&synthetic.recording().expect("long enough"))
+    };
+    for speeds in [PerSide::new(0.5, 0.5), PerSide::new(0.2, 0.6), PerSide::default()] {
+        let text = straight(speeds);
+        assert!(text.contains("no turning that encoders and poses both show"), "{text}");
+    }
+}
+
+#[test]
+fn swapped_sides_short_recordings_and_far_offsets_are_refused() {
+    let swapped = ConstantIcr { x_left: 0.4, x_right: -0.4, ..Synthetic::default().kinematics };
+    let synthetic = Synthetic { kinematics: swapped, ..Synthetic::default() };
+    let text = refusal(&synthetic.recording().expect("long enough"));
+    assert!(text.contains("left and right are swapped"), "{text}");
+
+    let short = Synthetic { schedules: vec![random_steps(1, 1.0, 1.0, 0)], ..Synthetic::default() };
+    let text = refusal(&short.recording().expect("long enough"));
+    assert!(text.contains("pose intervals with readings, 20 needed"), "{text}");
+
+    let recording =
+        Synthetic { tau: 0.9, ..Synthetic::default() }.recording().expect("long enough");
+    let search = ClockSearch { earliest: -0.5, latest: 0.5 };
+    let text = clock_offset(&recording, &search).expect_err("refused").to_string();
+    assert!(text.contains("lies at an end of the search from -0.5 to 0.5 s"), "{text}");
+}
+
+#[test]
+fn outlying_poses_widen_the_error_and_do_not_hide_the_offset() {
+    let recording = noisy(0.25, 3).recording().expect("long enough");
+    let clean = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+    let runs = recording.runs().iter().cloned().map(|run| {
+        let mut rows = run.into_rows();
+        for sample in rows.poses.samples.iter_mut().step_by(13) {
+            sample.pose.yaw += 0.1;
+        }
+        rows
+    });
+    let hurt = Recording::new("n", "r", runs.collect(), Source::computed(), Vec::new());
+    let hurt = clock_offset(&hurt.expect("long enough"), &ClockSearch::default()).expect("turning");
+    assert!(hurt.standard_error > 2.0 * clean.standard_error);
+    assert!((hurt.tau - 0.25).abs() < 4.0 * hurt.standard_error, "{hurt:?}");
+}

@@ -3,12 +3,22 @@
 use std::path::Path;
 
 /// Which crates of the project each crate may use.
-const ALLOWED: [(&str, &[&str]); 5] = [
+const ALLOWED: [(&str, &[&str]); 6] = [
     ("trackdyn-core", &[]),
     ("trackdyn-physics", &["trackdyn-core"]),
     ("trackdyn-motion", &["trackdyn-core", "trackdyn-physics"]),
     ("trackdyn-report", &["trackdyn-core", "trackdyn-physics", "trackdyn-motion"]),
-    ("trackdyn-cli", &["trackdyn-core", "trackdyn-physics", "trackdyn-motion", "trackdyn-report"]),
+    ("trackdyn-export", &["trackdyn-core", "trackdyn-motion"]),
+    (
+        "trackdyn-cli",
+        &[
+            "trackdyn-core",
+            "trackdyn-physics",
+            "trackdyn-motion",
+            "trackdyn-report",
+            "trackdyn-export",
+        ],
+    ),
 ];
 
 #[test]

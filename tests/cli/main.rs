@@ -3,6 +3,7 @@
 mod bad_input;
 mod check;
 mod documents;
+mod export;
 mod map;
 
 use std::path::{Path, PathBuf};

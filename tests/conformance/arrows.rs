@@ -3,13 +3,23 @@
 use std::path::Path;
 
 /// Which crates of the project each crate may use.
-const ALLOWED: [(&str, &[&str]); 6] = [
+const ALLOWED: [(&str, &[&str]); 7] = [
     ("trackdyn-core", &[]),
     ("trackdyn-physics", &["trackdyn-core"]),
     ("trackdyn-recording", &["trackdyn-core"]),
     ("trackdyn-motion", &["trackdyn-core", "trackdyn-physics"]),
     ("trackdyn-report", &["trackdyn-core", "trackdyn-physics", "trackdyn-motion"]),
-    ("trackdyn-cli", &["trackdyn-core", "trackdyn-physics", "trackdyn-motion", "trackdyn-report"]),
+    ("trackdyn-export", &["trackdyn-core", "trackdyn-motion"]),
+    (
+        "trackdyn-cli",
+        &[
+            "trackdyn-core",
+            "trackdyn-physics",
+            "trackdyn-motion",
+            "trackdyn-report",
+            "trackdyn-export",
+        ],
+    ),
 ];
 
 #[test]

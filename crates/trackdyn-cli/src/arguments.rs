@@ -24,6 +24,8 @@ pub enum Command {
     Kinematics(commands::kinematics::Options),
     /// Recompute chi, e and the ICRs, and fail where they leave the tolerances of a reference file
     Check(commands::check::Options),
+    /// Write the kinematics as files of other programs: ROS 2, URDF, Gazebo
+    Export(commands::export::Options),
     /// List the effects that a vehicle file or --effect can switch on
     Effects(commands::effects::Options),
     /// Print completions for a shell
@@ -87,6 +89,13 @@ pub fn read_vehicle(path: &Path) -> Result<VehicleFile, Box<dyn std::error::Erro
 /// The model of a vehicle file.
 pub fn model(file: &VehicleFile) -> Model {
     Model::new(file.vehicle.clone(), file.effects.clone())
+}
+
+/// The command line, for the head of files that are written.
+pub fn command_line() -> String {
+    let mut arguments: Vec<String> = std::env::args().skip(1).collect();
+    arguments.insert(0, "trackdyn".to_owned());
+    arguments.join(" ")
 }
 
 /// Two numbers, separated by a comma.

@@ -3,6 +3,7 @@
 pub mod check;
 pub mod completions;
 pub mod effects;
+pub mod export;
 pub mod kinematics;
 pub mod man;
 pub mod map;
@@ -20,6 +21,7 @@ pub fn run(command: &Command) -> Outcome {
         Command::Map(options) => map::run(options),
         Command::Kinematics(options) => kinematics::run(options),
         Command::Check(options) => check::run(options),
+        Command::Export(options) => export::run(options),
         Command::Effects(options) => effects::run(options),
         Command::Completions(options) => completions::run(options),
         Command::Man => man::run(),

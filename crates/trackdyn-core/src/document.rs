@@ -78,6 +78,11 @@ impl Document {
         &self.name
     }
 
+    /// The text itself.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// The contents as a `T`.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 mod summary;
 
-use crate::arguments::{ModelOptions, model};
+use crate::arguments::{ModelOptions, command_line, model};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::progress::Progress;
@@ -63,8 +63,6 @@ pub fn run(options: &Options) -> Outcome {
 
 /// Where the numbers come from.
 fn source(file: &VehicleFile, map: &IcrMap) -> Source {
-    let mut arguments: Vec<String> = std::env::args().skip(1).collect();
-    arguments.insert(0, "trackdyn".to_owned());
     let motions = Status::NAMES
         .iter()
         .zip(map.counts())
@@ -72,7 +70,7 @@ fn source(file: &VehicleFile, map: &IcrMap) -> Source {
         .map(|(name, count)| (name.replace(' ', "_"), count))
         .collect();
     Source {
-        command: arguments.join(" "),
+        command: command_line(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         vehicle: file.vehicle.name.clone(),
         fingerprint: fingerprint(file.to_toml().as_bytes()),

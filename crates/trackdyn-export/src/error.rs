@@ -1,0 +1,39 @@
+//! What an export cannot be made from.
+
+/// An option that an export cannot be made with.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A radius that scales joint angles to nothing, backwards or to no number.
+    #[error("wheel-radius = {value}: expected a positive number of m")]
+    WheelRadius {
+        /// The radius, m.
+        value: f64,
+    },
+    /// The two sides must pair up.
+    #[error("right-wheel: {right} names, left-wheel: {left} names: expected as many right as left")]
+    WheelCount {
+        /// Names on the left.
+        left: usize,
+        /// Names on the right.
+        right: usize,
+    },
+    /// Two frames of a chain are one.
+    #[error("{first} = {name}, {second} = {name}: expected two different frames")]
+    SameFrame {
+        /// Option of the one.
+        first: &'static str,
+        /// Option of the other.
+        second: &'static str,
+        /// Their name.
+        name: String,
+    },
+    /// A name that would need quoting in one of the languages.
+    #[error(
+        "\"{value}\": expected a name of letters, digits, _, -, . and /, that begins with a letter or _"
+    )]
+    Name {
+        /// The name.
+        value: String,
+    },
+}

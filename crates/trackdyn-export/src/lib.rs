@@ -1,0 +1,33 @@
+//! Kinematics of tracked robots as files of other programs.
+//!
+//! - [`drive`]: the ideal differential drive that a tracked robot is, seen at one point.
+//! - [`frames`]: the frame at that point, and the robot's own.
+//! - [`ros2`], [`urdf`], [`gz`]: the files, one module per program.
+//!
+//! Derivation, signs and direction of the transform: `docs/theory/export.md`.
+
+pub mod drive;
+pub mod error;
+pub mod frames;
+pub mod gz;
+pub mod name;
+pub mod provenance;
+pub mod ros2;
+pub mod urdf;
+
+mod number;
+
+pub use drive::EquivalentDrive;
+pub use error::Error;
+pub use frames::Frames;
+pub use name::Name;
+pub use provenance::Provenance;
+
+/// A file to write.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextFile {
+    /// Name in its folder.
+    pub name: &'static str,
+    /// Contents.
+    pub text: String,
+}

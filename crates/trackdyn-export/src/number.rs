@@ -1,0 +1,28 @@
+//! Numbers as every one of the languages reads them.
+
+/// The shortest decimal text that reads back as the same number: with a point, for ROS takes `1` for an
+/// integer and refuses it, and without an exponent, for YAML 1.1 takes `1e-7` for a text.
+pub(crate) fn number(value: f64) -> String {
+    // The sum turns −0 into 0.
+    let text = format!("{}", value + 0.0);
+    if text.contains('.') { text } else { text + ".0" }
+}
+
+/// A length in m to twelve decimals, as kinematics files give it.
+pub(crate) fn metres(length: f64) -> String {
+    number((length * 1e12).round() / 1e12)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{metres, number};
+
+    #[test]
+    fn numbers_have_a_point_and_no_exponent() {
+        assert_eq!(number(1.0), "1.0");
+        assert_eq!(number(-0.0), "0.0");
+        assert_eq!(number(1e-7), "0.0000001");
+        assert_eq!(number(0.1 + 0.2).parse(), Ok(0.1 + 0.2));
+        assert_eq!(metres(0.1 + 0.2), "0.3");
+    }
+}

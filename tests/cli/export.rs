@@ -1,0 +1,135 @@
+//! `trackdyn export`: files of other programs.
+
+use crate::Workplace;
+use std::path::PathBuf;
+
+/// A folder with the default vehicle's kinematics.
+fn with_kinematics(effects: &str) -> Workplace {
+    let place = Workplace::new();
+    let run = place.run(&format!("map --cog -0.015,0.04 --grid 5 --out map {effects}"));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let kinematics = place.read("map/kinematics.toml");
+    std::fs::remove_dir_all(place.path().join("map")).expect("removed");
+    place.write("kinematics.toml", &String::from_utf8(kinematics).expect("text"));
+    place
+}
+
+fn text(place: &Workplace, name: &str) -> String {
+    String::from_utf8(place.read(name)).expect("text")
+}
+
+#[test]
+fn ros2_writes_parameters_and_launch_file() {
+    let place = with_kinematics("");
+    let run = place.run("export ros2 kinematics.toml --out ros --wheel-radius 0.1");
+    assert_eq!((run.status, run.stdout.as_str()), (0, ""), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("wrote ros/diff_drive_controller.yaml and ros/icr_frame.launch.py")
+            && !run.stderr.contains("warning"),
+        "{}",
+        run.stderr
+    );
+
+    let yaml = text(&place, "ros/diff_drive_controller.yaml");
+    let parsed: serde_yaml_ng::Value = serde_yaml_ng::from_str(&yaml).expect("YAML");
+    let parameters = &parsed["diff_drive_controller"]["ros__parameters"];
+    // The gauge of the vehicle, which the kinematics file does not hold.
+    assert_eq!(parameters["wheel_separation"].as_f64(), Some(0.42));
+    let multiplier = parameters["wheel_separation_multiplier"].as_f64().expect("a number");
+    assert!((multiplier - 1.0 / 0.50437).abs() < 1e-4, "{multiplier}");
+    assert_eq!(parameters["left_wheel_radius_multiplier"].as_f64(), Some(1.0));
+    assert_eq!(parameters["left_wheel_names"][0].as_str(), Some("left_wheel_joint"));
+
+    let launch = text(&place, "ros/icr_frame.launch.py");
+    // Base link behind and left of the point between the ICRs: -y and (x_r + x_l)/2.
+    assert!(launch.contains("\"--x\", \"-0.0492"), "{launch}");
+    assert!(launch.contains("\"--y\", \"0.0409"), "{launch}");
+    for file in [yaml, launch] {
+        assert!(file.contains("# command: trackdyn export ros2 kinematics.toml"), "{file}");
+        assert!(file.contains("# source: kinematics.toml, SHA-256 "), "{file}");
+        assert!(file.contains(env!("CARGO_PKG_VERSION")), "{file}");
+    }
+}
+
+#[test]
+fn urdf_frames_and_gz_write_xml() {
+    let place = with_kinematics("");
+    for (arguments, file, root, parts) in [
+        (
+            "urdf-frames kinematics.toml --base-frame base_footprint --contact-centre -0.1,0",
+            "out/icr_frame.urdf.xacro",
+            "robot",
+            ["<child link=\"base_footprint\"/>", "xyz=\"0.050"],
+        ),
+        (
+            "gz kinematics.toml --left-track l1 --left-track l2",
+            "out/tracked_vehicle.sdf",
+            "plugin",
+            ["<tracks_separation>0.42</tracks_separation>", "<link>l2</link>"],
+        ),
+    ] {
+        let run = place.run(&format!("export {arguments}"));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        assert!(run.stderr.contains(file), "{}", run.stderr);
+        let xml = text(&place, file);
+        let document = roxmltree::Document::parse(&xml).expect("XML");
+        assert_eq!(document.root_element().tag_name().name(), root);
+        for part in parts {
+            assert!(xml.contains(part), "{part} is not in:\n{xml}");
+        }
+    }
+}
+
+#[test]
+fn piecewise_kinematics_are_exported_with_a_warning() {
+    let place = with_kinematics("--effect motion-resistance:coefficient=0.05");
+    let run = place.run("export gz kinematics.toml");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("warning: kinematics.toml is piecewise with"), "{}", run.stderr);
+}
+
+#[test]
+fn bad_input_writes_nothing() {
+    let place = with_kinematics("");
+    let good = text(&place, "kinematics.toml");
+    place.write("schema.toml", &good.replace("trackdyn.kinematics/1", "trackdyn.vehicle/1"));
+    let line = good.lines().position(|line| line.starts_with("steering_efficiency"));
+    let line = line.expect("a line") + 1;
+    place.write(
+        "zero.toml",
+        &good.replace("\nsteering_efficiency = 0", "\nsteering_efficiency = -0"),
+    );
+    let before = place.files();
+    let zero = format!("zero.toml:{line}: steering_efficiency = -0.");
+    for (arguments, part) in [
+        ("ros2 missing.toml --wheel-radius 0.1", "missing.toml: cannot be read"),
+        ("ros2 schema.toml --wheel-radius 0.1", "schema.toml:1: schema = \"trackdyn.vehicle/1\""),
+        ("gz schema.toml", "expected \"trackdyn.kinematics/1\""),
+        ("gz zero.toml", zero.as_str()),
+        ("ros2 kinematics.toml", "--wheel-radius"),
+        ("ros2 kinematics.toml --wheel-radius 0", "--wheel-radius = 0: expected a positive number"),
+        ("ros2 kinematics.toml --wheel-radius -0.1", "--wheel-radius = -0.1: expected"),
+        ("ros2 kinematics.toml --wheel-radius nan", "--wheel-radius = NaN: expected"),
+        (
+            "ros2 kinematics.toml --wheel-radius 1 --left-wheel a --left-wheel b",
+            "--right-wheel: 1 names, left-wheel: 2 names",
+        ),
+        ("urdf-frames kinematics.toml --base-frame a:b", "\"a:b\": expected a name"),
+        ("urdf-frames kinematics.toml --base-frame icr_link", "two different frames"),
+        ("urdf-frames kinematics.toml --contact-centre 1", "two numbers separated by a comma"),
+        ("ros3 kinematics.toml", "ros2"),
+    ] {
+        let run = place.run(&format!("export {arguments} --out new"));
+        assert_eq!(run.status, 1, "{arguments}: {}", run.stderr);
+        assert!(run.stderr.contains(part), "{arguments}: {part:?} is not in:\n{}", run.stderr);
+        assert!(run.stdout.is_empty(), "{arguments}: {}", run.stdout);
+        assert!(!place.path().join("new").exists(), "{arguments}");
+    }
+    assert_eq!(place.files(), before);
+    assert_eq!(before.len(), 3);
+    place.write("file", "in the way");
+    let run = place.run("export gz kinematics.toml --out file/out");
+    assert_eq!(run.status, 1);
+    assert!(run.stderr.contains("file/out: cannot be written"), "{}", run.stderr);
+    assert!(place.files().contains(&PathBuf::from("file")));
+}

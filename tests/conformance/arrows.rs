@@ -3,12 +3,16 @@
 use std::path::Path;
 
 /// Which crates of the project each crate may use.
-const ALLOWED: [(&str, &[&str]); 7] = [
+const ALLOWED: [(&str, &[&str]); 8] = [
     ("trackdyn-core", &[]),
     ("trackdyn-physics", &["trackdyn-core"]),
     ("trackdyn-recording", &["trackdyn-core"]),
     ("trackdyn-motion", &["trackdyn-core", "trackdyn-physics"]),
-    ("trackdyn-report", &["trackdyn-core", "trackdyn-physics", "trackdyn-motion"]),
+    ("trackdyn-odometry", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
+    (
+        "trackdyn-report",
+        &["trackdyn-core", "trackdyn-physics", "trackdyn-motion", "trackdyn-odometry"],
+    ),
     ("trackdyn-export", &["trackdyn-core", "trackdyn-motion"]),
     (
         "trackdyn-cli",
@@ -16,6 +20,8 @@ const ALLOWED: [(&str, &[&str]); 7] = [
             "trackdyn-core",
             "trackdyn-physics",
             "trackdyn-motion",
+            "trackdyn-recording",
+            "trackdyn-odometry",
             "trackdyn-report",
             "trackdyn-export",
         ],

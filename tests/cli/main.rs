@@ -5,6 +5,7 @@ mod check;
 mod documents;
 mod export;
 mod map;
+mod odometry;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

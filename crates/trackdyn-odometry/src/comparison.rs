@@ -78,19 +78,16 @@ impl Comparison {
         self.spans.iter().find(|errors| errors.span == span)
     }
 
-    /// The spans that show growth: distances, or durations where runs are too short for two
-    /// distances with [`Comparison::ENOUGH`] stretches.
+    /// The spans that show growth, from segments on: distances, or durations where runs are too short
+    /// for two distances with [`Comparison::ENOUGH`] stretches.
     pub fn growth(&self) -> Vec<&SpanErrors> {
         let of = |is: fn(&Span) -> bool| -> Vec<&SpanErrors> {
             let often = |errors: &&SpanErrors| errors.count >= Self::ENOUGH;
             self.spans.iter().filter(|errors| is(&errors.span)).filter(often).collect()
         };
-        let distances = of(|span| matches!(span, Span::Distance(_)));
-        if distances.len() > 1 {
-            return distances;
-        }
-        let durations = of(|span| matches!(span, Span::Duration(_)));
-        if durations.is_empty() { distances } else { durations }
+        let distances = of(|span| matches!(span, Span::Segment | Span::Distance(_)));
+        let durations = of(|span| matches!(span, Span::Segment | Span::Duration(_)));
+        if distances.len() > 2 || durations.len() < 2 { distances } else { durations }
     }
 
     /// The span that a drift is told by: the longest that shows growth, else segments.

@@ -16,7 +16,7 @@ pub enum Span {
 
 impl Span {
     /// Segments, distances and durations that are tried on every recording.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 16] = [
         Self::Segment,
         Self::Distance(0.5),
         Self::Distance(1.0),
@@ -25,7 +25,9 @@ impl Span {
         Self::Distance(10.0),
         Self::Distance(20.0),
         Self::Distance(50.0),
+        Self::Duration(0.5),
         Self::Duration(1.0),
+        Self::Duration(1.5),
         Self::Duration(2.0),
         Self::Duration(5.0),
         Self::Duration(10.0),

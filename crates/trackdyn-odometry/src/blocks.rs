@@ -46,7 +46,7 @@ impl Blocks {
     /// Fewer blocks have no interval.
     pub const FEWEST: usize = 5;
 
-    /// Blocks of runs: index in the recording, beginning and length, s.
+    /// Blocks of runs: index in the recording, ascending, beginning and length, s.
     pub fn new(runs: Vec<(usize, f64, f64)>) -> Self {
         let parts = match runs.len() {
             count @ 1..Self::ENOUGH_RUNS => Self::WANTED.div_ceil(count),
@@ -62,7 +62,7 @@ impl Blocks {
 
     /// The block that a stretch begins in.
     pub fn of(&self, stretch: &Stretch) -> usize {
-        let Some(place) = self.runs.iter().position(|(run, ..)| *run == stretch.run) else {
+        let Ok(place) = self.runs.binary_search_by_key(&stretch.run, |(run, ..)| *run) else {
             return 0;
         };
         let (_, beginning, length) = self.runs[place];

@@ -18,7 +18,7 @@ pub struct Comparison {
     pub sets: Vec<ParameterSet>,
     /// Clock offset, s.
     pub tau: f64,
-    /// What was replayed, run by run.
+    /// What was replayed, in the order of the runs.
     pub paths: Vec<Path>,
     /// Numbers of runs that were left out: their readings and poses have no time in common.
     pub left_out: Vec<i64>,
@@ -40,10 +40,13 @@ impl Comparison {
         sets: Vec<ParameterSet>,
         tau: f64,
     ) -> Result<Self, Error> {
+        let mut runs = runs.to_vec();
+        runs.sort_unstable();
+        runs.dedup();
         let mut paths = Vec::new();
         let mut left_out = Vec::new();
         let mut first_error = None;
-        for &index in runs {
+        for &index in &runs {
             let run = &recording.runs()[index];
             match sets.iter().map(|set| replay(run, set, tau)).collect::<Result<Vec<_>, _>>() {
                 Ok(trajectories) => paths.push(Path::new(index, run, &trajectories, tau)),
@@ -57,7 +60,7 @@ impl Comparison {
             return Err(error);
         }
         let options = SegmentOptions { tau, ..SegmentOptions::default() };
-        let segments = stretch::of_segments(recording, runs, &options);
+        let segments = stretch::of_segments(recording, &runs, &options);
         check(&segments, &paths, &options)?;
         let blocks = Blocks::new(paths.iter().map(Path::extent).collect());
         let spans = Span::ALL.into_iter().filter_map(|span| {

@@ -36,7 +36,7 @@ pub(crate) fn covered(run: &Run, tau: f64) -> Range<usize> {
 /// pₖ₊₁ = pₖ exp(twist Δt), one factor for each time over which the track speeds are held.
 ///
 /// # Assumes
-/// A reading holds until the next one ([`hold`]).
+/// A reading holds until the next one ([`hold`]), also over a gap: a run is continuous.
 ///
 /// # Errors
 /// [`Error::NotCovered`].

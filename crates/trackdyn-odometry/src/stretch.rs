@@ -95,7 +95,7 @@ impl Stretch {
     }
 }
 
-/// The segments of some runs of a recording, in order.
+/// The segments of some runs of a recording, in order; `runs` are ascending indices.
 pub fn of_segments(
     recording: &Recording,
     runs: &[usize],
@@ -103,7 +103,7 @@ pub fn of_segments(
 ) -> Vec<Stretch> {
     segments(recording, options)
         .iter()
-        .filter(|segment| runs.contains(&segment.run))
+        .filter(|segment| runs.binary_search(&segment.run).is_ok())
         .map(|segment| Stretch::of_segment(segment, recording, options.tau))
         .collect()
 }

@@ -53,8 +53,8 @@ impl SpanErrors {
         let residuals: Vec<Vec<Residual>> = (0..sets)
             .map(|set| {
                 let residual = |stretch: &Stretch| {
-                    let path = paths.iter().find(|path| path.index == stretch.run)?;
-                    Some(Residual::of_stretch(stretch, &path.trajectories[set]))
+                    let place = paths.binary_search_by_key(&stretch.run, |path| path.index).ok()?;
+                    Some(Residual::of_stretch(stretch, &paths[place].trajectories[set]))
                 };
                 // A stretch lies in a run that was replayed.
                 stretches.iter().filter_map(residual).collect()

@@ -38,7 +38,7 @@ mod tests {
     #[test]
     fn a_moved_path_is_moved_back() {
         let reference: Vec<Pose> =
-            (0..9).map(|k| f64::from(k)).map(|k| Pose::new(k, 0.3 * k * k, 0.1 * k)).collect();
+            (0..9).map(f64::from).map(|k| Pose::new(k, 0.3 * k * k, 0.1 * k)).collect();
         let moved = Pose::new(3.0, -7.0, 2.5);
         let estimate: Vec<Pose> = reference.iter().map(|pose| moved.compose(pose)).collect();
         let back = align(&reference, &estimate).compose(&moved);

@@ -4,7 +4,7 @@ use super::look;
 use crate::canvas::{Area, Canvas};
 use crate::colour::INK;
 use crate::text::{Horizontal, Style, Vertical};
-use trackdyn_odometry::Comparison;
+use trackdyn_odometry::{Comparison, ParameterSet};
 
 const SIZE: f32 = 26.0;
 /// Length of a sample of a line, pixels.
@@ -19,7 +19,7 @@ const LONGEST: i32 = 420;
 /// Draws an entry for the recorded path and one for each set, in one or two lines.
 pub(super) fn draw(canvas: &mut Canvas, area: Area, result: &Comparison) {
     let mut at = [area.left, area.top + LINE / 2];
-    let names = std::iter::once("recorded").chain(result.sets.iter().map(|set| set.name()));
+    let names = std::iter::once("recorded").chain(result.sets.iter().map(ParameterSet::name));
     for (entry, name) in names.enumerate() {
         let name = canvas.fitted(name, SIZE, LONGEST);
         let width = SAMPLE + GAPS[0] + canvas.text_width(&name, SIZE);

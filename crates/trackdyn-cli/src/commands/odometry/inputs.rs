@@ -6,6 +6,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_core::output::fingerprint;
+use trackdyn_motion::Kinematics;
 use trackdyn_motion::kinematics::KinematicsFile;
 use trackdyn_odometry::ParameterSet;
 use trackdyn_recording::clock::{ClockSearch, clock_offset};
@@ -71,11 +72,16 @@ impl ParameterFile {
     fn read(path: &Path, name: &str) -> Result<Self, Box<dyn Error>> {
         let document = Document::read(path)?;
         let file = KinematicsFile::from_document(&document)?;
-        Ok(Self {
-            path: path.to_owned(),
-            fingerprint: fingerprint(document.text().as_bytes()),
-            set: ParameterSet::of_file(name, &file),
-        })
+        let set = ParameterSet::of_file(name, &file);
+        let Kinematics { icrs, alpha } = set.kinematics();
+        let numbers =
+            [("y_icr_m", icrs.y), ("alpha_left", alpha.left), ("alpha_right", alpha.right)];
+        if let Some((key, value)) = numbers.into_iter().find(|(_, value)| !value.is_finite()) {
+            let name = document.name();
+            return Err(format!("{name}: {key} = {value}: expected a finite number").into());
+        }
+        let fingerprint = fingerprint(document.text().as_bytes());
+        Ok(Self { path: path.to_owned(), fingerprint, set })
     }
 }
 

@@ -139,6 +139,8 @@ fn same_bytes_on_any_number_of_threads() {
 fn mistakes_are_named_and_nothing_is_written() {
     let place = workplace(&synthetic());
     std::fs::create_dir(place.path().join("empty")).expect("created");
+    let fit = String::from_utf8(place.read("fit.toml")).expect("text");
+    place.write("nan.toml", &fit.replace("alpha_left = 0.97", "alpha_left = nan"));
     let before = place.files();
     for (arguments, part) in [
         ("odometry recording", "--vehicle"),
@@ -148,6 +150,10 @@ fn mistakes_are_named_and_nothing_is_written() {
         (
             "odometry recording --vehicle robot.toml --kinematics robot.toml",
             "robot.toml:7:1: unknown field `cog_m`",
+        ),
+        (
+            "odometry recording --vehicle robot.toml --kinematics nan.toml",
+            "nan.toml: alpha_left = NaN: expected at most 1000 in size",
         ),
         (
             "odometry recording --vehicle robot.toml --runs 1,7",

@@ -68,17 +68,27 @@ impl Inputs {
     }
 }
 
+/// Largest coordinate of an ICR, m, and largest alpha, 1, that a replay takes for meant.
+const LARGEST: f64 = 1e3;
+
 impl ParameterFile {
     fn read(path: &Path, name: &str) -> Result<Self, Box<dyn Error>> {
         let document = Document::read(path)?;
         let file = KinematicsFile::from_document(&document)?;
         let set = ParameterSet::of_file(name, &file);
         let Kinematics { icrs, alpha } = set.kinematics();
-        let numbers =
-            [("y_icr_m", icrs.y), ("alpha_left", alpha.left), ("alpha_right", alpha.right)];
-        if let Some((key, value)) = numbers.into_iter().find(|(_, value)| !value.is_finite()) {
+        let numbers = [
+            ("x_icr_left_m", icrs.x_left),
+            ("x_icr_right_m", icrs.x_right),
+            ("y_icr_m", icrs.y),
+            ("alpha_left", alpha.left),
+            ("alpha_right", alpha.right),
+        ];
+        let meant = |value: f64| value.is_finite() && value.abs() <= LARGEST;
+        if let Some((key, value)) = numbers.into_iter().find(|(_, value)| !meant(*value)) {
             let name = document.name();
-            return Err(format!("{name}: {key} = {value}: expected a finite number").into());
+            let message = format!("{name}: {key} = {value}: expected at most {LARGEST} in size");
+            return Err(message.into());
         }
         let fingerprint = fingerprint(document.text().as_bytes());
         Ok(Self { path: path.to_owned(), fingerprint, set })

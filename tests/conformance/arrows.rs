@@ -3,11 +3,12 @@
 use std::path::Path;
 
 /// Which crates of the project each crate may use.
-const ALLOWED: [(&str, &[&str]); 7] = [
+const ALLOWED: [(&str, &[&str]); 8] = [
     ("trackdyn-core", &[]),
     ("trackdyn-physics", &["trackdyn-core"]),
     ("trackdyn-recording", &["trackdyn-core"]),
     ("trackdyn-motion", &["trackdyn-core", "trackdyn-physics"]),
+    ("trackdyn-identify", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
     ("trackdyn-report", &["trackdyn-core", "trackdyn-physics", "trackdyn-motion"]),
     ("trackdyn-export", &["trackdyn-core", "trackdyn-motion"]),
     (
@@ -18,6 +19,8 @@ const ALLOWED: [(&str, &[&str]); 7] = [
             "trackdyn-motion",
             "trackdyn-report",
             "trackdyn-export",
+            "trackdyn-recording",
+            "trackdyn-identify",
         ],
     ),
 ];

@@ -1,0 +1,135 @@
+//! What a recording cannot identify.
+
+use crate::least_squares::Estimate;
+use crate::observations::Observations;
+use crate::parameters::{Free, Parameters};
+use faer::Mat;
+use nalgebra::{DMatrix, Matrix2, Vector2};
+use trackdyn_core::Side;
+use trackdyn_recording::noise::Noise;
+
+/// Ratio of singular values below which a direction is lost in rounding.
+const LOST: f64 = 1e-13;
+
+/// Standard deviation of an ICR, in gauges, beyond which it is not a number to drive with.
+const ICR_LIMIT: f64 = 0.25;
+
+/// Standard deviation of α beyond which it is not a number to drive with.
+const ALPHA_LIMIT: f64 = 0.1;
+
+/// Variance of the driving over that of the encoders' noise, at least: below, noise passes for driving and
+/// pulls the estimate by a tenth or more.
+const EXCITATION: f64 = 10.0;
+
+/// Why a recording does not determine a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// The interval is too wide to drive with.
+    Wide {
+        /// Index in [`Parameters::NAMES`].
+        parameter: usize,
+        /// Standard deviation, m or 1.
+        deviation: f64,
+        /// The largest that would do.
+        limit: f64,
+    },
+    /// The tracks run alike: the robot hardly turns, and no ICR shows.
+    NoTurning,
+    /// The tracks run at one ratio of speeds, as in a spin or on one arc: ICRs and α cannot be told apart.
+    OneRatio,
+}
+
+impl std::fmt::Display for Doubt {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match *self {
+            Self::Wide { parameter, deviation, limit } => {
+                let name = Parameters::NAMES[parameter];
+                let unit = if parameter < 3 { " m" } else { "" };
+                write!(
+                    f,
+                    "{name} is open by {deviation:.2}{unit} (one standard deviation; {limit:.2}{unit} \
+                     would do): drive more turns of different kinds"
+                )
+            }
+            Self::NoTurning => f.write_str(
+                "the tracks run alike all the time, so no ICR shows: drive turns, both ways",
+            ),
+            Self::OneRatio => f.write_str(
+                "the tracks run at one ratio of speeds all the time, so ICRs and alphas cannot be told \
+                 apart: drive straight as well as turns, or fit without alphas",
+            ),
+        }
+    }
+}
+
+/// Why the recording of an estimate does not determine its parameters, for a vehicle with this gauge (m);
+/// empty where it does. `noise` is that of the recording.
+pub fn doubts(
+    estimate: &Estimate,
+    observations: &Observations,
+    noise: &Noise,
+    gauge: f64,
+) -> Vec<Doubt> {
+    let mut doubts = Vec::new();
+    match (poorest_excitation(observations, noise, estimate.free), estimate.free) {
+        (Some(ratio), Free::Icrs) if ratio < EXCITATION => doubts.push(Doubt::NoTurning),
+        (Some(ratio), Free::IcrsAndAlphas) if ratio < EXCITATION => doubts.push(Doubt::OneRatio),
+        _ => {}
+    }
+    let deviations = estimate.deviations();
+    doubts.extend((0..estimate.free.count()).filter_map(|parameter| {
+        let limit = if parameter < 3 { ICR_LIMIT * gauge } else { ALPHA_LIMIT };
+        let deviation = deviations[parameter];
+        let wide = deviation.is_nan() || deviation > limit;
+        wide.then_some(Doubt::Wide { parameter, deviation, limit })
+    }));
+    doubts
+}
+
+/// Variance of the driving over that of the encoders' noise: of V_r − V_l for the ICRs alone; with α, in the
+/// direction of the (V_l, V_r) plane in which the recording drives least. None without encoder noise.
+fn poorest_excitation(observations: &Observations, noise: &Noise, free: Free) -> Option<f64> {
+    let encoder = |side: Side| {
+        noise.encoders[side].map(|noise| noise.deviation.powi(2) * noise.update_interval)
+    };
+    let per_second = f64::midpoint(encoder(Side::Left)?, encoder(Side::Right)?);
+    let mut moments = Matrix2::zeros();
+    let mut variance = 0.0;
+    for segment in observations.segments() {
+        let travelled = observations.travelled(segment);
+        let speed = Vector2::new(travelled.left, travelled.right) / segment.duration;
+        moments += speed * speed.transpose();
+        // The mean of T/u readings of variance σ²
+        variance += per_second / segment.duration;
+    }
+    let least = match free {
+        Free::Icrs => {
+            let across = Vector2::new(-1.0, 1.0).normalize();
+            across.dot(&(moments * across))
+        }
+        Free::IcrsAndAlphas => moments.symmetric_eigenvalues().min(),
+    };
+    (variance > 0.0).then_some(least / variance - 1.0)
+}
+
+/// The inverse of a normal matrix, by its singular values; directions that are lost get a variance that
+/// says so.
+pub(super) fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let count = matrix.nrows();
+    // Parameters differ in unit and size: the diagonal is scaled to 1 first.
+    let scale: Vec<f64> =
+        (0..count).map(|k| matrix[(k, k)].max(f64::MIN_POSITIVE).sqrt().recip()).collect();
+    let scaled = Mat::from_fn(count, count, |i, k| matrix[(i, k)] * scale[i] * scale[k]);
+    let Ok(decomposition) = scaled.self_adjoint_eigen(faer::Side::Lower) else {
+        return DMatrix::from_element(count, count, f64::NAN);
+    };
+    let (values, vectors) = (decomposition.S(), decomposition.U());
+    let largest = (0..count).map(|k| values[k]).fold(0.0, f64::max);
+    DMatrix::from_fn(count, count, |i, k| {
+        let sum: f64 = (0..count)
+            .map(|m| vectors[(i, m)] * vectors[(k, m)] / values[m].max(LOST * largest))
+            .sum();
+        sum * scale[i] * scale[k]
+    })
+}

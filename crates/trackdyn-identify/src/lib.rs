@@ -1,0 +1,25 @@
+//! Which numbers: the kinematic parameters of a tracked robot from its recordings.
+//!
+//! - [`observations`]: what a recording shows, segment by segment.
+//! - [`prediction`]: what a kinematic model makes of the same track speeds, with its derivatives.
+//! - [`weighting`]: how much a residual counts: the cost (17), or the noise that was measured.
+//! - [`spin_test`], [`genetic`], [`least_squares`]: three ways to the parameters.
+//!
+//! Residual = observed − predicted, in the frame of the segment's first pose (REP-103).
+
+pub mod error;
+pub mod genetic;
+pub mod least_squares;
+pub mod observations;
+pub mod parameters;
+pub mod prediction;
+pub mod spin_test;
+pub mod weighting;
+
+pub use error::Error;
+pub use genetic::{GeneticOptions, genetic};
+pub use least_squares::{Estimate, least_squares};
+pub use observations::Observations;
+pub use parameters::{Free, Parameters};
+pub use spin_test::{SpinTest, spin_test};
+pub use weighting::Weighting;

@@ -3,10 +3,8 @@
 use crate::{GAUGE, TRUTH, drive, fit, observe, record, start};
 use trackdyn_core::PerSide;
 use trackdyn_identify::genetic::GeneticOptions;
-use trackdyn_identify::least_squares::{Doubt, Loss, doubts};
-use trackdyn_identify::{
-    Error, Estimate, Free, Parameters, Weighting, genetic, least_squares, spin_test,
-};
+use trackdyn_identify::least_squares::{Doubt, Loss, doubts, lacks};
+use trackdyn_identify::{Error, Free, Parameters, Weighting, genetic, least_squares, spin_test};
 use trackdyn_recording::Recording;
 use trackdyn_recording::noise::noise;
 use trackdyn_recording::synthetic::Stretch;
@@ -25,7 +23,8 @@ fn least_squares_finds_the_truth_within_its_interval() {
     }
     // Noise was measured without the model, so this is a check and not a result.
     assert!((0.7..1.4).contains(&estimate.whitened_rms), "{}", estimate.whitened_rms);
-    assert_eq!(doubted(&drive(1), &estimate), []);
+    assert_eq!(doubts(&estimate, GAUGE), []);
+    assert_eq!(lacking(&drive(1), Free::IcrsAndAlphas), None);
 }
 
 #[test]
@@ -77,24 +76,32 @@ fn spin_test_measures_the_distance_between_the_icrs() {
     assert!(matches!(refused, Err(Error::NoSpin { .. })), "{refused:?}");
 }
 
-fn doubted(recording: &Recording, estimate: &Estimate) -> Vec<Doubt> {
-    doubts(estimate, &observe(recording), &noise(recording, 0.0), GAUGE)
+fn lacking(recording: &Recording, free: Free) -> Option<Doubt> {
+    lacks(&observe(recording), &noise(recording, 0.0), free)
 }
 
 #[test]
 fn straight_driving_shows_no_icr() {
     let straight = record(vec![vec![stretch(60.0, 0.5, 0.5)], vec![stretch(60.0, -0.4, -0.4)]], 6);
-    let estimate = fit(&straight, Free::Icrs).expect("settles");
-    assert!(doubted(&straight, &estimate).contains(&Doubt::NoTurning));
+    assert_eq!(lacking(&straight, Free::Icrs), Some(Doubt::NoTurning));
 }
 
 #[test]
 fn a_spin_shows_the_icrs_but_not_beside_alphas() {
     let spin = record(vec![vec![stretch(60.0, -0.5, 0.5)]], 7);
-    let estimate = fit(&spin, Free::IcrsAndAlphas).expect("settles");
-    assert!(doubted(&spin, &estimate).contains(&Doubt::OneRatio));
+    assert_eq!(lacking(&spin, Free::IcrsAndAlphas), Some(Doubt::OneRatio));
+    assert_eq!(lacking(&spin, Free::Icrs), None);
     let estimate = fit(&spin, Free::Icrs).expect("settles");
-    assert_eq!(doubted(&spin, &estimate), []);
+    assert_eq!(doubts(&estimate, GAUGE), []);
+}
+
+#[test]
+fn few_turns_leave_wide_intervals() {
+    // One short turn in a long straight run, and noise.
+    let run = vec![stretch(6.0, 0.5, 0.5), stretch(0.3, 0.45, 0.55), stretch(6.0, 0.5, 0.5)];
+    let estimate = fit(&record(vec![run], 9), Free::Icrs).expect("settles");
+    let doubts = doubts(&estimate, GAUGE);
+    assert!(matches!(doubts[..], [Doubt::Wide { .. }, ..]), "{doubts:?}");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! Why parameters cannot be given.
 
+use crate::least_squares::Doubt;
+
 /// A recording that does not determine what was asked of it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -16,7 +18,7 @@ pub enum Error {
     },
     /// No turning on the spot.
     #[error(
-        "no spin: expected tracks running against each other for at least {needed_rad} rad in all, found {found_rad:.2} rad"
+        "no spin: expected tracks running against each other for at least {needed_rad:.1} rad in all, found {found_rad:.2} rad"
     )]
     NoSpin {
         /// Yaw in segments that spin, rad.
@@ -24,6 +26,9 @@ pub enum Error {
         /// Yaw that is needed, rad.
         needed_rad: f64,
     },
+    /// The driving does not show the parameters.
+    #[error("not determined by this recording: {0}")]
+    NotDetermined(Doubt),
     /// The iteration did not settle.
     #[error("least squares did not settle after {iterations} iterations (last step {step:.1e})")]
     NotConverged {

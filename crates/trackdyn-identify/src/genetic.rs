@@ -1,11 +1,15 @@
 //! The genetic algorithm of sec. 4.2: bit strings, cost (17).
 
+mod cost;
+
+pub use cost::Cost;
+
 use crate::observations::Observations;
 use crate::parameters::{COUNT, Free, Parameters};
-use crate::prediction::motion;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 /// Bits per parameter: 4096 steps of its range.
 const BITS: u32 = 12;
@@ -56,20 +60,6 @@ fn ranges(gauge: f64) -> [[f64; 2]; COUNT] {
     [[-icr, -gauge / 4.0], [gauge / 4.0, icr], [-gauge, gauge], alpha, alpha]
 }
 
-/// Cost (17): the squared distance between observed and predicted positions, with yaw errors turned into
-/// distances by `lever` (m), summed over the segments, m².
-pub fn cost(observations: &Observations, parameters: &Parameters, lever: f64) -> f64 {
-    observations
-        .segments()
-        .iter()
-        .map(|segment| {
-            let predicted = motion(parameters, observations.pieces(segment));
-            let [x, y, yaw] = [0, 1, 2].map(|k| segment.motion[k] - predicted[k]);
-            x * x + y * y + (lever * yaw).powi(2)
-        })
-        .sum()
-}
-
 /// Evolves the parameters. `progress` is told each finished generation.
 ///
 /// The same seed gives the same result on any number of threads: only costs are computed in parallel.
@@ -85,11 +75,17 @@ pub fn genetic(
     let count = free.count();
     let bits = BITS * count_bits(count);
     let decode = |chromosome: u64| decode(chromosome, count, &ranges);
-    let evaluate = |chromosomes: Vec<u64>| -> Vec<(f64, u64)> {
-        let mut ranked: Vec<(f64, u64)> = chromosomes
-            .into_par_iter()
-            .map(|chromosome| (cost(observations, &decode(chromosome), lever), chromosome))
-            .collect();
+    let cost = Cost::new(observations, lever);
+    // A population that converges meets the same strings again and again.
+    let mut known: HashMap<u64, f64> = HashMap::new();
+    let mut evaluate = |chromosomes: Vec<u64>| -> Vec<(f64, u64)> {
+        let mut new: Vec<u64> =
+            chromosomes.iter().copied().filter(|c| !known.contains_key(c)).collect();
+        new.sort_unstable();
+        new.dedup();
+        known.par_extend(new.into_par_iter().map(|c| (c, cost.at(&decode(c)))));
+        let mut ranked: Vec<(f64, u64)> =
+            chromosomes.into_iter().map(|chromosome| (known[&chromosome], chromosome)).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         ranked
     };

@@ -4,11 +4,13 @@
 //! - [`prediction`]: what a kinematic model makes of the same track speeds, with its derivatives.
 //! - [`weighting`]: how much a residual counts: the cost (17), or the noise that was measured.
 //! - [`spin_test`], [`genetic`], [`least_squares`]: three ways to the parameters.
+//! - [`identification`]: all of them on one recording.
 //!
 //! Residual = observed − predicted, in the frame of the segment's first pose (REP-103).
 
 pub mod error;
 pub mod genetic;
+pub mod identification;
 pub mod least_squares;
 pub mod observations;
 pub mod parameters;
@@ -18,6 +20,7 @@ pub mod weighting;
 
 pub use error::Error;
 pub use genetic::{GeneticOptions, genetic};
+pub use identification::{Identification, identify};
 pub use least_squares::{Estimate, least_squares};
 pub use observations::Observations;
 pub use parameters::{Free, Parameters};

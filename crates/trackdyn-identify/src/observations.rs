@@ -1,8 +1,11 @@
 //! What a recording shows, segment by segment.
 
 use trackdyn_core::PerSide;
-use trackdyn_recording::hold::held;
-use trackdyn_recording::{Recording, Segment, SegmentOptions, segments};
+use trackdyn_recording::hold::{held, travelled};
+use trackdyn_recording::{Recording, Run, Segment, SegmentOptions, segments};
+
+/// Change of a track speed over the faster one's up to which driving is steady.
+const STEADY: f64 = 0.1;
 
 /// Observed motions and the track speeds that go with them, in flat arrays.
 #[derive(Clone, Debug)]
@@ -43,9 +46,49 @@ pub struct Observation {
 impl Observations {
     /// The segments of a recording.
     pub fn new(recording: &Recording, options: &SegmentOptions) -> Self {
+        Self::of(recording, options, |_, _| true)
+    }
+
+    /// The segments of a recording over which, and for `settle` seconds before, neither track changes its
+    /// speed by more than a tenth of the faster one's.
+    ///
+    /// In between the drivetrain and the slip settle, which is not what constant ICRs describe.
+    pub fn steady(recording: &Recording, options: &SegmentOptions, settle: f64) -> Self {
+        Self::of(recording, options, |run, segment| {
+            let start = segment.start - settle;
+            let third = (segment.end - start) / 3.0;
+            if run.tracks().first().is_none_or(|first| first.t > start - options.tau) {
+                return false;
+            }
+            let means = [0.0, 1.0, 2.0].map(|k| {
+                let from = start + k * third;
+                travelled(run.tracks(), from, from + third, options.tau).map(|d| d / third)
+            });
+            let fastest = means.iter().map(|m| m.left.abs().max(m.right.abs())).fold(0.0, f64::max);
+            [|m: &PerSide<f64>| m.left, |m: &PerSide<f64>| m.right].iter().all(|side| {
+                let values = means.map(|mean| side(&mean));
+                let (low, high) = values
+                    .iter()
+                    .fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
+                high - low <= STEADY * fastest
+            })
+        })
+    }
+
+    fn of(
+        recording: &Recording,
+        options: &SegmentOptions,
+        keep: impl Fn(&Run, &Segment) -> bool,
+    ) -> Self {
         let mut observations = Self { segments: Vec::new(), pieces: Vec::new() };
-        for segment in segments(recording, options) {
-            observations.push(recording, &segment, options.tau);
+        let mut previous_kept = false;
+        for mut segment in segments(recording, options) {
+            // A segment that is left out shares no pose with the one after it.
+            segment.follows &= previous_kept;
+            previous_kept = keep(&recording.runs()[segment.run], &segment);
+            if previous_kept {
+                observations.push(recording, &segment, options.tau);
+            }
         }
         observations
     }

@@ -63,28 +63,27 @@ impl std::fmt::Display for Doubt {
     }
 }
 
-/// Why the recording of an estimate does not determine its parameters, for a vehicle with this gauge (m);
-/// empty where it does. `noise` is that of the recording.
-pub fn doubts(
-    estimate: &Estimate,
-    observations: &Observations,
-    noise: &Noise,
-    gauge: f64,
-) -> Vec<Doubt> {
-    let mut doubts = Vec::new();
-    match (poorest_excitation(observations, noise, estimate.free), estimate.free) {
-        (Some(ratio), Free::Icrs) if ratio < EXCITATION => doubts.push(Doubt::NoTurning),
-        (Some(ratio), Free::IcrsAndAlphas) if ratio < EXCITATION => doubts.push(Doubt::OneRatio),
-        _ => {}
-    }
+/// What the driving of a recording lacks for these parameters; none where it does. `noise` is that of the
+/// recording.
+pub fn lacks(observations: &Observations, noise: &Noise, free: Free) -> Option<Doubt> {
+    let ratio = poorest_excitation(observations, noise, free)?;
+    (ratio < EXCITATION).then_some(match free {
+        Free::Icrs => Doubt::NoTurning,
+        Free::IcrsAndAlphas => Doubt::OneRatio,
+    })
+}
+
+/// The parameters of an estimate that are too uncertain for a vehicle with this gauge, m.
+pub fn doubts(estimate: &Estimate, gauge: f64) -> Vec<Doubt> {
     let deviations = estimate.deviations();
-    doubts.extend((0..estimate.free.count()).filter_map(|parameter| {
-        let limit = if parameter < 3 { ICR_LIMIT * gauge } else { ALPHA_LIMIT };
-        let deviation = deviations[parameter];
-        let wide = deviation.is_nan() || deviation > limit;
-        wide.then_some(Doubt::Wide { parameter, deviation, limit })
-    }));
-    doubts
+    (0..estimate.free.count())
+        .filter_map(|parameter| {
+            let limit = if parameter < 3 { ICR_LIMIT * gauge } else { ALPHA_LIMIT };
+            let deviation = deviations[parameter];
+            let wide = deviation.is_nan() || deviation > limit;
+            wide.then_some(Doubt::Wide { parameter, deviation, limit })
+        })
+        .collect()
 }
 
 /// Variance of the driving over that of the encoders' noise: of V_r − V_l for the ICRs alone; with α, in the

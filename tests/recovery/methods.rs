@@ -3,8 +3,10 @@
 use crate::{GAUGE, TRUTH, drive, fit, observe, record, start};
 use trackdyn_core::PerSide;
 use trackdyn_identify::genetic::GeneticOptions;
-use trackdyn_identify::least_squares::{Doubt, Loss, doubts, lacks};
-use trackdyn_identify::{Error, Free, Parameters, Weighting, genetic, least_squares, spin_test};
+use trackdyn_identify::least_squares::{Loss, doubts, lacks};
+use trackdyn_identify::{
+    Doubt, Error, Free, Parameters, Weighting, genetic, least_squares, spin_test,
+};
 use trackdyn_recording::Recording;
 use trackdyn_recording::noise::noise;
 use trackdyn_recording::synthetic::Stretch;

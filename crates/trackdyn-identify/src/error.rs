@@ -1,6 +1,6 @@
 //! Why parameters cannot be given.
 
-use crate::least_squares::Doubt;
+use crate::doubt::Doubt;
 
 /// A recording that does not determine what was asked of it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,8 +1,9 @@
 //! All that a recording says of the kinematic parameters: the methods side by side.
 
+use crate::doubt::Doubt;
 use crate::error::Error;
 use crate::genetic::{GeneticEstimate, GeneticOptions, genetic};
-use crate::least_squares::{Doubt, Estimate, Loss, doubts, lacks, least_squares};
+use crate::least_squares::{Estimate, Loss, doubts, lacks, least_squares};
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
 use crate::spin_test::{SpinTest, spin_test};

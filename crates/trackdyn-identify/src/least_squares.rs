@@ -4,7 +4,7 @@ mod covariance;
 mod identifiability;
 
 pub use covariance::{Blocks, Interval};
-pub use identifiability::{Doubt, doubts, lacks};
+pub use identifiability::{doubts, lacks};
 
 use crate::error::Error;
 use crate::observations::Observations;

@@ -8,6 +8,7 @@
 //!
 //! Residual = observed − predicted, in the frame of the segment's first pose (REP-103).
 
+pub mod doubt;
 pub mod error;
 pub mod genetic;
 pub mod identification;
@@ -18,6 +19,7 @@ pub mod prediction;
 pub mod spin_test;
 pub mod weighting;
 
+pub use doubt::Doubt;
 pub use error::Error;
 pub use genetic::{GeneticOptions, genetic};
 pub use identification::{Identification, identify};

@@ -1,14 +1,15 @@
 //! What a recording cannot identify.
 
+use crate::doubt::Doubt;
 use crate::least_squares::Estimate;
 use crate::observations::Observations;
-use crate::parameters::{Free, Parameters};
+use crate::parameters::Free;
 use faer::Mat;
 use nalgebra::{DMatrix, Matrix2, Vector2};
 use trackdyn_core::Side;
 use trackdyn_recording::noise::Noise;
 
-/// Ratio of singular values below which a direction is lost in rounding.
+/// Ratio of eigenvalues below which a direction is lost in rounding.
 const LOST: f64 = 1e-13;
 
 /// Standard deviation of an ICR, in gauges, beyond which it is not a number to drive with.
@@ -20,48 +21,6 @@ const ALPHA_LIMIT: f64 = 0.1;
 /// Variance of the driving over that of the encoders' noise, at least: below, noise passes for driving and
 /// pulls the estimate by a tenth or more.
 const EXCITATION: f64 = 10.0;
-
-/// Why a recording does not determine a parameter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Doubt {
-    /// The interval is too wide to drive with.
-    Wide {
-        /// Index in [`Parameters::NAMES`].
-        parameter: usize,
-        /// Standard deviation, m or 1.
-        deviation: f64,
-        /// The largest that would do.
-        limit: f64,
-    },
-    /// The tracks run alike: the robot hardly turns, and no ICR shows.
-    NoTurning,
-    /// The tracks run at one ratio of speeds, as in a spin or on one arc: ICRs and α cannot be told apart.
-    OneRatio,
-}
-
-impl std::fmt::Display for Doubt {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match *self {
-            Self::Wide { parameter, deviation, limit } => {
-                let name = Parameters::NAMES[parameter];
-                let unit = if parameter < 3 { " m" } else { "" };
-                write!(
-                    f,
-                    "{name} is open by {deviation:.2}{unit} (one standard deviation; {limit:.2}{unit} \
-                     would do): drive more turns of different kinds"
-                )
-            }
-            Self::NoTurning => f.write_str(
-                "the tracks run alike all the time, so no ICR shows: drive turns, both ways",
-            ),
-            Self::OneRatio => f.write_str(
-                "the tracks run at one ratio of speeds all the time, so ICRs and alphas cannot be told \
-                 apart: drive straight as well as turns, or fit without alphas",
-            ),
-        }
-    }
-}
 
 /// What the driving of a recording lacks for these parameters; none where it does. `noise` is that of the
 /// recording.
@@ -112,7 +71,7 @@ fn poorest_excitation(observations: &Observations, noise: &Noise, free: Free) ->
     (variance > 0.0).then_some(least / variance - 1.0)
 }
 
-/// The inverse of a normal matrix, by its singular values; directions that are lost get a variance that
+/// The inverse of a normal matrix, by its eigenvalues; directions that are lost get a variance that
 /// says so.
 pub(super) fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let count = matrix.nrows();

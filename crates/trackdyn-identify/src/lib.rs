@@ -3,7 +3,7 @@
 //! - [`observations`]: what a recording shows, segment by segment.
 //! - [`prediction`]: what a kinematic model makes of the same track speeds, with its derivatives.
 //! - [`weighting`]: how much a residual counts: the cost (17), or the noise that was measured.
-//! - [`spin_test`], [`genetic`], [`least_squares`]: three ways to the parameters.
+//! - [`mod@spin_test`], [`mod@genetic`], [`mod@least_squares`]: three ways to the parameters.
 //! - [`identification`]: all of them on one recording.
 //!
 //! Residual = observed − predicted, in the frame of the segment's first pose (REP-103).

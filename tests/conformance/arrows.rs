@@ -3,11 +3,12 @@
 use std::path::Path;
 
 /// Which crates of the project each crate may use.
-const ALLOWED: [(&str, &[&str]); 8] = [
+const ALLOWED: [(&str, &[&str]); 9] = [
     ("trackdyn-core", &[]),
     ("trackdyn-physics", &["trackdyn-core"]),
     ("trackdyn-recording", &["trackdyn-core"]),
     ("trackdyn-motion", &["trackdyn-core", "trackdyn-physics"]),
+    ("trackdyn-identify", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
     ("trackdyn-odometry", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
     (
         "trackdyn-report",
@@ -21,6 +22,7 @@ const ALLOWED: [(&str, &[&str]); 8] = [
             "trackdyn-physics",
             "trackdyn-motion",
             "trackdyn-recording",
+            "trackdyn-identify",
             "trackdyn-odometry",
             "trackdyn-report",
             "trackdyn-export",

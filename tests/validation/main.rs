@@ -1,6 +1,7 @@
 //! Published results and reference figures, one file each.
 
 mod centripetal_cloud;
+mod identified_distances;
 mod martinez_2005_asymmetric;
 mod martinez_2005_symmetric;
 

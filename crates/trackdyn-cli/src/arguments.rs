@@ -5,6 +5,8 @@ use clap::{Args, Parser, Subcommand};
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_physics::{ActiveEffect, Circumstance, Model, VehicleFile};
+use trackdyn_recording::Recording;
+use trackdyn_recording::rosbag::RosbagOptions;
 
 /// Kinematics of tracked and skid-steer robots: simulate the ICRs of the tracks, check them, use them.
 #[derive(Parser)]
@@ -30,6 +32,10 @@ pub enum Command {
     Export(commands::export::Options),
     /// List the effects that a vehicle file or --effect can switch on
     Effects(commands::effects::Options),
+    /// List what a recording holds, and the options with which it is read
+    Inspect(commands::inspect::Options),
+    /// Identify the kinematic parameters from a recording: spin test, genetic algorithm, least squares
+    Identify(commands::identify::Options),
     /// Print completions for a shell
     Completions(commands::completions::Options),
     /// Print the manual page
@@ -80,6 +86,61 @@ impl ModelOptions {
     }
 }
 
+/// A recording, and how it is read.
+#[derive(Args)]
+pub struct RecordingOptions {
+    /// Folder with recording.toml, or rosbag2 (.mcap, .db3 or the folder around them)
+    pub recording: PathBuf,
+    /// Bag: topic of the joint states
+    #[arg(long, value_name = "TOPIC")]
+    tracks_topic: Option<String>,
+    /// Bag: joint on the left, with `-` before it where it runs backwards; repeatable
+    #[arg(long, value_name = "JOINT", allow_hyphen_values = true)]
+    left_joint: Vec<String>,
+    /// Bag: joint on the right, in the same way
+    #[arg(long, value_name = "JOINT", allow_hyphen_values = true)]
+    right_joint: Vec<String>,
+    /// Bag: belt travel in m per radian of the joints
+    #[arg(long, value_name = "M", value_parser = finite, allow_negative_numbers = true)]
+    wheel_radius: Option<f64>,
+    /// Bag: topic of the poses
+    #[arg(long, value_name = "TOPIC")]
+    pose_topic: Option<String>,
+    /// Bag: frame that the poses are expressed in
+    #[arg(long, value_name = "FRAME")]
+    parent_frame: Option<String>,
+    /// Bag: frame whose poses they are
+    #[arg(long, value_name = "FRAME")]
+    child_frame: Option<String>,
+}
+
+impl RecordingOptions {
+    /// Reads the recording; what was cleaned or left out goes to stderr.
+    ///
+    /// # Errors
+    /// Those of [`trackdyn_recording::read`].
+    pub fn read(&self) -> Result<Recording, trackdyn_recording::Error> {
+        let recording = trackdyn_recording::read(&self.recording, &self.rosbag())?;
+        for warning in recording.warnings() {
+            eprintln!("note: {warning}");
+        }
+        Ok(recording)
+    }
+
+    fn rosbag(&self) -> RosbagOptions {
+        RosbagOptions {
+            tracks_topic: self.tracks_topic.clone(),
+            left_joints: self.left_joint.clone(),
+            right_joints: self.right_joint.clone(),
+            wheel_radius: self.wheel_radius,
+            pose_topic: self.pose_topic.clone(),
+            parent_frame: self.parent_frame.clone(),
+            child_frame: self.child_frame.clone(),
+            ..RosbagOptions::default()
+        }
+    }
+}
+
 /// Reads a vehicle file.
 ///
 /// # Errors
@@ -111,7 +172,11 @@ pub fn pair(text: &str) -> Result<[f64; 2], String> {
     Ok([number(first)?, number(second)?])
 }
 
-fn finite(text: &str) -> Result<f64, String> {
+/// A finite number.
+///
+/// # Errors
+/// What was expected.
+pub fn finite(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         _ => Err("expected a finite number".to_owned()),

@@ -4,6 +4,8 @@ pub mod check;
 pub mod completions;
 pub mod effects;
 pub mod export;
+pub mod identify;
+pub mod inspect;
 pub mod kinematics;
 pub mod man;
 pub mod map;
@@ -25,6 +27,8 @@ pub fn run(command: &Command) -> Outcome {
         Command::Check(options) => check::run(options),
         Command::Export(options) => export::run(options),
         Command::Effects(options) => effects::run(options),
+        Command::Inspect(options) => inspect::run(options),
+        Command::Identify(options) => identify::run(options),
         Command::Completions(options) => completions::run(options),
         Command::Man => man::run(),
     }

@@ -23,6 +23,9 @@ pub struct Source {
     pub vehicle: String,
     /// Fingerprint of the vehicle file with its effects, or of the recording.
     pub fingerprint: String,
+    /// Name of the recording, where the numbers come from one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recording: Option<String>,
     /// Speeds per track and largest speed, m/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridSource>,
@@ -75,6 +78,9 @@ pub struct KinematicsFile {
     /// α_r, where fitted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub alpha_right: Option<f64>,
+    /// Covariance of x_l, x_r, y and, where fitted, α_l, α_r, by rows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub covariance: Option<Vec<Vec<f64>>>,
     /// Standard deviations over the map.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spread: Option<Spread>,
@@ -136,6 +142,7 @@ impl KinematicsFile {
             mean_eccentricity: Some(rounded(statistics.mean_eccentricity)),
             alpha_left: None,
             alpha_right: None,
+            covariance: None,
             spread: Some(Spread {
                 x_icr_left_m: rounded(spread.x_left),
                 x_icr_right_m: rounded(spread.x_right),
@@ -143,6 +150,35 @@ impl KinematicsFile {
             }),
             source,
             sector: sectors.iter().map(SectorTable::of).collect(),
+        }
+    }
+
+    /// The file of a fit on a vehicle with this gauge, m; `with_alphas` where α was fitted.
+    pub fn of_fit(
+        kinematics: &Kinematics,
+        gauge: f64,
+        with_alphas: bool,
+        covariance: Vec<Vec<f64>>,
+        source: Source,
+    ) -> Self {
+        let Kinematics { icrs, alpha } = *kinematics;
+        let unplaced = |value| Spanned::new(0..0, rounded(value));
+        Self {
+            schema: Spanned::new(0..0, SCHEMA.to_owned()),
+            frame: Spanned::new(0..0, "paper".to_owned()),
+            x_icr_left_m: unplaced(icrs.x_left),
+            x_icr_right_m: unplaced(icrs.x_right),
+            y_icr_m: rounded(icrs.y),
+            steering_efficiency: rounded(icrs.steering_efficiency(gauge)),
+            eccentricity: rounded(icrs.eccentricity()),
+            mean_steering_efficiency: None,
+            mean_eccentricity: None,
+            alpha_left: with_alphas.then_some(rounded(alpha.left)),
+            alpha_right: with_alphas.then_some(rounded(alpha.right)),
+            covariance: Some(covariance),
+            spread: None,
+            source,
+            sector: Vec::new(),
         }
     }
 

@@ -1,0 +1,101 @@
+//! `trackdyn identify`: kinematic parameters from a recording.
+
+mod summary;
+
+use crate::arguments::{RecordingOptions, command_line, finite, read_vehicle};
+use crate::commands::Outcome;
+use crate::exit::Exit;
+use crate::progress::Progress;
+use clap::Args;
+use std::path::PathBuf;
+use trackdyn_core::output::{prepare_folder, write_file};
+use trackdyn_identify::genetic::GeneticOptions;
+use trackdyn_identify::identification::{self, Fit};
+use trackdyn_identify::{Free, identify};
+use trackdyn_motion::kinematics::{KinematicsFile, Source};
+use trackdyn_physics::VehicleFile;
+use trackdyn_recording::Recording;
+
+/// Options of `trackdyn identify`.
+#[derive(Args)]
+pub struct Options {
+    #[command(flatten)]
+    recording: RecordingOptions,
+    /// Vehicle file (schema trackdyn.vehicle/1), for its gauge
+    #[arg(long, value_name = "FILE")]
+    vehicle: PathBuf,
+    /// How late the poses are against the tracks, in s [default: estimated]
+    #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
+    tau: Option<f64>,
+    /// Leave out segments before which the tracks have not run steadily for so many seconds
+    #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
+    settle: Option<f64>,
+    /// Individuals of the genetic algorithm
+    #[arg(long, value_name = "N", default_value_t = 100,
+          value_parser = clap::value_parser!(u32).range(4..=100_000))]
+    population: u32,
+    /// Generations of the genetic algorithm
+    #[arg(long, value_name = "N", default_value_t = 200,
+          value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    generations: u32,
+    /// Seed of the genetic algorithm
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Folder for kinematics.toml and kinematics_alpha.toml
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+}
+
+/// Identifies the parameters, prints them side by side and writes what the recording determines.
+pub fn run(options: &Options) -> Outcome {
+    let vehicle = read_vehicle(&options.vehicle)?;
+    let recording = options.recording.read()?;
+    prepare_folder(&options.out)?;
+    let genetic = GeneticOptions {
+        population: options.population as usize,
+        generations: options.generations as usize,
+        seed: options.seed,
+        ..GeneticOptions::default()
+    };
+    let gauge = vehicle.vehicle.gauge;
+    let progress = Progress::new(2 * genetic.generations);
+    let identify_options =
+        identification::Options { gauge, tau: options.tau, settle: options.settle, genetic };
+    let found = identify(&recording, &identify_options, &|_| progress.advance(1))?;
+    progress.finish();
+    print!("{}", summary::text(&recording, &vehicle.vehicle, &found));
+
+    let mut written = 0;
+    for (fit, name) in found.fits.iter().zip(["kinematics.toml", "kinematics_alpha.toml"]) {
+        if let Some(file) = file(fit, &recording, &vehicle, options) {
+            let path = options.out.join(name);
+            write_file(&path, file.to_toml().as_bytes())?;
+            eprintln!("wrote {}", path.display());
+            written += 1;
+        }
+    }
+    Ok(if written > 0 { Exit::Done } else { Exit::NoResult })
+}
+
+/// The file of a fit, where the recording determines it.
+fn file(
+    fit: &Fit,
+    recording: &Recording,
+    vehicle: &VehicleFile,
+    options: &Options,
+) -> Option<KinematicsFile> {
+    let estimate = fit.least_squares.as_ref().ok().filter(|_| fit.doubts.is_empty())?;
+    let source = Source {
+        command: command_line(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        vehicle: vehicle.vehicle.name.clone(),
+        fingerprint: recording.fingerprint().to_owned(),
+        recording: Some(recording.name().to_owned()),
+        seed: Some(options.seed),
+        ..Source::default()
+    };
+    let rows = estimate.covariance.row_iter().map(|row| row.iter().copied().collect()).collect();
+    let with_alphas = fit.free == Free::IcrsAndAlphas;
+    let (kinematics, gauge) = (estimate.parameters.kinematics(), vehicle.vehicle.gauge);
+    Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source))
+}

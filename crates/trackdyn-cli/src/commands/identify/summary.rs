@@ -1,0 +1,124 @@
+//! The result of an identification as text.
+
+use std::fmt::Write;
+use trackdyn_identify::identification::{Clock, Fit};
+use trackdyn_identify::{Estimate, Free, Identification, Parameters};
+use trackdyn_motion::Icrs;
+use trackdyn_physics::Vehicle;
+use trackdyn_recording::Recording;
+
+/// One screen: the recording, its clock and noise, the methods side by side.
+pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) -> String {
+    let mut text = String::new();
+    let runs = recording.runs();
+    let seconds: f64 = runs.iter().map(trackdyn_recording::Run::duration).sum();
+    let _ = writeln!(
+        text,
+        "{}: {} runs, {seconds:.0} s, {} segments; {}, gauge {} m\n",
+        recording.name(),
+        runs.len(),
+        found.segments,
+        vehicle.name,
+        vehicle.gauge
+    );
+    clock(&mut text, &found.clock);
+    noise(&mut text, found);
+    match &found.spin_test {
+        Ok(spin) => {
+            let _ = writeln!(
+                text,
+                "  spin test  x_r - x_l = {:.4} m, chi = {:.4} ({} segments, {:.0} rad)",
+                spin.gap, spin.steering_efficiency, spin.segments, spin.yaw
+            );
+        }
+        Err(reason) => {
+            let _ = writeln!(text, "  spin test  {reason}");
+        }
+    }
+    for fit in &found.fits {
+        self::fit(&mut text, fit, vehicle.gauge);
+    }
+    text
+}
+
+fn clock(text: &mut String, clock: &Clock) {
+    let _ = match clock {
+        Clock::Given(tau) => writeln!(text, "  clock      poses {tau:.3} s late, as given"),
+        Clock::Estimated(offset) => writeln!(
+            text,
+            "  clock      poses {:.3} s late (standard error {:.3} s)",
+            offset.tau, offset.standard_error
+        ),
+        Clock::Unknown(reason) => writeln!(text, "  clock      taken as equal: {reason}"),
+    };
+}
+
+fn noise(text: &mut String, found: &Identification) {
+    let poses = found.noise.moving.as_ref().or(found.noise.standing.as_ref());
+    let _ = match poses {
+        Some(poses) => writeln!(
+            text,
+            "  noise      poses {:.1} mm forward, {:.1} mm aside, {:.2} mrad ({}, {})",
+            1e3 * poses.forward.white,
+            1e3 * poses.lateral.white,
+            1e3 * poses.yaw.white,
+            poses.triples,
+            poses.method
+        ),
+        None => writeln!(text, "  noise      not measurable: all segments count alike"),
+    };
+}
+
+fn fit(text: &mut String, fit: &Fit, gauge: f64) {
+    let title = match fit.free {
+        Free::Icrs => "ICRs, track speeds as measured",
+        Free::IcrsAndAlphas => "ICRs and factors on the track speeds",
+    };
+    let _ = writeln!(text, "\n  {title}");
+    let estimate = match &fit.least_squares {
+        Ok(estimate) => estimate,
+        Err(reason) => {
+            let _ = writeln!(text, "    {reason}");
+            return;
+        }
+    };
+    if !fit.doubts.is_empty() {
+        text.push_str("    not determined by this recording:\n");
+        for doubt in &fit.doubts {
+            let _ = writeln!(text, "    - {doubt}");
+        }
+        return;
+    }
+    parameters(text, fit, estimate);
+    let of = |parameters: &Parameters| {
+        let icrs = parameters.kinematics().icrs;
+        (icrs.steering_efficiency(gauge), Icrs::eccentricity(&icrs))
+    };
+    let ((chi, e), (chi_ga, e_ga)) = (of(&estimate.parameters), of(&fit.genetic.parameters));
+    let _ = writeln!(text, "    {:8}{chi:>10.4}{:>24}{chi_ga:>10.4}", "chi", "");
+    let _ = writeln!(text, "    {:8}{e:>10.4}{:>24}{e_ga:>10.4}", "e", "");
+    let cut = if estimate.blocks.cut { "pieces of runs" } else { "runs" };
+    let _ = writeln!(
+        text,
+        "    residuals {:.2} times the noise; intervals from the noise and from {} {cut}",
+        estimate.whitened_rms,
+        estimate.blocks.count()
+    );
+}
+
+fn parameters(text: &mut String, fit: &Fit, estimate: &Estimate) {
+    let _ =
+        writeln!(text, "    {:8}{:>10}{:>24}{:>10}", "", "estimate", "95 % interval", "genetic");
+    for k in 0..fit.free.count() {
+        let Some(interval) = estimate.interval(k) else { continue };
+        let range = format!("{:.4} to {:.4}", interval.low, interval.high);
+        let _ = writeln!(
+            text,
+            "    {:8}{:>10.4}{range:>24}{:>10.4}{}",
+            Parameters::NAMES[k],
+            interval.value,
+            fit.genetic.parameters.0[k],
+            if Parameters::UNITS[k] == "m" { " m" } else { "" }
+        );
+    }
+}

@@ -1,0 +1,107 @@
+//! `trackdyn inspect`: what a recording holds.
+
+use crate::commands::Outcome;
+use crate::exit::Exit;
+use clap::Args;
+use std::fmt::Write;
+use std::path::PathBuf;
+use trackdyn_recording::clock::{ClockSearch, clock_offset};
+use trackdyn_recording::format::Format;
+use trackdyn_recording::rosbag::{self, RosbagOptions};
+use trackdyn_recording::{Recording, folder};
+
+/// Options of `trackdyn inspect`.
+#[derive(Args)]
+pub struct Options {
+    /// Folder with recording.toml, or rosbag2 (.mcap, .db3 or the folder around them)
+    recording: PathBuf,
+}
+
+/// Lists the topics of a bag with the options that they suggest, or the runs of a recording folder.
+pub fn run(options: &Options) -> Outcome {
+    if Format::of(&options.recording)? == Format::Rosbag {
+        bag(options)?;
+    } else {
+        runs(&folder::read(&options.recording)?);
+    }
+    Ok(Exit::Done)
+}
+
+fn bag(options: &Options) -> Result<(), trackdyn_recording::Error> {
+    let inspection = rosbag::inspect(&options.recording)?;
+    println!("{:>9} {:>9}  {:40} type", "messages", "seconds", "topic");
+    for topic in &inspection.topics {
+        println!("{:>9} {:>9.1}  {:40} {}", topic.messages, topic.duration, topic.name, topic.kind);
+        if !topic.joints.is_empty() {
+            println!("{:21}joints: {}", "", topic.joints.join(", "));
+        }
+        for (parent, child) in &topic.frames {
+            println!("{:21}frames: {parent} -> {child}", "");
+        }
+    }
+    println!("\nsuggested:{}", suggestion(&inspection.suggested));
+    for warning in &inspection.warnings {
+        eprintln!("note: {warning}");
+    }
+    Ok(())
+}
+
+/// The options of the command line that read the bag so.
+fn suggestion(options: &RosbagOptions) -> String {
+    let mut text = String::new();
+    let mut add = |name: &str, value: &str| {
+        let _ = write!(text, " --{name} {value}");
+    };
+    if let Some(topic) = &options.tracks_topic {
+        add("tracks-topic", topic);
+    }
+    for joint in &options.left_joints {
+        add("left-joint", joint);
+    }
+    for joint in &options.right_joints {
+        add("right-joint", joint);
+    }
+    if let Some(topic) = &options.pose_topic {
+        add("pose-topic", topic);
+    }
+    if let Some(frame) = &options.parent_frame {
+        add("parent-frame", frame);
+    }
+    if let Some(frame) = &options.child_frame {
+        add("child-frame", frame);
+    }
+    if options.wheel_radius.is_none() {
+        add("wheel-radius", "METRES");
+    }
+    text
+}
+
+fn runs(recording: &Recording) {
+    let runs = recording.runs();
+    let total =
+        |count: fn(&trackdyn_recording::Run) -> usize| runs.iter().map(count).sum::<usize>();
+    println!(
+        "{}: robot {}, fingerprint {}",
+        recording.name(),
+        recording.robot(),
+        recording.fingerprint()
+    );
+    println!(
+        "{} runs, {:.0} s, {} readings of the tracks, {} poses, {} readings of an IMU",
+        runs.len(),
+        runs.iter().map(trackdyn_recording::Run::duration).sum::<f64>(),
+        total(|run| run.tracks().len()),
+        total(|run| run.poses().len()),
+        total(|run| run.imu().len()),
+    );
+    match clock_offset(recording, &ClockSearch::default()) {
+        Ok(offset) => println!(
+            "poses come {:.3} s after the tracks (standard error {:.3} s)",
+            offset.tau, offset.standard_error
+        ),
+        Err(reason) => println!("{reason}"),
+    }
+    for warning in recording.warnings() {
+        eprintln!("note: {warning}");
+    }
+}

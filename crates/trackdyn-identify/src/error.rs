@@ -1,0 +1,40 @@
+//! Why parameters cannot be given.
+
+use crate::doubt::Doubt;
+
+/// A recording that does not determine what was asked of it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Too little in the recording.
+    #[error("{found} segments: expected at least {needed} for {parameters} parameters")]
+    TooFewSegments {
+        /// Segments of the recording.
+        found: usize,
+        /// Segments that are needed.
+        needed: usize,
+        /// Parameters that were asked for.
+        parameters: usize,
+    },
+    /// No turning on the spot.
+    #[error(
+        "no spin: expected tracks running against each other for at least {needed_rad:.1} rad in all, found {found_rad:.2} rad"
+    )]
+    NoSpin {
+        /// Yaw in segments that spin, rad.
+        found_rad: f64,
+        /// Yaw that is needed, rad.
+        needed_rad: f64,
+    },
+    /// The driving does not show the parameters.
+    #[error("not determined by this recording: {0}")]
+    NotDetermined(Doubt),
+    /// The iteration did not settle.
+    #[error("least squares did not settle after {iterations} iterations (last step {step:.1e})")]
+    NotConverged {
+        /// Iterations.
+        iterations: usize,
+        /// Largest change of a parameter in the last one, m or 1.
+        step: f64,
+    },
+}

@@ -1,0 +1,134 @@
+//! All that a recording says of the kinematic parameters: the methods side by side.
+
+use crate::doubt::Doubt;
+use crate::error::Error;
+use crate::genetic::{GeneticEstimate, GeneticOptions, genetic};
+use crate::least_squares::{Estimate, Loss, doubts, lacks, least_squares};
+use crate::observations::Observations;
+use crate::parameters::{Free, Parameters};
+use crate::spin_test::{SpinTest, spin_test};
+use crate::weighting::{SegmentNoise, Weighting};
+use trackdyn_motion::Kinematics;
+use trackdyn_recording::clock::{ClockOffset, ClockSearch, clock_offset};
+use trackdyn_recording::noise::{Noise, noise};
+use trackdyn_recording::{Recording, SegmentOptions};
+
+/// How to identify.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Gauge of the vehicle, m.
+    pub gauge: f64,
+    /// Clock offset of the poses, s; none: estimated.
+    pub tau: Option<f64>,
+    /// Time for which the tracks must have run steadily before a segment counts, s; none: all count.
+    pub settle: Option<f64>,
+    /// The genetic algorithm.
+    pub genetic: GeneticOptions,
+}
+
+/// Where the clock offset comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Clock {
+    /// Given by the user, s.
+    Given(f64),
+    /// Estimated from the recording.
+    Estimated(ClockOffset),
+    /// Taken as zero, for the recording does not show it.
+    Unknown(String),
+}
+
+impl Clock {
+    /// The offset τ, s.
+    pub fn tau(&self) -> f64 {
+        match self {
+            Self::Given(tau) => *tau,
+            Self::Estimated(offset) => offset.tau,
+            Self::Unknown(_) => 0.0,
+        }
+    }
+}
+
+/// The parameters with one choice of what is free.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// Which parameters are free.
+    pub free: Free,
+    /// The genetic algorithm's, by the cost (17).
+    pub genetic: GeneticEstimate,
+    /// Least squares by the noise, or why not.
+    pub least_squares: Result<Estimate, Error>,
+    /// Why the recording does not determine them; empty where it does.
+    pub doubts: Vec<Doubt>,
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Identification {
+    /// Clock offset.
+    pub clock: Clock,
+    /// Noise of the recording.
+    pub noise: Noise,
+    /// Whether the weights come from that noise; else all segments count alike.
+    pub weighted_by_noise: bool,
+    /// Segments.
+    pub segments: usize,
+    /// Lever that turns yaw errors into distances in the cost (17): half the gauge, m.
+    pub lever: f64,
+    /// The spin test, or why not.
+    pub spin_test: Result<SpinTest, Error>,
+    /// With the ICRs free, and with the ICRs and α free.
+    pub fits: [Fit; 2],
+}
+
+/// Runs all methods on a recording. `progress` is told each finished generation of the genetic algorithm,
+/// which runs twice.
+///
+/// # Errors
+/// Too few segments.
+pub fn identify(
+    recording: &Recording,
+    options: &Options,
+    progress: &dyn Fn(usize),
+) -> Result<Identification, Error> {
+    let clock = match options.tau {
+        Some(tau) => Clock::Given(tau),
+        None => match clock_offset(recording, &ClockSearch::default()) {
+            Ok(offset) => Clock::Estimated(offset),
+            Err(reason) => Clock::Unknown(reason.to_string()),
+        },
+    };
+    let tau = clock.tau();
+    let segments = SegmentOptions { tau, ..SegmentOptions::default() };
+    let observations = match options.settle {
+        Some(settle) => Observations::steady(recording, &segments, settle),
+        None => Observations::new(recording, &segments),
+    };
+    let needed = 4 * Free::IcrsAndAlphas.count();
+    if observations.len() < needed {
+        let parameters = Free::IcrsAndAlphas.count();
+        return Err(Error::TooFewSegments { found: observations.len(), needed, parameters });
+    }
+    let noise = noise(recording, tau);
+    let lever = options.gauge / 2.0;
+    let spin_test = spin_test(&observations, options.gauge);
+    // Only the weights of the encoders' noise hang on it, and they need no more than its size.
+    let gap = spin_test.as_ref().map_or(1.5 * options.gauge, |spin| spin.gap);
+    let measured = SegmentNoise::measured(&noise, gap);
+    let weighted_by_noise = measured.is_some();
+    let weighting = measured.map_or(Weighting::Distance { lever }, Weighting::Noise);
+
+    let fits = [Free::Icrs, Free::IcrsAndAlphas].map(|free| {
+        let genetic =
+            genetic(&observations, options.gauge, lever, free, &options.genetic, progress);
+        let start = Parameters::of(&Kinematics::ideal(options.gauge));
+        let least_squares = match lacks(&observations, &noise, free) {
+            Some(doubt) => Err(Error::NotDetermined(doubt)),
+            None => least_squares(&observations, &start, free, &weighting, Loss::Huber),
+        };
+        let doubts =
+            least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
+        Fit { free, genetic, least_squares, doubts }
+    });
+    let segments = observations.len();
+    Ok(Identification { clock, noise, weighted_by_noise, segments, lever, spin_test, fits })
+}

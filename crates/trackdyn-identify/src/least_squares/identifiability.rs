@@ -1,0 +1,93 @@
+//! What a recording cannot identify.
+
+use crate::doubt::Doubt;
+use crate::least_squares::Estimate;
+use crate::observations::Observations;
+use crate::parameters::Free;
+use faer::Mat;
+use nalgebra::{DMatrix, Matrix2, Vector2};
+use trackdyn_core::Side;
+use trackdyn_recording::noise::Noise;
+
+/// Ratio of eigenvalues below which a direction is lost in rounding.
+const LOST: f64 = 1e-13;
+
+/// Standard deviation of an ICR, in gauges, beyond which it is not a number to drive with.
+const ICR_LIMIT: f64 = 0.25;
+
+/// Standard deviation of α beyond which it is not a number to drive with.
+const ALPHA_LIMIT: f64 = 0.1;
+
+/// Variance of the driving over that of the encoders' noise, at least: below, noise passes for driving and
+/// pulls the estimate by a tenth or more.
+const EXCITATION: f64 = 10.0;
+
+/// What the driving of a recording lacks for these parameters; none where it does. `noise` is that of the
+/// recording.
+pub fn lacks(observations: &Observations, noise: &Noise, free: Free) -> Option<Doubt> {
+    let ratio = poorest_excitation(observations, noise, free)?;
+    (ratio < EXCITATION).then_some(match free {
+        Free::Icrs => Doubt::NoTurning,
+        Free::IcrsAndAlphas => Doubt::OneRatio,
+    })
+}
+
+/// The parameters of an estimate that are too uncertain for a vehicle with this gauge, m.
+pub fn doubts(estimate: &Estimate, gauge: f64) -> Vec<Doubt> {
+    let deviations = estimate.deviations();
+    (0..estimate.free.count())
+        .filter_map(|parameter| {
+            let limit = if parameter < 3 { ICR_LIMIT * gauge } else { ALPHA_LIMIT };
+            let deviation = deviations[parameter];
+            let wide = deviation.is_nan() || deviation > limit;
+            wide.then_some(Doubt::Wide { parameter, deviation, limit })
+        })
+        .collect()
+}
+
+/// Variance of the driving over that of the encoders' noise: of V_r − V_l for the ICRs alone; with α, in the
+/// direction of the (V_l, V_r) plane in which the recording drives least. None without encoder noise.
+fn poorest_excitation(observations: &Observations, noise: &Noise, free: Free) -> Option<f64> {
+    let encoder = |side: Side| {
+        noise.encoders[side].map(|noise| noise.deviation.powi(2) * noise.update_interval)
+    };
+    let per_second = f64::midpoint(encoder(Side::Left)?, encoder(Side::Right)?);
+    let mut moments = Matrix2::zeros();
+    let mut variance = 0.0;
+    for segment in observations.segments() {
+        let travelled = observations.travelled(segment);
+        let speed = Vector2::new(travelled.left, travelled.right) / segment.duration;
+        moments += speed * speed.transpose();
+        // The mean of T/u readings of variance σ²
+        variance += per_second / segment.duration;
+    }
+    let least = match free {
+        Free::Icrs => {
+            let across = Vector2::new(-1.0, 1.0).normalize();
+            across.dot(&(moments * across))
+        }
+        Free::IcrsAndAlphas => moments.symmetric_eigenvalues().min(),
+    };
+    (variance > 0.0).then_some(least / variance - 1.0)
+}
+
+/// The inverse of a normal matrix, by its eigenvalues; directions that are lost get a variance that
+/// says so.
+pub(super) fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let count = matrix.nrows();
+    // Parameters differ in unit and size: the diagonal is scaled to 1 first.
+    let scale: Vec<f64> =
+        (0..count).map(|k| matrix[(k, k)].max(f64::MIN_POSITIVE).sqrt().recip()).collect();
+    let scaled = Mat::from_fn(count, count, |i, k| matrix[(i, k)] * scale[i] * scale[k]);
+    let Ok(decomposition) = scaled.self_adjoint_eigen(faer::Side::Lower) else {
+        return DMatrix::from_element(count, count, f64::NAN);
+    };
+    let (values, vectors) = (decomposition.S(), decomposition.U());
+    let largest = (0..count).map(|k| values[k]).fold(0.0, f64::max);
+    DMatrix::from_fn(count, count, |i, k| {
+        let sum: f64 = (0..count)
+            .map(|m| vectors[(i, m)] * vectors[(k, m)] / values[m].max(LOST * largest))
+            .sum();
+        sum * scale[i] * scale[k]
+    })
+}

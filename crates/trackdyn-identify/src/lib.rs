@@ -1,0 +1,30 @@
+//! Which numbers: the kinematic parameters of a tracked robot from its recordings.
+//!
+//! - [`observations`]: what a recording shows, segment by segment.
+//! - [`prediction`]: what a kinematic model makes of the same track speeds, with its derivatives.
+//! - [`weighting`]: how much a residual counts: the cost (17), or the noise that was measured.
+//! - [`mod@spin_test`], [`mod@genetic`], [`mod@least_squares`]: three ways to the parameters.
+//! - [`identification`]: all of them on one recording.
+//!
+//! Residual = observed − predicted, in the frame of the segment's first pose (REP-103).
+
+pub mod doubt;
+pub mod error;
+pub mod genetic;
+pub mod identification;
+pub mod least_squares;
+pub mod observations;
+pub mod parameters;
+pub mod prediction;
+pub mod spin_test;
+pub mod weighting;
+
+pub use doubt::Doubt;
+pub use error::Error;
+pub use genetic::{GeneticOptions, genetic};
+pub use identification::{Identification, identify};
+pub use least_squares::{Estimate, least_squares};
+pub use observations::Observations;
+pub use parameters::{Free, Parameters};
+pub use spin_test::{SpinTest, spin_test};
+pub use weighting::Weighting;

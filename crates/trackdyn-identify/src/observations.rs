@@ -1,0 +1,145 @@
+//! What a recording shows, segment by segment.
+
+use trackdyn_core::PerSide;
+use trackdyn_recording::hold::{held, travelled};
+use trackdyn_recording::{Recording, Run, Segment, SegmentOptions, segments};
+
+/// Change of a track speed over the faster one's up to which driving is steady.
+const STEADY: f64 = 0.1;
+
+/// Observed motions and the track speeds that go with them, in flat arrays.
+#[derive(Clone, Debug)]
+pub struct Observations {
+    segments: Vec<Observation>,
+    /// Pieces of constant track speed: duration (s) and speeds (m/s), those of a segment in a row.
+    pieces: Vec<Piece>,
+}
+
+/// A time during which the track speeds are constant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// Its length, s.
+    pub duration: f64,
+    /// Left track speed, m/s.
+    pub v_left: f64,
+    /// Right track speed, m/s.
+    pub v_right: f64,
+}
+
+/// One segment: where its pieces are and what was observed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Observation {
+    first_piece: usize,
+    last_piece: usize,
+    /// Motion over the segment from its first pose: forward (m), left (m), yaw (rad).
+    pub motion: [f64; 3],
+    /// Heading of its first pose in the frame of the run, rad.
+    pub heading: f64,
+    /// Its length, s.
+    pub duration: f64,
+    /// Index of its run in the recording.
+    pub run: usize,
+    /// Whether its first pose is the last one of the segment before it.
+    pub follows: bool,
+}
+
+impl Observations {
+    /// The segments of a recording.
+    pub fn new(recording: &Recording, options: &SegmentOptions) -> Self {
+        Self::of(recording, options, |_, _| true)
+    }
+
+    /// The segments of a recording over which, and for `settle` seconds before, neither track changes its
+    /// speed by more than a tenth of the faster one's.
+    ///
+    /// In between the drivetrain and the slip settle, which is not what constant ICRs describe.
+    pub fn steady(recording: &Recording, options: &SegmentOptions, settle: f64) -> Self {
+        Self::of(recording, options, |run, segment| {
+            let start = segment.start - settle;
+            let third = (segment.end - start) / 3.0;
+            if run.tracks().first().is_none_or(|first| first.t > start - options.tau) {
+                return false;
+            }
+            let means = [0.0, 1.0, 2.0].map(|k| {
+                let from = start + k * third;
+                travelled(run.tracks(), from, from + third, options.tau).map(|d| d / third)
+            });
+            let fastest = means.iter().map(|m| m.left.abs().max(m.right.abs())).fold(0.0, f64::max);
+            [|m: &PerSide<f64>| m.left, |m: &PerSide<f64>| m.right].iter().all(|side| {
+                let values = means.map(|mean| side(&mean));
+                let (low, high) = values
+                    .iter()
+                    .fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
+                high - low <= STEADY * fastest
+            })
+        })
+    }
+
+    fn of(
+        recording: &Recording,
+        options: &SegmentOptions,
+        keep: impl Fn(&Run, &Segment) -> bool,
+    ) -> Self {
+        let mut observations = Self { segments: Vec::new(), pieces: Vec::new() };
+        let mut previous_kept = false;
+        for mut segment in segments(recording, options) {
+            // A segment that is left out shares no pose with the one after it.
+            segment.follows &= previous_kept;
+            previous_kept = keep(&recording.runs()[segment.run], &segment);
+            if previous_kept {
+                observations.push(recording, &segment, options.tau);
+            }
+        }
+        observations
+    }
+
+    fn push(&mut self, recording: &Recording, segment: &Segment, tau: f64) {
+        let run = &recording.runs()[segment.run];
+        let first_piece = self.pieces.len();
+        let pieces = held(run.tracks(), segment.start, segment.end, tau);
+        self.pieces.extend(pieces.map(|piece| Piece {
+            duration: piece.duration,
+            v_left: piece.speeds.left,
+            v_right: piece.speeds.right,
+        }));
+        let observed = segment.observed;
+        self.segments.push(Observation {
+            first_piece,
+            last_piece: self.pieces.len(),
+            motion: [observed.x, observed.y, observed.yaw],
+            heading: run.poses()[segment.poses[0]].pose.yaw,
+            duration: segment.duration(),
+            run: segment.run,
+            follows: segment.follows,
+        });
+    }
+
+    /// The segments, in the order of the recording.
+    pub fn segments(&self) -> &[Observation] {
+        &self.segments
+    }
+
+    /// The pieces of constant track speed of a segment.
+    #[inline]
+    pub fn pieces(&self, segment: &Observation) -> &[Piece] {
+        &self.pieces[segment.first_piece..segment.last_piece]
+    }
+
+    /// Distance that each track runs in a segment, m.
+    pub fn travelled(&self, segment: &Observation) -> PerSide<f64> {
+        let distance = |speed: fn(&Piece) -> f64| {
+            self.pieces(segment).iter().map(|piece| piece.duration * speed(piece)).sum()
+        };
+        PerSide::new(distance(|piece| piece.v_left), distance(|piece| piece.v_right))
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.segments.is_empty()
+    }
+
+    /// Number of segments.
+    pub fn len(&self) -> usize {
+        self.segments.len()
+    }
+}

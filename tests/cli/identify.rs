@@ -1,0 +1,101 @@
+//! `trackdyn inspect` and `trackdyn identify`.
+
+use crate::{Workplace, project_file};
+use trackdyn_core::PerSide;
+use trackdyn_recording::folder;
+use trackdyn_recording::synthetic::{Stretch, Synthetic, random_steps};
+
+/// Writes a recording of Auriga-alpha's size into the folder `rec`.
+fn record(place: &Workplace, schedules: Vec<Vec<Stretch>>) {
+    let synthetic = Synthetic {
+        schedules,
+        encoder_noise: 0.01,
+        position_noise: 0.002,
+        yaw_noise: 0.002,
+        tau: 0.1,
+        ..Synthetic::default()
+    };
+    let recording = synthetic.recording().expect("long enough");
+    folder::write(&recording, &place.path().join("rec")).expect("written");
+}
+
+fn vehicle() -> String {
+    project_file("configs/vehicles/auriga-alpha.toml").display().to_string()
+}
+
+#[test]
+fn parameters_come_out_of_a_recording() {
+    let place = Workplace::new();
+    record(&place, (0..4).map(|run| random_steps(10, 2.0, 0.8, run)).collect());
+    let run = place.run(&format!("identify rec --vehicle {} --generations 60", vehicle()));
+    assert_eq!(run.status, 0, "{}{}", run.stdout, run.stderr);
+    for part in ["x_l", "95 % interval", "spin test", "alpha_l", "s late"] {
+        assert!(run.stdout.contains(part), "{part} is not in:\n{}", run.stdout);
+    }
+    let text = String::from_utf8(place.read("out/kinematics.toml")).expect("text");
+    let file: toml::Table = text.parse().expect("TOML");
+    let number = |key: &str| file[key].as_float().expect("a number");
+    assert!((number("x_icr_left_m") + 0.375).abs() < 5e-3, "{text}");
+    assert!((number("x_icr_right_m") - 0.457).abs() < 5e-3, "{text}");
+    assert!((number("y_icr_m") - 0.0492).abs() < 5e-3, "{text}");
+    assert_eq!(file["covariance"].as_array().map(Vec::len), Some(3));
+    assert_eq!(file["source"]["recording"].as_str(), Some("synthetic"));
+
+    // The file is one that the other commands take.
+    let used = place.run("kinematics --speeds 0.3,0.9 --kinematics out/kinematics_alpha.toml");
+    assert_eq!(used.status, 0, "{}", used.stderr);
+    assert!(used.stdout.contains("alpha"));
+
+    // The same again, on other threads.
+    let first = (run.stdout, text);
+    let again = place
+        .run_with_threads(&format!("identify rec --vehicle {} --generations 60", vehicle()), 1);
+    let text = String::from_utf8(place.read("out/kinematics.toml")).expect("text");
+    assert!(first == (again.stdout, text), "results differ between 2 threads and 1");
+}
+
+#[test]
+fn what_a_recording_does_not_determine_is_not_written() {
+    let place = Workplace::new();
+    let straight = |speed| vec![Stretch { duration: 40.0, speeds: PerSide::new(speed, speed) }];
+    record(&place, vec![straight(0.5), straight(-0.5)]);
+    let run = place.run(&format!("identify rec --vehicle {} --generations 2", vehicle()));
+    assert_eq!(run.status, 2, "{}", run.stdout);
+    assert!(run.stdout.contains("no ICR shows"), "{}", run.stdout);
+    assert!(run.stdout.contains("taken as equal"), "{}", run.stdout);
+    assert!(!place.path().join("out/kinematics.toml").exists());
+}
+
+#[test]
+fn recordings_are_inspected() {
+    let place = Workplace::new();
+    record(&place, vec![random_steps(10, 2.0, 0.8, 1)]);
+    let folder = place.run("inspect rec");
+    assert_eq!(folder.status, 0, "{}", folder.stderr);
+    assert!(folder.stdout.contains("1 runs, 20 s"), "{}", folder.stdout);
+    let bag = project_file("crates/trackdyn-recording/tests/fixtures/drive.mcap");
+    let bag = place.run(&format!("inspect {}", bag.display()));
+    assert_eq!(bag.status, 0, "{}", bag.stderr);
+    assert!(bag.stdout.contains("sensor_msgs/msg/JointState"), "{}", bag.stdout);
+    assert!(bag.stdout.contains("--tracks-topic"), "{}", bag.stdout);
+}
+
+#[test]
+fn mistakes_are_named() {
+    let place = Workplace::new();
+    let vehicle = vehicle();
+    std::fs::create_dir(place.path().join("empty")).expect("made");
+    for (arguments, part) in [
+        (format!("identify missing --vehicle {vehicle}"), "missing"),
+        (format!("identify empty --vehicle {vehicle}"), "recording.toml"),
+        ("identify empty".to_owned(), "--vehicle"),
+        (format!("identify empty --vehicle {vehicle} --tau late"), "a finite number"),
+        (format!("identify empty --vehicle {vehicle} --population 0"), "--population"),
+        ("inspect empty".to_owned(), "recording.toml"),
+    ] {
+        let run = place.run(&arguments);
+        assert_eq!(run.status, 1, "{arguments}: {}", run.stdout);
+        assert!(run.stderr.contains(part), "{arguments}: {part:?} is not in:\n{}", run.stderr);
+        assert!(!place.path().join("out").exists());
+    }
+}

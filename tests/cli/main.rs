@@ -6,6 +6,7 @@ mod documents;
 mod export;
 mod identify;
 mod map;
+mod odometry;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -3,13 +3,17 @@
 use std::path::Path;
 
 /// Which crates of the project each crate may use.
-const ALLOWED: [(&str, &[&str]); 8] = [
+const ALLOWED: [(&str, &[&str]); 9] = [
     ("trackdyn-core", &[]),
     ("trackdyn-physics", &["trackdyn-core"]),
     ("trackdyn-recording", &["trackdyn-core"]),
     ("trackdyn-motion", &["trackdyn-core", "trackdyn-physics"]),
     ("trackdyn-identify", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
-    ("trackdyn-report", &["trackdyn-core", "trackdyn-physics", "trackdyn-motion"]),
+    ("trackdyn-odometry", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
+    (
+        "trackdyn-report",
+        &["trackdyn-core", "trackdyn-physics", "trackdyn-motion", "trackdyn-odometry"],
+    ),
     ("trackdyn-export", &["trackdyn-core", "trackdyn-motion"]),
     (
         "trackdyn-cli",
@@ -17,10 +21,11 @@ const ALLOWED: [(&str, &[&str]); 8] = [
             "trackdyn-core",
             "trackdyn-physics",
             "trackdyn-motion",
-            "trackdyn-report",
-            "trackdyn-export",
             "trackdyn-recording",
             "trackdyn-identify",
+            "trackdyn-odometry",
+            "trackdyn-report",
+            "trackdyn-export",
         ],
     ),
 ];

@@ -24,6 +24,8 @@ pub enum Command {
     Map(commands::map::Options),
     /// Evaluate the kinematics: track speeds to motion of the robot, or back
     Kinematics(commands::kinematics::Options),
+    /// Replay a recording by dead reckoning with parameter sets and the ideal drive: errors, paths, picture
+    Odometry(commands::odometry::Options),
     /// Recompute chi, e and the ICRs, and fail where they leave the tolerances of a reference file
     Check(commands::check::Options),
     /// Write the kinematics as files of other programs: ROS 2, URDF, Gazebo

@@ -9,6 +9,7 @@ pub mod inspect;
 pub mod kinematics;
 pub mod man;
 pub mod map;
+pub mod odometry;
 
 use crate::arguments::Command;
 use crate::exit::Exit;
@@ -22,6 +23,7 @@ pub fn run(command: &Command) -> Outcome {
     match command {
         Command::Map(options) => map::run(options),
         Command::Kinematics(options) => kinematics::run(options),
+        Command::Odometry(options) => odometry::run(options),
         Command::Check(options) => check::run(options),
         Command::Export(options) => export::run(options),
         Command::Effects(options) => effects::run(options),

@@ -9,14 +9,17 @@
 //! - [`panel`]: axes around a rectangle of the canvas.
 //! - [`colour`]: colours and colour maps.
 //! - [`icr_map()`]: the figure of an ICR map.
+//! - [`odometry()`]: the figure of an odometry replay.
 
 pub mod brush;
 pub mod canvas;
 pub mod colour;
 mod error;
 mod icr_map;
+mod odometry;
 pub mod panel;
 pub mod text;
 
 pub use error::Error;
 pub use icr_map::icr_map;
+pub use odometry::odometry;

@@ -1,0 +1,108 @@
+//! `trackdyn odometry`: dead reckoning of a recording with several parameter sets.
+
+mod document;
+mod inputs;
+mod runs_table;
+mod summary;
+
+use crate::arguments::command_line;
+use crate::commands::Outcome;
+use crate::exit::Exit;
+use clap::Args;
+use inputs::{Clock, Inputs, RunList};
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use trackdyn_core::output::{prepare_folder, write_file};
+use trackdyn_odometry::{Comparison, comparison, tum};
+
+/// Options of `trackdyn odometry`.
+#[derive(Args)]
+pub struct Options {
+    /// Recording: a folder with recording.toml, or a rosbag2
+    recording: PathBuf,
+    /// Parameters to replay with (schema trackdyn.kinematics/1); repeatable
+    #[arg(long, value_name = "FILE")]
+    kinematics: Vec<PathBuf>,
+    /// Vehicle file (schema trackdyn.vehicle/1), whose gauge is that of the ideal drive
+    #[arg(long, value_name = "FILE")]
+    vehicle: PathBuf,
+    /// Replay these runs only, such as 7,8,20-29: those that no parameters were fitted to
+    #[arg(long, value_name = "LIST", value_parser = inputs::runs)]
+    runs: Option<RunList>,
+    /// Time in s by which poses lag behind the track speeds [default: estimated]
+    #[arg(long, value_name = "SECONDS", value_parser = inputs::seconds, allow_hyphen_values = true)]
+    tau: Option<f64>,
+    /// Folder for odometry.toml, runs.csv, odometry.png and trajectories
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+}
+
+/// Replays, prints the table of errors and writes the files.
+pub fn run(options: &Options) -> Outcome {
+    let inputs = Inputs::read(options)?;
+    let runs =
+        comparison::select(&inputs.recording, options.runs.as_ref().map_or(&[], RunList::numbers))
+            .map_err(|error| format!("--runs: {error}"))?;
+    let clock = Clock::new(&inputs.recording, options.tau);
+    let named = |error| format!("{}: {error}", options.recording.display());
+    let result =
+        Comparison::new(&inputs.recording, &runs, inputs.sets(), clock.tau).map_err(named)?;
+    prepare_folder(&options.out)?;
+    for warning in inputs.recording.warnings() {
+        eprintln!("note: {warning}");
+    }
+    if let Some(note) = &clock.note {
+        eprintln!("note: {note}; the clock offset is taken as 0 (set it with --tau)");
+    }
+    if !result.left_out.is_empty() {
+        eprintln!(
+            "note: {} runs left out, whose poses lie outside the time of their track speeds",
+            result.left_out.len()
+        );
+    }
+    print!("{}", summary::text(&inputs, &clock, &result));
+    write(options, &inputs, &clock, &result)?;
+    Ok(Exit::Done)
+}
+
+fn write(
+    options: &Options,
+    inputs: &Inputs,
+    clock: &Clock,
+    result: &Comparison,
+) -> Result<(), Box<dyn Error>> {
+    let out = &options.out;
+    let caption = format!(
+        "trackdyn {}, recording {}, vehicle {}",
+        env!("CARGO_PKG_VERSION"),
+        inputs.recording.fingerprint(),
+        inputs.vehicle_fingerprint
+    );
+    let picture = trackdyn_report::odometry(result, inputs.recording.name(), &caption)?;
+    write_file(&out.join("odometry.png"), &picture)?;
+    write_file(&out.join("runs.csv"), runs_table::text(result).as_bytes())?;
+    let count = trajectories(&out.join("trajectories"), result)?;
+    let document = document::text(inputs, clock, result, &command_line())?;
+    write_file(&out.join("odometry.toml"), document.as_bytes())?;
+    eprintln!(
+        "wrote odometry.toml, runs.csv, odometry.png and {count} trajectories to {}",
+        out.display()
+    );
+    Ok(())
+}
+
+/// Writes recorded and predicted paths; returns how many.
+fn trajectories(folder: &Path, result: &Comparison) -> Result<usize, Box<dyn Error>> {
+    prepare_folder(folder)?;
+    let mut count = 0;
+    for path in &result.paths {
+        let predicted = result.sets.iter().zip(&path.trajectories);
+        let named = predicted.map(|(set, trajectory)| (set.name(), &trajectory.poses));
+        for (name, poses) in std::iter::once(("recorded", &path.recorded)).chain(named) {
+            let file = folder.join(format!("{name}-run{}.tum", path.run));
+            write_file(&file, tum::text(&path.stamps, poses).as_bytes())?;
+            count += 1;
+        }
+    }
+    Ok(count)
+}

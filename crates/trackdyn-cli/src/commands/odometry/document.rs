@@ -1,0 +1,213 @@
+//! The result of a replay as a file, schema `trackdyn.odometry/1`.
+
+use super::inputs::{Clock, Inputs};
+use super::summary::end;
+use serde::Serialize;
+use trackdyn_odometry::comparison::{Component, SpanErrors};
+use trackdyn_odometry::{Comparison, Estimate, ParameterSet, Span};
+
+#[derive(Serialize)]
+struct File<'a> {
+    schema: &'static str,
+    runs: Vec<i64>,
+    #[serde(skip_serializing_if = "<[i64]>::is_empty")]
+    runs_left_out: &'a [i64],
+    duration_s: f64,
+    distance_m: f64,
+    confidence: String,
+    source: Source<'a>,
+    clock: ClockTable<'a>,
+    set: Vec<SetTable>,
+    span: Vec<SpanTable<'a>>,
+}
+
+#[derive(Serialize)]
+struct Source<'a> {
+    command: &'a str,
+    version: &'static str,
+    recording: &'a str,
+    robot: &'a str,
+    fingerprint: &'a str,
+    vehicle: &'a str,
+    vehicle_fingerprint: &'a str,
+}
+
+#[derive(Serialize)]
+struct ClockTable<'a> {
+    tau_s: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    standard_error_s: Option<f64>,
+    origin: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    note: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct SetTable {
+    name: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fingerprint: Option<String>,
+    x_icr_left_m: f64,
+    x_icr_right_m: f64,
+    y_icr_m: f64,
+    alpha_left: f64,
+    alpha_right: f64,
+    end_position_rms_m: f64,
+    end_yaw_rms_rad: f64,
+}
+
+#[derive(Serialize)]
+struct SpanTable<'a> {
+    kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    length_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    length_s: Option<f64>,
+    count: usize,
+    blocks: usize,
+    mean_distance_m: f64,
+    mean_duration_s: f64,
+    set: Vec<ErrorTable<'a>>,
+}
+
+#[derive(Serialize)]
+struct ErrorTable<'a> {
+    name: &'a str,
+    along_m: ComponentTable,
+    across_m: ComponentTable,
+    yaw_rad: ComponentTable,
+    position_m: ComponentTable,
+}
+
+#[derive(Serialize)]
+struct ComponentTable {
+    mean: EstimateTable,
+    rms: EstimateTable,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    per_metre: Option<EstimateTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rms_over_ideal: Option<EstimateTable>,
+}
+
+#[derive(Serialize)]
+struct EstimateTable {
+    value: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    low95: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    high95: Option<f64>,
+}
+
+/// The text of `odometry.toml`.
+///
+/// # Errors
+/// None in practice: numbers, texts and tables are TOML.
+pub fn text(
+    inputs: &Inputs,
+    clock: &Clock,
+    result: &Comparison,
+    command: &str,
+) -> Result<String, toml::ser::Error> {
+    let recording = &inputs.recording;
+    let file = File {
+        schema: "trackdyn.odometry/1",
+        runs: result.paths.iter().map(|path| path.run).collect(),
+        runs_left_out: &result.left_out,
+        duration_s: rounded(result.duration()),
+        distance_m: rounded(result.distance()),
+        confidence: format!("95 %, jackknife: {}", result.blocks.description()),
+        source: Source {
+            command,
+            version: env!("CARGO_PKG_VERSION"),
+            recording: recording.name(),
+            robot: recording.robot(),
+            fingerprint: recording.fingerprint(),
+            vehicle: &inputs.vehicle,
+            vehicle_fingerprint: &inputs.vehicle_fingerprint,
+        },
+        clock: ClockTable {
+            tau_s: rounded(clock.tau),
+            standard_error_s: clock.standard_error.map(rounded),
+            origin: clock.origin(),
+            note: clock.note.as_deref(),
+        },
+        set: result
+            .sets
+            .iter()
+            .enumerate()
+            .map(|(k, set)| of_set(inputs, result, k, set))
+            .collect(),
+        span: result.spans.iter().map(|errors| of_span(result, errors)).collect(),
+    };
+    toml::to_string(&file)
+}
+
+fn of_set(inputs: &Inputs, result: &Comparison, index: usize, set: &ParameterSet) -> SetTable {
+    let kinematics = set.kinematics();
+    // A set without its alphas is of the file that has them.
+    let file = inputs.files.iter().find(|file| {
+        let without = file.set.without_alpha();
+        file.set.name() == set.name() || without.is_some_and(|of| of.name() == set.name())
+    });
+    let [place, yaw] = end(result, index);
+    SetTable {
+        name: set.name().to_owned(),
+        file: file.map(|file| file.path.display().to_string()),
+        fingerprint: file.map(|file| file.fingerprint.clone()),
+        x_icr_left_m: kinematics.icrs.x_left,
+        x_icr_right_m: kinematics.icrs.x_right,
+        y_icr_m: kinematics.icrs.y,
+        alpha_left: kinematics.alpha.left,
+        alpha_right: kinematics.alpha.right,
+        end_position_rms_m: rounded(place),
+        end_yaw_rms_rad: rounded(yaw),
+    }
+}
+
+fn of_span<'a>(result: &'a Comparison, errors: &SpanErrors) -> SpanTable<'a> {
+    let (kind, length_m, length_s) = match errors.span {
+        Span::Segment => ("segment", None, None),
+        Span::Distance(length) => ("distance", Some(length), None),
+        Span::Duration(length) => ("duration", None, Some(length)),
+    };
+    let of_set =
+        |(set, errors): (&'a ParameterSet, &trackdyn_odometry::comparison::SetErrors)| ErrorTable {
+            name: set.name(),
+            along_m: of_component(&errors.along),
+            across_m: of_component(&errors.across),
+            yaw_rad: of_component(&errors.yaw),
+            position_m: of_component(&errors.position),
+        };
+    SpanTable {
+        kind,
+        length_m,
+        length_s,
+        count: errors.count,
+        blocks: errors.blocks,
+        mean_distance_m: rounded(errors.mean_distance),
+        mean_duration_s: rounded(errors.mean_duration),
+        set: result.sets.iter().zip(&errors.sets).map(of_set).collect(),
+    }
+}
+
+fn of_component(component: &Component) -> ComponentTable {
+    ComponentTable {
+        mean: of_estimate(component.mean),
+        rms: of_estimate(component.rms),
+        per_metre: component.per_metre.map(of_estimate),
+        rms_over_ideal: component.over_first.map(of_estimate),
+    }
+}
+
+fn of_estimate(estimate: Estimate) -> EstimateTable {
+    let [low95, high95] =
+        estimate.interval().map_or([None; 2], |ends| ends.map(|end| Some(rounded(end))));
+    EstimateTable { value: rounded(estimate.value), low95, high95 }
+}
+
+/// The number to nine decimals: what is below is rounding.
+fn rounded(value: f64) -> f64 {
+    (value * 1e9).round() / 1e9
+}

@@ -1,0 +1,134 @@
+//! The result of a replay as text.
+
+use super::inputs::{Clock, Inputs};
+use std::fmt::Write;
+use trackdyn_odometry::comparison::{Component, SpanErrors};
+use trackdyn_odometry::{Comparison, Estimate, Span};
+
+/// One screen: what was replayed, errors per segment, drift, and how sets compare with the ideal.
+pub fn text(inputs: &Inputs, clock: &Clock, result: &Comparison) -> String {
+    let mut text = String::new();
+    let recording = &inputs.recording;
+    let _ = writeln!(
+        text,
+        "{}, {} of {} runs, {:.0} s, {:.1} m",
+        recording.name(),
+        result.paths.len(),
+        recording.runs().len(),
+        result.duration(),
+        result.distance()
+    );
+    let _ = write!(text, "clock offset {:.3} s", clock.tau);
+    let _ = match clock.standard_error {
+        Some(error) => write!(text, " (estimated, standard error {error:.3} s)"),
+        None => write!(text, " ({})", clock.origin()),
+    };
+    let _ = writeln!(text, "; ideal drive: gauge {} m ({})", inputs.gauge, inputs.vehicle);
+    let _ = writeln!(text, "± 95 % confidence, {}", result.blocks.description());
+    let width = result.sets.iter().map(|set| set.name().len()).max().unwrap_or(0).clamp(10, 24) + 6;
+    if let Some(segments) = result.segments() {
+        residuals(&mut text, result, segments, width);
+    }
+    if let Some(span) = result.drift() {
+        drift(&mut text, result, span, width);
+    }
+    text
+}
+
+/// Root mean squares over segments, and over those of the ideal drive.
+fn residuals(text: &mut String, result: &Comparison, segments: &SpanErrors, width: usize) {
+    let SpanErrors { count, mean_duration, mean_distance, .. } = segments;
+    let _ = writeln!(
+        text,
+        "\n  rms over {count} segments of {mean_duration:.2} s, {mean_distance:.3} m (mean)"
+    );
+    let _ = writeln!(
+        text,
+        "  {:width$}{:>16}{:>16}{:>16}",
+        "parameters", "along [mm]", "across [mm]", "yaw [deg]"
+    );
+    for (set, errors) in result.sets.iter().zip(&segments.sets) {
+        let _ = writeln!(
+            text,
+            "  {:width$}{:>16}{:>16}{:>16}",
+            short(set.name(), width),
+            number(errors.along.rms, 1e3, 2),
+            number(errors.across.rms, 1e3, 2),
+            number(errors.yaw.rms, 1.0_f64.to_degrees(), 3),
+        );
+    }
+    for (set, errors) in result.sets.iter().zip(&segments.sets).skip(1) {
+        let over = |component: &Component| {
+            component.over_first.map_or_else(|| "-".to_owned(), |ratio| number(ratio, 1.0, 3))
+        };
+        let _ = writeln!(
+            text,
+            "  {:width$}{:>16}{:>16}{:>16}",
+            format!("{}/ideal", short(set.name(), width - 6)),
+            over(&errors.along),
+            over(&errors.across),
+            over(&errors.yaw),
+        );
+    }
+}
+
+/// Drift over the longest pieces, and errors at the end.
+fn drift(text: &mut String, result: &Comparison, span: &SpanErrors, width: usize) {
+    let pieces = match span.span {
+        Span::Segment => "segments".to_owned(),
+        Span::Distance(length) => format!("pieces of {length} m"),
+        Span::Duration(length) => format!("pieces of {length} s"),
+    };
+    let runs = result.paths.len();
+    #[expect(clippy::cast_precision_loss, reason = "a number of runs")]
+    let mean_distance = result.distance() / runs as f64;
+    let _ = writeln!(
+        text,
+        "\n  drift per metre over {} {pieces}; error at the end, rms over {runs} runs of {:.1} m",
+        span.count, mean_distance
+    );
+    let _ = writeln!(
+        text,
+        "  {:width$}{:>16}{:>16}{:>12}{:>12}",
+        "parameters", "position [mm/m]", "yaw [deg/m]", "end [m]", "end [deg]"
+    );
+    for (index, (set, errors)) in result.sets.iter().zip(&span.sets).enumerate() {
+        let [place, yaw] = end(result, index);
+        let per_metre = |component: &Component, scale, decimals| {
+            component
+                .per_metre
+                .map_or_else(|| "-".to_owned(), |drift| number(drift, scale, decimals))
+        };
+        let _ = writeln!(
+            text,
+            "  {:width$}{:>16}{:>16}{place:>12.3}{:>12.2}",
+            short(set.name(), width),
+            per_metre(&errors.position, 1e3, 1),
+            per_metre(&errors.yaw, 1.0_f64.to_degrees(), 2),
+            yaw.to_degrees(),
+        );
+    }
+}
+
+/// Root mean square over runs of the errors of place, m, and yaw, rad, at the end.
+pub fn end(result: &Comparison, set: usize) -> [f64; 2] {
+    let last: Vec<_> =
+        result.paths.iter().filter_map(|path| path.errors(set)).map(|errors| errors.last).collect();
+    #[expect(clippy::cast_precision_loss, reason = "a number of runs")]
+    let count = last.len().max(1) as f64;
+    let places: f64 = last.iter().map(|last| last.position().powi(2)).sum();
+    let yaws: f64 = last.iter().map(|last| last.yaw * last.yaw).sum();
+    [(places / count).sqrt(), (yaws / count).sqrt()]
+}
+
+fn number(estimate: Estimate, scale: f64, decimals: usize) -> String {
+    let value = scale * estimate.value;
+    match estimate.half_width {
+        Some(half) => format!("{value:.decimals$} ± {:.decimals$}", scale * half),
+        None => format!("{value:.decimals$}"),
+    }
+}
+
+fn short(name: &str, width: usize) -> String {
+    name.chars().take(width).collect()
+}

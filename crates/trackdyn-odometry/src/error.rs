@@ -1,0 +1,51 @@
+//! What can go wrong with a replay.
+
+/// A recording that cannot be replayed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A run that the recording does not have.
+    #[error("run {run} is not in the recording: expected {expected}")]
+    UnknownRun {
+        /// The number asked for.
+        run: i64,
+        /// The numbers that are there.
+        expected: String,
+    },
+    /// Too few poses of a run lie within the time of its track speeds.
+    #[error(
+        "run {run}: {poses} of its {all} poses lie within the time of its track speeds at a clock \
+         offset of {tau:.3} s: expected two or more"
+    )]
+    NotCovered {
+        /// Number of the run.
+        run: i64,
+        /// Poses within the time of the readings.
+        poses: usize,
+        /// Poses of the run.
+        all: usize,
+        /// Clock offset, s.
+        tau: f64,
+    },
+    /// No piece of the runs can be compared.
+    #[error(
+        "none of {runs} runs has a segment: a piece of {duration} s or more between two poses, \
+         with {readings} readings of the tracks in it"
+    )]
+    NoSegments {
+        /// Runs that were looked at.
+        runs: usize,
+        /// Shortest segment, s.
+        duration: f64,
+        /// Fewest readings.
+        readings: usize,
+    },
+    /// The tracks never move.
+    #[error("the tracks never move in {runs} runs of {duration:.1} s: there is nothing to compare")]
+    Standing {
+        /// Runs that were looked at.
+        runs: usize,
+        /// Their time, s.
+        duration: f64,
+    },
+}

@@ -1,0 +1,36 @@
+//! Dead reckoning: where the robot would be if its parameters were true, against where it was.
+//!
+//! - [`parameter_set`]: what turns track speeds into motion: a kinematics file, or the ideal drive.
+//! - [`replay()`]: the path that a parameter set predicts from the track speeds of a run.
+//! - [`stretch`]: pieces of a run over a distance or a time, and what was seen in them.
+//! - [`residual`]: observed minus predicted motion.
+//! - [`blocks`]: confidence intervals that know that neighbouring residuals are related.
+//! - [`pose_error`]: relative and absolute pose errors as other tools define them.
+//! - [`comparison`]: all of it for several parameter sets on the same runs.
+//! - [`tum`]: paths as files.
+//!
+//! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
+
+pub mod blocks;
+pub mod comparison;
+mod error;
+pub mod parameter_set;
+pub mod pose_error;
+mod replay;
+pub mod residual;
+pub mod stretch;
+pub mod tum;
+
+pub use blocks::{Blocks, Estimate};
+pub use comparison::Comparison;
+pub use error::Error;
+pub use parameter_set::ParameterSet;
+pub use replay::{Trajectory, replay};
+pub use residual::Residual;
+pub use stretch::{Span, Stretch};
+
+/// A count as a real number.
+#[expect(clippy::cast_precision_loss, reason = "counts of samples stay far below 2⁵³")]
+pub(crate) fn real(count: usize) -> f64 {
+    count as f64
+}

@@ -1,0 +1,61 @@
+//! How errors grow with distance or time.
+
+use super::{Quantity, look};
+use crate::Error;
+use crate::canvas::{Area, Canvas};
+use crate::panel::{Labels, Panel};
+use trackdyn_odometry::comparison::SpanErrors;
+use trackdyn_odometry::{Comparison, Span};
+
+/// Draws the root mean square of a quantity over pieces of several lengths.
+pub(super) fn draw(
+    canvas: &mut Canvas,
+    area: Area,
+    result: &Comparison,
+    quantity: &Quantity,
+) -> Result<(), Error> {
+    let spans = result.growth();
+    let by_time = matches!(spans.last().map(|errors| errors.span), Some(Span::Duration(_)));
+    let length = |errors: &SpanErrors| {
+        if by_time { errors.mean_duration } else { errors.mean_distance }
+    };
+    let longest = spans.iter().map(|errors| length(errors)).fold(0.0, f64::max);
+    let highest = spans
+        .iter()
+        .flat_map(|errors| &errors.sets)
+        .map(|set| {
+            let rms = (quantity.of)(set).rms;
+            quantity.scale * (rms.value + rms.half_width.unwrap_or(0.0).min(rms.value))
+        })
+        .fold(0.0, f64::max);
+    let end = |value: f64| if value > 0.0 { 1.08 * value } else { 1.0 };
+    let panel = Panel { plot: area, x: [0.0, end(longest)], y: [0.0, end(highest)] };
+    let y = format!("rms error ({})", quantity.unit);
+    let x = if by_time { "time (s)" } else { "distance travelled (m)" };
+    panel.frame(canvas, &Labels { title: quantity.name, x, y: &y }, true)?;
+    if spans.is_empty() {
+        panel.remark(canvas, "runs too short");
+    }
+    canvas.clip(area, |canvas| {
+        for set in 0..result.sets.len() {
+            let mut before = None;
+            for errors in &spans {
+                let rms = (quantity.of)(&errors.sets[set]).rms;
+                let value = quantity.scale * rms.value;
+                let at = panel.pixel([length(errors), value]);
+                let colour = look::colour(set);
+                if let Some(half) = rms.half_width.map(|half| quantity.scale * half) {
+                    let ends = [value - half, value + half];
+                    let rows = ends.map(|value| panel.pixel([0.0, value.max(0.0)])[1]);
+                    look::whisker(canvas, at[0], rows, colour);
+                }
+                if let Some(before) = before.replace(at) {
+                    canvas.line(before, at, 4.0, colour);
+                }
+                look::marker(canvas, set, at);
+            }
+        }
+    });
+    panel.border(canvas);
+    Ok(())
+}

@@ -1,0 +1,42 @@
+//! Which parameter set has which colour.
+
+use super::look;
+use crate::canvas::{Area, Canvas};
+use crate::colour::INK;
+use crate::text::{Horizontal, Style, Vertical};
+use trackdyn_odometry::{Comparison, ParameterSet};
+
+const SIZE: f32 = 26.0;
+/// Length of a sample of a line, pixels.
+const SAMPLE: i32 = 64;
+/// Distance between a sample and its text, and between entries, pixels.
+const GAPS: [i32; 2] = [14, 46];
+/// Distance between lines, pixels.
+const LINE: i32 = 40;
+/// Longest name, pixels.
+const LONGEST: i32 = 420;
+
+/// Draws an entry for the recorded path and one for each set, in one or two lines.
+pub(super) fn draw(canvas: &mut Canvas, area: Area, result: &Comparison) {
+    let mut at = [area.left, area.top + LINE / 2];
+    let names = std::iter::once("recorded").chain(result.sets.iter().map(ParameterSet::name));
+    for (entry, name) in names.enumerate() {
+        let name = canvas.fitted(name, SIZE, LONGEST);
+        let width = SAMPLE + GAPS[0] + canvas.text_width(&name, SIZE);
+        if at[0] + width > area.right() {
+            at = [area.left, at[1] + LINE];
+        }
+        let [left, row] = at.map(f64::from);
+        let right = left + f64::from(SAMPLE);
+        match entry.checked_sub(1) {
+            None => canvas.line([left, row], [right, row], 8.0, INK),
+            Some(set) => {
+                canvas.line([left, row], [right, row], 4.0, look::colour(set));
+                look::marker(canvas, set, [f64::midpoint(left, right), row]);
+            }
+        }
+        let style = Style::new(SIZE).anchor(Horizontal::Left, Vertical::Middle);
+        canvas.text(&name, [at[0] + SAMPLE + GAPS[0], at[1]], &style);
+        at[0] += width + GAPS[1];
+    }
+}

@@ -1,0 +1,186 @@
+//! `trackdyn odometry`.
+
+use crate::{Workplace, project_text};
+use trackdyn_core::PerSide;
+use trackdyn_recording::folder;
+use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
+
+/// Four runs of a robot whose ICRs and alphas are known.
+fn synthetic() -> Synthetic {
+    Synthetic {
+        kinematics: ConstantIcr {
+            x_left: -0.4,
+            x_right: 0.45,
+            y: 0.05,
+            alpha: PerSide::new(0.97, 0.99),
+        },
+        schedules: (0..4).map(|seed| random_steps(10, 4.0, 1.0, seed)).collect(),
+        position_noise: 0.003,
+        yaw_noise: 0.002,
+        tau: 0.15,
+        seed: 3,
+        ..Synthetic::default()
+    }
+}
+
+/// A workplace with that recording, the vehicle, and files with true and with other parameters.
+fn workplace(synthetic: &Synthetic) -> Workplace {
+    let place = Workplace::new();
+    let recording = synthetic.recording().expect("a recording");
+    folder::write(&recording, &place.path().join("recording")).expect("written");
+    place.write("robot.toml", &project_text("configs/vehicles/auriga-alpha.toml"));
+    let file = |x_right: f64, alphas: &str| {
+        format!(
+            "schema = \"trackdyn.kinematics/1\"\nframe = \"paper\"\nx_icr_left_m = -0.4\n\
+             x_icr_right_m = {x_right}\ny_icr_m = 0.05\nsteering_efficiency = 0.5\n\
+             eccentricity = 0.0\n{alphas}[source]\ncommand = \"\"\nversion = \"\"\n\
+             vehicle = \"\"\nfingerprint = \"\"\n"
+        )
+    };
+    place.write("fit.toml", &file(0.45, "alpha_left = 0.97\nalpha_right = 0.99\n"));
+    place.write("other.toml", &file(0.5, ""));
+    place
+}
+
+const COMMAND: &str = "odometry recording --vehicle robot.toml --kinematics fit.toml \
+                       --kinematics other.toml";
+
+fn document(place: &Workplace) -> toml::Table {
+    String::from_utf8(place.read("out/odometry.toml")).expect("text").parse().expect("TOML")
+}
+
+/// Rms of a component over segments of the set at a place in the file.
+fn rms(document: &toml::Table, set: usize, component: &str) -> f64 {
+    document["span"][0]["set"][set][component]["rms"]["value"].as_float().expect("a number")
+}
+
+#[test]
+fn true_parameters_win_by_all_that_is_not_noise() {
+    let place = workplace(&synthetic());
+    let run = place.run(COMMAND);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    for part in ["4 of 4 runs, 159 s", "clock offset 0.15", "gauge 0.42 m", "fit-no-alpha"] {
+        assert!(run.stdout.contains(part), "{part} is not in:\n{}", run.stdout);
+    }
+    assert!(run.stdout.lines().count() <= 24, "{}", run.stdout);
+    let files = place.files();
+    let trajectories = files.iter().filter(|file| file.starts_with("out/trajectories")).count();
+    // Recorded, ideal, fit, fit without alpha, other.
+    assert_eq!(trajectories, 4 * 5);
+    for name in ["out/odometry.png", "out/odometry.toml", "out/runs.csv"] {
+        assert!(files.iter().any(|file| file.as_os_str() == name), "{name}");
+    }
+
+    let document = document(&place);
+    assert_eq!(document["schema"].as_str(), Some("trackdyn.odometry/1"));
+    assert_eq!(document["clock"]["origin"].as_str(), Some("estimated"));
+    let names: Vec<_> =
+        document["set"].as_array().expect("sets").iter().map(|set| set["name"].as_str()).collect();
+    assert_eq!(names, ["ideal", "fit", "fit-no-alpha", "other"].map(Some));
+    // Two poses each with 0.002 rad and 0.003 m; 10 %: 480 segments, and the clock offset.
+    for (component, noise) in [("yaw_rad", 0.002), ("along_m", 0.003), ("across_m", 0.003)] {
+        let ratio = rms(&document, 1, component) / (noise * 2.0_f64.sqrt());
+        assert!((ratio - 1.0).abs() < 0.1, "{component}: {ratio}");
+        for set in [0, 2, 3] {
+            assert!(rms(&document, set, component) > rms(&document, 1, component), "{component}");
+        }
+    }
+}
+
+#[test]
+fn trajectories_start_together_and_have_one_line_per_pose() {
+    let place = workplace(&synthetic());
+    assert_eq!(place.run(COMMAND).status, 0);
+    let lines = |name: &str| -> Vec<String> {
+        let text = String::from_utf8(place.read(&format!("out/trajectories/{name}-run2.tum")));
+        text.expect("text").lines().map(str::to_owned).collect()
+    };
+    let (recorded, fit) = (lines("recorded"), lines("fit"));
+    assert_eq!(recorded.len(), fit.len());
+    assert_eq!(recorded[1], fit[1]);
+    assert!(fit[1..].iter().all(|line| line.split(' ').count() == 8));
+}
+
+#[test]
+fn runs_and_clock_offset_can_be_chosen() {
+    let place = workplace(&synthetic());
+    let run = place.run(&format!("{COMMAND} --runs 1,3 --tau 0.15"));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("2 of 4 runs") && run.stdout.contains("0.150 s (given)"));
+    let document = document(&place);
+    let runs: Vec<_> =
+        document["runs"].as_array().expect("runs").iter().map(toml::Value::as_integer).collect();
+    assert_eq!(runs, [Some(1), Some(3)]);
+}
+
+#[test]
+fn a_clock_offset_that_cannot_be_estimated_is_zero_and_said() {
+    let straight = vec![vec![Stretch { duration: 20.0, speeds: PerSide::new(0.5, 0.5) }]];
+    let place = workplace(&Synthetic { schedules: straight, ..Synthetic::default() });
+    let run = place.run(COMMAND);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("the clock offset is taken as 0"), "{}", run.stderr);
+    assert!(run.stdout.contains("0.000 s (not estimable)"), "{}", run.stdout);
+}
+
+#[test]
+fn same_bytes_on_any_number_of_threads() {
+    let place = workplace(&synthetic());
+    let all = |threads| {
+        let run = place.run_with_threads(COMMAND, threads);
+        let files = place.files().into_iter();
+        let contents: Vec<_> = files.map(|file| place.read(&file.to_string_lossy())).collect();
+        (run.stdout, contents)
+    };
+    assert!(all(1) == all(3), "output differs between 1 and 3 threads");
+}
+
+#[test]
+fn mistakes_are_named_and_nothing_is_written() {
+    let place = workplace(&synthetic());
+    std::fs::create_dir(place.path().join("empty")).expect("created");
+    let fit = String::from_utf8(place.read("fit.toml")).expect("text");
+    place.write("nan.toml", &fit.replace("alpha_left = 0.97", "alpha_left = nan"));
+    let before = place.files();
+    for (arguments, part) in [
+        ("odometry recording", "--vehicle"),
+        ("odometry missing --vehicle robot.toml", "missing: cannot be read"),
+        ("odometry empty --vehicle robot.toml", "neither recording.toml nor"),
+        ("odometry recording --vehicle missing.toml", "missing.toml: cannot be read"),
+        (
+            "odometry recording --vehicle robot.toml --kinematics robot.toml",
+            "robot.toml:7:1: unknown field `cog_m`",
+        ),
+        (
+            "odometry recording --vehicle robot.toml --kinematics nan.toml",
+            "nan.toml: alpha_left = NaN: expected at most 1000 in size",
+        ),
+        (
+            "odometry recording --vehicle robot.toml --runs 1,7",
+            "--runs: run 7 is not in the recording: expected one of 0, 1, 2, 3",
+        ),
+        ("odometry recording --vehicle robot.toml --runs 1,x", "numbers of runs"),
+        ("odometry recording --vehicle robot.toml --tau soon", "a number of seconds"),
+        ("odometry recording --vehicle robot.toml --tau 900", "lie within the time of its track"),
+        ("odometry recording --vehicle robot.toml --out robot.toml/out", "cannot be written"),
+    ] {
+        let run = place.run(arguments);
+        assert_eq!(run.status, 1, "{arguments}: {}", run.stderr);
+        assert!(run.stderr.contains(part), "{arguments}: {part:?} is not in:\n{}", run.stderr);
+        assert!(run.stdout.is_empty() && run.stderr.lines().count() <= 20, "{}", run.stderr);
+    }
+    assert_eq!(place.files(), before);
+}
+
+#[test]
+fn recordings_without_poses_or_motion_are_refused() {
+    let standing = vec![vec![Stretch { duration: 5.0, speeds: PerSide::new(0.0, 0.0) }]];
+    let place = workplace(&Synthetic { schedules: standing, ..Synthetic::default() });
+    let run = place.run(COMMAND);
+    assert_eq!(run.status, 1, "{}", run.stdout);
+    assert!(run.stderr.contains("recording: the tracks never move"), "{}", run.stderr);
+    place.write("recording/poses.csv", "t,x,y,yaw\n");
+    let run = place.run(COMMAND);
+    assert_eq!(run.status, 1, "{}", run.stdout);
+    assert!(!place.path().join("out").exists());
+}

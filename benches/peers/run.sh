@@ -1,12 +1,21 @@
 #!/usr/bin/env bash
-# Run the peer benchmark in its own virtual environment; arguments go to peers.py.
+# Run a peer benchmark in its own virtual environment. The first argument names the script, peers.py or
+# identify.py (default: peers.py); further arguments go to it.
 # PYTHON names the interpreter (3.11 or newer); default: python3.
 set -euo pipefail
 
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 venv="$(cd "$here/../.." && pwd)/target/peers-venv"
 
+script=peers.py
+case "${1:-}" in
+*.py)
+    script="$1"
+    shift
+    ;;
+esac
+
 [ -x "$venv/bin/python" ] || "${PYTHON:-python3}" -m venv "$venv"
 "$venv/bin/python" -m pip install --quiet --disable-pip-version-check \
     --requirement "$here/requirements.txt"
-exec "$venv/bin/python" "$here/peers.py" "$@"
+exec "$venv/bin/python" "$here/$script" "$@"

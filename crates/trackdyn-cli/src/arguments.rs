@@ -1,12 +1,8 @@
-//! What the command line accepts.
+//! What the command line accepts, and which command does it.
 
 use crate::commands;
-use clap::{Args, Parser, Subcommand};
-use std::path::{Path, PathBuf};
-use trackdyn_core::document::Document;
-use trackdyn_physics::{ActiveEffect, Circumstance, Model, VehicleFile};
-use trackdyn_recording::Recording;
-use trackdyn_recording::rosbag::RosbagOptions;
+use crate::commands::Outcome;
+use clap::{CommandFactory, Parser, Subcommand};
 
 /// Kinematics of tracked and skid-steer robots: simulate the ICRs of the tracks, check them, use them.
 #[derive(Parser)]
@@ -42,143 +38,20 @@ pub enum Command {
     Man,
 }
 
-/// The vehicle, its effects and where it stands.
-#[derive(Args)]
-pub struct ModelOptions {
-    /// Vehicle file (schema trackdyn.vehicle/1) [default: Auriga-alpha, embedded]
-    #[arg(long, value_name = "FILE")]
-    pub vehicle: Option<PathBuf>,
-    /// Centre of gravity in m from the centre of the contact area: right, forward
-    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
-    pub cog: Option<[f64; 2]>,
-    /// Switch an effect on, with its typical size or this one; repeatable (see `trackdyn effects`)
-    #[arg(long = "effect", value_name = "ID[:PARAMETER=VALUE,...]")]
-    pub effects: Vec<ActiveEffect>,
-    /// Heading of the robot in the world in degrees, for effects that know directions
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true,
-          value_parser = finite)]
-    pub heading: f64,
-}
-
-impl ModelOptions {
-    /// The vehicle file with the changes of the command line.
-    ///
-    /// # Errors
-    /// A message that names the file, line and key, or the option.
-    pub fn vehicle_file(&self) -> Result<VehicleFile, Box<dyn std::error::Error>> {
-        let mut file = match &self.vehicle {
-            Some(path) => read_vehicle(path)?,
-            None => VehicleFile::auriga_alpha(),
-        };
-        if let Some(cog) = self.cog {
-            file.vehicle.cog = cog;
-            file.vehicle.check().map_err(|error| format!("--cog: {error}"))?;
+impl Command {
+    /// Runs the command.
+    pub fn run(&self) -> Outcome {
+        match self {
+            Self::Map(options) => commands::map::run(options),
+            Self::Kinematics(options) => commands::kinematics::run(options),
+            Self::Odometry(options) => commands::odometry::run(options),
+            Self::Check(options) => commands::check::run(options),
+            Self::Export(options) => commands::export::run(options),
+            Self::Effects(options) => commands::effects::run(options),
+            Self::Inspect(options) => commands::inspect::run(options),
+            Self::Identify(options) => commands::identify::run(options),
+            Self::Completions(options) => commands::completions::run(options, Arguments::command()),
+            Self::Man => commands::man::run(Arguments::command()),
         }
-        for effect in &self.effects {
-            file.effects.insert(effect.clone());
-        }
-        Ok(file)
-    }
-
-    /// The place, heading and time.
-    pub fn circumstance(&self) -> Circumstance {
-        Circumstance { heading: self.heading.to_radians() }
-    }
-}
-
-/// A recording, and how it is read.
-#[derive(Args)]
-pub struct RecordingOptions {
-    /// Folder with recording.toml, or rosbag2 (.mcap, .db3 or the folder around them)
-    pub recording: PathBuf,
-    /// Bag: topic of the joint states
-    #[arg(long, value_name = "TOPIC")]
-    tracks_topic: Option<String>,
-    /// Bag: joint on the left, with `-` before it where it runs backwards; repeatable
-    #[arg(long, value_name = "JOINT", allow_hyphen_values = true)]
-    left_joint: Vec<String>,
-    /// Bag: joint on the right, in the same way
-    #[arg(long, value_name = "JOINT", allow_hyphen_values = true)]
-    right_joint: Vec<String>,
-    /// Bag: belt travel in m per radian of the joints
-    #[arg(long, value_name = "M", value_parser = finite, allow_negative_numbers = true)]
-    wheel_radius: Option<f64>,
-    /// Bag: topic of the poses
-    #[arg(long, value_name = "TOPIC")]
-    pose_topic: Option<String>,
-    /// Bag: frame that the poses are expressed in
-    #[arg(long, value_name = "FRAME")]
-    parent_frame: Option<String>,
-    /// Bag: frame whose poses they are
-    #[arg(long, value_name = "FRAME")]
-    child_frame: Option<String>,
-}
-
-impl RecordingOptions {
-    /// Reads the recording; what was cleaned or left out goes to stderr.
-    ///
-    /// # Errors
-    /// Those of [`trackdyn_recording::read`].
-    pub fn read(&self) -> Result<Recording, trackdyn_recording::Error> {
-        let recording = trackdyn_recording::read(&self.recording, &self.rosbag())?;
-        for warning in recording.warnings() {
-            eprintln!("note: {warning}");
-        }
-        Ok(recording)
-    }
-
-    fn rosbag(&self) -> RosbagOptions {
-        RosbagOptions {
-            tracks_topic: self.tracks_topic.clone(),
-            left_joints: self.left_joint.clone(),
-            right_joints: self.right_joint.clone(),
-            wheel_radius: self.wheel_radius,
-            pose_topic: self.pose_topic.clone(),
-            parent_frame: self.parent_frame.clone(),
-            child_frame: self.child_frame.clone(),
-            ..RosbagOptions::default()
-        }
-    }
-}
-
-/// Reads a vehicle file.
-///
-/// # Errors
-/// A message that names file, line and key.
-pub fn read_vehicle(path: &Path) -> Result<VehicleFile, Box<dyn std::error::Error>> {
-    Ok(VehicleFile::from_document(&Document::read(path)?)?)
-}
-
-/// The model of a vehicle file.
-pub fn model(file: &VehicleFile) -> Model {
-    Model::new(file.vehicle.clone(), file.effects.clone())
-}
-
-/// The command line, for the head of files that are written.
-pub fn command_line() -> String {
-    let mut arguments: Vec<String> = std::env::args().skip(1).collect();
-    arguments.insert(0, "trackdyn".to_owned());
-    arguments.join(" ")
-}
-
-/// Two numbers, separated by a comma.
-///
-/// # Errors
-/// What was expected.
-pub fn pair(text: &str) -> Result<[f64; 2], String> {
-    let expected = || "expected two numbers separated by a comma, such as -0.015,0.04".to_owned();
-    let (first, second) = text.split_once(',').ok_or_else(expected)?;
-    let number = |text: &str| finite(text.trim()).map_err(|_| expected());
-    Ok([number(first)?, number(second)?])
-}
-
-/// A finite number.
-///
-/// # Errors
-/// What was expected.
-pub fn finite(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => Err("expected a finite number".to_owned()),
     }
 }

@@ -5,6 +5,7 @@
 mod arguments;
 mod commands;
 mod exit;
+mod options;
 mod progress;
 
 use arguments::Arguments;
@@ -22,7 +23,7 @@ fn main() -> ExitCode {
             return exit.into();
         }
     };
-    match commands::run(&arguments.command) {
+    match arguments.command.run() {
         Ok(exit) => exit.into(),
         Err(error) => {
             eprintln!("error: {error}");

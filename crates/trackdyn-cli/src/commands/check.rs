@@ -2,9 +2,9 @@
 
 mod reference;
 
-use crate::arguments::{model, read_vehicle};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::options::{model, read_vehicle};
 use clap::Args;
 use reference::{Case, Reference};
 use std::error::Error;

@@ -1,9 +1,8 @@
 //! `trackdyn completions SHELL`.
 
-use crate::arguments::Arguments;
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
 /// Options of `trackdyn completions`.
@@ -14,8 +13,7 @@ pub struct Options {
 }
 
 /// Prints the completions.
-pub fn run(options: &Options) -> Outcome {
-    let mut command = Arguments::command();
+pub fn run(options: &Options, mut command: Command) -> Outcome {
     clap_complete::generate(options.shell, &mut command, "trackdyn", &mut std::io::stdout().lock());
     Ok(Exit::Done)
 }

@@ -1,8 +1,8 @@
 //! `trackdyn export`: the kinematics as files of other programs.
 
-use crate::arguments::{command_line, pair};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::options::{command_line, pair};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use trackdyn_core::document::Document;

@@ -2,9 +2,9 @@
 
 mod summary;
 
-use crate::arguments::{RecordingOptions, command_line, finite, read_vehicle};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::options::{RecordingOptions, command_line, finite, read_vehicle};
 use crate::progress::Progress;
 use clap::Args;
 use std::path::PathBuf;

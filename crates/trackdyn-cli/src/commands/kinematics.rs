@@ -1,8 +1,8 @@
 //! `trackdyn kinematics`: direct and inverse kinematics, eqs (7)-(11).
 
-use crate::arguments::{ModelOptions, model, pair};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::options::{ModelOptions, model, pair};
 use clap::{ArgGroup, Args};
 use std::error::Error;
 use std::path::PathBuf;

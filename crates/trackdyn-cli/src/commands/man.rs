@@ -1,12 +1,11 @@
 //! `trackdyn man`: the manual page.
 
-use crate::arguments::Arguments;
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use clap::CommandFactory;
+use clap::Command;
 
 /// Prints the page in roff.
-pub fn run() -> Outcome {
-    clap_mangen::Man::new(Arguments::command()).render(&mut std::io::stdout().lock())?;
+pub fn run(command: Command) -> Outcome {
+    clap_mangen::Man::new(command).render(&mut std::io::stdout().lock())?;
     Ok(Exit::Done)
 }

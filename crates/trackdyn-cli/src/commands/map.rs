@@ -2,9 +2,9 @@
 
 mod summary;
 
-use crate::arguments::{ModelOptions, command_line, model};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::options::{ModelOptions, command_line, model};
 use crate::progress::Progress;
 use clap::Args;
 use std::path::PathBuf;

@@ -5,9 +5,9 @@ mod inputs;
 mod runs_table;
 mod summary;
 
-use crate::arguments::command_line;
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::options::{RecordingOptions, command_line};
 use clap::Args;
 use inputs::{Clock, Inputs, RunList};
 use std::error::Error;
@@ -18,8 +18,8 @@ use trackdyn_odometry::{Comparison, comparison, tum};
 /// Options of `trackdyn odometry`.
 #[derive(Args)]
 pub struct Options {
-    /// Recording: a folder with recording.toml, or a rosbag2
-    recording: PathBuf,
+    #[command(flatten)]
+    recording: RecordingOptions,
     /// Parameters to replay with (schema trackdyn.kinematics/1); repeatable
     #[arg(long, value_name = "FILE")]
     kinematics: Vec<PathBuf>,
@@ -44,13 +44,10 @@ pub fn run(options: &Options) -> Outcome {
         comparison::select(&inputs.recording, options.runs.as_ref().map_or(&[], RunList::numbers))
             .map_err(|error| format!("--runs: {error}"))?;
     let clock = Clock::new(&inputs.recording, options.tau);
-    let named = |error| format!("{}: {error}", options.recording.display());
+    let named = |error| format!("{}: {error}", options.recording.recording.display());
     let result =
         Comparison::new(&inputs.recording, &runs, inputs.sets(), clock.tau).map_err(named)?;
     prepare_folder(&options.out)?;
-    for warning in inputs.recording.warnings() {
-        eprintln!("note: {warning}");
-    }
     if let Some(note) = &clock.note {
         eprintln!("note: {note}; the clock offset is taken as 0 (set it with --tau)");
     }

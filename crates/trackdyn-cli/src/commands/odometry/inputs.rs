@@ -1,7 +1,7 @@
 //! What a replay is made from.
 
 use super::Options;
-use crate::arguments::read_vehicle;
+use crate::options::read_vehicle;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
@@ -9,9 +9,8 @@ use trackdyn_core::output::fingerprint;
 use trackdyn_motion::Kinematics;
 use trackdyn_motion::kinematics::KinematicsFile;
 use trackdyn_odometry::ParameterSet;
+use trackdyn_recording::Recording;
 use trackdyn_recording::clock::{ClockSearch, clock_offset};
-use trackdyn_recording::rosbag::RosbagOptions;
-use trackdyn_recording::{Recording, read};
 
 /// Files, read and checked.
 pub struct Inputs {
@@ -52,7 +51,7 @@ impl Inputs {
             .map(|(path, name)| ParameterFile::read(path, &name))
             .collect::<Result<_, _>>()?;
         Ok(Self {
-            recording: read(&options.recording, &RosbagOptions::default())?,
+            recording: options.recording.read()?,
             vehicle_fingerprint: fingerprint(vehicle.to_toml().as_bytes()),
             gauge: vehicle.vehicle.gauge,
             vehicle: vehicle.vehicle.name,

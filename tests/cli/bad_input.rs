@@ -128,6 +128,7 @@ fn options_of_the_command_line() {
         ("map --grid -3", "--grid"),
         ("map --speed 0", "speed = 0: expected a positive largest track speed"),
         ("map --speed nan", "speed = NaN"),
+        ("map --speed 1e308", "at most 1000"),
         ("map --cog 0.3,0", "the left side lifts"),
         ("map --cog nan,0", "two numbers separated by a comma"),
         ("map --cog 0.1", "two numbers separated by a comma"),

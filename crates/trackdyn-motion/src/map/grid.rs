@@ -14,8 +14,8 @@ pub enum GridError {
     /// Too few or too many points.
     #[error("grid = {0}: expected 2 to {max} points per track", max = Grid::MAX_POINTS)]
     Points(usize),
-    /// A speed that is not positive and finite.
-    #[error("speed = {0}: expected a positive largest track speed in m/s")]
+    /// A speed that is not positive, or that no robot drives.
+    #[error("speed = {0}: expected a positive largest track speed in m/s, at most {max}", max = Grid::MAX_SPEED)]
     Speed(f64),
 }
 
@@ -26,6 +26,9 @@ impl Grid {
     /// Most points per track: four million pairs.
     pub const MAX_POINTS: usize = 2001;
 
+    /// Largest speed that is taken for one, m/s.
+    pub const MAX_SPEED: f64 = 1000.0;
+
     /// A grid with `points` speeds per track from −`max_speed` to `max_speed` (m/s).
     ///
     /// # Errors
@@ -34,7 +37,7 @@ impl Grid {
         if !(2..=Self::MAX_POINTS).contains(&points) {
             return Err(GridError::Points(points));
         }
-        if !(max_speed.is_finite() && max_speed > 0.0) {
+        if !(max_speed > 0.0 && max_speed <= Self::MAX_SPEED) {
             return Err(GridError::Speed(max_speed));
         }
         Ok(Self { points, max_speed })
@@ -75,6 +78,7 @@ mod tests {
         assert_eq!(Grid::new(0, 1.0), Err(GridError::Points(0)));
         assert_eq!(Grid::new(1_000_000, 1.0), Err(GridError::Points(1_000_000)));
         assert_eq!(Grid::new(11, 0.0), Err(GridError::Speed(0.0)));
+        assert_eq!(Grid::new(11, 1e308), Err(GridError::Speed(1e308)));
         assert!(Grid::new(11, f64::NAN).is_err());
     }
 }

@@ -1,4 +1,4 @@
-//! Planar geometry and the scalar type that every other crate of trackdyn speaks.
+//! Planar geometry, motion in time and the scalar type that every other crate of trackdyn speaks.
 //!
 //! Units are SI and radians throughout. Two frames exist: [`frames`] names them and holds the only
 //! code that knows both.
@@ -7,16 +7,22 @@ pub mod document;
 pub mod dual;
 pub mod frames;
 pub mod output;
+pub mod plant;
 pub mod pose;
 pub mod scalar;
+pub mod schedule;
 pub mod side;
+pub mod trajectory;
 pub mod twist;
 pub mod wrench;
 
 pub use dual::Dual;
+pub use plant::{Plant, Stopped};
 pub use pose::Pose;
 pub use scalar::Scalar;
+pub use schedule::{Command, Schedule, ScheduleError};
 pub use side::{PerSide, Side};
+pub use trajectory::{Moment, Trajectory};
 pub use twist::Twist;
 pub use wrench::Wrench;
 

@@ -56,6 +56,19 @@ impl Pose {
             yaw: angle,
         }
     }
+
+    /// The constant twist that leads here from the origin in `duration` seconds: the inverse of
+    /// [`Pose::exp`] for turns of less than a full one.
+    pub fn log(&self, duration: f64) -> Twist {
+        let half = self.yaw / 2.0;
+        // ½ yaw cot(½ yaw), by its series where the quotient loses digits
+        let cotangent = if half.abs() < 1e-4 { 1.0 - half * half / 3.0 } else { half / half.tan() };
+        Twist {
+            v_x: (cotangent * self.x + half * self.y) / duration,
+            v_y: (cotangent * self.y - half * self.x) / duration,
+            w: self.yaw / duration,
+        }
+    }
 }
 
 /// The angle wrapped into (−π, π].
@@ -90,6 +103,16 @@ mod tests {
         // A quarter circle of radius 1.
         let quarter = Pose::exp(&Twist { v_x: 1.0, v_y: 0.0, w: 1.0 }, std::f64::consts::FRAC_PI_2);
         assert!((quarter.x - 1.0).abs() < 1e-15 && (quarter.y - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn log_undoes_exp() {
+        for w in [0.0, 1e-6, -1e-4, 0.3, -1.0, 1.5] {
+            let twist = Twist { v_x: 0.3, v_y: -1.1, w };
+            let back = Pose::exp(&twist, 2.0).log(2.0);
+            assert!((back.v_x - twist.v_x).abs() < 1e-12 && (back.v_y - twist.v_y).abs() < 1e-12);
+            assert_eq!(back.w, w);
+        }
     }
 
     #[test]

@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use trackdyn_core::{Dual, Scalar, Wrench};
 use trackdyn_physics::contact::{
-    Friction, Patch, Pressure, SlipField, closed_form, friction_wrench, quadrature,
+    Friction, Patch, Pressure, ShearStress, SlipField, closed_form, friction_wrench, quadrature,
 };
 use trackdyn_tests::uniform;
 
@@ -212,7 +212,11 @@ fn departure_of_a_polynomial_law_is_exact() {
             case.friction,
             &case.pressure(),
             &slip,
-            |_, site| [site.unit_slip_length + 1.0; 2],
+            |_, site| {
+                let mut stress = ShearStress::base();
+                stress.scale(site.unit_slip_length + 1.0);
+                stress
+            },
         );
         let expected = integrate(case.patch.x, case.patch.y, |x, y| {
             let pressure = case.pressure.at(y);

@@ -4,3 +4,4 @@ mod contact;
 mod map;
 mod stationary;
 mod tanh_sinh;
+mod transient;

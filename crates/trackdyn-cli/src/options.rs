@@ -47,7 +47,7 @@ impl ModelOptions {
 
     /// The place, heading and time.
     pub fn circumstance(&self) -> Circumstance {
-        Circumstance { heading: self.heading.to_radians() }
+        Circumstance { heading: self.heading.to_radians(), ..Circumstance::default() }
     }
 }
 

@@ -21,6 +21,16 @@ impl<S: Scalar> Wrench<S> {
         Self { force_x: zero, force_y: zero, moment: zero }
     }
 
+    /// The wrench times a factor.
+    #[inline]
+    pub fn scaled(self, factor: S) -> Self {
+        Self {
+            force_x: self.force_x * factor,
+            force_y: self.force_y * factor,
+            moment: self.moment * factor,
+        }
+    }
+
     /// Adds a force that acts at the body point (x, y).
     #[inline]
     pub fn add_force(&mut self, [force_x, force_y]: [S; 2], [x, y]: [f64; 2]) {

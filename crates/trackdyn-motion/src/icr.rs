@@ -1,5 +1,7 @@
 //! The ICRs of both tracks.
 
+use trackdyn_core::{PerSide, Twist};
+
 /// Instantaneous centres of rotation of the two tracks in the paper's frame, m.
 ///
 /// Both lie on one line across the vehicle: they share y with the ICR of the hull.
@@ -25,6 +27,17 @@ impl Icrs {
     /// The triple [x_l, x_r, y].
     pub fn to_array(self) -> [f64; 3] {
         [self.x_left, self.x_right, self.y]
+    }
+
+    /// The ICRs of a hull with this twist and belts with these speeds (m/s); none where it does not turn.
+    pub fn of_motion(belt_speed: PerSide<f64>, twist: &Twist) -> Option<Self> {
+        // x = (V − v_y)/w, y = v_x/w
+        let x = |speed: f64| (speed - twist.v_y) / twist.w;
+        (twist.w != 0.0).then(|| Self {
+            x_left: x(belt_speed.left),
+            x_right: x(belt_speed.right),
+            y: twist.v_x / twist.w,
+        })
     }
 
     /// Steering efficiency χ of a vehicle with this gauge: 1 for an ideal differential drive.

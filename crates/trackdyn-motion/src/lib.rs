@@ -1,15 +1,19 @@
 //! How a tracked robot moves.
 //!
 //! - [`stationary`]: the motion at which the forces balance, for a pair of track speeds.
+//! - [`transient`]: the motion in time, with stick and slip.
 //! - [`map`]: that motion over a grid of speeds, its means, spreads and sectors.
 //! - [`kinematics`]: what the means are for: equations (7)-(13) with constant ICRs.
 
 pub mod icr;
 pub mod kinematics;
 pub mod map;
+mod newton;
 pub mod stationary;
+pub mod transient;
 
 pub use icr::Icrs;
 pub use kinematics::Kinematics;
 pub use map::{Grid, IcrMap};
 pub use stationary::{Solution, Stationary, Status};
+pub use transient::Transient;

@@ -15,19 +15,24 @@
 //! the slipping track by 1 − L t: there, a root says that the anchor breaks loose only under so much
 //! more force, that is, that it holds. One Newton iteration thus decides between turning and holding.
 
-mod newton;
 mod solution;
 
 pub use solution::{Solution, Status};
 
 use crate::icr::Icrs;
+use crate::newton::{self, Convergence, Evaluation, Tolerance};
 use nalgebra::Vector3;
-use newton::{Convergence, Evaluation};
-use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist, Wrench};
+use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
 use trackdyn_physics::{Circumstance, Ground, Model, Motion};
 
 /// Speed, m/s, of the spin that stands for the limit of slow driving.
 const CREEP: f64 = 1e-6;
+
+/// Change of belt speeds over the faster one at which speed and traction agree.
+const SETTLED: f64 = 1e-13;
+
+/// Turns between belt speeds and traction after which the search is given up.
+const MOST_TURNS: usize = 100;
 
 /// Solver for the stationary motions of one model at one place, heading and time.
 #[derive(Clone, Debug)]
@@ -49,19 +54,74 @@ impl<'m> Stationary<'m> {
         let weight = model.vehicle().mass * trackdyn_core::STANDARD_GRAVITY;
         let scale = [weight, weight * model.vehicle().gauge];
         let mut solver = Self { model, ground: model.ground(circumstance), scale, creeping: None };
-        let spin = solver.solve(PerSide::new(-CREEP, CREEP));
+        let spin = solver.solve_belts(PerSide::new(-CREEP, CREEP));
         solver.creeping = spin.icrs.filter(|_| spin.status == Status::Turning);
         solver
     }
 
-    /// The stationary motion at these track speeds, m/s.
+    /// The stationary motion at the track speeds that the encoders show, m/s.
     ///
     /// No pair of speeds knows of another, so the order of solves does not matter. The result carries
     /// its status; read it before the numbers.
     ///
+    /// Where a belt loses speed under traction, speeds and traction are found in turns: friction knows
+    /// speeds by their ratios alone, so the next traction hardly differs.
+    pub fn solve(&self, track_speed: PerSide<f64>) -> Solution {
+        let drive = self.model.drive();
+        let mut traction = PerSide::new(0.0, 0.0);
+        let mut solution = self.solve_belts(drive.belt_speed(track_speed, traction));
+        if drive.slip_per_traction != 0.0 {
+            let tolerance = SETTLED * track_speed.left.abs().max(track_speed.right.abs());
+            for turn in 1.. {
+                traction = self.traction(&solution);
+                let before = solution.belt_speed;
+                let next = drive.belt_speed(track_speed, traction);
+                let change = (next.left - before.left).abs().max((next.right - before.right).abs());
+                if change <= tolerance {
+                    break;
+                }
+                if turn > MOST_TURNS {
+                    solution.status = Status::NotConverged;
+                    break;
+                }
+                solution = self.solve_belts(next);
+            }
+        }
+        Solution { track_speed, ..solution }
+    }
+
+    /// Traction of each side over its normal load, forward positive.
+    fn traction(&self, solution: &Solution) -> PerSide<f64> {
+        let anchor = match solution.status {
+            Status::Straight | Status::NotConverged => return PerSide::new(0.0, 0.0),
+            Status::Holds(side) => side,
+            Status::Turning | Status::Lifts => Side::Left,
+        };
+        let motion = match solution.icrs {
+            Some(Icrs { x_left, x_right, y }) => {
+                let turn = 1.0 / (x_right - x_left);
+                Motion::anchored(solution.belt_speed, Side::Left, [x_left, y], turn)
+            }
+            None => Motion::anchored(solution.belt_speed, anchor, [0.0, 0.0], 0.0),
+        };
+        let balance = self.model.balance(&self.ground, &motion);
+        let mut traction = balance.friction.map(|wrench| wrench.force_y);
+        if let Status::Holds(side) = solution.status {
+            // What holds the robot balances all else.
+            let held = -balance.load.force_y - traction[side.other()];
+            traction = match side {
+                Side::Left => PerSide::new(held, traction.right),
+                Side::Right => PerSide::new(traction.left, held),
+            };
+        }
+        PerSide::from_fn(|side| traction[side] / balance.normal_load[side])
+    }
+
+    /// The stationary motion at these speeds of the belts, m/s.
+    ///
     /// # Panics
     /// Never: at least four starts are tried.
-    pub fn solve(&self, belt_speed: PerSide<f64>) -> Solution {
+    fn solve_belts(&self, belt_speed: PerSide<f64>) -> Solution {
         let first = self.better_anchor();
         let mut best: Option<Root> = None;
         for anchor in [first, first.other()] {
@@ -134,6 +194,7 @@ impl<'s> Problem<'s> {
         let convergence = newton::solve(
             start,
             half_size,
+            Tolerance { converged: 1e-13, rounding: 1e-11 },
             |z| Evaluation::of_dual(self.residual(Dual::variables(z.into()))),
             |z| Vector3::from(self.residual([z[0], z[1], z[2]])),
         );
@@ -152,11 +213,7 @@ impl<'s> Problem<'s> {
         let mut slipping = balance.friction[self.anchor.other()];
         if z[2].value() <= 0.0 {
             let excess = -z[2] * self.solver.model.vehicle().gauge + 1.0;
-            slipping = Wrench {
-                force_x: slipping.force_x * excess,
-                force_y: slipping.force_y * excess,
-                moment: slipping.moment * excess,
-            };
+            slipping = slipping.scaled(excess);
         }
         let mut sum = balance.load;
         sum += balance.friction[self.anchor];
@@ -200,6 +257,7 @@ impl Root<'_> {
         };
         Solution {
             status,
+            track_speed: belt_speed,
             belt_speed,
             twist,
             icrs,

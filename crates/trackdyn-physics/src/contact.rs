@@ -8,10 +8,12 @@ pub mod closed_form;
 pub mod patch;
 pub mod pressure;
 pub mod quadrature;
+pub mod shear;
 pub mod slip;
 
-pub use patch::Patch;
+pub use patch::{Extent, Patch};
 pub use pressure::Pressure;
+pub use shear::ShearStress;
 pub use slip::SlipField;
 
 use trackdyn_core::{Scalar, Wrench};

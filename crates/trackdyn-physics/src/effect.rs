@@ -3,7 +3,9 @@
 //! An effect is physics that the base model leaves out. It is written once, in one file of
 //! [`effects`](crate::effects), and serves the simulator and the diagnosis alike.
 
-use crate::model::{Circumstance, Ground, Site, Situation};
+use crate::contact::ShearStress;
+use crate::model::{Drive, Ground, Sensor, Site, Situation};
+use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Wrench};
 
 /// A mechanism that the base model leaves out.
@@ -18,14 +20,20 @@ pub trait Effect: Copy + Sized {
     /// The effect with its parameters in the order and the units of the card, each within its range.
     fn from_values(values: &[f64]) -> Self;
 
+    /// Stage `body`: what the machine is.
+    fn body(&self, _vehicle: &mut Vehicle) {}
+
+    /// Stage `drive`: from the speeds that the encoders show to those of the belts.
+    fn drive(&self, _drive: &mut Drive) {}
+
     /// Stage `ground`: friction under each side and gravity at this place, heading and time.
-    fn ground(&self, _circumstance: &Circumstance, _ground: &mut Ground) {}
+    fn ground(&self, _ground: &mut Ground) {}
 
     /// Stage `load`: centre of pressure of the whole machine, (x, y) in m.
     fn load<S: Scalar>(&self, _situation: &Situation<S>, _centre_of_pressure: &mut [S; 2]) {}
 
-    /// Stage `shear`: factors on μ_x and μ_y at a point of the contact.
-    fn shear<S: Scalar>(&self, _site: &Site<S>, _mobilised: &mut [S; 2]) {}
+    /// Stage `shear`: factors on the shear stress, and stress beside it, at a point of the contact.
+    fn shear<S: Scalar>(&self, _site: &Site<S>, _stress: &mut ShearStress<S>) {}
 
     /// Stage `wrench`: forces on the body beside friction and weight.
     fn wrench<S: Scalar>(
@@ -35,6 +43,9 @@ pub trait Effect: Copy + Sized {
         _wrench: &mut Wrench<S>,
     ) {
     }
+
+    /// Stage `sense`: what the pose sensor reports of the motion.
+    fn sense(&self, _sensor: &mut Sensor) {}
 }
 
 /// What a reader of the catalogue sees of an effect.
@@ -77,7 +88,8 @@ pub struct Parameter {
     pub typical: f64,
 }
 
-/// An invariance that the ICR triple (x_l, x_r, y) has in the base model.
+/// An invariance that the ICR triple (x_l, x_r, y), as encoders and pose sensor show it, has in the base
+/// model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Symmetry {
     /// S: all speeds scaled by one factor.
@@ -90,12 +102,29 @@ pub enum Symmetry {
     Mirror,
     /// H: turned to another heading.
     Heading,
+    /// X: moved to another place.
+    Place,
+    /// T: done at another time.
+    Time,
+    /// D: speeds that change against steady ones.
+    Transient,
+    /// 0: equal track speeds drive straight ahead, as fast as the encoders show.
+    Straight,
 }
 
 impl Symmetry {
     /// All invariances, in the order in which tables list them.
-    pub const ALL: [Self; 5] =
-        [Self::SpeedScale, Self::Reversal, Self::Manoeuvre, Self::Mirror, Self::Heading];
+    pub const ALL: [Self; 9] = [
+        Self::SpeedScale,
+        Self::Reversal,
+        Self::Manoeuvre,
+        Self::Mirror,
+        Self::Heading,
+        Self::Place,
+        Self::Time,
+        Self::Transient,
+        Self::Straight,
+    ];
 
     /// The letter that tables use.
     pub fn letter(self) -> char {
@@ -105,6 +134,10 @@ impl Symmetry {
             Self::Manoeuvre => 'P',
             Self::Mirror => 'M',
             Self::Heading => 'H',
+            Self::Place => 'X',
+            Self::Time => 'T',
+            Self::Transient => 'D',
+            Self::Straight => '0',
         }
     }
 }
@@ -112,6 +145,10 @@ impl Symmetry {
 /// A stage of the pipeline from belt speeds to the balance of forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
+    /// What the machine is.
+    Body,
+    /// How fast the belts run when the encoders show a speed.
+    Drive,
     /// What the ground is at this place, heading and time.
     Ground,
     /// How the weight spreads over the patches.
@@ -120,19 +157,25 @@ pub enum Stage {
     Shear,
     /// What else acts on the body.
     Wrench,
+    /// What the pose sensor reports.
+    Sense,
 }
 
 impl Stage {
     /// The stages in the order in which the model walks them.
-    pub const ALL: [Self; 4] = [Self::Ground, Self::Load, Self::Shear, Self::Wrench];
+    pub const ALL: [Self; 7] =
+        [Self::Body, Self::Drive, Self::Ground, Self::Load, Self::Shear, Self::Wrench, Self::Sense];
 
     /// Name in tables.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Body => "body",
+            Self::Drive => "drive",
             Self::Ground => "ground",
             Self::Load => "load",
             Self::Shear => "shear",
             Self::Wrench => "wrench",
+            Self::Sense => "sense",
         }
     }
 }

@@ -16,5 +16,5 @@ pub mod model;
 pub mod vehicle;
 
 pub use effects::{ActiveEffect, CATALOGUE, EffectError, Effects};
-pub use model::{Balance, Circumstance, Ground, Model, Motion};
+pub use model::{Balance, Circumstance, Drive, Ground, Model, Motion, Sensor};
 pub use vehicle::{RunningGear, Vehicle, VehicleError, VehicleFile};

@@ -1,20 +1,25 @@
 //! The balance of forces on the body: the pipeline that every effect hooks into.
 //!
 //! ```text
-//! belt speeds, place, heading, time
+//! encoder speeds -> drive -> belt speeds, place, heading, time
 //!   -> ground (friction per side, gravity) -> load (pressure) -> shear (friction) -> wrench
+//!   -> motion of the body (trackdyn-motion) -> sense -> reported motion
 //! ```
 
+mod drive;
 mod ground;
 mod motion;
+mod sensor;
 mod situation;
 
+pub use drive::Drive;
 pub use ground::{Circumstance, Ground};
 pub use motion::Motion;
+pub use sensor::Sensor;
 pub use situation::{Site, Situation};
 
 use crate::contact::pressure::Footprint;
-use crate::contact::{Patch, Pressure, friction_wrench, quadrature};
+use crate::contact::{Extent, Patch, Pressure, ShearStress, friction_wrench, quadrature};
 use crate::effect::Stage;
 use crate::effects::Effects;
 use crate::vehicle::Vehicle;
@@ -37,6 +42,9 @@ pub struct Model {
     effects: Effects,
     patches: PerSide<Vec<Patch>>,
     footprint: Footprint,
+    extent: PerSide<Extent>,
+    drive: Drive,
+    sensor: Sensor,
     has_shear_law: bool,
 }
 
@@ -47,19 +55,28 @@ pub struct Balance<S = f64> {
     pub friction: PerSide<Wrench<S>>,
     /// All else: weight along the slope and what effects add.
     pub load: Wrench<S>,
+    /// Weight on each side, N.
+    pub normal_load: PerSide<S>,
 }
 
 impl Model {
     /// The model of a vehicle on ground with these effects.
-    pub fn new(vehicle: Vehicle, effects: Effects) -> Self {
+    pub fn new(mut vehicle: Vehicle, effects: Effects) -> Self {
+        let (mut drive, mut sensor) = (Drive::direct(), Sensor::default());
+        for effect in &effects {
+            effect.body(&mut vehicle);
+            effect.drive(&mut drive);
+            effect.sense(&mut sensor);
+        }
         let patches = PerSide::from_fn(|side| vehicle.patches(side));
         let footprint = Footprint::of(&patches.left);
+        let extent = PerSide::from_fn(|side| footprint.extent(&patches[side]));
         let has_shear_law =
             effects.iter().any(|effect| effect.card().stages.contains(&Stage::Shear));
-        Self { vehicle, effects, patches, footprint, has_shear_law }
+        Self { vehicle, effects, patches, footprint, extent, drive, sensor, has_shear_law }
     }
 
-    /// The vehicle.
+    /// The vehicle, after the effects of stage `body`.
     pub fn vehicle(&self) -> &Vehicle {
         &self.vehicle
     }
@@ -79,18 +96,33 @@ impl Model {
         &self.footprint
     }
 
+    /// Middle and size of each side's contact.
+    pub fn extent(&self) -> &PerSide<Extent> {
+        &self.extent
+    }
+
+    /// Stage `drive`: from the speeds that the encoders show to those of the belts.
+    pub fn drive(&self) -> &Drive {
+        &self.drive
+    }
+
+    /// Stage `sense`: what the pose sensor reports.
+    pub fn sensor(&self) -> &Sensor {
+        &self.sensor
+    }
+
     /// Stage `ground`: friction and gravity in these circumstances.
     pub fn ground(&self, circumstance: &Circumstance) -> Ground {
-        let mut ground = Ground::level(self.vehicle.friction);
+        let mut ground = Ground::level(self.vehicle.friction, *circumstance);
         for effect in &self.effects {
-            effect.ground(circumstance, &mut ground);
+            effect.ground(&mut ground);
         }
         ground
     }
 
     /// Stages `load`, `shear` and `wrench`: the balance of forces at a motion.
     pub fn balance<S: Scalar>(&self, ground: &Ground, motion: &Motion<S>) -> Balance<S> {
-        let situation = Situation { vehicle: &self.vehicle, ground, motion };
+        let situation = self.situation(ground, motion);
         let (normal_load, pressure) = self.load(&situation);
 
         let friction = PerSide::from_fn(|side| {
@@ -111,17 +143,21 @@ impl Model {
         for effect in &self.effects {
             effect.wrench(&situation, &normal_load, &mut load);
         }
-        Balance { friction, load }
+        Balance { friction, load, normal_load }
     }
 
     /// Whether some of the contact would have to pull at this motion.
     pub fn lifts(&self, ground: &Ground, motion: &Motion) -> bool {
-        let situation = Situation { vehicle: &self.vehicle, ground, motion };
+        let situation = self.situation(ground, motion);
         let (normal_load, pressure) = self.load(&situation);
         Side::BOTH.iter().any(|&side| {
             normal_load[side] <= 0.0
                 || self.footprint.ends.iter().any(|&y| pressure[side].at(y) <= 0.0)
         })
+    }
+
+    fn situation<'a, S>(&'a self, ground: &'a Ground, motion: &'a Motion<S>) -> Situation<'a, S> {
+        Situation { vehicle: &self.vehicle, ground, footprint: &self.footprint, motion }
     }
 
     /// Stage `load`: weight on each side (N; negative where it would have to pull) and the pressure.
@@ -152,12 +188,12 @@ impl Model {
             pressure,
             &situation.motion.slip[side],
             |patch, slip| {
-                let site = Site { situation, side, patch, slip };
-                let mut mobilised = [S::from(1.0); 2];
+                let site = Site { situation, side, patch, pressure, slip };
+                let mut stress = ShearStress::base();
                 for effect in &self.effects {
-                    effect.shear(&site, &mut mobilised);
+                    effect.shear(&site, &mut stress);
                 }
-                mobilised
+                stress
             },
         )
     }

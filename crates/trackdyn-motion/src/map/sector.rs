@@ -41,7 +41,7 @@ pub(super) fn sectors(map: &IcrMap) -> Vec<Sector> {
     let Some(whole) = map.statistics() else { return Vec::new() };
     let mut members: BTreeMap<[i8; 3], Vec<Icrs>> = BTreeMap::new();
     for solution in map.turning() {
-        let icrs = members.entry(Sector::signs_of(solution.belt_speed)).or_default();
+        let icrs = members.entry(Sector::signs_of(solution.track_speed)).or_default();
         icrs.extend(solution.icrs);
     }
     let sectors: Vec<Sector> = members

@@ -2,13 +2,16 @@
 
 use crate::icr::Icrs;
 use trackdyn_core::{PerSide, Side, Twist};
+use trackdyn_physics::Sensor;
 
 /// A stationary motion, or why there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution {
     /// What kind of motion it is; read it before the numbers.
     pub status: Status,
-    /// Track speeds, m/s.
+    /// Track speeds as the encoders show them, m/s.
+    pub track_speed: PerSide<f64>,
+    /// Speeds of the belts over the hull, m/s: the same, unless an effect acts between the two.
     pub belt_speed: PerSide<f64>,
     /// Twist of the hull, paper's frame.
     pub twist: Twist,
@@ -19,6 +22,18 @@ pub struct Solution {
     pub residual: f64,
     /// Newton steps.
     pub iterations: usize,
+}
+
+impl Solution {
+    /// The twist that a pose sensor reports of it, in the sensor's axes.
+    pub fn reported_twist(&self, sensor: &Sensor) -> Twist {
+        sensor.reported(&self.twist)
+    }
+
+    /// The ICRs that encoders and pose sensor show of it; none where no yaw rate is reported.
+    pub fn reported_icrs(&self, sensor: &Sensor) -> Option<Icrs> {
+        Icrs::of_motion(self.track_speed, &self.reported_twist(sensor))
+    }
 }
 
 /// Kind of stationary motion.

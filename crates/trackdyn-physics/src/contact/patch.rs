@@ -38,3 +38,12 @@ impl Patch {
         self.width() * self.length()
     }
 }
+
+/// Middle and size of one side's contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// Centroid (x, y), m.
+    pub middle: [f64; 2],
+    /// Root mean square distance of its points from the centroid, m.
+    pub radius: f64,
+}

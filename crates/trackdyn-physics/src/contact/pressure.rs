@@ -1,6 +1,6 @@
 //! Normal pressure under one side.
 
-use crate::contact::Patch;
+use crate::contact::{Extent, Patch};
 use trackdyn_core::Scalar;
 
 /// Normal pressure of one side, linear along the track and constant across it:
@@ -56,6 +56,16 @@ impl Footprint {
                 patches.iter().map(|p| p.y[0]).fold(f64::INFINITY, f64::min),
                 patches.iter().map(|p| p.y[1]).fold(f64::NEG_INFINITY, f64::max),
             ],
+        }
+    }
+
+    /// Middle and size of the contact of these patches, which are alike but for their x.
+    pub fn extent(&self, patches: &[Patch]) -> Extent {
+        // All patches of a side have one width and one middle line.
+        let Patch { x: [left, right], .. } = patches[0];
+        Extent {
+            middle: [f64::midpoint(left, right), self.centroid],
+            radius: (self.gyration_squared + (right - left).powi(2) / 12.0).sqrt(),
         }
     }
 

@@ -3,7 +3,7 @@
 //! Used where the closed form does not reach: laws that change along the track, and ICRs so far
 //! away that the slip direction is nearly uniform.
 
-use crate::contact::{Friction, Patch, Pressure, SlipField};
+use crate::contact::{Friction, Patch, Pressure, ShearStress, SlipField};
 use gauss_quad::GaussLegendre;
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;
@@ -41,7 +41,8 @@ pub fn far_field_wrench<S: Scalar>(
     let unit = S::from(1.0);
     let mut wrench = Wrench::zero();
     for patch in patches {
-        wrench += integrate(&FAR_FIELD, patch, slip, |site| {
+        let panels = Panels::cut(patch, slip);
+        wrench += integrate(&FAR_FIELD, &panels, slip, |site| {
             site.traction(friction, pressure, [unit, unit])
         });
     }
@@ -50,21 +51,23 @@ pub fn far_field_wrench<S: Scalar>(
 
 /// Wrench about the origin of the stress that a shear law adds to the base law.
 ///
-/// `mobilised` gives the factors on μ_x and μ_y at a site, 1 where the base law holds. Only their
-/// departure from 1 is integrated, on panels cut at the ICR: the base law itself stays exact, and a
-/// weak effect has a small error.
+/// `law` gives factor f and added stress at a site. Only the departure f (τ + τ_added) − τ from the base
+/// law is integrated, on panels cut at the ICR: the base law itself stays exact, and a weak effect has a
+/// small error.
 pub fn departure_wrench<S: Scalar>(
     patches: &[Patch],
     friction: Friction,
     pressure: &Pressure<S>,
     slip: &SlipField<S>,
-    mut mobilised: impl FnMut(&Patch, &SlipSite<S>) -> [S; 2],
+    mut law: impl FnMut(&Patch, &SlipSite<S>) -> ShearStress<S>,
 ) -> Wrench<S> {
     let mut wrench = Wrench::zero();
     for patch in patches {
-        wrench += integrate(&SHEAR_LAW, patch, slip, |site| {
-            let departure = mobilised(patch, &site).map(|factor| factor - 1.0);
-            site.traction(friction, pressure, departure)
+        let panels = Panels::cut(patch, slip);
+        wrench += integrate(&SHEAR_LAW, &panels, slip, |site| {
+            let ShearStress { factor, added } = law(patch, &site);
+            let base = site.traction(friction, pressure, factor.map(|f| f - 1.0));
+            [base[0] + factor[0] * added[0], base[1] + factor[1] * added[1]]
         });
     }
     wrench
@@ -93,22 +96,18 @@ impl<S: Scalar> SlipSite<S> {
     }
 }
 
-/// Integrates a shear stress over the patch, panel by panel, into a wrench about the origin.
-///
-/// The slip direction jumps at the ICR, so a patch is cut there and the nodes move with it: the sum
-/// stays a smooth function of the motion.
+/// Integrates a shear stress over a patch, panel by panel, into a wrench about the origin.
 fn integrate<S: Scalar>(
     rule: &Rule,
-    patch: &Patch,
+    panels: &Panels<S>,
     slip: &SlipField<S>,
     mut stress: impl FnMut(SlipSite<S>) -> [S; 2],
 ) -> Wrench<S> {
-    let [icr_x, icr_y] = slip.icr();
-    let (columns, rows) = (panels(patch.x, icr_x), panels(patch.y, icr_y));
+    let Panels { columns, rows } = panels;
     let mut wrench = Wrench::zero();
-    for [left, right] in columns.into_iter().flatten() {
+    for &[left, right] in columns.iter().flatten() {
         let (mid_x, half_x) = ((left + right) * 0.5, (right - left) * 0.5);
-        for [rear, front] in rows.into_iter().flatten() {
+        for &[rear, front] in rows.iter().flatten() {
             let (mid_y, half_y) = ((rear + front) * 0.5, (front - rear) * 0.5);
             for &(node_y, weight_y) in &rule.along {
                 let y = mid_y + half_y * node_y;
@@ -136,11 +135,41 @@ fn integrate<S: Scalar>(
     wrench
 }
 
+/// A patch in panels on which the integrand is smooth.
+struct Panels<S> {
+    columns: [Option<[S; 2]>; 2],
+    rows: [Option<[S; 2]>; 2],
+}
+
+/// Turn of the unit slip over the patch below which the ICR is so far that a cut would run through the
+/// patch faster than digits follow.
+const NO_TURN: f64 = 1e-9;
+
+impl<S: Scalar> Panels<S> {
+    /// The whole patch.
+    fn whole(patch: &Patch) -> Self {
+        let all = |interval: [f64; 2]| [Some(interval.map(S::from)), None];
+        Self { columns: all(patch.x), rows: all(patch.y) }
+    }
+
+    /// The patch, cut at the ICR.
+    ///
+    /// The slip direction jumps there, and its components change sign along the lines through it. The
+    /// nodes move with the cuts: the sum stays a smooth function of the motion.
+    fn cut(patch: &Patch, slip: &SlipField<S>) -> Self {
+        if slip.rotation.value().abs() * patch.width().hypot(patch.length()) < NO_TURN {
+            return Self::whole(patch);
+        }
+        let [icr_x, icr_y] = slip.icr();
+        Self { columns: cut(patch.x, icr_x), rows: cut(patch.y, icr_y) }
+    }
+}
+
 /// The interval, cut in two where `cut` lies inside it.
-fn panels<S: Scalar>([low, high]: [f64; 2], cut: S) -> [Option<[S; 2]>; 2] {
+fn cut<S: Scalar>([low, high]: [f64; 2], at: S) -> [Option<[S; 2]>; 2] {
     let (low_edge, high_edge) = (S::from(low), S::from(high));
-    if cut.value() > low && cut.value() < high {
-        [Some([low_edge, cut]), Some([cut, high_edge])]
+    if at.value() > low && at.value() < high {
+        [Some([low_edge, at]), Some([at, high_edge])]
     } else {
         [Some([low_edge, high_edge]), None]
     }

@@ -1,8 +1,10 @@
 //! Effects that are switched on.
 
 use super::{CATALOGUE, EffectError, Law};
+use crate::contact::ShearStress;
 use crate::effect::Card;
-use crate::model::{Circumstance, Ground, Site, Situation};
+use crate::model::{Drive, Ground, Sensor, Site, Situation};
+use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Wrench};
 
 /// An effect of the catalogue with the values of its parameters.
@@ -145,9 +147,20 @@ impl FromIterator<ActiveEffect> for Effects {
 
 /// The hooks, forwarded to the law.
 impl ActiveEffect {
-    #[inline]
-    pub(crate) fn ground(&self, circumstance: &Circumstance, ground: &mut Ground) {
-        self.law.ground(circumstance, ground);
+    pub(crate) fn body(&self, vehicle: &mut Vehicle) {
+        self.law.body(vehicle);
+    }
+
+    pub(crate) fn drive(&self, drive: &mut Drive) {
+        self.law.drive(drive);
+    }
+
+    pub(crate) fn sense(&self, sensor: &mut Sensor) {
+        self.law.sense(sensor);
+    }
+
+    pub(crate) fn ground(&self, ground: &mut Ground) {
+        self.law.ground(ground);
     }
 
     #[inline]
@@ -160,8 +173,8 @@ impl ActiveEffect {
     }
 
     #[inline]
-    pub(crate) fn shear<S: Scalar>(&self, site: &Site<S>, mobilised: &mut [S; 2]) {
-        self.law.shear(site, mobilised);
+    pub(crate) fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
+        self.law.shear(site, stress);
     }
 
     #[inline]

@@ -45,7 +45,7 @@ impl Effect for Centripetal {
     ) {
         // F = −k m a
         let factor = -self.strength * situation.vehicle.mass;
-        let force = situation.cog_acceleration().map(|a| a * factor);
+        let force = situation.steady_acceleration().map(|a| a * factor);
         wrench.add_force(force, situation.vehicle.cog);
     }
 }

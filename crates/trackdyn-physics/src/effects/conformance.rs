@@ -1,12 +1,14 @@
 //! What every effect of the catalogue must satisfy.
 
 use super::{ActiveEffect, CATALOGUE};
+use crate::contact::pressure::Footprint;
 use crate::contact::quadrature::SlipSite;
+use crate::contact::{Pressure, ShearStress};
 use crate::effect::Stage;
-use crate::model::{Circumstance, Ground, Model, Motion, Site, Situation};
+use crate::model::{Circumstance, Drive, Ground, Model, Motion, Sensor, Site, Situation};
 use crate::{Effects, VehicleFile};
 use std::collections::BTreeSet;
-use trackdyn_core::{Dual, PerSide, Scalar, Side, Wrench};
+use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist, Wrench};
 
 /// Every effect with the typical sizes of its parameters.
 fn all() -> impl Iterator<Item = ActiveEffect> {
@@ -21,6 +23,9 @@ fn turn<S: Scalar>(z: [S; 3]) -> Motion<S> {
 }
 
 const ICR: [f64; 3] = [-0.37, 0.05, 1.2];
+
+/// A place, heading and time at which every effect shows.
+const ELSEWHERE: Circumstance = Circumstance { position: [3.0, 0.5], heading: 0.4, time: 60.0 };
 
 #[test]
 fn every_file_is_registered() {
@@ -49,7 +54,7 @@ fn cards_are_complete() {
             let [low, high] = parameter.range;
             assert!(low < high && (low..=high).contains(&parameter.typical), "{}", card.id);
             assert!(parameter.typical.is_finite() && !parameter.meaning.is_empty());
-            let suffix = parameter.unit.replace('/', "_per_");
+            let suffix = parameter.unit.replace('/', "_per_").to_lowercase();
             assert!(parameter.unit == "1" || parameter.key.ends_with(&suffix), "{}", parameter.key);
         }
     }
@@ -58,13 +63,23 @@ fn cards_are_complete() {
 #[test]
 fn hooks_act_at_the_stages_of_the_card_and_nowhere_else() {
     let vehicle = VehicleFile::auriga_alpha().vehicle;
-    let motion = turn(ICR);
+    let footprint = Footprint::of(&vehicle.patches(Side::Left));
+    let mut motion = turn(ICR);
+    motion.acceleration = Twist { v_x: 0.1, v_y: 0.3, w: -0.2 };
     for effect in all() {
-        let level = Ground::level(vehicle.friction);
-        let mut ground = level;
-        effect.ground(&Circumstance { heading: 0.4 }, &mut ground);
+        let mut body = vehicle.clone();
+        effect.body(&mut body);
+        let mut drive = Drive::direct();
+        effect.drive(&mut drive);
+        let mut sensor = Sensor::default();
+        effect.sense(&mut sensor);
 
-        let situation = Situation { vehicle: &vehicle, ground: &level, motion: &motion };
+        let level = Ground::level(vehicle.friction, ELSEWHERE);
+        let mut ground = level;
+        effect.ground(&mut ground);
+
+        let situation =
+            Situation { vehicle: &vehicle, ground: &level, footprint: &footprint, motion: &motion };
         let mut centre_of_pressure = vehicle.cog;
         effect.load(&situation, &mut centre_of_pressure);
 
@@ -73,18 +88,23 @@ fn hooks_act_at_the_stages_of_the_card_and_nowhere_else() {
         let unit_slip = motion.slip.left.direction_at(position);
         let unit_slip_length = unit_slip[0].hypot(unit_slip[1]);
         let slip = SlipSite { position, unit_slip, unit_slip_length };
-        let site = Site { situation: &situation, side: Side::Left, patch, slip: &slip };
-        let mut mobilised = [1.0, 1.0];
-        effect.shear(&site, &mut mobilised);
+        let pressure = Pressure { at_origin: 1e4, gradient: 2e3 };
+        let side = Side::Left;
+        let site = Site { situation: &situation, side, patch, pressure: &pressure, slip: &slip };
+        let mut stress = ShearStress::base();
+        effect.shear(&site, &mut stress);
 
         let mut wrench = Wrench::zero();
         effect.wrench(&situation, &PerSide::new(1000.0, 1200.0), &mut wrench);
 
         for (stage, acts) in [
+            (Stage::Body, body != vehicle),
+            (Stage::Drive, drive != Drive::direct()),
             (Stage::Ground, ground != level),
             (Stage::Load, centre_of_pressure != vehicle.cog),
-            (Stage::Shear, mobilised != [1.0, 1.0]),
+            (Stage::Shear, stress != ShearStress::base()),
             (Stage::Wrench, wrench != Wrench::zero()),
+            (Stage::Sense, sensor != Sensor::default()),
         ] {
             let listed = effect.card().stages.contains(&stage);
             assert_eq!(acts, listed, "{} at stage {}", effect.card().id, stage.name());
@@ -99,7 +119,7 @@ fn derivatives_of_the_balance_equal_difference_quotients() {
         let vehicle = VehicleFile::auriga_alpha().vehicle;
         let weight = vehicle.mass * trackdyn_core::STANDARD_GRAVITY;
         let model = Model::new(vehicle, Effects::from_iter([effect.clone()]));
-        let ground = model.ground(&Circumstance { heading: 0.4 });
+        let ground = model.ground(&ELSEWHERE);
         let exact = total(&model, &ground, Dual::variables(ICR));
         for variable in 0..3 {
             let at = |step: f64| {

@@ -24,9 +24,20 @@ macro_rules! catalogue {
                 constructors[index](values)
             }
 
-            #[inline]
-            fn ground(&self, circumstance: &Circumstance, ground: &mut Ground) {
-                match self { $(Self::$effect(effect) => effect.ground(circumstance, ground)),+ }
+            fn body(&self, vehicle: &mut Vehicle) {
+                match self { $(Self::$effect(effect) => effect.body(vehicle)),+ }
+            }
+
+            fn drive(&self, drive: &mut Drive) {
+                match self { $(Self::$effect(effect) => effect.drive(drive)),+ }
+            }
+
+            fn sense(&self, sensor: &mut Sensor) {
+                match self { $(Self::$effect(effect) => effect.sense(sensor)),+ }
+            }
+
+            fn ground(&self, ground: &mut Ground) {
+                match self { $(Self::$effect(effect) => effect.ground(ground)),+ }
             }
 
             #[inline]
@@ -35,8 +46,8 @@ macro_rules! catalogue {
             }
 
             #[inline]
-            fn shear<S: Scalar>(&self, site: &Site<S>, mobilised: &mut [S; 2]) {
-                match self { $(Self::$effect(effect) => effect.shear(site, mobilised)),+ }
+            fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
+                match self { $(Self::$effect(effect) => effect.shear(site, stress)),+ }
             }
 
             #[inline]

@@ -1,7 +1,7 @@
 //! Different friction under the two sides.
 
 use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
-use crate::model::{Circumstance, Ground};
+use crate::model::Ground;
 use trackdyn_core::Side;
 
 /// More friction under one side than under the other.
@@ -35,7 +35,7 @@ impl Effect for FrictionSplit {
         Self { split: values[0] }
     }
 
-    fn ground(&self, _circumstance: &Circumstance, ground: &mut Ground) {
+    fn ground(&self, ground: &mut Ground) {
         for side in Side::BOTH {
             // μ_left = (1 + δ) μ, μ_right = (1 − δ) μ
             let factor = 1.0 - side.sign() * self.split;

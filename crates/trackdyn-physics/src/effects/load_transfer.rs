@@ -14,8 +14,9 @@ impl Effect for LoadTransfer {
     const CARD: Card = Card {
         id: "load-transfer",
         title: "Load transfer of a centre of gravity above the ground",
-        law: "(x_p, y_p) = (x_c, y_c) + h (g_along − a)/g_normal, a = ω × v_cog",
-        assumes: "No suspension: the load shifts at once. The pressure stays linear along the track; \
+        law: "(x_p, y_p) = (x_c, y_c) + h (g_along − a)/g_normal, a = ω × v_cog + dv_cog/dt",
+        assumes: "No suspension: the load shifts at once. dv_cog/dt \
+                  counts where inertia does. The pressure stays linear along the track; \
                   where it would turn negative the patch lifts and the motion is reported so.",
         shows: "Fast turns: the outer track gains load, so its ICR comes closer.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
@@ -28,7 +29,9 @@ impl Effect for LoadTransfer {
             range: [0.0, 5.0],
             typical: 0.3,
         }],
-        sources: &["Balance of moments about the ground plane; Wong, Theory of Ground Vehicles, ch. 6"],
+        sources: &[
+            "Balance of moments about the ground plane; Wong, Theory of Ground Vehicles, ch. 6",
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {
@@ -37,12 +40,13 @@ impl Effect for LoadTransfer {
 
     fn load<S: Scalar>(&self, situation: &Situation<S>, centre_of_pressure: &mut [S; 2]) {
         let ground = situation.ground;
-        let acceleration = situation.cog_acceleration();
-        for ((centre, along), a) in
-            centre_of_pressure.iter_mut().zip(ground.gravity_along).zip(acceleration)
-        {
+        let (steady, transient) =
+            (situation.steady_acceleration(), situation.transient_acceleration());
+        for (axis, centre) in centre_of_pressure.iter_mut().enumerate() {
+            let a = steady[axis] + transient[axis];
             // Δ(x_p, y_p) = h (g_along − a)/g_normal
-            *centre += (-a + along) * (self.cog_height / ground.gravity_normal);
+            *centre +=
+                (-a + ground.gravity_along[axis]) * (self.cog_height / ground.gravity_normal);
         }
     }
 }

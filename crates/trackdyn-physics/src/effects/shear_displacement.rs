@@ -1,5 +1,6 @@
 //! Shear stress that builds up with shear displacement.
 
+use crate::contact::ShearStress;
 use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
 use crate::model::Site;
 use trackdyn_core::Scalar;
@@ -39,7 +40,7 @@ impl Effect for ShearDisplacement {
         Self { modulus: values[0] }
     }
 
-    fn shear<S: Scalar>(&self, site: &Site<S>, mobilised: &mut [S; 2]) {
+    fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
         let belt_speed = site.belt_speed();
         if belt_speed == 0.0 {
             return;
@@ -52,7 +53,6 @@ impl Effect for ShearDisplacement {
         let unit_slip = (half_way[0] * half_way[0] + half_way[1] * half_way[1]).sqrt();
         let displacement = unit_slip * travelled * (site.slip_field().speed / belt_speed.abs());
         // 1 − exp(−j/K)
-        let factor = -(displacement * (-1.0 / self.modulus)).exp_m1();
-        *mobilised = mobilised.map(|m| m * factor);
+        stress.scale(-(displacement * (-1.0 / self.modulus)).exp_m1());
     }
 }

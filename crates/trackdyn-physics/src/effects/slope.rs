@@ -1,8 +1,7 @@
 //! Sloping ground.
 
 use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
-use crate::model::{Circumstance, Ground};
-use trackdyn_core::frames::paper_from_ros;
+use crate::model::Ground;
 
 /// A plane that rises in one direction of the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,15 +41,12 @@ impl Effect for Slope {
     };
 
     fn from_values(values: &[f64]) -> Self {
-        Self {
-            angle: values[0].to_radians(),
-            uphill: values[1].to_radians(),
-        }
+        Self { angle: values[0].to_radians(), uphill: values[1].to_radians() }
     }
 
-    fn ground(&self, circumstance: &Circumstance, ground: &mut Ground) {
-        let (sin, cos) = (self.uphill - circumstance.heading).sin_cos();
-        let uphill = paper_from_ros([cos, sin]);
+    fn ground(&self, ground: &mut Ground) {
+        let (sin, cos) = self.uphill.sin_cos();
+        let uphill = ground.circumstance.to_robot([cos, sin]);
         // g_along = −g sin β · uphill, g_normal = g cos β
         let along = ground.gravity_normal * self.angle.sin();
         for (gravity, component) in ground.gravity_along.iter_mut().zip(uphill) {

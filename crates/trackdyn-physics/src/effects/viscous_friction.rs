@@ -1,5 +1,6 @@
 //! Friction that grows with slip speed.
 
+use crate::contact::ShearStress;
 use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
 use crate::model::Site;
 use trackdyn_core::Scalar;
@@ -34,9 +35,8 @@ impl Effect for ViscousFriction {
         Self { growth: values[0] }
     }
 
-    fn shear<S: Scalar>(&self, site: &Site<S>, mobilised: &mut [S; 2]) {
+    fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
         // 1 + c |s|
-        let factor = site.slip_speed() * self.growth + 1.0;
-        *mobilised = mobilised.map(|m| m * factor);
+        stress.scale(site.slip_speed() * self.growth + 1.0);
     }
 }

@@ -1,6 +1,6 @@
 //! Motion of hull and belts.
 
-use crate::contact::SlipField;
+use crate::contact::{Extent, SlipField};
 use trackdyn_core::{PerSide, Scalar, Side, Twist};
 
 /// Motion of the hull and the slip that it gives to both belts.
@@ -10,6 +10,8 @@ pub struct Motion<S = f64> {
     pub belt_speed: PerSide<f64>,
     /// Twist of the hull at the origin, paper's frame.
     pub twist: Twist<S>,
+    /// Rate of change of the twist in the hull's axes, m/s² and rad/s²; zero in stationary motion.
+    pub acceleration: Twist<S>,
     /// Slip of each belt over the ground.
     pub slip: PerSide<SlipField<S>>,
 }
@@ -51,10 +53,44 @@ impl<S: Scalar> Motion<S> {
                 v_y: -w * x + belt_speed[anchor],
                 w,
             },
+            acceleration: Twist { v_x: S::from(0.0), v_y: S::from(0.0), w: S::from(0.0) },
             slip: match anchor {
                 Side::Left => PerSide::new(anchor_slip, other_slip),
                 Side::Right => PerSide::new(other_slip, anchor_slip),
             },
         }
+    }
+
+    /// The motion of a hull whose twist departs from straight driving at the left belt's speed by
+    /// `departure`, with its acceleration.
+    ///
+    /// Slip is what a departure leaves of the speeds, so a track that sticks keeps all digits of its creep.
+    /// A slip field is scaled by its root mean square over the side's contact.
+    #[inline]
+    pub fn departing(
+        belt_speed: PerSide<f64>,
+        departure: Twist<S>,
+        acceleration: Twist<S>,
+        contact: &PerSide<Extent>,
+    ) -> Self {
+        let slip = PerSide::from_fn(|side| {
+            let Extent { middle: [x, y], radius } = contact[side];
+            let behind = belt_speed.left - belt_speed[side];
+            // s = (v_x − w y, v_y + w x − V)
+            let lateral = departure.v_x - departure.w * y;
+            let forward = departure.v_y + departure.w * x + behind;
+            let rim = departure.w * radius;
+            let squared = lateral * lateral + forward * forward + rim * rim;
+            let speed = (squared + f64::MIN_POSITIVE).sqrt();
+            let scale = speed.recip();
+            SlipField {
+                lateral: departure.v_x * scale,
+                forward: (departure.v_y + behind) * scale,
+                rotation: departure.w * scale,
+                speed,
+            }
+        });
+        let twist = Twist { v_y: departure.v_y + belt_speed.left, ..departure };
+        Self { belt_speed, twist, acceleration, slip }
     }
 }

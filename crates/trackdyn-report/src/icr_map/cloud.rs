@@ -25,7 +25,7 @@ impl Cloud {
                     Side::Left => icrs.x_left,
                     Side::Right => icrs.x_right,
                 };
-                let speed = solution.belt_speed.left.abs().max(solution.belt_speed.right.abs());
+                let speed = solution.track_speed.left.abs().max(solution.track_speed.right.abs());
                 #[expect(
                     clippy::cast_possible_truncation,
                     clippy::cast_sign_loss,

@@ -3,11 +3,14 @@
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::Dual;
 
-/// Residual at which the iteration stops.
-const CONVERGED: f64 = 1e-13;
-
-/// Residual up to which a point counts as a root when rounding keeps it from [`CONVERGED`].
-const ROUNDING: f64 = 1e-11;
+/// When a point counts as a root.
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerance {
+    /// Residual at which the iteration stops.
+    pub converged: f64,
+    /// Residual up to which a point counts as a root when rounding keeps it from `converged`.
+    pub rounding: f64,
+}
 
 /// Residual below which one more step of a quadratic method is expected to be the last, so that
 /// its derivatives are not asked for.
@@ -57,6 +60,7 @@ pub struct Convergence {
 pub fn solve(
     start: Vector3<f64>,
     longest_step: f64,
+    tolerance: Tolerance,
     evaluate: impl Fn(Vector3<f64>) -> Evaluation,
     residual: impl Fn(Vector3<f64>) -> Vector3<f64>,
 ) -> Convergence {
@@ -68,15 +72,15 @@ pub fn solve(
         point,
         residual: norm,
         iterations,
-        is_root: norm <= ROUNDING,
+        is_root: norm <= tolerance.rounding,
     };
-    while norm > CONVERGED && iterations < MAX_ITERATIONS {
+    while norm > tolerance.converged && iterations < MAX_ITERATIONS {
         let Some(inverse) = at.jacobian.try_inverse() else { break };
         let step = -(inverse * at.residual);
         if norm < NEARLY {
             let last = point + step;
             let last_norm = residual(last).norm();
-            if last_norm <= CONVERGED {
+            if last_norm <= tolerance.converged {
                 return ended(last, last_norm, iterations + 1);
             }
         }
@@ -104,6 +108,8 @@ pub fn solve(
 mod tests {
     use super::*;
 
+    const EXACT: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11 };
+
     fn quadratic(root: Vector3<f64>) -> impl Fn(Vector3<f64>) -> Evaluation {
         move |z| {
             let d = z - root;
@@ -118,7 +124,7 @@ mod tests {
     fn finds_a_root_quadratically() {
         let root = Vector3::new(1.0, -2.0, 0.5);
         let f = quadratic(root);
-        let found = solve(Vector3::zeros(), 10.0, &f, |z| f(z).residual);
+        let found = solve(Vector3::zeros(), 10.0, EXACT, &f, |z| f(z).residual);
         assert!(found.is_root && found.iterations <= 8);
         assert!((found.point - root).norm() < 1e-12);
     }
@@ -129,7 +135,7 @@ mod tests {
             residual: Vector3::new(1.0 + z[0] * z[0], z[1], z[2]),
             jacobian: Matrix3::from_diagonal(&Vector3::new(2.0 * z[0], 1.0, 1.0)),
         };
-        let found = solve(Vector3::new(0.7, 0.1, 0.1), 10.0, f, |z| f(z).residual);
+        let found = solve(Vector3::new(0.7, 0.1, 0.1), 10.0, EXACT, f, |z| f(z).residual);
         assert!(!found.is_root && found.residual >= 1.0);
     }
 }

@@ -1,0 +1,26 @@
+//! What a law beyond the base one does to the shear stress at a point.
+
+use trackdyn_core::Scalar;
+
+/// What effects make of the shear stress at a point: τ = f ∘ (τ_base + τ_added).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShearStress<S> {
+    /// Factors f on the stress across and along the track, 1.
+    pub factor: [S; 2],
+    /// Stress on the body beside the base law's, across and along the track, Pa.
+    pub added: [S; 2],
+}
+
+impl<S: Scalar> ShearStress<S> {
+    /// The base law alone.
+    #[inline]
+    pub fn base() -> Self {
+        Self { factor: [S::from(1.0); 2], added: [S::from(0.0); 2] }
+    }
+
+    /// Multiplies both factors.
+    #[inline]
+    pub fn scale(&mut self, factor: S) {
+        self.factor = self.factor.map(|f| f * factor);
+    }
+}

@@ -1,0 +1,50 @@
+//! Soil pushed aside by tracks that slip sideways.
+
+use crate::contact::ShearStress;
+use crate::effect::{Card, Effect, Parameter, Stage};
+use crate::model::Site;
+use trackdyn_core::Scalar;
+
+/// A resistance to lateral slip that knows its sign alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bulldozing {
+    coefficient: f64,
+}
+
+impl Effect for Bulldozing {
+    const CARD: Card = Card {
+        id: "bulldozing",
+        title: "Soil pushed aside by a slipping track",
+        law: "τ_x = −μ_b p sign(s_x), beside friction",
+        assumes: "The wall of soil grows with the local load and stands up at once; its size does \
+                  not depend on how fast it is pushed.",
+        shows: "Like more friction across, but where the slip is mostly along the track it does \
+                not fade: the ICRs move outwards. It moves the constant ICRs and nothing else: \
+                with the centre of gravity, the friction ratio and their like it forms the class \
+                that ICRs alone cannot split.",
+        breaks: &[],
+        stages: &[Stage::Shear],
+        parameters: &[Parameter {
+            key: "coefficient",
+            symbol: "μ_b",
+            unit: "1",
+            meaning: "lateral resistance over normal pressure",
+            range: [0.0, 1.0],
+            typical: 0.1,
+        }],
+        sources: &[
+            "Hegedus, A simplified method for the determination of bulldozing resistance, LLRL report 61, 1960",
+            "Steeds, Tracked vehicles, Automobile Engineer 40, 1950",
+        ],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { coefficient: values[0] }
+    }
+
+    fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
+        // τ_x = −μ_b p sign(s_x)
+        let sign = site.slip.unit_slip[0].value().signum();
+        stress.added[0] += site.normal_pressure() * (-self.coefficient * sign);
+    }
+}

@@ -1,0 +1,53 @@
+//! A centre of gravity elsewhere than the vehicle file says.
+
+use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::vehicle::Vehicle;
+
+/// The centre of gravity moved in the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CogShift {
+    shift: [f64; 2],
+}
+
+impl Effect for CogShift {
+    const CARD: Card = Card {
+        id: "cog-shift",
+        title: "Centre of gravity elsewhere",
+        law: "(x_c, y_c) ← (x_c + Δx, y_c + Δy)",
+        assumes: "A load that stays where it is. The mass does not change.",
+        shows: "Moves the constant ICRs: y with Δy, their middle with Δx, which is like a \
+                difference of friction between the sides.",
+        breaks: &[Symmetry::Mirror],
+        stages: &[Stage::Body],
+        parameters: &[
+            Parameter {
+                key: "x_m",
+                symbol: "Δx",
+                unit: "m",
+                meaning: "shift to the right",
+                range: [-1.0, 1.0],
+                typical: 0.02,
+            },
+            Parameter {
+                key: "y_m",
+                symbol: "Δy",
+                unit: "m",
+                meaning: "shift forward",
+                range: [-2.0, 2.0],
+                typical: 0.03,
+            },
+        ],
+        sources: &["Martinez et al., IJRR 24(10), 2005, Fig. 5"],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { shift: [values[0], values[1]] }
+    }
+
+    fn body(&self, vehicle: &mut Vehicle) {
+        // (x_c, y_c) ← (x_c + Δx, y_c + Δy)
+        for (cog, shift) in vehicle.cog.iter_mut().zip(self.shift) {
+            *cog += shift;
+        }
+    }
+}

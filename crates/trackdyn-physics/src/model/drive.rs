@@ -1,0 +1,31 @@
+//! From the speeds that the encoders show to the speeds of the belts.
+
+use trackdyn_core::PerSide;
+
+/// The way from the encoders to the belts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// Speed of the belt per speed that the encoder shows, α, 1; eqs (20)-(21).
+    pub gain: PerSide<f64>,
+    /// Share of its speed that a belt loses per traction over normal load, 1.
+    pub slip_per_traction: f64,
+    /// Time constant with which the belts follow the encoders, s.
+    pub time_constant: f64,
+}
+
+impl Drive {
+    /// Belts that do what the encoders show, at once.
+    pub fn direct() -> Self {
+        Self { gain: PerSide::new(1.0, 1.0), slip_per_traction: 0.0, time_constant: 0.0 }
+    }
+
+    /// Steady speeds of the belts, m/s, at the speeds that the encoders show (m/s) and the traction of
+    /// each side over its normal load, forward positive, 1.
+    pub fn belt_speed(&self, shown: PerSide<f64>, traction: PerSide<f64>) -> PerSide<f64> {
+        PerSide::from_fn(|side| {
+            // V = α V_e − κ |α V_e| T/N
+            let driven = self.gain[side] * shown[side];
+            driven - self.slip_per_traction * driven.abs() * traction[side]
+        })
+    }
+}

@@ -1,0 +1,168 @@
+//! The motion in time: stick, slip, energy, convergence, and the steady state it settles to.
+
+use trackdyn_core::frames::paper_twist_from_ros;
+use trackdyn_core::{Command, PerSide, Plant, Pose, Schedule, Side, Trajectory, Twist};
+use trackdyn_motion::{Icrs, Stationary, Status, Transient};
+use trackdyn_physics::{ActiveEffect, CATALOGUE, Circumstance, Effects, Model};
+use trackdyn_tests::auriga;
+
+const NEWTON: [&str; 2] = ["centripetal", "yaw-inertia:gyration_m=0.3"];
+
+fn schedule(commands: &[(f64, f64, f64)]) -> Schedule {
+    let command =
+        |&(t, left, right): &(f64, f64, f64)| Command { t, speeds: PerSide::new(left, right) };
+    Schedule::new(commands.iter().map(command).collect()).expect("a schedule")
+}
+
+fn drive(model: &Model, schedule: &Schedule, step: f64) -> Trajectory {
+    let mut robot = Transient::at_rest(model, 0.0, Pose::default()).with_step(step);
+    robot.follow(schedule).unwrap_or_else(|stop| panic!("{stop} {:?}", model.effects()))
+}
+
+/// A drive with spins, arcs, straights and stops.
+fn mixed() -> Schedule {
+    schedule(&[
+        (0.0, 0.5, 0.5),
+        (1.0, 0.3, 0.8),
+        (2.5, -0.6, 0.6),
+        (3.5, 0.0, 0.0),
+        (4.5, -0.5, -0.5),
+        (5.5, -0.2, -0.9),
+        (7.0, 0.0, 0.7),
+        (8.0, 0.0, 0.0),
+        (9.0, 0.0, 0.0),
+    ])
+}
+
+#[test]
+fn steady_turns_are_the_stationary_ones() {
+    let speeds = [(0.4, 1.0), (-0.4, 1.0), (-0.7, 0.7), (-0.3, -0.9)];
+    let mut checked = 0;
+    for card in CATALOGUE {
+        // Both models stand at one place and time: effects of place and time are met there.
+        let effect = ActiveEffect::new(card.id, &[]).expect("typical sizes");
+        let vehicle = auriga([-0.015, 0.04], &[]).vehicle().clone();
+        let model = Model::new(vehicle, Effects::from_iter([effect]));
+        for (left, right) in speeds {
+            let shown = PerSide::new(left, right);
+            let path = drive(&model, &schedule(&[(0.0, left, right), (4.0, left, right)]), 0.01);
+            let last = path.moments()[path.moments().len() - 1];
+            let here = Circumstance {
+                position: [last.pose.x, last.pose.y],
+                heading: last.pose.yaw,
+                time: last.t,
+            };
+            let stationary = Stationary::new(&model, &here).solve(shown);
+            assert_eq!(stationary.status, Status::Turning, "{}", card.id);
+            let expected = stationary.icrs.expect("a turn has ICRs").to_array();
+            let found = Icrs::of_motion(last.belt_speed, &paper_twist_from_ros(&last.twist));
+            let found = found.expect("a turn").to_array();
+            for (found, expected) in found.into_iter().zip(expected) {
+                let error = (found - expected).abs();
+                assert!(error < 5e-4, "{} at {left} {right}: {error} m", card.id);
+            }
+            checked += 1;
+        }
+    }
+    assert_eq!(checked, speeds.len() * CATALOGUE.len());
+}
+
+#[test]
+fn a_parked_robot_stays_on_a_slope_below_the_friction_angle() {
+    // tan β = 0.8 μ, downhill along and across the tracks
+    for (mu, uphill) in [(0.7_f64, 0.0), (0.9, 90.0)] {
+        let angle = (0.8 * mu).atan().to_degrees();
+        let slope = format!("slope:angle_deg={angle},uphill_deg={uphill}");
+        let mut effects = NEWTON.to_vec();
+        effects.push(&slope);
+        let model = auriga([0.0, 0.0], &effects);
+        let path = drive(&model, &schedule(&[(0.0, 0.0, 0.0), (60.0, 0.0, 0.0)]), 0.05);
+        let end = path.moments()[path.moments().len() - 1].pose;
+        let crept = end.x.hypot(end.y);
+        assert!(crept > 0.0 && crept < 1e-4, "{crept} m");
+        // Above the friction angle it slides, faster and faster.
+        let angle = (1.1 * mu).atan().to_degrees();
+        let slope = format!("slope:angle_deg={angle},uphill_deg={uphill}");
+        effects[2] = &slope;
+        let model = auriga([0.0, 0.0], &effects);
+        let path = drive(&model, &schedule(&[(0.0, 0.0, 0.0), (1.0, 0.0, 0.0)]), 0.01);
+        let end = path.moments()[path.moments().len() - 1].pose;
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let expected = 0.5 * 9.806_65 * (sin - mu * cos);
+        assert!((end.x.hypot(end.y) - expected).abs() < 0.01 * expected, "{end:?} {expected}");
+    }
+}
+
+#[test]
+fn a_free_slide_loses_energy_and_comes_to_rest() {
+    let model = auriga([-0.015, 0.04], &NEWTON);
+    let twist = Twist { v_x: 0.8, v_y: -0.6, w: 2.5 };
+    let mut robot = Transient::at_rest(&model, 0.0, Pose::default()).with_twist(twist);
+    let mut path = Trajectory::default();
+    let mut before = robot.kinetic_energy(0.3);
+    for step in 1..=100 {
+        robot.drive(PerSide::new(0.0, 0.0), 0.01 * f64::from(step), &mut path).expect("it slides");
+        let energy = robot.kinetic_energy(0.3);
+        assert!(energy <= before, "{before} J to {energy} J at step {step}");
+        before = energy;
+    }
+    assert!(before < 1e-9, "{before} J remain");
+}
+
+#[test]
+fn steps_converge_with_their_square_and_at_corners_of_stick_and_slip_with_themselves() {
+    let model = auriga([-0.015, 0.04], &[NEWTON[0], NEWTON[1], "load-transfer:cog_height_m=0.05"]);
+    let exact = drive(&model, &mixed(), 0.000_25);
+    let errors = |t: f64| {
+        [0.02, 0.01, 0.005, 0.0025].map(|step| {
+            let (pose, exact) = (drive(&model, &mixed(), step).pose_at(t), exact.pose_at(t));
+            (pose.x - exact.x).hypot(pose.y - exact.y)
+        })
+    };
+    // In the last turn the left belt stands still, and its track sticks and slips in turns.
+    let (smooth, whole) = (errors(7.0), errors(9.0));
+    println!("steps of 20, 10, 5, 2.5 ms: after 7 s {smooth:?} m, after 9 s {whole:?} m");
+    assert!(whole[1] < 1e-3 && smooth[1] < 2e-4, "{smooth:?} {whole:?}");
+    assert!(smooth[3] < smooth[1] / 8.0, "{smooth:?}");
+    assert!(whole[3] < whole[0] / 8.0, "{whole:?}");
+}
+
+#[test]
+fn straight_driving_is_straight_and_stops_where_it_should() {
+    let model = auriga([-0.015, 0.04], &NEWTON);
+    let path = drive(&model, &schedule(&[(0.0, 0.5, 0.5), (2.0, 0.0, 0.0), (3.0, 0.0, 0.0)]), 0.01);
+    let end = path.moments()[path.moments().len() - 1];
+    assert!(end.pose.y.abs() < 1e-3 && end.pose.yaw.abs() < 1e-3, "{end:?}");
+    // Slip while it gains speed is lost again while it brakes: 1 m of belt is 1 m of ground.
+    assert!((end.pose.x - 1.0).abs() < 2e-3, "{end:?}");
+    assert!(end.twist.v_x.abs() < 1e-5 && end.twist.w.abs() < 1e-5, "{end:?}");
+}
+
+#[test]
+fn a_track_that_holds_lets_the_other_one_slip() {
+    // Nearly all weight on the right: it holds the robot at its own speed.
+    let model = auriga([0.2, 0.0], &NEWTON);
+    let stationary = Stationary::new(&model, &Circumstance::default());
+    assert_eq!(stationary.solve(PerSide::new(0.1, 0.5)).status, Status::Holds(Side::Right));
+    let path = drive(&model, &schedule(&[(0.0, 0.1, 0.5), (3.0, 0.1, 0.5)]), 0.01);
+    let end = path.moments()[path.moments().len() - 1];
+    assert!((end.twist.v_x - 0.5).abs() < 1e-4 && end.twist.w.abs() < 1e-4, "{end:?}");
+}
+
+#[test]
+fn without_inertia_the_robot_is_where_the_stationary_model_says_at_once() {
+    let model = auriga([-0.015, 0.04], &[]);
+    let path = drive(&model, &mixed(), 0.01);
+    let stationary = Stationary::new(&model, &Circumstance::default());
+    let schedule = mixed();
+    for moment in &path.moments()[1..] {
+        let shown = schedule.at(moment.t - 0.005);
+        let expected = stationary.solve(shown).twist;
+        let found = paper_twist_from_ros(&moment.twist);
+        for (found, expected) in
+            [(found.v_x, expected.v_x), (found.v_y, expected.v_y), (found.w, expected.w)]
+        {
+            assert!((found - expected).abs() < 1e-5, "{moment:?} {expected}");
+        }
+    }
+}

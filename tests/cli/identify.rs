@@ -78,6 +78,10 @@ fn recordings_are_inspected() {
     assert_eq!(bag.status, 0, "{}", bag.stderr);
     assert!(bag.stdout.contains("sensor_msgs/msg/JointState"), "{}", bag.stdout);
     assert!(bag.stdout.contains("--tracks-topic"), "{}", bag.stdout);
+    let chain = project_file("crates/trackdyn-recording/tests/fixtures/chain.db3");
+    let chain = place.run(&format!("inspect {}", chain.display()));
+    let suggested = "--pose-topic /tf --parent-frame map --child-frame base_link";
+    assert!(chain.stdout.contains(suggested), "{}", chain.stdout);
 }
 
 #[test]

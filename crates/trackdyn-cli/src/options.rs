@@ -71,7 +71,8 @@ pub struct RecordingOptions {
     /// Bag: topic of the poses
     #[arg(long, value_name = "TOPIC")]
     pose_topic: Option<String>,
-    /// Bag: frame that the poses are expressed in
+    /// Bag: frame that the poses are expressed in; with --child-frame, transforms are chained where no
+    /// topic has these poses
     #[arg(long, value_name = "FRAME")]
     parent_frame: Option<String>,
     /// Bag: frame whose poses they are

@@ -33,7 +33,8 @@ fn bag(options: &Options) -> Result<(), trackdyn_recording::Error> {
     for topic in &inspection.topics {
         println!("{:>9} {:>9.1}  {:40} {}", topic.messages, topic.duration, topic.name, topic.kind);
         if !topic.joints.is_empty() {
-            println!("{:21}joints: {}", "", topic.joints.join(", "));
+            let (joints, signals) = (topic.joints.join(", "), topic.signals.join(", "));
+            println!("{:21}joints: {joints} ({signals})", "");
         }
         for (parent, child) in &topic.frames {
             println!("{:21}frames: {parent} -> {child}", "");

@@ -1,6 +1,6 @@
 //! Joint signals as track speeds, and stamps as seconds.
 
-use super::{Collected, Reading, RosbagOptions, Stamped};
+use super::{Collected, Reading, RosbagOptions, Stamped, turns};
 use crate::Error;
 use crate::recording::{
     Cleaning, ImuSample, PoseSample, Series, TrackSample, UncheckedRun, Warning, clean,
@@ -12,7 +12,8 @@ use trackdyn_core::Pose;
 pub(super) fn run(
     path: &Path,
     options: &RosbagOptions,
-    readings: &[Stamped<Reading>],
+    joints: &[String],
+    mut readings: Vec<Stamped<Reading>>,
     poses: Vec<Stamped<[f64; 3]>>,
     imu: Vec<Stamped<[f64; 3]>>,
     mut warnings: Vec<Warning>,
@@ -30,6 +31,7 @@ pub(super) fn run(
     let epoch_ns = stamps.min().unwrap_or_default();
     let seconds = |stamp| seconds_between(epoch_ns, stamp);
 
+    warnings.extend(turns::unwrap(&mut readings, joints, seconds));
     let are_positions = readings.first().is_some_and(|(_, reading)| reading.is_position);
     let joint = |(stamp, reading): &Stamped<Reading>| TrackSample {
         t: seconds(*stamp),

@@ -4,8 +4,8 @@ use clap::Args;
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_physics::{ActiveEffect, Circumstance, Model, VehicleFile};
-use trackdyn_recording::Recording;
 use trackdyn_recording::rosbag::RosbagOptions;
+use trackdyn_recording::{Format, Recording, tum};
 
 /// The vehicle, its effects and where it stands.
 #[derive(Args)]
@@ -54,8 +54,12 @@ impl ModelOptions {
 /// A recording, and how it is read.
 #[derive(Args)]
 pub struct RecordingOptions {
-    /// Folder with recording.toml, or rosbag2 (.mcap, .db3 or the folder around them)
+    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory of the
+    /// TUM benchmark (.tum, .txt) with --tracks
     pub recording: PathBuf,
+    /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
+    #[arg(long, value_name = "FILE")]
+    tracks: Option<PathBuf>,
     /// Bag: topic of the joint states
     #[arg(long, value_name = "TOPIC")]
     tracks_topic: Option<String>,
@@ -84,9 +88,12 @@ impl RecordingOptions {
     /// Reads the recording; what was cleaned or left out goes to stderr.
     ///
     /// # Errors
-    /// Those of [`trackdyn_recording::read`].
-    pub fn read(&self) -> Result<Recording, trackdyn_recording::Error> {
-        let recording = trackdyn_recording::read(&self.recording, &self.rosbag())?;
+    /// A message that names the file and, where there is one, line and column.
+    pub fn read(&self) -> Result<Recording, Box<dyn std::error::Error>> {
+        let recording = match tracks_of(&self.recording, self.tracks.as_deref())? {
+            Some(tracks) => tum::read(&self.recording, tracks, "unknown")?,
+            None => trackdyn_recording::read(&self.recording, &self.rosbag())?,
+        };
         for warning in recording.warnings() {
             eprintln!("note: {warning}");
         }
@@ -104,6 +111,28 @@ impl RecordingOptions {
             child_frame: self.child_frame.clone(),
             ..RosbagOptions::default()
         }
+    }
+}
+
+/// The track speeds that a trajectory needs; none for a recording that has its own.
+///
+/// # Errors
+/// Track speeds for a recording that has its own, a trajectory without any, no recording at all.
+pub fn tracks_of<'a>(
+    recording: &Path,
+    tracks: Option<&'a Path>,
+) -> Result<Option<&'a Path>, Box<dyn std::error::Error>> {
+    let name = recording.display();
+    match (Format::of(recording)?, tracks) {
+        (Format::Tum, None) => {
+            Err(format!("{name}: a trajectory has no track speeds: give them with --tracks").into())
+        }
+        (Format::Tum, tracks) | (_, tracks @ None) => Ok(tracks),
+        (_, Some(_)) => Err(format!(
+            "--tracks: {name} has track speeds of its own: only a .tum or .txt trajectory \
+                         needs them"
+        )
+        .into()),
     }
 }
 

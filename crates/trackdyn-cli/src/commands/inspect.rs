@@ -2,29 +2,51 @@
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::options::tracks_of;
 use clap::Args;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use trackdyn_recording::clock::{ClockSearch, clock_offset};
 use trackdyn_recording::format::Format;
 use trackdyn_recording::rosbag::{self, RosbagOptions};
-use trackdyn_recording::{Recording, folder};
+use trackdyn_recording::{Recording, folder, tum};
 
 /// Options of `trackdyn inspect`.
 #[derive(Args)]
 pub struct Options {
-    /// Folder with recording.toml, or rosbag2 (.mcap, .db3 or the folder around them)
+    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory of the
+    /// TUM benchmark (.tum, .txt)
     recording: PathBuf,
+    /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
+    #[arg(long, value_name = "FILE")]
+    tracks: Option<PathBuf>,
 }
 
-/// Lists the topics of a bag with the options that they suggest, or the runs of a recording folder.
+/// Lists the topics of a bag with the options that they suggest, or the runs of a recording.
 pub fn run(options: &Options) -> Outcome {
-    if Format::of(&options.recording)? == Format::Rosbag {
-        bag(options)?;
-    } else {
-        runs(&folder::read(&options.recording)?);
+    let (path, tracks) = (&options.recording, options.tracks.as_deref());
+    match (Format::of(path)?, tracks) {
+        (Format::Rosbag, None) => bag(options)?,
+        (Format::Tum, None) => trajectory(path)?,
+        _ => match tracks_of(path, tracks)? {
+            Some(tracks) => runs(&tum::read(path, tracks, "unknown")?),
+            None => runs(&folder::read(path)?),
+        },
     }
     Ok(Exit::Done)
+}
+
+/// A trajectory alone, and the option that adds its track speeds.
+fn trajectory(path: &Path) -> Result<(), trackdyn_recording::Error> {
+    let poses = tum::read_poses(path)?.samples;
+    let (first, last) = (poses.first().map_or(0.0, |p| p.t), poses.last().map_or(0.0, |p| p.t));
+    println!(
+        "{}: trajectory, {} poses, t = {first:.3} to {last:.3} s",
+        path.display(),
+        poses.len()
+    );
+    println!("\nsuggested: --tracks TRACKS.csv");
+    Ok(())
 }
 
 fn bag(options: &Options) -> Result<(), trackdyn_recording::Error> {

@@ -1,0 +1,126 @@
+//! The formats of recordings, as the commands take them.
+
+use crate::{Workplace, project_file};
+use std::fmt::Write;
+use trackdyn_recording::folder;
+use trackdyn_recording::synthetic::{Synthetic, random_steps};
+
+/// A recording folder `rec`, and the same as the trajectory `walk.tum` and the table `tracks.csv`.
+fn record(place: &Workplace) {
+    let synthetic = Synthetic {
+        schedules: vec![random_steps(20, 2.0, 0.8, 1)],
+        encoder_noise: 0.01,
+        position_noise: 0.002,
+        yaw_noise: 0.002,
+        ..Synthetic::default()
+    };
+    let recording = synthetic.recording().expect("long enough");
+    let run = &recording.runs()[0];
+    let mut walk = String::from("# t x y z qx qy qz qw\n");
+    for sample in run.poses() {
+        let (t, pose) = (sample.t, sample.pose);
+        let (sin, cos) = (0.5 * pose.yaw).sin_cos();
+        let _ = writeln!(walk, "{t} {} {} 0.1 0 0 {sin} {cos}", pose.x, pose.y);
+    }
+    place.write("walk.tum", &walk);
+    let mut tracks = String::from("t,v_left,v_right\n");
+    for sample in run.tracks() {
+        let _ = writeln!(tracks, "{},{},{}", sample.t, sample.v_left, sample.v_right);
+    }
+    place.write("tracks.csv", &tracks);
+    folder::write(&recording, &place.path().join("rec")).expect("written");
+}
+
+fn vehicle() -> String {
+    project_file("configs/vehicles/auriga-alpha.toml").display().to_string()
+}
+
+fn fixture(name: &str) -> String {
+    let fixtures = project_file("crates/trackdyn-recording/tests/fixtures");
+    fixtures.join(name).display().to_string()
+}
+
+#[test]
+fn recordings_are_inspected() {
+    let place = Workplace::new();
+    record(&place);
+    let folder = place.run("inspect rec");
+    assert_eq!(folder.status, 0, "{}", folder.stderr);
+    assert!(folder.stdout.contains("1 runs, 40 s"), "{}", folder.stdout);
+    let bag = place.run(&format!("inspect {}", fixture("drive.mcap")));
+    assert_eq!(bag.status, 0, "{}", bag.stderr);
+    assert!(bag.stdout.contains("sensor_msgs/msg/JointState"), "{}", bag.stdout);
+    assert!(bag.stdout.contains("--tracks-topic"), "{}", bag.stdout);
+    let chain = place.run(&format!("inspect {}", fixture("chain.db3")));
+    let suggested = "--pose-topic /tf --parent-frame map --child-frame base_link";
+    assert!(chain.stdout.contains(suggested), "{}", chain.stdout);
+}
+
+#[test]
+fn a_trajectory_with_its_track_speeds_is_as_good_as_a_folder() {
+    let place = Workplace::new();
+    record(&place);
+    let alone = place.run("inspect walk.tum");
+    assert_eq!(alone.status, 0, "{}", alone.stderr);
+    assert!(alone.stdout.contains("401 poses, t = 0.000 to 40.000 s"), "{}", alone.stdout);
+    assert!(alone.stdout.contains("suggested: --tracks"), "{}", alone.stdout);
+    let inspected = place.run("inspect walk.tum --tracks tracks.csv");
+    assert!(inspected.stdout.contains("1 runs, 40 s"), "{}", inspected.stdout);
+
+    let identify = |recording: &str, out: &str| {
+        let arguments = format!("identify {recording} --vehicle {} --out {out}", vehicle());
+        let run = place.run(&format!("{arguments} --generations 5"));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        let text = String::from_utf8(place.read(&format!("{out}/kinematics.toml"))).expect("text");
+        text.parse::<toml::Table>().expect("TOML")["x_icr_left_m"].as_float().expect("a number")
+    };
+    // The half angle of a quaternion and back rounds yaw by 1e-16 rad.
+    let (folder, tum) = (identify("rec", "a"), identify("walk.tum --tracks tracks.csv", "b"));
+    assert!((folder - tum).abs() < 1e-9, "{folder} {tum}");
+
+    let arguments = format!("odometry walk.tum --tracks tracks.csv --vehicle {}", vehicle());
+    let replay = place.run(&format!("{arguments} --kinematics b/kinematics.toml --out c"));
+    assert_eq!(replay.status, 0, "{}", replay.stderr);
+}
+
+#[test]
+fn trajectories_that_do_not_fit_are_pointed_at() {
+    let place = Workplace::new();
+    record(&place);
+    place.write("bad.tum", "0 0 0 0 0 0 0 1\n1 0 0 0 zero 0 0 1\n");
+    place.write("short.csv", "t,v_left\n0,1\n");
+    place.write("notes.pdf", "");
+    let vehicle = vehicle();
+    for (arguments, part) in [
+        (
+            "identify walk.tum",
+            "walk.tum: a trajectory has no track speeds: give them with --tracks",
+        ),
+        ("odometry walk.tum", "--tracks"),
+        ("identify bad.tum --tracks tracks.csv", "bad.tum:2:5: qx = \"zero\": expected a number"),
+        ("identify walk.tum --tracks short.csv", "short.csv:1: columns t,v_left: expected"),
+        ("identify walk.tum --tracks missing.csv", "missing.csv: cannot be read"),
+        ("identify rec --tracks tracks.csv", "rec has track speeds of its own"),
+        ("identify notes.pdf", "notes.pdf: a file of another kind"),
+    ] {
+        let run = place.run(&format!("{arguments} --vehicle {vehicle}"));
+        assert_eq!(run.status, 1, "{arguments}: {}", run.stdout);
+        assert!(run.stderr.contains(part), "{arguments}: {part:?} is not in:\n{}", run.stderr);
+    }
+}
+
+#[cfg(not(feature = "parquet"))]
+#[test]
+fn parquet_without_its_feature_says_how_to_build_it() {
+    let run = Workplace::new().run(&format!("inspect {}", fixture("parquet")));
+    assert_eq!(run.status, 1);
+    assert!(run.stderr.contains("cargo build --release --features parquet"), "{}", run.stderr);
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn parquet_is_read_with_its_feature() {
+    let run = Workplace::new().run(&format!("inspect {}", fixture("parquet")));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("2 runs") && run.stdout.contains("20 poses"), "{}", run.stdout);
+}

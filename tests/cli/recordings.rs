@@ -109,6 +109,82 @@ fn trajectories_that_do_not_fit_are_pointed_at() {
     }
 }
 
+/// Every pair of nine speeds, of a robot with ICRs 0.8 m apart and 50 mm forward.
+fn operating_points(rate: impl Fn(f64, f64) -> f64) -> String {
+    let speeds = || (-4..=4).map(|k| 0.1 * f64::from(k));
+    let mut table = String::from("v_left,v_right,v_forward,v_lateral,yaw_rate\n");
+    for (l, r) in speeds().flat_map(|l| speeds().map(move |r| (l, r))) {
+        let w = rate(l, r);
+        // a wave in place of noise
+        let wave = 0.003 * (37.0 * l + 101.0 * r).sin();
+        let forward = l + 0.4 * w + wave;
+        let lateral = if l == 0.0 { String::new() } else { format!("{}", wave - 0.05 * w) };
+        let _ = writeln!(table, "{l},{r},{forward},{lateral},{}", w + 2.0 * wave);
+    }
+    table
+}
+
+#[test]
+fn operating_points_give_icrs_with_intervals() {
+    let place = Workplace::new();
+    place.write("floor.csv", &operating_points(|l, r| (r - l) / 0.8));
+    let inspected = place.run("inspect floor.csv");
+    assert!(inspected.stdout.contains("81 steady operating points"), "{}", inspected.stdout);
+    assert!(inspected.stdout.contains("72 lateral speeds"), "{}", inspected.stdout);
+    let run = place.run(&format!("identify floor.csv --vehicle {}", vehicle()));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    for part in ["x_r - x_l", "95 % interval", "alpha_r", "largest residuals", "leaving out"] {
+        assert!(run.stdout.contains(part), "{part} is not in:\n{}", run.stdout);
+    }
+    assert!(!run.stdout.contains("driven less"), "{}", run.stdout);
+    let text = String::from_utf8(place.read("out/kinematics.toml")).expect("text");
+    let file: toml::Table = text.parse().expect("TOML");
+    // 3 mm/s and 6 mrad/s at 81 points to 0.4 m/s: a few millimetres
+    for (key, truth) in [("x_icr_left_m", -0.4), ("x_icr_right_m", 0.4), ("y_icr_m", 0.05)] {
+        let value = file[key].as_float().expect("a number");
+        assert!((value - truth).abs() < 5e-3, "{key} = {value}");
+    }
+    let used = place.run("kinematics --speeds 0.3,0.9 --kinematics out/kinematics_alpha.toml");
+    assert_eq!(used.status, 0, "{}", used.stderr);
+}
+
+#[test]
+fn points_that_lag_are_told() {
+    let place = Workplace::new();
+    // a motor that stalls at full speed against the other track
+    let rate = |l: f64, r: f64| (if l < -0.25 && r > 0.35 { 0.1 } else { r } - l) / 0.8;
+    place.write("floor.csv", &operating_points(rate));
+    for command in ["inspect floor.csv", &format!("identify floor.csv --vehicle {}", vehicle())] {
+        let run = place.run(command);
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        assert!(run.stdout.contains("left -0.400, right 0.400 m/s: "), "{}", run.stdout);
+    }
+}
+
+#[test]
+fn operating_points_that_do_not_do_are_refused() {
+    let place = Workplace::new();
+    let vehicle = vehicle();
+    place.write("floor.csv", &operating_points(|l, r| (r - l) / 0.8));
+    place.write("bad.csv", "v_left,v_right,v_forward,v_lateral,yaw_rate\n0,x,0,0,0\n");
+    for (arguments, part) in [
+        ("identify bad.csv", "bad.csv:2:2: v_right = \"x\": expected a finite number"),
+        ("identify floor.csv --tau 0.1", "floor.csv holds steady points, which have no time"),
+        ("odometry floor.csv", "floor.csv: a file of another kind"),
+    ] {
+        let run = place.run(&format!("{arguments} --vehicle {vehicle}"));
+        assert_eq!(run.status, 1, "{arguments}: {}", run.stdout);
+        assert!(run.stderr.contains(part), "{arguments}: {part:?} is not in:\n{}", run.stderr);
+    }
+    // straight driving shows no ICR
+    place.write("straight.csv", "v_left,v_right,v_forward,v_lateral,yaw_rate\n0.1,0.1,0.1,0,0\n\
+        0.2,0.2,0.2,0,0.001\n0.3,0.3,0.3,0,-0.001\n0.4,0.4,0.39,0,0\n0.5,0.5,0.5,0,0\n0.6,0.6,0.61,0,0\n\
+        0.7,0.7,0.7,0,0\n");
+    let run = place.run(&format!("identify straight.csv --vehicle {vehicle}"));
+    assert_eq!(run.status, 2, "{}{}", run.stdout, run.stderr);
+    assert!(!place.path().join("out/kinematics.toml").exists());
+}
+
 #[cfg(not(feature = "parquet"))]
 #[test]
 fn parquet_without_its_feature_says_how_to_build_it() {

@@ -1,10 +1,11 @@
 //! Least squares: the most likely parameters under a noise model, with robust loss.
 
-mod covariance;
+pub(crate) mod covariance;
 mod identifiability;
 
 pub use covariance::{Blocks, Interval};
 pub use identifiability::{doubts, lacks};
+pub(crate) use identifiability::{inverse, too_wide};
 
 use crate::error::Error;
 use crate::observations::Observations;
@@ -57,10 +58,19 @@ pub enum Loss {
 
 impl Loss {
     /// Weight of a whitened residual in iteratively reweighted least squares.
-    fn weight(self, residual: f64) -> f64 {
+    pub(crate) fn weight(self, residual: f64) -> f64 {
         match self {
             Self::Squares => 1.0,
             Self::Huber => (HUBER / residual.abs()).min(1.0),
+        }
+    }
+
+    /// Half the second derivative of the loss: what an outlier does not add to the curvature, although it
+    /// has a weight.
+    pub(crate) fn curvature(self, residual: f64) -> f64 {
+        match self {
+            Self::Huber if residual.abs() > HUBER => 0.0,
+            _ => 1.0,
         }
     }
 

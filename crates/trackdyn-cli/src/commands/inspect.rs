@@ -1,6 +1,7 @@
 //! `trackdyn inspect`: what a recording holds.
 
 use crate::commands::Outcome;
+use crate::commands::identify::lagging_points;
 use crate::exit::Exit;
 use crate::options::tracks_of;
 use clap::Args;
@@ -9,13 +10,13 @@ use std::path::{Path, PathBuf};
 use trackdyn_recording::clock::{ClockSearch, clock_offset};
 use trackdyn_recording::format::Format;
 use trackdyn_recording::rosbag::{self, RosbagOptions};
-use trackdyn_recording::{Recording, folder, tum};
+use trackdyn_recording::{OperatingPoint, OperatingPoints, Recording, folder, tum};
 
 /// Options of `trackdyn inspect`.
 #[derive(Args)]
 pub struct Options {
     /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory of the
-    /// TUM benchmark (.tum, .txt)
+    /// TUM benchmark (.tum, .txt), or table of steady operating points (.csv)
     recording: PathBuf,
     /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
     #[arg(long, value_name = "FILE")]
@@ -25,6 +26,10 @@ pub struct Options {
 /// Lists the topics of a bag with the options that they suggest, or the runs of a recording.
 pub fn run(options: &Options) -> Outcome {
     let (path, tracks) = (&options.recording, options.tracks.as_deref());
+    if let Some(table) = OperatingPoints::file_of(path) {
+        points(&OperatingPoints::read(&table)?);
+        return Ok(Exit::Done);
+    }
     match (Format::of(path)?, tracks) {
         (Format::Rosbag, None) => bag(options)?,
         (Format::Tum, None) => trajectory(path)?,
@@ -47,6 +52,29 @@ fn trajectory(path: &Path) -> Result<(), trackdyn_recording::Error> {
     );
     println!("\nsuggested: --tracks TRACKS.csv");
     Ok(())
+}
+
+/// A table of operating points: its speeds, what was measured, and the points that lag.
+fn points(table: &OperatingPoints) {
+    let points = &table.points;
+    let measured = |of: fn(&OperatingPoint) -> Option<f64>| points.iter().filter_map(of).count();
+    println!(
+        "{}: {} steady operating points; measured: {} forward speeds, {} lateral speeds, {} yaw rates",
+        table.name,
+        points.len(),
+        measured(|point| point.v_forward),
+        measured(|point| point.v_lateral),
+        measured(|point| point.yaw_rate)
+    );
+    for (side, speed) in [
+        ("left", (|point| point.v_left) as fn(&OperatingPoint) -> f64),
+        ("right", |point| point.v_right),
+    ] {
+        let low = points.iter().map(speed).fold(f64::INFINITY, f64::min);
+        let high = points.iter().map(speed).fold(f64::NEG_INFINITY, f64::max);
+        println!("{side} track {low:.3} to {high:.3} m/s");
+    }
+    print!("{}", lagging_points(points));
 }
 
 fn bag(options: &Options) -> Result<(), trackdyn_recording::Error> {

@@ -91,8 +91,13 @@ pub struct Interval {
 impl Interval {
     /// Student's interval with as many degrees of freedom as blocks exceed parameters.
     pub(super) fn new(value: f64, deviation: f64, blocks: &Blocks, parameters: usize) -> Self {
-        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 blocks")]
-        let freedom = blocks.count().saturating_sub(parameters).max(1) as f64;
+        Self::of_groups(value, deviation, blocks.count(), parameters)
+    }
+
+    /// The same for this many groups.
+    pub(crate) fn of_groups(value: f64, deviation: f64, groups: usize, parameters: usize) -> Self {
+        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 groups")]
+        let freedom = groups.saturating_sub(parameters).max(1) as f64;
         let quantile =
             StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |student| student.inverse_cdf(0.975));
         let half = quantile * deviation;

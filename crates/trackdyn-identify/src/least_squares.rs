@@ -10,10 +10,9 @@ pub(crate) use identifiability::{inverse, too_wide};
 use crate::error::Error;
 use crate::observations::Observations;
 use crate::parameters::{COUNT, Free, Parameters};
-use crate::prediction::predict;
+use crate::prediction::Lanes;
 use crate::weighting::{Weighting, Whitener};
 use nalgebra::{DMatrix, DVector, Vector3};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Residuals beyond this many standard deviations count linearly (Huber): 95 % efficient on normal
@@ -94,24 +93,21 @@ impl Linearisation {
         parameters: &Parameters,
         free: Free,
         observations: &Observations,
+        lanes: &Lanes,
         whitener: &Whitener,
     ) -> Self {
-        let predictions: Vec<_> = observations
+        let predictions = lanes.predict(parameters);
+        let mut residuals: Vec<Vector3<f64>> = observations
             .segments()
-            .par_iter()
-            .with_min_len(128)
-            .map(|segment| (segment, predict(parameters, observations.pieces(segment))))
-            .collect();
-        let mut residuals: Vec<Vector3<f64>> = predictions
             .iter()
+            .zip(&predictions)
             .map(|(segment, prediction)| {
                 Vector3::from(segment.motion) - Vector3::from(prediction.motion)
             })
             .collect();
         let mut columns: Vec<Vec<Vector3<f64>>> = (0..free.count())
             .map(|k| {
-                let column = predictions.iter();
-                column.map(|(_, prediction)| Vector3::from(prediction.sensitivity[k])).collect()
+                predictions.iter().map(|prediction| prediction.sensitivity[k].into()).collect()
             })
             .collect();
         whitener.whiten(&mut residuals);
@@ -137,12 +133,20 @@ impl Linearisation {
     /// What a range of segments adds to Jᵀ W J and Jᵀ W r.
     fn part(&self, range: Range<usize>, weights: &[Vector3<f64>]) -> (DMatrix<f64>, DVector<f64>) {
         let count = self.columns.len();
-        let dot = |a: &[Vector3<f64>], b: &[Vector3<f64>]| -> f64 {
-            let products = range.clone().map(|k| a[k].component_mul(&weights[k]).dot(&b[k]));
-            products.sum()
-        };
-        let matrix = DMatrix::from_fn(count, count, |i, k| dot(&self.columns[i], &self.columns[k]));
-        let gradient = DVector::from_fn(count, |k, _| dot(&self.columns[k], &self.residuals));
+        let mut sums = [[0.0; COUNT]; COUNT];
+        let mut scores = [0.0; COUNT];
+        for k in range {
+            let (weight, residual) = (weights[k], self.residuals[k]);
+            for (i, first) in self.columns.iter().enumerate() {
+                let weighted = first[k].component_mul(&weight);
+                scores[i] += weighted.dot(&residual);
+                for (j, second) in self.columns.iter().enumerate().take(i + 1) {
+                    sums[i][j] += weighted.dot(&second[k]);
+                }
+            }
+        }
+        let matrix = DMatrix::from_fn(count, count, |i, k| sums[i.max(k)][i.min(k)]);
+        let gradient = DVector::from_fn(count, |k, _| scores[k]);
         (matrix, gradient)
     }
 }
@@ -164,7 +168,8 @@ pub fn least_squares(
         return Err(Error::TooFewSegments { found, needed: 4 * count, parameters: count });
     }
     let whitener = Whitener::new(weighting, observations);
-    let linearise = |at: &Parameters| Linearisation::at(at, free, observations, &whitener);
+    let lanes = Lanes::new(observations);
+    let linearise = |at: &Parameters| Linearisation::at(at, free, observations, &lanes, &whitener);
 
     let mut parameters = *start;
     let mut here = linearise(&parameters);

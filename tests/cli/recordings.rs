@@ -57,6 +57,28 @@ fn recordings_are_inspected() {
 }
 
 #[test]
+fn bags_are_read_with_the_options_that_inspection_prints() {
+    let place = Workplace::new();
+    let bag = fixture("chain.db3");
+    let printed = place.run(&format!("inspect {bag}")).stdout;
+    let (_, suggested) = printed.split_once("suggested:").expect("a suggestion");
+    let suggested = suggested.trim().replace("METRES", "0.1");
+    let command = format!("odometry {bag} {suggested} --vehicle {} --tau 0", vehicle());
+    let run = place.run(&command);
+    assert_eq!(run.status, 0, "{command}: {}", run.stderr);
+    assert!(run.stderr.contains("base_link in map by map -> odom"), "{}", run.stderr);
+
+    let bag = fixture("turns.mcap");
+    let arguments = format!("{bag} --tracks-topic /wrapped --wheel-radius 0.1 --tau 0");
+    let arguments = format!("odometry {arguments} --vehicle {} --joint-signal", vehicle());
+    let run = place.run(&format!("{arguments} position"));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("front_left: its position wraps (1 times)"), "{}", run.stderr);
+    let run = place.run(&format!("{arguments} velocity"));
+    assert!(run.status == 1 && run.stderr.contains("have no such signal"), "{}", run.stderr);
+}
+
+#[test]
 fn a_trajectory_with_its_track_speeds_is_as_good_as_a_folder() {
     let place = Workplace::new();
     record(&place);

@@ -1,10 +1,10 @@
 //! Options that several commands share.
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_physics::{ActiveEffect, Circumstance, Model, VehicleFile};
-use trackdyn_recording::rosbag::RosbagOptions;
+use trackdyn_recording::rosbag::{JointSignal, RosbagOptions};
 use trackdyn_recording::{Format, Recording, tum};
 
 /// The vehicle, its effects and where it stands.
@@ -70,6 +70,9 @@ pub struct RecordingOptions {
     /// Bag: joint on the right, in the same way
     #[arg(long, value_name = "JOINT", allow_hyphen_values = true)]
     right_joint: Vec<String>,
+    /// Bag: signal of the joints [default: velocity where there is one]
+    #[arg(long, value_name = "SIGNAL")]
+    joint_signal: Option<Signal>,
     /// Bag: belt travel in m per radian of the joints
     #[arg(long, value_name = "M", value_parser = finite, allow_negative_numbers = true)]
     wheel_radius: Option<f64>,
@@ -83,6 +86,15 @@ pub struct RecordingOptions {
     /// Bag: frame whose poses they are
     #[arg(long, value_name = "FRAME")]
     child_frame: Option<String>,
+}
+
+/// Signals of a joint.
+#[derive(Clone, Copy, ValueEnum)]
+enum Signal {
+    /// Its speed
+    Velocity,
+    /// Its angle, which may wrap after a turn
+    Position,
 }
 
 impl RecordingOptions {
@@ -106,6 +118,11 @@ impl RecordingOptions {
             tracks_topic: self.tracks_topic.clone(),
             left_joints: self.left_joint.clone(),
             right_joints: self.right_joint.clone(),
+            joint_signal: match self.joint_signal {
+                None => JointSignal::Any,
+                Some(Signal::Velocity) => JointSignal::Velocity,
+                Some(Signal::Position) => JointSignal::Position,
+            },
             wheel_radius: self.wheel_radius,
             pose_topic: self.pose_topic.clone(),
             parent_frame: self.parent_frame.clone(),

@@ -149,3 +149,28 @@ fn inspection_suggests_the_chain_from_the_root_to_the_body() {
     let recording = rosbag::read(&fixture("chain.db3"), &options).expect("readable");
     assert_poses(&recording, truth);
 }
+
+#[test]
+fn a_byte_flipped_anywhere_in_the_transforms_never_panics() {
+    let whole = std::fs::read(fixture("chain.db3")).expect("a fixture");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("chain.db3");
+    let options = RosbagOptions {
+        wheel_radius: Some(RADIUS),
+        parent_frame: Some("map".to_owned()),
+        child_frame: Some("laser".to_owned()),
+        ..RosbagOptions::default()
+    };
+    let mut read = 0;
+    for at in (0..whole.len()).step_by(61) {
+        let mut bytes = whole.clone();
+        bytes[at] ^= 0x41;
+        std::fs::write(&path, &bytes).expect("written");
+        if let Ok(recording) = rosbag::read(&path, &options) {
+            let finite = |pose: &Pose| [pose.x, pose.y, pose.yaw].iter().all(|v| v.is_finite());
+            assert!(recording.runs()[0].poses().iter().all(|sample| finite(&sample.pose)));
+            read += 1;
+        }
+    }
+    assert!(read > 0, "most bytes are text or padding");
+}

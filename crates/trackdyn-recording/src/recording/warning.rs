@@ -173,7 +173,7 @@ impl fmt::Display for Warning {
                 write!(f, "{topic}: {count} messages without a stamp, dated by their logging")
             }
             Self::TurnsAdded { joint, count } => {
-                write!(f, "{joint}: its position wraps {count} times, whole turns added")
+                write!(f, "{joint}: its position wraps ({count} times), whole turns added")
             }
             Self::JointJumps { joint, count, t } => write!(
                 f,

@@ -120,7 +120,8 @@ impl Series {
 
     /// Longest time between two stamps, s.
     fn longest_interval(&self) -> f64 {
-        let intervals = self.moments.windows(2).map(|pair| seconds(pair[1].0 - pair[0].0));
+        let intervals =
+            self.moments.windows(2).map(|pair| seconds(pair[1].0.saturating_sub(pair[0].0)));
         intervals.fold(0.0, f64::max)
     }
 }
@@ -146,7 +147,7 @@ fn seconds(ns: i64) -> f64 {
 
 /// Where a stamp lies between two others, from 0 to 1.
 fn portion(start: i64, stamp: i64, end: i64) -> f64 {
-    seconds(stamp - start) / seconds(end - start)
+    seconds(stamp.saturating_sub(start)) / seconds(end.saturating_sub(start))
 }
 
 /// Takes the transforms of the chain's links.

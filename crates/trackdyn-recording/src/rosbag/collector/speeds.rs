@@ -88,5 +88,5 @@ fn speeds_of_positions(positions: &[TrackSample]) -> Vec<TrackSample> {
 /// Seconds from one stamp to another, without losing nanoseconds to the size of Unix time.
 #[expect(clippy::cast_precision_loss, reason = "recordings last less than 2⁵³ ns, 104 days")]
 fn seconds_between(epoch_ns: i64, stamp_ns: i64) -> f64 {
-    (stamp_ns - epoch_ns) as f64 / 1e9
+    stamp_ns.saturating_sub(epoch_ns) as f64 / 1e9
 }

@@ -221,15 +221,21 @@ impl Linearisation {
     ) -> Estimate {
         let weights = self.weights(loss);
         let (matrix, _) = self.normal_equations(&weights);
+        let curvatures: Vec<_> =
+            self.residuals.iter().map(|r| r.map(|r| loss.curvature(r))).collect();
+        let (curvature, _) = self.normal_equations(&curvatures);
         let blocks = Blocks::of(observations);
-        let parts = blocks.map(|range| self.part(range, &weights));
+        let parts = blocks.map(|range| {
+            let (curvature, _) = self.part(range.clone(), &curvatures);
+            (curvature, self.part(range, &weights).1)
+        });
         let squares: f64 = self.residuals.iter().map(Vector3::norm_squared).sum();
         #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 residuals")]
         let degrees = (3 * self.residuals.len() - free.count()) as f64;
         Estimate {
             parameters,
             free,
-            covariance: covariance::jackknife(&matrix, &parts),
+            covariance: covariance::jackknife(&curvature, &parts),
             covariance_of_noise: identifiability::inverse(&matrix),
             blocks,
             cost,

@@ -67,20 +67,6 @@ fn what_a_recording_does_not_determine_is_not_written() {
 }
 
 #[test]
-fn recordings_are_inspected() {
-    let place = Workplace::new();
-    record(&place, vec![random_steps(10, 2.0, 0.8, 1)]);
-    let folder = place.run("inspect rec");
-    assert_eq!(folder.status, 0, "{}", folder.stderr);
-    assert!(folder.stdout.contains("1 runs, 20 s"), "{}", folder.stdout);
-    let bag = project_file("crates/trackdyn-recording/tests/fixtures/drive.mcap");
-    let bag = place.run(&format!("inspect {}", bag.display()));
-    assert_eq!(bag.status, 0, "{}", bag.stderr);
-    assert!(bag.stdout.contains("sensor_msgs/msg/JointState"), "{}", bag.stdout);
-    assert!(bag.stdout.contains("--tracks-topic"), "{}", bag.stdout);
-}
-
-#[test]
 fn mistakes_are_named() {
     let place = Workplace::new();
     let vehicle = vehicle();

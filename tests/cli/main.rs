@@ -7,6 +7,7 @@ mod export;
 mod identify;
 mod map;
 mod odometry;
+mod recordings;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

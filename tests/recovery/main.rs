@@ -2,6 +2,7 @@
 
 mod coverage;
 mod methods;
+mod steady;
 
 use trackdyn_core::PerSide;
 use trackdyn_identify::least_squares::Loss;

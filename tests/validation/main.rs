@@ -4,6 +4,7 @@ mod centripetal_cloud;
 mod identified_distances;
 mod martinez_2005_asymmetric;
 mod martinez_2005_symmetric;
+mod operating_points;
 
 use trackdyn_motion::map::Statistics;
 use trackdyn_motion::{Grid, IcrMap};

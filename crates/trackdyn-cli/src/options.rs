@@ -1,11 +1,11 @@
 //! Options that several commands share.
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_physics::{ActiveEffect, Circumstance, Model, VehicleFile};
-use trackdyn_recording::Recording;
-use trackdyn_recording::rosbag::RosbagOptions;
+use trackdyn_recording::rosbag::{JointSignal, RosbagOptions};
+use trackdyn_recording::{Format, Recording, tum};
 
 /// The vehicle, its effects and where it stands.
 #[derive(Args)]
@@ -54,8 +54,13 @@ impl ModelOptions {
 /// A recording, and how it is read.
 #[derive(Args)]
 pub struct RecordingOptions {
-    /// Folder with recording.toml, or rosbag2 (.mcap, .db3 or the folder around them)
+    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory of the
+    /// TUM benchmark (.tum, .txt) with --tracks; for identify also a table of steady operating points
+    /// (.csv)
     pub recording: PathBuf,
+    /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
+    #[arg(long, value_name = "FILE")]
+    tracks: Option<PathBuf>,
     /// Bag: topic of the joint states
     #[arg(long, value_name = "TOPIC")]
     tracks_topic: Option<String>,
@@ -65,13 +70,17 @@ pub struct RecordingOptions {
     /// Bag: joint on the right, in the same way
     #[arg(long, value_name = "JOINT", allow_hyphen_values = true)]
     right_joint: Vec<String>,
+    /// Bag: signal of the joints [default: velocity where there is one]
+    #[arg(long, value_name = "SIGNAL")]
+    joint_signal: Option<Signal>,
     /// Bag: belt travel in m per radian of the joints
     #[arg(long, value_name = "M", value_parser = finite, allow_negative_numbers = true)]
     wheel_radius: Option<f64>,
     /// Bag: topic of the poses
     #[arg(long, value_name = "TOPIC")]
     pose_topic: Option<String>,
-    /// Bag: frame that the poses are expressed in
+    /// Bag: frame that the poses are expressed in; with --child-frame, transforms are chained where no
+    /// topic has these poses
     #[arg(long, value_name = "FRAME")]
     parent_frame: Option<String>,
     /// Bag: frame whose poses they are
@@ -79,13 +88,25 @@ pub struct RecordingOptions {
     child_frame: Option<String>,
 }
 
+/// Signals of a joint.
+#[derive(Clone, Copy, ValueEnum)]
+enum Signal {
+    /// Its speed
+    Velocity,
+    /// Its angle, which may wrap after a turn
+    Position,
+}
+
 impl RecordingOptions {
     /// Reads the recording; what was cleaned or left out goes to stderr.
     ///
     /// # Errors
-    /// Those of [`trackdyn_recording::read`].
-    pub fn read(&self) -> Result<Recording, trackdyn_recording::Error> {
-        let recording = trackdyn_recording::read(&self.recording, &self.rosbag())?;
+    /// A message that names the file and, where there is one, line and column.
+    pub fn read(&self) -> Result<Recording, Box<dyn std::error::Error>> {
+        let recording = match tracks_of(&self.recording, self.tracks.as_deref())? {
+            Some(tracks) => tum::read(&self.recording, tracks, "unknown")?,
+            None => trackdyn_recording::read(&self.recording, &self.rosbag())?,
+        };
         for warning in recording.warnings() {
             eprintln!("note: {warning}");
         }
@@ -97,12 +118,39 @@ impl RecordingOptions {
             tracks_topic: self.tracks_topic.clone(),
             left_joints: self.left_joint.clone(),
             right_joints: self.right_joint.clone(),
+            joint_signal: match self.joint_signal {
+                None => JointSignal::Any,
+                Some(Signal::Velocity) => JointSignal::Velocity,
+                Some(Signal::Position) => JointSignal::Position,
+            },
             wheel_radius: self.wheel_radius,
             pose_topic: self.pose_topic.clone(),
             parent_frame: self.parent_frame.clone(),
             child_frame: self.child_frame.clone(),
             ..RosbagOptions::default()
         }
+    }
+}
+
+/// The track speeds that a trajectory needs; none for a recording that has its own.
+///
+/// # Errors
+/// Track speeds for a recording that has its own, a trajectory without any, no recording at all.
+pub fn tracks_of<'a>(
+    recording: &Path,
+    tracks: Option<&'a Path>,
+) -> Result<Option<&'a Path>, Box<dyn std::error::Error>> {
+    let name = recording.display();
+    match (Format::of(recording)?, tracks) {
+        (Format::Tum, None) => {
+            Err(format!("{name}: a trajectory has no track speeds: give them with --tracks").into())
+        }
+        (Format::Tum, tracks) | (_, tracks @ None) => Ok(tracks),
+        (_, Some(_)) => Err(format!(
+            "--tracks: {name} has track speeds of its own: only a .tum or .txt trajectory \
+                         needs them"
+        )
+        .into()),
     }
 }
 

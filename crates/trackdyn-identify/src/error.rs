@@ -16,6 +16,16 @@ pub enum Error {
         /// Parameters that were asked for.
         parameters: usize,
     },
+    /// Too little in a table of operating points.
+    #[error("{found} measurements: expected at least {needed} for {parameters} parameters")]
+    TooFewMeasurements {
+        /// Speeds and yaw rates of the table.
+        found: usize,
+        /// Those that are needed.
+        needed: usize,
+        /// Parameters that were asked for.
+        parameters: usize,
+    },
     /// No turning on the spot.
     #[error(
         "no spin: expected tracks running against each other for at least {needed_rad:.1} rad in all, found {found_rad:.2} rad"

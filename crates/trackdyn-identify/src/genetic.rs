@@ -1,11 +1,14 @@
 //! The genetic algorithm of sec. 4.2: bit strings, cost (17).
 
+mod chebyshev;
 mod cost;
+mod form;
 
 pub use cost::Cost;
 
 use crate::observations::Observations;
 use crate::parameters::{COUNT, Free, Parameters};
+use form::Form;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -76,6 +79,9 @@ pub fn genetic(
     let bits = BITS * count_bits(count);
     let decode = |chromosome: u64| decode(chromosome, count, &ranges);
     let cost = Cost::new(observations, lever);
+    // A place of the form takes as long as a cost.
+    let most = options.population * options.generations / 4;
+    let form = Form::new(observations, lever, free, &ranges, most);
     // A population that converges meets the same strings again and again.
     let mut known: HashMap<u64, f64> = HashMap::new();
     let mut evaluate = |chromosomes: Vec<u64>| -> Vec<(f64, u64)> {
@@ -83,7 +89,10 @@ pub fn genetic(
             chromosomes.iter().copied().filter(|c| !known.contains_key(c)).collect();
         new.sort_unstable();
         new.dedup();
-        known.par_extend(new.into_par_iter().map(|c| (c, cost.at(&decode(c)))));
+        match &form {
+            Some(form) => known.extend(new.into_iter().map(|c| (c, form.at(&decode(c))))),
+            None => known.par_extend(new.into_par_iter().map(|c| (c, cost.at(&decode(c))))),
+        }
         let mut ranked: Vec<(f64, u64)> =
             chromosomes.into_iter().map(|chromosome| (known[&chromosome], chromosome)).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -120,8 +129,8 @@ pub fn genetic(
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         progress(generation);
     }
-    let (cost, chromosome) = ranked[0];
-    GeneticEstimate { parameters: decode(chromosome), cost }
+    let parameters = decode(ranked[0].1);
+    GeneticEstimate { parameters, cost: cost.at(&parameters) }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "at most five parameters")]

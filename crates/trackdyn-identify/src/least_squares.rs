@@ -1,18 +1,18 @@
 //! Least squares: the most likely parameters under a noise model, with robust loss.
 
-mod covariance;
+pub(crate) mod covariance;
 mod identifiability;
 
 pub use covariance::{Blocks, Interval};
 pub use identifiability::{doubts, lacks};
+pub(crate) use identifiability::{inverse, too_wide};
 
 use crate::error::Error;
 use crate::observations::Observations;
 use crate::parameters::{COUNT, Free, Parameters};
-use crate::prediction::predict;
+use crate::prediction::Lanes;
 use crate::weighting::{Weighting, Whitener};
 use nalgebra::{DMatrix, DVector, Vector3};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Residuals beyond this many standard deviations count linearly (Huber): 95 % efficient on normal
@@ -57,10 +57,19 @@ pub enum Loss {
 
 impl Loss {
     /// Weight of a whitened residual in iteratively reweighted least squares.
-    fn weight(self, residual: f64) -> f64 {
+    pub(crate) fn weight(self, residual: f64) -> f64 {
         match self {
             Self::Squares => 1.0,
             Self::Huber => (HUBER / residual.abs()).min(1.0),
+        }
+    }
+
+    /// Half the second derivative of the loss: what an outlier does not add to the curvature, although it
+    /// has a weight.
+    pub(crate) fn curvature(self, residual: f64) -> f64 {
+        match self {
+            Self::Huber if residual.abs() > HUBER => 0.0,
+            _ => 1.0,
         }
     }
 
@@ -84,24 +93,21 @@ impl Linearisation {
         parameters: &Parameters,
         free: Free,
         observations: &Observations,
+        lanes: &Lanes,
         whitener: &Whitener,
     ) -> Self {
-        let predictions: Vec<_> = observations
+        let predictions = lanes.predict(parameters);
+        let mut residuals: Vec<Vector3<f64>> = observations
             .segments()
-            .par_iter()
-            .with_min_len(128)
-            .map(|segment| (segment, predict(parameters, observations.pieces(segment))))
-            .collect();
-        let mut residuals: Vec<Vector3<f64>> = predictions
             .iter()
+            .zip(&predictions)
             .map(|(segment, prediction)| {
                 Vector3::from(segment.motion) - Vector3::from(prediction.motion)
             })
             .collect();
         let mut columns: Vec<Vec<Vector3<f64>>> = (0..free.count())
             .map(|k| {
-                let column = predictions.iter();
-                column.map(|(_, prediction)| Vector3::from(prediction.sensitivity[k])).collect()
+                predictions.iter().map(|prediction| prediction.sensitivity[k].into()).collect()
             })
             .collect();
         whitener.whiten(&mut residuals);
@@ -127,12 +133,20 @@ impl Linearisation {
     /// What a range of segments adds to Jᵀ W J and Jᵀ W r.
     fn part(&self, range: Range<usize>, weights: &[Vector3<f64>]) -> (DMatrix<f64>, DVector<f64>) {
         let count = self.columns.len();
-        let dot = |a: &[Vector3<f64>], b: &[Vector3<f64>]| -> f64 {
-            let products = range.clone().map(|k| a[k].component_mul(&weights[k]).dot(&b[k]));
-            products.sum()
-        };
-        let matrix = DMatrix::from_fn(count, count, |i, k| dot(&self.columns[i], &self.columns[k]));
-        let gradient = DVector::from_fn(count, |k, _| dot(&self.columns[k], &self.residuals));
+        let mut sums = [[0.0; COUNT]; COUNT];
+        let mut scores = [0.0; COUNT];
+        for k in range {
+            let (weight, residual) = (weights[k], self.residuals[k]);
+            for (i, first) in self.columns.iter().enumerate() {
+                let weighted = first[k].component_mul(&weight);
+                scores[i] += weighted.dot(&residual);
+                for (j, second) in self.columns.iter().enumerate().take(i + 1) {
+                    sums[i][j] += weighted.dot(&second[k]);
+                }
+            }
+        }
+        let matrix = DMatrix::from_fn(count, count, |i, k| sums[i.max(k)][i.min(k)]);
+        let gradient = DVector::from_fn(count, |k, _| scores[k]);
         (matrix, gradient)
     }
 }
@@ -154,7 +168,8 @@ pub fn least_squares(
         return Err(Error::TooFewSegments { found, needed: 4 * count, parameters: count });
     }
     let whitener = Whitener::new(weighting, observations);
-    let linearise = |at: &Parameters| Linearisation::at(at, free, observations, &whitener);
+    let lanes = Lanes::new(observations);
+    let linearise = |at: &Parameters| Linearisation::at(at, free, observations, &lanes, &whitener);
 
     let mut parameters = *start;
     let mut here = linearise(&parameters);
@@ -206,15 +221,21 @@ impl Linearisation {
     ) -> Estimate {
         let weights = self.weights(loss);
         let (matrix, _) = self.normal_equations(&weights);
+        let curvatures: Vec<_> =
+            self.residuals.iter().map(|r| r.map(|r| loss.curvature(r))).collect();
+        let (curvature, _) = self.normal_equations(&curvatures);
         let blocks = Blocks::of(observations);
-        let parts = blocks.map(|range| self.part(range, &weights));
+        let parts = blocks.map(|range| {
+            let (curvature, _) = self.part(range.clone(), &curvatures);
+            (curvature, self.part(range, &weights).1)
+        });
         let squares: f64 = self.residuals.iter().map(Vector3::norm_squared).sum();
         #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 residuals")]
         let degrees = (3 * self.residuals.len() - free.count()) as f64;
         Estimate {
             parameters,
             free,
-            covariance: covariance::jackknife(&matrix, &parts),
+            covariance: covariance::jackknife(&curvature, &parts),
             covariance_of_noise: identifiability::inverse(&matrix),
             blocks,
             cost,

@@ -4,6 +4,7 @@
 //! - [`prediction`]: what a kinematic model makes of the same track speeds, with its derivatives.
 //! - [`weighting`]: how much a residual counts: the cost (17), or the noise that was measured.
 //! - [`mod@spin_test`], [`mod@genetic`], [`mod@least_squares`]: three ways to the parameters.
+//! - [`steady`]: the parameters from a table of steady operating points.
 //! - [`identification`]: all of them on one recording.
 //!
 //! Residual = observed − predicted, in the frame of the segment's first pose (REP-103).
@@ -17,6 +18,7 @@ pub mod observations;
 pub mod parameters;
 pub mod prediction;
 pub mod spin_test;
+pub mod steady;
 pub mod weighting;
 
 pub use doubt::Doubt;
@@ -27,4 +29,5 @@ pub use least_squares::{Estimate, least_squares};
 pub use observations::Observations;
 pub use parameters::{Free, Parameters};
 pub use spin_test::{SpinTest, spin_test};
+pub use steady::{SteadyEstimate, fit_points};
 pub use weighting::Weighting;

@@ -1,5 +1,11 @@
 //! What a kinematic model makes of the track speeds of a segment.
 
+mod lanes;
+mod series;
+
+pub use lanes::Lanes;
+pub(crate) use series::arc;
+
 use crate::observations::Piece;
 use crate::parameters::{COUNT, Parameters};
 

@@ -70,7 +70,8 @@ fn read_table<S: Sample>(path: &Path) -> Result<Rows<S>, Error> {
     Err(Error::NotARecording {
         path: path.to_owned(),
         found: "a Parquet file".to_owned(),
-        expected: "a CSV file, or a build with the feature parquet",
+        expected: "a CSV file, or a program that reads Parquet, which is built with `cargo build \
+                   --release --features parquet`",
     })
 }
 

@@ -33,6 +33,9 @@ impl Format {
         if rosbag::is_bag(path) {
             return Ok(Self::Rosbag);
         }
+        if !place.is_dir() && is_trajectory(path) {
+            return Ok(Self::Tum);
+        }
         if place.is_dir() {
             return Err(Error::NotARecording {
                 path: path.to_owned(),
@@ -44,7 +47,8 @@ impl Format {
         Err(Error::NotARecording {
             path: path.to_owned(),
             found: "a file of another kind".to_owned(),
-            expected: "a recording folder, a .mcap or a .db3 file",
+            expected: "a recording folder, a .mcap or .db3 file, or a .tum or .txt trajectory with a \
+                       table of its track speeds",
         })
     }
 }
@@ -52,10 +56,21 @@ impl Format {
 /// Reads the recording at a path, whatever its format; `options` count for a rosbag.
 ///
 /// # Errors
-/// Those of [`folder::read`] and [`rosbag::read`].
+/// Those of [`folder::read`] and [`rosbag::read`]; [`Error::NotARecording`] for a trajectory, which
+/// [`tum::read`](crate::tum::read) reads with the track speeds that it lacks.
 pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     match Format::of(path)? {
         Format::Rosbag => rosbag::read(path, options),
+        Format::Tum => Err(Error::NotARecording {
+            path: path.to_owned(),
+            found: "a trajectory alone".to_owned(),
+            expected: "a table of its track speeds too (t,v_left,v_right)",
+        }),
         _ => folder::read(path),
     }
+}
+
+/// Whether the name is that of a trajectory of the TUM benchmark.
+fn is_trajectory(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension == "tum" || extension == "txt")
 }

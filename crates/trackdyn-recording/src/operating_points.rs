@@ -1,8 +1,9 @@
 //! Tables of steady motion: a measured map of instantaneous centres of rotation.
 
 use crate::Error;
+use crate::folder::MANIFEST;
 use crate::table::Table;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 const COLUMNS: [&str; 5] = ["v_left", "v_right", "v_forward", "v_lateral", "yaw_rate"];
 
@@ -31,6 +32,16 @@ pub struct OperatingPoints {
 }
 
 impl OperatingPoints {
+    /// The table that a path stands for: a CSV file, or `operating_points.csv` in a folder that is no
+    /// recording.
+    pub fn file_of(path: &Path) -> Option<PathBuf> {
+        if path.is_dir() {
+            let table = path.join("operating_points.csv");
+            return (table.is_file() && !path.join(MANIFEST).exists()).then_some(table);
+        }
+        path.extension().is_some_and(|extension| extension == "csv").then(|| path.to_owned())
+    }
+
     /// Reads a table `v_left,v_right,v_forward,v_lateral,yaw_rate`; an empty cell was not measured.
     ///
     /// # Errors

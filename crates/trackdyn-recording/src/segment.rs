@@ -1,6 +1,6 @@
 //! Segments: pieces between two poses with several track readings in them.
 
-use crate::hold::holding;
+use crate::hold::{holding, readings};
 use crate::recording::{Recording, Run};
 use crate::robust::median;
 use std::ops::Range;
@@ -159,8 +159,6 @@ impl<'a> Cut<'a> {
         if self.track_gaps.get(gap_from).is_some_and(|before| *before <= latest) {
             return None;
         }
-        let from = holding(tracks, start - tau)?;
-        let until = tracks.partition_point(|sample| sample.t < end - tau);
-        Some(from..until.max(from + 1))
+        Some(readings(tracks, start, end, tau))
     }
 }

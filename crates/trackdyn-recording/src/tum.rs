@@ -31,7 +31,11 @@ pub fn read(trajectory: &Path, tracks: &Path, robot: &str) -> Result<Recording, 
     Recording::new(name, robot, vec![run], source, Vec::new())
 }
 
-fn read_poses(path: &Path) -> Result<Series<PoseSample>, Error> {
+/// Reads a trajectory alone, as it stands in the file.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_poses(path: &Path) -> Result<Series<PoseSample>, Error> {
     let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
     let mut reader = BufReader::with_capacity(1 << 18, file);
     let mut poses = Vec::new();

@@ -203,6 +203,6 @@ fn formats_are_told_by_what_is_there() {
     assert!(read(empty.path()).contains("neither recording.toml nor .mcap or .db3 files"));
     let table = empty.path().join("operating_points.csv");
     std::fs::write(&table, "v_left\n").expect("written");
-    assert!(read(&table).contains("expected a recording folder, a .mcap or a .db3 file"));
+    assert!(read(&table).contains("expected a recording folder, a .mcap or .db3 file, or a .tum"));
     assert!(read(&empty.path().join("nowhere")).contains("nowhere: cannot be read"));
 }

@@ -1,6 +1,9 @@
 //! `trackdyn identify`: kinematic parameters from a recording.
 
+mod points;
 mod summary;
+
+pub use points::lagging_points;
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
@@ -14,7 +17,7 @@ use trackdyn_identify::identification::{self, Fit};
 use trackdyn_identify::{Free, identify};
 use trackdyn_motion::kinematics::{KinematicsFile, Source};
 use trackdyn_physics::VehicleFile;
-use trackdyn_recording::Recording;
+use trackdyn_recording::{OperatingPoints, Recording};
 
 /// Options of `trackdyn identify`.
 #[derive(Args)]
@@ -49,6 +52,9 @@ pub struct Options {
 /// Identifies the parameters, prints them side by side and writes what the recording determines.
 pub fn run(options: &Options) -> Outcome {
     let vehicle = read_vehicle(&options.vehicle)?;
+    if let Some(table) = OperatingPoints::file_of(&options.recording.recording) {
+        return points::run(&table, &vehicle, options);
+    }
     let recording = options.recording.read()?;
     prepare_folder(&options.out)?;
     let genetic = GeneticOptions {

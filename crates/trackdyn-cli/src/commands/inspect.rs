@@ -1,30 +1,80 @@
 //! `trackdyn inspect`: what a recording holds.
 
 use crate::commands::Outcome;
+use crate::commands::identify::lagging_points;
 use crate::exit::Exit;
+use crate::options::tracks_of;
 use clap::Args;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use trackdyn_recording::clock::{ClockSearch, clock_offset};
 use trackdyn_recording::format::Format;
 use trackdyn_recording::rosbag::{self, RosbagOptions};
-use trackdyn_recording::{Recording, folder};
+use trackdyn_recording::{OperatingPoint, OperatingPoints, Recording, folder, tum};
 
 /// Options of `trackdyn inspect`.
 #[derive(Args)]
 pub struct Options {
-    /// Folder with recording.toml, or rosbag2 (.mcap, .db3 or the folder around them)
+    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory of the
+    /// TUM benchmark (.tum, .txt), or table of steady operating points (.csv)
     recording: PathBuf,
+    /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
+    #[arg(long, value_name = "FILE")]
+    tracks: Option<PathBuf>,
 }
 
-/// Lists the topics of a bag with the options that they suggest, or the runs of a recording folder.
+/// Lists the topics of a bag with the options that they suggest, or the runs of a recording.
 pub fn run(options: &Options) -> Outcome {
-    if Format::of(&options.recording)? == Format::Rosbag {
-        bag(options)?;
-    } else {
-        runs(&folder::read(&options.recording)?);
+    let (path, tracks) = (&options.recording, options.tracks.as_deref());
+    if let Some(table) = OperatingPoints::file_of(path) {
+        points(&OperatingPoints::read(&table)?);
+        return Ok(Exit::Done);
+    }
+    match (Format::of(path)?, tracks) {
+        (Format::Rosbag, None) => bag(options)?,
+        (Format::Tum, None) => trajectory(path)?,
+        _ => match tracks_of(path, tracks)? {
+            Some(tracks) => runs(&tum::read(path, tracks, "unknown")?),
+            None => runs(&folder::read(path)?),
+        },
     }
     Ok(Exit::Done)
+}
+
+/// A trajectory alone, and the option that adds its track speeds.
+fn trajectory(path: &Path) -> Result<(), trackdyn_recording::Error> {
+    let poses = tum::read_poses(path)?.samples;
+    let (first, last) = (poses.first().map_or(0.0, |p| p.t), poses.last().map_or(0.0, |p| p.t));
+    println!(
+        "{}: trajectory, {} poses, t = {first:.3} to {last:.3} s",
+        path.display(),
+        poses.len()
+    );
+    println!("\nsuggested: --tracks TRACKS.csv");
+    Ok(())
+}
+
+/// A table of operating points: its speeds, what was measured, and the points that lag.
+fn points(table: &OperatingPoints) {
+    let points = &table.points;
+    let measured = |of: fn(&OperatingPoint) -> Option<f64>| points.iter().filter_map(of).count();
+    println!(
+        "{}: {} steady operating points; measured: {} forward speeds, {} lateral speeds, {} yaw rates",
+        table.name,
+        points.len(),
+        measured(|point| point.v_forward),
+        measured(|point| point.v_lateral),
+        measured(|point| point.yaw_rate)
+    );
+    for (side, speed) in [
+        ("left", (|point| point.v_left) as fn(&OperatingPoint) -> f64),
+        ("right", |point| point.v_right),
+    ] {
+        let low = points.iter().map(speed).fold(f64::INFINITY, f64::min);
+        let high = points.iter().map(speed).fold(f64::NEG_INFINITY, f64::max);
+        println!("{side} track {low:.3} to {high:.3} m/s");
+    }
+    print!("{}", lagging_points(points));
 }
 
 fn bag(options: &Options) -> Result<(), trackdyn_recording::Error> {
@@ -33,7 +83,8 @@ fn bag(options: &Options) -> Result<(), trackdyn_recording::Error> {
     for topic in &inspection.topics {
         println!("{:>9} {:>9.1}  {:40} {}", topic.messages, topic.duration, topic.name, topic.kind);
         if !topic.joints.is_empty() {
-            println!("{:21}joints: {}", "", topic.joints.join(", "));
+            let (joints, signals) = (topic.joints.join(", "), topic.signals.join(", "));
+            println!("{:21}joints: {joints} ({signals})", "");
         }
         for (parent, child) in &topic.frames {
             println!("{:21}frames: {parent} -> {child}", "");

@@ -2,12 +2,13 @@
 
 use crate::observations::{Observations, Piece};
 use crate::parameters::Parameters;
+use crate::prediction::arc;
 
 /// Segments that are computed side by side, for the compiler to put into vector registers.
-const LANES: usize = 4;
+pub(super) const LANES: usize = 4;
 
 /// One number per segment of a batch.
-type Lane = [f64; LANES];
+pub(super) type Lane = [f64; LANES];
 
 /// Cost (17) over fixed observations: the squared distance between observed and predicted positions, with
 /// yaw errors turned into distances by a lever, summed over the segments, m².
@@ -89,16 +90,6 @@ impl Batch {
             })
             .sum()
     }
-}
-
-/// sin a/a and (1 − cos a)/a by their series: better than 1e-7 up to a = 1, far more than the track speeds
-/// turn a robot within one reading.
-#[inline]
-fn arc(a: f64) -> (f64, f64) {
-    let q = a * a;
-    let s = 1.0 - q / 6.0 * (1.0 - q / 20.0 * (1.0 - q / 42.0 * (1.0 - q / 72.0)));
-    let c = 0.5 * a * (1.0 - q / 12.0 * (1.0 - q / 30.0 * (1.0 - q / 56.0 * (1.0 - q / 90.0))));
-    (s, c)
 }
 
 #[cfg(test)]

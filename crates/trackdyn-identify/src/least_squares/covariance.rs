@@ -61,13 +61,16 @@ impl Blocks {
 /// δᵦ = (H − Hᵦ)⁻¹ gᵦ of one Newton step without block b, whose share of the normal equations H is Hᵦ
 /// and whose score is gᵦ.
 ///
+/// With a robust loss H is the curvature: the second derivative of the loss, and not the weight that
+/// stands in for it in the iteration.
+///
 /// # Sources
-/// The block jackknife: Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3). Unlike the plain sandwich
+/// M-estimates: Huber, Ronchetti, Robust Statistics, 2nd ed. 2009, chapter 7. The block jackknife: Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3). Unlike the plain sandwich
 /// it does not shrink where single blocks steer the estimate, as manoeuvres do.
-pub fn jackknife(matrix: &DMatrix<f64>, parts: &[(DMatrix<f64>, DVector<f64>)]) -> DMatrix<f64> {
-    let count = matrix.nrows();
+pub fn jackknife(curvature: &DMatrix<f64>, parts: &[(DMatrix<f64>, DVector<f64>)]) -> DMatrix<f64> {
+    let count = curvature.nrows();
     let scatter = parts.iter().fold(DMatrix::zeros(count, count), |sum, (part, score)| {
-        let change = super::identifiability::inverse(&(matrix - part)) * score;
+        let change = super::identifiability::inverse(&(curvature - part)) * score;
         sum + &change * change.transpose()
     });
     #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 blocks")]
@@ -91,8 +94,13 @@ pub struct Interval {
 impl Interval {
     /// Student's interval with as many degrees of freedom as blocks exceed parameters.
     pub(super) fn new(value: f64, deviation: f64, blocks: &Blocks, parameters: usize) -> Self {
-        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 blocks")]
-        let freedom = blocks.count().saturating_sub(parameters).max(1) as f64;
+        Self::of_groups(value, deviation, blocks.count(), parameters)
+    }
+
+    /// The same for this many groups.
+    pub(crate) fn of_groups(value: f64, deviation: f64, groups: usize, parameters: usize) -> Self {
+        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 groups")]
+        let freedom = groups.saturating_sub(parameters).max(1) as f64;
         let quantile =
             StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |student| student.inverse_cdf(0.975));
         let half = quantile * deviation;

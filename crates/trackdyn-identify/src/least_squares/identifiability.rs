@@ -34,11 +34,15 @@ pub fn lacks(observations: &Observations, noise: &Noise, free: Free) -> Option<D
 
 /// The parameters of an estimate that are too uncertain for a vehicle with this gauge, m.
 pub fn doubts(estimate: &Estimate, gauge: f64) -> Vec<Doubt> {
-    let deviations = estimate.deviations();
-    (0..estimate.free.count())
-        .filter_map(|parameter| {
+    too_wide(&estimate.deviations()[..estimate.free.count()], gauge)
+}
+
+/// The parameters whose standard deviations are too large for a vehicle with this gauge, m.
+pub(crate) fn too_wide(deviations: &[f64], gauge: f64) -> Vec<Doubt> {
+    let deviations = deviations.iter().copied().enumerate();
+    deviations
+        .filter_map(|(parameter, deviation)| {
             let limit = if parameter < 3 { ICR_LIMIT * gauge } else { ALPHA_LIMIT };
-            let deviation = deviations[parameter];
             let wide = deviation.is_nan() || deviation > limit;
             wide.then_some(Doubt::Wide { parameter, deviation, limit })
         })
@@ -73,7 +77,7 @@ fn poorest_excitation(observations: &Observations, noise: &Noise, free: Free) ->
 
 /// The inverse of a normal matrix, by its eigenvalues; directions that are lost get a variance that
 /// says so.
-pub(super) fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+pub(crate) fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let count = matrix.nrows();
     // Parameters differ in unit and size: the diagonal is scaled to 1 first.
     let scale: Vec<f64> =

@@ -44,6 +44,22 @@ pub enum Warning {
         /// How many.
         count: u64,
     },
+    /// A joint that is reported modulo a turn: whole turns were added.
+    TurnsAdded {
+        /// The joint.
+        joint: String,
+        /// Places at which its position wraps.
+        count: usize,
+    },
+    /// Jumps in the position of a joint that are no wraps: they stay, as speeds that no wheel has.
+    JointJumps {
+        /// The joint.
+        joint: String,
+        /// How many.
+        count: usize,
+        /// Stamp of the first, s.
+        t: f64,
+    },
     /// A choice that the reader made.
     Chosen {
         /// What it was for.
@@ -156,6 +172,14 @@ impl fmt::Display for Warning {
             Self::LogTime { topic, count } => {
                 write!(f, "{topic}: {count} messages without a stamp, dated by their logging")
             }
+            Self::TurnsAdded { joint, count } => {
+                write!(f, "{joint}: its position wraps ({count} times), whole turns added")
+            }
+            Self::JointJumps { joint, count, t } => write!(
+                f,
+                "{joint}: {count} jumps of its position by more than half a turn that are no wraps, \
+                 left as they are (the first at t = {t} s)"
+            ),
             Self::Chosen { what, taken } => write!(f, "{what}: took {taken}"),
         }
     }

@@ -1,6 +1,8 @@
 //! From messages to a run.
 
 use super::cdr::Cdr;
+use super::chain;
+use super::frames::{Frames, same_frame};
 use super::joints::{Joints, Reading};
 use super::message::{header, imu, planar_pose};
 use super::options::RosbagOptions;
@@ -13,6 +15,7 @@ use std::path::Path;
 
 mod choice;
 mod speeds;
+mod turns;
 
 use choice::Sources;
 
@@ -27,6 +30,8 @@ pub(super) struct Collector<'a> {
     readings: BTreeMap<String, Vec<Stamped<Reading>>>,
     poses: BTreeMap<PoseKey, Vec<Stamped<[f64; 3]>>>,
     imu: BTreeMap<String, Vec<Stamped<[f64; 3]>>>,
+    /// What the transforms of all topics link.
+    frames: Frames,
     /// Per topic: messages dated by their logging.
     undated: BTreeMap<String, u64>,
     /// Per topic: messages that were skipped, and why the first was.
@@ -60,6 +65,7 @@ impl<'a> Collector<'a> {
             readings: BTreeMap::new(),
             poses: BTreeMap::new(),
             imu: BTreeMap::new(),
+            frames: Frames::default(),
             undated: BTreeMap::new(),
             skipped: BTreeMap::new(),
         }
@@ -77,9 +83,16 @@ impl<'a> Collector<'a> {
         }
         let sources = Sources { path, options: self.options, seen: &self.seen };
         let readings = sources.tracks(self.readings, &self.skipped, &mut warnings)?;
-        let poses = sources.poses(self.poses, &mut warnings)?;
+        let poses = match (self.options.frames(), self.poses.is_empty()) {
+            (Some(ends), true) if !self.frames.is_empty() => {
+                let chain = chain::read(path, self.options, &self.frames, ends)?;
+                warnings.push(chain.warning);
+                chain.poses
+            }
+            _ => sources.poses(self.poses, &mut warnings)?,
+        };
         let imu = sources.imu(self.imu, &mut warnings)?;
-        speeds::run(path, self.options, &readings, poses, imu, warnings)
+        speeds::run(path, self.options, self.joints.met(), readings, poses, imu, warnings)
     }
 
     /// The stamp of a message, or the time of its logging where it has none.
@@ -153,6 +166,13 @@ impl<'a> Collector<'a> {
         let header = header(cdr)?;
         let child = if has_child { cdr.text()? } else { "" };
         let pose = planar_pose(cdr)?;
+        if topic.layout() == Some(Layout::Transforms) {
+            self.frames.note(header.frame, child);
+        }
+        if topic.is_static() {
+            // It holds at all times, and shows no motion.
+            return Ok(());
+        }
         let date = self.date(topic, header.stamp_ns, log_ns);
         self.keep_pose(topic, [header.frame, child], (date, pose));
         Ok(())
@@ -168,11 +188,6 @@ fn push<T>(series: &mut BTreeMap<String, Vec<T>>, name: &str, value: T) {
     }
 }
 
-/// Frames are the same with and without a leading slash.
-fn same_frame(a: &str, b: &str) -> bool {
-    a.trim_start_matches('/') == b.trim_start_matches('/')
-}
-
 impl Visitor for Collector<'_> {
     fn wants(&mut self, topic: &Topic) -> bool {
         if !self.seen.contains(topic) {
@@ -180,8 +195,8 @@ impl Visitor for Collector<'_> {
         }
         let Some(layout) = topic.layout() else { return false };
         let named = match layout.role() {
+            Role::Poses => return self.options.may_hold_poses(&topic.name),
             Role::Tracks => &self.options.tracks_topic,
-            Role::Poses => &self.options.pose_topic,
             Role::Imu => &self.options.imu_topic,
         };
         named.as_ref().is_none_or(|name| *name == topic.name)

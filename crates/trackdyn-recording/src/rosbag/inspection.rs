@@ -1,11 +1,12 @@
 //! What a bag holds, and which options would read it.
 
 use super::cdr::{Cdr, CdrError};
+use super::frames::Frames;
 use super::joints;
 use super::message::header;
 use super::options::RosbagOptions;
 use super::storage::{self, Visitor};
-use super::topic::{Layout, Role, Topic};
+use super::topic::{Layout, Role, STATIC, Topic};
 use crate::Error;
 use crate::recording::Warning;
 use std::collections::BTreeMap;
@@ -147,6 +148,31 @@ impl Seen {
     }
 }
 
+/// The topic of the poses and their frames: the only Odometry or stamped pose, else the only topic of
+/// transforms, whose chain from the root to the body of the robot is taken.
+fn suggest_poses(topics: Vec<&TopicSummary>) -> (Option<String>, Option<(String, String)>) {
+    let is_tf = |topic: &&TopicSummary| topic.kind.ends_with("/TFMessage");
+    let (transforms, direct): (Vec<_>, Vec<_>) = topics.into_iter().partition(is_tf);
+    let (stays, moves): (Vec<_>, Vec<_>) =
+        transforms.into_iter().partition(|topic| topic.name.ends_with(STATIC));
+    let (([topic], _) | ([], [topic])) = (direct.as_slice(), moves.as_slice()) else {
+        return (None, None);
+    };
+    let ends = match topic.frames.as_slice() {
+        [pair] => Some(pair.clone()),
+        _ if direct.is_empty() => {
+            let mut frames = Frames::default();
+            for (parent, child) in stays.iter().chain(&moves).flat_map(|topic| &topic.frames) {
+                frames.note(parent, child);
+            }
+            let body = frames.body();
+            body.map(|body| (frames.root_of(body).to_owned(), body.to_owned()))
+        }
+        _ => None,
+    };
+    (Some(topic.name.clone()), ends)
+}
+
 /// Names what the bag has one of; among several poses, an Odometry or stamped pose before tf.
 fn suggest(topics: &[TopicSummary]) -> RosbagOptions {
     let of = |role| topics.iter().filter(move |t| t.role == Some(role) && t.messages > 0);
@@ -160,19 +186,13 @@ fn suggest(topics: &[TopicSummary]) -> RosbagOptions {
         let joints = named.map(|topic| topic.joints.as_slice()).unwrap_or_default();
         joints.iter().filter(|joint| joint.to_lowercase().contains(word)).cloned().collect()
     };
-    let direct = |topic: &&TopicSummary| !topic.kind.ends_with("/TFMessage");
-    let pose =
-        only(of(Role::Poses).filter(direct).collect()).or_else(|| only(of(Role::Poses).collect()));
-    let frames = topics
-        .iter()
-        .find(|topic| Some(&topic.name) == pose.as_ref())
-        .and_then(|topic| if let [pair] = topic.frames.as_slice() { Some(pair) } else { None });
+    let (pose, frames) = suggest_poses(of(Role::Poses).collect());
     RosbagOptions {
         left_joints: side("left"),
         right_joints: side("right"),
         tracks_topic: tracks,
-        parent_frame: frames.map(|(parent, _)| parent.clone()),
-        child_frame: frames.map(|(_, child)| child.clone()).filter(|child| !child.is_empty()),
+        parent_frame: frames.as_ref().map(|(parent, _)| parent.clone()),
+        child_frame: frames.map(|(_, child)| child).filter(|child| !child.is_empty()),
         pose_topic: pose,
         imu_topic: only(of(Role::Imu).collect()),
         ..RosbagOptions::default()

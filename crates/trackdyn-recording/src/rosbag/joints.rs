@@ -5,12 +5,27 @@ use super::options::{JointSignal, RosbagOptions};
 use trackdyn_core::{PerSide, Side};
 
 /// Mean of a side's joints in one message.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Reading {
     /// Speed in rad/s or position in rad.
     pub(super) sides: PerSide<f64>,
+    /// The single positions behind the means; empty where these are speeds.
+    pub(super) angles: Vec<JointAngle>,
     /// Whether it is a position.
     pub(super) is_position: bool,
+}
+
+/// Position of one joint in one message.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct JointAngle {
+    /// Its place in [`Joints::met`].
+    pub(super) joint: usize,
+    /// The side it counts for.
+    pub(super) side: Side,
+    /// What a radian of it adds to the mean of its side: a sign over a count.
+    pub(super) share: f64,
+    /// As reported, rad.
+    pub(super) angle: f64,
 }
 
 /// Why a message gives no reading.
@@ -46,12 +61,14 @@ impl From<CdrError> for JointProblem {
 pub(super) struct Joints {
     names: PerSide<Vec<String>>,
     signal: JointSignal,
+    /// Joints whose positions were read, in the order in which they turned up.
+    met: Vec<String>,
 }
 
 impl Joints {
     pub(super) fn new(options: &RosbagOptions) -> Self {
         let names = PerSide::new(options.left_joints.clone(), options.right_joints.clone());
-        Self { names, signal: options.joint_signal }
+        Self { names, signal: options.joint_signal, met: Vec::new() }
     }
 
     /// +1 or −1 for a joint of this side, `None` for any other.
@@ -70,6 +87,18 @@ impl Joints {
         })
     }
 
+    /// Names of the joints whose positions were read, by [`JointAngle::joint`].
+    pub(super) fn met(&self) -> &[String] {
+        &self.met
+    }
+
+    fn place(&mut self, joint: &str) -> usize {
+        self.met.iter().position(|name| name == joint).unwrap_or_else(|| {
+            self.met.push(joint.to_owned());
+            self.met.len() - 1
+        })
+    }
+
     /// How many joints a side must have in a message; at least one where none is named.
     fn needed(&self, side: Side) -> usize {
         self.names[side].len().max(1)
@@ -77,7 +106,7 @@ impl Joints {
 
     /// The reading of a `sensor_msgs/JointState` after its header: `string[] name, float64[]
     /// position, velocity, effort`.
-    pub(super) fn reading(&self, cdr: &mut Cdr) -> Result<Reading, JointProblem> {
+    pub(super) fn reading(&mut self, cdr: &mut Cdr) -> Result<Reading, JointProblem> {
         let count = cdr.length()?;
         let names_at = cdr.clone();
         for _ in 0..count {
@@ -96,6 +125,7 @@ impl Joints {
             return Err(JointProblem::NoSignal);
         }
         let (mut names, mut values) = (names_at, if is_position { positions } else { velocities });
+        let mut angles = Vec::new();
         let mut sums = PerSide::new(0.0, 0.0);
         let mut found = PerSide::new(0_u32, 0_u32);
         for _ in 0..count {
@@ -104,6 +134,10 @@ impl Joints {
                 if let Some(sign) = self.sign(side, name) {
                     sums[side] += sign * value;
                     found[side] += 1;
+                    if is_position {
+                        let joint = self.place(name);
+                        angles.push(JointAngle { joint, side, share: sign, angle: value });
+                    }
                 }
             }
         }
@@ -113,7 +147,10 @@ impl Joints {
             }
         }
         let sides = PerSide::from_fn(|side| sums[side] / f64::from(found[side]));
-        Ok(Reading { sides, is_position })
+        for angle in &mut angles {
+            angle.share /= f64::from(found[angle.side]);
+        }
+        Ok(Reading { sides, angles, is_position })
     }
 }
 

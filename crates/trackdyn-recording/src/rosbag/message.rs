@@ -1,6 +1,7 @@
 //! The message types, from their definitions in `common_interfaces` and `geometry2`.
 
 use super::cdr::{Cdr, CdrError};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 /// Time stamp and frame of a message.
 pub(super) struct Header<'a> {
@@ -22,6 +23,23 @@ pub(super) fn header<'a>(cdr: &mut Cdr<'a>) -> Result<Header<'a>, CdrError> {
 pub(super) fn planar_pose(cdr: &mut Cdr) -> Result<[f64; 3], CdrError> {
     let [x, y, _, quaternion @ ..]: [f64; 7] = cdr.f64s()?;
     Ok([x, y, yaw_of_quaternion(quaternion)])
+}
+
+/// `geometry_msgs/Transform` in space; none where it is not finite or its quaternion is zero.
+pub(super) fn rigid(cdr: &mut Cdr) -> Result<Option<Isometry3<f64>>, CdrError> {
+    let values: [f64; 7] = cdr.f64s()?;
+    let [x, y, z, i, j, k, w] = values;
+    let rotation = UnitQuaternion::try_new(Quaternion::new(w, i, j, k), 1e-6);
+    let is_finite = values.iter().all(|value| value.is_finite());
+    Ok(rotation
+        .filter(|_| is_finite)
+        .map(|rotation| Isometry3::from_parts(Translation3::new(x, y, z), rotation)))
+}
+
+/// (x, y, yaw) of a transform in space.
+pub(super) fn planar(transform: &Isometry3<f64>) -> [f64; 3] {
+    let [x, y, _]: [f64; 3] = transform.translation.vector.into();
+    [x, y, yaw_of_quaternion(transform.rotation.coords.into())]
 }
 
 /// `sensor_msgs/Imu` after its header: yaw rate, acceleration forward and to the left.

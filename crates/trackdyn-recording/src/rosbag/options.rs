@@ -1,5 +1,7 @@
 //! What to take from a bag.
 
+use super::topic::STATIC;
+
 /// Topics, joints and frames; what is left open is taken where the bag leaves no choice.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RosbagOptions {
@@ -18,12 +20,28 @@ pub struct RosbagOptions {
     pub wheel_radius: Option<f64>,
     /// Topic of the poses.
     pub pose_topic: Option<String>,
-    /// Frame that the poses are expressed in.
+    /// Frame that the poses are expressed in. Where both frames are named and no topic has their poses,
+    /// they are composed along a chain of transforms.
     pub parent_frame: Option<String>,
     /// Frame whose poses they are.
     pub child_frame: Option<String>,
     /// Topic of the `sensor_msgs/Imu`, whose axes must be those of the body.
     pub imu_topic: Option<String>,
+}
+
+impl RosbagOptions {
+    /// Parent and child frame of the poses, where both are named.
+    pub(super) fn frames(&self) -> Option<[&str; 2]> {
+        Some([self.parent_frame.as_deref()?, self.child_frame.as_deref()?])
+    }
+
+    /// Whether poses may come from a topic: from the one that is named, and from transforms that hold at
+    /// all times beside it.
+    pub(super) fn may_hold_poses(&self, topic: &str) -> bool {
+        self.pose_topic.as_deref().is_none_or(|named| {
+            topic == named || topic.strip_suffix(STATIC).is_some_and(|moving| moving == named)
+        })
+    }
 }
 
 /// Signal of a joint.
@@ -34,6 +52,6 @@ pub enum JointSignal {
     Any,
     /// Velocity, rad/s.
     Velocity,
-    /// Position, rad, continuous over turns; its difference quotient is the speed.
+    /// Position, rad, continuous over turns or modulo a turn; its difference quotient is the speed.
     Position,
 }

@@ -38,7 +38,15 @@ pub(super) enum Layout {
     Imu,
 }
 
+/// What ends the names of topics whose transforms hold at all times, such as `/tf_static`.
+pub(super) const STATIC: &str = "_static";
+
 impl Topic {
+    /// Whether it is a topic of transforms that hold at all times.
+    pub(super) fn is_static(&self) -> bool {
+        self.layout() == Some(Layout::Transforms) && self.name.ends_with(STATIC)
+    }
+
     /// The layout of its messages, where it is one of those known here.
     pub(super) fn layout(&self) -> Option<Layout> {
         if self.encoding != "cdr" {

@@ -1,6 +1,6 @@
 //! Joint signals as track speeds, and stamps as seconds.
 
-use super::{Collected, Reading, RosbagOptions, Stamped};
+use super::{Collected, Reading, RosbagOptions, Stamped, turns};
 use crate::Error;
 use crate::recording::{
     Cleaning, ImuSample, PoseSample, Series, TrackSample, UncheckedRun, Warning, clean,
@@ -12,7 +12,8 @@ use trackdyn_core::Pose;
 pub(super) fn run(
     path: &Path,
     options: &RosbagOptions,
-    readings: &[Stamped<Reading>],
+    joints: &[String],
+    mut readings: Vec<Stamped<Reading>>,
     poses: Vec<Stamped<[f64; 3]>>,
     imu: Vec<Stamped<[f64; 3]>>,
     mut warnings: Vec<Warning>,
@@ -30,6 +31,7 @@ pub(super) fn run(
     let epoch_ns = stamps.min().unwrap_or_default();
     let seconds = |stamp| seconds_between(epoch_ns, stamp);
 
+    warnings.extend(turns::unwrap(&mut readings, joints, seconds));
     let are_positions = readings.first().is_some_and(|(_, reading)| reading.is_position);
     let joint = |(stamp, reading): &Stamped<Reading>| TrackSample {
         t: seconds(*stamp),
@@ -86,5 +88,5 @@ fn speeds_of_positions(positions: &[TrackSample]) -> Vec<TrackSample> {
 /// Seconds from one stamp to another, without losing nanoseconds to the size of Unix time.
 #[expect(clippy::cast_precision_loss, reason = "recordings last less than 2⁵³ ns, 104 days")]
 fn seconds_between(epoch_ns: i64, stamp_ns: i64) -> f64 {
-    (stamp_ns - epoch_ns) as f64 / 1e9
+    stamp_ns.saturating_sub(epoch_ns) as f64 / 1e9
 }

@@ -1,77 +1,17 @@
-//! How fast recordings are read: makes a folder and bags of some 100 MB and times the readers, or
-//! times the inspection of the bag that is named.
-//!
-//! `cargo run --release -p trackdyn-recording --example throughput [bag]`
+//! Bags for measurements, written without the readers.
 
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
-use std::time::Instant;
-use trackdyn_recording::rosbag::RosbagOptions;
-use trackdyn_recording::synthetic::{Synthetic, random_steps};
-use trackdyn_recording::{folder, rosbag};
 
-fn main() -> Result<(), Box<dyn Error>> {
-    if let Some(bag) = std::env::args_os().nth(1) {
-        let bag = Path::new(&bag);
-        return time("inspection", megabytes(bag)?, || rosbag::inspect(bag).map(drop));
-    }
-    let place = tempfile::tempdir()?;
-    let synthetic = Synthetic {
-        schedules: (0..4).map(|run| random_steps(3_000, 6.0, 1.0, run)).collect(),
-        encoder_noise: 0.05,
-        position_noise: 0.005,
-        yaw_noise: 0.002,
-        ..Synthetic::default()
-    };
-    let csv = place.path().join("folder");
-    folder::write(&synthetic.recording()?, &csv)?;
-    let size = megabytes(&csv.join("tracks.csv"))? + megabytes(&csv.join("poses.csv"))?;
-    time("CSV", size, || folder::read(&csv).map(drop))?;
-
-    let bag = place.path().join("bag.mcap");
-    let options = RosbagOptions { wheel_radius: Some(0.1), ..RosbagOptions::default() };
-    for lidar in [false, true] {
-        let content = if lidar { "joints, odometry and lidar" } else { "joints and odometry" };
-        write_bag(&bag, None, lidar)?;
-        let raw = megabytes(&bag)?;
-        time(&format!("mcap, {content}"), raw, || rosbag::read(&bag, &options).map(drop))?;
-        for compression in [mcap::Compression::Lz4, mcap::Compression::Zstd] {
-            write_bag(&bag, Some(compression), lidar)?;
-            let what = format!("mcap, {content}, {compression:?} ({:.0} MB)", megabytes(&bag)?);
-            time(&what, raw, || rosbag::read(&bag, &options).map(drop))?;
-        }
-    }
-    Ok(())
-}
-
-/// Best of five.
-fn time(
-    what: &str,
-    size: f64,
-    mut read: impl FnMut() -> Result<(), trackdyn_recording::Error>,
-) -> Result<(), Box<dyn Error>> {
-    let mut best = f64::INFINITY;
-    for _ in 0..5 {
-        let start = Instant::now();
-        read()?;
-        best = best.min(start.elapsed().as_secs_f64());
-    }
-    println!("{what}: {size:.0} MB in {best:.3} s, {:.0} MB/s", size / best);
-    Ok(())
-}
-
-fn megabytes(path: &Path) -> Result<f64, Box<dyn Error>> {
-    Ok(f64::from(u32::try_from(std::fs::metadata(path)?.len() / 1000)?) / 1000.0)
-}
-
-/// A bag as robots make them: joints at 50 Hz, odometry at 20 Hz, maybe a lidar that is passed over.
-fn write_bag(
+/// Writes a bag as robots make them: 2000 s of joints at 50 Hz and odometry at 20 Hz; at 5 Hz a lidar whose
+/// clouds have so many bytes, or none.
+pub fn write(
     path: &Path,
     compression: Option<mcap::Compression>,
-    with_lidar: bool,
+    cloud: usize,
 ) -> Result<(), Box<dyn Error>> {
     let options = mcap::WriteOptions::new().compression(compression).chunk_size(Some(786_432));
     let mut writer = options.create(BufWriter::new(File::create(path)?))?;
@@ -87,7 +27,7 @@ fn write_bag(
         noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         noise.to_le_bytes()[3]
     })
-    .take(20_000)
+    .take(cloud)
     .collect();
     for tick in 0..200_000_u32 {
         let nanoseconds = u64::from(tick) * 10_000_000;
@@ -104,7 +44,7 @@ fn write_bag(
         if tick % 5 == 0 {
             put(odometry, &odometry_message(tick, [t, t.sin(), 0.1 * t]))?;
         }
-        if with_lidar && tick % 20 == 0 {
+        if !cloud.is_empty() && tick % 20 == 0 {
             put(lidar, &cloud)?;
         }
     }

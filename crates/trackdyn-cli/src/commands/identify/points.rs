@@ -1,0 +1,168 @@
+//! `trackdyn identify` on a table of steady operating points.
+
+use super::Options;
+use crate::commands::Outcome;
+use crate::exit::Exit;
+use crate::options::command_line;
+use std::fmt::Write;
+use std::path::Path;
+use trackdyn_core::document::Document;
+use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
+use trackdyn_identify::least_squares::Loss;
+use trackdyn_identify::steady::{SteadyEstimate, lagging};
+use trackdyn_identify::{Error, Free, Parameters, fit_points};
+use trackdyn_motion::Kinematics;
+use trackdyn_motion::kinematics::{KinematicsFile, Source};
+use trackdyn_physics::VehicleFile;
+use trackdyn_recording::{OperatingPoint, OperatingPoints};
+
+/// Points with the largest residuals that are shown.
+const WORST: usize = 5;
+
+/// Fits the ICRs, and the ICRs with α; prints both and writes what the table determines.
+///
+/// # Errors
+/// A message that names the file, line and column.
+pub fn run(path: &Path, vehicle: &VehicleFile, options: &Options) -> Outcome {
+    if options.tau.is_some() || options.settle.is_some() {
+        let name = path.display();
+        return Err(
+            format!("--tau, --settle: {name} holds steady points, which have no time").into()
+        );
+    }
+    let table = OperatingPoints::read(path)?;
+    prepare_folder(&options.out)?;
+    let gauge = vehicle.vehicle.gauge;
+    let start = Parameters::of(&Kinematics::ideal(gauge));
+    let squares = fit_points(&table.points, &start, Free::Icrs, Loss::Squares);
+    let fits = [Free::Icrs, Free::IcrsAndAlphas]
+        .map(|free| (free, fit_points(&table.points, &start, free, Loss::Huber)));
+
+    let mut text = format!(
+        "{}: {} steady points; {}, gauge {gauge} m\n",
+        table.name,
+        table.points.len(),
+        vehicle.vehicle.name
+    );
+    for (free, fit) in &fits {
+        self::fit(&mut text, *free, fit, gauge);
+    }
+    if let Ok(squares) = &squares {
+        let gap = squares.gap().value;
+        let _ = writeln!(text, "\n  plain squares, without alphas: x_r - x_l = {gap:.4} m");
+    }
+    text += &lagging_points(&table.points);
+    if let (_, Ok(fit)) = &fits[0] {
+        worst(&mut text, &table.points, fit);
+    }
+    print!("{text}");
+
+    let fingerprint = fingerprint(Document::read(path)?.text().as_bytes());
+    let mut written = 0;
+    for ((free, fit), name) in fits.iter().zip(["kinematics.toml", "kinematics_alpha.toml"]) {
+        let Some(fit) = fit.as_ref().ok().filter(|fit| fit.doubts(gauge).is_empty()) else {
+            continue;
+        };
+        let source = Source {
+            command: command_line(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            vehicle: vehicle.vehicle.name.clone(),
+            fingerprint: fingerprint.clone(),
+            recording: Some(table.name.clone()),
+            ..Source::default()
+        };
+        let rows = fit.covariance.row_iter().map(|row| row.iter().copied().collect()).collect();
+        let kinematics = fit.parameters.kinematics();
+        let with_alphas = *free == Free::IcrsAndAlphas;
+        let file = KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source);
+        let path = options.out.join(name);
+        write_file(&path, file.to_toml().as_bytes())?;
+        eprintln!("wrote {}", path.display());
+        written += 1;
+    }
+    Ok(if written > 0 { Exit::Done } else { Exit::NoResult })
+}
+
+fn fit(text: &mut String, free: Free, fit: &Result<SteadyEstimate, Error>, gauge: f64) {
+    let title = match free {
+        Free::Icrs => "ICRs, track speeds as measured",
+        Free::IcrsAndAlphas => "ICRs and factors on the track speeds",
+    };
+    let _ = writeln!(text, "\n  {title}");
+    let fit = match fit {
+        Ok(fit) => fit,
+        Err(reason) => {
+            let _ = writeln!(text, "    {reason}");
+            return;
+        }
+    };
+    let doubts = fit.doubts(gauge);
+    if !doubts.is_empty() {
+        text.push_str("    not determined by this table:\n");
+        for doubt in doubts {
+            let _ = writeln!(text, "    - {doubt}");
+        }
+        return;
+    }
+    let _ = writeln!(text, "    {:9}{:>9}{:>24}", "", "estimate", "95 % interval");
+    let named = (0..free.count()).filter_map(|k| Some((Parameters::NAMES[k], fit.interval(k)?)));
+    for (name, interval) in named.chain([("x_r - x_l", fit.gap())]) {
+        let range = format!("{:.4} to {:.4}", interval.low, interval.high);
+        let unit = if name.starts_with("alpha") { "" } else { " m" };
+        let _ = writeln!(text, "    {name:9}{:>9.4}{range:>24}{unit}", interval.value);
+    }
+    let icrs = fit.parameters.kinematics().icrs;
+    let _ = writeln!(text, "    {:9}{:>9.4}", "chi", icrs.steering_efficiency(gauge));
+    let _ = writeln!(text, "    {:9}{:>9.4}", "e", icrs.eccentricity());
+    let scatter = |channel: usize, unit: &str| match fit.scatter[channel] {
+        Some(scatter) => format!("{:.1} {unit}", 1e3 * scatter),
+        None => "not measured".to_owned(),
+    };
+    let _ = writeln!(
+        text,
+        "    scatter: forward {}, lateral {}, yaw rate {}; intervals by leaving out {} {}",
+        scatter(0, "mm/s"),
+        scatter(1, "mm/s"),
+        scatter(2, "mrad/s"),
+        fit.groups,
+        fit.grouping.name()
+    );
+}
+
+/// The points that turn less than others that are driven less.
+pub fn lagging_points(points: &[OperatingPoint]) -> String {
+    let lags = lagging(points);
+    if lags.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from(
+        "\n  points that turn less than one that is driven less: a track did not run at its speed\n",
+    );
+    for lag in lags {
+        let (point, than) = (points[lag.point], points[lag.than]);
+        let _ = writeln!(
+            text,
+            "    left {:.3}, right {:.3} m/s: {:.3} rad/s less than left {:.3}, right {:.3} m/s",
+            point.v_left, point.v_right, lag.shortfall, than.v_left, than.v_right
+        );
+    }
+    text
+}
+
+/// The points that the ICRs explain worst.
+fn worst(text: &mut String, points: &[OperatingPoint], fit: &SteadyEstimate) {
+    text.push_str(
+        "\n  largest residuals without alphas, in scatters (forward, lateral, yaw rate)\n",
+    );
+    for index in fit.worst().into_iter().take(WORST) {
+        let (point, residuals) = (points[index], fit.residuals[index]);
+        let residuals = residuals.map(|r| r.map_or_else(|| "-".to_owned(), |r| format!("{r:.1}")));
+        let _ = writeln!(
+            text,
+            "    left {:.3}, right {:.3} m/s: {}",
+            point.v_left,
+            point.v_right,
+            residuals.join(", ")
+        );
+    }
+}

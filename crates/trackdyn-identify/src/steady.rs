@@ -1,0 +1,234 @@
+//! Parameters from steady operating points: a measured map of ICRs.
+//!
+//! # Law
+//! Eqs (7)-(9) at each point: ω = (α_r V_r − α_l V_l)/(x_r − x_l), forward α_l V_l − ω x_l, to the left −ω y.
+//! Residuals of each channel count by its own scatter, whose size comes from the residuals (1.48 median
+//! absolute deviations), with Huber's loss.
+//!
+//! # Assumes
+//! Track speeds are known. Deviations of one point say nothing of those of others, or of those that share
+//! its left track speed, or of those that share its right one: intervals are the widest of the three
+//! jackknifes.
+
+mod groups;
+mod lagging;
+mod row;
+
+pub use groups::Grouping;
+pub use lagging::{Lagging, lagging};
+
+use crate::doubt::Doubt;
+use crate::error::Error;
+use crate::least_squares::covariance::{Interval, jackknife};
+use crate::least_squares::{Loss, inverse, too_wide};
+use crate::parameters::{Free, Parameters};
+use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use row::{Row, observed};
+use trackdyn_recording::OperatingPoint;
+
+/// Channels of a point: forward (m/s), left (m/s), yaw rate (rad/s).
+pub const CHANNELS: usize = 3;
+
+const MAX_ITERATIONS: usize = 200;
+
+/// Speeds that differ by less than this part of their size are alike: tables round to four digits.
+const ALIKE: f64 = 1e-3;
+
+/// Iterations after which the scatters stay: medians jump from one residual to the next, and would keep
+/// the parameters from settling.
+const SCATTER_ITERATIONS: usize = 20;
+
+/// Change of every parameter, m or 1, below which the iteration has settled.
+const SETTLED: f64 = 1e-10;
+
+/// Ratio of the standard deviation to the median absolute deviation of a normal distribution,
+/// 1/Φ⁻¹(3/4).
+const NORMAL_FROM_MAD: f64 = 1.482_602_218_505_602;
+
+/// Fitted parameters of steady points.
+#[derive(Clone, Debug)]
+pub struct SteadyEstimate {
+    /// The parameters; those that are not free keep their start.
+    pub parameters: Parameters,
+    /// Which were free.
+    pub free: Free,
+    /// Covariance of the free parameters, by the jackknife of `grouping`.
+    pub covariance: DMatrix<f64>,
+    /// Covariance of the free parameters if every residual were independent of all others.
+    pub covariance_of_scatter: DMatrix<f64>,
+    /// What was taken as independent of one another.
+    pub grouping: Grouping,
+    /// How many of these there are.
+    pub groups: usize,
+    /// Scatter of each channel, m/s, m/s, rad/s; none where it was not measured.
+    pub scatter: [Option<f64>; CHANNELS],
+    /// Residuals of each point in these scatters, by channel; none where not measured.
+    pub residuals: Vec<[Option<f64>; CHANNELS]>,
+    /// Iterations.
+    pub iterations: usize,
+}
+
+/// Fits the parameters to steady points, from `start` on.
+///
+/// # Errors
+/// Too few measurements, no turning or (with α) one ratio of speeds, or no convergence.
+pub fn fit_points(
+    points: &[OperatingPoint],
+    start: &Parameters,
+    free: Free,
+    loss: Loss,
+) -> Result<SteadyEstimate, Error> {
+    let count = free.count();
+    let measured = points.iter().flat_map(observed).flatten().count();
+    if measured < 4 * count {
+        let (found, needed) = (measured, 4 * count);
+        return Err(Error::TooFewMeasurements { found, needed, parameters: count });
+    }
+    if let Some(doubt) = lacks(points, free) {
+        return Err(Error::NotDetermined(doubt));
+    }
+    let mut parameters = *start;
+    let mut size = f64::INFINITY;
+    let mut scatter = [None; CHANNELS];
+    for iterations in 1..=MAX_ITERATIONS {
+        let rows: Vec<Row> = points.iter().map(|point| Row::at(point, &parameters)).collect();
+        if iterations <= SCATTER_ITERATIONS {
+            scatter = scatter_of(&rows, loss);
+        }
+        let parts = |weight: &dyn Fn(f64) -> f64| -> Vec<Part> {
+            rows.iter().map(|row| row.part(&scatter, loss, weight, count)).collect()
+        };
+        let (matrix, gradient) = sum(&parts(&|residual| loss.weight(residual)), count);
+        if size < SETTLED {
+            let parts = parts(&|residual| loss.curvature(residual));
+            let (curvature, _) = sum(&parts, count);
+            let (grouping, groups, covariance) =
+                groups::widest(points, &parts, |grouped| jackknife(&curvature, grouped));
+            let residuals = rows.iter().map(|row| row.whitened(&scatter)).collect();
+            return Ok(SteadyEstimate {
+                parameters,
+                free,
+                covariance,
+                covariance_of_scatter: inverse(&matrix),
+                grouping,
+                groups,
+                scatter,
+                residuals,
+                iterations,
+            });
+        }
+        let mut damped = matrix.clone();
+        for k in 0..count {
+            // A direction that no point shows must not send the others astray.
+            damped[(k, k)] = matrix[(k, k)] * (1.0 + 1e-12) + f64::MIN_POSITIVE;
+        }
+        let Some(mut step) = damped.cholesky().map(|cholesky| cholesky.solve(&gradient)) else {
+            break;
+        };
+        // The left ICR stays left of the right one.
+        while parameters.0[1] + step[1] <= parameters.0[0] + step[0] {
+            step *= 0.5;
+        }
+        for k in 0..count {
+            parameters.0[k] += step[k];
+        }
+        size = step.amax();
+    }
+    Err(Error::NotConverged { iterations: MAX_ITERATIONS, step: size })
+}
+
+impl SteadyEstimate {
+    /// The 95 % interval of a free parameter; none of one that is fixed.
+    pub fn interval(&self, parameter: usize) -> Option<Interval> {
+        (parameter < self.free.count()).then(|| {
+            let deviation = self.deviation(|of| of[(parameter, parameter)]);
+            let value = self.parameters.0[parameter];
+            Interval::of_groups(value, deviation, self.groups, self.free.count())
+        })
+    }
+
+    /// The larger standard deviation by both covariances: the jackknife knows nothing of a parameter that
+    /// no residual tells of.
+    fn deviation(&self, variance: impl Fn(&DMatrix<f64>) -> f64) -> f64 {
+        let variances = [variance(&self.covariance), variance(&self.covariance_of_scatter)];
+        if variances.iter().any(|variance| variance.is_nan()) {
+            return f64::NAN;
+        }
+        variances[0].max(variances[1]).max(0.0).sqrt()
+    }
+
+    /// The parameters that are too uncertain for a vehicle with this gauge, m.
+    pub fn doubts(&self, gauge: f64) -> Vec<Doubt> {
+        let deviations: Vec<f64> = (0..self.free.count())
+            .map(|k| self.interval(k).map_or(0.0, |interval| interval.deviation))
+            .collect();
+        too_wide(&deviations, gauge)
+    }
+
+    /// Distance between the ICRs x_r − x_l with its 95 % interval, m.
+    pub fn gap(&self) -> Interval {
+        let [x_l, x_r, ..] = self.parameters.0;
+        let deviation = self.deviation(|of| of[(0, 0)] + of[(1, 1)] - 2.0 * of[(0, 1)]);
+        Interval::of_groups(x_r - x_l, deviation, self.groups, self.free.count())
+    }
+
+    /// Indices of the points with the largest residuals, the largest first.
+    pub fn worst(&self) -> Vec<usize> {
+        let size = |index: usize| {
+            self.residuals[index].iter().flatten().fold(0.0, |worst: f64, r| worst.max(r.abs()))
+        };
+        let mut order: Vec<usize> = (0..self.residuals.len()).collect();
+        order.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
+        order
+    }
+}
+
+/// What the speeds of a table lack for these parameters; none where it does. How well it determines them is
+/// for the intervals to say.
+fn lacks(points: &[OperatingPoint], free: Free) -> Option<Doubt> {
+    let moments = points.iter().fold(Matrix2::zeros(), |sum, point| {
+        let speeds = Vector2::new(point.v_left, point.v_right);
+        sum + speeds * speeds.transpose()
+    });
+    let across = moments[(0, 0)] + moments[(1, 1)] - 2.0 * moments[(0, 1)];
+    let least = match free {
+        Free::Icrs => across,
+        Free::IcrsAndAlphas => moments.symmetric_eigenvalues().min(),
+    };
+    let doubt = match free {
+        Free::Icrs => Doubt::NoTurning,
+        Free::IcrsAndAlphas => Doubt::OneRatio,
+    };
+    // written so that no motion at all is a lack too
+    let enough = least > ALIKE.powi(2) * moments.trace();
+    (!enough).then_some(doubt)
+}
+
+/// What some points add to the normal equations.
+type Part = (DMatrix<f64>, DVector<f64>);
+
+fn sum(parts: &[Part], count: usize) -> Part {
+    let start = (DMatrix::zeros(count, count), DVector::zeros(count));
+    parts.iter().fold(start, |sum, part| (sum.0 + &part.0, sum.1 + &part.1))
+}
+
+/// Scatter of each channel: by the median where outliers count linearly, by the mean square else.
+fn scatter_of(rows: &[Row], loss: Loss) -> [Option<f64>; CHANNELS] {
+    std::array::from_fn(|channel| {
+        let mut sizes: Vec<f64> =
+            rows.iter().filter_map(|row| row.residuals[channel]).map(f64::abs).collect();
+        if sizes.is_empty() {
+            return None;
+        }
+        sizes.sort_by(f64::total_cmp);
+        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 points")]
+        let mean_square = sizes.iter().map(|size| size * size).sum::<f64>() / sizes.len() as f64;
+        let size = match loss {
+            // where most residuals are rounded away, the median says nothing
+            Loss::Huber if sizes[sizes.len() / 2] > 0.0 => NORMAL_FROM_MAD * sizes[sizes.len() / 2],
+            _ => mean_square.sqrt(),
+        };
+        // Points that a model explains to rounding scatter by something all the same.
+        Some(size.max(1e-9))
+    })
+}

@@ -1,0 +1,83 @@
+//! Points that turn less than others that are driven less.
+//!
+//! # Law
+//! Whatever the ICRs are, more speed on the outer track and less on the inner one does not turn a robot
+//! more slowly. A point that turns more slowly than one that is so driven less has a track that did not run
+//! as fast as its speed says: a motor that saturates or stalls, or a belt that slips on its sprocket.
+//!
+//! # Assumes
+//! The scatter of yaw rates, found without a model: of each point between its neighbours on a line of
+//! constant track speed, against the straight line through these.
+
+use super::NORMAL_FROM_MAD;
+use trackdyn_recording::OperatingPoint;
+
+/// A shortfall of this many standard deviations is none of chance: of a hundred thousand pairs of points
+/// one exceeds 4.4, and the worst of many pairs is what is looked at.
+const CERTAIN: f64 = 5.0;
+
+/// A point that lags.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lagging {
+    /// Its index.
+    pub point: usize,
+    /// Index of the point that is driven less and turns the most.
+    pub than: usize,
+    /// By how much that one turns faster, rad/s.
+    pub shortfall: f64,
+    /// The same in standard deviations of a difference.
+    pub certainty: f64,
+}
+
+/// The points that lag, in their order; none where the table does not show the scatter of yaw rates.
+pub fn lagging(points: &[OperatingPoint]) -> Vec<Lagging> {
+    let turning: Vec<(usize, &OperatingPoint, f64)> = points
+        .iter()
+        .enumerate()
+        .filter_map(|(index, point)| Some((index, point, point.yaw_rate?)))
+        .collect();
+    let Some(scatter) = scatter(&turning).filter(|scatter| *scatter > 0.0) else {
+        return Vec::new();
+    };
+    let mut found = Vec::new();
+    for &(index, point, rate) in &turning {
+        let sense = (point.v_right - point.v_left).signum();
+        let driven_less = turning.iter().filter(|(other_index, other, _)| {
+            *other_index != index
+                && sense * other.v_right <= sense * point.v_right
+                && sense * other.v_left >= sense * point.v_left
+        });
+        let fastest = driven_less.max_by(|a, b| (sense * a.2).total_cmp(&(sense * b.2)));
+        let Some(&(than, _, other_rate)) = fastest else { continue };
+        let shortfall = sense * (other_rate - rate);
+        let certainty = shortfall / (scatter * std::f64::consts::SQRT_2);
+        if point.v_right != point.v_left && certainty > CERTAIN {
+            found.push(Lagging { point: index, than, shortfall, certainty });
+        }
+    }
+    found
+}
+
+/// Standard deviation of yaw rates, rad/s: of the middle of three neighbours that share a track speed
+/// against the line through the outer two.
+fn scatter(turning: &[(usize, &OperatingPoint, f64)]) -> Option<f64> {
+    let mut sizes = Vec::new();
+    for shared in [|point: &OperatingPoint| point.v_right, |point: &OperatingPoint| point.v_left] {
+        let across = |point: &OperatingPoint| point.v_left + point.v_right - shared(point);
+        let mut line: Vec<(f64, f64, f64)> =
+            turning.iter().map(|(_, point, rate)| (shared(point), across(point), *rate)).collect();
+        line.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        for triple in line.windows(3) {
+            let [(a, x, left), (b, y, middle), (c, z, right)] = [triple[0], triple[1], triple[2]];
+            if a != b || b != c || x >= y || y >= z {
+                continue;
+            }
+            let part = (y - x) / (z - x);
+            let off = middle - (1.0 - part) * left - part * right;
+            let gain = (1.0 + part * part + (1.0 - part) * (1.0 - part)).sqrt();
+            sizes.push((off / gain).abs());
+        }
+    }
+    sizes.sort_by(f64::total_cmp);
+    sizes.get(sizes.len() / 2).map(|median| NORMAL_FROM_MAD * median)
+}

@@ -1,0 +1,186 @@
+//! Poses along a chain of transforms, such as map → odom → base_link.
+//!
+//! The poses stand at the stamps of the link that is reported most often. The other links are
+//! interpolated between their neighbouring stamps, as tf2 does it (translation along a line, rotation
+//! about one axis), and never beyond them: poses there are left out. Links of a topic that ends in
+//! `_static` hold at all times.
+
+use super::cdr::{Cdr, CdrError};
+use super::frames::{Frames, Hop};
+use super::message::{header, planar, rigid};
+use super::options::RosbagOptions;
+use super::storage::{self, Visitor};
+use super::topic::{Layout, Topic};
+use crate::Error;
+use crate::recording::Warning;
+use nalgebra::Isometry3;
+use std::fmt::Write;
+use std::path::Path;
+
+/// Poses along a chain, and what was done for them.
+pub(super) struct Chain {
+    /// Stamp in ns and (x, y, yaw).
+    pub(super) poses: Vec<(i64, [f64; 3])>,
+    pub(super) warning: Warning,
+}
+
+/// Reads the transforms on the way from `parent` to `child` and composes them.
+///
+/// # Errors
+/// Frames that no transforms link, or whose transforms share no time.
+pub(super) fn read(
+    path: &Path,
+    options: &RosbagOptions,
+    frames: &Frames,
+    [parent, child]: [&str; 2],
+) -> Result<Chain, Error> {
+    let refuse = |problem: String| Error::Topic {
+        path: path.to_owned(),
+        what: "poses",
+        problem,
+        available: format!("transforms {frames}"),
+    };
+    let hops = frames
+        .way(parent, child)
+        .filter(|hops| !hops.is_empty())
+        .ok_or_else(|| refuse(format!("no transforms lead from {parent:?} to {child:?}")))?;
+    let series = hops.into_iter().map(Series::new).collect();
+    let mut collector = Collector { options, series };
+    // The damage of the files was told when their frames were read.
+    storage::scan(path, &mut collector)?;
+    let mut series = collector.series;
+    for link in &mut series {
+        link.sort();
+    }
+    let leading =
+        series.iter().filter(|link| !link.is_static).max_by_key(|link| link.moments.len());
+    let Some(leading) = leading else {
+        return Err(refuse(format!("nothing moves between {parent:?} and {child:?}")));
+    };
+    let mut left_out = 0_usize;
+    let mut poses = Vec::new();
+    for &(stamp, _) in &leading.moments {
+        let composed = series.iter().try_fold(Isometry3::identity(), |before, link| {
+            let transform = link.at(stamp)?;
+            Some(before * if link.hop.inverse { transform.inverse() } else { transform })
+        });
+        match composed {
+            Some(transform) => poses.push((stamp, planar(&transform))),
+            None => left_out += 1,
+        }
+    }
+    if poses.is_empty() {
+        return Err(refuse(format!("the transforms from {parent:?} to {child:?} share no time")));
+    }
+    let way: Vec<String> = series.iter().map(Series::to_string).collect();
+    let mut taken = format!("{child} in {parent} by {}", way.join(", "));
+    let _ = write!(taken, "; at the stamps of {}, the others interpolated", leading.name());
+    if left_out > 0 {
+        let _ = write!(taken, "; {left_out} stamps that a link does not reach are left out");
+    }
+    Ok(Chain { poses, warning: Warning::Chosen { what: "poses", taken } })
+}
+
+/// The transforms of a link in the order of time.
+struct Series {
+    hop: Hop,
+    is_static: bool,
+    moments: Vec<(i64, Isometry3<f64>)>,
+}
+
+impl Series {
+    fn new(hop: Hop) -> Self {
+        Self { hop, is_static: false, moments: Vec::new() }
+    }
+
+    fn name(&self) -> String {
+        format!("{} -> {}", self.hop.link.parent, self.hop.link.child)
+    }
+
+    /// In the order of time, the first of each stamp.
+    fn sort(&mut self) {
+        self.moments.sort_by_key(|(stamp, _)| *stamp);
+        self.moments.dedup_by_key(|(stamp, _)| *stamp);
+    }
+
+    /// The transform at a stamp; none where it is not known.
+    fn at(&self, stamp: i64) -> Option<Isometry3<f64>> {
+        if self.is_static {
+            return self.moments.last().map(|(_, transform)| *transform);
+        }
+        let after = self.moments.partition_point(|(known, _)| *known < stamp);
+        let (end, last) = *self.moments.get(after)?;
+        if end == stamp {
+            return Some(last);
+        }
+        let (start, first) = *self.moments.get(after.checked_sub(1)?)?;
+        // Half a turn between two transforms has no one axis.
+        first.try_lerp_slerp(&last, portion(start, stamp, end), 1e-9)
+    }
+
+    /// Longest time between two stamps, s.
+    fn longest_interval(&self) -> f64 {
+        let intervals =
+            self.moments.windows(2).map(|pair| seconds(pair[1].0.saturating_sub(pair[0].0)));
+        intervals.fold(0.0, f64::max)
+    }
+}
+
+impl std::fmt::Display for Series {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", self.name())?;
+        if self.hop.inverse {
+            write!(f, " (inverse)")?;
+        }
+        if self.is_static {
+            return write!(f, " (static)");
+        }
+        let (count, longest) = (self.moments.len(), self.longest_interval());
+        write!(f, " ({count} stamps, at most {longest:.3} s apart)")
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "intervals last less than 2⁵³ ns, 104 days")]
+fn seconds(ns: i64) -> f64 {
+    ns as f64 / 1e9
+}
+
+/// Where a stamp lies between two others, from 0 to 1.
+fn portion(start: i64, stamp: i64, end: i64) -> f64 {
+    seconds(stamp.saturating_sub(start)) / seconds(end.saturating_sub(start))
+}
+
+/// Takes the transforms of the chain's links.
+struct Collector<'a> {
+    options: &'a RosbagOptions,
+    series: Vec<Series>,
+}
+
+impl Collector<'_> {
+    fn take(&mut self, topic: &Topic, log_ns: i64, payload: &[u8]) -> Result<(), CdrError> {
+        let mut cdr = Cdr::new(payload)?;
+        for _ in 0..cdr.length()? {
+            let header = header(&mut cdr)?;
+            let child = cdr.text()?;
+            let transform = rigid(&mut cdr)?;
+            let link =
+                self.series.iter_mut().find(|series| series.hop.link.is(header.frame, child));
+            if let (Some(link), Some(transform)) = (link, transform) {
+                link.is_static |= topic.is_static();
+                link.moments.push((header.stamp_ns.unwrap_or(log_ns), transform));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Visitor for Collector<'_> {
+    fn wants(&mut self, topic: &Topic) -> bool {
+        topic.layout() == Some(Layout::Transforms) && self.options.may_hold_poses(&topic.name)
+    }
+
+    fn message(&mut self, topic: &Topic, log_ns: i64, payload: &[u8]) {
+        // What cannot be decoded was told when the frames were read.
+        let _ = self.take(topic, log_ns, payload);
+    }
+}

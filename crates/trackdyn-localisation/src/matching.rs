@@ -3,7 +3,7 @@
 //! One scan is turned into lines ([`Reference`]), and each return of the other is held against the
 //! line it looks at: residual ρ − h, along the beam, where the noise is. What the lines do not know
 //! about themselves is taken into account exactly: they are unknowns beside the motion, and are
-//! eliminated from the normal equations ([`normal`]).
+//! eliminated from the normal equations.
 //!
 //! The match stands on the scans alone. The guess opens the search, and takes the place of the scans
 //! in directions about which they say less than it does.
@@ -40,7 +40,8 @@ pub struct Deviation {
 }
 
 impl Default for MatchOptions {
-    /// A laser with 10 mm noise, and a guess as of a robot at 1 m/s that slips by a third, turning at 1 rad/s, over 0.27 s.
+    /// A laser with 10 mm noise, and the guess of a robot that slips by a third at 1 m/s and 1 rad/s,
+    /// over 0.27 s.
     fn default() -> Self {
         Self { range_noise: 0.01, guess: Deviation { position: 0.1, yaw: 0.1 } }
     }

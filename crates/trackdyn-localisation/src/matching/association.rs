@@ -19,6 +19,9 @@ pub(super) struct Pair {
 /// a normal distribution one in 16 000 lies beyond.
 const GATE: f64 = 4.0;
 
+/// Returns that suffice to come near: 20 on each of half a dozen lines.
+const ENOUGH: usize = 120;
+
 /// Sines and cosines of the lines' normals.
 pub(super) type Normals = Vec<(f64, f64)>;
 
@@ -62,7 +65,8 @@ pub(super) fn close(
 }
 
 /// Pairs at a pose with covariance, each with the variance of its residual: of all lines in the
-/// window that the covariance opens, the one that fits best against what is expected.
+/// window that the covariance opens, the one that fits best against what is expected. To come near,
+/// a part of the returns does.
 pub(super) fn wide(
     reference: &Reference,
     normals: &Normals,
@@ -75,8 +79,9 @@ pub(super) fn wide(
     let yaw = pose.yaw.sin_cos();
     let across = covariance[(0, 0)].max(covariance[(1, 1)]).sqrt();
     let turn = covariance[(2, 2)].sqrt();
-    let mut pairs = Vec::with_capacity(returns.len());
-    for (index, hit) in returns.iter().enumerate() {
+    let every = (returns.len() / ENOUGH).max(1);
+    let mut pairs = Vec::with_capacity(returns.len() / every + 1);
+    for (index, hit) in returns.iter().enumerate().step_by(every) {
         let (bearing, distance) = bearing(hit, pose, yaw);
         let window = 2.0 * (turn + across / distance.max(across));
         let mut best: Option<(f64, usize, Beam, f64)> = None;

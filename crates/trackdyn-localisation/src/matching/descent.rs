@@ -14,8 +14,9 @@ use crate::scan::Return;
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::Pose;
 
-/// Wide steps; each halves the deviations, at last to a thousandth of the guess's.
-const WIDE: usize = 10;
+/// Wide steps; each halves the deviations, at last to a hundredth of the guess's, about what a match
+/// is exact to.
+const WIDE: usize = 7;
 /// Close steps; where pairs still come and go after them, the pose moves by less than its deviation.
 const CLOSE: usize = 20;
 /// Steps on kept pairs. Newton's method gains digits twofold, so that four suffice.

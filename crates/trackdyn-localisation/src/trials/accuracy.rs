@@ -100,3 +100,68 @@ fn in_a_symmetric_room_the_guess_decides() {
         assert!(found.status == Status::Converged && squared < 16.3, "{quarter} {found:?}");
     }
 }
+
+/// The table of `docs/theory/localisation.md`: run with `--release -- --ignored --nocapture`.
+#[test]
+#[ignore = "prints a table"]
+fn table() {
+    println!(
+        "noise mm | rms mm | 99 % mm | worst mm | rms deg | worst deg | normalised | converged"
+    );
+    for noise in [0.003, 0.01, 0.03] {
+        let matches =
+            matches(&Scanner { range_noise: noise, ..Scanner::default() }, noise, 1, 2000);
+        let converged: Vec<_> =
+            matches.iter().filter(|(found, _)| found.status == Status::Converged).collect();
+        let count = f64::from(u16::try_from(converged.len()).expect("2000 at most"));
+        let errors = converged.iter().map(|(found, truth)| error(found, truth));
+        let mut distances: Vec<f64> = errors.clone().map(|error| error.xy().norm()).collect();
+        distances.sort_by(f64::total_cmp);
+        let rms = (distances.iter().map(|d| d * d).sum::<f64>() / count).sqrt();
+        let yaw_rms = (errors.clone().map(|error| error[2].powi(2)).sum::<f64>() / count).sqrt();
+        let yaw_worst = errors.map(|error| error[2].abs()).fold(0.0, f64::max);
+        let squares = converged
+            .iter()
+            .filter_map(|(found, truth)| found.motion.normalised_error_squared(truth));
+        println!(
+            "{:.0} | {:.2} | {:.2} | {:.2} | {:.4} | {:.3} | {:.2} | {}",
+            noise * 1e3,
+            rms * 1e3,
+            distances[distances.len() * 99 / 100] * 1e3,
+            distances[distances.len() - 1] * 1e3,
+            yaw_rms.to_degrees(),
+            yaw_worst.to_degrees(),
+            squares.sum::<f64>() / count,
+            converged.len()
+        );
+    }
+}
+
+/// Times on one core: run with `--release -- --ignored --nocapture`.
+#[test]
+#[ignore = "measures time"]
+fn times() {
+    let (room, scanner) = (Room::furnished(), Scanner::default());
+    let mut random = course::random(3);
+    let count = 2000;
+    let mut times = [0.0; 3];
+    for trial in 0..count {
+        let before = course::free_pose(&mut random);
+        let truth = course::motion(&mut random, scanner.period);
+        let scan = |index, pose: Pose| scanner.scan(&room, 0.0, index, |_| pose).expect("a scan");
+        let (first, second) = (scan(2 * trial, before), before.compose(&truth));
+        let guess = Pose::new(truth.x + 0.05, truth.y - 0.05, truth.yaw + 0.05);
+        let start = std::time::Instant::now();
+        let second = scan(2 * trial + 1, second);
+        times[0] += start.elapsed().as_secs_f64();
+        let start = std::time::Instant::now();
+        let reference = Reference::new(&first, 0.01).expect("lines");
+        times[1] += start.elapsed().as_secs_f64();
+        let start = std::time::Instant::now();
+        let found = reference.locate(&second, &guess, &MatchOptions::default());
+        times[2] += start.elapsed().as_secs_f64();
+        assert!(found.expect("a match").is_good());
+    }
+    let [scan, lines, matching] = times.map(|time| time / 2000.0 * 1e6);
+    println!("scan {scan:.0} us | lines {lines:.0} us | match {matching:.0} us");
+}

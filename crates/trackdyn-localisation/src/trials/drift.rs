@@ -118,6 +118,25 @@ fn a_dropped_scan_is_bridged_and_a_blind_one_is_named() {
 }
 
 #[test]
+fn along_a_corridor_the_uncertainty_grows_with_the_odometry() {
+    let scanner = mounted(6, Pose::default());
+    let truth: Vec<Pose> =
+        (0..20_u32).map(|index| Pose::new(0.1 * f64::from(index) - 1.0, 0.0, 0.0)).collect();
+    let scans = course::scans(&Room::corridor(), &scanner, &truth);
+    let odometry = course::odometry(&truth, 6);
+    let poses = localise(&scans, &odometry, &Localisation::default()).expect("poses");
+    let last = &poses[19].estimate;
+    // 19 guesses with a standard deviation of 0.1 m each; the scans may feign a part.
+    let deviation = last.covariance[(0, 0)].sqrt();
+    let walk = 0.1 * 19.0_f64.sqrt();
+    assert!((0.5 * walk..1.01 * walk).contains(&deviation), "{deviation}");
+    // Across, two walls are seen all the time.
+    assert!(last.covariance[(1, 1)].sqrt() < 0.01, "{last:?}");
+    let squared = last.normalised_error_squared(&truth[0].relative(&truth[19]));
+    assert!(squared.expect("regular") < 16.3, "{last:?}");
+}
+
+#[test]
 fn equal_input_gives_equal_poses() {
     let scanner = mounted(5, Pose::default());
     let truth = course::path(5, 5.0, scanner.period);

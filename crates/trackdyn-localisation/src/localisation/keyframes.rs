@@ -95,23 +95,34 @@ impl<'a> Tracker<'a> {
     }
 
     /// The keyframe to trust, and the match against it: the one in use, an earlier one, or the scan
-    /// before.
+    /// before. Where the scan before shows too little, a keyframe with less overlap is better.
     fn find(&mut self, scan: &Scan, predicted: &Pose) -> Result<(usize, Match), Error> {
+        let mut second_best: Option<(usize, Match)> = None;
         if self.overlap <= 1.0 {
             let mut tried = self.nearest(predicted);
             tried.retain(|keyframe| *keyframe != self.current);
             tried.truncate(TRIED);
             for keyframe in std::iter::once(self.current).chain(tried) {
                 let found = self.against(keyframe, scan, predicted)?;
-                if found.status == Status::Converged && found.overlap() >= self.overlap {
+                if found.status != Status::Converged {
+                    continue;
+                }
+                if found.overlap() >= self.overlap {
                     return Ok((keyframe, found));
+                }
+                if second_best.is_none_or(|(_, best)| found.matched > best.matched) {
+                    second_best = Some((keyframe, found));
                 }
             }
         }
         if self.keyframes[self.current].scan != self.before.0 {
             self.promote_the_scan_before()?;
         }
-        Ok((self.current, self.against(self.current, scan, predicted)?))
+        let found = self.against(self.current, scan, predicted)?;
+        match second_best {
+            Some(second_best) if found.status != Status::Converged => Ok(second_best),
+            _ => Ok((self.current, found)),
+        }
     }
 
     fn against(&self, keyframe: usize, scan: &Scan, predicted: &Pose) -> Result<Match, Error> {

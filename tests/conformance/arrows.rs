@@ -3,13 +3,14 @@
 use std::path::Path;
 
 /// Which crates of the project each crate may use.
-const ALLOWED: [(&str, &[&str]); 9] = [
+const ALLOWED: [(&str, &[&str]); 10] = [
     ("trackdyn-core", &[]),
     ("trackdyn-physics", &["trackdyn-core"]),
     ("trackdyn-recording", &["trackdyn-core"]),
     ("trackdyn-motion", &["trackdyn-core", "trackdyn-physics"]),
     ("trackdyn-identify", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
     ("trackdyn-odometry", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
+    ("trackdyn-field", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
     (
         "trackdyn-report",
         &["trackdyn-core", "trackdyn-physics", "trackdyn-motion", "trackdyn-odometry"],

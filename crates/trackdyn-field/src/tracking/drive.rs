@@ -32,8 +32,8 @@ impl Default for DriveOptions {
 /// Drives a robot along a path in its world, from where it is.
 ///
 /// # Errors
-/// [`Error::Option`] for values that no tracker has. A robot that stops or strays is no error: the
-/// [ending](Ending) says so.
+/// [`Error::Option`] for values that no tracker has, and for a look-ahead too short for a point that far
+/// behind the ICRs. A robot that stops or strays is no error: the [ending](Ending) says so.
 pub fn drive(
     plant: &mut impl Plant,
     path: &Path,
@@ -44,6 +44,14 @@ pub fn drive(
     tracker.check()?;
     if let Some(limit) = options.time_limit.filter(|limit| !(*limit > 0.0 && *limit <= 1e6)) {
         return Err(Error::option("time limit", &limit, "a positive time in s, at most 1000000"));
+    }
+    let (_, constants) = steering.track_speeds(tracker.speed, 0.0);
+    let shortest = 2.0 * (constants.icrs.y - tracker.point[0]);
+    if tracker.look_ahead <= shortest {
+        let expected = format!(
+            "more than {shortest} m, twice the distance by which the tracked point lies behind the ICRs"
+        );
+        return Err(Error::option("look-ahead", &tracker.look_ahead, expected));
     }
     let start = plant.moment();
     let mut pursuit = Pursuit::new(tracker, path);

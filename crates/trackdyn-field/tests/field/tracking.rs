@@ -190,6 +190,11 @@ fn drives_that_end_early_say_so() {
     let tracker = Tracker { look_ahead: f64::NAN, ..Tracker::default() };
     let error = drive(&mut robot, &line, &tracker, &model, &DriveOptions::default());
     assert!(error.expect_err("refused").to_string().starts_with("look-ahead = NaN"));
+
+    // 0.2492 m behind the ICRs
+    let tracker = Tracker { look_ahead: 0.45, point: [-0.2, 0.0], ..Tracker::default() };
+    let error = drive(&mut robot, &line, &tracker, &model, &DriveOptions::default());
+    assert!(error.expect_err("unstable").to_string().contains("expected more than 0.498"));
 }
 
 #[test]

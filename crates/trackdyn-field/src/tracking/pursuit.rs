@@ -12,6 +12,9 @@ const SHORTEST: f64 = 0.2;
 /// limit of stability.
 const STABLE: f64 = 3.0;
 
+/// Largest tan θ/2 of a corner that is taken into account, θ = 127°: beyond it lines meet far away.
+const STEEPEST: f64 = 2.0;
+
 /// What is left of a way or a turn shrinks by one part in this many per command, at the end.
 const APPROACH: f64 = 5.0;
 
@@ -87,7 +90,8 @@ impl<'a> Pursuit<'a> {
         let point = position(pose, self.tracker.point);
         let reach = [self.along, (self.along + self.tracker.look_ahead).min(end)];
         self.along = self.path.nearest(point, reach).along;
-        let remaining = end - self.along;
+        let passed = if self.along < end { 0.0 } else { self.passed(point, end) };
+        let remaining = end - self.stop_before(end, pivot) - self.along - passed;
         if remaining <= self.tracker.close {
             self.along = end;
             self.leg += 1;
@@ -98,13 +102,40 @@ impl<'a> Pursuit<'a> {
             }
             return self.follow(pose, pivot);
         }
-        Some(self.pursue(pose, point, end, pivot))
+        let goal = self.goal(point, end, passed, pivot - self.tracker.point[0]);
+        Some(self.pursue(pose, point, goal, remaining, pivot))
     }
 
-    /// Towards the goal on the leg that ends at a length along.
-    fn pursue(&self, pose: &Pose, point: [f64; 2], end: f64, pivot: f64) -> SetPoint {
+    /// Length by which the point is beyond the end of a leg, on its straight continuation.
+    fn passed(&self, point: [f64; 2], end: f64) -> f64 {
+        let last = self.path.point_at(end);
+        let (sin, cos) = self.path.direction_at(end.next_down()).sin_cos();
+        cos * (point[0] - last[0]) + sin * (point[1] - last[1])
+    }
+
+    /// How far before the end of a leg the tracked point has to stop, so that a turn on the spot by θ
+    /// brings it onto the next leg: the pivot runs beside the path by −p_y and turns where both its
+    /// lines meet, y − p_x − p_y tan θ/2 later than the point. At the end of the path nothing turns.
+    fn stop_before(&self, end: f64, pivot: f64) -> f64 {
+        if self.leg + 1 == self.legs.len() {
+            return 0.0;
+        }
+        let [before, after] = [end.next_down(), end].map(|along| self.path.direction_at(along));
+        let half = wrap_angle(after - before) / 2.0;
+        let [p_x, p_y] = self.tracker.point;
+        pivot - p_x - p_y * half.tan().clamp(-STEEPEST, STEEPEST)
+    }
+
+    /// Towards a goal, with a length remaining to the next stop.
+    fn pursue(
+        &self,
+        pose: &Pose,
+        point: [f64; 2],
+        goal: [f64; 2],
+        remaining: f64,
+        pivot: f64,
+    ) -> SetPoint {
         let tracker = self.tracker;
-        let goal = self.goal(point, end, pivot - tracker.point[0]);
         let (sin, cos) = pose.yaw.sin_cos();
         let [east, north] = [goal[0] - point[0], goal[1] - point[1]];
         // Δ in the axes of the body
@@ -112,7 +143,6 @@ impl<'a> Pursuit<'a> {
         if ahead <= 0.0 {
             return self.turn(left.atan2(ahead));
         }
-        let remaining = end - self.along;
         let forward = (self.last.forward + tracker.acceleration * tracker.interval)
             .min(tracker.speed)
             .min(approach(remaining, tracker.acceleration, tracker.interval));
@@ -129,23 +159,20 @@ impl<'a> Pursuit<'a> {
         SetPoint { forward, yaw_rate: forward * left / below }
     }
 
-    /// Where the leg leaves the circle of the look-ahead; near the end of the leg a smaller one, and at
-    /// last a point on its straight continuation. `lag` is the distance of the point behind the pivot, m.
-    fn goal(&self, point: [f64; 2], end: f64, lag: f64) -> [f64; 2] {
+    /// Where the leg leaves the circle of the look-ahead; near its end a smaller one, and at last a
+    /// point on its straight continuation. `lag` is the distance of the point behind the pivot, m.
+    fn goal(&self, point: [f64; 2], end: f64, passed: f64, lag: f64) -> [f64; 2] {
         let look_ahead = self.tracker.look_ahead;
-        let span = [self.along, end];
-        let goal = self.path.leaves_circle(point, look_ahead, span);
+        let goal = self.path.leaves_circle(point, look_ahead, [self.along, end]);
         goal.unwrap_or_else(|| {
             let last = self.path.point_at(end);
             let shortest = (SHORTEST * look_ahead).max(STABLE * lag).min(look_ahead);
-            let missing = shortest - crate::path::distance(point, last);
-            if missing <= 0.0 {
-                return last;
-            }
+            let distance = crate::path::distance(point, last);
+            let away = if passed > 0.0 { -distance } else { distance };
+            let beyond = (shortest - away).max(0.0);
             // of the piece before the corner
-            let direction = self.path.direction_at(end.next_down());
-            let (sin, cos) = direction.sin_cos();
-            [last[0] + missing * cos, last[1] + missing * sin]
+            let (sin, cos) = self.path.direction_at(end.next_down()).sin_cos();
+            [last[0] + beyond * cos, last[1] + beyond * sin]
         })
     }
 

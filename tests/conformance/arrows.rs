@@ -13,7 +13,13 @@ const ALLOWED: [(&str, &[&str]); 10] = [
     ("trackdyn-field", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
     (
         "trackdyn-report",
-        &["trackdyn-core", "trackdyn-physics", "trackdyn-motion", "trackdyn-odometry"],
+        &[
+            "trackdyn-core",
+            "trackdyn-physics",
+            "trackdyn-motion",
+            "trackdyn-odometry",
+            "trackdyn-field",
+        ],
     ),
     ("trackdyn-export", &["trackdyn-core", "trackdyn-motion"]),
     (
@@ -25,6 +31,7 @@ const ALLOWED: [(&str, &[&str]); 10] = [
             "trackdyn-recording",
             "trackdyn-identify",
             "trackdyn-odometry",
+            "trackdyn-field",
             "trackdyn-report",
             "trackdyn-export",
         ],

@@ -1,4 +1,4 @@
-//! Colours and markers of parameter sets.
+//! Colours, markers and lines of what a figure compares.
 
 use crate::canvas::{Area, Canvas};
 use crate::colour::Rgb;
@@ -7,19 +7,19 @@ use crate::colour::Rgb;
 const COLOURS: [Rgb; 6] =
     [[213, 94, 0], [0, 114, 178], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233]];
 
-/// Colour of the set at this place.
-pub(super) fn colour(set: usize) -> Rgb {
-    COLOURS[set % COLOURS.len()]
+/// Colour of the entry at this place.
+pub(crate) fn colour(entry: usize) -> Rgb {
+    COLOURS[entry % COLOURS.len()]
 }
 
-/// Marker of the set at this place: form tells sets apart where colour does not.
+/// Marker of the entry at this place: form tells entries apart where colour does not.
 #[expect(clippy::cast_possible_truncation, reason = "places on the canvas")]
-pub(super) fn marker(canvas: &mut Canvas, set: usize, centre: [f64; 2]) {
+pub(crate) fn marker(canvas: &mut Canvas, entry: usize, centre: [f64; 2]) {
     const RADIUS: f64 = 10.0;
-    let colour = colour(set);
+    let colour = colour(entry);
     let [column, row] = centre.map(|place| place.round() as i32);
     let square = Area::new(column - 9, row - 9, 19, 19);
-    match set % 4 {
+    match entry % 4 {
         0 => canvas.disc(centre, RADIUS, colour),
         1 => canvas.fill(square, colour),
         2 => canvas.ring(centre, RADIUS - 2.0, 4.0, colour),
@@ -28,10 +28,30 @@ pub(super) fn marker(canvas: &mut Canvas, set: usize, centre: [f64; 2]) {
 }
 
 /// A whisker over an interval of rows.
-pub(super) fn whisker(canvas: &mut Canvas, column: f64, rows: [f64; 2], colour: Rgb) {
+pub(crate) fn whisker(canvas: &mut Canvas, column: f64, rows: [f64; 2], colour: Rgb) {
     const HALF: f64 = 7.0;
     canvas.line([column, rows[0]], [column, rows[1]], 3.0, colour);
     for row in rows {
         canvas.line([column - HALF, row], [column + HALF, row], 3.0, colour);
     }
+}
+
+/// A line through places on the canvas; steps shorter than a pixel are joined.
+pub(crate) fn line(
+    canvas: &mut Canvas,
+    places: impl IntoIterator<Item = [f64; 2]>,
+    thickness: f64,
+    colour: Rgb,
+) {
+    let mut places = places.into_iter();
+    let Some(mut from) = places.next() else { return };
+    let mut to = from;
+    for next in places {
+        to = next;
+        if (to[0] - from[0]).hypot(to[1] - from[1]) >= 1.0 {
+            canvas.line(from, to, thickness, colour);
+            from = to;
+        }
+    }
+    canvas.line(from, to, thickness, colour);
 }

@@ -32,7 +32,7 @@ fn journey(path: &Path, model: Kinematics, options: &DriveOptions) -> Journey {
     let twist = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
     let pose = path.start();
     let mut robot = Rolling(Moment { t: 0.0, pose, twist, belt_speed: PerSide::default() });
-    drive(&mut robot, path, &Tracker::default(), &model, options).expect("valid")
+    drive(&mut robot, path, &Tracker::default(), &model, options, &|_| ()).expect("valid")
 }
 
 fn draw(path: &Path, options: &DriveOptions, names: [&str; 2], texts: [&str; 2]) -> Vec<u8> {

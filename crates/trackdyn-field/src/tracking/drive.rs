@@ -29,7 +29,8 @@ impl Default for DriveOptions {
     }
 }
 
-/// Drives a robot along a path in its world, from where it is.
+/// Drives a robot along a path in its world, from where it is. `progress` is told, at each command, the
+/// share of the path that is behind.
 ///
 /// # Errors
 /// [`Error::Option`] for values that no tracker has, and for a look-ahead too short for a point that far
@@ -40,6 +41,7 @@ pub fn drive(
     tracker: &Tracker,
     steering: &dyn Steering,
     options: &DriveOptions,
+    progress: &dyn Fn(f64),
 ) -> Result<Journey, Error> {
     tracker.check()?;
     if let Some(limit) = options.time_limit.filter(|limit| !(*limit > 0.0 && *limit <= 1e6)) {
@@ -68,6 +70,7 @@ pub fn drive(
         let SetPoint { forward, yaw_rate } = pursuit.last();
         let (_, constants) = steering.track_speeds(forward, yaw_rate);
         let wanted = pursuit.next(&belief.pose(), constants.icrs.y);
+        progress(pursuit.along() / path.length());
         believed.push(belief.pose());
         watch.look(now, &plant.moment().pose, pursuit.along());
         let until = start.t + real(commands.len() + 1) * tracker.interval;

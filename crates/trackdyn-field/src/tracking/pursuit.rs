@@ -72,38 +72,37 @@ impl<'a> Pursuit<'a> {
     }
 
     fn follow(&mut self, pose: &Pose, pivot: f64) -> Option<SetPoint> {
-        let [start, end] = self.legs[self.leg];
-        if self.turning {
+        let point = position(pose, self.tracker.point);
+        while let Some(&[start, end]) = self.legs.get(self.leg) {
             let error = wrap_angle(self.path.direction_at(start) - pose.yaw);
-            // what is not a corner is driven round
-            let least = if self.leg == 0 && self.last == SetPoint::default() {
-                self.tracker.corner
-            } else {
-                self.tracker.aligned
-            };
-            if error.abs() > least {
+            if self.turning && error.abs() > self.largest_error() {
                 return Some(self.turn(error));
             }
-            self.turning = false;
-            self.last = SetPoint::default();
-        }
-        let point = position(pose, self.tracker.point);
-        let reach = [self.along, (self.along + self.tracker.look_ahead).min(end)];
-        self.along = self.path.nearest(point, reach).along;
-        let passed = if self.along < end { 0.0 } else { self.passed(point, end) };
-        let remaining = end - self.stop_before(end, pivot) - self.along - passed;
-        if remaining <= self.tracker.close {
+            if self.turning {
+                self.turning = false;
+                self.last = SetPoint::default();
+            }
+            let reach = [self.along, (self.along + self.tracker.look_ahead).min(end)];
+            self.along = self.path.nearest(point, reach).along;
+            let passed = if self.along < end { 0.0 } else { self.passed(point, end) };
+            let remaining = end - self.stop_before(end, pivot) - self.along - passed;
+            if remaining > self.tracker.close {
+                let goal = self.goal(point, end, passed, pivot - self.tracker.point[0]);
+                return Some(self.pursue(pose, point, goal, remaining, pivot));
+            }
             self.along = end;
             self.leg += 1;
             self.turning = true;
             self.last = SetPoint::default();
-            if self.leg == self.legs.len() {
-                return None;
-            }
-            return self.follow(pose, pivot);
         }
-        let goal = self.goal(point, end, passed, pivot - self.tracker.point[0]);
-        Some(self.pursue(pose, point, goal, remaining, pivot))
+        None
+    }
+
+    /// Error of the heading with which a leg is begun, rad: a turn once begun goes all the way, but
+    /// what would not be a corner is driven round.
+    fn largest_error(&self) -> f64 {
+        let begins = self.leg == 0 && self.last == SetPoint::default();
+        if begins { self.tracker.corner } else { self.tracker.aligned }
     }
 
     /// Length by which the point is beyond the end of a leg, on its straight continuation.

@@ -1,10 +1,12 @@
 //! The path tracker, with right and wrong kinematics.
 
 use crate::plant::{AURIGA, Rolling};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use trackdyn_core::{PerSide, Plant, Pose};
 use trackdyn_field::tracking::{DriveOptions, Ending, Estimate, Summary};
 use trackdyn_field::{Journey, Path, Tracker, drive};
-use trackdyn_motion::Kinematics;
+use trackdyn_motion::{Icrs, Kinematics};
 
 /// Distance between the track centre-lines of Auriga-alpha, m.
 const GAUGE: f64 = 0.42;
@@ -18,7 +20,7 @@ fn driven(path: &Path, tracker: &Tracker, model: Kinematics, estimate: Estimate)
     let start = path.start().compose(&Pose::new(-tracker.point[0], -tracker.point[1], 0.0));
     let mut robot = Rolling::new(Kinematics::new(AURIGA), start);
     let options = DriveOptions { estimate, ..DriveOptions::default() };
-    drive(&mut robot, path, tracker, &model, &options).expect("valid options")
+    drive(&mut robot, path, tracker, &model, &options, &|_| ()).expect("valid options")
 }
 
 fn arrived(path: &Path, tracker: &Tracker, model: Kinematics, estimate: Estimate) -> Summary {
@@ -143,7 +145,8 @@ fn wrong_scale_shows_in_dead_reckoning_only() {
         let start = Pose::new(-AURIGA.y, 0.0, 0.0);
         let mut robot = Rolling::new(truth, start);
         let options = DriveOptions { estimate, alpha, ..DriveOptions::default() };
-        let journey = drive(&mut robot, &square, &at_pivot(), &model, &options).expect("valid");
+        let journey =
+            drive(&mut robot, &square, &at_pivot(), &model, &options, &|_| ()).expect("valid");
         assert_eq!(journey.ending, Ending::Arrived);
         journey.summary(&square, at_pivot().point)
     };
@@ -162,7 +165,7 @@ fn a_robot_beside_the_path_comes_to_it() {
         let mut robot = Rolling::new(Kinematics::new(AURIGA), Pose::new(0.0, y, yaw));
         let model = Kinematics::new(AURIGA);
         let options = DriveOptions::default();
-        let journey = drive(&mut robot, &line, &Tracker::default(), &model, &options);
+        let journey = drive(&mut robot, &line, &Tracker::default(), &model, &options, &|_| ());
         let journey = journey.expect("valid options");
         assert_eq!(journey.ending, Ending::Arrived);
         let last = journey.cross_track.last().expect("errors");
@@ -195,12 +198,14 @@ fn drives_that_end_early_say_so() {
     let line = Path::new(vec![[0.0, 0.0], [6.0, 0.0]]).expect("a path");
     let model = Kinematics::new(AURIGA);
     let options = DriveOptions { time_limit: Some(3.0), ..DriveOptions::default() };
-    let journey = drive(&mut Rolling::auriga(), &line, &Tracker::default(), &model, &options);
+    let journey =
+        drive(&mut Rolling::auriga(), &line, &Tracker::default(), &model, &options, &|_| ());
     assert_eq!(journey.expect("valid").ending, Ending::OutOfTime);
 
     let mut robot = Rolling::auriga();
     robot.breaks_down = 2.0;
-    let journey = drive(&mut robot, &line, &Tracker::default(), &model, &DriveOptions::default());
+    let journey =
+        drive(&mut robot, &line, &Tracker::default(), &model, &DriveOptions::default(), &|_| ());
     let journey = journey.expect("valid");
     assert!(
         matches!(&journey.ending, Ending::Stopped(stopped) if stopped.reason.contains("track"))
@@ -208,12 +213,12 @@ fn drives_that_end_early_say_so() {
     assert!(journey.summary(&line, [0.0, 0.0]).end_distance > 4.0);
 
     let tracker = Tracker { look_ahead: f64::NAN, ..Tracker::default() };
-    let error = drive(&mut robot, &line, &tracker, &model, &DriveOptions::default());
+    let error = drive(&mut robot, &line, &tracker, &model, &DriveOptions::default(), &|_| ());
     assert!(error.expect_err("refused").to_string().starts_with("look-ahead = NaN"));
 
     // 0.2492 m behind the ICRs
     let tracker = Tracker { look_ahead: 0.45, point: [-0.2, 0.0], ..Tracker::default() };
-    let error = drive(&mut robot, &line, &tracker, &model, &DriveOptions::default());
+    let error = drive(&mut robot, &line, &tracker, &model, &DriveOptions::default(), &|_| ());
     assert!(error.expect_err("unstable").to_string().contains("expected more than 0.498"));
 }
 
@@ -234,5 +239,52 @@ fn paths_are_read_with_the_place_of_errors() {
         std::fs::write(&file, text).expect("written");
         let error = Path::read(&file).expect_err("refused").to_string();
         assert!(error.contains(expected), "{error}");
+    }
+}
+
+/// Legs from millimetres to metres, turns of any angle, and a robot of any ICRs.
+#[test]
+fn drives_arrive_on_any_path_with_any_robot() {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    for case in 0..300 {
+        let mut points = vec![[0.0, 0.0]];
+        let mut direction = 0.0_f64;
+        for left in (0..random.random_range(1..8)).rev() {
+            let length =
+                if left == 0 { 5.0 } else { 10.0_f64.powf(random.random_range(-3.0..0.5)) };
+            let [x, y] = points[points.len() - 1];
+            points.push([x + length * direction.cos(), y + length * direction.sin()]);
+            direction += if random.random::<f64>() < 0.1 {
+                std::f64::consts::PI
+            } else {
+                random.random_range(-2.5..2.5)
+            };
+        }
+        let path = Path::new(points).expect("a path");
+        let y = random.random_range(-0.1..0.1);
+        let icrs = Icrs {
+            x_left: -random.random_range(0.1..0.8),
+            x_right: random.random_range(0.1..0.8),
+            y,
+        };
+        let mut constants = || random.random_range(0.6..1.6);
+        let (wide, model_y) = (constants(), 0.1 * (constants() - 1.0));
+        let wrong = Icrs { x_left: wide * icrs.x_left, x_right: wide * icrs.x_right, y: model_y };
+        for (model, estimate) in
+            [(icrs, Estimate::Truth), (icrs, Estimate::Odometry), (wrong, Estimate::Truth)]
+        {
+            let mut robot = Rolling::new(Kinematics::new(icrs), path.start());
+            let options = DriveOptions { estimate, ..DriveOptions::default() };
+            let (tracker, model) = (Tracker::default(), Kinematics::new(model));
+            let journey = drive(&mut robot, &path, &tracker, &model, &options, &|share| {
+                assert!((0.0..=1.0).contains(&share));
+            });
+            let journey = journey.expect("valid options");
+            assert_eq!(journey.ending, Ending::Arrived, "case {case}: {path:?} {icrs:?} {model:?}");
+            let end = journey.summary(&path, tracker.point).end_distance;
+            // Offsets decay as e^(−s/L), with constants that turn too little more slowly; the last
+            // leg is ten look-aheads long, and the end is reached within a millimetre.
+            assert!(end < 2e-3, "case {case}: {end} m from the end");
+        }
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! - [`schedules`]: track speeds over time: driven by hand, designed, or from a file.
 //! - [`sensors`]: what encoders, a pose sensor and an IMU report of a motion.
+//! - [`rolling`]: a robot of constant ICRs, the simplest one.
 //! - [`truth`]: the motion itself, as a table beside a recording.
 //! - [`path`]: a way over the ground.
 //! - [`tracking`]: a path tracker on the inverse kinematics, and how far the robot strays.
@@ -14,6 +15,7 @@ mod error;
 mod odometer;
 pub mod path;
 mod random;
+pub mod rolling;
 pub mod schedules;
 pub mod sensors;
 pub mod tracking;
@@ -21,6 +23,7 @@ pub mod truth;
 
 pub use error::Error;
 pub use path::Path;
+pub use rolling::Rolling;
 pub use schedules::{ScheduleKind, ScheduleOptions, ScheduledRun};
 pub use sensors::Sensors;
 pub use tracking::{Ending, Journey, Steering, Tracker, drive};

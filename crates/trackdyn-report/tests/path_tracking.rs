@@ -1,8 +1,7 @@
 //! The figure of drives along a path as its readers get it.
 
-use trackdyn_core::{Moment, PerSide, Plant, Pose, Stopped, Trajectory, Twist, frames};
 use trackdyn_field::tracking::{DriveOptions, Estimate};
-use trackdyn_field::{Journey, Path, Tracker, drive};
+use trackdyn_field::{Journey, Path, Rolling, Tracker, drive};
 use trackdyn_motion::{Icrs, Kinematics};
 use trackdyn_report::{TrackedDrive, path_tracking};
 
@@ -11,27 +10,8 @@ const SIZE: [usize; 2] = [2400, 1350];
 const MARGIN: usize = 20;
 const AURIGA: Icrs = Icrs { x_left: -0.375, x_right: 0.457, y: 0.0492 };
 
-/// A robot that does what its ICRs say.
-struct Rolling(Moment);
-
-impl Plant for Rolling {
-    fn moment(&self) -> Moment {
-        self.0
-    }
-
-    fn drive(&mut self, v: PerSide<f64>, until: f64, to: &mut Trajectory) -> Result<(), Stopped> {
-        let twist = frames::ros_twist_from_paper(&Kinematics::new(AURIGA).twist(v));
-        let pose = self.0.pose.compose(&Pose::exp(&twist, until - self.0.t));
-        self.0 = Moment { t: until, pose, twist, belt_speed: v };
-        to.push(self.0);
-        Ok(())
-    }
-}
-
 fn journey(path: &Path, model: Kinematics, options: &DriveOptions) -> Journey {
-    let twist = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
-    let pose = path.start();
-    let mut robot = Rolling(Moment { t: 0.0, pose, twist, belt_speed: PerSide::default() });
+    let mut robot = Rolling::new(Kinematics::new(AURIGA), path.start());
     drive(&mut robot, path, &Tracker::default(), &model, options, &|_| ()).expect("valid")
 }
 

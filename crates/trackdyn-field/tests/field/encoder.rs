@@ -1,6 +1,6 @@
 //! What encoders show.
 
-use crate::plant::Rolling;
+use crate::plant::auriga;
 use trackdyn_core::{Command, PerSide, Plant, Schedule, Trajectory};
 use trackdyn_field::sensors::{Encoder, Preset, StampAt};
 use trackdyn_field::{ScheduleKind, ScheduleOptions, Sensors};
@@ -10,7 +10,7 @@ use trackdyn_recording::hold::travelled;
 fn manual() -> Trajectory {
     let options = ScheduleOptions { runs: Some(1), ..ScheduleOptions::default() };
     let runs = ScheduleKind::Manual.generate(&options).expect("valid");
-    Rolling::auriga().follow(&runs[0].schedule).expect("it rolls")
+    auriga().follow(&runs[0].schedule).expect("it rolls")
 }
 
 /// Readings of perfect sensors with this encoder.
@@ -23,7 +23,7 @@ fn readings(trajectory: &Trajectory, encoder: Encoder, seed: u64) -> Vec<TrackSa
 fn perfect_readings_are_the_commands() {
     let options = ScheduleOptions { runs: Some(1), ..ScheduleOptions::default() };
     let runs = ScheduleKind::Designed.generate(&options).expect("valid");
-    let trajectory = Rolling::auriga().follow(&runs[0].schedule).expect("it rolls");
+    let trajectory = auriga().follow(&runs[0].schedule).expect("it rolls");
     let seen = readings(&trajectory, Preset::Perfect.sensors().encoder, 0);
     for (sample, command) in seen.iter().zip(runs[0].schedule.commands()) {
         assert!((sample.t - command.t).abs() < 1e-9);
@@ -63,7 +63,7 @@ fn quantisation_has_mean_zero_and_the_variance_of_its_law() {
         let held = PerSide::new(speed, speed);
         let commands = [0.0, 0.6].map(|t| Command { t, speeds: held });
         let schedule = Schedule::new(commands.to_vec()).expect("a schedule");
-        let trajectory = Rolling::auriga().follow(&schedule).expect("it rolls");
+        let trajectory = auriga().follow(&schedule).expect("it rolls");
         let (mut sum, mut squares, mut count) = (0.0, 0.0, 0.0);
         for seed in 0..20_000 {
             // one reading per phase: readings of one run share theirs

@@ -1,6 +1,6 @@
 //! What an IMU reports.
 
-use crate::plant::Rolling;
+use crate::plant::auriga;
 use trackdyn_core::{Command, PerSide, Plant, Schedule};
 use trackdyn_field::Sensors;
 use trackdyn_field::sensors::{Imu, Preset};
@@ -10,7 +10,7 @@ fn circling(imu: Imu, run: i64) -> Vec<ImuSample> {
     let speeds = PerSide::new(0.2, 0.8);
     let commands = [0.0, 20.0].map(|t| Command { t, speeds });
     let schedule = Schedule::new(commands.to_vec()).expect("a schedule");
-    let trajectory = Rolling::auriga().follow(&schedule).expect("it rolls");
+    let trajectory = auriga().follow(&schedule).expect("it rolls");
     let sensors = Sensors { imu: Some(imu), ..Preset::Perfect.sensors() };
     sensors.observe(run, &trajectory, 2).expect("a motion").imu.samples
 }

@@ -1,6 +1,6 @@
 //! What a pose sensor reports, and its clock.
 
-use crate::plant::{AURIGA, Rolling};
+use crate::plant::{AURIGA, auriga};
 use trackdyn_core::{Plant, Pose, Trajectory};
 use trackdyn_field::sensors::{
     Dropout, Encoder, Mount, Outlier, PoseFrame, PoseSensor, Preset, StampAt, Walk, White,
@@ -14,9 +14,7 @@ use trackdyn_recording::{PoseSample, Recording};
 fn designed() -> Vec<(i64, Trajectory)> {
     let options = ScheduleOptions::default();
     let runs = ScheduleKind::Designed.generate(&options).expect("valid");
-    runs.iter()
-        .map(|run| (run.id, Rolling::auriga().follow(&run.schedule).expect("it rolls")))
-        .collect()
+    runs.iter().map(|run| (run.id, auriga().follow(&run.schedule).expect("it rolls"))).collect()
 }
 
 fn record(sensors: &Sensors, runs: &[(i64, Trajectory)], seed: u64) -> Recording {

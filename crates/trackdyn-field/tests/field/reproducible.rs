@@ -1,6 +1,6 @@
 //! The same seed gives the same bytes.
 
-use crate::plant::Rolling;
+use crate::plant::auriga;
 use trackdyn_core::{Plant, Trajectory};
 use trackdyn_field::sensors::{Outlier, PoseSensor, Preset};
 use trackdyn_field::{ScheduleKind, ScheduleOptions, Sensors, schedules, truth};
@@ -9,9 +9,7 @@ use trackdyn_recording::folder;
 fn driven() -> Vec<(i64, Trajectory)> {
     let options = ScheduleOptions { runs: Some(3), ..ScheduleOptions::default() };
     let runs = ScheduleKind::Manual.generate(&options).expect("valid");
-    runs.iter()
-        .map(|run| (run.id, Rolling::auriga().follow(&run.schedule).expect("it rolls")))
-        .collect()
+    runs.iter().map(|run| (run.id, auriga().follow(&run.schedule).expect("it rolls"))).collect()
 }
 
 /// Bytes of all tables of a recording.

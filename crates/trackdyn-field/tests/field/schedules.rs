@@ -4,7 +4,7 @@ use trackdyn_core::{PerSide, Plant, Schedule};
 use trackdyn_field::schedules::{load, read, text, write};
 use trackdyn_field::{ScheduleKind, ScheduleOptions, ScheduledRun};
 
-use crate::plant::Rolling;
+use crate::plant::auriga;
 
 fn generated(kind: ScheduleKind, options: &ScheduleOptions) -> Vec<ScheduledRun> {
     kind.generate(options).expect("valid options")
@@ -58,7 +58,7 @@ fn manual_paths_are_nine_of_twenty_metres_and_all_different() {
         assert!((length - 20.0).abs() < 0.5, "{length} m");
         assert!((25.0..90.0).contains(&run.schedule.duration()), "{}", run.schedule.duration());
         assert!(runs[..index].iter().all(|other| other.schedule != run.schedule));
-        let trajectory = Rolling::auriga().follow(&run.schedule).expect("it rolls");
+        let trajectory = auriga().follow(&run.schedule).expect("it rolls");
         for pair in trajectory.moments().windows(2) {
             let turn = pair[1].pose.yaw - pair[0].pose.yaw;
             turned[usize::from(turn > 0.0)] += turn.abs();
@@ -113,7 +113,7 @@ fn squares_close_on_a_robot_of_these_icrs() {
     // a side that is no multiple of any command
     let options = ScheduleOptions { icr_distance, side: 2.345, ..ScheduleOptions::default() };
     for run in generated(ScheduleKind::Square, &options) {
-        let trajectory = Rolling::auriga().follow(&run.schedule).expect("it rolls");
+        let trajectory = auriga().follow(&run.schedule).expect("it rolls");
         let end = trajectory.moments().last().expect("moments").pose;
         let turn = if run.id == 0 { 1.0 } else { -1.0 };
         // exact but for the microsecond in which the robot of the test changes speed

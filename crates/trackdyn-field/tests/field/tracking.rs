@@ -1,11 +1,11 @@
 //! The path tracker, with right and wrong kinematics.
 
-use crate::plant::{AURIGA, Rolling};
+use crate::plant::{AURIGA, auriga};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use trackdyn_core::{PerSide, Plant, Pose};
+use trackdyn_core::{Moment, PerSide, Plant, Pose, Stopped, Trajectory};
 use trackdyn_field::tracking::{DriveOptions, Ending, Estimate, Summary};
-use trackdyn_field::{Journey, Path, Tracker, drive};
+use trackdyn_field::{Journey, Path, Rolling, Tracker, drive};
 use trackdyn_motion::{Icrs, Kinematics};
 
 /// Distance between the track centre-lines of Auriga-alpha, m.
@@ -193,17 +193,31 @@ fn commands_keep_the_limits_and_can_be_driven_again() {
     assert_eq!(table.lines().count(), journey.cross_track.len() + 1);
 }
 
+/// A robot that loses a track after two seconds.
+struct Breaking(Rolling);
+
+impl Plant for Breaking {
+    fn moment(&self) -> Moment {
+        self.0.moment()
+    }
+
+    fn drive(&mut self, v: PerSide<f64>, until: f64, to: &mut Trajectory) -> Result<(), Stopped> {
+        if until > 2.0 {
+            return Err(Stopped { t: self.moment().t, reason: "a track is off".to_owned() });
+        }
+        self.0.drive(v, until, to)
+    }
+}
+
 #[test]
 fn drives_that_end_early_say_so() {
     let line = Path::new(vec![[0.0, 0.0], [6.0, 0.0]]).expect("a path");
     let model = Kinematics::new(AURIGA);
     let options = DriveOptions { time_limit: Some(3.0), ..DriveOptions::default() };
-    let journey =
-        drive(&mut Rolling::auriga(), &line, &Tracker::default(), &model, &options, &|_| ());
+    let journey = drive(&mut auriga(), &line, &Tracker::default(), &model, &options, &|_| ());
     assert_eq!(journey.expect("valid").ending, Ending::OutOfTime);
 
-    let mut robot = Rolling::auriga();
-    robot.breaks_down = 2.0;
+    let mut robot = Breaking(auriga());
     let journey =
         drive(&mut robot, &line, &Tracker::default(), &model, &DriveOptions::default(), &|_| ());
     let journey = journey.expect("valid");

@@ -4,8 +4,9 @@ use crate::plant::{AURIGA, auriga};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use trackdyn_core::{Moment, PerSide, Plant, Pose, Stopped, Trajectory};
-use trackdyn_field::tracking::{DriveOptions, Ending, Estimate, Summary};
+use trackdyn_field::tracking::{DriveOptions, Ending, Estimate, Steering, Summary};
 use trackdyn_field::{Journey, Path, Rolling, Tracker, drive};
+use trackdyn_motion::kinematics::{KinematicsFile, Source};
 use trackdyn_motion::{Icrs, Kinematics};
 
 /// Distance between the track centre-lines of Auriga-alpha, m.
@@ -135,6 +136,23 @@ fn the_ideal_drive_circles_wide_by_what_geometry_says() {
     for offset in offsets {
         assert!((offset + low - radius).abs() < 1e-3, "{offset} instead of {}", radius - low);
     }
+}
+
+#[test]
+fn a_kinematics_file_steers_as_its_constants_do() {
+    let kinematics = Kinematics { icrs: AURIGA, alpha: PerSide::new(0.98, 1.01) };
+    let file = KinematicsFile::of_fit(&kinematics, GAUGE, true, Vec::new(), Source::default());
+    let square = Path::square(2.0, false, 1).expect("a square");
+    let of = |steering: &dyn Steering| {
+        let mut robot = Rolling::new(kinematics, Pose::default());
+        let estimate = Estimate::Odometry;
+        let options = DriveOptions { estimate, alpha: kinematics.alpha, time_limit: None };
+        let tracker = Tracker::default();
+        drive(&mut robot, &square, &tracker, steering, &options, &|_| ()).expect("valid")
+    };
+    let (by_file, by_constants) = (of(&file), of(&kinematics));
+    assert_eq!(by_file.ending, Ending::Arrived);
+    assert_eq!(by_file.commands, by_constants.commands);
 }
 
 #[test]

@@ -11,9 +11,16 @@ const ALLOWED: [(&str, &[&str]); 10] = [
     ("trackdyn-motion", &["trackdyn-core", "trackdyn-physics"]),
     ("trackdyn-identify", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
     ("trackdyn-odometry", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
+    ("trackdyn-field", &["trackdyn-core", "trackdyn-motion", "trackdyn-recording"]),
     (
         "trackdyn-report",
-        &["trackdyn-core", "trackdyn-physics", "trackdyn-motion", "trackdyn-odometry"],
+        &[
+            "trackdyn-core",
+            "trackdyn-physics",
+            "trackdyn-motion",
+            "trackdyn-odometry",
+            "trackdyn-field",
+        ],
     ),
     ("trackdyn-export", &["trackdyn-core", "trackdyn-motion"]),
     (
@@ -25,6 +32,7 @@ const ALLOWED: [(&str, &[&str]); 10] = [
             "trackdyn-recording",
             "trackdyn-identify",
             "trackdyn-odometry",
+            "trackdyn-field",
             "trackdyn-report",
             "trackdyn-export",
         ],

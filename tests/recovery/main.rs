@@ -1,6 +1,7 @@
 //! Parameters that were put into a recording come out of it.
 
 mod coverage;
+mod manual;
 mod methods;
 mod steady;
 

@@ -7,6 +7,7 @@
 //! - [`clock`]: how late the poses are against the encoders.
 //! - [`noise`]: how noisy poses and encoders are, from the recording itself.
 //! - [`synthetic`]: recordings with known truth.
+//! - [`table`]: CSV tables, for other readers of columns of numbers.
 //!
 //! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
 
@@ -22,7 +23,7 @@ mod robust;
 pub mod rosbag;
 pub mod segment;
 pub mod synthetic;
-mod table;
+pub mod table;
 pub mod tum;
 
 pub use error::Error;

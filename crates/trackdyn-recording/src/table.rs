@@ -6,7 +6,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 /// A table that is being read, one row at a time.
-pub(crate) struct Table {
+pub struct Table {
     path: PathBuf,
     reader: Reader<File>,
     header: Vec<String>,
@@ -18,7 +18,7 @@ impl Table {
     ///
     /// # Errors
     /// [`Error::Unreadable`]; [`Error::Header`] when a name stands there twice or `required` lacks.
-    pub(crate) fn open(path: &Path, required: &[&str]) -> Result<Self, Error> {
+    pub fn open(path: &Path, required: &[&str]) -> Result<Self, Error> {
         let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
         let mut reader = ReaderBuilder::new().buffer_capacity(1 << 18).from_reader(file);
         let header = reader.byte_headers().map_err(|error| csv_error(path, error))?;
@@ -37,12 +37,12 @@ impl Table {
     }
 
     /// Names of the columns.
-    pub(crate) fn header(&self) -> &[String] {
+    pub fn header(&self) -> &[String] {
         &self.header
     }
 
     /// Place of a column.
-    pub(crate) fn column(&self, name: &str) -> Option<usize> {
+    pub fn column(&self, name: &str) -> Option<usize> {
         self.header.iter().position(|column| column == name)
     }
 
@@ -50,12 +50,12 @@ impl Table {
     ///
     /// # Errors
     /// [`Error::Row`] where the number of cells is wrong, [`Error::Unreadable`].
-    pub(crate) fn advance(&mut self) -> Result<bool, Error> {
+    pub fn advance(&mut self) -> Result<bool, Error> {
         self.reader.read_byte_record(&mut self.row).map_err(|error| csv_error(&self.path, error))
     }
 
     /// The cell of the current row without the blanks around it.
-    pub(crate) fn cell(&self, column: usize) -> &[u8] {
+    pub fn cell(&self, column: usize) -> &[u8] {
         self.row.get(column).unwrap_or_default().trim_ascii()
     }
 
@@ -63,7 +63,7 @@ impl Table {
     ///
     /// # Errors
     /// [`Error::Cell`].
-    pub(crate) fn number(&self, column: usize) -> Result<f64, Error> {
+    pub fn number(&self, column: usize) -> Result<f64, Error> {
         number(self.cell(column)).ok_or_else(|| self.cell_error(column, "a number"))
     }
 
@@ -71,7 +71,7 @@ impl Table {
     ///
     /// # Errors
     /// [`Error::Cell`].
-    pub(crate) fn finite(&self, column: usize) -> Result<f64, Error> {
+    pub fn finite(&self, column: usize) -> Result<f64, Error> {
         number(self.cell(column))
             .filter(|value| value.is_finite())
             .ok_or_else(|| self.cell_error(column, "a finite number"))
@@ -81,14 +81,15 @@ impl Table {
     ///
     /// # Errors
     /// [`Error::Cell`].
-    pub(crate) fn integer(&self, column: usize) -> Result<i64, Error> {
+    pub fn integer(&self, column: usize) -> Result<i64, Error> {
         std::str::from_utf8(self.cell(column))
             .ok()
             .and_then(|text| text.parse().ok())
             .ok_or_else(|| self.cell_error(column, "an integer"))
     }
 
-    fn cell_error(&self, column: usize, expected: &'static str) -> Error {
+    /// The error of a cell of the current row that is not accepted.
+    pub fn cell_error(&self, column: usize, expected: &'static str) -> Error {
         Error::Cell {
             path: self.path.clone(),
             line: self.row.position().map_or(0, csv::Position::line),

@@ -10,16 +10,21 @@
 //! - [`colour`]: colours and colour maps.
 //! - [`icr_map()`]: the figure of an ICR map.
 //! - [`odometry()`]: the figure of an odometry replay.
+//! - [`path_tracking()`]: the figure of drives along a path.
 
 pub mod brush;
 pub mod canvas;
 pub mod colour;
 mod error;
 mod icr_map;
+mod legend;
+mod look;
 mod odometry;
 pub mod panel;
+mod path_tracking;
 pub mod text;
 
 pub use error::Error;
 pub use icr_map::icr_map;
 pub use odometry::odometry;
+pub use path_tracking::{TrackedDrive, path_tracking};

@@ -2,17 +2,16 @@
 
 mod bars;
 mod growth;
-mod legend;
-mod look;
 mod paths;
 
 use crate::Error;
 use crate::canvas::{Area, Canvas};
 use crate::colour::GREY;
+use crate::legend;
 use crate::panel::ticks::number;
 use crate::text::{Horizontal, Style, Vertical};
-use trackdyn_odometry::Comparison;
 use trackdyn_odometry::comparison::SetErrors;
+use trackdyn_odometry::{Comparison, ParameterSet};
 
 const WIDTH: u16 = 2400;
 const HEIGHT: u16 = 1350;
@@ -44,7 +43,8 @@ struct Quantity {
 pub fn odometry(result: &Comparison, name: &str, caption: &str) -> Result<Vec<u8>, Error> {
     let mut canvas = Canvas::new(WIDTH, HEIGHT)?;
     heading(&mut canvas, result, name, caption);
-    legend::draw(&mut canvas, LEGEND, result);
+    let names = result.sets.iter().map(ParameterSet::name);
+    legend::draw(&mut canvas, LEGEND, "recorded", names);
     paths::draw(&mut canvas, PATHS, result)?;
     let position = Quantity {
         name: "Growth of the error of place",

@@ -24,6 +24,9 @@ pub const BELOW: i32 = 84;
 /// Distance from the title's baseline to the plot, pixels.
 const ABOVE: i32 = 16;
 
+/// What else is shown may leave the box of the main thing by this share of its size.
+const BEYOND: f64 = 0.6;
+
 /// A rectangle of the canvas with the ranges that it shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Panel {
@@ -56,6 +59,36 @@ impl Panel {
             [middle - per_pixel * pixels / 2.0, middle + per_pixel * pixels / 2.0]
         };
         Self { plot, x: around(x, width), y: around(y, height) }
+    }
+
+    /// The panel with equal scales that shows the main points, and further ones that are not too far
+    /// away.
+    pub fn around(
+        plot: Area,
+        main: impl IntoIterator<Item = [f64; 2]>,
+        further: impl IntoIterator<Item = [f64; 2]>,
+    ) -> Self {
+        let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        let take = |ranges: &mut [[f64; 2]; 2], k: usize, value: f64| {
+            ranges[k] = [ranges[k][0].min(value), ranges[k][1].max(value)];
+        };
+        for point in main {
+            take(&mut ranges, 0, point[0]);
+            take(&mut ranges, 1, point[1]);
+        }
+        let size = |ranges: &[[f64; 2]; 2]| {
+            ranges.iter().map(|[low, high]| high - low).fold(0.05, f64::max)
+        };
+        let beyond = BEYOND * size(&ranges);
+        let limits = ranges.map(|[low, high]| [low - beyond, high + beyond]);
+        for point in further {
+            for k in 0..2 {
+                take(&mut ranges, k, point[k].clamp(limits[k][0], limits[k][1]));
+            }
+        }
+        let room = 0.06 * size(&ranges);
+        let [x, y] = ranges.map(|[low, high]| [low - room, high + room]);
+        Self::equal_scale(plot, x, y)
     }
 
     /// Pixels per unit along x.

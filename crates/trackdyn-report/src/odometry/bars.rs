@@ -1,8 +1,9 @@
 //! Errors over segments, as bars.
 
-use super::{Quantity, look};
+use super::Quantity;
 use crate::canvas::{Area, Canvas};
 use crate::colour::{GREY, GRID, INK};
+use crate::look;
 use crate::panel::ticks::{Ticks, number};
 use crate::panel::{LABEL_SIZE, Panel, TICK_SIZE, TITLE_SIZE};
 use crate::text::{Horizontal, Style, Vertical};

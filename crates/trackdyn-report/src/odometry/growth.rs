@@ -1,8 +1,9 @@
 //! How errors grow with distance or time.
 
-use super::{Quantity, look};
+use super::Quantity;
 use crate::Error;
 use crate::canvas::{Area, Canvas};
+use crate::look;
 use crate::panel::{Labels, Panel};
 use trackdyn_odometry::comparison::SpanErrors;
 use trackdyn_odometry::{Comparison, Span};

@@ -1,10 +1,9 @@
-//! Which parameter set has which colour.
+//! Which entry of a figure has which colour.
 
-use super::look;
 use crate::canvas::{Area, Canvas};
 use crate::colour::INK;
+use crate::look;
 use crate::text::{Horizontal, Style, Vertical};
-use trackdyn_odometry::{Comparison, ParameterSet};
 
 const SIZE: f32 = 26.0;
 /// Length of a sample of a line, pixels.
@@ -16,11 +15,15 @@ const LINE: i32 = 40;
 /// Longest name, pixels.
 const LONGEST: i32 = 420;
 
-/// Draws an entry for the recorded path and one for each set, in one or two lines.
-pub(super) fn draw(canvas: &mut Canvas, area: Area, result: &Comparison) {
+/// Draws an entry for what the others are compared with and one for each of them, in one or two lines.
+pub(crate) fn draw<'a>(
+    canvas: &mut Canvas,
+    area: Area,
+    first: &'a str,
+    names: impl Iterator<Item = &'a str>,
+) {
     let mut at = [area.left, area.top + LINE / 2];
-    let names = std::iter::once("recorded").chain(result.sets.iter().map(ParameterSet::name));
-    for (entry, name) in names.enumerate() {
+    for (entry, name) in std::iter::once(first).chain(names).enumerate() {
         let name = canvas.fitted(name, SIZE, LONGEST);
         let width = SAMPLE + GAPS[0] + canvas.text_width(&name, SIZE);
         if at[0] + width > area.right() {
@@ -30,9 +33,9 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, result: &Comparison) {
         let right = left + f64::from(SAMPLE);
         match entry.checked_sub(1) {
             None => canvas.line([left, row], [right, row], 8.0, INK),
-            Some(set) => {
-                canvas.line([left, row], [right, row], 4.0, look::colour(set));
-                look::marker(canvas, set, [f64::midpoint(left, right), row]);
+            Some(entry) => {
+                canvas.line([left, row], [right, row], 4.0, look::colour(entry));
+                look::marker(canvas, entry, [f64::midpoint(left, right), row]);
             }
         }
         let style = Style::new(SIZE).anchor(Horizontal::Left, Vertical::Middle);

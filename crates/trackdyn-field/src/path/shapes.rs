@@ -1,0 +1,46 @@
+//! Paths of simple shape.
+
+use super::Path;
+use crate::{Error, real};
+use std::f64::consts::TAU;
+
+/// Pieces of a whole circle: its polyline lies within R (1 − cos(π/720)), 0.01 mm for 1 m.
+const PIECES: usize = 720;
+
+impl Path {
+    /// A square from the origin along x, with corners to the left (or right), driven `laps` times, m.
+    ///
+    /// # Errors
+    /// [`Error::Option`].
+    pub fn square(side: f64, to_the_left: bool, laps: usize) -> Result<Self, Error> {
+        check("side", side, laps)?;
+        let y = if to_the_left { side } else { -side };
+        let corners = [[0.0, 0.0], [side, 0.0], [side, y], [0.0, y]];
+        let points = corners.into_iter().cycle().take(4 * laps + 1).collect();
+        Self::new(points)
+    }
+
+    /// A circle from the origin along x, to the left (or right), driven `laps` times, m.
+    ///
+    /// # Errors
+    /// [`Error::Option`].
+    pub fn circle(radius: f64, to_the_left: bool, laps: usize) -> Result<Self, Error> {
+        check("radius", radius, laps)?;
+        let side = if to_the_left { 1.0 } else { -1.0 };
+        let point = |k: usize| {
+            let (sin, cos) = (real(k) / real(PIECES) * TAU).sin_cos();
+            [radius * sin, side * radius * (1.0 - cos)]
+        };
+        Self::new((0..=laps * PIECES).map(point).collect())
+    }
+}
+
+fn check(name: &'static str, size: f64, laps: usize) -> Result<(), Error> {
+    if !(size > 0.0 && size <= 1e5) {
+        return Err(Error::option(name, &size, "a positive length in m, at most 100000"));
+    }
+    if !(1..=1000).contains(&laps) {
+        return Err(Error::option("laps", &laps, "1 to 1000"));
+    }
+    Ok(())
+}

@@ -1,0 +1,43 @@
+//! Steady turns of Auriga-alpha, Martinez et al., IJRR 24(10), 2005, sec. 5: the ICRs that the paper prints to
+//! three digits, with the digits that an integration of eqs (14)-(15) gives for μ_x/μ_y = 9/7.
+
+use crate::turn::{Turn, auriga, distance};
+use trackdyn_core::Pose;
+use trackdyn_proof::Setup;
+
+const CASES: [([f64; 2], [f64; 3]); 2] =
+    [([0.0, 0.0], [-0.42233, 0.42233, 0.0]), ([-0.015, 0.04], [-0.37538, 0.45735, 0.04923])];
+
+/// Root mean square, over draws of the shoes, of the distance to the reference, m.
+fn error(cog: [f64; 2], reference: [f64; 3], strips: usize, shoes: usize) -> f64 {
+    let draws = 6;
+    let squares = (0..draws).map(|seed| {
+        let setup = Setup { strips, shoes, seed, ..Setup::default() };
+        let vehicle = auriga(cog);
+        let turn = Turn {
+            vehicle: &vehicle,
+            active: &[],
+            setup: &setup,
+            speeds: (-0.3, 0.5),
+            target: Pose::default(),
+        };
+        distance(turn.icrs(), reference).powi(2)
+    });
+    (squares.sum::<f64>() / draws as f64).sqrt()
+}
+
+#[test]
+fn icrs_are_the_published_ones_and_come_closer_with_more_shoes() {
+    for (cog, reference) in CASES {
+        let grids = [(2, 7), (4, 14), (8, 28), (16, 56)];
+        let errors = grids.map(|(strips, shoes)| error(cog, reference, strips, shoes));
+        println!("CoG {cog:?}: {errors:.6?} m with {grids:?} strips and shoes");
+        // each shoe acts at its middle: the error falls with the square of its size, by 4 each time;
+        // the random cuts leave some of it
+        for pair in errors.windows(2) {
+            assert!(pair[1] < pair[0] / 2.0, "{errors:?}");
+        }
+        // by then a shoe is 9 mm by 13 mm
+        assert!(errors[3] < 1.2e-4, "{errors:?}");
+    }
+}

@@ -39,7 +39,7 @@ pub struct Gear {
 
 impl Gear {
     /// Cuts each contact of a vehicle into strips and shoes.
-    pub(crate) fn new(vehicle: &Vehicle, strips: usize, shoes: usize, seed: u64) -> Self {
+    pub(crate) fn new(vehicle: &Vehicle, strips: u32, shoes: u32, seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut gear = Self { strips: PerSide::default(), shoes: PerSide::default() };
         for side in Side::BOTH {
@@ -52,9 +52,9 @@ impl Gear {
                         x: left + width / 2.0,
                         width,
                         extent: [rear, front],
-                        pitch: (front - rear) / shoes as f64,
+                        pitch: (front - rear) / f64::from(shoes),
                         phase: random.random(),
-                        shoes: first..first + shoes + 1,
+                        shoes: first..first + shoes as usize + 1,
                     };
                     gear.shoes[side].resize(strip.shoes.end, Shoe::default());
                     gear.strips[side].push(strip);
@@ -129,11 +129,11 @@ fn contacts(gear: &RunningGear) -> Vec<([f64; 2], f64)> {
 }
 
 /// Parts of a width, each cut drawn from the middle half of its even place.
-fn partition(width: f64, parts: usize, random: &mut ChaCha8Rng) -> Vec<f64> {
+fn partition(width: f64, parts: u32, random: &mut ChaCha8Rng) -> Vec<f64> {
     let mut cuts = vec![0.0];
-    cuts.extend((1..parts).map(|k| k as f64 - 0.25 + 0.5 * random.random::<f64>()));
-    cuts.push(parts as f64);
-    cuts.windows(2).map(|pair| (pair[1] - pair[0]) * width / parts as f64).collect()
+    cuts.extend((1..parts).map(|k| f64::from(k) - 0.25 + 0.5 * random.random::<f64>()));
+    cuts.push(f64::from(parts));
+    cuts.windows(2).map(|pair| (pair[1] - pair[0]) * width / f64::from(parts)).collect()
 }
 
 #[cfg(test)]

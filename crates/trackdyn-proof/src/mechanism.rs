@@ -45,8 +45,8 @@ pub trait Mechanism: std::fmt::Debug + Send + Sync {
     /// Takes note of a step.
     fn advance(&mut self, _step: &Step) {}
 
-    /// What the pose sensor reports of a moment.
-    fn sense(&self, _moment: &mut Moment) {}
+    /// What the pose sensor reports of a motion: stamps, poses and twists.
+    fn sense(&self, _moments: &mut [Moment]) {}
 }
 
 /// A mechanism with its description.
@@ -92,9 +92,9 @@ pub struct Load {
 pub struct Scene<'a> {
     /// The machine.
     pub vehicle: &'a Vehicle,
-    /// Time at the end of the step, s.
+    /// Time in the middle of the step, s.
     pub t: f64,
-    /// Pose in the world, REP-103.
+    /// Pose in the world, REP-103, extrapolated to the middle of the step.
     pub pose: Pose,
     /// Twist in the paper's frame.
     pub twist: Twist,
@@ -153,7 +153,7 @@ pub struct Contact<'a> {
     /// Deflection over its elastic range: the slip direction where the shoe slides, shorter where it
     /// sticks.
     pub deflection: [f64; 2],
-    /// Way that it has slid since it came to the ground, m.
+    /// Way that it has slid since it came to the ground, until the middle of the step, m.
     pub slid: f64,
     /// Load on it, N.
     pub load: f64,

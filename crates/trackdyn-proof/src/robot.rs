@@ -110,12 +110,12 @@ impl Robot {
     /// # Panics
     /// Where mechanisms reorder the stamps; none here does.
     pub fn report(&self, truth: &Trajectory) -> Trajectory {
+        let mut moments = truth.moments().to_vec();
+        for mechanism in &self.mechanisms {
+            mechanism.sense(&mut moments);
+        }
         let mut reported = Trajectory::default();
-        for moment in truth.moments() {
-            let mut moment = *moment;
-            for mechanism in &self.mechanisms {
-                mechanism.sense(&mut moment);
-            }
+        for moment in moments {
             reported.push(moment);
         }
         reported
@@ -132,10 +132,11 @@ impl Robot {
     /// Takes a step of `dt`, or none and says why not; gives the change of speed, m/s.
     fn advance(&mut self, dt: f64) -> Result<f64, String> {
         let level = Gravity { along: [0.0, 0.0], normal: STANDARD_GRAVITY };
+        let way = Pose::exp(&frames::ros_twist_from_paper(&self.twist), dt / 2.0);
         let mut scene = Scene {
             vehicle: &self.vehicle,
-            t: self.t + dt,
-            pose: self.pose,
+            t: self.t + dt / 2.0,
+            pose: self.pose.compose(&way),
             twist: self.twist,
             encoder: self.encoder,
             belt: self.belt,
@@ -169,7 +170,7 @@ impl Robot {
                 return Err(format!("the {side:?} side lifts and the robot tips over"));
             }
             scene.weight[side] = weight;
-            self.trial.roll(side, belt[side] * dt);
+            self.trial.roll(side, belt[side] * dt / 2.0);
             self.trial.bear(side, weight, load.along[side], |y, extent| {
                 let mut stiffness = 1.0;
                 for mechanism in &self.mechanisms {
@@ -187,6 +188,9 @@ impl Robot {
         };
         let twist = self.newton.solve(&balance, &self.trial)?;
         let outcome = balance.settle(&mut self.trial, &twist);
+        for side in Side::BOTH {
+            self.trial.roll(side, belt[side] * dt / 2.0);
+        }
         let step = Step {
             scene: &scene,
             dt,

@@ -42,8 +42,8 @@ impl Strip {
             shoes[shoes.len() - 1] = Shoe::default();
         }
         let [rear, front] = self.extent;
-        for (k, shoe) in shoes.iter_mut().enumerate() {
-            let back = front - (k as f64 + self.phase) * self.pitch;
+        for (k, shoe) in (0_u32..).zip(shoes) {
+            let back = front - (f64::from(k) + self.phase) * self.pitch;
             let (back, ahead) = (back.max(rear), (back + self.pitch).min(front));
             shoe.position = [self.x, f64::midpoint(back, ahead)];
             shoe.area = self.width * (ahead - back).max(0.0);

@@ -21,10 +21,11 @@ impl Described for BeltSlip {
     const SHEET: Sheet = Sheet {
         id: "belt-slip",
         origin: Origin::Catalogue,
-        law: "V = V_shown (1 − q), q' = (λ x √(|x|/0.3) − q)/0.02 s, x = traction over load, in the belt's direction",
+        law: "V = V_shown (1 − q), q' = (λ x √(|x|/0.3) − q)/0.02 s, x = traction over load, in \
+              the belt's direction",
         size: "equal to the linear V_shown (1 − λ x) at a traction of 0.3 of the load",
-        breaks: &[Invariance::Manoeuvre],
-        parameters: &[Parameter { key: "slip", unit: "1", range: [0.0, 0.9], typical: 0.2 },],
+        breaks: &[Invariance::Manoeuvre, Invariance::Transient],
+        parameters: &[Parameter { key: "slip", unit: "1", range: [0.0, 0.9], typical: 0.1 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -16,8 +16,11 @@ impl Described for BrushedGround {
         origin: Origin::Outside,
         law: "μ (1 + a sin² φ), φ between slip and grain",
         size: "a field broom's texture gives 10 to 40 % more across than along",
-        breaks: &[Invariance::Manoeuvre, Invariance::Mirror, Invariance::Heading],
-        parameters: &[Parameter { key: "excess", unit: "1", range: [-0.9, 5.0], typical: 0.3 },Parameter { key: "grain_deg", unit: "deg", range: [-360.0, 360.0], typical: 0.0 },],
+        breaks: &[Invariance::Mirror, Invariance::Heading],
+        parameters: &[
+            Parameter { key: "excess", unit: "1", range: [-0.9, 5.0], typical: 0.3 },
+            Parameter { key: "grain_deg", unit: "deg", range: [-360.0, 360.0], typical: 0.0 },
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -14,9 +14,10 @@ impl Described for Bulldozing {
         id: "bulldozing",
         origin: Origin::Catalogue,
         law: "F_x = −c N tanh(20 z_x/z₀)",
-        size: "the law −c N sign(s_x), with a wedge that changes sides while the slip turns through ±3°",
+        size: "the law −c N sign(s_x), with a wedge that changes sides while the slip turns \
+               through ±3°",
         breaks: &[],
-        parameters: &[Parameter { key: "coefficient", unit: "1", range: [0.0, 2.0], typical: 0.1 },],
+        parameters: &[Parameter { key: "coefficient", unit: "1", range: [0.0, 2.0], typical: 0.1 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -16,7 +16,7 @@ impl Described for Centripetal {
         law: "m k ω × v",
         size: "the same",
         breaks: &[Invariance::SpeedScale, Invariance::Reversal, Invariance::Manoeuvre],
-        parameters: &[Parameter { key: "strength", unit: "1", range: [0.0, 10.0], typical: 1.0 },],
+        parameters: &[Parameter { key: "strength", unit: "1", range: [0.0, 10.0], typical: 1.0 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -17,7 +17,10 @@ impl Described for CogShift {
         law: "(x_c, y_c) + (x, y)",
         size: "the same: the weight and the inertia move together",
         breaks: &[Invariance::Mirror],
-        parameters: &[Parameter { key: "x_m", unit: "m", range: [-2.0, 2.0], typical: 0.02 },Parameter { key: "y_m", unit: "m", range: [-2.0, 2.0], typical: 0.03 },],
+        parameters: &[
+            Parameter { key: "x_m", unit: "m", range: [-2.0, 2.0], typical: 0.02 },
+            Parameter { key: "y_m", unit: "m", range: [-2.0, 2.0], typical: 0.03 },
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {

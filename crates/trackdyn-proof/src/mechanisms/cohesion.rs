@@ -16,7 +16,12 @@ impl Described for Cohesion {
         law: "F = −c A z/z₀ beside friction",
         size: "the same; adhesion has the elastic range of friction",
         breaks: &[],
-        parameters: &[Parameter { key: "adhesion_Pa", unit: "Pa", range: [0.0, 100000.0], typical: 2000.0 },],
+        parameters: &[Parameter {
+            key: "adhesion_Pa",
+            unit: "Pa",
+            range: [0.0, 1e5],
+            typical: 2000.0,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -14,9 +14,10 @@ impl Described for DirectionalLugs {
         id: "directional-lugs",
         origin: Origin::Catalogue,
         law: "μ_y (1 + d z_y/z₀)",
-        size: "equal to μ_y (1 + d sign(s_y)) where the slip is along the track; in between it follows its cosine",
+        size: "equal to μ_y (1 + d sign(s_y)) where the slip is along the track; in between it \
+               follows its cosine",
         breaks: &[Invariance::Reversal],
-        parameters: &[Parameter { key: "excess", unit: "1", range: [-0.9, 0.9], typical: 0.05 },],
+        parameters: &[Parameter { key: "excess", unit: "1", range: [-0.9, 0.9], typical: 0.05 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -18,7 +18,7 @@ impl Described for DriveBacklash {
         law: "V = 0 while the encoder's way is inside the play, else V_shown",
         size: "a worn final drive; nothing shows until the sense changes",
         breaks: &[Invariance::Transient],
-        parameters: &[Parameter { key: "play_m", unit: "m", range: [0.0, 0.2], typical: 0.01 },],
+        parameters: &[Parameter { key: "play_m", unit: "m", range: [0.0, 0.2], typical: 0.01 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -19,7 +19,12 @@ impl Described for DrivetrainLag {
         law: "u' = (V_shown − u)/(T/2), V' = (u − V)/(T/2)",
         size: "two lags of T/2 delay a ramp by T, as one lag of T does",
         breaks: &[Invariance::Transient],
-        parameters: &[Parameter { key: "time_constant_s", unit: "s", range: [0.001, 10.0], typical: 0.15 },],
+        parameters: &[Parameter {
+            key: "time_constant_s",
+            unit: "s",
+            range: [0.001, 10.0],
+            typical: 0.15,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -2,7 +2,7 @@
 
 use crate::mechanism::{Described, Mechanism, Scene};
 use crate::sheet::{Invariance, Origin, Parameter, Sheet};
-use trackdyn_core::{PerSide};
+use trackdyn_core::PerSide;
 
 /// Wrong sprocket radii, eqs (20)-(21) of Martinez et al. 2005.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +17,10 @@ impl Described for EncoderScale {
         law: "V = α V_shown",
         size: "the same",
         breaks: &[Invariance::Manoeuvre, Invariance::Mirror, Invariance::Straight],
-        parameters: &[Parameter { key: "left", unit: "1", range: [0.5, 2.0], typical: 1.03 },Parameter { key: "right", unit: "1", range: [0.5, 2.0], typical: 0.97 },],
+        parameters: &[
+            Parameter { key: "left", unit: "1", range: [0.5, 2.0], typical: 1.03 },
+            Parameter { key: "right", unit: "1", range: [0.5, 2.0], typical: 0.97 },
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -16,7 +16,7 @@ impl Described for FrictionAnisotropy {
         law: "μ_x √f, μ_y/√f",
         size: "the same: f multiplies μ_x/μ_y",
         breaks: &[],
-        parameters: &[Parameter { key: "ratio", unit: "1", range: [0.2, 5.0], typical: 1.2 },],
+        parameters: &[Parameter { key: "ratio", unit: "1", range: [0.2, 5.0], typical: 1.2 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -19,7 +19,12 @@ impl Described for FrictionDrift {
         law: "f = 1 + r T (1 − exp(−t/T)), T = 120 s, on μ_x/μ_y",
         size: "starts as 1 + r t does, and ends at 1 + r T",
         breaks: &[Invariance::Time],
-        parameters: &[Parameter { key: "rate_1_per_s", unit: "1/s", range: [-0.005, 0.005], typical: 0.001 },],
+        parameters: &[Parameter {
+            key: "rate_1_per_s",
+            unit: "1/s",
+            range: [-0.005, 0.005],
+            typical: 0.001,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -16,7 +16,7 @@ impl Described for FrictionGradient {
         law: "μ (1 + (2/3) γ tanh(5 η)), η = y over the half length",
         size: "a step of 2/3 γ has the first moment along y of the linear law 1 + γ η",
         breaks: &[],
-        parameters: &[Parameter { key: "gradient", unit: "1", range: [-0.9, 0.9], typical: 0.1 },],
+        parameters: &[Parameter { key: "gradient", unit: "1", range: [-0.9, 0.9], typical: 0.1 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

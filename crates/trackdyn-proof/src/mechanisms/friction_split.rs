@@ -16,7 +16,7 @@ impl Described for FrictionSplit {
         law: "μ_left (1 + δ), μ_right (1 − δ)",
         size: "the same",
         breaks: &[Invariance::Mirror],
-        parameters: &[Parameter { key: "split", unit: "1", range: [-0.9, 0.9], typical: 0.1 },],
+        parameters: &[Parameter { key: "split", unit: "1", range: [-0.9, 0.9], typical: 0.1 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

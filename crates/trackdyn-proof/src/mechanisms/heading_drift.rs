@@ -2,9 +2,9 @@
 
 use crate::mechanism::{Described, Mechanism};
 use crate::sheet::{Invariance, Origin, Parameter, Sheet};
-use trackdyn_core::{Moment, Twist};
+use trackdyn_core::{Moment, Pose, Twist};
 
-/// A gyro's offset in the reported yaw.
+/// The offset of the gyro from which a map is built: the way is laid on along the wrong heading.
 #[derive(Clone, Copy, Debug)]
 pub struct HeadingDrift {
     rate: f64,
@@ -14,10 +14,21 @@ impl Described for HeadingDrift {
     const SHEET: Sheet = Sheet {
         id: "heading-drift",
         origin: Origin::Catalogue,
-        law: "yaw_reported = yaw + r t",
+        law: "yaw_reported = yaw + r t, and the way from moment to moment in that heading",
         size: "the same",
-        breaks: &[Invariance::SpeedScale, Invariance::Reversal, Invariance::Mirror, Invariance::Straight],
-        parameters: &[Parameter { key: "rate_deg_per_s", unit: "deg/s", range: [-10.0, 10.0], typical: 0.3 },],
+        breaks: &[
+            Invariance::SpeedScale,
+            Invariance::Reversal,
+            Invariance::Manoeuvre,
+            Invariance::Mirror,
+            Invariance::Straight,
+        ],
+        parameters: &[Parameter {
+            key: "rate_deg_per_s",
+            unit: "deg/s",
+            range: [-10.0, 10.0],
+            typical: 0.3,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {
@@ -26,12 +37,17 @@ impl Described for HeadingDrift {
 }
 
 impl Mechanism for HeadingDrift {
-    fn sense(&self, moment: &mut Moment) {
-        let turned = self.rate * moment.t;
-        moment.pose.yaw += turned;
-        let Twist { v_x, v_y, w } = moment.twist;
-        let (sin, cos) = turned.sin_cos();
-        moment.twist =
-            Twist { v_x: cos * v_x + sin * v_y, v_y: cos * v_y - sin * v_x, w: w + self.rate };
+    fn sense(&self, moments: &mut [Moment]) {
+        let Some(first) = moments.first().copied() else { return };
+        let (mut t, mut true_pose, mut pose) = (first.t, first.pose, first.pose);
+        for moment in moments {
+            let way = true_pose.relative(&moment.pose);
+            let twist = way.log(1.0);
+            let turned = Twist { w: twist.w + self.rate * (moment.t - t), ..twist };
+            pose = pose.compose(&Pose::exp(&turned, 1.0));
+            (t, true_pose) = (moment.t, moment.pose);
+            moment.pose = pose;
+            moment.twist.w += self.rate;
+        }
     }
 }

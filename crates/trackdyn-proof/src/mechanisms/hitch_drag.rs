@@ -21,7 +21,10 @@ impl Described for HitchDrag {
         law: "F = −c W v/√(|v|² + v₀²) at the hitch, v₀ = 5 mm/s",
         size: "the same above 5 cm/s",
         breaks: &[Invariance::Manoeuvre],
-        parameters: &[Parameter { key: "coefficient", unit: "1", range: [0.0, 1.0], typical: 0.05 },Parameter { key: "distance_m", unit: "m", range: [0.0, 5.0], typical: 0.5 },],
+        parameters: &[
+            Parameter { key: "coefficient", unit: "1", range: [0.0, 1.0], typical: 0.05 },
+            Parameter { key: "distance_m", unit: "m", range: [0.0, 5.0], typical: 0.5 },
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -17,10 +17,17 @@ impl Described for LoadTransfer {
     const SHEET: Sheet = Sheet {
         id: "load-transfer",
         origin: Origin::Catalogue,
-        law: "q' = (h (g_along − a)/g_normal − q)/0.06 s, a = ω × v_cog; the load acts at the centre of gravity + q",
-        size: "in steady turns the same; the hull takes 0.06 s to lean, the period of a suspension of 2.7 Hz over 2π",
+        law: "q' = (h (g_along − a)/g_normal − q)/0.06 s, a = ω × v_cog; the load acts at the \
+              centre of gravity + q",
+        size: "in steady turns the same; the hull takes 0.06 s to lean, the period of a \
+               suspension of 2.7 Hz over 2π",
         breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
-        parameters: &[Parameter { key: "cog_height_m", unit: "m", range: [0.0, 5.0], typical: 0.3 },],
+        parameters: &[Parameter {
+            key: "cog_height_m",
+            unit: "m",
+            range: [0.0, 5.0],
+            typical: 0.3,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -25,7 +25,12 @@ impl Described for MotionResistance {
         law: "R = −c N V/√(V² + v₀²) on every shoe, v₀ = 2 mm/s",
         size: "the same above 2 cm/s; below, it comes up smoothly",
         breaks: &[Invariance::Manoeuvre],
-        parameters: &[Parameter { key: "coefficient", unit: "1", range: [0.0, 0.5], typical: 0.05 },],
+        parameters: &[Parameter {
+            key: "coefficient",
+            unit: "1",
+            range: [0.0, 0.5],
+            typical: 0.05,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -14,9 +14,15 @@ impl Described for PressureConcentration {
         id: "pressure-concentration",
         origin: Origin::Catalogue,
         law: "k(η) = 1 − κ + κ c(η) (1 + cos 4πη), c = 2 for the end rollers, else 1",
-        size: "the second moment of pressure along y exceeds the even one by 0.43 κ/(1 + κ/4); a U-shape 1 + κ_U (3 η² − 1)/2 exceeds it by 0.4 κ_U",
+        size: "the second moment of pressure along y exceeds the even one by 0.43 κ/(1 + κ/4); a \
+               U-shape 1 + κ_U (3 η² − 1)/2 exceeds it by 0.4 κ_U",
         breaks: &[],
-        parameters: &[Parameter { key: "concentration", unit: "1", range: [0.0, 0.95], typical: 0.5 },],
+        parameters: &[Parameter {
+            key: "concentration",
+            unit: "1",
+            range: [0.0, 0.95],
+            typical: 0.5,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

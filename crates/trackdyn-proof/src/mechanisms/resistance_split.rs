@@ -18,7 +18,12 @@ impl Described for ResistanceSplit {
         law: "c_left = +Δc/2, c_right = −Δc/2, as motion-resistance",
         size: "the same above 2 cm/s",
         breaks: &[Invariance::Manoeuvre, Invariance::Mirror],
-        parameters: &[Parameter { key: "difference", unit: "1", range: [-0.5, 0.5], typical: 0.05 },],
+        parameters: &[Parameter {
+            key: "difference",
+            unit: "1",
+            range: [-0.5, 0.5],
+            typical: 0.05,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -2,7 +2,7 @@
 
 use crate::mechanism::{Described, Mechanism};
 use crate::sheet::{Invariance, Origin, Parameter, Sheet};
-use trackdyn_core::{Moment, Pose, frames};
+use trackdyn_core::{Moment, Pose, Twist, frames};
 
 /// The reported pose is that of another point of the hull.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +17,10 @@ impl Described for SensorLeverArm {
         law: "world_from_sensor = world_from_body · (x, y)",
         size: "the same",
         breaks: &[Invariance::Mirror],
-        parameters: &[Parameter { key: "x_m", unit: "m", range: [-5.0, 5.0], typical: 0.1 },Parameter { key: "y_m", unit: "m", range: [-5.0, 5.0], typical: 0.2 },],
+        parameters: &[
+            Parameter { key: "x_m", unit: "m", range: [-5.0, 5.0], typical: 0.1 },
+            Parameter { key: "y_m", unit: "m", range: [-5.0, 5.0], typical: 0.2 },
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {
@@ -26,11 +29,12 @@ impl Described for SensorLeverArm {
 }
 
 impl Mechanism for SensorLeverArm {
-    fn sense(&self, moment: &mut Moment) {
+    fn sense(&self, moments: &mut [Moment]) {
         let [x, y] = frames::ros_from_paper(self.arm);
-        moment.pose = moment.pose.compose(&Pose::new(x, y, 0.0));
-        let [v_x, v_y] = moment.twist.velocity_at([x, y]);
-        moment.twist.v_x = v_x;
-        moment.twist.v_y = v_y;
+        for Moment { pose, twist, .. } in moments {
+            *pose = pose.compose(&Pose::new(x, y, 0.0));
+            let [v_x, v_y] = twist.velocity_at([x, y]);
+            *twist = Twist { v_x, v_y, w: twist.w };
+        }
     }
 }

@@ -17,7 +17,12 @@ impl Described for SensorYaw {
         law: "world_from_sensor = world_from_body · rotation(ψ)",
         size: "the same",
         breaks: &[Invariance::Manoeuvre, Invariance::Mirror, Invariance::Straight],
-        parameters: &[Parameter { key: "yaw_deg", unit: "deg", range: [-180.0, 180.0], typical: 2.0 },],
+        parameters: &[Parameter {
+            key: "yaw_deg",
+            unit: "deg",
+            range: [-180.0, 180.0],
+            typical: 2.0,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {
@@ -26,10 +31,12 @@ impl Described for SensorYaw {
 }
 
 impl Mechanism for SensorYaw {
-    fn sense(&self, moment: &mut Moment) {
-        moment.pose.yaw += self.yaw;
-        let Twist { v_x, v_y, w } = moment.twist;
+    fn sense(&self, moments: &mut [Moment]) {
         let (sin, cos) = self.yaw.sin_cos();
-        moment.twist = Twist { v_x: cos * v_x + sin * v_y, v_y: cos * v_y - sin * v_x, w };
+        for Moment { pose, twist, .. } in moments {
+            pose.yaw += self.yaw;
+            let Twist { v_x, v_y, w } = *twist;
+            *twist = Twist { v_x: cos * v_x + sin * v_y, v_y: cos * v_y - sin * v_x, w };
+        }
     }
 }

@@ -15,10 +15,15 @@ impl Described for SideWind {
     const SHEET: Sheet = Sheet {
         id: "side-wind",
         origin: Origin::Outside,
-        law: "F = F₀ (0.5 + 0.5 |cos β|) along the wind, β between the wind and the robot's x axis, at 0.1 m before the middle",
-        size: "constant in the world like slope, but with the heading's second harmonic and a moment",
+        law: "F = F₀ (0.5 + 0.5 |cos β|) along the wind, β between the wind and the robot's x \
+              axis, at 0.1 m before the middle",
+        size: "constant in the world like slope, but with the heading's second harmonic and a \
+               moment",
         breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading],
-        parameters: &[Parameter { key: "force_N", unit: "N", range: [0.0, 10000.0], typical: 80.0 },Parameter { key: "towards_deg", unit: "deg", range: [-360.0, 360.0], typical: 0.0 },],
+        parameters: &[
+            Parameter { key: "force_N", unit: "N", range: [0.0, 10000.0], typical: 80.0 },
+            Parameter { key: "towards_deg", unit: "deg", range: [-360.0, 360.0], typical: 0.0 },
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {

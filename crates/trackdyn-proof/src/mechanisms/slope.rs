@@ -17,7 +17,10 @@ impl Described for Slope {
         law: "g_along = −g sin β uphill, g_normal = g cos β",
         size: "the same",
         breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading],
-        parameters: &[Parameter { key: "angle_deg", unit: "deg", range: [0.0, 60.0], typical: 2.0 },Parameter { key: "uphill_deg", unit: "deg", range: [-360.0, 360.0], typical: 0.0 },],
+        parameters: &[
+            Parameter { key: "angle_deg", unit: "deg", range: [0.0, 60.0], typical: 2.0 },
+            Parameter { key: "uphill_deg", unit: "deg", range: [-360.0, 360.0], typical: 0.0 },
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {

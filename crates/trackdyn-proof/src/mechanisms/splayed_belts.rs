@@ -2,7 +2,7 @@
 
 use crate::mechanism::{Described, Mechanism, Scene};
 use crate::sheet::{Invariance, Origin, Parameter, Sheet};
-use trackdyn_core::{Side};
+use trackdyn_core::Side;
 
 /// Sprocket arms give way to the drive's reaction, and the belts walk outwards as they run faster.
 #[derive(Clone, Copy, Debug)]
@@ -15,9 +15,14 @@ impl Described for SplayedBelts {
         id: "splayed-belts",
         origin: Origin::Outside,
         law: "belt velocity V (± sin δ, cos δ), δ = c V",
-        size: "3 degrees at 1 m/s; the toe turns with the sense of the belt",
-        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
-        parameters: &[Parameter { key: "splay_deg_s_per_m", unit: "deg s/m", range: [-20.0, 20.0], typical: 3.0 },],
+        size: "3 degrees at 1 m/s; the belts walk outwards whichever way they run",
+        breaks: &[Invariance::SpeedScale, Invariance::Reversal, Invariance::Manoeuvre],
+        parameters: &[Parameter {
+            key: "splay_deg_s_per_m",
+            unit: "deg s/m",
+            range: [-20.0, 20.0],
+            typical: 3.0,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -19,7 +19,12 @@ impl Described for SpringCable {
         law: "F = k (|d| − l) d/|d| at 0.3 m behind the middle, for |d| > l",
         size: "a bungee of 60 N/m pulls with a twentieth of Auriga-alpha's weight at 2 m",
         breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading, Invariance::Place],
-        parameters: &[Parameter { key: "rate_N_per_m", unit: "N/m", range: [0.0, 100000.0], typical: 60.0 },Parameter { key: "length_m", unit: "m", range: [0.0, 1000.0], typical: 1.0 },Parameter { key: "x_m", unit: "m", range: [-10000.0, 10000.0], typical: 3.0 },Parameter { key: "y_m", unit: "m", range: [-10000.0, 10000.0], typical: 0.0 },],
+        parameters: &[
+            Parameter { key: "rate_N_per_m", unit: "N/m", range: [0.0, 1e5], typical: 60.0 },
+            Parameter { key: "length_m", unit: "m", range: [0.0, 1000.0], typical: 1.0 },
+            Parameter { key: "x_m", unit: "m", range: [-1e4, 1e4], typical: 3.0 },
+            Parameter { key: "y_m", unit: "m", range: [-1e4, 1e4], typical: 0.0 },
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {

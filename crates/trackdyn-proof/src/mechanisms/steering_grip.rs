@@ -3,7 +3,8 @@
 use crate::mechanism::{Contact, Described, Mechanism};
 use crate::sheet::{Invariance, Origin, Parameter, Sheet};
 
-/// The tension of a steered belt lifts its lugs: it holds less along, by the difference of the track speeds.
+/// The tension of a steered belt lifts its lugs: it holds less along, by the difference of the track
+/// speeds.
 #[derive(Clone, Copy, Debug)]
 pub struct SteeringGrip {
     loss: f64,
@@ -16,7 +17,12 @@ impl Described for SteeringGrip {
         law: "μ_y/(1 + c |V_r − V_l|)",
         size: "depends on the commands and on no slip: a speed law of another argument",
         breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
-        parameters: &[Parameter { key: "loss_s_per_m", unit: "s/m", range: [0.0, 2.0], typical: 0.15 },],
+        parameters: &[Parameter {
+            key: "loss_s_per_m",
+            unit: "s/m",
+            range: [0.0, 2.0],
+            typical: 0.15,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -1,8 +1,8 @@
 //! A hull that resists torsion.
 
 use crate::mechanism::{Described, Load, Mechanism, Scene};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
-use trackdyn_core::{Side};
+use crate::sheet::{Origin, Parameter, Sheet};
+use trackdyn_core::Side;
 
 /// Both tracks pitch alike, so the lighter side has the larger share of the pitching moment.
 #[derive(Clone, Copy, Debug)]
@@ -15,9 +15,10 @@ impl Described for StiffHull {
         id: "stiff-hull",
         origin: Origin::Outside,
         law: "N_j y_j = W y_p/2 with a torsion-stiff hull; a share of the way from y_j = y_p",
-        size: "acts only where the centre of gravity is off the middle both ways",
-        breaks: &[Invariance::Mirror],
-        parameters: &[Parameter { key: "share", unit: "1", range: [0.0, 1.0], typical: 1.0 },],
+        size: "acts only where the centre of gravity is off the middle both ways, and then \
+               statically",
+        breaks: &[],
+        parameters: &[Parameter { key: "share", unit: "1", range: [0.0, 1.0], typical: 1.0 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -20,7 +20,12 @@ impl Described for TerrainPatch {
         law: "μ_x √f, μ_y/√f inside a regular hexagon",
         size: "the hexagon has the area of a disc of the radius",
         breaks: &[Invariance::Place],
-        parameters: &[Parameter { key: "ratio", unit: "1", range: [0.2, 5.0], typical: 1.3 },Parameter { key: "x_m", unit: "m", range: [-10000.0, 10000.0], typical: 0.0 },Parameter { key: "y_m", unit: "m", range: [-10000.0, 10000.0], typical: 0.0 },Parameter { key: "radius_m", unit: "m", range: [0.05, 10000.0], typical: 1.0 },],
+        parameters: &[
+            Parameter { key: "ratio", unit: "1", range: [0.2, 5.0], typical: 1.3 },
+            Parameter { key: "x_m", unit: "m", range: [-10000.0, 10000.0], typical: 0.0 },
+            Parameter { key: "y_m", unit: "m", range: [-10000.0, 10000.0], typical: 0.0 },
+            Parameter { key: "radius_m", unit: "m", range: [0.05, 10000.0], typical: 1.0 },
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -2,7 +2,7 @@
 
 use crate::mechanism::{Described, Mechanism, Scene};
 use crate::sheet::{Invariance, Origin, Parameter, Sheet};
-use trackdyn_core::{Twist, Wrench, Pose};
+use trackdyn_core::{Pose, Twist, Wrench};
 
 /// A winch with a force control, at a place in the world.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,11 @@ impl Described for Tether {
         law: "F = T d/√(|d|² + (0.1 m)²) at the middle of the robot, d from there to the anchor",
         size: "the same beyond a metre; over the anchor the pull fades",
         breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading, Invariance::Place],
-        parameters: &[Parameter { key: "force_N", unit: "N", range: [0.0, 100000.0], typical: 100.0 },Parameter { key: "x_m", unit: "m", range: [-10000.0, 10000.0], typical: 10.0 },Parameter { key: "y_m", unit: "m", range: [-10000.0, 10000.0], typical: 0.0 },],
+        parameters: &[
+            Parameter { key: "force_N", unit: "N", range: [0.0, 1e5], typical: 100.0 },
+            Parameter { key: "x_m", unit: "m", range: [-1e4, 1e4], typical: 10.0 },
+            Parameter { key: "y_m", unit: "m", range: [-1e4, 1e4], typical: 0.0 },
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -2,7 +2,7 @@
 
 use crate::mechanism::{Described, Mechanism};
 use crate::sheet::{Invariance, Origin, Parameter, Sheet};
-use trackdyn_core::{Moment};
+use trackdyn_core::Moment;
 
 /// Poses carry stamps of another clock.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +17,7 @@ impl Described for TimeOffset {
         law: "t_reported = t + τ",
         size: "the same",
         breaks: &[Invariance::Transient],
-        parameters: &[Parameter { key: "offset_s", unit: "s", range: [-10.0, 10.0], typical: 0.1 },],
+        parameters: &[Parameter { key: "offset_s", unit: "s", range: [-10.0, 10.0], typical: 0.1 }],
     };
 
     fn from_values(values: &[f64]) -> Self {
@@ -26,7 +26,9 @@ impl Described for TimeOffset {
 }
 
 impl Mechanism for TimeOffset {
-    fn sense(&self, moment: &mut Moment) {
-        moment.t += self.offset;
+    fn sense(&self, moments: &mut [Moment]) {
+        for moment in moments {
+            moment.t += self.offset;
+        }
     }
 }

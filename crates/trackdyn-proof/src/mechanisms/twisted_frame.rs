@@ -16,7 +16,7 @@ impl Described for TwistedFrame {
         law: "centre of pressure at y + d on the left, y − d on the right",
         size: "static, and odd in the sides: no member of the static class moves y this way",
         breaks: &[Invariance::Mirror],
-        parameters: &[Parameter { key: "shift_m", unit: "m", range: [-1.0, 1.0], typical: 0.03 },],
+        parameters: &[Parameter { key: "shift_m", unit: "m", range: [-1.0, 1.0], typical: 0.03 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

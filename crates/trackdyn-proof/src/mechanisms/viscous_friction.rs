@@ -19,7 +19,12 @@ impl Described for ViscousFriction {
         law: "μ (1 + c v₀ (|s|/v₀)^0.6), v₀ = 0.3 m/s",
         size: "equal to 1 + c |s| at 0.3 m/s; more below, less above",
         breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
-        parameters: &[Parameter { key: "growth_s_per_m", unit: "s/m", range: [0.0, 10.0], typical: 0.5 },],
+        parameters: &[Parameter {
+            key: "growth_s_per_m",
+            unit: "s/m",
+            range: [0.0, 10.0],
+            typical: 0.5,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -19,9 +19,10 @@ impl Described for WarmRubber {
         id: "warm-rubber",
         origin: Origin::Outside,
         law: "T' = P/(W · 1 m/s) / τ − T/τ per side, τ = 15 s; μ_x/(1 + a T)",
-        size: "history: the same command gives other ICRs after hard work than after rest; in the end it acts as slip speed does",
-        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre, Invariance::Time],
-        parameters: &[Parameter { key: "softening", unit: "1", range: [0.0, 5.0], typical: 0.5 },],
+        size: "history: the same command gives other ICRs after hard work than after rest, so a \
+               recording shows it as a drift; in the end it acts as slip speed does",
+        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre, Invariance::Transient],
+        parameters: &[Parameter { key: "softening", unit: "1", range: [0.0, 5.0], typical: 1.0 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -17,7 +17,10 @@ impl Described for Washboard {
         law: "μ_x/μ_y (1 + a sin(2π x/λ)), x along the world",
         size: "waves of a gravel road are 0.5 to 1 m long",
         breaks: &[Invariance::Mirror, Invariance::Heading, Invariance::Place],
-        parameters: &[Parameter { key: "depth", unit: "1", range: [0.0, 0.9], typical: 0.3 },Parameter { key: "wavelength_m", unit: "m", range: [0.05, 1000.0], typical: 0.9 },],
+        parameters: &[
+            Parameter { key: "depth", unit: "1", range: [0.0, 0.9], typical: 0.3 },
+            Parameter { key: "wavelength_m", unit: "m", range: [0.05, 1000.0], typical: 0.9 },
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -14,9 +14,15 @@ impl Described for YawInertia {
         id: "yaw-inertia",
         origin: Origin::Catalogue,
         law: "m v' and m k² ω'",
-        size: "the same; here it is the mass of the equations of motion themselves",
-        breaks: &[Invariance::SpeedScale, Invariance::Reversal, Invariance::Transient],
-        parameters: &[Parameter { key: "radius_of_gyration_m", unit: "m", range: [0.01, 10.0], typical: 0.3 },],
+        size: "the same; here it is the mass of the equations of motion themselves. The way lost \
+               at a start grows with the square of the speed; steady turns do not change",
+        breaks: &[Invariance::Transient],
+        parameters: &[Parameter {
+            key: "radius_of_gyration_m",
+            unit: "m",
+            range: [0.01, 10.0],
+            typical: 0.3,
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

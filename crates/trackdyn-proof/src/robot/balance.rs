@@ -131,7 +131,7 @@ impl Balance<'_> {
                 extent,
                 slip,
                 deflection,
-                slid,
+                slid: f64::midpoint(shoe.slid, slid),
                 load: shoe.load,
                 area: shoe.area,
             };

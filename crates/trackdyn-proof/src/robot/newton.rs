@@ -58,18 +58,12 @@ impl Newton {
         let Twist { v_x, v_y, w } = balance.scene.twist;
         let mut q = Vector3::new(v_x, v_y, w * length);
         let mut residual = scaled.residual(&q);
-        let mut fresh = false;
         for _ in 0..ITERATIONS {
             if residual.norm() < TOLERANCE {
                 return Ok(scaled.twist(&q));
             }
-            let jacobian = match self.jacobian {
-                Some(kept) => kept,
-                None => {
-                    fresh = true;
-                    scaled.jacobian(&q, &residual)
-                }
-            };
+            let fresh = self.jacobian.is_none();
+            let jacobian = self.jacobian.unwrap_or_else(|| scaled.jacobian(&q, &residual));
             let Some(step) = jacobian.lu().solve(&-residual) else {
                 self.jacobian = None;
                 if fresh {
@@ -90,7 +84,6 @@ impl Newton {
             let correction = (next - residual - jacobian * taken) * taken.transpose();
             let serves = share == 1.0 && contraction < 0.3;
             self.jacobian = serves.then(|| jacobian + correction / taken.norm_squared());
-            fresh = false;
             q += taken;
             residual = next;
         }

@@ -7,9 +7,9 @@ use trackdyn_core::Pose;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
     /// Lengthwise strips of each contact.
-    pub strips: usize,
+    pub strips: u32,
     /// Shoes of each strip that are on the ground at once.
-    pub shoes: usize,
+    pub shoes: u32,
     /// Deflection at which a shoe begins to slide, m.
     pub elastic_range: f64,
     /// First step after a new command, s; numerical trouble may enforce shorter ones.
@@ -51,7 +51,7 @@ impl Setup {
     pub(crate) fn check(&self) -> Result<(), Error> {
         let refuse = |key, value, expected| Err(Error::Setup { key, value, expected });
         if self.strips == 0 || self.shoes < 2 {
-            return refuse("shoes", self.shoes as f64, "at least a strip of two shoes");
+            return refuse("shoes", f64::from(self.shoes), "at least a strip of two shoes");
         }
         let lengths = [
             ("elastic_range", self.elastic_range),

@@ -19,9 +19,9 @@ fn minute() -> Schedule {
         (0.9, 0.6),
         (-0.7, -0.7),
     ];
-    let commands = (0..=40).map(|k| {
-        let (left, right) = steps[k % steps.len()];
-        Command { t: 1.5 * k as f64, speeds: PerSide::new(left, right) }
+    let commands = (0..=40).zip(steps.into_iter().cycle()).map(|(k, (left, right))| Command {
+        t: 1.5 * f64::from(k),
+        speeds: PerSide::new(left, right),
     });
     Schedule::new(commands.collect()).expect("a schedule")
 }

@@ -2,9 +2,11 @@
 
 mod constancy;
 mod convergence;
+mod endurance;
 mod mechanisms;
 mod parity;
 mod published;
 mod rest;
 mod slide;
+mod transients;
 mod turn;

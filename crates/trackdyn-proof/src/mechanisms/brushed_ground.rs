@@ -15,7 +15,7 @@ impl Described for BrushedGround {
         id: "brushed-ground",
         origin: Origin::Outside,
         law: "μ (1 + a sin² φ), φ between slip and grain",
-        size: "a field broom's texture gives 10 to 40 % more across than along",
+        size: "a is the excess across the grain; 0.3 is a guess, for want of a published figure",
         breaks: &[Invariance::Mirror, Invariance::Heading],
         parameters: &[
             Parameter { key: "excess", unit: "1", range: [-0.9, 5.0], typical: 0.3 },

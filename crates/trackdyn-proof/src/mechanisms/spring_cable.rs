@@ -17,7 +17,8 @@ impl Described for SpringCable {
         id: "spring-cable",
         origin: Origin::Outside,
         law: "F = k (|d| − l) d/|d| at 0.3 m behind the middle, for |d| > l",
-        size: "a bungee of 60 N/m pulls with a twentieth of Auriga-alpha's weight at 2 m",
+        size: "a bungee: 2 m beyond its length it pulls with a twentieth \
+               of Auriga-alpha's weight",
         breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading, Invariance::Place],
         parameters: &[
             Parameter { key: "rate_N_per_m", unit: "N/m", range: [0.0, 1e5], typical: 60.0 },

@@ -14,7 +14,7 @@ impl Described for TwistedFrame {
         id: "twisted-frame",
         origin: Origin::Outside,
         law: "centre of pressure at y + d on the left, y − d on the right",
-        size: "static, and odd in the sides: no member of the static class moves y this way",
+        size: "static, and odd in the sides as friction-split is",
         breaks: &[Invariance::Mirror],
         parameters: &[Parameter { key: "shift_m", unit: "m", range: [-1.0, 1.0], typical: 0.03 }],
     };

@@ -63,3 +63,12 @@ fn mistakes_are_refused() {
     let refused = Robot::new(&auriga([0.0, 0.0]), &twice, &Setup::default());
     assert_eq!(refused.expect_err("a refusal"), Error::Repeated("slope"));
 }
+
+#[test]
+fn the_page_lists_every_mechanism_with_its_law() {
+    let page = include_str!("../../../../docs/theory/independent-ground.md");
+    for sheet in MECHANISMS {
+        let row = format!("| {} | {} |", sheet.id, sheet.law.replace('|', "\\|"));
+        assert!(page.contains(&row), "docs/theory/independent-ground.md lacks {row}");
+    }
+}

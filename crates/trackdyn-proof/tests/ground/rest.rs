@@ -39,8 +39,9 @@ fn above_the_friction_angle_it_slides_as_a_block_does() {
     let expected = -0.5 * STANDARD_GRAVITY * (sin - 0.7 * cos) * 2.0_f64.powi(2);
     let slid = robot.moment().pose.x;
     println!("slides {slid:.4} m in 2 s, expected {expected:.4} m");
-    // steps of up to 10 ms run ahead by half a step of the speed reached, 0.8 m/s
-    assert!((slid - expected).abs() < 5e-3, "{slid} {expected}");
+    // Steps of up to 10 ms run ahead by half a step of the speed reached, 0.8 m/s. Released from undeflected
+    // shoes, the robot has √(g sin β z₀) = 5 mm/s when they slide, and keeps it for 2 s.
+    assert!((slid - expected).abs() < 4e-3 + 1.1e-2, "{slid} {expected}");
 }
 
 #[test]

@@ -23,6 +23,7 @@ const ALLOWED: [(&str, &[&str]); 10] = [
         ],
     ),
     ("trackdyn-export", &["trackdyn-core", "trackdyn-motion"]),
+    ("trackdyn-proof", &["trackdyn-core", "trackdyn-physics"]),
     (
         "trackdyn-cli",
         &[
@@ -35,6 +36,7 @@ const ALLOWED: [(&str, &[&str]); 10] = [
             "trackdyn-field",
             "trackdyn-report",
             "trackdyn-export",
+            "trackdyn-proof",
         ],
     ),
 ];
@@ -59,4 +61,48 @@ fn crates_depend_in_one_direction() {
         seen += 1;
     }
     assert_eq!(seen, ALLOWED.len());
+}
+
+/// What the independent ground may take from the physics: the description of a vehicle.
+const SHARED_WITH_PROOF: [&str; 4] = ["RunningGear", "Vehicle", "VehicleError", "VehicleFile"];
+
+#[test]
+fn only_the_program_reaches_the_independent_ground() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    for entry in std::fs::read_dir(crates).expect("the folder of crates") {
+        let folder = entry.expect("readable").path();
+        let name = folder.file_name().expect("a name").to_string_lossy().into_owned();
+        let text = std::fs::read_to_string(folder.join("Cargo.toml")).expect("a manifest");
+        // whatever the kind of dependency, even of tests: a trial that knows its judge is none
+        assert!(
+            ["trackdyn-proof", "trackdyn-cli"].contains(&name.as_str())
+                || !text.contains("trackdyn-proof"),
+            "{name} must not know trackdyn-proof"
+        );
+    }
+}
+
+#[test]
+fn the_independent_ground_shares_no_physics() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/trackdyn-proof/src");
+    let mut folders = vec![source];
+    let mut uses = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("sources") {
+            let path = entry.expect("readable").path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let text = std::fs::read_to_string(&path).expect("a source");
+            for taken in text.split("trackdyn_physics").skip(1).filter(|t| t.starts_with("::")) {
+                let names = taken.split(';').next().unwrap_or_default();
+                for name in names.split(|c: char| !c.is_alphanumeric()).filter(|n| !n.is_empty()) {
+                    assert!(SHARED_WITH_PROOF.contains(&name), "{} uses {name}", path.display());
+                    uses += 1;
+                }
+            }
+        }
+    }
+    assert!(uses > 0, "the sources are not where they were");
 }

@@ -2,6 +2,7 @@
 
 mod centripetal_cloud;
 mod identified_distances;
+mod independent_ground;
 mod martinez_2005_asymmetric;
 mod martinez_2005_symmetric;
 mod operating_points;

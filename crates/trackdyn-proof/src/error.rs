@@ -1,0 +1,50 @@
+//! What cannot be simulated.
+
+use crate::sheet::{Parameter, Sheet};
+use trackdyn_physics::VehicleError;
+
+/// A robot that cannot be built.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// No mechanism of this id.
+    #[error("no mechanism \"{0}\"")]
+    UnknownMechanism(String),
+    /// No such parameter.
+    #[error("{} has no parameter \"{key}\"; it has {}", sheet.id, sheet.keys())]
+    UnknownParameter {
+        /// The mechanism.
+        sheet: &'static Sheet,
+        /// The key that was given.
+        key: String,
+    },
+    /// A value outside its physical range.
+    #[error(
+        "{}.{} = {value}: expected {} to {} {}",
+        sheet.id, parameter.key, parameter.range[0], parameter.range[1], parameter.unit
+    )]
+    OutOfRange {
+        /// The mechanism.
+        sheet: &'static Sheet,
+        /// Its parameter.
+        parameter: &'static Parameter,
+        /// The value that was given.
+        value: f64,
+    },
+    /// The same mechanism twice.
+    #[error("{0} is switched on twice")]
+    Repeated(&'static str),
+    /// A vehicle that cannot be.
+    #[error(transparent)]
+    Vehicle(#[from] VehicleError),
+    /// A setting of the simulation that cannot be.
+    #[error("{key} = {value}: expected {expected}")]
+    Setup {
+        /// Its name.
+        key: &'static str,
+        /// Its value.
+        value: f64,
+        /// What was expected.
+        expected: &'static str,
+    },
+}

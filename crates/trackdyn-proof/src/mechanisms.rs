@@ -1,0 +1,52 @@
+//! All mechanisms: one file each, one line per file.
+
+#[macro_use]
+mod registry;
+mod active;
+
+pub use active::ActiveMechanism;
+
+use crate::mechanism::{Described, Mechanism};
+use crate::sheet::Sheet;
+
+mechanisms! {
+    friction_anisotropy::FrictionAnisotropy,
+    cog_shift::CogShift,
+    friction_split::FrictionSplit,
+    friction_gradient::FrictionGradient,
+    pressure_concentration::PressureConcentration,
+    cohesion::Cohesion,
+    bulldozing::Bulldozing,
+    sensor_lever_arm::SensorLeverArm,
+    encoder_scale::EncoderScale,
+    sensor_yaw::SensorYaw,
+    time_offset::TimeOffset,
+    drivetrain_lag::DrivetrainLag,
+    yaw_inertia::YawInertia,
+    heading_drift::HeadingDrift,
+    centripetal::Centripetal,
+    load_transfer::LoadTransfer,
+    viscous_friction::ViscousFriction,
+    stribeck_friction::StribeckFriction,
+    friction_creep::FrictionCreep,
+    motion_resistance::MotionResistance,
+    resistance_split::ResistanceSplit,
+    hitch_drag::HitchDrag,
+    belt_slip::BeltSlip,
+    shear_displacement::ShearDisplacement,
+    directional_lugs::DirectionalLugs,
+    slope::Slope,
+    tether::Tether,
+    terrain_patch::TerrainPatch,
+    friction_drift::FrictionDrift,
+    brushed_ground::BrushedGround,
+    spring_cable::SpringCable,
+    steering_grip::SteeringGrip,
+    washboard::Washboard,
+    splayed_belts::SplayedBelts,
+    twisted_frame::TwistedFrame,
+    stiff_hull::StiffHull,
+    side_wind::SideWind,
+    warm_rubber::WarmRubber,
+    drive_backlash::DriveBacklash,
+}

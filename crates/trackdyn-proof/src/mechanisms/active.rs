@@ -1,0 +1,61 @@
+//! Mechanisms that are switched on.
+
+use super::{MECHANISMS, from_values};
+use crate::error::Error;
+use crate::mechanism::Mechanism;
+use crate::sheet::Sheet;
+
+/// A mechanism with the values of its parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActiveMechanism {
+    index: usize,
+    values: Vec<f64>,
+}
+
+impl ActiveMechanism {
+    /// The mechanism `id` with `settings` (key, value) and the typical size of every parameter that they
+    /// leave out.
+    ///
+    /// # Errors
+    /// Unknown mechanism or parameter, or a value outside its physical range.
+    pub fn new(id: &str, settings: &[(&str, f64)]) -> Result<Self, Error> {
+        let index = MECHANISMS
+            .iter()
+            .position(|sheet| sheet.id == id)
+            .ok_or_else(|| Error::UnknownMechanism(id.to_owned()))?;
+        let sheet = &MECHANISMS[index];
+        let mut values: Vec<f64> = sheet.parameters.iter().map(|p| p.typical).collect();
+        for &(key, value) in settings {
+            let place = sheet.parameters.iter().position(|parameter| parameter.key == key);
+            let place =
+                place.ok_or_else(|| Error::UnknownParameter { sheet, key: key.to_owned() })?;
+            let parameter = &sheet.parameters[place];
+            let [low, high] = parameter.range;
+            if !(low..=high).contains(&value) {
+                return Err(Error::OutOfRange { sheet, parameter, value });
+            }
+            values[place] = value;
+        }
+        Ok(Self { index, values })
+    }
+
+    /// Its sheet.
+    pub fn sheet(&self) -> &'static Sheet {
+        &MECHANISMS[self.index]
+    }
+
+    /// Parameter values in the order of the sheet.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Place in the list of mechanisms, by which they act in turn.
+    pub(crate) fn index(&self) -> usize {
+        self.index
+    }
+
+    /// The mechanism itself, at rest.
+    pub(crate) fn mechanism(&self) -> Box<dyn Mechanism> {
+        from_values(self.index, &self.values)
+    }
+}

@@ -1,0 +1,31 @@
+//! Centripetal force of the turning body.
+
+use crate::mechanism::{Described, Inertia, Mechanism};
+use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+
+/// Mass in Newton's law of turning.
+#[derive(Clone, Copy, Debug)]
+pub struct Centripetal {
+    strength: f64,
+}
+
+impl Described for Centripetal {
+    const SHEET: Sheet = Sheet {
+        id: "centripetal",
+        origin: Origin::Catalogue,
+        law: "m k ω × v",
+        size: "the same",
+        breaks: &[Invariance::SpeedScale, Invariance::Reversal, Invariance::Manoeuvre],
+        parameters: &[Parameter { key: "strength", unit: "1", range: [0.0, 10.0], typical: 1.0 }],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { strength: values[0] }
+    }
+}
+
+impl Mechanism for Centripetal {
+    fn inertia(&self, inertia: &mut Inertia) {
+        inertia.centripetal = self.strength;
+    }
+}

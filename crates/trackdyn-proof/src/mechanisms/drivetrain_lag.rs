@@ -1,0 +1,66 @@
+//! Belts that follow the encoders late.
+
+use crate::mechanism::{Described, Mechanism, Scene, Step};
+use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use trackdyn_core::{PerSide, Side};
+
+/// Two lags in a row: the motor's and the belt's.
+#[derive(Clone, Copy, Debug)]
+pub struct DrivetrainLag {
+    half: f64,
+    motor: PerSide<f64>,
+    belt: PerSide<f64>,
+}
+
+impl Described for DrivetrainLag {
+    const SHEET: Sheet = Sheet {
+        id: "drivetrain-lag",
+        origin: Origin::Catalogue,
+        law: "u' = (V_shown − u)/(T/2), V' = (u − V)/(T/2)",
+        size: "two lags of T/2 delay a ramp by T, as one lag of T does",
+        breaks: &[Invariance::Transient],
+        parameters: &[Parameter {
+            key: "time_constant_s",
+            unit: "s",
+            range: [0.001, 10.0],
+            typical: 0.15,
+        }],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        let rest = PerSide::new(0.0, 0.0);
+        Self { half: values[0] / 2.0, motor: rest, belt: rest }
+    }
+}
+
+impl Mechanism for DrivetrainLag {
+    fn drive(&self, _scene: &Scene, dt: f64, belt: &mut PerSide<f64>) {
+        *belt = PerSide::from_fn(|side| self.mean(side, belt[side], dt));
+    }
+
+    fn advance(&mut self, step: &Step) {
+        for side in Side::BOTH {
+            let [motor, belt] = self.follow(side, step.fed[side], step.dt);
+            self.motor[side] = motor;
+            self.belt[side] = belt;
+        }
+    }
+}
+
+impl DrivetrainLag {
+    /// Mean speed of the belt over `dt` at a constant input, m/s.
+    fn mean(&self, side: Side, input: f64, dt: f64) -> f64 {
+        let passed = dt / self.half;
+        let decay = (-passed).exp();
+        let (motor, belt) = (self.motor[side] - input, self.belt[side] - input);
+        input + (belt * (1.0 - decay) + motor * (1.0 - decay * (1.0 + passed))) / passed
+    }
+
+    /// Speeds of motor and belt after `dt` at a constant input, m/s.
+    fn follow(&self, side: Side, input: f64, dt: f64) -> [f64; 2] {
+        let passed = dt / self.half;
+        let decay = (-passed).exp();
+        let (motor, belt) = (self.motor[side] - input, self.belt[side] - input);
+        [input + motor * decay, input + (belt + motor * passed) * decay]
+    }
+}

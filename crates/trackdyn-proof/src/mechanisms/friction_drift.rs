@@ -1,0 +1,39 @@
+//! Friction that changes in the course of a day.
+
+use crate::mechanism::{Contact, Described, Mechanism, scale_ratio};
+use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+
+/// Time in which 63 % of the change are done, s.
+const SETTLING: f64 = 120.0;
+
+/// The ratio of frictions goes exponentially to where it stays.
+#[derive(Clone, Copy, Debug)]
+pub struct FrictionDrift {
+    rate: f64,
+}
+
+impl Described for FrictionDrift {
+    const SHEET: Sheet = Sheet {
+        id: "friction-drift",
+        origin: Origin::Catalogue,
+        law: "f = 1 + r T (1 − exp(−t/T)), T = 120 s, on μ_x/μ_y",
+        size: "starts as 1 + r t does, and ends at 1 + r T",
+        breaks: &[Invariance::Time],
+        parameters: &[Parameter {
+            key: "rate_1_per_s",
+            unit: "1/s",
+            range: [-0.005, 0.005],
+            typical: 0.001,
+        }],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { rate: values[0] }
+    }
+}
+
+impl Mechanism for FrictionDrift {
+    fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
+        scale_ratio(mu, 1.0 - self.rate * SETTLING * (-contact.scene.t / SETTLING).exp_m1());
+    }
+}

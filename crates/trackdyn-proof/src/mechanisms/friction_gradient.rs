@@ -1,0 +1,33 @@
+//! More friction under the front than under the rear.
+
+use crate::mechanism::{Contact, Described, Mechanism};
+use crate::sheet::{Origin, Parameter, Sheet};
+
+/// A step of friction in the middle of the contact.
+#[derive(Clone, Copy, Debug)]
+pub struct FrictionGradient {
+    step: f64,
+}
+
+impl Described for FrictionGradient {
+    const SHEET: Sheet = Sheet {
+        id: "friction-gradient",
+        origin: Origin::Catalogue,
+        law: "μ (1 + (2/3) γ tanh(5 η)), η = y over the half length",
+        size: "a step of 2/3 γ has the first moment along y of the linear law 1 + γ η",
+        breaks: &[],
+        parameters: &[Parameter { key: "gradient", unit: "1", range: [-0.9, 0.9], typical: 0.1 }],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        // ∫ η γ η dη = ∫ |η| step dη over the contact
+        Self { step: 2.0 / 3.0 * values[0] }
+    }
+}
+
+impl Mechanism for FrictionGradient {
+    fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
+        let factor = 1.0 + self.step * (5.0 * contact.relative_y()).tanh();
+        *mu = mu.map(|mu| mu * factor);
+    }
+}

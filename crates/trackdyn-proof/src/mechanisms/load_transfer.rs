@@ -1,0 +1,54 @@
+//! Load transfer of a hull that leans on its springs.
+
+use crate::mechanism::{Described, Load, Mechanism, Scene, Step};
+use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+
+/// Time that the hull takes to lean, s.
+const LEAN_TIME: f64 = 0.06;
+
+/// The weight leans outwards in a turn, and downhill on a slope, with the hull's own delay.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadTransfer {
+    height: f64,
+    lean: [f64; 2],
+}
+
+impl Described for LoadTransfer {
+    const SHEET: Sheet = Sheet {
+        id: "load-transfer",
+        origin: Origin::Catalogue,
+        law: "q' = (h (g_along − a)/g_normal − q)/0.06 s, a = ω × v_cog; the load acts at the \
+              centre of gravity + q",
+        size: "in steady turns the same; the hull takes 0.06 s to lean, the period of a \
+               suspension of 2.7 Hz over 2π",
+        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
+        parameters: &[Parameter {
+            key: "cog_height_m",
+            unit: "m",
+            range: [0.0, 5.0],
+            typical: 0.3,
+        }],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { height: values[0], lean: [0.0, 0.0] }
+    }
+}
+
+impl Mechanism for LoadTransfer {
+    fn load(&self, _scene: &Scene, load: &mut Load) {
+        load.across += self.lean[0];
+        load.along.left += self.lean[1];
+        load.along.right += self.lean[1];
+    }
+
+    fn advance(&mut self, step: &Step) {
+        let gravity = step.scene.gravity;
+        let acceleration = step.twist.steady_acceleration_at(step.scene.vehicle.cog);
+        let share = -(-step.dt / LEAN_TIME).exp_m1();
+        for ((lean, along), a) in self.lean.iter_mut().zip(gravity.along).zip(acceleration) {
+            // q' = (h (g_along − a)/g_normal − q)/T
+            *lean += share * (self.height * (along - a) / gravity.normal - *lean);
+        }
+    }
+}

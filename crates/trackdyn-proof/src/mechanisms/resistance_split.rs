@@ -1,0 +1,39 @@
+//! Ground that holds one track back more than the other.
+
+use crate::mechanism::{Contact, Described, Mechanism};
+use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+
+use super::motion_resistance::resistance;
+
+/// Half the difference on the left, minus half of it on the right.
+#[derive(Clone, Copy, Debug)]
+pub struct ResistanceSplit {
+    difference: f64,
+}
+
+impl Described for ResistanceSplit {
+    const SHEET: Sheet = Sheet {
+        id: "resistance-split",
+        origin: Origin::Catalogue,
+        law: "c_left = +Δc/2, c_right = −Δc/2, as motion-resistance",
+        size: "the same above 2 cm/s",
+        breaks: &[Invariance::Manoeuvre, Invariance::Mirror],
+        parameters: &[Parameter {
+            key: "difference",
+            unit: "1",
+            range: [-0.5, 0.5],
+            typical: 0.05,
+        }],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { difference: values[0] }
+    }
+}
+
+impl Mechanism for ResistanceSplit {
+    fn traction(&self, contact: &Contact, force: &mut [f64; 2]) {
+        let coefficient = -contact.side.sign() * self.difference / 2.0;
+        force[1] += resistance(coefficient, contact);
+    }
+}

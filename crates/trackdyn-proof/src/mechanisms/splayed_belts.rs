@@ -1,0 +1,39 @@
+//! Belts that toe out with speed.
+
+use crate::mechanism::{Described, Mechanism, Scene};
+use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use trackdyn_core::Side;
+
+/// Sprocket arms give way to the drive's reaction, and the belts walk outwards as they run faster.
+#[derive(Clone, Copy, Debug)]
+pub struct SplayedBelts {
+    splay: f64,
+}
+
+impl Described for SplayedBelts {
+    const SHEET: Sheet = Sheet {
+        id: "splayed-belts",
+        origin: Origin::Outside,
+        law: "belt velocity V (± sin δ, cos δ), δ = c V",
+        size: "3 degrees at 1 m/s; the belts walk outwards whichever way they run",
+        breaks: &[Invariance::SpeedScale, Invariance::Reversal, Invariance::Manoeuvre],
+        parameters: &[Parameter {
+            key: "splay_deg_s_per_m",
+            unit: "deg s/m",
+            range: [-20.0, 20.0],
+            typical: 3.0,
+        }],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { splay: values[0].to_radians() }
+    }
+}
+
+impl Mechanism for SplayedBelts {
+    fn belt(&self, _scene: &Scene, side: Side, velocity: &mut [f64; 2]) {
+        let speed = velocity[1];
+        let (sin, cos) = (self.splay * speed).sin_cos();
+        *velocity = [velocity[0] + side.sign() * speed * sin, speed * cos];
+    }
+}

@@ -1,0 +1,38 @@
+//! Belts that lose their edge when they are steered hard.
+
+use crate::mechanism::{Contact, Described, Mechanism};
+use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+
+/// The tension of a steered belt lifts its lugs: it holds less along, by the difference of the track
+/// speeds.
+#[derive(Clone, Copy, Debug)]
+pub struct SteeringGrip {
+    loss: f64,
+}
+
+impl Described for SteeringGrip {
+    const SHEET: Sheet = Sheet {
+        id: "steering-grip",
+        origin: Origin::Outside,
+        law: "μ_y/(1 + c |V_r − V_l|)",
+        size: "depends on the commands and on no slip: a speed law of another argument",
+        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
+        parameters: &[Parameter {
+            key: "loss_s_per_m",
+            unit: "s/m",
+            range: [0.0, 2.0],
+            typical: 0.15,
+        }],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { loss: values[0] }
+    }
+}
+
+impl Mechanism for SteeringGrip {
+    fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
+        let belt = contact.scene.belt;
+        mu[1] /= 1.0 + self.loss * (belt.right - belt.left).abs();
+    }
+}

@@ -1,0 +1,41 @@
+//! A cable that pulls with a constant force.
+
+use crate::mechanism::{Described, Mechanism, Scene};
+use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use trackdyn_core::{Pose, Twist, Wrench};
+
+/// A winch with a force control, at a place in the world.
+#[derive(Clone, Copy, Debug)]
+pub struct Tether {
+    pull: f64,
+    anchor: [f64; 2],
+}
+
+impl Described for Tether {
+    const SHEET: Sheet = Sheet {
+        id: "tether",
+        origin: Origin::Catalogue,
+        law: "F = T d/√(|d|² + (0.1 m)²) at the middle of the robot, d from there to the anchor",
+        size: "the same beyond a metre; over the anchor the pull fades",
+        breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading, Invariance::Place],
+        parameters: &[
+            Parameter { key: "force_N", unit: "N", range: [0.0, 1e5], typical: 100.0 },
+            Parameter { key: "x_m", unit: "m", range: [-1e4, 1e4], typical: 10.0 },
+            Parameter { key: "y_m", unit: "m", range: [-1e4, 1e4], typical: 0.0 },
+        ],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { pull: values[0], anchor: [values[1], values[2]] }
+    }
+}
+
+impl Mechanism for Tether {
+    fn push(&self, scene: &Scene, _twist: &Twist, wrench: &mut Wrench) {
+        let Pose { x, y, .. } = scene.pose;
+        let away = [self.anchor[0] - x, self.anchor[1] - y];
+        let factor = self.pull / away[0].hypot(away[1]).hypot(0.1);
+        let force = scene.body_axes_from_world(away.map(|away| away * factor));
+        wrench.add_force(force, [0.0, 0.0]);
+    }
+}

@@ -1,0 +1,34 @@
+//! Clocks of poses and encoders that differ.
+
+use crate::mechanism::{Described, Mechanism};
+use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use trackdyn_core::Moment;
+
+/// Poses carry stamps of another clock.
+#[derive(Clone, Copy, Debug)]
+pub struct TimeOffset {
+    offset: f64,
+}
+
+impl Described for TimeOffset {
+    const SHEET: Sheet = Sheet {
+        id: "time-offset",
+        origin: Origin::Catalogue,
+        law: "t_reported = t + τ",
+        size: "the same",
+        breaks: &[Invariance::Transient],
+        parameters: &[Parameter { key: "offset_s", unit: "s", range: [-10.0, 10.0], typical: 0.1 }],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { offset: values[0] }
+    }
+}
+
+impl Mechanism for TimeOffset {
+    fn sense(&self, moments: &mut [Moment]) {
+        for moment in moments {
+            moment.t += self.offset;
+        }
+    }
+}

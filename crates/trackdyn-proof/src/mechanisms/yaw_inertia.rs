@@ -1,0 +1,38 @@
+//! Mass that resists changes of speed.
+
+use crate::mechanism::{Described, Inertia, Mechanism};
+use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+
+/// Newton's law in transients.
+#[derive(Clone, Copy, Debug)]
+pub struct YawInertia {
+    radius: f64,
+}
+
+impl Described for YawInertia {
+    const SHEET: Sheet = Sheet {
+        id: "yaw-inertia",
+        origin: Origin::Catalogue,
+        law: "m v' and m k² ω'",
+        size: "the same; here it is the mass of the equations of motion themselves. The way lost \
+               at a start grows with the square of the speed; steady turns do not change",
+        breaks: &[Invariance::Transient],
+        parameters: &[Parameter {
+            key: "radius_of_gyration_m",
+            unit: "m",
+            range: [0.01, 10.0],
+            typical: 0.3,
+        }],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { radius: values[0] }
+    }
+}
+
+impl Mechanism for YawInertia {
+    fn inertia(&self, inertia: &mut Inertia) {
+        inertia.transient = 1.0;
+        inertia.gyration_radius = self.radius;
+    }
+}

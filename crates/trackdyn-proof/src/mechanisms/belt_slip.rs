@@ -25,7 +25,7 @@ impl Described for BeltSlip {
               the belt's direction",
         size: "equal to the linear V_shown (1 − λ x) at a traction of 0.3 of the load",
         breaks: &[Invariance::Manoeuvre],
-        parameters: &[Parameter { key: "slip", unit: "1", range: [0.0, 0.9], typical: 0.1 }],
+        parameters: &[Parameter { key: "slip", unit: "1", range: [0.0, 0.5], typical: 0.1 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

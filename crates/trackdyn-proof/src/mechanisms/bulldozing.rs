@@ -17,7 +17,7 @@ impl Described for Bulldozing {
         size: "the law −c N sign(s_x), with a wedge that changes sides while the slip turns \
                through ±3°",
         breaks: &[],
-        parameters: &[Parameter { key: "coefficient", unit: "1", range: [0.0, 2.0], typical: 0.1 }],
+        parameters: &[Parameter { key: "coefficient", unit: "1", range: [0.0, 1.0], typical: 0.1 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

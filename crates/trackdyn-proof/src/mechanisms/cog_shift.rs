@@ -18,7 +18,7 @@ impl Described for CogShift {
         size: "the same: the weight and the inertia move together",
         breaks: &[Invariance::Mirror],
         parameters: &[
-            Parameter { key: "x_m", unit: "m", range: [-2.0, 2.0], typical: 0.02 },
+            Parameter { key: "x_m", unit: "m", range: [-1.0, 1.0], typical: 0.02 },
             Parameter { key: "y_m", unit: "m", range: [-2.0, 2.0], typical: 0.03 },
         ],
     };

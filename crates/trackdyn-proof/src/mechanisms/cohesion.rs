@@ -17,7 +17,7 @@ impl Described for Cohesion {
         size: "the same; adhesion has the elastic range of friction",
         breaks: &[],
         parameters: &[Parameter {
-            key: "adhesion_Pa",
+            key: "stress_pa",
             unit: "Pa",
             range: [0.0, 1e5],
             typical: 2000.0,

@@ -22,7 +22,7 @@ impl Described for DrivetrainLag {
         parameters: &[Parameter {
             key: "time_constant_s",
             unit: "s",
-            range: [0.001, 10.0],
+            range: [0.001, 2.0],
             typical: 0.15,
         }],
     };

@@ -22,7 +22,7 @@ impl Described for HitchDrag {
         size: "the same above 5 cm/s",
         breaks: &[Invariance::Manoeuvre],
         parameters: &[
-            Parameter { key: "coefficient", unit: "1", range: [0.0, 1.0], typical: 0.05 },
+            Parameter { key: "drag", unit: "1", range: [0.0, 0.5], typical: 0.05 },
             Parameter { key: "distance_m", unit: "m", range: [0.0, 5.0], typical: 0.5 },
         ],
     };

@@ -21,7 +21,7 @@ impl Described for SideWind {
                moment",
         breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading],
         parameters: &[
-            Parameter { key: "force_N", unit: "N", range: [0.0, 10000.0], typical: 80.0 },
+            Parameter { key: "force_n", unit: "N", range: [0.0, 10000.0], typical: 80.0 },
             Parameter { key: "towards_deg", unit: "deg", range: [-360.0, 360.0], typical: 0.0 },
         ],
     };

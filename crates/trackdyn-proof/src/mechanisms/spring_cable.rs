@@ -21,7 +21,7 @@ impl Described for SpringCable {
                of Auriga-alpha's weight",
         breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading, Invariance::Place],
         parameters: &[
-            Parameter { key: "rate_N_per_m", unit: "N/m", range: [0.0, 1e5], typical: 60.0 },
+            Parameter { key: "rate_n_per_m", unit: "N/m", range: [0.0, 1e5], typical: 60.0 },
             Parameter { key: "length_m", unit: "m", range: [0.0, 1000.0], typical: 1.0 },
             Parameter { key: "x_m", unit: "m", range: [-1e4, 1e4], typical: 3.0 },
             Parameter { key: "y_m", unit: "m", range: [-1e4, 1e4], typical: 0.0 },

@@ -6,7 +6,7 @@ use crate::sheet::{Invariance, Origin, Parameter, Sheet};
 /// The steady law of LuGre bristles.
 #[derive(Clone, Copy, Debug)]
 pub struct StribeckFriction {
-    drop: f64,
+    excess: f64,
     speed: f64,
 }
 
@@ -14,18 +14,18 @@ impl Described for StribeckFriction {
     const SHEET: Sheet = Sheet {
         id: "stribeck-friction",
         origin: Origin::Catalogue,
-        law: "μ (1 − d + d exp(−(|s|/v)²))",
-        size: "the drop is the same; half of it is lost at 0.83 v, where an exponential loses it \
+        law: "μ (1 + a exp(−(|s|/v)²))",
+        size: "the excess is the same; half of it is lost at 0.83 v, where an exponential loses it \
                at 0.69 v",
         breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
         parameters: &[
-            Parameter { key: "drop", unit: "1", range: [0.0, 0.9], typical: 0.2 },
-            Parameter { key: "speed_m_per_s", unit: "m/s", range: [0.001, 10.0], typical: 0.1 },
+            Parameter { key: "excess", unit: "1", range: [0.0, 2.0], typical: 0.25 },
+            Parameter { key: "speed_m_per_s", unit: "m/s", range: [0.001, 5.0], typical: 0.1 },
         ],
     };
 
     fn from_values(values: &[f64]) -> Self {
-        Self { drop: values[0], speed: values[1] }
+        Self { excess: values[0], speed: values[1] }
     }
 }
 
@@ -33,7 +33,7 @@ impl Mechanism for StribeckFriction {
     fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
         // g(s) = F_c + (F_s − F_c) exp(−(s/v)²), Canudas de Wit et al., IEEE TAC 40(3), 1995
         let ratio = contact.slip_speed() / self.speed;
-        let factor = 1.0 - self.drop + self.drop * (-ratio * ratio).exp();
+        let factor = 1.0 + self.excess * (-ratio * ratio).exp();
         *mu = mu.map(|mu| mu * factor);
     }
 }

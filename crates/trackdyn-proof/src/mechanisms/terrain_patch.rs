@@ -21,17 +21,17 @@ impl Described for TerrainPatch {
         size: "the hexagon has the area of a disc of the radius",
         breaks: &[Invariance::Place],
         parameters: &[
-            Parameter { key: "ratio", unit: "1", range: [0.2, 5.0], typical: 1.3 },
             Parameter { key: "x_m", unit: "m", range: [-10000.0, 10000.0], typical: 0.0 },
             Parameter { key: "y_m", unit: "m", range: [-10000.0, 10000.0], typical: 0.0 },
             Parameter { key: "radius_m", unit: "m", range: [0.05, 10000.0], typical: 1.0 },
+            Parameter { key: "ratio", unit: "1", range: [0.2, 5.0], typical: 1.3 },
         ],
     };
 
     fn from_values(values: &[f64]) -> Self {
         // π r² = 2 √3 a²
-        let apothem = values[3] * (PI / (2.0 * 3.0_f64.sqrt())).sqrt();
-        Self { factor: values[0], centre: [values[1], values[2]], apothem }
+        let apothem = values[2] * (PI / (2.0 * 3.0_f64.sqrt())).sqrt();
+        Self { factor: values[3], centre: [values[0], values[1]], apothem }
     }
 }
 

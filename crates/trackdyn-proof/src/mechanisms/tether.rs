@@ -19,9 +19,9 @@ impl Described for Tether {
         size: "the same beyond a metre; over the anchor the pull fades",
         breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading, Invariance::Place],
         parameters: &[
-            Parameter { key: "force_N", unit: "N", range: [0.0, 1e5], typical: 100.0 },
-            Parameter { key: "x_m", unit: "m", range: [-1e4, 1e4], typical: 10.0 },
-            Parameter { key: "y_m", unit: "m", range: [-1e4, 1e4], typical: 0.0 },
+            Parameter { key: "tension_n", unit: "N", range: [0.0, 1e4], typical: 100.0 },
+            Parameter { key: "anchor_x_m", unit: "m", range: [-1000.0, 1000.0], typical: 10.0 },
+            Parameter { key: "anchor_y_m", unit: "m", range: [-1000.0, 1000.0], typical: 0.0 },
         ],
     };
 

@@ -17,7 +17,7 @@ impl Described for TimeOffset {
         law: "t_reported = t + τ",
         size: "the same",
         breaks: &[Invariance::Transient],
-        parameters: &[Parameter { key: "offset_s", unit: "s", range: [-10.0, 10.0], typical: 0.1 }],
+        parameters: &[Parameter { key: "delay_s", unit: "s", range: [-2.0, 2.0], typical: 0.1 }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -6,6 +6,7 @@ use crate::sheet::{Invariance, Origin, Parameter, Sheet};
 /// Newton's law in transients.
 #[derive(Clone, Copy, Debug)]
 pub struct YawInertia {
+    strength: f64,
     radius: f64,
 }
 
@@ -13,26 +14,24 @@ impl Described for YawInertia {
     const SHEET: Sheet = Sheet {
         id: "yaw-inertia",
         origin: Origin::Catalogue,
-        law: "m v' and m k² ω'",
+        law: "k m v' and k m r² ω'",
         size: "the same; here it is the mass of the equations of motion themselves. The way lost \
                at a start grows with the square of the speed; steady turns do not change",
         breaks: &[Invariance::Transient],
-        parameters: &[Parameter {
-            key: "radius_of_gyration_m",
-            unit: "m",
-            range: [0.01, 10.0],
-            typical: 0.3,
-        }],
+        parameters: &[
+            Parameter { key: "strength", unit: "1", range: [0.01, 10.0], typical: 1.0 },
+            Parameter { key: "gyration_m", unit: "m", range: [0.01, 5.0], typical: 0.3 },
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {
-        Self { radius: values[0] }
+        Self { strength: values[0], radius: values[1] }
     }
 }
 
 impl Mechanism for YawInertia {
     fn inertia(&self, inertia: &mut Inertia) {
-        inertia.transient = 1.0;
+        inertia.transient = self.strength;
         inertia.gyration_radius = self.radius;
     }
 }

@@ -28,7 +28,7 @@ fn sheets_are_complete() {
         for parameter in sheet.parameters {
             let [low, high] = parameter.range;
             assert!(low < high && (low..=high).contains(&parameter.typical), "{}", sheet.id);
-            let suffix = parameter.unit.replace('/', "_per_").replace(' ', "_");
+            let suffix = parameter.unit.replace('/', "_per_").replace(' ', "_").to_lowercase();
             let named = parameter.unit == "1" || parameter.key.ends_with(&suffix);
             assert!(named, "{}.{}", sheet.id, parameter.key);
         }
@@ -45,7 +45,8 @@ fn effects_of_the_catalogue_have_their_names_and_parameters_here() {
         let theirs: Vec<_> = card.parameters.iter().map(|p| (p.key, p.unit)).collect();
         assert_eq!(ours, theirs, "{}", card.id);
         for (ours, theirs) in sheet.parameters.iter().zip(card.parameters) {
-            assert!(ours.range[0] >= theirs.range[0] && ours.range[1] <= theirs.range[1]);
+            let within = ours.range[0] >= theirs.range[0] && ours.range[1] <= theirs.range[1];
+            assert!(within, "{} {}", card.id, ours.key);
         }
     }
 }

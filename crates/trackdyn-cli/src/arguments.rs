@@ -20,6 +20,10 @@ pub enum Command {
     Map(commands::map::Options),
     /// Evaluate the kinematics: track speeds to motion of the robot, or back
     Kinematics(commands::kinematics::Options),
+    /// Drive a robot in time over a ground with any of the effects, and record it with realistic sensors
+    Simulate(commands::simulate::Options),
+    /// Follow a path with the path tracker: ideal differential drive against kinematic parameters
+    Drive(commands::drive::Options),
     /// Replay a recording by dead reckoning with parameter sets and the ideal drive: errors, paths, picture
     Odometry(commands::odometry::Options),
     /// Recompute chi, e and the ICRs, and fail where they leave the tolerances of a reference file
@@ -44,6 +48,8 @@ impl Command {
         match self {
             Self::Map(options) => commands::map::run(options),
             Self::Kinematics(options) => commands::kinematics::run(options),
+            Self::Simulate(options) => commands::simulate::run(options),
+            Self::Drive(options) => commands::drive::run(options),
             Self::Odometry(options) => commands::odometry::run(options),
             Self::Check(options) => commands::check::run(options),
             Self::Export(options) => commands::export::run(options),

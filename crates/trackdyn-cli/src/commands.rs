@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod completions;
+pub mod drive;
 pub mod effects;
 pub mod export;
 pub mod identify;
@@ -10,6 +11,7 @@ pub mod kinematics;
 pub mod man;
 pub mod map;
 pub mod odometry;
+pub mod simulate;
 
 use crate::exit::Exit;
 use std::error::Error;

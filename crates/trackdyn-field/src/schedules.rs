@@ -13,7 +13,7 @@ pub use options::ScheduleOptions;
 use crate::Error;
 use std::path::Path;
 use std::str::FromStr;
-use trackdyn_core::Schedule;
+use trackdyn_core::{Moment, Schedule, Trajectory};
 
 /// The schedule of one run.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +22,33 @@ pub struct ScheduledRun {
     pub id: i64,
     /// What the tracks do.
     pub schedule: Schedule,
+}
+
+/// A driven path with the speeds that were commanded in place of those of the belts: what encoders on
+/// the sprockets see. A step of the command is a step, whatever the steps of the simulation.
+pub fn as_commanded(schedule: &Schedule, path: &Trajectory) -> Trajectory {
+    /// Time after which a new command holds, s: far below what any sensor resolves.
+    const AT_ONCE: f64 = 1e-6;
+    let mut commanded = Trajectory::default();
+    let mut moments = path.moments().iter().peekable();
+    for (start, end, belt_speed) in schedule.stretches() {
+        while let Some(moment) = moments.next_if(|moment| moment.t <= start) {
+            if commanded.span().is_none() {
+                commanded.push(Moment { belt_speed, ..*moment });
+            }
+        }
+        let t = start + AT_ONCE;
+        if commanded.span().is_some_and(|[_, last]| t > last) {
+            let (pose, twist) = (path.pose_at(t), path.twist_at(t));
+            commanded.push(Moment { t, pose, twist, belt_speed });
+        }
+        while let Some(moment) = moments.next_if(|moment| moment.t <= end) {
+            if moment.t > t {
+                commanded.push(Moment { belt_speed, ..*moment });
+            }
+        }
+    }
+    commanded
 }
 
 /// Schedules that can be generated.

@@ -34,6 +34,17 @@ pub struct Sensors {
     pub imu: Option<Imu>,
 }
 
+/// What there is to see of a motion, where the sensors do not see the same.
+#[derive(Clone, Copy, Debug)]
+pub struct Views<'a> {
+    /// Speeds at the encoders, which belts may not follow.
+    pub encoders: &'a Trajectory,
+    /// The body's motion.
+    pub body: &'a Trajectory,
+    /// The motion as a pose sensor takes it to be, before noise.
+    pub poses: &'a Trajectory,
+}
+
 impl Default for Sensors {
     /// A robot in a laboratory: fine encoders, laser odometry, a small IMU.
     fn default() -> Self {
@@ -62,27 +73,41 @@ impl Sensors {
         self.pose.delay - self.encoder.delay - shown_before
     }
 
-    /// What they report of a run. It depends on the motion, the seed and the number of the run only.
+    /// What they report of a run, of which all see the same motion. It depends on the motion, the seed and
+    /// the number of the run only.
     ///
     /// # Errors
-    /// [`Error::NoMotion`] for a trajectory without moments, [`Error::Option`] for values that no sensor
-    /// has.
+    /// As [`Sensors::observe_views`].
     pub fn observe(
         &self,
         run: i64,
         trajectory: &Trajectory,
         seed: u64,
     ) -> Result<UncheckedRun, Error> {
+        let views = Views { encoders: trajectory, body: trajectory, poses: trajectory };
+        self.observe_views(run, &views, seed)
+    }
+
+    /// What they report of a run of which each sees its own.
+    ///
+    /// # Errors
+    /// [`Error::NoMotion`] for a trajectory without moments, [`Error::Option`] for values that no sensor
+    /// has.
+    pub fn observe_views(&self, run: i64, views: &Views, seed: u64) -> Result<UncheckedRun, Error> {
         self.check().map_err(|problem| {
             Error::option(problem.key, &problem.value, problem.expected.to_owned())
         })?;
-        let span = trajectory.span().ok_or(Error::NoMotion { run })?;
+        let Views { encoders, body, poses } = views;
+        let span = body.span().ok_or(Error::NoMotion { run })?;
+        if encoders.span().is_none() || poses.span().is_none() {
+            return Err(Error::NoMotion { run });
+        }
         let imu = self.imu.as_ref();
         Ok(UncheckedRun {
             id: run,
-            tracks: self.encoder.observe(run, trajectory, seed).into(),
-            poses: self.pose.observe(run, trajectory, span, seed).into(),
-            imu: imu.map(|imu| imu.observe(run, trajectory, span, seed)).unwrap_or_default().into(),
+            tracks: self.encoder.observe(run, encoders, seed).into(),
+            poses: self.pose.observe(run, poses, span, seed).into(),
+            imu: imu.map(|imu| imu.observe(run, body, span, seed)).unwrap_or_default().into(),
         })
     }
 

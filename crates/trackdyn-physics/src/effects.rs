@@ -47,3 +47,6 @@ catalogue! {
     terrain_patch::TerrainPatch,
     friction_drift::FrictionDrift,
 }
+
+/// The effects that together are Newton's second law.
+const INERTIA: [&str; 2] = ["yaw-inertia", "centripetal"];

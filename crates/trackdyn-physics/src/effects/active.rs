@@ -1,6 +1,6 @@
 //! Effects that are switched on.
 
-use super::{CATALOGUE, EffectError, Law};
+use super::{CATALOGUE, EffectError, INERTIA, Law};
 use crate::contact::ShearStress;
 use crate::effect::Card;
 use crate::model::{Drive, Ground, Sensor, Site, Situation};
@@ -105,6 +105,21 @@ impl Effects {
     /// No effects: the base model.
     pub fn none() -> Self {
         Self::default()
+    }
+
+    /// The same with Newton's second law in full: the effects of inertia that are not there yet, with
+    /// their typical sizes.
+    ///
+    /// # Panics
+    /// Never: both are of the catalogue.
+    pub fn with_inertia(mut self) -> Self {
+        for card in CATALOGUE.iter().filter(|card| INERTIA.contains(&card.id)) {
+            if !self.iter().any(|effect| effect.card().id == card.id) {
+                let typical = ActiveEffect::new(card.id, &[]);
+                self.insert(typical.expect("typical sizes are in range"));
+            }
+        }
+        self
     }
 
     /// Switches an effect on; it replaces one of the same id.

@@ -1,0 +1,164 @@
+//! `trackdyn simulate`: a drive in time over a ground with effects, as a recording.
+
+mod document;
+
+use crate::commands::Outcome;
+use crate::exit::Exit;
+use crate::options::{ModelOptions, finite, model};
+use crate::progress::Progress;
+use clap::Args;
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use trackdyn_core::output::{prepare_folder, write_file};
+use trackdyn_core::{Plant, Pose, Stopped, Trajectory};
+use trackdyn_field::schedules::{self, ScheduleOptions, ScheduledRun, as_commanded};
+use trackdyn_field::sensors::{Preset, Sensors, Views};
+use trackdyn_field::truth;
+use trackdyn_motion::Transient;
+use trackdyn_physics::Model;
+use trackdyn_recording::{Recording, Source, UncheckedRun, folder};
+
+/// Options of `trackdyn simulate`.
+#[derive(Args)]
+pub struct Options {
+    #[command(flatten)]
+    model: ModelOptions,
+    /// What the tracks do: manual, validation, designed, square, or a file t,v_left,v_right
+    #[arg(long, value_name = "NAME|FILE", default_value = "manual")]
+    schedule: String,
+    /// Runs of a schedule that is generated [default: what is usual for it]
+    #[arg(long, value_name = "N")]
+    runs: Option<usize>,
+    /// Time of each run of a schedule that is generated, s [default: until it is driven]
+    #[arg(long, value_name = "SECONDS", value_parser = finite)]
+    duration: Option<f64>,
+    /// Largest track speed of a schedule that is generated, m/s
+    #[arg(long, value_name = "SPEED", default_value_t = 1.0, value_parser = finite)]
+    fastest: f64,
+    /// Sensors: perfect, laboratory, field, or a file (schema trackdyn.sensors/1)
+    #[arg(long, value_name = "NAME|FILE", default_value = "laboratory")]
+    sensors: String,
+    /// Leave inertia out: the robot is at its stationary motion at once
+    #[arg(long)]
+    quasi_static: bool,
+    /// Longest step of the integration, s
+    #[arg(long, value_name = "SECONDS", default_value_t = Transient::STEP, value_parser = step)]
+    step: f64,
+    /// Seed of schedules and noise
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Folder for the recording, the true motion (truth.csv) and what it was made from
+    #[arg(long, value_name = "DIR", default_value = "out/recording")]
+    out: PathBuf,
+}
+
+/// Simulates, prints what was driven and writes the recording.
+pub fn run(options: &Options) -> Outcome {
+    let mut file = options.model.vehicle_file()?;
+    if !options.quasi_static {
+        file.effects = file.effects.with_inertia();
+    }
+    let sensors = sensors(&options.sensors)?;
+    let schedules = schedules::load(&options.schedule, &schedule_options(options))?;
+    prepare_folder(&options.out)?;
+
+    let model = model(&file);
+    let progress = Progress::new(schedules.len());
+    let runs: Vec<Driven> = schedules
+        .par_iter()
+        .map(|run| {
+            let driven = Driven::new(&model, run, options, &sensors);
+            progress.advance(1);
+            driven
+        })
+        .collect::<Result<_, _>>()?;
+    progress.finish();
+
+    let name = format!("simulated {}", file.vehicle.name);
+    let observed = runs.iter().map(|run| run.observed.clone()).collect();
+    let recording =
+        Recording::new(name, &file.vehicle.name, observed, Source::computed(), Vec::new())?;
+    for warning in recording.warnings() {
+        eprintln!("note: {warning}");
+    }
+    truth::write(&options.out, runs.iter().map(|run| (run.id, &run.path)))?;
+    schedules::write(&options.out.join("schedule.csv"), &schedules)?;
+    write_file(&options.out.join("vehicle.toml"), file.to_toml().as_bytes())?;
+    write_file(&options.out.join("sensors.toml"), sensors.to_toml().as_bytes())?;
+    let text = document::text(&file, &sensors, &recording, options)?;
+    write_file(&options.out.join("simulation.toml"), text.as_bytes())?;
+    folder::write(&recording, &options.out)?;
+    print!("{}", document::summary(&file, &sensors, &recording, &runs));
+    eprintln!("wrote the recording, truth.csv and simulation.toml to {}", options.out.display());
+    Ok(Exit::Done)
+}
+
+/// One run, driven and seen.
+pub struct Driven {
+    id: i64,
+    path: Trajectory,
+    observed: UncheckedRun,
+}
+
+impl Driven {
+    fn new(
+        model: &Model,
+        run: &ScheduledRun,
+        options: &Options,
+        sensors: &Sensors,
+    ) -> Result<Self, String> {
+        let ScheduledRun { id, schedule } = run;
+        let [start, _] = schedule.span();
+        let pose = Pose::new(0.0, 0.0, options.model.circumstance().heading);
+        let mut robot = Transient::at_rest(model, start, pose).with_step(options.step);
+        let path = robot.follow(schedule).map_err(|stopped: Stopped| {
+            format!("run {id}: {stopped}; --quasi-static or gentler speeds may go on")
+        })?;
+        let encoders = as_commanded(schedule, &path);
+        let poses = model.sensor().reported_path(&path);
+        let views = Views { encoders: &encoders, body: &path, poses: &poses };
+        let observed = sensors
+            .observe_views(*id, &views, options.seed)
+            .map_err(|error| format!("run {id}: {error}"))?;
+        Ok(Self { id: *id, path, observed })
+    }
+
+    /// Length of the path, m.
+    fn length(&self) -> f64 {
+        self.path
+            .moments()
+            .windows(2)
+            .map(|pair| (pair[1].pose.x - pair[0].pose.x).hypot(pair[1].pose.y - pair[0].pose.y))
+            .sum()
+    }
+}
+
+fn schedule_options(options: &Options) -> ScheduleOptions {
+    ScheduleOptions {
+        runs: options.runs,
+        seed: options.seed,
+        fastest: options.fastest,
+        duration: options.duration,
+        ..ScheduleOptions::default()
+    }
+}
+
+/// The sensors of a name or a file.
+pub fn sensors(choice: &str) -> Result<Sensors, Box<dyn std::error::Error>> {
+    match Preset::named(choice) {
+        Some(preset) => Ok(preset.sensors()),
+        None if Path::new(choice).exists() => Ok(Sensors::read(Path::new(choice))?),
+        None => {
+            let names = Preset::ALL.map(Preset::name).join(", ");
+            Err(format!("--sensors {choice}: expected {names} or a file that exists").into())
+        }
+    }
+}
+
+/// A step that an integration can take.
+pub fn step(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(step) if (1e-5..=0.1).contains(&step) => Ok(step),
+        _ => Err("expected a time between 0.00001 and 0.1 s".to_owned()),
+    }
+}

@@ -1,0 +1,75 @@
+//! What a simulated recording was made from, and its summary.
+
+use super::{Driven, Options};
+use crate::options::command_line;
+use serde::Serialize;
+use std::fmt::Write;
+use trackdyn_core::output::fingerprint;
+use trackdyn_field::Sensors;
+use trackdyn_physics::VehicleFile;
+use trackdyn_recording::Recording;
+
+#[derive(Serialize)]
+struct File<'a> {
+    schema: &'static str,
+    command: String,
+    version: &'static str,
+    vehicle: &'a str,
+    vehicle_fingerprint: String,
+    effects: Vec<String>,
+    sensors: &'a str,
+    sensors_fingerprint: String,
+    schedule: &'a str,
+    seed: u64,
+    longest_step_s: f64,
+    recording_fingerprint: &'a str,
+}
+
+/// The text of `simulation.toml`.
+pub fn text(
+    file: &VehicleFile,
+    sensors: &Sensors,
+    recording: &Recording,
+    options: &Options,
+) -> Result<String, toml::ser::Error> {
+    toml::to_string(&File {
+        schema: "trackdyn.simulation/1",
+        command: command_line(),
+        version: env!("CARGO_PKG_VERSION"),
+        vehicle: &file.vehicle.name,
+        vehicle_fingerprint: fingerprint(file.to_toml().as_bytes()),
+        effects: file.effects.iter().map(ToString::to_string).collect(),
+        sensors: &sensors.name,
+        sensors_fingerprint: fingerprint(sensors.to_toml().as_bytes()),
+        schedule: &options.schedule,
+        seed: options.seed,
+        longest_step_s: options.step,
+        recording_fingerprint: recording.fingerprint(),
+    })
+}
+
+/// What the user sees.
+pub fn summary(
+    file: &VehicleFile,
+    sensors: &Sensors,
+    recording: &Recording,
+    runs: &[Driven],
+) -> String {
+    let mut text = format!("{}, sensors: {}\n", file.vehicle.name, sensors.name);
+    let effects: Vec<String> = file.effects.iter().map(ToString::to_string).collect();
+    let effects = if effects.is_empty() { "none".to_owned() } else { effects.join("\n          ") };
+    let _ = writeln!(text, "effects   {effects}\n");
+    let _ = writeln!(text, "run      time     path  readings  poses");
+    for (run, driven) in recording.runs().iter().zip(runs) {
+        let _ = writeln!(
+            text,
+            "{:3}  {:6.1} s  {:5.1} m  {:8}  {:5}",
+            run.id(),
+            run.duration(),
+            driven.length(),
+            run.tracks().len(),
+            run.poses().len()
+        );
+    }
+    text
+}

@@ -8,6 +8,7 @@ mod identify;
 mod map;
 mod odometry;
 mod recordings;
+mod simulate;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

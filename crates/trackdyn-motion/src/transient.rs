@@ -61,6 +61,8 @@ struct State {
     belt_speed: PerSide<f64>,
     /// Traction over normal load, forward positive.
     traction: PerSide<f64>,
+    /// Whether some of the contact would have to pull.
+    lifts: bool,
 }
 
 impl<'m> Transient<'m> {
@@ -72,7 +74,15 @@ impl<'m> Transient<'m> {
     pub fn at_rest(model: &'m Model, t: f64, pose: Pose) -> Self {
         let still = PerSide::new(0.0, 0.0);
         let twist = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
-        let state = State { t, pose, twist, driven: still, belt_speed: still, traction: still };
+        let state = State {
+            t,
+            pose,
+            twist,
+            driven: still,
+            belt_speed: still,
+            traction: still,
+            lifts: false,
+        };
         Self { model, longest_step: Self::STEP, has_inertia: has_inertia(model), state }
     }
 
@@ -163,18 +173,8 @@ impl<'m> Transient<'m> {
         }
         let motion = stage.motion([point[0], point[1], point[2]]);
         let traction = stage.traction(&motion);
-        Some(State { twist: motion.twist, driven, belt_speed, traction, ..*before })
-    }
-
-    /// Whether some of the contact would have to pull, as it did at the end of the last step.
-    fn lifts(&self) -> bool {
-        let State { pose, t, twist, belt_speed, .. } = self.state;
-        let circumstance = Circumstance { position: [pose.x, pose.y], heading: pose.yaw, time: t };
-        let ground = self.model.ground(&circumstance);
-        let stage =
-            Stage { model: self.model, ground: &ground, belt_speed, base: twist, per_second: 0.0 };
-        let motion = stage.motion([twist.v_x, twist.v_y - belt_speed.left, twist.w]);
-        self.model.lifts(&ground, &motion)
+        let lifts = self.model.lifts(&ground, &motion);
+        Some(State { twist: motion.twist, driven, belt_speed, traction, lifts, ..*before })
     }
 
     /// Kinetic energy of the body with this radius of gyration about its centre of gravity (m), J.
@@ -209,8 +209,11 @@ impl Plant for Transient<'_> {
             self.step(speeds, end - self.state.t, 0)?;
             self.state.t = end;
             trajectory.push(self.moment());
-            if self.lifts() {
-                let reason = "part of the contact lifts off the ground".to_owned();
+            if self.state.lifts {
+                let reason =
+                    "part of the contact lifts off the ground, for the load shifts too far; \
+                              gentler speeds, or a lower centre of gravity, keep it down"
+                        .to_owned();
                 return Err(Stopped { t: end, reason });
             }
         }

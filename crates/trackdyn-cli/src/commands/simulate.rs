@@ -111,9 +111,8 @@ impl Driven {
         let [start, _] = schedule.span();
         let pose = Pose::new(0.0, 0.0, options.model.circumstance().heading);
         let mut robot = Transient::at_rest(model, start, pose).with_step(options.step);
-        let path = robot.follow(schedule).map_err(|stopped: Stopped| {
-            format!("run {id}: {stopped}; --quasi-static or gentler speeds may go on")
-        })?;
+        let path =
+            robot.follow(schedule).map_err(|stopped: Stopped| format!("run {id}: {stopped}"))?;
         let encoders = as_commanded(schedule, &path);
         let poses = model.sensor().reported_path(&path);
         let views = Views { encoders: &encoders, body: &path, poses: &poses };

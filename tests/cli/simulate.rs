@@ -1,0 +1,95 @@
+//! `trackdyn simulate` and `trackdyn drive`.
+
+use crate::Workplace;
+use std::path::PathBuf;
+
+const SCHEDULE: &str = "t,v_left,v_right\n0,0.2,0.6\n4,-0.3,0.3\n8,0.5,0.5\n10,0,0\n11,0,0\n";
+
+#[test]
+fn a_simulated_recording_is_read_and_identified() {
+    let place = Workplace::new();
+    let run = place.run("simulate --cog -0.015,0.04 --runs 3 --sensors laboratory --out drive");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("yaw-inertia"), "Newton's law is on: {}", run.stdout);
+    let run = place.run("inspect drive");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let run = place.run("identify drive --vehicle drive/vehicle.toml --out found");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let text = String::from_utf8(place.read("found/kinematics.toml")).expect("text");
+    let file: toml::Table = text.parse().expect("TOML");
+    let x = |key: &str| file[key].as_float().expect("a number");
+    // The centripetal force moves the mean ICRs by millimetres, and y by a centimetre.
+    assert!((x("x_icr_left_m") + 0.375).abs() < 0.01, "{text}");
+    assert!((x("x_icr_right_m") - 0.457).abs() < 0.01, "{text}");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
+    let place = Workplace::new();
+    place.write("plan.csv", SCHEDULE);
+    let arguments = "simulate --schedule plan.csv --effect slope --effect friction-drift --out rec";
+    let contents = |threads: u32| {
+        let run = place.run_with_threads(arguments, threads);
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        place
+            .files()
+            .into_iter()
+            .map(|file| place.read(&file.to_string_lossy()))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(contents(1), contents(4));
+    let run = place.run("simulate --schedule plan.csv --seed 2 --out other");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert_ne!(place.read("rec/poses.csv"), place.read("other/poses.csv"));
+    let text = String::from_utf8(place.read("other/simulation.toml")).expect("text");
+    assert!(text.contains("seed = 2"), "{text}");
+}
+
+#[test]
+fn bad_schedules_and_worlds_are_refused_and_leave_nothing() {
+    let place = Workplace::new();
+    place.write("text.csv", "t,v_left,v_right\n0,0.5,0.5\n1,fast,0\n");
+    place.write("short.csv", "t,v_left,v_right\n0,0.5,0.5\n");
+    place.write("path.csv", "x,y\n0,0\n1,nan\n");
+    for (arguments, message) in [
+        ("simulate --schedule text.csv", "text.csv:3:2: v_left = \"fast\""),
+        ("simulate --schedule short.csv", "single row"),
+        ("simulate --schedule wild", "manual, validation, designed, square"),
+        ("simulate --sensors wild", "perfect, laboratory, field"),
+        ("simulate --step 5", "between 0.00001 and 0.1 s"),
+        ("simulate --effect tether:pull=3", "tension_n"),
+        ("drive --path path.csv", "path.csv:3:2: y = \"nan\""),
+        ("drive --speed 0", "a positive number"),
+    ] {
+        let run = place.run(arguments);
+        assert_eq!(run.status, 1, "{arguments}: {}", run.stdout);
+        assert!(run.stderr.contains(message), "{arguments}: {}", run.stderr);
+    }
+    let inputs = ["path.csv", "short.csv", "text.csv"].map(PathBuf::from);
+    assert_eq!(place.files(), inputs, "nothing is written");
+}
+
+#[test]
+fn a_robot_that_lifts_stops_with_the_reason() {
+    let place = Workplace::new();
+    place.write("jump.csv", "t,v_left,v_right\n0,1,1\n1,0,0\n");
+    let run = place.run("simulate --schedule jump.csv --effect load-transfer:cog_height_m=0.5");
+    assert_eq!(run.status, 1, "{}", run.stdout);
+    assert!(run.stderr.contains("lifts off the ground"), "{}", run.stderr);
+}
+
+#[test]
+fn identified_kinematics_track_a_square_better_than_the_ideal_drive() {
+    let place = Workplace::new();
+    assert_eq!(place.run("map --cog -0.015,0.04").status, 0);
+    let run = place.run(
+        "drive --cog -0.015,0.04 --estimate odometry --kinematics out/kinematics.toml --out square",
+    );
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let text = String::from_utf8(place.read("square/drive.toml")).expect("text");
+    let file: toml::Table = text.parse().expect("TOML");
+    let drives = file["drive"].as_array().expect("drives");
+    let largest = |k: usize| drives[k]["cross_track_max_m"].as_float().expect("a number");
+    assert!(largest(0) > 1.0 && largest(1) < 0.1, "{text}");
+    assert!(!place.read("square/drive.png").is_empty());
+}

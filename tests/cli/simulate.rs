@@ -93,3 +93,33 @@ fn identified_kinematics_track_a_square_better_than_the_ideal_drive() {
     assert!(largest(0) > 1.0 && largest(1) < 0.1, "{text}");
     assert!(!place.read("square/drive.png").is_empty());
 }
+
+#[test]
+fn the_independent_ground_moves_the_robot_alike() {
+    let place = Workplace::new();
+    place.write("plan.csv", SCHEDULE);
+    for ground in ["own", "independent"] {
+        let run = place.run(&format!(
+            "simulate --schedule plan.csv --sensors perfect --ground {ground} --out {ground}"
+        ));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+    }
+    let end = |folder: &str| {
+        let text = String::from_utf8(place.read(&format!("{folder}/truth.csv"))).expect("text");
+        let row = text.lines().last().expect("a row").to_owned();
+        row.split(',')
+            .skip(2)
+            .take(3)
+            .map(|cell| cell.parse().expect("a number"))
+            .collect::<Vec<f64>>()
+    };
+    for (ours, theirs) in end("own").into_iter().zip(end("independent")) {
+        // The shoes of the independent ground leave a third of a millimetre in the ICRs.
+        assert!((ours - theirs).abs() < 0.02, "{ours} {theirs}");
+    }
+    let run = place.run("simulate --schedule plan.csv --mechanism washboard --out washboard");
+    assert!(run.status == 1 && run.stderr.contains("--ground independent"), "{}", run.stderr);
+    let run = place
+        .run("simulate --schedule plan.csv --ground independent --mechanism washboard --out board");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+}

@@ -23,6 +23,12 @@ pub struct ModelOptions {
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true,
           value_parser = finite)]
     pub heading: f64,
+    /// Place of the robot in the world in m, for effects that know places
+    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
+    pub position: Option<[f64; 2]>,
+    /// Time since the start of a recording in s, for effects that know times
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = finite)]
+    pub time: f64,
 }
 
 impl ModelOptions {
@@ -47,7 +53,11 @@ impl ModelOptions {
 
     /// The place, heading and time.
     pub fn circumstance(&self) -> Circumstance {
-        Circumstance { heading: self.heading.to_radians(), ..Circumstance::default() }
+        Circumstance {
+            position: self.position.unwrap_or_default(),
+            heading: self.heading.to_radians(),
+            time: self.time,
+        }
     }
 }
 

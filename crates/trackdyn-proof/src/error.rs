@@ -31,6 +31,9 @@ pub enum Error {
         /// The value that was given.
         value: f64,
     },
+    /// Text that does not name a mechanism.
+    #[error("\"{0}\": expected ID or ID:PARAMETER=VALUE,...")]
+    Malformed(String),
     /// The same mechanism twice.
     #[error("{0} is switched on twice")]
     Repeated(&'static str),

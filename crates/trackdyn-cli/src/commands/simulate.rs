@@ -1,21 +1,23 @@
 //! `trackdyn simulate`: a drive in time over a ground with effects, as a recording.
 
 mod document;
+mod ground;
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{ModelOptions, finite, model};
 use crate::progress::Progress;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
+use trackdyn_core::Trajectory;
 use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_core::{Plant, Pose, Stopped, Trajectory};
 use trackdyn_field::schedules::{self, ScheduleOptions, ScheduledRun, as_commanded};
 use trackdyn_field::sensors::{Preset, Sensors, Views};
 use trackdyn_field::truth;
 use trackdyn_motion::Transient;
-use trackdyn_physics::Model;
+use trackdyn_physics::{Model, VehicleFile};
+use trackdyn_proof::ActiveMechanism;
 use trackdyn_recording::{Recording, Source, UncheckedRun, folder};
 
 /// Options of `trackdyn simulate`.
@@ -41,6 +43,13 @@ pub struct Options {
     /// Leave inertia out: the robot is at its stationary motion at once
     #[arg(long)]
     quasi_static: bool,
+    /// Which simulator moves the robot: the project's own, or the independent one of proofs, which shares
+    /// no law with it
+    #[arg(long, value_enum, default_value_t = Ground::Own)]
+    ground: Ground,
+    /// Independent ground: a mechanism outside the catalogue of effects; repeatable
+    #[arg(long = "mechanism", value_name = "ID[:PARAMETER=VALUE,...]")]
+    mechanisms: Vec<ActiveMechanism>,
     /// Longest step of the integration, s
     #[arg(long, value_name = "SECONDS", default_value_t = Transient::STEP, value_parser = step)]
     step: f64,
@@ -52,11 +61,25 @@ pub struct Options {
     out: PathBuf,
 }
 
+/// Which simulator moves the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Ground {
+    /// The laws of the catalogue
+    Own,
+    /// Shoes on springs, with laws of their own under the same names
+    Independent,
+}
+
 /// Simulates, prints what was driven and writes the recording.
 pub fn run(options: &Options) -> Outcome {
     let mut file = options.model.vehicle_file()?;
     if !options.quasi_static {
         file.effects = file.effects.with_inertia();
+    }
+    if options.ground == Ground::Own && !options.mechanisms.is_empty() {
+        return Err("--mechanism: expected with --ground independent only; the effects of the \
+                    project's own simulator are switched on by --effect"
+            .into());
     }
     let sensors = sensors(&options.sensors)?;
     let schedules = schedules::load(&options.schedule, &schedule_options(options))?;
@@ -67,7 +90,7 @@ pub fn run(options: &Options) -> Outcome {
     let runs: Vec<Driven> = schedules
         .par_iter()
         .map(|run| {
-            let driven = Driven::new(&model, run, options, &sensors);
+            let driven = Driven::new(&file, &model, run, options, &sensors);
             progress.advance(1);
             driven
         })
@@ -102,19 +125,19 @@ pub struct Driven {
 
 impl Driven {
     fn new(
+        file: &VehicleFile,
         model: &Model,
         run: &ScheduledRun,
         options: &Options,
         sensors: &Sensors,
     ) -> Result<Self, String> {
         let ScheduledRun { id, schedule } = run;
-        let [start, _] = schedule.span();
-        let pose = Pose::new(0.0, 0.0, options.model.circumstance().heading);
-        let mut robot = Transient::at_rest(model, start, pose).with_step(options.step);
-        let path =
-            robot.follow(schedule).map_err(|stopped: Stopped| format!("run {id}: {stopped}"))?;
+        let motion = match options.ground {
+            Ground::Own => ground::own(model, schedule, options),
+            Ground::Independent => ground::independent(file, schedule, options),
+        };
+        let (path, poses) = motion.map_err(|error| format!("run {id}: {error}"))?;
         let encoders = as_commanded(schedule, &path);
-        let poses = model.sensor().reported_path(&path);
         let views = Views { encoders: &encoders, body: &path, poses: &poses };
         let observed = sensors
             .observe_views(*id, &views, options.seed)

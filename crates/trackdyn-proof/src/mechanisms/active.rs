@@ -59,3 +59,33 @@ impl ActiveMechanism {
         from_values(self.index, &self.values)
     }
 }
+
+/// Reads `id` or `id:key=value,key=value`.
+impl std::str::FromStr for ActiveMechanism {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let (id, settings) = text.split_once(':').unwrap_or((text, ""));
+        let settings = settings.split(',').filter(|setting| !setting.is_empty());
+        let settings = settings
+            .map(|setting| {
+                let (key, value) = setting.split_once('=')?;
+                Some((key.trim(), value.trim().parse().ok()?))
+            })
+            .collect::<Option<Vec<(&str, f64)>>>();
+        let settings = settings.ok_or_else(|| Error::Malformed(text.to_owned()))?;
+        Self::new(id.trim(), &settings)
+    }
+}
+
+/// `id:key=value,key=value`, which reads back.
+impl std::fmt::Display for ActiveMechanism {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", self.sheet().id)?;
+        for (k, (parameter, value)) in self.sheet().parameters.iter().zip(&self.values).enumerate()
+        {
+            write!(f, "{}{}={value}", if k == 0 { ':' } else { ',' }, parameter.key)?;
+        }
+        Ok(())
+    }
+}

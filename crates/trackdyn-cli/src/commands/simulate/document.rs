@@ -17,6 +17,9 @@ struct File<'a> {
     vehicle: &'a str,
     vehicle_fingerprint: String,
     effects: Vec<String>,
+    ground: String,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    mechanisms: Vec<String>,
     sensors: &'a str,
     sensors_fingerprint: String,
     schedule: &'a str,
@@ -39,6 +42,8 @@ pub fn text(
         vehicle: &file.vehicle.name,
         vehicle_fingerprint: fingerprint(file.to_toml().as_bytes()),
         effects: file.effects.iter().map(ToString::to_string).collect(),
+        ground: format!("{:?}", options.ground).to_lowercase(),
+        mechanisms: options.mechanisms.iter().map(ToString::to_string).collect(),
         sensors: &sensors.name,
         sensors_fingerprint: fingerprint(sensors.to_toml().as_bytes()),
         schedule: &options.schedule,

@@ -1,0 +1,53 @@
+//! The two simulators.
+
+use super::Options;
+use trackdyn_core::{Plant, Pose, Schedule, Trajectory};
+use trackdyn_motion::Transient;
+use trackdyn_physics::{Model, VehicleFile};
+use trackdyn_proof::{ActiveMechanism, Robot, Setup};
+
+/// The motion of the hull, and the path that the pose sensor takes it to be.
+type Motion = (Trajectory, Trajectory);
+
+fn start(options: &Options) -> Pose {
+    let here = options.model.circumstance();
+    Pose::new(here.position[0], here.position[1], here.heading)
+}
+
+/// Moves the robot by the laws of the catalogue.
+pub fn own(model: &Model, schedule: &Schedule, options: &Options) -> Result<Motion, String> {
+    let [start_time, _] = schedule.span();
+    let mut robot = Transient::at_rest(model, start_time, start(options)).with_step(options.step);
+    let path = robot.follow(schedule).map_err(|stopped| stopped.to_string())?;
+    let reported = model.sensor().reported_path(&path);
+    Ok((path, reported))
+}
+
+/// Moves the robot by the independent mechanisms of the same names, and those outside the catalogue.
+pub fn independent(
+    file: &VehicleFile,
+    schedule: &Schedule,
+    options: &Options,
+) -> Result<Motion, String> {
+    let mut mechanisms = options.mechanisms.clone();
+    for effect in &file.effects {
+        let card = effect.card();
+        let keys = card.parameters.iter().map(|parameter| parameter.key);
+        let settings: Vec<_> = keys.zip(effect.values().iter().copied()).collect();
+        let mechanism = ActiveMechanism::new(card.id, &settings);
+        mechanisms.push(mechanism.map_err(|error| error.to_string())?);
+    }
+    let [start_time, _] = schedule.span();
+    let setup = Setup {
+        seed: options.seed,
+        start: start(options),
+        start_time,
+        longest_step: options.step,
+        ..Setup::default()
+    };
+    let mut robot =
+        Robot::new(&file.vehicle, &mechanisms, &setup).map_err(|error| error.to_string())?;
+    let path = robot.follow(schedule).map_err(|stopped| stopped.to_string())?;
+    let reported = robot.report(&path);
+    Ok((path, reported))
+}

@@ -29,8 +29,13 @@ impl Stage<'_> {
         let left = self.belt_speed.left;
         let stays = Vector3::new(guess.v_x, guess.v_y - left, guess.w);
         let follows = Vector3::new(guess.v_x, guess.v_y - before.left, guess.w);
-        // Stick in the direction in which the robot slid before.
-        let sticks = follows * (CREEP / follows.norm().max(CREEP));
+        // Stick in the direction in which the robot slid before; of a robot that did not, held back.
+        let slid = follows.norm();
+        let sticks = if slid > 0.0 {
+            follows * (CREEP / slid.max(CREEP))
+        } else {
+            Vector3::new(0.0, -CREEP * left.signum(), 0.0)
+        };
         let right = Vector3::new(0.0, self.belt_speed.right - left, 0.0);
         let starts = [follows, stays, sticks, self.turning(), right + sticks];
         let mut best: Option<Convergence> = None;

@@ -3,7 +3,7 @@
 use crate::mechanism::{Contact, Described, Mechanism};
 use crate::sheet::{Invariance, Origin, Parameter, Sheet};
 
-/// Friction grows with the share of slip that goes forward.
+/// Friction grows with the share of slip that goes backward.
 #[derive(Clone, Copy, Debug)]
 pub struct DirectionalLugs {
     excess: f64,
@@ -13,8 +13,8 @@ impl Described for DirectionalLugs {
     const SHEET: Sheet = Sheet {
         id: "directional-lugs",
         origin: Origin::Catalogue,
-        law: "μ_y (1 + d z_y/z₀)",
-        size: "equal to μ_y (1 + d sign(s_y)) where the slip is along the track; in between it \
+        law: "μ_y (1 − d z_y/z₀)",
+        size: "equal to μ_y (1 − d sign(s_y)) where the slip is along the track; in between it \
                follows its cosine",
         breaks: &[Invariance::Reversal],
         parameters: &[Parameter { key: "excess", unit: "1", range: [-0.9, 0.9], typical: 0.05 }],
@@ -27,6 +27,6 @@ impl Described for DirectionalLugs {
 
 impl Mechanism for DirectionalLugs {
     fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
-        mu[1] *= 1.0 + self.excess * contact.deflection[1];
+        mu[1] *= 1.0 - self.excess * contact.deflection[1];
     }
 }

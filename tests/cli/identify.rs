@@ -89,7 +89,7 @@ fn mistakes_are_named() {
         (format!("identify missing --vehicle {vehicle}"), "missing"),
         (format!("identify empty --vehicle {vehicle}"), "recording.toml"),
         ("identify empty".to_owned(), "--vehicle"),
-        (format!("identify empty --vehicle {vehicle} --tau late"), "a finite number"),
+        (format!("identify empty --vehicle {vehicle} --tau late"), "a number of seconds"),
         (format!("identify empty --vehicle {vehicle} --population 0"), "--population"),
         ("inspect empty".to_owned(), "recording.toml"),
     ] {

@@ -4,8 +4,8 @@ use clap::Args;
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_physics::{ActiveEffect, Circumstance, Model, VehicleFile};
-use trackdyn_recording::Recording;
 use trackdyn_recording::rosbag::RosbagOptions;
+use trackdyn_recording::{Clock, Recording};
 
 /// The vehicle, its effects and where it stands.
 #[derive(Args)]
@@ -106,6 +106,87 @@ impl RecordingOptions {
     }
 }
 
+/// Which runs of a recording count, and how late its poses are.
+#[derive(Args)]
+pub struct DrivingOptions {
+    #[command(flatten)]
+    recording: RecordingOptions,
+    /// Take these runs only, such as 7,8,20-29 [default: all]
+    #[arg(long, value_name = "LIST", value_parser = runs, allow_hyphen_values = true)]
+    runs: Option<RunList>,
+    /// Time in s by which poses lag behind the track speeds [default: estimated]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    pub tau: Option<f64>,
+}
+
+impl DrivingOptions {
+    /// Reads the recording, with all its runs.
+    ///
+    /// # Errors
+    /// Those of [`RecordingOptions::read`].
+    pub fn recording(&self) -> Result<Recording, trackdyn_recording::Error> {
+        self.recording.read()
+    }
+
+    /// The recording as given.
+    pub fn path(&self) -> &Path {
+        &self.recording.recording
+    }
+
+    /// Indices of the runs to take.
+    ///
+    /// # Errors
+    /// A message with the run that is not there.
+    pub fn indices(&self, recording: &Recording) -> Result<Vec<usize>, String> {
+        let RunList(numbers) = self.runs.clone().unwrap_or_default();
+        recording.indices_of(&numbers).map_err(|error| format!("--runs: {error}"))
+    }
+
+    /// The clock offset that is given, else that of the recording.
+    pub fn clock(&self, recording: &Recording) -> Clock {
+        Clock::of(recording, self.tau)
+    }
+}
+
+/// Numbers of runs; a type of its own, for `clap` takes a vector for an option that is repeated.
+#[derive(Clone, Debug, Default)]
+struct RunList(Vec<i64>);
+
+/// Numbers of runs and ranges of them, separated by commas.
+///
+/// # Errors
+/// What was expected.
+fn runs(text: &str) -> Result<RunList, String> {
+    const MOST: i64 = 1_000_000;
+    let expected = || "expected numbers of runs, such as 7,8,20-29".to_owned();
+    let number = |text: &str| text.trim().parse::<i64>().map_err(|_| expected());
+    let mut numbers = Vec::new();
+    for part in text.split(',') {
+        match part.trim().split_once('-').filter(|(first, _)| !first.is_empty()) {
+            Some((first, last)) => {
+                let (first, last) = (number(first)?, number(last)?);
+                if !(first..first.saturating_add(MOST)).contains(&last) {
+                    return Err(expected());
+                }
+                numbers.extend(first..=last);
+            }
+            None => numbers.push(number(part)?),
+        }
+    }
+    Ok(RunList(numbers))
+}
+
+/// Seconds of a clock offset.
+///
+/// # Errors
+/// What was expected.
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.abs() <= 3600.0 => Ok(value),
+        _ => Err("expected a number of seconds, such as 0.25".to_owned()),
+    }
+}
+
 /// Reads a vehicle file.
 ///
 /// # Errors
@@ -145,5 +226,19 @@ pub fn finite(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         _ => Err("expected a finite number".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::runs;
+
+    #[test]
+    fn lists_of_runs() {
+        assert_eq!(runs("7, 9,20-22").expect("numbers").0, [7, 9, 20, 21, 22]);
+        assert_eq!(runs("-3").expect("a number").0, [-3]);
+        for bad in ["", "x", "1,,2", "9-7", "1-", "0-9999999999"] {
+            assert!(runs(bad).is_err(), "{bad}");
+        }
     }
 }

@@ -9,9 +9,8 @@ use crate::parameters::{Free, Parameters};
 use crate::spin_test::{SpinTest, spin_test};
 use crate::weighting::{SegmentNoise, Weighting};
 use trackdyn_motion::Kinematics;
-use trackdyn_recording::clock::{ClockOffset, ClockSearch, clock_offset};
 use trackdyn_recording::noise::{Noise, noise};
-use trackdyn_recording::{Recording, SegmentOptions};
+use trackdyn_recording::{Clock, Recording, SegmentOptions};
 
 /// How to identify.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,28 +23,6 @@ pub struct Options {
     pub settle: Option<f64>,
     /// The genetic algorithm.
     pub genetic: GeneticOptions,
-}
-
-/// Where the clock offset comes from.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Clock {
-    /// Given by the user, s.
-    Given(f64),
-    /// Estimated from the recording.
-    Estimated(ClockOffset),
-    /// Taken as zero, for the recording does not show it.
-    Unknown(String),
-}
-
-impl Clock {
-    /// The offset τ, s.
-    pub fn tau(&self) -> f64 {
-        match self {
-            Self::Given(tau) => *tau,
-            Self::Estimated(offset) => offset.tau,
-            Self::Unknown(_) => 0.0,
-        }
-    }
 }
 
 /// The parameters with one choice of what is free.
@@ -90,13 +67,7 @@ pub fn identify(
     options: &Options,
     progress: &dyn Fn(usize),
 ) -> Result<Identification, Error> {
-    let clock = match options.tau {
-        Some(tau) => Clock::Given(tau),
-        None => match clock_offset(recording, &ClockSearch::default()) {
-            Ok(offset) => Clock::Estimated(offset),
-            Err(reason) => Clock::Unknown(reason.to_string()),
-        },
-    };
+    let clock = Clock::of(recording, options.tau);
     let tau = clock.tau();
     let segments = SegmentOptions { tau, ..SegmentOptions::default() };
     let observations = match options.settle {

@@ -3,7 +3,7 @@
 mod covariance;
 mod identifiability;
 
-pub use covariance::{Blocks, Interval};
+pub use covariance::Interval;
 pub use identifiability::{doubts, lacks};
 
 use crate::error::Error;
@@ -14,6 +14,7 @@ use crate::weighting::{Weighting, Whitener};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
 use std::ops::Range;
+use trackdyn_recording::Blocks;
 
 /// Residuals beyond this many standard deviations count linearly (Huber): 95 % efficient on normal
 /// noise.
@@ -38,6 +39,8 @@ pub struct Estimate {
     pub covariance_of_noise: DMatrix<f64>,
     /// The blocks behind `covariance`.
     pub blocks: Blocks,
+    /// How many of them have segments.
+    pub filled_blocks: usize,
     /// Sum of the loss over all residuals, in the units of the weighting.
     pub cost: f64,
     /// Root mean square of the whitened residuals: 1 where model and noise explain the recording.
@@ -206,8 +209,9 @@ impl Linearisation {
     ) -> Estimate {
         let weights = self.weights(loss);
         let (matrix, _) = self.normal_equations(&weights);
-        let blocks = Blocks::of(observations);
-        let parts = blocks.map(|range| self.part(range, &weights));
+        let blocks = observations.blocks();
+        let ranges = observations.ranges(&blocks);
+        let parts: Vec<_> = ranges.into_iter().map(|range| self.part(range, &weights)).collect();
         let squares: f64 = self.residuals.iter().map(Vector3::norm_squared).sum();
         #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 residuals")]
         let degrees = (3 * self.residuals.len() - free.count()) as f64;
@@ -217,6 +221,7 @@ impl Linearisation {
             covariance: covariance::jackknife(&matrix, &parts),
             covariance_of_noise: identifiability::inverse(&matrix),
             blocks,
+            filled_blocks: parts.len(),
             cost,
             whitened_rms: (squares / degrees).sqrt(),
             iterations,
@@ -235,7 +240,12 @@ impl Estimate {
             let variance = |of: &DMatrix<f64>| of[(parameter, parameter)].max(0.0);
             let larger = variance(&self.covariance).max(variance(&self.covariance_of_noise));
             let deviation = larger.sqrt();
-            Interval::new(self.parameters.0[parameter], deviation, &self.blocks, self.free.count())
+            Interval::new(
+                self.parameters.0[parameter],
+                deviation,
+                self.filled_blocks,
+                self.free.count(),
+            )
         })
     }
 

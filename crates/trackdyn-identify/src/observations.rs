@@ -1,8 +1,9 @@
 //! What a recording shows, segment by segment.
 
+use std::ops::Range;
 use trackdyn_core::PerSide;
 use trackdyn_recording::hold::{held, travelled};
-use trackdyn_recording::{Recording, Run, Segment, SegmentOptions, segments};
+use trackdyn_recording::{Blocks, Extent, Recording, Run, Segment, SegmentOptions, segments};
 
 /// Change of a track speed over the faster one's up to which driving is steady.
 const STEADY: f64 = 0.1;
@@ -35,6 +36,8 @@ pub struct Observation {
     pub motion: [f64; 3],
     /// Heading of its first pose in the frame of the run, rad.
     pub heading: f64,
+    /// Stamp of its first pose, s.
+    pub start: f64,
     /// Its length, s.
     pub duration: f64,
     /// Index of its run in the recording.
@@ -108,6 +111,7 @@ impl Observations {
             last_piece: self.pieces.len(),
             motion: [observed.x, observed.y, observed.yaw],
             heading: run.poses()[segment.poses[0]].pose.yaw,
+            start: segment.start,
             duration: segment.duration(),
             run: segment.run,
             follows: segment.follows,
@@ -131,6 +135,29 @@ impl Observations {
             self.pieces(segment).iter().map(|piece| piece.duration * speed(piece)).sum()
         };
         PerSide::new(distance(|piece| piece.v_left), distance(|piece| piece.v_right))
+    }
+
+    /// What counts as independent: the runs with segments, from the first to the last one, or pieces of
+    /// them.
+    pub fn blocks(&self) -> Blocks {
+        let runs = self.segments.chunk_by(|a, b| a.run == b.run);
+        Blocks::new(runs.map(|segments| {
+            let (first, last) = (&segments[0], &segments[segments.len() - 1]);
+            let (start, end) = (first.start, last.start + last.duration);
+            Extent { run: first.run, start, duration: end - start }
+        }))
+    }
+
+    /// The segments of each block that has any.
+    pub fn ranges(&self, blocks: &Blocks) -> Vec<Range<usize>> {
+        let block = |segment: &Observation| blocks.of(segment.run, segment.start);
+        let mut end = 0;
+        let parts = self.segments.chunk_by(|a, b| block(a) == block(b));
+        let ranges = parts.map(|segments| {
+            end += segments.len();
+            end - segments.len()..end
+        });
+        ranges.collect()
     }
 
     /// Whether there are none.

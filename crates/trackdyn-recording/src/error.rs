@@ -100,6 +100,14 @@ pub enum Error {
         /// Topics with their types.
         available: String,
     },
+    /// A run that the recording does not have.
+    #[error("run {run} is not in the recording: expected {expected}")]
+    UnknownRun {
+        /// The number asked for.
+        run: i64,
+        /// The numbers that are there.
+        expected: String,
+    },
     /// The recording does not hold what an estimate needs.
     #[error("{what} cannot be estimated: {reason}")]
     NotEstimable {

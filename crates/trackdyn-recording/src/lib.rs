@@ -5,11 +5,13 @@
 //! - [`operating_points`]: tables of steady motion, a measured map of ICRs.
 //! - [`segment`], [`hold`]: pieces between two poses and the track speeds within them.
 //! - [`clock`]: how late the poses are against the encoders.
+//! - [`blocks`]: parts that count as independent.
 //! - [`noise`]: how noisy poses and encoders are, from the recording itself.
 //! - [`synthetic`]: recordings with known truth.
 //!
 //! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
 
+pub mod blocks;
 pub mod clock;
 pub mod error;
 pub mod folder;
@@ -25,6 +27,8 @@ pub mod synthetic;
 mod table;
 pub mod tum;
 
+pub use blocks::{Blocks, Extent};
+pub use clock::Clock;
 pub use error::Error;
 pub use format::{Format, read};
 pub use operating_points::{OperatingPoint, OperatingPoints};

@@ -93,14 +93,14 @@ fn heading(canvas: &mut Canvas, result: &Comparison, name: &str, caption: &str) 
 mod tests {
     use super::*;
     use trackdyn_motion::{Icrs, Kinematics};
-    use trackdyn_odometry::{ParameterSet, comparison};
+    use trackdyn_odometry::ParameterSet;
     use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
     fn result(duration: f64, sets: usize) -> Comparison {
         let schedules = (0..3).map(|seed| random_steps(6, duration, 1.0, seed)).collect();
         let synthetic = Synthetic { schedules, position_noise: 1e-3, ..Synthetic::default() };
         let recording = synthetic.recording().expect("a recording");
-        let runs = comparison::select(&recording, &[]).expect("all runs");
+        let runs = recording.indices_of(&[]).expect("all runs");
         let set = |k: usize| {
             #[expect(clippy::cast_precision_loss, reason = "a few sets")]
             let x = 0.2 + 0.05 * k as f64;

@@ -4,7 +4,7 @@ mod summary;
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{RecordingOptions, command_line, finite, read_vehicle};
+use crate::options::{DrivingOptions, command_line, finite, read_vehicle};
 use crate::progress::Progress;
 use clap::Args;
 use std::path::PathBuf;
@@ -20,13 +20,10 @@ use trackdyn_recording::Recording;
 #[derive(Args)]
 pub struct Options {
     #[command(flatten)]
-    recording: RecordingOptions,
+    driving: DrivingOptions,
     /// Vehicle file (schema trackdyn.vehicle/1), for its gauge
     #[arg(long, value_name = "FILE")]
     vehicle: PathBuf,
-    /// How late the poses are against the tracks, in s [default: estimated]
-    #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
-    tau: Option<f64>,
     /// Leave out segments before which the tracks have not run steadily for so many seconds
     #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
     settle: Option<f64>,
@@ -49,7 +46,8 @@ pub struct Options {
 /// Identifies the parameters, prints them side by side and writes what the recording determines.
 pub fn run(options: &Options) -> Outcome {
     let vehicle = read_vehicle(&options.vehicle)?;
-    let recording = options.recording.read()?;
+    let whole = options.driving.recording()?;
+    let recording = whole.with_runs(&options.driving.indices(&whole)?);
     prepare_folder(&options.out)?;
     let genetic = GeneticOptions {
         population: options.population as usize,
@@ -59,8 +57,12 @@ pub fn run(options: &Options) -> Outcome {
     };
     let gauge = vehicle.vehicle.gauge;
     let progress = Progress::new(2 * genetic.generations);
-    let identify_options =
-        identification::Options { gauge, tau: options.tau, settle: options.settle, genetic };
+    let identify_options = identification::Options {
+        gauge,
+        tau: options.driving.tau,
+        settle: options.settle,
+        genetic,
+    };
     let found = identify(&recording, &identify_options, &|_| progress.advance(1))?;
     progress.finish();
     print!("{}", summary::text(&recording, &vehicle.vehicle, &found));

@@ -83,3 +83,16 @@ impl Run {
         UncheckedRun { id: self.id, tracks: self.tracks, poses: self.poses, imu: self.imu }
     }
 }
+
+/// The numbers of runs, shortened.
+pub(super) fn numbers(runs: &[Run]) -> String {
+    match runs {
+        [first, .., last] if runs.len() > 12 => {
+            format!("one of its {} runs, {} to {}", runs.len(), first.id(), last.id())
+        }
+        runs => {
+            let numbers: Vec<String> = runs.iter().map(|run| run.id().to_string()).collect();
+            format!("one of {}", numbers.join(", "))
+        }
+    }
+}

@@ -1,11 +1,11 @@
 //! The result of an identification as text.
 
 use std::fmt::Write;
-use trackdyn_identify::identification::{Clock, Fit};
+use trackdyn_identify::identification::Fit;
 use trackdyn_identify::{Estimate, Free, Identification, Parameters};
 use trackdyn_motion::Icrs;
 use trackdyn_physics::Vehicle;
-use trackdyn_recording::Recording;
+use trackdyn_recording::{Clock, Recording};
 
 /// One screen: the recording, its clock and noise, the methods side by side.
 pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) -> String {
@@ -97,12 +97,11 @@ fn fit(text: &mut String, fit: &Fit, gauge: f64) {
     let ((chi, e), (chi_ga, e_ga)) = (of(&estimate.parameters), of(&fit.genetic.parameters));
     let _ = writeln!(text, "    {:8}{chi:>10.4}{:>24}{chi_ga:>10.4}", "chi", "");
     let _ = writeln!(text, "    {:8}{e:>10.4}{:>24}{e_ga:>10.4}", "e", "");
-    let cut = if estimate.blocks.cut { "pieces of runs" } else { "runs" };
+    let cut = if estimate.blocks.are_pieces() { "pieces of runs" } else { "runs" };
     let _ = writeln!(
         text,
         "    residuals {:.2} times the noise; intervals from the noise and from {} {cut}",
-        estimate.whitened_rms,
-        estimate.blocks.count()
+        estimate.whitened_rms, estimate.filled_blocks
     );
 }
 

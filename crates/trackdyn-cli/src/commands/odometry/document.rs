@@ -1,10 +1,11 @@
 //! The result of a replay as a file, schema `trackdyn.odometry/1`.
 
-use super::inputs::{Clock, Inputs};
+use super::inputs::Inputs;
 use super::summary::end;
 use serde::Serialize;
 use trackdyn_odometry::comparison::{Component, SpanErrors};
 use trackdyn_odometry::{Comparison, Estimate, ParameterSet, Span};
+use trackdyn_recording::Clock;
 
 #[derive(Serialize)]
 struct File<'a> {
@@ -128,10 +129,10 @@ pub fn text(
             vehicle_fingerprint: &inputs.vehicle_fingerprint,
         },
         clock: ClockTable {
-            tau_s: rounded(clock.tau),
-            standard_error_s: clock.standard_error.map(rounded),
+            tau_s: rounded(clock.tau()),
+            standard_error_s: clock.standard_error().map(rounded),
             origin: clock.origin(),
-            note: clock.note.as_deref(),
+            note: clock.reason(),
         },
         set: result
             .sets

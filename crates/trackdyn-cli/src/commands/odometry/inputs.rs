@@ -10,7 +10,6 @@ use trackdyn_motion::Kinematics;
 use trackdyn_motion::kinematics::KinematicsFile;
 use trackdyn_odometry::ParameterSet;
 use trackdyn_recording::Recording;
-use trackdyn_recording::clock::{ClockSearch, clock_offset};
 
 /// Files, read and checked.
 pub struct Inputs {
@@ -51,7 +50,7 @@ impl Inputs {
             .map(|(path, name)| ParameterFile::read(path, &name))
             .collect::<Result<_, _>>()?;
         Ok(Self {
-            recording: options.recording.read()?,
+            recording: options.driving.recording()?,
             vehicle_fingerprint: fingerprint(vehicle.to_toml().as_bytes()),
             gauge: vehicle.vehicle.gauge,
             vehicle: vehicle.vehicle.name,
@@ -122,99 +121,9 @@ fn names(paths: &[PathBuf]) -> Vec<String> {
     names
 }
 
-/// The clock offset and where it is from.
-pub struct Clock {
-    /// τ, s.
-    pub tau: f64,
-    /// Its standard error, where it was estimated, s.
-    pub standard_error: Option<f64>,
-    /// Why it could not be estimated.
-    pub note: Option<String>,
-}
-
-impl Clock {
-    /// The offset given, or that of the recording.
-    pub fn new(recording: &Recording, given: Option<f64>) -> Self {
-        if let Some(tau) = given {
-            return Self { tau, standard_error: None, note: None };
-        }
-        match clock_offset(recording, &ClockSearch::default()) {
-            Ok(offset) => {
-                let standard_error = Some(offset.standard_error);
-                Self { tau: offset.tau, standard_error, note: None }
-            }
-            Err(error) => Self { tau: 0.0, standard_error: None, note: Some(error.to_string()) },
-        }
-    }
-
-    /// In one word, for files.
-    pub fn origin(&self) -> &'static str {
-        match (self.standard_error, &self.note) {
-            (Some(_), _) => "estimated",
-            (None, Some(_)) => "not estimable",
-            (None, None) => "given",
-        }
-    }
-}
-
-/// Seconds of a clock offset.
-///
-/// # Errors
-/// What was expected.
-pub fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value.abs() <= 3600.0 => Ok(value),
-        _ => Err("expected a number of seconds, such as 0.25".to_owned()),
-    }
-}
-
-/// Numbers of runs; a type of its own, for `clap` takes a vector for an option that is repeated.
-#[derive(Clone, Debug)]
-pub struct RunList(Vec<i64>);
-
-impl RunList {
-    /// The numbers, as given.
-    pub fn numbers(&self) -> &[i64] {
-        &self.0
-    }
-}
-
-/// Numbers of runs and ranges of them, separated by commas.
-///
-/// # Errors
-/// What was expected.
-pub fn runs(text: &str) -> Result<RunList, String> {
-    const MOST: i64 = 1_000_000;
-    let expected = || "expected numbers of runs, such as 7,8,20-29".to_owned();
-    let number = |text: &str| text.trim().parse::<i64>().map_err(|_| expected());
-    let mut numbers = Vec::new();
-    for part in text.split(',') {
-        match part.trim().split_once('-').filter(|(first, _)| !first.is_empty()) {
-            Some((first, last)) => {
-                let (first, last) = (number(first)?, number(last)?);
-                if !(first..first.saturating_add(MOST)).contains(&last) {
-                    return Err(expected());
-                }
-                numbers.extend(first..=last);
-            }
-            None => numbers.push(number(part)?),
-        }
-    }
-    Ok(RunList(numbers))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn lists_of_runs() {
-        assert_eq!(runs("7, 9,20-22").expect("numbers").numbers(), [7, 9, 20, 21, 22]);
-        assert_eq!(runs("-3").expect("a number").numbers(), [-3]);
-        for bad in ["", "x", "1,,2", "9-7", "1-", "0-9999999999"] {
-            assert!(runs(bad).is_err(), "{bad}");
-        }
-    }
 
     #[test]
     fn every_set_has_a_name_of_its_own() {

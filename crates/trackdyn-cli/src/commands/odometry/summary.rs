@@ -1,9 +1,10 @@
 //! The result of a replay as text.
 
-use super::inputs::{Clock, Inputs};
+use super::inputs::Inputs;
 use std::fmt::Write;
 use trackdyn_odometry::comparison::{Component, SpanErrors};
 use trackdyn_odometry::{Comparison, Estimate, Span};
+use trackdyn_recording::Clock;
 
 /// One screen: what was replayed, errors per segment, drift, and how sets compare with the ideal.
 pub fn text(inputs: &Inputs, clock: &Clock, result: &Comparison) -> String {
@@ -18,8 +19,8 @@ pub fn text(inputs: &Inputs, clock: &Clock, result: &Comparison) -> String {
         result.duration(),
         result.distance()
     );
-    let _ = write!(text, "clock offset {:.3} s", clock.tau);
-    let _ = match clock.standard_error {
+    let _ = write!(text, "clock offset {:.3} s", clock.tau());
+    let _ = match clock.standard_error() {
         Some(error) => write!(text, " (estimated, standard error {error:.3} s)"),
         None => write!(text, " ({})", clock.origin()),
     };

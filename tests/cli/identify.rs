@@ -40,6 +40,7 @@ fn parameters_come_out_of_a_recording() {
     assert!((number("y_icr_m") - 0.0492).abs() < 5e-3, "{text}");
     assert_eq!(file["covariance"].as_array().map(Vec::len), Some(3));
     assert_eq!(file["source"]["recording"].as_str(), Some("synthetic"));
+    assert_eq!(file["source"]["runs"].as_str(), Some("0-3"));
 
     // The file is one that the other commands take.
     let used = place.run("kinematics --speeds 0.3,0.9 --kinematics out/kinematics_alpha.toml");
@@ -52,6 +53,27 @@ fn parameters_come_out_of_a_recording() {
         .run_with_threads(&format!("identify rec --vehicle {} --generations 60", vehicle()), 1);
     let text = String::from_utf8(place.read("out/kinematics.toml")).expect("text");
     assert!(first == (again.stdout, text), "results differ between 2 threads and 1");
+}
+
+#[test]
+fn some_runs_or_a_time_can_be_chosen() {
+    let place = Workplace::new();
+    record(&place, (0..6).map(|run| random_steps(10, 2.0, 0.8, run)).collect());
+    let identify = format!("identify rec --vehicle {} --generations 1", vehicle());
+    for (options, runs, time) in [
+        ("--runs 0-3", "0-3", None),
+        ("--runs 5,1,2", "1-2,5", None),
+        ("--time 0,15", "0-5", Some([0.0, 15.0])),
+    ] {
+        let run = place.run(&format!("{identify} {options}"));
+        assert_eq!(run.status, 0, "{}{}", run.stdout, run.stderr);
+        let text = String::from_utf8(place.read("out/kinematics.toml")).expect("text");
+        let file: toml::Table = text.parse().expect("TOML");
+        assert_eq!(file["source"]["runs"].as_str(), Some(runs), "{text}");
+        let chosen = file["source"].get("time_s").and_then(toml::Value::as_array);
+        let chosen = chosen.map(|ends| [0, 1].map(|k| ends[k].as_float().expect("a number")));
+        assert_eq!(chosen, time, "{text}");
+    }
 }
 
 #[test]
@@ -85,12 +107,22 @@ fn mistakes_are_named() {
     let place = Workplace::new();
     let vehicle = vehicle();
     std::fs::create_dir(place.path().join("empty")).expect("made");
+    record(&place, vec![random_steps(10, 2.0, 0.8, 1)]);
     for (arguments, part) in [
         (format!("identify missing --vehicle {vehicle}"), "missing"),
         (format!("identify empty --vehicle {vehicle}"), "recording.toml"),
         ("identify empty".to_owned(), "--vehicle"),
         (format!("identify empty --vehicle {vehicle} --tau late"), "a number of seconds"),
         (format!("identify empty --vehicle {vehicle} --population 0"), "--population"),
+        (
+            format!("identify rec --vehicle {vehicle} --runs 0,9"),
+            "--runs: run 9 is not in the recording",
+        ),
+        (
+            format!("identify rec --vehicle {vehicle} --time 30,40"),
+            "--time: no run has track speeds",
+        ),
+        (format!("identify rec --vehicle {vehicle} --time 3,2"), "the beginning and the end in s"),
         ("inspect empty".to_owned(), "recording.toml"),
     ] {
         let run = place.run(&arguments);

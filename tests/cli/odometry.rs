@@ -114,6 +114,22 @@ fn runs_and_clock_offset_can_be_chosen() {
 }
 
 #[test]
+fn parameters_of_the_same_runs_are_not_held_out() {
+    let place = workplace(&synthetic());
+    let fit = place.run("identify recording --vehicle robot.toml --generations 1 --runs 0-1");
+    assert_eq!(fit.status, 0, "{}", fit.stderr);
+    for (options, held_out) in [("--runs 2-3", true), ("--runs 1-3", false), ("", false)] {
+        let replay = "odometry recording --vehicle robot.toml --kinematics out/kinematics.toml";
+        let run = place.run(&format!("{replay} --out replay {options}"));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        let text = String::from_utf8(place.read("replay/odometry.toml")).expect("text");
+        let document: toml::Table = text.parse().expect("TOML");
+        assert_eq!(document["set"][1]["held_out"].as_bool(), Some(held_out), "{options}: {text}");
+        assert_eq!(run.stderr.contains("fitted to some of these runs"), !held_out);
+    }
+}
+
+#[test]
 fn a_clock_offset_that_cannot_be_estimated_is_zero_and_said() {
     let straight = vec![vec![Stretch { duration: 20.0, speeds: PerSide::new(0.5, 0.5) }]];
     let place = workplace(&Synthetic { schedules: straight, ..Synthetic::default() });

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_physics::{ActiveEffect, Circumstance, Model, VehicleFile};
 use trackdyn_recording::rosbag::RosbagOptions;
-use trackdyn_recording::{Clock, Recording};
+use trackdyn_recording::{Recording, RunList};
 
 /// The vehicle, its effects and where it stands.
 #[derive(Args)]
@@ -106,21 +106,24 @@ impl RecordingOptions {
     }
 }
 
-/// Which runs of a recording count, and how late its poses are.
+/// Which part of a recording counts, and how late its poses are.
 #[derive(Args)]
 pub struct DrivingOptions {
     #[command(flatten)]
     recording: RecordingOptions,
-    /// Take these runs only, such as 7,8,20-29 [default: all]
-    #[arg(long, value_name = "LIST", value_parser = runs, allow_hyphen_values = true)]
+    /// Take these runs only, such as 7,8,20-29: fit on some, judge on others [default: all]
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     runs: Option<RunList>,
+    /// Take this time of each run only, in s from its first reading: to split a recording of one run
+    #[arg(long, value_name = "FROM,UNTIL", value_parser = time)]
+    time: Option<[f64; 2]>,
     /// Time in s by which poses lag behind the track speeds [default: estimated]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub tau: Option<f64>,
 }
 
 impl DrivingOptions {
-    /// Reads the recording, with all its runs.
+    /// Reads the recording, all of it.
     ///
     /// # Errors
     /// Those of [`RecordingOptions::read`].
@@ -133,47 +136,33 @@ impl DrivingOptions {
         &self.recording.recording
     }
 
-    /// Indices of the runs to take.
+    /// The part to take of a recording.
     ///
     /// # Errors
-    /// A message with the run that is not there.
-    pub fn indices(&self, recording: &Recording) -> Result<Vec<usize>, String> {
-        let RunList(numbers) = self.runs.clone().unwrap_or_default();
-        recording.indices_of(&numbers).map_err(|error| format!("--runs: {error}"))
+    /// A message with the option and what is not there.
+    pub fn part(&self, recording: &Recording) -> Result<Recording, String> {
+        let runs = match &self.runs {
+            Some(list) => recording.of_runs(list).map_err(|error| format!("--runs: {error}"))?,
+            None => recording.clone(),
+        };
+        match self.time {
+            Some(time) => runs.within(time).map_err(|error| format!("--time: {error}")),
+            None => Ok(runs),
+        }
     }
 
-    /// The clock offset that is given, else that of the recording.
-    pub fn clock(&self, recording: &Recording) -> Clock {
-        Clock::of(recording, self.tau)
+    /// The time of each run that is taken, s; none: all of it.
+    pub fn time(&self) -> Option<[f64; 2]> {
+        self.time
     }
 }
 
-/// Numbers of runs; a type of its own, for `clap` takes a vector for an option that is repeated.
-#[derive(Clone, Debug, Default)]
-struct RunList(Vec<i64>);
-
-/// Numbers of runs and ranges of them, separated by commas.
-///
-/// # Errors
-/// What was expected.
-fn runs(text: &str) -> Result<RunList, String> {
-    const MOST: i64 = 1_000_000;
-    let expected = || "expected numbers of runs, such as 7,8,20-29".to_owned();
-    let number = |text: &str| text.trim().parse::<i64>().map_err(|_| expected());
-    let mut numbers = Vec::new();
-    for part in text.split(',') {
-        match part.trim().split_once('-').filter(|(first, _)| !first.is_empty()) {
-            Some((first, last)) => {
-                let (first, last) = (number(first)?, number(last)?);
-                if !(first..first.saturating_add(MOST)).contains(&last) {
-                    return Err(expected());
-                }
-                numbers.extend(first..=last);
-            }
-            None => numbers.push(number(part)?),
-        }
+/// A beginning and an end, s.
+fn time(text: &str) -> Result<[f64; 2], String> {
+    match pair(text) {
+        Ok([from, until]) if from < until => Ok([from, until]),
+        _ => Err("expected the beginning and the end in s, such as 0,600".to_owned()),
     }
-    Ok(RunList(numbers))
 }
 
 /// Seconds of a clock offset.
@@ -226,19 +215,5 @@ pub fn finite(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         _ => Err("expected a finite number".to_owned()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::runs;
-
-    #[test]
-    fn lists_of_runs() {
-        assert_eq!(runs("7, 9,20-22").expect("numbers").0, [7, 9, 20, 21, 22]);
-        assert_eq!(runs("-3").expect("a number").0, [-3]);
-        for bad in ["", "x", "1,,2", "9-7", "1-", "0-9999999999"] {
-            assert!(runs(bad).is_err(), "{bad}");
-        }
     }
 }

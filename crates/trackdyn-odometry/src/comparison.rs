@@ -29,25 +29,16 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Replays runs, given by their indices, with every parameter set at clock offset `tau`, s.
+    /// Replays all runs with every parameter set at clock offset `tau`, s.
     ///
     /// # Errors
     /// [`Error::NotCovered`] when no run can be replayed, [`Error::NoSegments`],
     /// [`Error::Standing`].
-    pub fn new(
-        recording: &Recording,
-        runs: &[usize],
-        sets: Vec<ParameterSet>,
-        tau: f64,
-    ) -> Result<Self, Error> {
-        let mut runs = runs.to_vec();
-        runs.sort_unstable();
-        runs.dedup();
+    pub fn new(recording: &Recording, sets: Vec<ParameterSet>, tau: f64) -> Result<Self, Error> {
         let mut paths = Vec::new();
         let mut left_out = Vec::new();
         let mut first_error = None;
-        for &index in &runs {
-            let run = &recording.runs()[index];
+        for (index, run) in recording.runs().iter().enumerate() {
             match sets.iter().map(|set| replay(run, set, tau)).collect::<Result<Vec<_>, _>>() {
                 Ok(trajectories) => paths.push(Path::new(index, run, &trajectories, tau)),
                 Err(error) => {
@@ -60,7 +51,7 @@ impl Comparison {
             return Err(error);
         }
         let options = SegmentOptions { tau, ..SegmentOptions::default() };
-        let segments = stretch::of_segments(recording, &runs, &options);
+        let segments = stretch::of_segments(recording, &options);
         check(&segments, &paths, &options)?;
         let blocks = Blocks::new(paths.iter().map(Path::extent));
         let spans = Span::ALL.into_iter().filter_map(|span| {

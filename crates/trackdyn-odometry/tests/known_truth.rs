@@ -28,8 +28,7 @@ fn truth() -> ParameterSet {
 }
 
 fn compare(recording: &Recording, sets: Vec<ParameterSet>, tau: f64) -> Comparison {
-    let runs = recording.indices_of(&[]).expect("all runs");
-    Comparison::new(recording, &runs, sets, tau).expect("it moves")
+    Comparison::new(recording, sets, tau).expect("it moves")
 }
 
 #[test]
@@ -100,7 +99,7 @@ fn standing_and_too_short_recordings_are_refused() {
         let drive = Stretch { duration, speeds: PerSide::new(speed, speed) };
         let schedules = vec![vec![drive]];
         let recording = Synthetic { schedules, ..Synthetic::default() }.recording().expect("runs");
-        Comparison::new(&recording, &[0], vec![truth()], 0.0).expect_err("nothing to compare")
+        Comparison::new(&recording, vec![truth()], 0.0).expect_err("nothing to compare")
     };
     assert!(matches!(of(5.0, 0.0), Error::Standing { runs: 1, .. }));
     assert!(matches!(of(0.2, 1.0), Error::NoSegments { runs: 1, .. }));

@@ -3,6 +3,7 @@
 //! - [`recording`]: the one in-memory type, cleaned on the way in.
 //! - [`folder`], [`rosbag`], [`tum`]: one reader per format; [`read`] picks by path.
 //! - [`operating_points`]: tables of steady motion, a measured map of ICRs.
+//! - [`selection`]: some of its runs, or a time of them.
 //! - [`segment`], [`hold`]: pieces between two poses and the track speeds within them.
 //! - [`clock`]: how late the poses are against the encoders.
 //! - [`blocks`]: parts that count as independent.
@@ -23,6 +24,7 @@ pub mod recording;
 mod robust;
 pub mod rosbag;
 pub mod segment;
+pub mod selection;
 pub mod synthetic;
 mod table;
 pub mod tum;
@@ -37,3 +39,4 @@ pub use recording::{
     Warning,
 };
 pub use segment::{Segment, SegmentOptions, segments};
+pub use selection::RunList;

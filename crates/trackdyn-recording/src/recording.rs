@@ -82,14 +82,14 @@ impl Recording {
         let mut kept: Vec<Run> = Vec::with_capacity(runs.len());
         for run in runs {
             let run = Run::new(run, &mut cleanings);
-            if run.tracks().is_empty() || run.poses().len() < 2 {
+            if run.is_usable() {
+                kept.push(run);
+            } else {
                 warnings.push(Warning::RunLeftOut {
                     run: run.id(),
                     readings: run.tracks().len(),
                     poses: run.poses().len(),
                 });
-            } else {
-                kept.push(run);
             }
         }
         if kept.is_empty() {
@@ -132,24 +132,8 @@ impl Recording {
         &self.runs
     }
 
-    /// Indices of runs by their numbers, in the order of the recording; all where none are named.
-    ///
-    /// # Errors
-    /// [`Error::UnknownRun`].
-    pub fn indices_of(&self, numbers: &[i64]) -> Result<Vec<usize>, Error> {
-        let is_there = |number: &i64| self.runs.iter().any(|run| run.id() == *number);
-        if let Some(&run) = numbers.iter().find(|number| !is_there(number)) {
-            return Err(Error::UnknownRun { run, expected: run::numbers(&self.runs) });
-        }
-        let wanted = |run: &Run| numbers.is_empty() || numbers.contains(&run.id());
-        let places = self.runs.iter().enumerate().filter(|(_, run)| wanted(run));
-        Ok(places.map(|(index, _)| index).collect())
-    }
-
-    /// The recording of some of its runs only, given by their indices. Its fingerprint is that of the
-    /// whole, which tells where the runs come from.
-    pub fn with_runs(&self, indices: &[usize]) -> Self {
-        let runs = indices.iter().filter_map(|index| self.runs.get(*index).cloned()).collect();
+    /// The same recording with other runs, in the order of their ids.
+    pub(crate) fn with_runs(&self, runs: Vec<Run>) -> Self {
         Self { runs, ..self.clone() }
     }
 
@@ -176,27 +160,5 @@ impl Recording {
     /// Time covered by the readings, summed over the runs, s.
     pub fn duration(&self) -> f64 {
         self.runs.iter().map(Run::duration).sum()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::synthetic::{Synthetic, random_steps};
-
-    #[test]
-    fn runs_are_chosen_by_number() {
-        let schedules = (0..12).map(|run| random_steps(2, 2.0, 1.0, run)).collect();
-        let recording = Synthetic { schedules, ..Synthetic::default() }.recording().expect("runs");
-        assert_eq!(recording.indices_of(&[]).expect("all").len(), 12);
-        let chosen = recording.indices_of(&[3, 1]).expect("there");
-        assert_eq!(chosen, [1, 3]);
-        let part = recording.with_runs(&chosen);
-        assert_eq!(part.runs(), [recording.runs()[1].clone(), recording.runs()[3].clone()]);
-        assert_eq!(part.fingerprint(), recording.fingerprint());
-        let error = recording.indices_of(&[3, 99]).expect_err("no run 99");
-        assert_eq!(
-            error.to_string(),
-            "run 99 is not in the recording: expected one of 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11"
-        );
     }
 }

@@ -47,7 +47,7 @@ pub struct Options {
 pub fn run(options: &Options) -> Outcome {
     let vehicle = read_vehicle(&options.vehicle)?;
     let whole = options.driving.recording()?;
-    let recording = whole.with_runs(&options.driving.indices(&whole)?);
+    let recording = options.driving.part(&whole)?;
     prepare_folder(&options.out)?;
     let genetic = GeneticOptions {
         population: options.population as usize,
@@ -93,6 +93,8 @@ fn file(
         vehicle: vehicle.vehicle.name.clone(),
         fingerprint: recording.fingerprint().to_owned(),
         recording: Some(recording.name().to_owned()),
+        runs: Some(recording.run_list().to_string()),
+        time_s: options.driving.time(),
         seed: Some(options.seed),
         ..Source::default()
     };

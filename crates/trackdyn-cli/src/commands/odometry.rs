@@ -35,14 +35,23 @@ pub struct Options {
 /// Replays, prints the table of errors and writes the files.
 pub fn run(options: &Options) -> Outcome {
     let inputs = Inputs::read(options)?;
-    let runs = options.driving.indices(&inputs.recording)?;
-    let clock = options.driving.clock(&inputs.recording);
+    let part = options.driving.part(&inputs.recording)?;
+    // All of the recording tells most of its clocks.
+    let clock = Clock::of(&inputs.recording, options.driving.tau);
     let named = |error| format!("{}: {error}", options.driving.path().display());
-    let result =
-        Comparison::new(&inputs.recording, &runs, inputs.sets(), clock.tau()).map_err(named)?;
+    let result = Comparison::new(&part, inputs.sets(), clock.tau()).map_err(named)?;
     prepare_folder(&options.out)?;
     if let Some(reason) = clock.reason() {
         eprintln!("note: {reason}; the clock offset is taken as 0 (set it with --tau)");
+    }
+    for file in &inputs.files {
+        if !inputs.is_held_out(file, &result) {
+            eprintln!(
+                "note: {} was fitted to some of these runs, which makes its errors look smaller (choose \
+                 others with --runs or --time)",
+                file.path.display()
+            );
+        }
     }
     if !result.left_out.is_empty() {
         eprintln!(

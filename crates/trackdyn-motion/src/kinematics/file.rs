@@ -26,6 +26,12 @@ pub struct Source {
     /// Name of the recording, where the numbers come from one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<String>,
+    /// Its runs that were used.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub runs: Option<String>,
+    /// The time of each of these runs that was used, s from its first reading, where not all was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_s: Option<[f64; 2]>,
     /// Speeds per track and largest speed, m/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridSource>,

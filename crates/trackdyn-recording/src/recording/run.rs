@@ -27,12 +27,17 @@ pub struct Run {
 }
 
 impl Run {
-    pub(super) fn new(mut rows: UncheckedRun, cleanings: &mut Vec<Cleaning>) -> Self {
+    pub(crate) fn new(mut rows: UncheckedRun, cleanings: &mut Vec<Cleaning>) -> Self {
         clean(&mut rows.tracks, rows.id, cleanings);
         clean(&mut rows.poses, rows.id, cleanings);
         clean(&mut rows.imu, rows.id, cleanings);
         unwrap_yaw(&mut rows.poses.samples, rows.id, cleanings);
         Self { id: rows.id, tracks: rows.tracks, poses: rows.poses, imu: rows.imu }
+    }
+
+    /// Whether it has readings, and poses enough for a motion.
+    pub(crate) fn is_usable(&self) -> bool {
+        !self.tracks().is_empty() && self.poses().len() >= 2
     }
 
     /// Its number in the recording.
@@ -81,18 +86,5 @@ impl Run {
     /// The rows, to change and check again.
     pub fn into_rows(self) -> UncheckedRun {
         UncheckedRun { id: self.id, tracks: self.tracks, poses: self.poses, imu: self.imu }
-    }
-}
-
-/// The numbers of runs, shortened.
-pub(super) fn numbers(runs: &[Run]) -> String {
-    match runs {
-        [first, .., last] if runs.len() > 12 => {
-            format!("one of its {} runs, {} to {}", runs.len(), first.id(), last.id())
-        }
-        runs => {
-            let numbers: Vec<String> = runs.iter().map(|run| run.id().to_string()).collect();
-            format!("one of {}", numbers.join(", "))
-        }
     }
 }

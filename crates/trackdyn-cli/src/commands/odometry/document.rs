@@ -29,6 +29,8 @@ struct Source<'a> {
     recording: &'a str,
     robot: &'a str,
     fingerprint: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time_s: Option<[f64; 2]>,
     vehicle: &'a str,
     vehicle_fingerprint: &'a str,
 }
@@ -50,6 +52,7 @@ struct SetTable {
     file: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     fingerprint: Option<String>,
+    held_out: bool,
     x_icr_left_m: f64,
     x_icr_right_m: f64,
     y_icr_m: f64,
@@ -125,6 +128,7 @@ pub fn text(
             recording: recording.name(),
             robot: recording.robot(),
             fingerprint: recording.fingerprint(),
+            time_s: inputs.time,
             vehicle: &inputs.vehicle,
             vehicle_fingerprint: &inputs.vehicle_fingerprint,
         },
@@ -157,6 +161,7 @@ fn of_set(inputs: &Inputs, result: &Comparison, index: usize, set: &ParameterSet
         name: set.name().to_owned(),
         file: file.map(|file| file.path.display().to_string()),
         fingerprint: file.map(|file| file.fingerprint.clone()),
+        held_out: file.is_none_or(|file| inputs.is_held_out(file, result)),
         x_icr_left_m: kinematics.icrs.x_left,
         x_icr_right_m: kinematics.icrs.x_right,
         y_icr_m: kinematics.icrs.y,

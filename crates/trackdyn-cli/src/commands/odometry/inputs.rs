@@ -7,14 +7,16 @@ use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_core::output::fingerprint;
 use trackdyn_motion::Kinematics;
-use trackdyn_motion::kinematics::KinematicsFile;
-use trackdyn_odometry::ParameterSet;
-use trackdyn_recording::Recording;
+use trackdyn_motion::kinematics::{KinematicsFile, Source};
+use trackdyn_odometry::{Comparison, ParameterSet};
+use trackdyn_recording::{Recording, RunList};
 
 /// Files, read and checked.
 pub struct Inputs {
-    /// The recording.
+    /// The recording, all of it.
     pub recording: Recording,
+    /// The time of each run that is replayed, s; none: all of it.
+    pub time: Option<[f64; 2]>,
     /// Name of the vehicle.
     pub vehicle: String,
     /// Fingerprint of the vehicle file.
@@ -33,6 +35,8 @@ pub struct ParameterFile {
     pub fingerprint: String,
     /// What it holds, under a name that no other set has.
     pub set: ParameterSet,
+    /// Where its numbers come from.
+    pub source: Source,
 }
 
 impl Inputs {
@@ -51,6 +55,7 @@ impl Inputs {
             .collect::<Result<_, _>>()?;
         Ok(Self {
             recording: options.driving.recording()?,
+            time: options.driving.time(),
             vehicle_fingerprint: fingerprint(vehicle.to_toml().as_bytes()),
             gauge: vehicle.vehicle.gauge,
             vehicle: vehicle.vehicle.name,
@@ -63,6 +68,20 @@ impl Inputs {
         let of_file = |file: &ParameterFile| [Some(file.set.clone()), file.set.without_alpha()];
         let files = self.files.iter().flat_map(of_file).flatten();
         std::iter::once(ParameterSet::ideal(self.gauge)).chain(files).collect()
+    }
+
+    /// Whether the numbers of a file were fitted to other runs, or another time of them, than the result
+    /// replays.
+    pub fn is_held_out(&self, file: &ParameterFile, result: &Comparison) -> bool {
+        const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+        let replayed = RunList::new(result.paths.iter().map(|path| path.run));
+        let fitted = file.source.runs.as_ref().and_then(|runs| runs.parse::<RunList>().ok());
+        let [from, until] = self.time.unwrap_or(ALL);
+        let [fitted_from, fitted_until] = file.source.time_s.unwrap_or(ALL);
+        file.source.fingerprint != self.recording.fingerprint()
+            || fitted.is_some_and(|fitted| !fitted.overlaps(&replayed))
+            || from >= fitted_until
+            || until <= fitted_from
     }
 }
 
@@ -89,7 +108,7 @@ impl ParameterFile {
             return Err(message.into());
         }
         let fingerprint = fingerprint(document.text().as_bytes());
-        Ok(Self { path: path.to_owned(), fingerprint, set })
+        Ok(Self { path: path.to_owned(), fingerprint, set, source: file.source })
     }
 }
 

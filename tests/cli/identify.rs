@@ -77,6 +77,25 @@ fn some_runs_or_a_time_can_be_chosen() {
 }
 
 #[test]
+fn clock_and_mount_of_the_sensor_are_fitted_or_refused() {
+    let place = Workplace::new();
+    record(&place, (0..4).map(|run| random_steps(10, 2.0, 0.8, run)).collect());
+    let identify = format!("identify rec --vehicle {} --generations 1", vehicle());
+    let run = place.run(&format!("{identify} --fit lever-arm,sensor-yaw,time-offset"));
+    assert_eq!(run.status, 0, "{}{}", run.stdout, run.stderr);
+    for part in ["tau ", "psi ", " rad", "not fitted: lever-arm", "measure the mount"] {
+        assert!(run.stdout.contains(part), "{part} is not in:\n{}", run.stdout);
+    }
+    let unknown = place.run(&format!("{identify} --fit tau"));
+    assert_eq!(unknown.status, 1);
+    assert!(
+        unknown.stderr.contains("one of time-offset, sensor-yaw, lever-arm"),
+        "{}",
+        unknown.stderr
+    );
+}
+
+#[test]
 fn what_a_recording_does_not_determine_is_not_written() {
     let place = Workplace::new();
     let straight = |speed| vec![Stretch { duration: 40.0, speeds: PerSide::new(speed, speed) }];

@@ -34,7 +34,7 @@ fn distances_agree_with_independent_fits() {
         let recording = trackdyn_recording::read(&folder, &RosbagOptions::default()).expect(name);
         // Least squares does not hang on the genetic algorithm.
         let genetic = GeneticOptions { generations: 1, ..GeneticOptions::default() };
-        let options = Options { gauge, tau: None, settle, genetic };
+        let options = Options { gauge, tau: None, settle, nuisances: Vec::new(), genetic };
         let found = identify(&recording, &options, &|_| ()).expect(name);
         let estimate = found.fits[0].least_squares.as_ref().expect(name);
         let [x_left, x_right, ..] = estimate.parameters.0;

@@ -3,9 +3,12 @@
 use crate::doubt::Doubt;
 use crate::error::Error;
 use crate::genetic::{GeneticEstimate, GeneticOptions, genetic};
-use crate::least_squares::{Estimate, Loss, doubts, lacks, least_squares};
+use crate::least_squares::{
+    Estimate, Loss, Unknowns, doubts, lacks, lacks_nuisance, least_squares, nuisance_doubts,
+};
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
+use crate::sensor::Nuisance;
 use crate::spin_test::{SpinTest, spin_test};
 use crate::weighting::{SegmentNoise, Weighting};
 use trackdyn_motion::Kinematics;
@@ -13,7 +16,7 @@ use trackdyn_recording::noise::{Noise, noise};
 use trackdyn_recording::{Clock, Recording, SegmentOptions};
 
 /// How to identify.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Gauge of the vehicle, m.
     pub gauge: f64,
@@ -21,6 +24,8 @@ pub struct Options {
     pub tau: Option<f64>,
     /// Time for which the tracks must have run steadily before a segment counts, s; none: all count.
     pub settle: Option<f64>,
+    /// Properties of the pose sensor to fit beside the kinematic parameters.
+    pub nuisances: Vec<Nuisance>,
     /// The genetic algorithm.
     pub genetic: GeneticOptions,
 }
@@ -36,6 +41,8 @@ pub struct Fit {
     pub least_squares: Result<Estimate, Error>,
     /// Why the recording does not determine them; empty where it does.
     pub doubts: Vec<Doubt>,
+    /// Why properties of the sensor that were asked for are not fitted.
+    pub refused: Vec<Doubt>,
 }
 
 /// What was found.
@@ -57,6 +64,9 @@ pub struct Identification {
     pub fits: [Fit; 2],
 }
 
+/// How far a fitted clock offset may go from its start, s: two readings at 20 Hz.
+const TAU_MARGIN: f64 = 0.1;
+
 /// Runs all methods on a recording. `progress` is told each finished generation of the genetic algorithm,
 /// which runs twice.
 ///
@@ -69,7 +79,9 @@ pub fn identify(
 ) -> Result<Identification, Error> {
     let clock = Clock::of(recording, options.tau);
     let tau = clock.tau();
-    let segments = SegmentOptions { tau, ..SegmentOptions::default() };
+    let tau_margin =
+        if options.nuisances.contains(&Nuisance::TimeOffset) { TAU_MARGIN } else { 0.0 };
+    let segments = SegmentOptions { tau, tau_margin, ..SegmentOptions::default() };
     let observations = match options.settle {
         Some(settle) => Observations::steady(recording, &segments, settle),
         None => Observations::new(recording, &segments),
@@ -91,15 +103,47 @@ pub fn identify(
     let fits = [Free::Icrs, Free::IcrsAndAlphas].map(|free| {
         let genetic =
             genetic(&observations, options.gauge, lever, free, &options.genetic, progress);
-        let start = Parameters::of(&Kinematics::ideal(options.gauge));
-        let least_squares = match lacks(&observations, &noise, free) {
-            Some(doubt) => Err(Error::NotDetermined(doubt)),
-            None => least_squares(&observations, &start, free, &weighting, Loss::Huber),
+        let (least_squares, refused) = match lacks(&observations, &noise, free) {
+            Some(doubt) => (Err(Error::NotDetermined(doubt)), Vec::new()),
+            None => fit_with_sensor(&observations, &noise, free, &weighting, options),
         };
         let doubts =
             least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
-        Fit { free, genetic, least_squares, doubts }
+        Fit { free, genetic, least_squares, doubts, refused }
     });
     let segments = observations.len();
     Ok(Identification { clock, noise, weighted_by_noise, segments, lever, spin_test, fits })
+}
+
+/// Least squares with those of the wanted properties of the sensor that the recording shows, and why not
+/// with the others.
+fn fit_with_sensor(
+    observations: &Observations,
+    noise: &Noise,
+    free: Free,
+    weighting: &Weighting,
+    options: &Options,
+) -> (Result<Estimate, Error>, Vec<Doubt>) {
+    let start = Parameters::of(&Kinematics::ideal(options.gauge));
+    let mut unknowns = Unknowns::from(free);
+    let mut refused = Vec::new();
+    for &nuisance in &options.nuisances {
+        match lacks_nuisance(observations, noise, nuisance) {
+            Some(doubt) => refused.push(doubt),
+            None => unknowns.nuisances.push(nuisance),
+        }
+    }
+    loop {
+        let fitted = least_squares(observations, &start, &unknowns, weighting, Loss::Huber);
+        let wide = fitted.as_ref().map_or(Vec::new(), nuisance_doubts);
+        if wide.is_empty() {
+            return (fitted, refused);
+        }
+        let is_wide = |nuisance: &Nuisance| {
+            let of = |doubt: &Doubt| matches!(doubt, Doubt::WideNuisance { nuisance: n, .. } if n == nuisance);
+            wide.iter().any(of)
+        };
+        unknowns.nuisances.retain(|nuisance| !is_wide(nuisance));
+        refused.extend(wide);
+    }
 }

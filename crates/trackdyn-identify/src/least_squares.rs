@@ -4,12 +4,12 @@ mod covariance;
 mod identifiability;
 
 pub use covariance::Interval;
-pub use identifiability::{doubts, lacks};
+pub use identifiability::{doubts, lacks, lacks_nuisance, nuisance_doubts};
 
 use crate::error::Error;
 use crate::observations::Observations;
 use crate::parameters::{COUNT, Free, Parameters};
-use crate::prediction::predict;
+use crate::sensor::{Nuisance, Report, Sensor, report};
 use crate::weighting::{Weighting, Whitener};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
@@ -22,20 +22,49 @@ const HUBER: f64 = 1.345;
 
 const MAX_ITERATIONS: usize = 100;
 
-/// Change of every parameter, m or 1, below which the iteration has settled.
+/// Share of the margin of the clock offset beyond which a fit has not found it.
+const EDGE: f64 = 0.99;
+
+/// Change of every unknown, m, 1, s or rad, below which the iteration has settled.
 const SETTLED: f64 = 1e-8;
+
+/// What is fitted: kinematic parameters, and properties of the pose sensor beside them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unknowns {
+    /// Which kinematic parameters.
+    pub free: Free,
+    /// Which properties of the sensor; [`Nuisance::LeverArm`] cannot be among them.
+    pub nuisances: Vec<Nuisance>,
+}
+
+impl From<Free> for Unknowns {
+    /// Kinematic parameters alone.
+    fn from(free: Free) -> Self {
+        Self { free, nuisances: Vec::new() }
+    }
+}
+
+impl Unknowns {
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.free.count() + self.nuisances.len()
+    }
+}
 
 /// Fitted parameters.
 #[derive(Clone, Debug)]
 pub struct Estimate {
     /// The parameters; those that are not free keep their start.
     pub parameters: Parameters,
-    /// Which were free.
-    pub free: Free,
-    /// Covariance of the free parameters, from the scatter between blocks: it holds where the noise
-    /// model is wrong.
+    /// Clock and mount of the sensor: what is not fitted is the clock offset of the observations, and no
+    /// yaw.
+    pub sensor: Sensor,
+    /// What was fitted.
+    pub unknowns: Unknowns,
+    /// Covariance of the unknowns, kinematic parameters first, from the scatter between blocks: it holds
+    /// where the noise model is wrong.
     pub covariance: DMatrix<f64>,
-    /// Covariance of the free parameters if the noise model is right.
+    /// Covariance of the unknowns if the noise model is right.
     pub covariance_of_noise: DMatrix<f64>,
     /// The blocks behind `covariance`.
     pub blocks: Blocks,
@@ -76,6 +105,26 @@ impl Loss {
     }
 }
 
+/// Where the iteration stands.
+#[derive(Clone, Copy)]
+struct Point {
+    parameters: Parameters,
+    sensor: Sensor,
+}
+
+impl Point {
+    fn stepped(mut self, unknowns: &Unknowns, step: &DVector<f64>) -> Self {
+        let count = unknowns.free.count();
+        for k in 0..count {
+            self.parameters.0[k] += step[k];
+        }
+        for (k, nuisance) in unknowns.nuisances.iter().enumerate() {
+            self.sensor = self.sensor.stepped(*nuisance, step[count + k]);
+        }
+        self
+    }
+}
+
 /// Whitened residuals and derivatives at a point.
 struct Linearisation {
     residuals: Vec<Vector3<f64>>,
@@ -84,29 +133,38 @@ struct Linearisation {
 
 impl Linearisation {
     fn at(
-        parameters: &Parameters,
-        free: Free,
+        point: &Point,
+        unknowns: &Unknowns,
         observations: &Observations,
         whitener: &Whitener,
     ) -> Self {
-        let predictions: Vec<_> = observations
+        let moved =
+            (point.sensor.tau != observations.tau()).then(|| observations.at(point.sensor.tau));
+        let observations = moved.as_ref().unwrap_or(observations);
+        let reports: Vec<_> = observations
             .segments()
             .par_iter()
             .with_min_len(128)
-            .map(|segment| (segment, predict(parameters, observations.pieces(segment))))
+            .map(|segment| {
+                let pieces = observations.pieces(segment);
+                (segment, report(&point.parameters, &point.sensor, pieces))
+            })
             .collect();
-        let mut residuals: Vec<Vector3<f64>> = predictions
+        let mut residuals: Vec<Vector3<f64>> = reports
             .iter()
-            .map(|(segment, prediction)| {
-                Vector3::from(segment.motion) - Vector3::from(prediction.motion)
-            })
+            .map(|(segment, report)| Vector3::from(segment.motion) - Vector3::from(report.motion))
             .collect();
-        let mut columns: Vec<Vec<Vector3<f64>>> = (0..free.count())
-            .map(|k| {
-                let column = predictions.iter();
-                column.map(|(_, prediction)| Vector3::from(prediction.sensitivity[k])).collect()
-            })
-            .collect();
+        let column = |of: &dyn Fn(&Report) -> [f64; 3]| -> Vec<Vector3<f64>> {
+            reports.iter().map(|(_, report)| Vector3::from(of(report))).collect()
+        };
+        let kinematic =
+            (0..unknowns.free.count()).map(|k| column(&|report| report.by_parameter[k]));
+        let of_sensor = unknowns.nuisances.iter().map(|nuisance| match nuisance {
+            Nuisance::TimeOffset => column(&|report| report.by_tau),
+            Nuisance::SensorYaw => column(&|report| report.by_yaw),
+            Nuisance::LeverArm => column(&|_| [0.0; 3]),
+        });
+        let mut columns: Vec<Vec<Vector3<f64>>> = kinematic.chain(of_sensor).collect();
         whitener.whiten(&mut residuals);
         for column in &mut columns {
             whitener.whiten(column);
@@ -140,27 +198,28 @@ impl Linearisation {
     }
 }
 
-/// Fits the parameters by Levenberg and Marquardt's method with reweighting.
+/// Fits the unknowns by Levenberg and Marquardt's method with reweighting.
 ///
 /// # Errors
-/// Too few segments, or no convergence.
+/// Too few segments, no convergence, or a clock offset that leaves the margin for which there are readings.
 pub fn least_squares(
     observations: &Observations,
     start: &Parameters,
-    free: Free,
+    unknowns: &Unknowns,
     weighting: &Weighting,
     loss: Loss,
 ) -> Result<Estimate, Error> {
-    let count = free.count();
+    let count = unknowns.count();
     if observations.len() < 4 * count {
         let found = observations.len();
         return Err(Error::TooFewSegments { found, needed: 4 * count, parameters: count });
     }
     let whitener = Whitener::new(weighting, observations);
-    let linearise = |at: &Parameters| Linearisation::at(at, free, observations, &whitener);
+    let linearise = |at: &Point| Linearisation::at(at, unknowns, observations, &whitener);
 
-    let mut parameters = *start;
-    let mut here = linearise(&parameters);
+    let tau = observations.tau();
+    let mut point = Point { parameters: *start, sensor: Sensor { tau, yaw: 0.0 } };
+    let mut here = linearise(&point);
     let mut cost = here.cost(loss);
     let mut damping = 1e-9;
     let mut size = f64::INFINITY;
@@ -175,23 +234,29 @@ pub fn least_squares(
             damping = (damping * 10.0).max(1e-9);
             continue;
         };
-        let mut trial = parameters;
-        for k in 0..count {
-            trial.0[k] += step[k];
-        }
+        let trial = point.stepped(unknowns, &step);
         size = step.amax();
-        let sensible = trial.0[1] > trial.0[0];
+        let [x_left, x_right, ..] = trial.parameters.0;
+        let sensible =
+            x_right > x_left && (trial.sensor.tau - tau).abs() <= observations.tau_margin();
         let next = linearise(&trial);
         let next_cost = next.cost(loss);
         if sensible && next_cost <= cost * (1.0 + 1e-14) {
-            (parameters, here, cost) = (trial, next, next_cost);
+            (point, here, cost) = (trial, next, next_cost);
             damping = (damping * 0.1).max(1e-12);
         } else if size >= SETTLED {
             damping = (damping * 10.0).max(1e-9);
             continue;
         }
         if size < SETTLED {
-            return Ok(here.estimate(parameters, free, observations, loss, cost, iteration));
+            let reached = (point.sensor.tau - tau).abs();
+            if unknowns.nuisances.contains(&Nuisance::TimeOffset)
+                && reached > EDGE * observations.tau_margin()
+            {
+                let margin = observations.tau_margin();
+                return Err(Error::ClockLeaves { tau: point.sensor.tau, start: tau, margin });
+            }
+            return Ok(here.estimate(&point, unknowns, observations, loss, cost, iteration));
         }
     }
     Err(Error::NotConverged { iterations: MAX_ITERATIONS, step: size })
@@ -200,8 +265,8 @@ pub fn least_squares(
 impl Linearisation {
     fn estimate(
         &self,
-        parameters: Parameters,
-        free: Free,
+        point: &Point,
+        unknowns: &Unknowns,
         observations: &Observations,
         loss: Loss,
         cost: f64,
@@ -214,10 +279,11 @@ impl Linearisation {
         let parts: Vec<_> = ranges.into_iter().map(|range| self.part(range, &weights)).collect();
         let squares: f64 = self.residuals.iter().map(Vector3::norm_squared).sum();
         #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 residuals")]
-        let degrees = (3 * self.residuals.len() - free.count()) as f64;
+        let degrees = (3 * self.residuals.len() - unknowns.count()) as f64;
         Estimate {
-            parameters,
-            free,
+            parameters: point.parameters,
+            sensor: point.sensor,
+            unknowns: unknowns.clone(),
             covariance: covariance::jackknife(&matrix, &parts),
             covariance_of_noise: identifiability::inverse(&matrix),
             blocks,
@@ -231,22 +297,27 @@ impl Linearisation {
 
 impl Estimate {
     /// The 95 % interval of a free parameter; none of one that is fixed.
+    pub fn interval(&self, parameter: usize) -> Option<Interval> {
+        let is_free = parameter < self.unknowns.free.count();
+        is_free.then(|| self.interval_of(parameter, self.parameters.0[parameter]))
+    }
+
+    /// The 95 % interval of a property of the sensor; none of one that is not fitted.
+    pub fn nuisance(&self, nuisance: Nuisance) -> Option<Interval> {
+        let place = self.unknowns.nuisances.iter().position(|fitted| *fitted == nuisance)?;
+        let index = self.unknowns.free.count() + place;
+        Some(self.interval_of(index, self.sensor.value(nuisance)))
+    }
+
+    /// The interval of an unknown.
     ///
     /// Its width is the larger of two: that of the noise model, which is right where the model is, and
     /// that of the scatter between blocks, which holds where it is not but is itself uncertain where
     /// few manoeuvres carry the information.
-    pub fn interval(&self, parameter: usize) -> Option<Interval> {
-        (parameter < self.free.count()).then(|| {
-            let variance = |of: &DMatrix<f64>| of[(parameter, parameter)].max(0.0);
-            let larger = variance(&self.covariance).max(variance(&self.covariance_of_noise));
-            let deviation = larger.sqrt();
-            Interval::new(
-                self.parameters.0[parameter],
-                deviation,
-                self.filled_blocks,
-                self.free.count(),
-            )
-        })
+    fn interval_of(&self, index: usize, value: f64) -> Interval {
+        let variance = |of: &DMatrix<f64>| of[(index, index)].max(0.0);
+        let larger = variance(&self.covariance).max(variance(&self.covariance_of_noise));
+        Interval::new(value, larger.sqrt(), self.filled_blocks, self.unknowns.count())
     }
 
     /// Standard deviations of all parameters; 0 where fixed.

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use trackdyn_core::output::{prepare_folder, write_file};
 use trackdyn_identify::genetic::GeneticOptions;
 use trackdyn_identify::identification::{self, Fit};
-use trackdyn_identify::{Free, identify};
+use trackdyn_identify::{Free, Nuisance, identify};
 use trackdyn_motion::kinematics::{KinematicsFile, Source};
 use trackdyn_physics::VehicleFile;
 use trackdyn_recording::Recording;
@@ -27,6 +27,9 @@ pub struct Options {
     /// Leave out segments before which the tracks have not run steadily for so many seconds
     #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
     settle: Option<f64>,
+    /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw, lever-arm
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    fit: Vec<Nuisance>,
     /// Individuals of the genetic algorithm
     #[arg(long, value_name = "N", default_value_t = 100,
           value_parser = clap::value_parser!(u32).range(4..=100_000))]
@@ -41,6 +44,16 @@ pub struct Options {
     /// Folder for kinematics.toml and kinematics_alpha.toml
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+}
+
+impl Options {
+    /// What to fit beside, each once.
+    fn nuisances(&self) -> Vec<Nuisance> {
+        let mut nuisances = self.fit.clone();
+        nuisances.sort_unstable();
+        nuisances.dedup();
+        nuisances
+    }
 }
 
 /// Identifies the parameters, prints them side by side and writes what the recording determines.
@@ -61,6 +74,7 @@ pub fn run(options: &Options) -> Outcome {
         gauge,
         tau: options.driving.tau,
         settle: options.settle,
+        nuisances: options.nuisances(),
         genetic,
     };
     let found = identify(&recording, &identify_options, &|_| progress.advance(1))?;
@@ -98,7 +112,10 @@ fn file(
         seed: Some(options.seed),
         ..Source::default()
     };
-    let rows = estimate.covariance.row_iter().map(|row| row.iter().copied().collect()).collect();
+    let count = fit.free.count();
+    // Of the kinematic parameters alone: those of the sensor are uncertain within it.
+    let rows = estimate.covariance.view((0, 0), (count, count));
+    let rows = rows.row_iter().map(|row| row.iter().copied().collect()).collect();
     let with_alphas = fit.free == Free::IcrsAndAlphas;
     let (kinematics, gauge) = (estimate.parameters.kinematics(), vehicle.vehicle.gauge);
     Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source))

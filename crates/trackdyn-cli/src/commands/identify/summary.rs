@@ -97,6 +97,9 @@ fn fit(text: &mut String, fit: &Fit, gauge: f64) {
     let ((chi, e), (chi_ga, e_ga)) = (of(&estimate.parameters), of(&fit.genetic.parameters));
     let _ = writeln!(text, "    {:8}{chi:>10.4}{:>24}{chi_ga:>10.4}", "chi", "");
     let _ = writeln!(text, "    {:8}{e:>10.4}{:>24}{e_ga:>10.4}", "e", "");
+    for doubt in &fit.refused {
+        let _ = writeln!(text, "    not fitted: {doubt}");
+    }
     let cut = if estimate.blocks.are_pieces() { "pieces of runs" } else { "runs" };
     let _ = writeln!(
         text,
@@ -119,5 +122,12 @@ fn parameters(text: &mut String, fit: &Fit, estimate: &Estimate) {
             fit.genetic.parameters.0[k],
             if Parameters::UNITS[k] == "m" { " m" } else { "" }
         );
+    }
+    for &nuisance in &estimate.unknowns.nuisances {
+        let Some(interval) = estimate.nuisance(nuisance) else { continue };
+        let range = format!("{:.4} to {:.4}", interval.low, interval.high);
+        let (symbol, unit) = (nuisance.symbol(), nuisance.unit());
+        let _ =
+            writeln!(text, "    {symbol:8}{:>10.4}{range:>24}{:>10} {unit}", interval.value, "");
     }
 }

@@ -42,6 +42,30 @@ fn parameters_come_out_of_a_recording() {
     assert_eq!(file["source"]["recording"].as_str(), Some("synthetic"));
     assert_eq!(file["source"]["runs"].as_str(), Some("0-3"));
 
+    // Every method, every number with its unit and interval.
+    let text = String::from_utf8(place.read("out/identification.toml")).expect("text");
+    let document: toml::Table = text.parse().expect("TOML");
+    assert_eq!(document["schema"].as_str(), Some("trackdyn.identification/1"));
+    assert_eq!(document["source"]["runs"].as_str(), Some("0-3"));
+    let methods = document["method"].as_array().expect("methods");
+    let names: Vec<_> = methods.iter().map(|method| method["method"].as_str()).collect();
+    let pair = ["genetic", "least-squares"];
+    assert_eq!(names, ["spin-test", pair[0], pair[1], pair[0], pair[1]].map(Some));
+    for method in methods {
+        assert_eq!(method["determined"].as_bool(), Some(true), "{text}");
+        for estimate in method["estimate"].as_array().expect("estimates") {
+            let of = |key: &str| estimate[key].as_float().expect("a number");
+            assert!(["m", "1"].contains(&estimate["unit"].as_str().expect("a unit")));
+            assert!(of("low95") < of("value") && of("value") < of("high95"), "{estimate}");
+            // Student's quantile: above that of the normal distribution, below that of three blocks.
+            let half = (of("high95") - of("low95")) / 2.0 / of("standard_error");
+            assert!((1.95..4.4).contains(&half), "{estimate}");
+        }
+    }
+    let fitted = &methods[2]["estimate"][0];
+    assert!((fitted["value"].as_float().expect("x_l") - number("x_icr_left_m")).abs() < 1e-9);
+    assert_eq!(methods[2]["file"].as_str(), Some("kinematics.toml"));
+
     // The file is one that the other commands take.
     let used = place.run("kinematics --speeds 0.3,0.9 --kinematics out/kinematics_alpha.toml");
     assert_eq!(used.status, 0, "{}", used.stderr);
@@ -51,7 +75,7 @@ fn parameters_come_out_of_a_recording() {
     let first = (run.stdout, text);
     let again = place
         .run_with_threads(&format!("identify rec --vehicle {} --generations 60", vehicle()), 1);
-    let text = String::from_utf8(place.read("out/kinematics.toml")).expect("text");
+    let text = String::from_utf8(place.read("out/identification.toml")).expect("text");
     assert!(first == (again.stdout, text), "results differ between 2 threads and 1");
 }
 
@@ -105,6 +129,13 @@ fn what_a_recording_does_not_determine_is_not_written() {
     assert!(run.stdout.contains("no ICR shows"), "{}", run.stdout);
     assert!(run.stdout.contains("taken as equal"), "{}", run.stdout);
     assert!(!place.path().join("out/kinematics.toml").exists());
+    let text = String::from_utf8(place.read("out/identification.toml")).expect("text");
+    let document: toml::Table = text.parse().expect("TOML");
+    for method in document["method"].as_array().expect("methods") {
+        assert_eq!(method["determined"].as_bool(), Some(false), "{text}");
+        assert!(!method["doubts"].as_array().expect("reasons").is_empty());
+        assert!(method.get("file").is_none());
+    }
 }
 
 #[test]

@@ -4,7 +4,8 @@ use crate::doubt::Doubt;
 use crate::error::Error;
 use crate::genetic::{GeneticEstimate, GeneticOptions, genetic};
 use crate::least_squares::{
-    Estimate, Loss, Unknowns, doubts, lacks, lacks_nuisance, least_squares, nuisance_doubts,
+    Estimate, Loss, Unknowns, doubts, estimate_at, lacks, lacks_nuisance, least_squares,
+    nuisance_doubts,
 };
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
@@ -37,6 +38,8 @@ pub struct Fit {
     pub free: Free,
     /// The genetic algorithm's, by the cost (17).
     pub genetic: GeneticEstimate,
+    /// The same with the uncertainty that the cost (17) has there.
+    pub genetic_estimate: Estimate,
     /// Least squares by the noise, or why not.
     pub least_squares: Result<Estimate, Error>,
     /// Why the recording does not determine them; empty where it does.
@@ -103,13 +106,16 @@ pub fn identify(
     let fits = [Free::Icrs, Free::IcrsAndAlphas].map(|free| {
         let genetic =
             genetic(&observations, options.gauge, lever, free, &options.genetic, progress);
+        let by_distance = Weighting::Distance { lever };
+        let genetic_estimate =
+            estimate_at(&observations, &genetic.parameters, free, &by_distance, Loss::Squares);
         let (least_squares, refused) = match lacks(&observations, &noise, free) {
             Some(doubt) => (Err(Error::NotDetermined(doubt)), Vec::new()),
             None => fit_with_sensor(&observations, &noise, free, &weighting, options),
         };
         let doubts =
             least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
-        Fit { free, genetic, least_squares, doubts, refused }
+        Fit { free, genetic, genetic_estimate, least_squares, doubts, refused }
     });
     let segments = observations.len();
     Ok(Identification { clock, noise, weighted_by_noise, segments, lever, spin_test, fits })

@@ -64,13 +64,14 @@ pub struct Estimate {
     /// Covariance of the unknowns, kinematic parameters first, from the scatter between blocks: it holds
     /// where the noise model is wrong.
     pub covariance: DMatrix<f64>,
-    /// Covariance of the unknowns if the noise model is right.
+    /// Covariance of the unknowns if the noise model is right; by the cost (17), which has no noise, that of
+    /// independent residuals as large as they are.
     pub covariance_of_noise: DMatrix<f64>,
     /// The blocks behind `covariance`.
     pub blocks: Blocks,
     /// How many of them have segments.
     pub filled_blocks: usize,
-    /// Sum of the loss over all residuals, in the units of the weighting.
+    /// Sum of the loss over all residuals: m² by the cost (17), 1 by the noise.
     pub cost: f64,
     /// Root mean square of the whitened residuals: 1 where model and noise explain the recording.
     pub whitened_rms: f64,
@@ -256,10 +257,25 @@ pub fn least_squares(
                 let margin = observations.tau_margin();
                 return Err(Error::ClockLeaves { tau: point.sensor.tau, start: tau, margin });
             }
-            return Ok(here.estimate(&point, unknowns, observations, loss, cost, iteration));
+            return Ok(here.estimate(&point, unknowns, observations, weighting, loss, iteration));
         }
     }
     Err(Error::NotConverged { iterations: MAX_ITERATIONS, step: size })
+}
+
+/// The estimate that parameters from elsewhere are, with their covariance.
+pub fn estimate_at(
+    observations: &Observations,
+    parameters: &Parameters,
+    free: Free,
+    weighting: &Weighting,
+    loss: Loss,
+) -> Estimate {
+    let (unknowns, whitener) = (Unknowns::from(free), Whitener::new(weighting, observations));
+    let sensor = Sensor { tau: observations.tau(), yaw: 0.0 };
+    let point = Point { parameters: *parameters, sensor };
+    let here = Linearisation::at(&point, &unknowns, observations, &whitener);
+    here.estimate(&point, &unknowns, observations, weighting, loss, 0)
 }
 
 impl Linearisation {
@@ -268,8 +284,8 @@ impl Linearisation {
         point: &Point,
         unknowns: &Unknowns,
         observations: &Observations,
+        weighting: &Weighting,
         loss: Loss,
-        cost: f64,
         iterations: usize,
     ) -> Estimate {
         let weights = self.weights(loss);
@@ -280,15 +296,19 @@ impl Linearisation {
         let squares: f64 = self.residuals.iter().map(Vector3::norm_squared).sum();
         #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 residuals")]
         let degrees = (3 * self.residuals.len() - unknowns.count()) as f64;
+        let variance = match weighting {
+            Weighting::Noise(_) => 1.0,
+            Weighting::Distance { .. } => squares / degrees,
+        };
         Estimate {
             parameters: point.parameters,
             sensor: point.sensor,
             unknowns: unknowns.clone(),
             covariance: covariance::jackknife(&matrix, &parts),
-            covariance_of_noise: identifiability::inverse(&matrix),
+            covariance_of_noise: identifiability::inverse(&matrix) * variance,
             blocks,
             filled_blocks: parts.len(),
-            cost,
+            cost: self.cost(loss),
             whitened_rms: (squares / degrees).sqrt(),
             iterations,
         }
@@ -309,13 +329,47 @@ impl Estimate {
         Some(self.interval_of(index, self.sensor.value(nuisance)))
     }
 
+    /// The 95 % interval of x_r − x_l, m.
+    pub fn gap(&self) -> Interval {
+        let [x_left, x_right, ..] = self.parameters.0;
+        self.interval_along(x_right - x_left, &[-1.0, 1.0])
+    }
+
+    /// The 95 % interval of χ, eq. (12), for a gauge, m.
+    pub fn steering_efficiency(&self, gauge: f64) -> Interval {
+        let [x_left, x_right, ..] = self.parameters.0;
+        let gap = x_right - x_left;
+        // ∂(L/D)/∂D = −L/D²
+        let slope = gauge / (gap * gap);
+        self.interval_along(gauge / gap, &[slope, -slope])
+    }
+
+    /// The 95 % interval of e, eq. (13).
+    pub fn eccentricity(&self) -> Interval {
+        let [x_left, x_right, ..] = self.parameters.0;
+        let square = (x_right - x_left) * (x_right - x_left);
+        // ∂e/∂x_l = 2 x_r/D²,  ∂e/∂x_r = −2 x_l/D²
+        let gradient = [2.0 * x_right / square, -2.0 * x_left / square];
+        self.interval_along(self.parameters.kinematics().icrs.eccentricity(), &gradient)
+    }
+
     /// The interval of an unknown.
+    fn interval_of(&self, index: usize, value: f64) -> Interval {
+        let gradient: Vec<f64> = (0..=index).map(|k| if k == index { 1.0 } else { 0.0 }).collect();
+        self.interval_along(value, &gradient)
+    }
+
+    /// The interval of a function of the unknowns with this gradient, whose last zeros may be left out.
     ///
     /// Its width is the larger of two: that of the noise model, which is right where the model is, and
     /// that of the scatter between blocks, which holds where it is not but is itself uncertain where
     /// few manoeuvres carry the information.
-    fn interval_of(&self, index: usize, value: f64) -> Interval {
-        let variance = |of: &DMatrix<f64>| of[(index, index)].max(0.0);
+    fn interval_along(&self, value: f64, gradient: &[f64]) -> Interval {
+        let gradient = DVector::from_column_slice(gradient);
+        let variance = |of: &DMatrix<f64>| {
+            let (rows, _) = gradient.shape();
+            (gradient.transpose() * of.view((0, 0), (rows, rows)) * &gradient)[0].max(0.0)
+        };
         let larger = variance(&self.covariance).max(variance(&self.covariance_of_noise));
         Interval::new(value, larger.sqrt(), self.filled_blocks, self.unknowns.count())
     }

@@ -1,5 +1,6 @@
 //! `trackdyn identify`: kinematic parameters from a recording.
 
+mod document;
 mod summary;
 
 use crate::commands::Outcome;
@@ -41,7 +42,7 @@ pub struct Options {
     /// Seed of the genetic algorithm
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Folder for kinematics.toml and kinematics_alpha.toml
+    /// Folder for identification.toml, kinematics.toml and kinematics_alpha.toml
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
 }
@@ -81,9 +82,14 @@ pub fn run(options: &Options) -> Outcome {
     progress.finish();
     print!("{}", summary::text(&recording, &vehicle.vehicle, &found));
 
+    let source = source(&recording, &vehicle, options);
+    let document = document::text(&recording, &vehicle, &source, &found)?;
+    let path = options.out.join("identification.toml");
+    write_file(&path, document.as_bytes())?;
+    eprintln!("wrote {}", path.display());
     let mut written = 0;
-    for (fit, name) in found.fits.iter().zip(["kinematics.toml", "kinematics_alpha.toml"]) {
-        if let Some(file) = file(fit, &recording, &vehicle, options) {
+    for (fit, name) in found.fits.iter().zip(document::FILES) {
+        if let Some(file) = file(fit, gauge, &source) {
             let path = options.out.join(name);
             write_file(&path, file.to_toml().as_bytes())?;
             eprintln!("wrote {}", path.display());
@@ -93,15 +99,9 @@ pub fn run(options: &Options) -> Outcome {
     Ok(if written > 0 { Exit::Done } else { Exit::NoResult })
 }
 
-/// The file of a fit, where the recording determines it.
-fn file(
-    fit: &Fit,
-    recording: &Recording,
-    vehicle: &VehicleFile,
-    options: &Options,
-) -> Option<KinematicsFile> {
-    let estimate = fit.least_squares.as_ref().ok().filter(|_| fit.doubts.is_empty())?;
-    let source = Source {
+/// Where the numbers come from.
+fn source(recording: &Recording, vehicle: &VehicleFile, options: &Options) -> Source {
+    Source {
         command: command_line(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         vehicle: vehicle.vehicle.name.clone(),
@@ -111,12 +111,17 @@ fn file(
         time_s: options.driving.time(),
         seed: Some(options.seed),
         ..Source::default()
-    };
+    }
+}
+
+/// The file of a fit, where the recording determines it.
+fn file(fit: &Fit, gauge: f64, source: &Source) -> Option<KinematicsFile> {
+    let estimate = fit.least_squares.as_ref().ok().filter(|_| fit.doubts.is_empty())?;
     let count = fit.free.count();
     // Of the kinematic parameters alone: those of the sensor are uncertain within it.
     let rows = estimate.covariance.view((0, 0), (count, count));
     let rows = rows.row_iter().map(|row| row.iter().copied().collect()).collect();
     let with_alphas = fit.free == Free::IcrsAndAlphas;
-    let (kinematics, gauge) = (estimate.parameters.kinematics(), vehicle.vehicle.gauge);
-    Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source))
+    let kinematics = estimate.parameters.kinematics();
+    Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source.clone()))
 }

@@ -35,8 +35,23 @@ pub struct Interval {
 }
 
 impl Interval {
+    /// Student's interval of a number by the numbers with one block left out each; none with fewer than two.
+    ///
+    /// σ² = (B − 1)/B Σ (θ₋ᵦ − θ̄)²
+    pub(crate) fn of_jackknife(value: f64, without: &[f64]) -> Option<Self> {
+        if without.len() < 2 {
+            return None;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 blocks")]
+        let blocks = without.len() as f64;
+        let mean = without.iter().sum::<f64>() / blocks;
+        let scatter: f64 = without.iter().map(|value| (value - mean).powi(2)).sum();
+        let deviation = (scatter * (blocks - 1.0) / blocks).sqrt();
+        Some(Self::new(value, deviation, without.len(), 1)).filter(|_| deviation.is_finite())
+    }
+
     /// Student's interval with as many degrees of freedom as blocks exceed parameters.
-    pub(super) fn new(value: f64, deviation: f64, blocks: usize, parameters: usize) -> Self {
+    pub(crate) fn new(value: f64, deviation: f64, blocks: usize, parameters: usize) -> Self {
         #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 blocks")]
         let freedom = blocks.saturating_sub(parameters).max(1) as f64;
         let quantile =

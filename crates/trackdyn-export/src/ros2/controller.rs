@@ -79,15 +79,16 @@ fn covariances(drive: &EquivalentDrive, icr: &Name, published: &Published) -> St
     let rate = number(*rate);
     format!(
         "    # Covariances from the residuals in {source},
-    # of {held_out}. Order: x, y, z, roll, pitch, yaw;
-    # 1000000.0 is for what is not measured.
-    # Hz: the variance of the twist goes with it
+    # of {held_out}.
+    # Order: x, y, z, roll, pitch, yaw; 1000000.0 stands for what is not measured.
+
+    # Hz; the variance of the twist goes with it
     publish_rate: {rate}
-    # (m/s)^2, (rad/s)^2: residual^2 * rate / time, over {pieces} pieces of {duration:.2} s. y is the slip aside of
-    # {icr}, which the controller reports as 0.
+    # (m/s)^2, (rad/s)^2: residual^2 * rate / time, over {pieces} pieces of {duration:.2} s. y is the slip
+    # aside of {icr}, which the controller reports as 0.
     twist_covariance_diagonal: {twist}
-    # m^2, rad^2: after a drive of {distance:.1} m (the mean of {runs} runs). True odometry drifts: less before, more
-    # after. Let a filter fuse the twist and not the pose.
+    # m^2, rad^2: at the end of a drive of {distance:.1} m (mean of {runs} runs); less before, more after.
+    # Let a filter fuse the twist and not the pose.
     pose_covariance_diagonal: {pose}
 "
     )

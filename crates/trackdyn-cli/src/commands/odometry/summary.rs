@@ -26,7 +26,7 @@ pub fn text(inputs: &Inputs, clock: &Clock, result: &Comparison) -> String {
     };
     let _ = writeln!(text, "; ideal drive: gauge {} m ({})", inputs.gauge, inputs.vehicle);
     let _ = writeln!(text, "± 95 % confidence, {}", result.blocks.description());
-    let width = result.sets.iter().map(|set| set.name().len()).max().unwrap_or(0).clamp(10, 24) + 6;
+    let width = result.sets.iter().map(|set| set.name().len()).max().unwrap_or(0).clamp(10, 26) + 6;
     if let Some(segments) = result.segments() {
         residuals(&mut text, result, segments, width);
     }

@@ -193,6 +193,22 @@ fn the_others_are_fitted_where_one_is_refused() {
     }
 }
 
+#[test]
+fn a_clock_offset_that_is_far_off_is_found_too() {
+    // Two and a half times what the readings around a segment allow for: segments are cut anew.
+    let options = Options {
+        gauge: GAUGE,
+        tau: Some(TAU + 0.25),
+        settle: None,
+        nuisances: vec![Nuisance::TimeOffset],
+        genetic: GeneticOptions { generations: 1, ..GeneticOptions::default() },
+    };
+    let found = identify(&drive(steps(7), 7), &options, &|_| ()).expect("enough");
+    let estimate = found.fits[1].least_squares.as_ref().expect("determined");
+    let interval = estimate.nuisance(Nuisance::TimeOffset).expect("fitted");
+    assert!((interval.value - TAU).abs() < 4.0 * interval.deviation, "{interval:?}");
+}
+
 /// Shares of `count` recordings whose 95 % interval holds the truth: τ, ψ and the kinematic parameters.
 fn coverage(count: u32, seed: u64) -> [f64; 7] {
     let hits: Vec<[bool; 7]> = (0..count)

@@ -29,7 +29,7 @@ fn identified_icrs_forecast_the_other_half() {
             let list: RunList = list.parse().expect("a list");
             recording.of_runs(&list).expect(name)
         };
-        let found = identified(&part(fitted), gauge);
+        let found = identified(&part(fitted), gauge, &[]);
         let [plain, with_alphas] = &found.fits;
         let set = |name: &str, fit: &Fit| {
             let estimate = fit.least_squares.as_ref().expect(name);

@@ -6,6 +6,7 @@
 //! right (docs/validation.md says what is wrong with the others).
 
 use crate::recordings::{at_20_hertz, identified, read, steady};
+use trackdyn_identify::Nuisance;
 use trackdyn_recording::{Recording, RunList};
 
 /// Which runs count.
@@ -25,7 +26,7 @@ fn distances_agree_with_independent_fits() {
     for (name, gauge, choice, independent) in CASES {
         let Some(recording) = read(name) else { continue };
         let part = recording.of_runs(&choice(&recording)).expect(name);
-        let found = identified(&part, gauge);
+        let found = identified(&part, gauge, &[]);
         let gap = found.fits[0].least_squares.as_ref().expect(name).gap();
         let error = gap.value / independent - 1.0;
         println!(
@@ -44,7 +45,12 @@ fn stamps_that_are_stretched_stretch_the_distance() {
     let Some(recording) = read("husky-tile") else { return };
     let distance = |runs: &RunList| {
         let part = recording.of_runs(runs).expect("runs");
-        identified(&part, 0.555).fits[0].least_squares.as_ref().expect("determined").gap().value
+        identified(&part, 0.555, &[]).fits[0]
+            .least_squares
+            .as_ref()
+            .expect("determined")
+            .gap()
+            .value
     };
     let right = at_20_hertz(&recording);
     let is_stretched = |number: &i64| !right.numbers().contains(number);
@@ -54,4 +60,32 @@ fn stamps_that_are_stretched_stretch_the_distance() {
     println!("20 Hz {right:.3} m, others {stretched:.3} m");
     // Their stamps run slow by 3 % on the mean; slip is the same.
     assert!((0.02..0.05).contains(&(stretched / right - 1.0)), "{right} {stretched}");
+}
+
+#[test]
+fn clock_and_yaw_of_the_sensor_are_those_of_the_page() {
+    let page = include_str!("../../docs/validation.md");
+    let mut stale = Vec::new();
+    for (name, gauge, ..) in CASES {
+        let Some(recording) = read(name) else { continue };
+        let wanted = [Nuisance::TimeOffset, Nuisance::SensorYaw];
+        let found = identified(&recording, gauge, &wanted);
+        let estimate = found.fits[0].least_squares.as_ref().expect(name);
+        let [tau, psi] = wanted.map(|nuisance| estimate.nuisance(nuisance).expect("fitted"));
+        let (clock, error) = (found.clock.tau(), found.clock.standard_error().expect("estimated"));
+        let row = format!(
+            "| {name} | {clock:.3} ({error:.3}) | {:.3} ({:.3}) | {:.1} ({:.1}) | {:.3} ({:.3}) |",
+            tau.value,
+            tau.deviation,
+            psi.value.to_degrees(),
+            psi.deviation.to_degrees(),
+            estimate.gap().value,
+            estimate.gap().deviation
+        );
+        println!("{row}");
+        if !page.contains(&row) {
+            stale.push(row);
+        }
+    }
+    assert!(stale.is_empty(), "docs/validation.md does not have these rows:\n{}", stale.join("\n"));
 }

@@ -4,9 +4,9 @@
 //! Source: norlab-ulaval DRIVE (BSD-3-Clause).
 
 use std::path::{Path, PathBuf};
-use trackdyn_identify::Identification;
 use trackdyn_identify::genetic::GeneticOptions;
 use trackdyn_identify::identification::{Options, identify};
+use trackdyn_identify::{Identification, Nuisance};
 use trackdyn_recording::recording::Cells;
 use trackdyn_recording::rosbag::RosbagOptions;
 use trackdyn_recording::{Recording, Run, RunList};
@@ -22,11 +22,12 @@ pub fn read(name: &str) -> Option<Recording> {
     Some(trackdyn_recording::read(&folder, &RosbagOptions::default()).expect(name))
 }
 
-/// All methods on a recording of a vehicle with this gauge, m.
-pub fn identified(recording: &Recording, gauge: f64) -> Identification {
+/// All methods on a recording of a vehicle with this gauge, m; these fitted beside the ICRs.
+pub fn identified(recording: &Recording, gauge: f64, nuisances: &[Nuisance]) -> Identification {
     // Least squares does not hang on the genetic algorithm.
     let genetic = GeneticOptions { generations: 1, ..GeneticOptions::default() };
-    let options = Options { gauge, tau: None, settle: None, nuisances: Vec::new(), genetic };
+    let options =
+        Options { gauge, tau: None, settle: None, nuisances: nuisances.to_vec(), genetic };
     identify(recording, &options, &|_| ()).expect("enough segments")
 }
 

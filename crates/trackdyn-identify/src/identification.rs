@@ -70,6 +70,9 @@ pub struct Identification {
 /// How far a fitted clock offset may go from its start, s: two readings at 20 Hz.
 const TAU_MARGIN: f64 = 0.1;
 
+/// Times that segments are cut anew where the clock offset runs to its margin.
+const CUTS: usize = 5;
+
 /// Runs all methods on a recording. `progress` is told each finished generation of the genetic algorithm,
 /// which runs twice.
 ///
@@ -85,10 +88,7 @@ pub fn identify(
     let tau_margin =
         if options.nuisances.contains(&Nuisance::TimeOffset) { TAU_MARGIN } else { 0.0 };
     let segments = SegmentOptions { tau, tau_margin, ..SegmentOptions::default() };
-    let observations = match options.settle {
-        Some(settle) => Observations::steady(recording, &segments, settle),
-        None => Observations::new(recording, &segments),
-    };
+    let observations = cut(recording, &segments, options);
     let needed = 4 * Free::IcrsAndAlphas.count();
     if observations.len() < needed {
         let parameters = Free::IcrsAndAlphas.count();
@@ -109,9 +109,11 @@ pub fn identify(
         let by_distance = Weighting::Distance { lever };
         let genetic_estimate =
             estimate_at(&observations, &genetic.parameters, free, &by_distance, Loss::Squares);
-        let (least_squares, refused) = match lacks(&observations, &noise, free) {
-            Some(doubt) => (Err(Error::NotDetermined(doubt)), Vec::new()),
-            None => fit_with_sensor(&observations, &noise, free, &weighting, options),
+        let cut = |tau: f64| cut(recording, &SegmentOptions { tau, ..segments }, options);
+        let (least_squares, refused) = if let Some(doubt) = lacks(&observations, &noise, free) {
+            (Err(Error::NotDetermined(doubt)), Vec::new())
+        } else {
+            fit_with_sensor(&observations, &cut, &noise, free, &weighting, options)
         };
         let doubts =
             least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
@@ -121,10 +123,19 @@ pub fn identify(
     Ok(Identification { clock, noise, weighted_by_noise, segments, lever, spin_test, fits })
 }
 
+/// The segments at the clock offset of the segment options.
+fn cut(recording: &Recording, segments: &SegmentOptions, options: &Options) -> Observations {
+    match options.settle {
+        Some(settle) => Observations::steady(recording, segments, settle),
+        None => Observations::new(recording, segments),
+    }
+}
+
 /// Least squares with those of the wanted properties of the sensor that the recording shows, and why not
 /// with the others.
 fn fit_with_sensor(
     observations: &Observations,
+    cut: &dyn Fn(f64) -> Observations,
     noise: &Noise,
     free: Free,
     weighting: &Weighting,
@@ -140,7 +151,15 @@ fn fit_with_sensor(
         }
     }
     loop {
-        let fitted = least_squares(observations, &start, &unknowns, weighting, Loss::Huber);
+        let fit = |observations: &Observations| {
+            least_squares(observations, &start, &unknowns, weighting, Loss::Huber)
+        };
+        let mut fitted = fit(observations);
+        for _ in 0..CUTS {
+            // Readings are at hand up to the margin: where the offset reaches it, segments are cut anew.
+            let Err(Error::ClockLeaves { tau, .. }) = fitted else { break };
+            fitted = fit(&cut(tau));
+        }
         let wide = fitted.as_ref().map_or(Vec::new(), nuisance_doubts);
         if wide.is_empty() {
             return (fitted, refused);

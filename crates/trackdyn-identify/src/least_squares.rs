@@ -22,9 +22,6 @@ const HUBER: f64 = 1.345;
 
 const MAX_ITERATIONS: usize = 100;
 
-/// Share of the margin of the clock offset beyond which a fit has not found it.
-const EDGE: f64 = 0.99;
-
 /// Change of every unknown, m, 1, s or rad, below which the iteration has settled.
 const SETTLED: f64 = 1e-8;
 
@@ -238,10 +235,14 @@ pub fn least_squares(
         let trial = point.stepped(unknowns, &step);
         size = step.amax();
         let [x_left, x_right, ..] = trial.parameters.0;
-        let sensible =
-            x_right > x_left && (trial.sensor.tau - tau).abs() <= observations.tau_margin();
+        let sensible = x_right > x_left;
         let next = linearise(&trial);
         let next_cost = next.cost(loss);
+        let (moved, margin) = (trial.sensor.tau - tau, observations.tau_margin());
+        if sensible && moved.abs() > margin && next_cost < cost {
+            let edge = tau + margin.copysign(moved);
+            return Err(Error::ClockLeaves { tau: edge, start: tau, margin });
+        }
         if sensible && next_cost <= cost * (1.0 + 1e-14) {
             (point, here, cost) = (trial, next, next_cost);
             damping = (damping * 0.1).max(1e-12);
@@ -250,13 +251,6 @@ pub fn least_squares(
             continue;
         }
         if size < SETTLED {
-            let reached = (point.sensor.tau - tau).abs();
-            if unknowns.nuisances.contains(&Nuisance::TimeOffset)
-                && reached > EDGE * observations.tau_margin()
-            {
-                let margin = observations.tau_margin();
-                return Err(Error::ClockLeaves { tau: point.sensor.tau, start: tau, margin });
-            }
             return Ok(here.estimate(&point, unknowns, observations, weighting, loss, iteration));
         }
     }

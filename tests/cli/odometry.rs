@@ -130,6 +130,22 @@ fn parameters_of_the_same_runs_are_not_held_out() {
 }
 
 #[test]
+fn another_time_of_the_same_runs_is_held_out() {
+    let place = workplace(&synthetic());
+    let fit = "identify recording --vehicle robot.toml --generations 1 --time 0,20";
+    assert_eq!(place.run(fit).status, 0);
+    for (time, held_out) in [("20,40", true), ("10,40", false)] {
+        let replay = "odometry recording --vehicle robot.toml --kinematics out/kinematics.toml";
+        let run = place.run(&format!("{replay} --out replay --time {time}"));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        let text = String::from_utf8(place.read("replay/odometry.toml")).expect("text");
+        let document: toml::Table = text.parse().expect("TOML");
+        assert_eq!(document["set"][1]["held_out"].as_bool(), Some(held_out), "{time}: {text}");
+        assert!(document["source"]["time_s"].is_array());
+    }
+}
+
+#[test]
 fn residuals_become_covariances_of_a_controller() {
     let place = workplace(&synthetic());
     let identify = "identify recording --vehicle robot.toml --generations 1 --runs 0-1";

@@ -1,10 +1,12 @@
 //! Published results and reference figures, one file each.
 
 mod centripetal_cloud;
+mod held_out;
 mod identified_distances;
 mod martinez_2005_asymmetric;
 mod martinez_2005_symmetric;
 mod operating_points;
+mod recordings;
 
 use trackdyn_motion::map::Statistics;
 use trackdyn_motion::{Grid, IcrMap};

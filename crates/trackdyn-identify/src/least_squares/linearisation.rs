@@ -3,7 +3,7 @@
 use super::covariance::jackknife;
 use super::identifiability::inverse;
 use super::{Estimate, Loss, Unknowns};
-use crate::observations::Observations;
+use crate::observations::{Observation, Observations};
 use crate::parameters::{COUNT, Parameters};
 use crate::prediction::Lanes;
 use crate::sensor::{Nuisance, Report, Sensor};
@@ -34,6 +34,29 @@ impl Point {
     }
 }
 
+/// Observed minus reported motions.
+fn residuals(
+    segments: &[Observation],
+    reported: impl Iterator<Item = [f64; 3]>,
+) -> Vec<Vector3<f64>> {
+    let pairs = segments.iter().zip(reported);
+    pairs.map(|(segment, motion)| Vector3::from(segment.motion) - Vector3::from(motion)).collect()
+}
+
+/// Derivatives of reported motions by each unknown.
+fn columns(unknowns: &Unknowns, reports: &[Report]) -> Vec<Vec<Vector3<f64>>> {
+    let column = |of: &dyn Fn(&Report) -> [f64; 3]| -> Vec<Vector3<f64>> {
+        reports.iter().map(|report| Vector3::from(of(report))).collect()
+    };
+    let kinematic = (0..unknowns.free.count()).map(|k| column(&|report| report.by_parameter[k]));
+    let of_sensor = unknowns.nuisances.iter().map(|nuisance| match nuisance {
+        Nuisance::TimeOffset => column(&|report| report.by_tau),
+        Nuisance::SensorYaw => column(&|report| report.by_yaw),
+        Nuisance::LeverArm => column(&|_| [0.0; 3]),
+    });
+    kinematic.chain(of_sensor).collect()
+}
+
 /// Whitened residuals and derivatives at a point.
 pub(super) struct Linearisation {
     residuals: Vec<Vector3<f64>>,
@@ -53,31 +76,23 @@ impl Linearisation {
         let lanes = moved.as_ref().unwrap_or(lanes);
         let observations = lanes.observations();
         let segments = observations.segments();
-        let reports: Vec<Report> = lanes
-            .predict(&point.parameters)
-            .iter()
-            .zip(segments)
-            .map(|(prediction, segment)| {
-                let pieces = observations.pieces(segment);
-                Report::of(prediction, &point.parameters, &point.sensor, pieces)
-            })
-            .collect();
-        let mut residuals: Vec<Vector3<f64>> = segments
-            .iter()
-            .zip(&reports)
-            .map(|(segment, report)| Vector3::from(segment.motion) - Vector3::from(report.motion))
-            .collect();
-        let column = |of: &dyn Fn(&Report) -> [f64; 3]| -> Vec<Vector3<f64>> {
-            reports.iter().map(|report| Vector3::from(of(report))).collect()
+        let predictions = lanes.predict(&point.parameters);
+        let (mut residuals, mut columns) = if unknowns.nuisances.is_empty() {
+            // A sensor that has no yaw reports what is predicted.
+            let by_parameter = (0..unknowns.free.count())
+                .map(|k| predictions.iter().map(|by| by.sensitivity[k].into()).collect());
+            (residuals(segments, predictions.iter().map(|of| of.motion)), by_parameter.collect())
+        } else {
+            let reports: Vec<Report> = segments
+                .iter()
+                .zip(&predictions)
+                .map(|(segment, prediction)| {
+                    let pieces = observations.pieces(segment);
+                    Report::of(prediction, &point.parameters, &point.sensor, pieces)
+                })
+                .collect();
+            (residuals(segments, reports.iter().map(|of| of.motion)), columns(unknowns, &reports))
         };
-        let kinematic =
-            (0..unknowns.free.count()).map(|k| column(&|report| report.by_parameter[k]));
-        let of_sensor = unknowns.nuisances.iter().map(|nuisance| match nuisance {
-            Nuisance::TimeOffset => column(&|report| report.by_tau),
-            Nuisance::SensorYaw => column(&|report| report.by_yaw),
-            Nuisance::LeverArm => column(&|_| [0.0; 3]),
-        });
-        let mut columns: Vec<Vec<Vector3<f64>>> = kinematic.chain(of_sensor).collect();
         whitener.whiten(&mut residuals);
         for column in &mut columns {
             whitener.whiten(column);

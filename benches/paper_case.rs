@@ -67,7 +67,7 @@ impl PaperCase {
 
     fn fit(&self, weighting: &Weighting, loss: Loss) -> Estimate {
         let start = Parameters::of(&Kinematics::ideal(GAUGE));
-        least_squares(&self.observations, &start, Free::IcrsAndAlphas, weighting, loss)
+        least_squares(&self.observations, &start, &Free::IcrsAndAlphas.into(), weighting, loss)
             .expect("a determined recording")
     }
 

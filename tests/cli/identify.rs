@@ -40,6 +40,31 @@ fn parameters_come_out_of_a_recording() {
     assert!((number("y_icr_m") - 0.0492).abs() < 5e-3, "{text}");
     assert_eq!(file["covariance"].as_array().map(Vec::len), Some(3));
     assert_eq!(file["source"]["recording"].as_str(), Some("synthetic"));
+    assert_eq!(file["source"]["runs"].as_str(), Some("0-3"));
+
+    // Every method, every number with its unit and interval.
+    let text = String::from_utf8(place.read("out/identification.toml")).expect("text");
+    let document: toml::Table = text.parse().expect("TOML");
+    assert_eq!(document["schema"].as_str(), Some("trackdyn.identification/1"));
+    assert_eq!(document["source"]["runs"].as_str(), Some("0-3"));
+    let methods = document["method"].as_array().expect("methods");
+    let names: Vec<_> = methods.iter().map(|method| method["method"].as_str()).collect();
+    let pair = ["genetic", "least-squares"];
+    assert_eq!(names, ["spin-test", pair[0], pair[1], pair[0], pair[1]].map(Some));
+    for method in methods {
+        assert_eq!(method["determined"].as_bool(), Some(true), "{text}");
+        for estimate in method["estimate"].as_array().expect("estimates") {
+            let of = |key: &str| estimate[key].as_float().expect("a number");
+            assert!(["m", "1"].contains(&estimate["unit"].as_str().expect("a unit")));
+            assert!(of("low95") < of("value") && of("value") < of("high95"), "{estimate}");
+            // Student's quantile: above that of the normal distribution, below that of three blocks.
+            let half = (of("high95") - of("low95")) / 2.0 / of("standard_error");
+            assert!((1.95..4.4).contains(&half), "{estimate}");
+        }
+    }
+    let fitted = &methods[2]["estimate"][0];
+    assert!((fitted["value"].as_float().expect("x_l") - number("x_icr_left_m")).abs() < 1e-9);
+    assert_eq!(methods[2]["file"].as_str(), Some("kinematics.toml"));
 
     // The file is one that the other commands take.
     let used = place.run("kinematics --speeds 0.3,0.9 --kinematics out/kinematics_alpha.toml");
@@ -50,8 +75,48 @@ fn parameters_come_out_of_a_recording() {
     let first = (run.stdout, text);
     let again = place
         .run_with_threads(&format!("identify rec --vehicle {} --generations 60", vehicle()), 1);
-    let text = String::from_utf8(place.read("out/kinematics.toml")).expect("text");
+    let text = String::from_utf8(place.read("out/identification.toml")).expect("text");
     assert!(first == (again.stdout, text), "results differ between 2 threads and 1");
+}
+
+#[test]
+fn some_runs_or_a_time_can_be_chosen() {
+    let place = Workplace::new();
+    record(&place, (0..6).map(|run| random_steps(10, 2.0, 0.8, run)).collect());
+    let identify = format!("identify rec --vehicle {} --generations 1", vehicle());
+    for (options, runs, time) in [
+        ("--runs 0-3", "0-3", None),
+        ("--runs 5,1,2", "1-2,5", None),
+        ("--time 0,15", "0-5", Some([0.0, 15.0])),
+    ] {
+        let run = place.run(&format!("{identify} {options}"));
+        assert_eq!(run.status, 0, "{}{}", run.stdout, run.stderr);
+        let text = String::from_utf8(place.read("out/kinematics.toml")).expect("text");
+        let file: toml::Table = text.parse().expect("TOML");
+        assert_eq!(file["source"]["runs"].as_str(), Some(runs), "{text}");
+        let chosen = file["source"].get("time_s").and_then(toml::Value::as_array);
+        let chosen = chosen.map(|ends| [0, 1].map(|k| ends[k].as_float().expect("a number")));
+        assert_eq!(chosen, time, "{text}");
+    }
+}
+
+#[test]
+fn clock_and_mount_of_the_sensor_are_fitted_or_refused() {
+    let place = Workplace::new();
+    record(&place, (0..4).map(|run| random_steps(10, 2.0, 0.8, run)).collect());
+    let identify = format!("identify rec --vehicle {} --generations 1", vehicle());
+    let run = place.run(&format!("{identify} --fit lever-arm,sensor-yaw,time-offset"));
+    assert_eq!(run.status, 0, "{}{}", run.stdout, run.stderr);
+    for part in ["tau ", "psi ", " rad", "not fitted: lever-arm", "measure the mount"] {
+        assert!(run.stdout.contains(part), "{part} is not in:\n{}", run.stdout);
+    }
+    let unknown = place.run(&format!("{identify} --fit tau"));
+    assert_eq!(unknown.status, 1);
+    assert!(
+        unknown.stderr.contains("one of time-offset, sensor-yaw, lever-arm"),
+        "{}",
+        unknown.stderr
+    );
 }
 
 #[test]
@@ -64,6 +129,13 @@ fn what_a_recording_does_not_determine_is_not_written() {
     assert!(run.stdout.contains("no ICR shows"), "{}", run.stdout);
     assert!(run.stdout.contains("taken as equal"), "{}", run.stdout);
     assert!(!place.path().join("out/kinematics.toml").exists());
+    let text = String::from_utf8(place.read("out/identification.toml")).expect("text");
+    let document: toml::Table = text.parse().expect("TOML");
+    for method in document["method"].as_array().expect("methods") {
+        assert_eq!(method["determined"].as_bool(), Some(false), "{text}");
+        assert!(!method["doubts"].as_array().expect("reasons").is_empty());
+        assert!(method.get("file").is_none());
+    }
 }
 
 #[test]
@@ -71,12 +143,22 @@ fn mistakes_are_named() {
     let place = Workplace::new();
     let vehicle = vehicle();
     std::fs::create_dir(place.path().join("empty")).expect("made");
+    record(&place, vec![random_steps(10, 2.0, 0.8, 1)]);
     for (arguments, part) in [
         (format!("identify missing --vehicle {vehicle}"), "missing"),
         (format!("identify empty --vehicle {vehicle}"), "recording.toml"),
         ("identify empty".to_owned(), "--vehicle"),
-        (format!("identify empty --vehicle {vehicle} --tau late"), "a finite number"),
+        (format!("identify empty --vehicle {vehicle} --tau late"), "a number of seconds"),
         (format!("identify empty --vehicle {vehicle} --population 0"), "--population"),
+        (
+            format!("identify rec --vehicle {vehicle} --runs 0,9"),
+            "--runs: run 9 is not in the recording",
+        ),
+        (
+            format!("identify rec --vehicle {vehicle} --time 30,40"),
+            "--time: no run has track speeds",
+        ),
+        (format!("identify rec --vehicle {vehicle} --time 3,2"), "the beginning and the end in s"),
         ("inspect empty".to_owned(), "recording.toml"),
     ] {
         let run = place.run(&arguments);

@@ -82,3 +82,12 @@ fn robot_that_never_turns_gets_its_picture_and_status_2() {
     assert!(run.stdout.contains("20 are held straight by one track"), "{}", run.stdout);
     assert_eq!(place.files(), [std::path::PathBuf::from("out/icr_map.png")]);
 }
+
+#[test]
+fn speeds_of_any_size_are_readable() {
+    let place = Workplace::new();
+    let run = place.run("kinematics --speeds 1e300,-2e300");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("left 1.00000e300  right -2.00000e300 m/s"), "{}", run.stdout);
+    assert!(run.stdout.lines().all(|line| line.len() < 100), "{}", run.stdout);
+}

@@ -114,6 +114,76 @@ fn runs_and_clock_offset_can_be_chosen() {
 }
 
 #[test]
+fn parameters_of_the_same_runs_are_not_held_out() {
+    let place = workplace(&synthetic());
+    let fit = place.run("identify recording --vehicle robot.toml --generations 1 --runs 0-1");
+    assert_eq!(fit.status, 0, "{}", fit.stderr);
+    for (options, held_out) in [("--runs 2-3", true), ("--runs 1-3", false), ("", false)] {
+        let replay = "odometry recording --vehicle robot.toml --kinematics out/kinematics.toml";
+        let run = place.run(&format!("{replay} --out replay {options}"));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        let text = String::from_utf8(place.read("replay/odometry.toml")).expect("text");
+        let document: toml::Table = text.parse().expect("TOML");
+        assert_eq!(document["set"][1]["held_out"].as_bool(), Some(held_out), "{options}: {text}");
+        assert_eq!(run.stderr.contains("fitted to some of these runs"), !held_out);
+    }
+}
+
+#[test]
+fn another_time_of_the_same_runs_is_held_out() {
+    let place = workplace(&synthetic());
+    let fit = "identify recording --vehicle robot.toml --generations 1 --time 0,20";
+    assert_eq!(place.run(fit).status, 0);
+    for (time, held_out) in [("20,40", true), ("10,40", false)] {
+        let replay = "odometry recording --vehicle robot.toml --kinematics out/kinematics.toml";
+        let run = place.run(&format!("{replay} --out replay --time {time}"));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        let text = String::from_utf8(place.read("replay/odometry.toml")).expect("text");
+        let document: toml::Table = text.parse().expect("TOML");
+        assert_eq!(document["set"][1]["held_out"].as_bool(), Some(held_out), "{time}: {text}");
+        assert!(document["source"]["time_s"].is_array());
+    }
+}
+
+#[test]
+fn residuals_become_covariances_of_a_controller() {
+    let place = workplace(&synthetic());
+    let identify = "identify recording --vehicle robot.toml --generations 1 --runs 0-1";
+    assert_eq!(place.run(identify).status, 0);
+    let replay = "odometry recording --vehicle robot.toml --kinematics out/kinematics_alpha.toml";
+    let export = "export ros2 out/kinematics_alpha.toml --wheel-radius 0.1 --residuals";
+    assert_eq!(place.run(&format!("{replay} --runs 2-3 --out replay")).status, 0);
+    let run = place.run(&format!("{export} replay/odometry.toml"));
+    assert_eq!((run.status, run.stderr.contains("warning")), (0, false), "{}", run.stderr);
+    let text = String::from_utf8(place.read("out/diff_drive_controller.yaml")).expect("text");
+    let yaml: serde_yaml_ng::Value = serde_yaml_ng::from_str(&text).expect("YAML");
+    let twist = &yaml["diff_drive_controller"]["ros__parameters"]["twist_covariance_diagonal"];
+    // Poses with 0.002 rad of noise, two to a piece of 1 s, at 50 Hz. 40 % in the variance:
+    // 78 pieces, and the fit.
+    let yaw = twist[5].as_f64().expect("six numbers");
+    assert!((yaw / (2.0 * 0.002_f64.powi(2) * 50.0) - 1.0).abs() < 0.4, "{yaw}");
+    assert!(text.contains("not fitted to"), "{text}");
+
+    assert_eq!(place.run(&format!("{replay} --out same")).status, 0);
+    let run = place.run(&format!("{export} same/odometry.toml"));
+    assert!(run.status == 0 && run.stderr.contains("too small"), "{}", run.stderr);
+
+    for (arguments, part) in [
+        (
+            "export ros2 fit.toml --wheel-radius 0.1 --residuals replay/odometry.toml",
+            "--residuals = replay/",
+        ),
+        ("export ros2 fit.toml --wheel-radius 0.1 --residuals robot.toml", "robot.toml:"),
+        ("export ros2 fit.toml --wheel-radius 0.1 --publish-rate 20", "--residuals"),
+    ] {
+        let run = place.run(&format!("{arguments} --out new"));
+        assert_eq!(run.status, 1, "{arguments}: {}", run.stderr);
+        assert!(run.stderr.contains(part), "{arguments}: {part:?} is not in:\n{}", run.stderr);
+        assert!(!place.path().join("new").exists(), "{arguments}");
+    }
+}
+
+#[test]
 fn a_clock_offset_that_cannot_be_estimated_is_zero_and_said() {
     let straight = vec![vec![Stretch { duration: 20.0, speeds: PerSide::new(0.5, 0.5) }]];
     let place = workplace(&Synthetic { schedules: straight, ..Synthetic::default() });

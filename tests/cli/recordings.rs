@@ -191,7 +191,14 @@ fn operating_points_that_do_not_do_are_refused() {
     place.write("bad.csv", "v_left,v_right,v_forward,v_lateral,yaw_rate\n0,x,0,0,0\n");
     for (arguments, part) in [
         ("identify bad.csv", "bad.csv:2:2: v_right = \"x\": expected a finite number"),
-        ("identify floor.csv --tau 0.1", "floor.csv holds steady points, which have no time"),
+        (
+            "identify floor.csv --tau 0.1",
+            "--tau: floor.csv holds steady points, which have no runs and no time",
+        ),
+        (
+            "identify floor.csv --runs 1 --time 0,1 --settle 1 --fit time-offset",
+            "--runs, --time, --settle, --fit: floor.csv holds steady points",
+        ),
         ("odometry floor.csv", "floor.csv: a file of another kind"),
     ] {
         let run = place.run(&format!("{arguments} --vehicle {vehicle}"));

@@ -99,7 +99,8 @@ fn exported(drive: &EquivalentDrive, radius: f64) -> [String; 3] {
         Frames::new(name("odom"), name("icr_link"), name("base_link"), [0.0, 0.0]).expect("frames");
     let wheels = Wheels::new(radius, vec![name("l")], vec![name("r")]).expect("wheels");
     let provenance = Provenance::default();
-    let files = ros2::files(drive, &frames, &wheels, &name("diff_drive_controller"), &provenance);
+    let controller = name("diff_drive_controller");
+    let files = ros2::files(drive, &frames, &wheels, &controller, None, &provenance);
     let [parameters, launch] = <[_; 2]>::try_from(files).expect("two files").map(|file| file.text);
     [parameters, launch, urdf::fragment(drive, &frames, &provenance).text]
 }

@@ -3,6 +3,7 @@
 mod coverage;
 mod manual;
 mod methods;
+mod sensor;
 mod steady;
 
 use trackdyn_core::PerSide;
@@ -57,5 +58,5 @@ fn start() -> Parameters {
 fn fit(recording: &Recording, free: Free) -> Result<Estimate, Error> {
     let measured = SegmentNoise::measured(&noise(recording, 0.0), 0.8).expect("steady driving");
     let weighting = Weighting::Noise(measured);
-    least_squares(&observe(recording), &start(), free, &weighting, Loss::Huber)
+    least_squares(&observe(recording), &start(), &free.into(), &weighting, Loss::Huber)
 }

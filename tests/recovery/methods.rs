@@ -34,7 +34,7 @@ fn genetic_algorithm_and_least_squares_agree_on_the_cost() {
     let observations = observe(&drive(2));
     let weighting = Weighting::Distance { lever: LEVER };
     for free in [Free::Icrs, Free::IcrsAndAlphas] {
-        let exact = least_squares(&observations, &start(), free, &weighting, Loss::Squares)
+        let exact = least_squares(&observations, &start(), &free.into(), &weighting, Loss::Squares)
             .expect("settles");
         let options = GeneticOptions::default();
         let found = genetic(&observations, GAUGE, LEVER, free, &options, &|_| ());
@@ -110,6 +110,7 @@ fn few_turns_leave_wide_intervals() {
 fn too_short_recordings_are_refused() {
     let short = record(vec![vec![stretch(2.0, 0.1, 0.5)]], 8);
     let weighting = Weighting::Distance { lever: LEVER };
-    let refused = least_squares(&observe(&short), &start(), Free::Icrs, &weighting, Loss::Squares);
+    let refused =
+        least_squares(&observe(&short), &start(), &Free::Icrs.into(), &weighting, Loss::Squares);
     assert!(matches!(refused, Err(Error::TooFewSegments { .. })), "{refused:?}");
 }

@@ -1,11 +1,13 @@
 //! Published results and reference figures, one file each.
 
 mod centripetal_cloud;
+mod held_out;
 mod identified_distances;
 mod independent_ground;
 mod martinez_2005_asymmetric;
 mod martinez_2005_symmetric;
 mod operating_points;
+mod recordings;
 mod two_simulators;
 
 use trackdyn_motion::map::Statistics;

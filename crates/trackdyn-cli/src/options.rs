@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_physics::{ActiveEffect, Circumstance, Model, VehicleFile};
 use trackdyn_recording::rosbag::{JointSignal, RosbagOptions};
-use trackdyn_recording::{Format, Recording, tum};
+use trackdyn_recording::{Format, Recording, RunList, tum};
 
 /// The vehicle, its effects and where it stands.
 #[derive(Args)]
@@ -161,6 +161,86 @@ pub fn tracks_of<'a>(
                          needs them"
         )
         .into()),
+    }
+}
+
+/// Which part of a recording counts, and how late its poses are.
+#[derive(Args)]
+pub struct DrivingOptions {
+    #[command(flatten)]
+    recording: RecordingOptions,
+    /// Take these runs only, such as 7,8,20-29: fit on some, judge on others [default: all]
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    runs: Option<RunList>,
+    /// Take this time of each run only, in s from its first reading: to split a recording of one run
+    #[arg(long, value_name = "FROM,UNTIL", value_parser = time)]
+    time: Option<[f64; 2]>,
+    /// Time in s by which poses lag behind the track speeds [default: estimated]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    pub tau: Option<f64>,
+}
+
+impl DrivingOptions {
+    /// Reads the recording, all of it.
+    ///
+    /// # Errors
+    /// Those of [`RecordingOptions::read`].
+    pub fn recording(&self) -> Result<Recording, Box<dyn std::error::Error>> {
+        self.recording.read()
+    }
+
+    /// The recording as given.
+    pub fn path(&self) -> &Path {
+        &self.recording.recording
+    }
+
+    /// The part to take of a recording.
+    ///
+    /// # Errors
+    /// A message with the option and what is not there.
+    pub fn part(&self, recording: &Recording) -> Result<Recording, String> {
+        let runs = match &self.runs {
+            Some(list) => recording.of_runs(list).map_err(|error| format!("--runs: {error}"))?,
+            None => recording.clone(),
+        };
+        match self.time {
+            Some(time) => runs.within(time).map_err(|error| format!("--time: {error}")),
+            None => Ok(runs),
+        }
+    }
+
+    /// The options given here that mean something to recordings of motion alone.
+    pub fn given(&self) -> Vec<&'static str> {
+        let options = [
+            ("--runs", self.runs.is_some()),
+            ("--time", self.time.is_some()),
+            ("--tau", self.tau.is_some()),
+        ];
+        options.into_iter().filter_map(|(name, given)| given.then_some(name)).collect()
+    }
+
+    /// The time of each run that is taken, s; none: all of it.
+    pub fn time(&self) -> Option<[f64; 2]> {
+        self.time
+    }
+}
+
+/// A beginning and an end, s.
+fn time(text: &str) -> Result<[f64; 2], String> {
+    match pair(text) {
+        Ok([from, until]) if from < until => Ok([from, until]),
+        _ => Err("expected the beginning and the end in s, such as 0,600".to_owned()),
+    }
+}
+
+/// Seconds of a clock offset.
+///
+/// # Errors
+/// What was expected.
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.abs() <= 3600.0 => Ok(value),
+        _ => Err("expected a number of seconds, such as 0.25".to_owned()),
     }
 }
 

@@ -18,6 +18,23 @@ pub enum Error {
         /// Names on the right.
         right: usize,
     },
+    /// A rate at which nothing is published.
+    #[error("publish-rate = {value}: expected a positive number of Hz")]
+    PublishRate {
+        /// The rate, Hz.
+        value: f64,
+    },
+    /// A replay with other parameters.
+    #[error(
+        "residuals = {residuals}: no set is of a kinematics file with the fingerprint {fingerprint}: \
+         expected what `trackdyn odometry --kinematics` wrote with that file"
+    )]
+    NoResiduals {
+        /// Path of the odometry file.
+        residuals: String,
+        /// Fingerprint of the kinematics file.
+        fingerprint: String,
+    },
     /// Two frames of a chain are one.
     #[error("{first} = {name}, {second} = {name}: expected two different frames")]
     SameFrame {

@@ -1,11 +1,13 @@
 //! Kinematics of tracked robots as files of other programs.
 //!
 //! - [`drive`]: the ideal differential drive that a tracked robot is, seen at one point.
+//! - [`covariance`]: how wrong its odometry is, from the residuals of a replay.
 //! - [`frames`]: the frame at that point, and the robot's own.
 //! - [`ros2`], [`urdf`], [`gz`]: the files, one module per program.
 //!
 //! Derivation, signs and direction of the transform: `docs/theory/export.md`.
 
+pub mod covariance;
 pub mod drive;
 pub mod error;
 pub mod frames;
@@ -17,6 +19,7 @@ pub mod urdf;
 
 mod number;
 
+pub use covariance::Residuals;
 pub use drive::EquivalentDrive;
 pub use error::Error;
 pub use frames::Frames;

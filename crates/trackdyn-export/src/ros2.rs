@@ -3,7 +3,7 @@
 mod controller;
 mod launch;
 
-use crate::{EquivalentDrive, Error, Frames, Name, Provenance, TextFile};
+use crate::{EquivalentDrive, Error, Frames, Name, Provenance, Residuals, TextFile};
 
 /// What a kinematics file does not know of the robot's drive.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,16 +30,41 @@ impl Wheels {
     }
 }
 
-/// The parameters of a controller of this name, and the launch file.
+/// Residuals of the odometry, and the rate at which the controller publishes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Published {
+    residuals: Residuals,
+    rate: f64,
+}
+
+impl Published {
+    /// The rate the controller has where none is set, Hz.
+    pub const DEFAULT_RATE: f64 = 50.0;
+
+    /// Residuals and a rate, Hz.
+    ///
+    /// # Errors
+    /// [`Error::PublishRate`].
+    pub fn new(residuals: Residuals, rate: f64) -> Result<Self, Error> {
+        if !(rate > 0.0 && rate.is_finite()) {
+            return Err(Error::PublishRate { value: rate });
+        }
+        Ok(Self { residuals, rate })
+    }
+}
+
+/// The parameters of a controller of this name, with covariances where residuals are known, and the launch
+/// file.
 pub fn files(
     drive: &EquivalentDrive,
     frames: &Frames,
     wheels: &Wheels,
     controller: &Name,
+    published: Option<&Published>,
     provenance: &Provenance,
 ) -> Vec<TextFile> {
     vec![
-        controller::parameters(drive, frames, wheels, controller, provenance),
+        controller::parameters(drive, frames, wheels, controller, published, provenance),
         launch::launch_file(drive, frames, provenance),
     ]
 }

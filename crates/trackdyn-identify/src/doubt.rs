@@ -1,6 +1,7 @@
 //! Reasons not to believe a parameter.
 
 use crate::parameters::Parameters;
+use crate::sensor::Nuisance;
 
 /// Why a recording does not determine a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +16,20 @@ pub enum Doubt {
         /// The largest that would do.
         limit: f64,
     },
+    /// The interval of a property of the sensor is too wide to be of use.
+    WideNuisance {
+        /// Which property.
+        nuisance: Nuisance,
+        /// Standard deviation, in its unit.
+        deviation: f64,
+    },
+    /// A lever arm of the sensor moves the ICRs and nothing else.
+    LeverArm,
+    /// The robot drives on one circle, or turns on the spot: ICRs that are turned about the sensor pass for
+    /// a sensor that is turned.
+    NoTranslation,
+    /// The track speeds hardly change: an offset of the clocks moves nothing.
+    NoChange,
     /// The tracks run alike: the robot hardly turns, and no ICR shows.
     NoTurning,
     /// The tracks run at one ratio of speeds, as in a spin or on one arc: ICRs and α cannot be told apart.
@@ -33,6 +48,26 @@ impl std::fmt::Display for Doubt {
                      would do): drive more turns of different kinds"
                 )
             }
+            Self::WideNuisance { nuisance, deviation } => {
+                let (limit, unit) = (nuisance.limit(), nuisance.unit());
+                write!(
+                    f,
+                    "{nuisance} is open by {deviation:.3} {unit} (one standard deviation; {limit:.3} {unit} \
+                     would do)"
+                )
+            }
+            Self::LeverArm => f.write_str(
+                "lever-arm cannot be told from the ICRs, which it moves as a whole, by poses and track \
+                 speeds of any kind: measure the mount",
+            ),
+            Self::NoTranslation => f.write_str(
+                "sensor-yaw shows only where the robot drives ahead as well as turns: drive straight, or on \
+                 circles of different size",
+            ),
+            Self::NoChange => f.write_str(
+                "time-offset shows only where track speeds change, and here they change by less than their \
+                 noise: speed up, slow down, begin and end turns",
+            ),
             Self::NoTurning => f.write_str(
                 "the tracks run alike all the time, so no ICR shows: drive turns, both ways",
             ),

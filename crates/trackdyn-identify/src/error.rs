@@ -39,6 +39,19 @@ pub enum Error {
     /// The driving does not show the parameters.
     #[error("not determined by this recording: {0}")]
     NotDetermined(Doubt),
+    /// The clock offset ran out of the readings around the segments.
+    #[error(
+        "the time offset does not settle within {margin} s of {start:.3} s: it reached {tau:.3} s (give a \
+         better one with --tau, or do not fit it)"
+    )]
+    ClockLeaves {
+        /// Where it was, s.
+        tau: f64,
+        /// Where it began, s.
+        start: f64,
+        /// How far it may go, s.
+        margin: f64,
+    },
     /// The iteration did not settle.
     #[error("least squares did not settle after {iterations} iterations (last step {step:.1e})")]
     NotConverged {

@@ -3,18 +3,21 @@
 use crate::doubt::Doubt;
 use crate::error::Error;
 use crate::genetic::{GeneticEstimate, GeneticOptions, genetic};
-use crate::least_squares::{Estimate, Loss, doubts, lacks, least_squares};
+use crate::least_squares::{
+    Estimate, Loss, Unknowns, doubts, estimate_at, lacks, lacks_nuisance, least_squares,
+    nuisance_doubts,
+};
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
+use crate::sensor::Nuisance;
 use crate::spin_test::{SpinTest, spin_test};
 use crate::weighting::{SegmentNoise, Weighting};
 use trackdyn_motion::Kinematics;
-use trackdyn_recording::clock::{ClockOffset, ClockSearch, clock_offset};
 use trackdyn_recording::noise::{Noise, noise};
-use trackdyn_recording::{Recording, SegmentOptions};
+use trackdyn_recording::{Clock, Recording, SegmentOptions};
 
 /// How to identify.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Gauge of the vehicle, m.
     pub gauge: f64,
@@ -22,30 +25,10 @@ pub struct Options {
     pub tau: Option<f64>,
     /// Time for which the tracks must have run steadily before a segment counts, s; none: all count.
     pub settle: Option<f64>,
+    /// Properties of the pose sensor to fit beside the kinematic parameters.
+    pub nuisances: Vec<Nuisance>,
     /// The genetic algorithm.
     pub genetic: GeneticOptions,
-}
-
-/// Where the clock offset comes from.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Clock {
-    /// Given by the user, s.
-    Given(f64),
-    /// Estimated from the recording.
-    Estimated(ClockOffset),
-    /// Taken as zero, for the recording does not show it.
-    Unknown(String),
-}
-
-impl Clock {
-    /// The offset τ, s.
-    pub fn tau(&self) -> f64 {
-        match self {
-            Self::Given(tau) => *tau,
-            Self::Estimated(offset) => offset.tau,
-            Self::Unknown(_) => 0.0,
-        }
-    }
 }
 
 /// The parameters with one choice of what is free.
@@ -55,10 +38,14 @@ pub struct Fit {
     pub free: Free,
     /// The genetic algorithm's, by the cost (17).
     pub genetic: GeneticEstimate,
+    /// The same with the uncertainty that the cost (17) has there.
+    pub genetic_estimate: Estimate,
     /// Least squares by the noise, or why not.
     pub least_squares: Result<Estimate, Error>,
     /// Why the recording does not determine them; empty where it does.
     pub doubts: Vec<Doubt>,
+    /// Why properties of the sensor that were asked for are not fitted.
+    pub refused: Vec<Doubt>,
 }
 
 /// What was found.
@@ -80,6 +67,12 @@ pub struct Identification {
     pub fits: [Fit; 2],
 }
 
+/// How far a fitted clock offset may go from its start, s: two readings at 20 Hz.
+const TAU_MARGIN: f64 = 0.1;
+
+/// Times that segments are cut anew where the clock offset runs to its margin.
+const CUTS: usize = 5;
+
 /// Runs all methods on a recording. `progress` is told each finished generation of the genetic algorithm,
 /// which runs twice.
 ///
@@ -90,19 +83,12 @@ pub fn identify(
     options: &Options,
     progress: &dyn Fn(usize),
 ) -> Result<Identification, Error> {
-    let clock = match options.tau {
-        Some(tau) => Clock::Given(tau),
-        None => match clock_offset(recording, &ClockSearch::default()) {
-            Ok(offset) => Clock::Estimated(offset),
-            Err(reason) => Clock::Unknown(reason.to_string()),
-        },
-    };
+    let clock = Clock::of(recording, options.tau);
     let tau = clock.tau();
-    let segments = SegmentOptions { tau, ..SegmentOptions::default() };
-    let observations = match options.settle {
-        Some(settle) => Observations::steady(recording, &segments, settle),
-        None => Observations::new(recording, &segments),
-    };
+    let tau_margin =
+        if options.nuisances.contains(&Nuisance::TimeOffset) { TAU_MARGIN } else { 0.0 };
+    let segments = SegmentOptions { tau, tau_margin, ..SegmentOptions::default() };
+    let observations = cut(recording, &segments, options);
     let needed = 4 * Free::IcrsAndAlphas.count();
     if observations.len() < needed {
         let parameters = Free::IcrsAndAlphas.count();
@@ -120,15 +106,69 @@ pub fn identify(
     let fits = [Free::Icrs, Free::IcrsAndAlphas].map(|free| {
         let genetic =
             genetic(&observations, options.gauge, lever, free, &options.genetic, progress);
-        let start = Parameters::of(&Kinematics::ideal(options.gauge));
-        let least_squares = match lacks(&observations, &noise, free) {
-            Some(doubt) => Err(Error::NotDetermined(doubt)),
-            None => least_squares(&observations, &start, free, &weighting, Loss::Huber),
+        let by_distance = Weighting::Distance { lever };
+        let genetic_estimate =
+            estimate_at(&observations, &genetic.parameters, free, &by_distance, Loss::Squares);
+        let cut = |tau: f64| cut(recording, &SegmentOptions { tau, ..segments }, options);
+        let (least_squares, refused) = if let Some(doubt) = lacks(&observations, &noise, free) {
+            (Err(Error::NotDetermined(doubt)), Vec::new())
+        } else {
+            fit_with_sensor(&observations, &cut, &noise, free, &weighting, options)
         };
         let doubts =
             least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
-        Fit { free, genetic, least_squares, doubts }
+        Fit { free, genetic, genetic_estimate, least_squares, doubts, refused }
     });
     let segments = observations.len();
     Ok(Identification { clock, noise, weighted_by_noise, segments, lever, spin_test, fits })
+}
+
+/// The segments at the clock offset of the segment options.
+fn cut(recording: &Recording, segments: &SegmentOptions, options: &Options) -> Observations {
+    match options.settle {
+        Some(settle) => Observations::steady(recording, segments, settle),
+        None => Observations::new(recording, segments),
+    }
+}
+
+/// Least squares with those of the wanted properties of the sensor that the recording shows, and why not
+/// with the others.
+fn fit_with_sensor(
+    observations: &Observations,
+    cut: &dyn Fn(f64) -> Observations,
+    noise: &Noise,
+    free: Free,
+    weighting: &Weighting,
+    options: &Options,
+) -> (Result<Estimate, Error>, Vec<Doubt>) {
+    let start = Parameters::of(&Kinematics::ideal(options.gauge));
+    let mut unknowns = Unknowns::from(free);
+    let mut refused = Vec::new();
+    for &nuisance in &options.nuisances {
+        match lacks_nuisance(observations, noise, nuisance) {
+            Some(doubt) => refused.push(doubt),
+            None => unknowns.nuisances.push(nuisance),
+        }
+    }
+    loop {
+        let fit = |observations: &Observations| {
+            least_squares(observations, &start, &unknowns, weighting, Loss::Huber)
+        };
+        let mut fitted = fit(observations);
+        for _ in 0..CUTS {
+            // Readings are at hand up to the margin: where the offset reaches it, segments are cut anew.
+            let Err(Error::ClockLeaves { tau, .. }) = fitted else { break };
+            fitted = fit(&cut(tau));
+        }
+        let wide = fitted.as_ref().map_or(Vec::new(), nuisance_doubts);
+        if wide.is_empty() {
+            return (fitted, refused);
+        }
+        let is_wide = |nuisance: &Nuisance| {
+            let of = |doubt: &Doubt| matches!(doubt, Doubt::WideNuisance { nuisance: n, .. } if n == nuisance);
+            wide.iter().any(of)
+        };
+        unknowns.nuisances.retain(|nuisance| !is_wide(nuisance));
+        refused.extend(wide);
+    }
 }

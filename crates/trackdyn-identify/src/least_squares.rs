@@ -1,19 +1,22 @@
 //! Least squares: the most likely parameters under a noise model, with robust loss.
 
 pub(crate) mod covariance;
+mod estimate;
 mod identifiability;
+mod linearisation;
 
-pub use covariance::{Blocks, Interval};
-pub use identifiability::{doubts, lacks};
+pub use covariance::Interval;
+pub use estimate::Estimate;
+pub use identifiability::{doubts, lacks, lacks_nuisance, nuisance_doubts};
 pub(crate) use identifiability::{inverse, too_wide};
 
 use crate::error::Error;
 use crate::observations::Observations;
-use crate::parameters::{COUNT, Free, Parameters};
+use crate::parameters::{Free, Parameters};
 use crate::prediction::Lanes;
+use crate::sensor::{Nuisance, Sensor};
 use crate::weighting::{Weighting, Whitener};
-use nalgebra::{DMatrix, DVector, Vector3};
-use std::ops::Range;
+use linearisation::{Linearisation, Point};
 
 /// Residuals beyond this many standard deviations count linearly (Huber): 95 % efficient on normal
 /// noise.
@@ -21,29 +24,30 @@ const HUBER: f64 = 1.345;
 
 const MAX_ITERATIONS: usize = 100;
 
-/// Change of every parameter, m or 1, below which the iteration has settled.
+/// Change of every unknown, m, 1, s or rad, below which the iteration has settled.
 const SETTLED: f64 = 1e-8;
 
-/// Fitted parameters.
-#[derive(Clone, Debug)]
-pub struct Estimate {
-    /// The parameters; those that are not free keep their start.
-    pub parameters: Parameters,
-    /// Which were free.
+/// What is fitted: kinematic parameters, and properties of the pose sensor beside them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unknowns {
+    /// Which kinematic parameters.
     pub free: Free,
-    /// Covariance of the free parameters, from the scatter between blocks: it holds where the noise
-    /// model is wrong.
-    pub covariance: DMatrix<f64>,
-    /// Covariance of the free parameters if the noise model is right.
-    pub covariance_of_noise: DMatrix<f64>,
-    /// The blocks behind `covariance`.
-    pub blocks: Blocks,
-    /// Sum of the loss over all residuals, in the units of the weighting.
-    pub cost: f64,
-    /// Root mean square of the whitened residuals: 1 where model and noise explain the recording.
-    pub whitened_rms: f64,
-    /// Iterations.
-    pub iterations: usize,
+    /// Which properties of the sensor, each once; [`Nuisance::LeverArm`] cannot be among them.
+    pub nuisances: Vec<Nuisance>,
+}
+
+impl From<Free> for Unknowns {
+    /// Kinematic parameters alone.
+    fn from(free: Free) -> Self {
+        Self { free, nuisances: Vec::new() }
+    }
+}
+
+impl Unknowns {
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.free.count() + self.nuisances.len()
+    }
 }
 
 /// How residuals are summed.
@@ -82,97 +86,29 @@ impl Loss {
     }
 }
 
-/// Whitened residuals and derivatives at a point.
-struct Linearisation {
-    residuals: Vec<Vector3<f64>>,
-    columns: Vec<Vec<Vector3<f64>>>,
-}
-
-impl Linearisation {
-    fn at(
-        parameters: &Parameters,
-        free: Free,
-        observations: &Observations,
-        lanes: &Lanes,
-        whitener: &Whitener,
-    ) -> Self {
-        let predictions = lanes.predict(parameters);
-        let mut residuals: Vec<Vector3<f64>> = observations
-            .segments()
-            .iter()
-            .zip(&predictions)
-            .map(|(segment, prediction)| {
-                Vector3::from(segment.motion) - Vector3::from(prediction.motion)
-            })
-            .collect();
-        let mut columns: Vec<Vec<Vector3<f64>>> = (0..free.count())
-            .map(|k| {
-                predictions.iter().map(|prediction| prediction.sensitivity[k].into()).collect()
-            })
-            .collect();
-        whitener.whiten(&mut residuals);
-        for column in &mut columns {
-            whitener.whiten(column);
-        }
-        Self { residuals, columns }
-    }
-
-    fn cost(&self, loss: Loss) -> f64 {
-        self.residuals.iter().flat_map(Vector3::iter).map(|r| loss.value(*r)).sum()
-    }
-
-    fn weights(&self, loss: Loss) -> Vec<Vector3<f64>> {
-        self.residuals.iter().map(|r| r.map(|r| loss.weight(r))).collect()
-    }
-
-    /// Jᵀ W J and Jᵀ W r.
-    fn normal_equations(&self, weights: &[Vector3<f64>]) -> (DMatrix<f64>, DVector<f64>) {
-        self.part(0..self.residuals.len(), weights)
-    }
-
-    /// What a range of segments adds to Jᵀ W J and Jᵀ W r.
-    fn part(&self, range: Range<usize>, weights: &[Vector3<f64>]) -> (DMatrix<f64>, DVector<f64>) {
-        let count = self.columns.len();
-        let mut sums = [[0.0; COUNT]; COUNT];
-        let mut scores = [0.0; COUNT];
-        for k in range {
-            let (weight, residual) = (weights[k], self.residuals[k]);
-            for (i, first) in self.columns.iter().enumerate() {
-                let weighted = first[k].component_mul(&weight);
-                scores[i] += weighted.dot(&residual);
-                for (j, second) in self.columns.iter().enumerate().take(i + 1) {
-                    sums[i][j] += weighted.dot(&second[k]);
-                }
-            }
-        }
-        let matrix = DMatrix::from_fn(count, count, |i, k| sums[i.max(k)][i.min(k)]);
-        let gradient = DVector::from_fn(count, |k, _| scores[k]);
-        (matrix, gradient)
-    }
-}
-
-/// Fits the parameters by Levenberg and Marquardt's method with reweighting.
+/// Fits the unknowns by Levenberg and Marquardt's method with reweighting.
 ///
 /// # Errors
-/// Too few segments, or no convergence.
+/// Too few segments, no convergence, or a clock offset that leaves the margin for which there are readings.
 pub fn least_squares(
     observations: &Observations,
     start: &Parameters,
-    free: Free,
+    unknowns: &Unknowns,
     weighting: &Weighting,
     loss: Loss,
 ) -> Result<Estimate, Error> {
-    let count = free.count();
+    let count = unknowns.count();
     if observations.len() < 4 * count {
         let found = observations.len();
         return Err(Error::TooFewSegments { found, needed: 4 * count, parameters: count });
     }
     let whitener = Whitener::new(weighting, observations);
     let lanes = Lanes::new(observations);
-    let linearise = |at: &Parameters| Linearisation::at(at, free, observations, &lanes, &whitener);
+    let linearise = |at: &Point| Linearisation::at(at, unknowns, &lanes, &whitener);
 
-    let mut parameters = *start;
-    let mut here = linearise(&parameters);
+    let tau = observations.tau();
+    let mut point = Point { parameters: *start, sensor: Sensor { tau, yaw: 0.0 } };
+    let mut here = linearise(&point);
     let mut cost = here.cost(loss);
     let mut damping = 1e-9;
     let mut size = f64::INFINITY;
@@ -187,81 +123,42 @@ pub fn least_squares(
             damping = (damping * 10.0).max(1e-9);
             continue;
         };
-        let mut trial = parameters;
-        for k in 0..count {
-            trial.0[k] += step[k];
-        }
+        let trial = point.stepped(unknowns, &step);
         size = step.amax();
-        let sensible = trial.0[1] > trial.0[0];
+        let [x_left, x_right, ..] = trial.parameters.0;
+        let sensible = x_right > x_left;
         let next = linearise(&trial);
         let next_cost = next.cost(loss);
+        let (moved, margin) = (trial.sensor.tau - tau, observations.tau_margin());
+        if sensible && moved.abs() > margin && next_cost < cost {
+            let edge = tau + margin.copysign(moved);
+            return Err(Error::ClockLeaves { tau: edge, start: tau, margin });
+        }
         if sensible && next_cost <= cost * (1.0 + 1e-14) {
-            (parameters, here, cost) = (trial, next, next_cost);
+            (point, here, cost) = (trial, next, next_cost);
             damping = (damping * 0.1).max(1e-12);
         } else if size >= SETTLED {
             damping = (damping * 10.0).max(1e-9);
             continue;
         }
         if size < SETTLED {
-            return Ok(here.estimate(parameters, free, observations, loss, cost, iteration));
+            return Ok(here.estimate(&point, unknowns, observations, weighting, loss, iteration));
         }
     }
     Err(Error::NotConverged { iterations: MAX_ITERATIONS, step: size })
 }
 
-impl Linearisation {
-    fn estimate(
-        &self,
-        parameters: Parameters,
-        free: Free,
-        observations: &Observations,
-        loss: Loss,
-        cost: f64,
-        iterations: usize,
-    ) -> Estimate {
-        let weights = self.weights(loss);
-        let (matrix, _) = self.normal_equations(&weights);
-        let curvatures: Vec<_> =
-            self.residuals.iter().map(|r| r.map(|r| loss.curvature(r))).collect();
-        let (curvature, _) = self.normal_equations(&curvatures);
-        let blocks = Blocks::of(observations);
-        let parts = blocks.map(|range| {
-            let (curvature, _) = self.part(range.clone(), &curvatures);
-            (curvature, self.part(range, &weights).1)
-        });
-        let squares: f64 = self.residuals.iter().map(Vector3::norm_squared).sum();
-        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 residuals")]
-        let degrees = (3 * self.residuals.len() - free.count()) as f64;
-        Estimate {
-            parameters,
-            free,
-            covariance: covariance::jackknife(&curvature, &parts),
-            covariance_of_noise: identifiability::inverse(&matrix),
-            blocks,
-            cost,
-            whitened_rms: (squares / degrees).sqrt(),
-            iterations,
-        }
-    }
-}
-
-impl Estimate {
-    /// The 95 % interval of a free parameter; none of one that is fixed.
-    ///
-    /// Its width is the larger of two: that of the noise model, which is right where the model is, and
-    /// that of the scatter between blocks, which holds where it is not but is itself uncertain where
-    /// few manoeuvres carry the information.
-    pub fn interval(&self, parameter: usize) -> Option<Interval> {
-        (parameter < self.free.count()).then(|| {
-            let variance = |of: &DMatrix<f64>| of[(parameter, parameter)].max(0.0);
-            let larger = variance(&self.covariance).max(variance(&self.covariance_of_noise));
-            let deviation = larger.sqrt();
-            Interval::new(self.parameters.0[parameter], deviation, &self.blocks, self.free.count())
-        })
-    }
-
-    /// Standard deviations of all parameters; 0 where fixed.
-    pub fn deviations(&self) -> [f64; COUNT] {
-        std::array::from_fn(|k| self.interval(k).map_or(0.0, |interval| interval.deviation))
-    }
+/// The estimate that parameters from elsewhere are, with their covariance.
+pub fn estimate_at(
+    observations: &Observations,
+    parameters: &Parameters,
+    free: Free,
+    weighting: &Weighting,
+    loss: Loss,
+) -> Estimate {
+    let (unknowns, whitener) = (Unknowns::from(free), Whitener::new(weighting, observations));
+    let sensor = Sensor { tau: observations.tau(), yaw: 0.0 };
+    let point = Point { parameters: *parameters, sensor };
+    let here = Linearisation::at(&point, &unknowns, &Lanes::new(observations), &whitener);
+    here.estimate(&point, &unknowns, observations, weighting, loss, 0)
 }

@@ -1,8 +1,12 @@
 //! What a recording shows, segment by segment.
 
+use std::ops::Range;
+use std::sync::Arc;
 use trackdyn_core::PerSide;
 use trackdyn_recording::hold::{held, travelled};
-use trackdyn_recording::{Recording, Run, Segment, SegmentOptions, segments};
+use trackdyn_recording::{
+    Blocks, Extent, Recording, Run, Segment, SegmentOptions, TrackSample, segments,
+};
 
 /// Change of a track speed over the faster one's up to which driving is steady.
 const STEADY: f64 = 0.1;
@@ -13,6 +17,12 @@ pub struct Observations {
     segments: Vec<Observation>,
     /// Pieces of constant track speed: duration (s) and speeds (m/s), those of a segment in a row.
     pieces: Vec<Piece>,
+    /// Clock offset at which they are cut, s.
+    tau: f64,
+    /// How far the clock offset may move, s: readings are there for it.
+    tau_margin: f64,
+    /// Readings of each run.
+    tracks: Arc<[Vec<TrackSample>]>,
 }
 
 /// A time during which the track speeds are constant.
@@ -35,12 +45,30 @@ pub struct Observation {
     pub motion: [f64; 3],
     /// Heading of its first pose in the frame of the run, rad.
     pub heading: f64,
+    /// Stamp of its first pose, s.
+    pub start: f64,
     /// Its length, s.
     pub duration: f64,
     /// Index of its run in the recording.
     pub run: usize,
     /// Whether its first pose is the last one of the segment before it.
     pub follows: bool,
+}
+
+impl Observation {
+    fn of(run: &Run, segment: &Segment) -> Self {
+        let observed = segment.observed;
+        Self {
+            first_piece: 0,
+            last_piece: 0,
+            motion: [observed.x, observed.y, observed.yaw],
+            heading: run.poses()[segment.poses[0]].pose.yaw,
+            start: segment.start,
+            duration: segment.duration(),
+            run: segment.run,
+            follows: segment.follows,
+        }
+    }
 }
 
 impl Observations {
@@ -80,38 +108,48 @@ impl Observations {
         options: &SegmentOptions,
         keep: impl Fn(&Run, &Segment) -> bool,
     ) -> Self {
-        let mut observations = Self { segments: Vec::new(), pieces: Vec::new() };
+        let mut kept = Vec::new();
         let mut previous_kept = false;
         for mut segment in segments(recording, options) {
             // A segment that is left out shares no pose with the one after it.
             segment.follows &= previous_kept;
-            previous_kept = keep(&recording.runs()[segment.run], &segment);
+            let run = &recording.runs()[segment.run];
+            previous_kept = keep(run, &segment);
             if previous_kept {
-                observations.push(recording, &segment, options.tau);
+                kept.push(Observation::of(run, &segment));
             }
         }
-        observations
+        let tracks = recording.runs().iter().map(|run| run.tracks().to_vec()).collect();
+        let SegmentOptions { tau, tau_margin, .. } = *options;
+        Self { segments: kept, pieces: Vec::new(), tau, tau_margin, tracks }.at(tau)
     }
 
-    fn push(&mut self, recording: &Recording, segment: &Segment, tau: f64) {
-        let run = &recording.runs()[segment.run];
-        let first_piece = self.pieces.len();
-        let pieces = held(run.tracks(), segment.start, segment.end, tau);
-        self.pieces.extend(pieces.map(|piece| Piece {
-            duration: piece.duration,
-            v_left: piece.speeds.left,
-            v_right: piece.speeds.right,
-        }));
-        let observed = segment.observed;
-        self.segments.push(Observation {
-            first_piece,
-            last_piece: self.pieces.len(),
-            motion: [observed.x, observed.y, observed.yaw],
-            heading: run.poses()[segment.poses[0]].pose.yaw,
-            duration: segment.duration(),
-            run: segment.run,
-            follows: segment.follows,
-        });
+    /// The same segments at another clock offset, s: other readings go with the same poses.
+    pub fn at(&self, tau: f64) -> Self {
+        let mut pieces = Vec::with_capacity(self.pieces.len());
+        let mut segments = self.segments.clone();
+        for segment in &mut segments {
+            segment.first_piece = pieces.len();
+            let end = segment.start + segment.duration;
+            let held = held(&self.tracks[segment.run], segment.start, end, tau);
+            pieces.extend(held.map(|piece| Piece {
+                duration: piece.duration,
+                v_left: piece.speeds.left,
+                v_right: piece.speeds.right,
+            }));
+            segment.last_piece = pieces.len();
+        }
+        Self { segments, pieces, tau, tracks: Arc::clone(&self.tracks), ..*self }
+    }
+
+    /// Clock offset at which the pieces are cut, s.
+    pub fn tau(&self) -> f64 {
+        self.tau
+    }
+
+    /// How far the clock offset may move from where the segments were cut, s.
+    pub fn tau_margin(&self) -> f64 {
+        self.tau_margin
     }
 
     /// The segments, in the order of the recording.
@@ -131,6 +169,29 @@ impl Observations {
             self.pieces(segment).iter().map(|piece| piece.duration * speed(piece)).sum()
         };
         PerSide::new(distance(|piece| piece.v_left), distance(|piece| piece.v_right))
+    }
+
+    /// What counts as independent: the runs with segments, from the first to the last one, or pieces of
+    /// them.
+    pub fn blocks(&self) -> Blocks {
+        let runs = self.segments.chunk_by(|a, b| a.run == b.run);
+        Blocks::new(runs.map(|segments| {
+            let (first, last) = (&segments[0], &segments[segments.len() - 1]);
+            let (start, end) = (first.start, last.start + last.duration);
+            Extent { run: first.run, start, duration: end - start }
+        }))
+    }
+
+    /// The segments of each block that has any.
+    pub fn ranges(&self, blocks: &Blocks) -> Vec<Range<usize>> {
+        let block = |segment: &Observation| blocks.of(segment.run, segment.start);
+        let mut end = 0;
+        let parts = self.segments.chunk_by(|a, b| block(a) == block(b));
+        let ranges = parts.map(|segments| {
+            end += segments.len();
+            end - segments.len()..end
+        });
+        ranges.collect()
     }
 
     /// Whether there are none.

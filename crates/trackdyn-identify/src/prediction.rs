@@ -85,6 +85,16 @@ pub fn predict(parameters: &Parameters, pieces: &[Piece]) -> Prediction {
     Prediction { motion: [forward, left, yaw], sensitivity }
 }
 
+/// Velocity forward (m/s), velocity to the left (m/s) and yaw rate (rad/s) during a piece.
+#[inline]
+pub fn body_velocity(parameters: &Parameters, piece: &Piece) -> [f64; 3] {
+    let [x_l, x_r, y, alpha_l, alpha_r] = parameters.0;
+    let v_l = alpha_l * piece.v_left;
+    // eqs (9), (8), (7)
+    let w = (alpha_r * piece.v_right - v_l) / (x_r - x_l);
+    [v_l - w * x_l, -w * y, w]
+}
+
 /// sinc(a/2) = sin(a/2)/(a/2) and its derivative by a: by their series where it is exact to rounding.
 #[inline]
 fn sinc_half(angle: f64) -> (f64, f64) {

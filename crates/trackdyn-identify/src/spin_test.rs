@@ -1,7 +1,9 @@
 //! The spin test: χ from turning on the spot, eq. (16).
 
 use crate::error::Error;
+use crate::least_squares::Interval;
 use crate::observations::Observations;
+use std::ops::Range;
 
 /// Yaw that a spin test needs in all, rad: half a turn.
 const NEEDED: f64 = std::f64::consts::PI;
@@ -14,12 +16,42 @@ const BALANCE: f64 = 0.5;
 pub struct SpinTest {
     /// Distance between the ICRs, x_r − x_l, m.
     pub gap: f64,
+    /// Its interval, from the scatter between blocks; none where fewer than two of them spin.
+    pub interval: Option<Interval>,
     /// χ = L/(x_r − x_l).
     pub steering_efficiency: f64,
     /// Segments that spin.
     pub segments: usize,
     /// Yaw in these, rad.
     pub yaw: f64,
+}
+
+/// What segments that spin add up to.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    /// ∫ |V_r − V_l| dt, m.
+    difference: f64,
+    /// |φ|, rad.
+    yaw: f64,
+    segments: usize,
+}
+
+impl Sums {
+    fn of(observations: &Observations, segments: Range<usize>) -> Self {
+        let mut sums = Self::default();
+        for segment in &observations.segments()[segments] {
+            let travelled = observations.travelled(segment);
+            let (left, right) = (travelled.left, travelled.right);
+            let against = left * right < 0.0;
+            if against && left.abs().min(right.abs()) >= BALANCE * left.abs().max(right.abs()) {
+                let sense = (right - left).signum();
+                sums.difference += sense * (right - left);
+                sums.yaw += sense * segment.motion[2];
+                sums.segments += 1;
+            }
+        }
+        sums
+    }
 }
 
 /// Distance between the ICRs from the segments in which the tracks run against each other.
@@ -30,22 +62,20 @@ pub struct SpinTest {
 /// # Errors
 /// [`Error::NoSpin`] where they turn by less than half a turn in all.
 pub fn spin_test(observations: &Observations, gauge: f64) -> Result<SpinTest, Error> {
-    let (mut difference, mut yaw, mut segments) = (0.0, 0.0, 0);
-    for segment in observations.segments() {
-        let travelled = observations.travelled(segment);
-        let (left, right) = (travelled.left, travelled.right);
-        let against = left * right < 0.0;
-        if against && left.abs().min(right.abs()) >= BALANCE * left.abs().max(right.abs()) {
-            let sense = (right - left).signum();
-            difference += sense * (right - left);
-            yaw += sense * segment.motion[2];
-            segments += 1;
-        }
-    }
+    let ranges = observations.ranges(&observations.blocks());
+    let parts: Vec<Sums> =
+        ranges.into_iter().map(|segments| Sums::of(observations, segments)).collect();
+    let Sums { difference, yaw, segments } = Sums::of(observations, 0..observations.len());
     if yaw < NEEDED {
         return Err(Error::NoSpin { found_rad: yaw, needed_rad: NEEDED });
     }
     // χ = L φ / ∫ (V_r − V_l) dt, eq. (16)
     let gap = difference / yaw;
-    Ok(SpinTest { gap, steering_efficiency: gauge / gap, segments, yaw })
+    let without: Vec<f64> = parts
+        .iter()
+        .filter(|part| part.segments > 0)
+        .map(|part| (difference - part.difference) / (yaw - part.yaw))
+        .collect();
+    let interval = Interval::of_jackknife(gap, &without);
+    Ok(SpinTest { gap, interval, steering_efficiency: gauge / gap, segments, yaw })
 }

@@ -143,7 +143,7 @@ impl SteadyEstimate {
         (parameter < self.free.count()).then(|| {
             let deviation = self.deviation(|of| of[(parameter, parameter)]);
             let value = self.parameters.0[parameter];
-            Interval::of_groups(value, deviation, self.groups, self.free.count())
+            Interval::new(value, deviation, self.groups, self.free.count())
         })
     }
 
@@ -169,7 +169,7 @@ impl SteadyEstimate {
     pub fn gap(&self) -> Interval {
         let [x_l, x_r, ..] = self.parameters.0;
         let deviation = self.deviation(|of| of[(0, 0)] + of[(1, 1)] - 2.0 * of[(0, 1)]);
-        Interval::of_groups(x_r - x_l, deviation, self.groups, self.free.count())
+        Interval::new(x_r - x_l, deviation, self.groups, self.free.count())
     }
 
     /// Indices of the points with the largest residuals, the largest first.

@@ -8,8 +8,8 @@ pub use component::Component;
 pub use path::{Path, PathErrors};
 pub use span::{SetErrors, SpanErrors};
 
-use crate::{Blocks, Error, ParameterSet, Span, Stretch, replay, stretch};
-use trackdyn_recording::{Recording, Run, SegmentOptions};
+use crate::{Error, ParameterSet, Span, Stretch, replay, stretch};
+use trackdyn_recording::{Blocks, Recording, SegmentOptions};
 
 /// The replays of runs with several parameter sets, and their errors.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,25 +29,16 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Replays runs, given by their indices, with every parameter set at clock offset `tau`, s.
+    /// Replays all runs with every parameter set at clock offset `tau`, s.
     ///
     /// # Errors
     /// [`Error::NotCovered`] when no run can be replayed, [`Error::NoSegments`],
     /// [`Error::Standing`].
-    pub fn new(
-        recording: &Recording,
-        runs: &[usize],
-        sets: Vec<ParameterSet>,
-        tau: f64,
-    ) -> Result<Self, Error> {
-        let mut runs = runs.to_vec();
-        runs.sort_unstable();
-        runs.dedup();
+    pub fn new(recording: &Recording, sets: Vec<ParameterSet>, tau: f64) -> Result<Self, Error> {
         let mut paths = Vec::new();
         let mut left_out = Vec::new();
         let mut first_error = None;
-        for &index in &runs {
-            let run = &recording.runs()[index];
+        for (index, run) in recording.runs().iter().enumerate() {
             match sets.iter().map(|set| replay(run, set, tau)).collect::<Result<Vec<_>, _>>() {
                 Ok(trajectories) => paths.push(Path::new(index, run, &trajectories, tau)),
                 Err(error) => {
@@ -60,9 +51,9 @@ impl Comparison {
             return Err(error);
         }
         let options = SegmentOptions { tau, ..SegmentOptions::default() };
-        let segments = stretch::of_segments(recording, &runs, &options);
+        let segments = stretch::of_segments(recording, &options);
         check(&segments, &paths, &options)?;
-        let blocks = Blocks::new(paths.iter().map(Path::extent).collect());
+        let blocks = Blocks::new(paths.iter().map(Path::extent));
         let spans = Span::ALL.into_iter().filter_map(|span| {
             let stretches = stretch::joined(&segments, span);
             SpanErrors::new(span, &stretches, &paths, sets.len(), &blocks)
@@ -103,7 +94,7 @@ impl Comparison {
 
     /// Time that was replayed, s.
     pub fn duration(&self) -> f64 {
-        self.paths.iter().map(|path| path.extent().2).sum()
+        self.paths.iter().map(Path::duration).sum()
     }
 
     /// Distance that was replayed, m.
@@ -121,31 +112,7 @@ fn check(segments: &[Stretch], paths: &[Path], options: &SegmentOptions) -> Resu
         return Err(Error::NoSegments { runs, duration, readings });
     }
     if paths.iter().all(|path| path.rests) {
-        return Err(Error::Standing { runs, duration: paths.iter().map(|p| p.extent().2).sum() });
+        return Err(Error::Standing { runs, duration: paths.iter().map(Path::duration).sum() });
     }
     Ok(())
-}
-
-/// Indices of runs by their numbers, in the order of the recording; all where none are named.
-///
-/// # Errors
-/// [`Error::UnknownRun`].
-pub fn select(recording: &Recording, numbers: &[i64]) -> Result<Vec<usize>, Error> {
-    let runs = recording.runs();
-    if let Some(&run) = numbers.iter().find(|&&number| runs.iter().all(|run| run.id() != number)) {
-        return Err(Error::UnknownRun { run, expected: numbers_of(runs) });
-    }
-    let wanted = |(_, run): &(usize, &Run)| numbers.is_empty() || numbers.contains(&run.id());
-    Ok(runs.iter().enumerate().filter(wanted).map(|(index, _)| index).collect())
-}
-
-/// The numbers of runs, shortened.
-fn numbers_of(runs: &[Run]) -> String {
-    let list = |runs: &[Run]| runs.iter().map(|run| run.id().to_string()).collect::<Vec<_>>();
-    match runs {
-        [first, .., last] if runs.len() > 12 => {
-            format!("one of its {} runs, {} to {}", runs.len(), first.id(), last.id())
-        }
-        runs => format!("one of {}", list(runs).join(", ")),
-    }
 }

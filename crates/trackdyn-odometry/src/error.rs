@@ -4,14 +4,6 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A run that the recording does not have.
-    #[error("run {run} is not in the recording: expected {expected}")]
-    UnknownRun {
-        /// The number asked for.
-        run: i64,
-        /// The numbers that are there.
-        expected: String,
-    },
     /// Too few poses of a run lie within the time of its track speeds.
     #[error(
         "run {run}: {poses} of its {all} poses lie within the time of its track speeds at a clock \

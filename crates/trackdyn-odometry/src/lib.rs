@@ -4,16 +4,16 @@
 //! - [`replay()`]: the path that a parameter set predicts from the track speeds of a run.
 //! - [`stretch`]: pieces of a run over a distance or a time, and what was seen in them.
 //! - [`residual`]: observed minus predicted motion.
-//! - [`blocks`]: confidence intervals that know that neighbouring residuals are related.
+//! - [`intervals`]: confidence intervals that know that neighbouring residuals are related.
 //! - [`pose_error`]: relative and absolute pose errors as other tools define them.
 //! - [`comparison`]: all of it for several parameter sets on the same runs.
 //! - [`tum`]: paths as files.
 //!
 //! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
 
-pub mod blocks;
 pub mod comparison;
 mod error;
+pub mod intervals;
 pub mod parameter_set;
 pub mod pose_error;
 mod replay;
@@ -21,9 +21,9 @@ pub mod residual;
 pub mod stretch;
 pub mod tum;
 
-pub use blocks::{Blocks, Estimate};
 pub use comparison::Comparison;
 pub use error::Error;
+pub use intervals::Estimate;
 pub use parameter_set::ParameterSet;
 pub use replay::{Trajectory, replay};
 pub use residual::Residual;

@@ -95,15 +95,10 @@ impl Stretch {
     }
 }
 
-/// The segments of some runs of a recording, in order; `runs` are ascending indices.
-pub fn of_segments(
-    recording: &Recording,
-    runs: &[usize],
-    options: &SegmentOptions,
-) -> Vec<Stretch> {
+/// The segments of a recording, in order.
+pub fn of_segments(recording: &Recording, options: &SegmentOptions) -> Vec<Stretch> {
     segments(recording, options)
         .iter()
-        .filter(|segment| runs.binary_search(&segment.run).is_ok())
         .map(|segment| Stretch::of_segment(segment, recording, options.tau))
         .collect()
 }
@@ -140,7 +135,7 @@ mod tests {
         let drive = |left, right| Drive { duration: 6.0, speeds: PerSide::new(left, right) };
         let schedules = vec![vec![drive(0.5, 0.5), drive(-0.3, 0.3), drive(-0.4, -0.6)]];
         let recording = Synthetic { schedules, ..Synthetic::default() }.recording().expect("runs");
-        joined(&of_segments(&recording, &[0], &SegmentOptions::default()), span)
+        joined(&of_segments(&recording, &SegmentOptions::default()), span)
     }
 
     #[test]

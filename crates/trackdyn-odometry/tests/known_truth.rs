@@ -2,7 +2,7 @@
 
 use trackdyn_core::PerSide;
 use trackdyn_motion::{Icrs, Kinematics};
-use trackdyn_odometry::{Comparison, Error, ParameterSet, Span, comparison};
+use trackdyn_odometry::{Comparison, Error, ParameterSet, Span};
 use trackdyn_recording::synthetic::{Stretch, Synthetic, random_steps};
 use trackdyn_recording::{Recording, clock};
 
@@ -28,8 +28,7 @@ fn truth() -> ParameterSet {
 }
 
 fn compare(recording: &Recording, sets: Vec<ParameterSet>, tau: f64) -> Comparison {
-    let runs = comparison::select(recording, &[]).expect("all runs");
-    Comparison::new(recording, &runs, sets, tau).expect("it moves")
+    Comparison::new(recording, sets, tau).expect("it moves")
 }
 
 #[test]
@@ -38,7 +37,8 @@ fn true_parameters_leave_noise() {
     let tau = clock::clock_offset(&recording, &clock::ClockSearch::default()).expect("turning");
     let result = compare(&recording, vec![ParameterSet::ideal(0.42), truth()], tau.tau);
     let segments = result.segments().expect("segments");
-    assert_eq!(segments.blocks, 12);
+    // Twelve runs, each cut into four blocks.
+    assert_eq!(segments.blocks, 48);
     let [ideal, truth] = segments.sets[..] else { panic!("two sets") };
     // An increment has the noise of two poses; yaw noise of the first turns the motion in a segment,
     // up to 0.3 m, so that along and across may have some more. 5 %: 2400 segments, and τ.
@@ -47,7 +47,7 @@ fn true_parameters_leave_noise() {
     for component in [truth.along, truth.across] {
         let ratio = component.rms.value / (POSITION_NOISE * 2.0_f64.sqrt());
         assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
-        let [low, high] = component.mean.interval().expect("twelve blocks");
+        let [low, high] = component.mean.interval().expect("blocks");
         // Three of the half-widths of 95 %: one in some million.
         let slack = high - low;
         assert!(low - slack < 0.0 && high + slack > 0.0, "{component:?}");
@@ -86,22 +86,11 @@ fn a_gauge_that_is_too_small_turns_too_far_and_drift_is_constant() {
     let yaw = &metre.sets[0].yaw;
     assert!((yaw.mean.value + 0.05 * metre.mean_duration).abs() < 1e-9, "{yaw:?}");
     assert!((yaw.per_metre.expect("it moves").value - 0.1).abs() < 1e-9);
-    // One run is cut into 20 blocks that all say the same.
-    assert_eq!(metre.blocks, 20);
+    // One run is cut into 48 blocks of 2.08 s that all say the same; 47 pieces of 2.1 s begin in 47 of them.
+    assert_eq!((result.blocks.count(), metre.blocks), (48, 47));
     assert!(yaw.mean.half_width.expect("blocks") < 1e-9);
     let last = result.paths[0].errors(0).expect("a path").last;
     assert!((last.yaw + 5.0).abs() < 1e-9, "{last:?}");
-}
-
-#[test]
-fn runs_are_chosen_by_number() {
-    let recording = noisy();
-    assert_eq!(comparison::select(&recording, &[3, 1]).expect("there"), [1, 3]);
-    let error = comparison::select(&recording, &[3, 99]).expect_err("no run 99");
-    assert_eq!(
-        error.to_string(),
-        "run 99 is not in the recording: expected one of 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11"
-    );
 }
 
 #[test]
@@ -110,7 +99,7 @@ fn standing_and_too_short_recordings_are_refused() {
         let drive = Stretch { duration, speeds: PerSide::new(speed, speed) };
         let schedules = vec![vec![drive]];
         let recording = Synthetic { schedules, ..Synthetic::default() }.recording().expect("runs");
-        Comparison::new(&recording, &[0], vec![truth()], 0.0).expect_err("nothing to compare")
+        Comparison::new(&recording, vec![truth()], 0.0).expect_err("nothing to compare")
     };
     assert!(matches!(of(5.0, 0.0), Error::Standing { runs: 1, .. }));
     assert!(matches!(of(0.2, 1.0), Error::NoSegments { runs: 1, .. }));

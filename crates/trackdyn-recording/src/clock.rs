@@ -62,6 +62,64 @@ pub struct ClockOffset {
     pub intervals: usize,
 }
 
+/// The clock offset to work with, and where it comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Clock {
+    /// Given, s.
+    Given(f64),
+    /// Estimated from the recording.
+    Estimated(ClockOffset),
+    /// Taken as zero, for the recording does not show it: why.
+    Unknown(String),
+}
+
+impl Clock {
+    /// The offset that is given, s, else that of the recording.
+    pub fn of(recording: &Recording, given: Option<f64>) -> Self {
+        match given {
+            Some(tau) => Self::Given(tau),
+            None => match clock_offset(recording, &ClockSearch::default()) {
+                Ok(offset) => Self::Estimated(offset),
+                Err(reason) => Self::Unknown(reason.to_string()),
+            },
+        }
+    }
+
+    /// τ, s.
+    pub fn tau(&self) -> f64 {
+        match self {
+            Self::Given(tau) => *tau,
+            Self::Estimated(offset) => offset.tau,
+            Self::Unknown(_) => 0.0,
+        }
+    }
+
+    /// Standard error of τ, s, where it was estimated.
+    pub fn standard_error(&self) -> Option<f64> {
+        match self {
+            Self::Estimated(offset) => Some(offset.standard_error),
+            Self::Given(_) | Self::Unknown(_) => None,
+        }
+    }
+
+    /// Why τ could not be estimated, where it could not.
+    pub fn reason(&self) -> Option<&str> {
+        match self {
+            Self::Unknown(reason) => Some(reason),
+            Self::Given(_) | Self::Estimated(_) => None,
+        }
+    }
+
+    /// Where it comes from, in a word or two for files.
+    pub fn origin(&self) -> &'static str {
+        match self {
+            Self::Given(_) => "given",
+            Self::Estimated(_) => "estimated",
+            Self::Unknown(_) => "not estimable",
+        }
+    }
+}
+
 /// Step of the first search, s.
 const COARSE: f64 = 0.02;
 

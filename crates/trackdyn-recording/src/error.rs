@@ -100,6 +100,27 @@ pub enum Error {
         /// Topics with their types.
         available: String,
     },
+    /// A run that the recording does not have.
+    #[error("run {run} is not in the recording: expected {expected}")]
+    UnknownRun {
+        /// The number asked for.
+        run: i64,
+        /// The numbers that are there.
+        expected: String,
+    },
+    /// No run has anything in the time asked for.
+    #[error(
+        "no run has track speeds and two poses from {from} to {until} s after its first reading: \
+         expected a time within {longest:.1} s, the longest run"
+    )]
+    NothingWithin {
+        /// Beginning of the time, s.
+        from: f64,
+        /// Its end, s.
+        until: f64,
+        /// Length of the longest run, s.
+        longest: f64,
+    },
     /// The recording does not hold what an estimate needs.
     #[error("{what} cannot be estimated: {reason}")]
     NotEstimable {

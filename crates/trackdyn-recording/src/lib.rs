@@ -3,14 +3,17 @@
 //! - [`recording`]: the one in-memory type, cleaned on the way in.
 //! - [`folder`], [`rosbag`], [`tum`]: one reader per format; [`read`] picks by path.
 //! - [`operating_points`]: tables of steady motion, a measured map of ICRs.
+//! - [`selection`]: some of its runs, or a time of them.
 //! - [`segment`], [`hold`]: pieces between two poses and the track speeds within them.
 //! - [`clock`]: how late the poses are against the encoders.
+//! - [`blocks`]: parts that count as independent.
 //! - [`noise`]: how noisy poses and encoders are, from the recording itself.
 //! - [`synthetic`]: recordings with known truth.
 //! - [`table`]: CSV tables, for other readers of columns of numbers.
 //!
 //! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
 
+pub mod blocks;
 pub mod clock;
 pub mod error;
 pub mod folder;
@@ -22,10 +25,13 @@ pub mod recording;
 mod robust;
 pub mod rosbag;
 pub mod segment;
+pub mod selection;
 pub mod synthetic;
 pub mod table;
 pub mod tum;
 
+pub use blocks::{Blocks, Extent};
+pub use clock::Clock;
 pub use error::Error;
 pub use format::{Format, read};
 pub use operating_points::{OperatingPoint, OperatingPoints};
@@ -34,3 +40,4 @@ pub use recording::{
     Warning,
 };
 pub use segment::{Segment, SegmentOptions, segments};
+pub use selection::RunList;

@@ -82,14 +82,14 @@ impl Recording {
         let mut kept: Vec<Run> = Vec::with_capacity(runs.len());
         for run in runs {
             let run = Run::new(run, &mut cleanings);
-            if run.tracks().is_empty() || run.poses().len() < 2 {
+            if run.is_usable() {
+                kept.push(run);
+            } else {
                 warnings.push(Warning::RunLeftOut {
                     run: run.id(),
                     readings: run.tracks().len(),
                     poses: run.poses().len(),
                 });
-            } else {
-                kept.push(run);
             }
         }
         if kept.is_empty() {
@@ -130,6 +130,11 @@ impl Recording {
     /// The runs, in the order of their ids; each continuous and with its own pose frame.
     pub fn runs(&self) -> &[Run] {
         &self.runs
+    }
+
+    /// The same recording with other runs, in the order of their ids.
+    pub(crate) fn with_runs(&self, runs: Vec<Run>) -> Self {
+        Self { runs, ..self.clone() }
     }
 
     /// Pose noise as its maker states it.

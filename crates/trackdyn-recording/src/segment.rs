@@ -1,17 +1,21 @@
 //! Segments: pieces between two poses with several track readings in them.
+//!
+//! Within a run all segments span the same number of pose intervals. Where stamps of poses are coarse, a cut
+//! at the first pose that is late enough would pick late stamps, and segments would look longer than they
+//! are: by half a percent in runs of two seconds whose stamps are those of readings 0.05 s apart.
 
 use crate::hold::{holding, readings};
 use crate::recording::{Recording, Run};
-use crate::robust::median;
+use crate::robust::{median, real};
 use std::ops::Range;
 use trackdyn_core::Pose;
 
 /// How to cut a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentOptions {
-    /// A segment lasts at least this long, s.
+    /// A segment lasts at least this long, s, by the median interval of the run's poses.
     pub minimum_duration: f64,
-    /// A segment spans at least this many readings of the tracks.
+    /// A segment spans at least this many readings of the tracks, by the median intervals of the run.
     pub minimum_readings: usize,
     /// A longer interval between two poses is not bridged, s; none: five times the run's median.
     pub longest_pose_interval: Option<f64>,
@@ -76,31 +80,48 @@ pub fn segments(recording: &Recording, options: &SegmentOptions) -> Vec<Segment>
 /// Intervals beyond this many medians are gaps.
 const GAP: f64 = 5.0;
 
+/// A segment that spans its pose intervals in less than this share of the shortest duration takes more of
+/// them: its stamps are crowded.
+const SHORT: f64 = 0.5;
+
+/// Pose intervals that last for a time, at least one. Rounding must not add one.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small and positive")]
+fn intervals_in(duration: f64, pose_interval: f64) -> usize {
+    const MOST: f64 = 1e6;
+    let intervals = (duration / pose_interval * (1.0 - 1e-9)).ceil();
+    if intervals.is_finite() { intervals.clamp(1.0, MOST) as usize } else { 1 }
+}
+
 struct Cut<'a> {
     index: usize,
     run: &'a Run,
     options: &'a SegmentOptions,
     longest_pose_interval: f64,
+    /// Pose intervals that a segment spans.
+    pose_intervals: usize,
     /// Indices of readings after which none comes for too long.
     track_gaps: Vec<usize>,
 }
 
 impl<'a> Cut<'a> {
     fn new(index: usize, run: &'a Run, options: &'a SegmentOptions) -> Self {
-        let longest = |chosen: Option<f64>, stamps: &[f64]| {
+        let usual = |stamps: &[f64]| {
             let mut intervals: Vec<f64> = stamps.windows(2).map(|pair| pair[1] - pair[0]).collect();
-            chosen.or_else(|| median(&mut intervals).map(|usual| GAP * usual)).unwrap_or(0.0)
+            median(&mut intervals).unwrap_or(0.0)
         };
         let poses: Vec<f64> = run.poses().iter().map(|sample| sample.t).collect();
         let tracks: Vec<f64> = run.tracks().iter().map(|sample| sample.t).collect();
-        let longest_track = longest(options.longest_track_interval, &tracks);
+        let (pose_interval, track_interval) = (usual(&poses), usual(&tracks));
+        let longest_track = options.longest_track_interval.unwrap_or(GAP * track_interval);
+        let wanted = options.minimum_duration.max(real(options.minimum_readings) * track_interval);
         let gap = |pair: &[f64]| pair[1] - pair[0] > longest_track;
         let gaps = tracks.windows(2).enumerate().filter(|(_, pair)| gap(pair));
         Self {
             index,
             run,
             options,
-            longest_pose_interval: longest(options.longest_pose_interval, &poses),
+            longest_pose_interval: options.longest_pose_interval.unwrap_or(GAP * pose_interval),
+            pose_intervals: intervals_in(wanted, pose_interval),
             track_gaps: gaps.map(|(before, _)| before).collect(),
         }
     }
@@ -114,9 +135,9 @@ impl<'a> Cut<'a> {
                 first = last;
                 continue;
             }
-            // Rounding of the stamps must not lengthen a segment by a whole interval of the poses.
             let duration = poses[last].t - poses[first].t;
-            if duration < self.options.minimum_duration * (1.0 - 1e-9) {
+            let is_short = duration < SHORT * self.options.minimum_duration;
+            if last - first < self.pose_intervals || is_short {
                 continue;
             }
             let Some(readings) = self.covered(poses[first].t, poses[last].t) else {
@@ -125,9 +146,6 @@ impl<'a> Cut<'a> {
                 first += 1;
                 continue;
             };
-            if readings.len() < self.options.minimum_readings {
-                continue;
-            }
             let follows = segments.last().is_some_and(|before| before.poses[1] == first);
             segments.push(Segment {
                 run: self.index,

@@ -93,21 +93,20 @@ fn heading(canvas: &mut Canvas, result: &Comparison, name: &str, caption: &str) 
 mod tests {
     use super::*;
     use trackdyn_motion::{Icrs, Kinematics};
-    use trackdyn_odometry::{ParameterSet, comparison};
+    use trackdyn_odometry::ParameterSet;
     use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
     fn result(duration: f64, sets: usize) -> Comparison {
         let schedules = (0..3).map(|seed| random_steps(6, duration, 1.0, seed)).collect();
         let synthetic = Synthetic { schedules, position_noise: 1e-3, ..Synthetic::default() };
         let recording = synthetic.recording().expect("a recording");
-        let runs = comparison::select(&recording, &[]).expect("all runs");
         let set = |k: usize| {
             #[expect(clippy::cast_precision_loss, reason = "a few sets")]
             let x = 0.2 + 0.05 * k as f64;
             let icrs = Icrs { x_left: -x, x_right: x, y: 0.0 };
             ParameterSet::new(format!("set {k}"), Kinematics::new(icrs))
         };
-        Comparison::new(&recording, &runs, (0..sets).map(set).collect(), 0.0).expect("it moves")
+        Comparison::new(&recording, (0..sets).map(set).collect(), 0.0).expect("it moves")
     }
 
     #[test]

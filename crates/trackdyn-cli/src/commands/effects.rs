@@ -48,7 +48,8 @@ fn list() -> String {
         let _ = writeln!(text, "{:width$}  {}   {}", card.id, letters(card), card.title);
     }
     text += "\n\
-        breaks: the ICRs change with S speed, R reversal, P manoeuvre, M mirror, H heading.\n\
+        breaks: the ICRs change with S speed, R reversal, P manoeuvre, M mirror, H heading,\n\
+        X place, T time, D transients; 0: equal track speeds do not drive straight ahead as encoders show.\n\
         `trackdyn effects ID` shows law, parameters and sources.\n\
         Switch one on: --effect load-transfer:cog_height_m=0.3, or in a vehicle file\n\
         [effect.load-transfer]\n\
@@ -86,10 +87,13 @@ fn markdown() -> String {
         Physics beyond the base model, each in one file of `crates/trackdyn-physics/src/effects`. This page \
         is printed by `trackdyn effects --markdown`.\n\n\
         An effect *breaks* a symmetry when the ICRs change under it: **S** all speeds scaled, **R** all \
-        speeds reversed, **P** another manoeuvre, **M** left and right exchanged, **H** another heading.\n\n\
-        | effect | what it is | S | R | P | M | H | acts at |\n\
-        |---|---|---|---|---|---|---|---|\n"
+        speeds reversed, **P** another manoeuvre, **M** left and right exchanged, **H** another heading, \
+        **X** another place, **T** another time, **D** speeds that change instead of steady ones. It breaks \
+        **0** when equal track speeds do not drive straight ahead as fast as the encoders show.\n\n"
         .to_owned();
+    let letters = Symmetry::ALL.map(|symmetry| format!(" {} |", symmetry.letter())).concat();
+    let rules = "---|".repeat(Symmetry::ALL.len());
+    let _ = writeln!(text, "| effect | what it is |{letters} acts at |\n|---|---|{rules}---|");
     for card in CATALOGUE {
         let marks: String = Symmetry::ALL
             .map(|symmetry| if card.breaks.contains(&symmetry) { " x |" } else { "  |" })

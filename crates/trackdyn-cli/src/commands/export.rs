@@ -7,8 +7,10 @@ use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use trackdyn_core::document::Document;
 use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
-use trackdyn_export::ros2::Wheels;
-use trackdyn_export::{EquivalentDrive, Error, Frames, Name, Provenance, TextFile, gz, ros2, urdf};
+use trackdyn_export::ros2::{Published, Wheels};
+use trackdyn_export::{
+    EquivalentDrive, Error, Frames, Name, Provenance, Residuals, TextFile, gz, ros2, urdf,
+};
 
 /// Options of `trackdyn export`.
 #[derive(Args)]
@@ -46,6 +48,39 @@ struct Ros2Options {
     /// Name of the controller
     #[arg(long, value_name = "NAME", default_value = "diff_drive_controller")]
     controller: Name,
+    /// Odometry file (schema trackdyn.odometry/1) of a replay with these kinematics, best of runs that they were
+    /// not fitted to: for the covariances
+    #[arg(long, value_name = "FILE")]
+    residuals: Option<PathBuf>,
+    /// Rate in Hz at which the controller publishes, for the covariances
+    #[arg(long, value_name = "HZ", default_value_t = Published::DEFAULT_RATE,
+          requires = "residuals", allow_negative_numbers = true)]
+    publish_rate: f64,
+}
+
+impl Ros2Options {
+    /// Residuals of the kinematics with this fingerprint, where there is a file of them.
+    fn published(
+        &self,
+        fingerprint: &str,
+    ) -> Result<Option<Published>, Box<dyn std::error::Error>> {
+        let Some(path) = &self.residuals else { return Ok(None) };
+        let residuals =
+            Residuals::from_document(&Document::read(path)?, fingerprint).map_err(|error| {
+                match error.downcast::<Error>() {
+                    Ok(error) => option(*error).into(),
+                    Err(error) => error,
+                }
+            })?;
+        if !residuals.held_out {
+            eprintln!(
+                "warning: the residuals in {} are of runs that the kinematics were fitted to: covariances \
+                 come out too small (replay others, with --runs or --time)",
+                residuals.source
+            );
+        }
+        Ok(Some(Published::new(residuals, self.publish_rate).map_err(option)?))
+    }
 }
 
 #[derive(Args)]
@@ -142,13 +177,15 @@ fn export(
     target: &Target,
     drive: &EquivalentDrive,
     provenance: &Provenance,
-) -> Result<Vec<TextFile>, String> {
+) -> Result<Vec<TextFile>, Box<dyn std::error::Error>> {
     Ok(match target {
         Target::Ros2(options) => {
             let frames = options.frames.frames()?;
             let (left, right) = (options.left_wheel.clone(), options.right_wheel.clone());
             let wheels = Wheels::new(options.wheel_radius, left, right).map_err(option)?;
-            ros2::files(drive, &frames, &wheels, &options.controller, provenance)
+            let published = options.published(&provenance.fingerprint)?;
+            let controller = &options.controller;
+            ros2::files(drive, &frames, &wheels, controller, published.as_ref(), provenance)
         }
         Target::Gz(options) => {
             vec![gz::plugin(drive, &options.left_track, &options.right_track, provenance)]

@@ -1,5 +1,6 @@
 //! `trackdyn identify`: kinematic parameters from a recording.
 
+mod document;
 mod points;
 mod summary;
 
@@ -7,14 +8,14 @@ pub use points::lagging_points;
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{RecordingOptions, command_line, finite, read_vehicle};
+use crate::options::{DrivingOptions, command_line, finite, read_vehicle};
 use crate::progress::Progress;
 use clap::Args;
 use std::path::PathBuf;
 use trackdyn_core::output::{prepare_folder, write_file};
 use trackdyn_identify::genetic::GeneticOptions;
 use trackdyn_identify::identification::{self, Fit};
-use trackdyn_identify::{Free, identify};
+use trackdyn_identify::{Free, Nuisance, identify};
 use trackdyn_motion::kinematics::{KinematicsFile, Source};
 use trackdyn_physics::VehicleFile;
 use trackdyn_recording::{OperatingPoints, Recording};
@@ -23,16 +24,16 @@ use trackdyn_recording::{OperatingPoints, Recording};
 #[derive(Args)]
 pub struct Options {
     #[command(flatten)]
-    recording: RecordingOptions,
+    driving: DrivingOptions,
     /// Vehicle file (schema trackdyn.vehicle/1), for its gauge
     #[arg(long, value_name = "FILE")]
     vehicle: PathBuf,
-    /// How late the poses are against the tracks, in s [default: estimated]
-    #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
-    tau: Option<f64>,
     /// Leave out segments before which the tracks have not run steadily for so many seconds
     #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
     settle: Option<f64>,
+    /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw, lever-arm
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    fit: Vec<Nuisance>,
     /// Individuals of the genetic algorithm
     #[arg(long, value_name = "N", default_value_t = 100,
           value_parser = clap::value_parser!(u32).range(4..=100_000))]
@@ -44,18 +45,37 @@ pub struct Options {
     /// Seed of the genetic algorithm
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Folder for kinematics.toml and kinematics_alpha.toml
+    /// Folder for identification.toml, kinematics.toml and kinematics_alpha.toml
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+}
+
+impl Options {
+    /// What to fit beside, each once.
+    fn nuisances(&self) -> Vec<Nuisance> {
+        let mut nuisances = self.fit.clone();
+        nuisances.sort_unstable();
+        nuisances.dedup();
+        nuisances
+    }
+
+    /// The options given that steady points have nothing to say to.
+    fn of_motion(&self) -> Vec<&'static str> {
+        let mut given = self.driving.given();
+        let own = [("--settle", self.settle.is_some()), ("--fit", !self.fit.is_empty())];
+        given.extend(own.into_iter().filter_map(|(name, given)| given.then_some(name)));
+        given
+    }
 }
 
 /// Identifies the parameters, prints them side by side and writes what the recording determines.
 pub fn run(options: &Options) -> Outcome {
     let vehicle = read_vehicle(&options.vehicle)?;
-    if let Some(table) = OperatingPoints::file_of(&options.recording.recording) {
+    if let Some(table) = OperatingPoints::file_of(options.driving.path()) {
         return points::run(&table, &vehicle, options);
     }
-    let recording = options.recording.read()?;
+    let whole = options.driving.recording()?;
+    let recording = options.driving.part(&whole)?;
     prepare_folder(&options.out)?;
     let genetic = GeneticOptions {
         population: options.population as usize,
@@ -65,15 +85,25 @@ pub fn run(options: &Options) -> Outcome {
     };
     let gauge = vehicle.vehicle.gauge;
     let progress = Progress::new(2 * genetic.generations);
-    let identify_options =
-        identification::Options { gauge, tau: options.tau, settle: options.settle, genetic };
+    let identify_options = identification::Options {
+        gauge,
+        tau: options.driving.tau,
+        settle: options.settle,
+        nuisances: options.nuisances(),
+        genetic,
+    };
     let found = identify(&recording, &identify_options, &|_| progress.advance(1))?;
     progress.finish();
     print!("{}", summary::text(&recording, &vehicle.vehicle, &found));
 
+    let source = source(&recording, &vehicle, options);
+    let document = document::text(&recording, &vehicle, &source, &found)?;
+    let path = options.out.join("identification.toml");
+    write_file(&path, document.as_bytes())?;
+    eprintln!("wrote {}", path.display());
     let mut written = 0;
-    for (fit, name) in found.fits.iter().zip(["kinematics.toml", "kinematics_alpha.toml"]) {
-        if let Some(file) = file(fit, &recording, &vehicle, options) {
+    for (fit, name) in found.fits.iter().zip(document::FILES) {
+        if let Some(file) = file(fit, gauge, &source) {
             let path = options.out.join(name);
             write_file(&path, file.to_toml().as_bytes())?;
             eprintln!("wrote {}", path.display());
@@ -83,25 +113,29 @@ pub fn run(options: &Options) -> Outcome {
     Ok(if written > 0 { Exit::Done } else { Exit::NoResult })
 }
 
-/// The file of a fit, where the recording determines it.
-fn file(
-    fit: &Fit,
-    recording: &Recording,
-    vehicle: &VehicleFile,
-    options: &Options,
-) -> Option<KinematicsFile> {
-    let estimate = fit.least_squares.as_ref().ok().filter(|_| fit.doubts.is_empty())?;
-    let source = Source {
+/// Where the numbers come from.
+fn source(recording: &Recording, vehicle: &VehicleFile, options: &Options) -> Source {
+    Source {
         command: command_line(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
         vehicle: vehicle.vehicle.name.clone(),
         fingerprint: recording.fingerprint().to_owned(),
         recording: Some(recording.name().to_owned()),
+        runs: Some(recording.run_list().to_string()),
+        time_s: options.driving.time(),
         seed: Some(options.seed),
         ..Source::default()
-    };
-    let rows = estimate.covariance.row_iter().map(|row| row.iter().copied().collect()).collect();
+    }
+}
+
+/// The file of a fit, where the recording determines it.
+fn file(fit: &Fit, gauge: f64, source: &Source) -> Option<KinematicsFile> {
+    let estimate = fit.least_squares.as_ref().ok().filter(|_| fit.doubts.is_empty())?;
+    let count = fit.free.count();
+    // Of the kinematic parameters alone: those of the sensor are uncertain within it.
+    let rows = estimate.covariance.view((0, 0), (count, count));
+    let rows = rows.row_iter().map(|row| row.iter().copied().collect()).collect();
     let with_alphas = fit.free == Free::IcrsAndAlphas;
-    let (kinematics, gauge) = (estimate.parameters.kinematics(), vehicle.vehicle.gauge);
-    Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source))
+    let kinematics = estimate.parameters.kinematics();
+    Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source.clone()))
 }

@@ -69,12 +69,23 @@ fn print_motion(speed: PerSide<f64>, kinematics: &Kinematics) {
             kinematics.alpha.left, kinematics.alpha.right
         );
     }
-    println!("  track speeds  left {:.5}  right {:.5} m/s", speed.left, speed.right);
+    println!("  track speeds  left {}  right {} m/s", readable(speed.left), readable(speed.right));
     println!(
-        "  paper frame   v_x {:.5} (right)  v_y {:.5} (forward) m/s  w {w:.5} rad/s",
-        twist.v_x, twist.v_y
+        "  paper frame   v_x {} (right)  v_y {} (forward) m/s  w {} rad/s",
+        readable(twist.v_x),
+        readable(twist.v_y),
+        readable(w)
     );
     println!(
-        "  ROS frame     v_x {forward:.5} (forward)  v_y {left:.5} (left) m/s  w {w:.5} rad/s"
+        "  ROS frame     v_x {} (forward)  v_y {} (left) m/s  w {} rad/s",
+        readable(forward),
+        readable(left),
+        readable(w)
     );
+}
+
+/// The number with five decimals, or with an exponent where that would be too long to read.
+fn readable(value: f64) -> String {
+    const LONG: f64 = 1e6;
+    if value.abs() < LONG { format!("{value:.5}") } else { format!("{value:.5e}") }
 }

@@ -74,10 +74,9 @@ fn source(file: &VehicleFile, map: &IcrMap) -> Source {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         vehicle: file.vehicle.name.clone(),
         fingerprint: fingerprint(file.to_toml().as_bytes()),
-        recording: None,
         grid: Some(GridSource { points: map.grid.points(), max_speed_m_s: map.grid.max_speed() }),
         effects: file.effects.iter().map(ToString::to_string).collect(),
-        seed: None,
         motions: Some(motions),
+        ..Source::default()
     }
 }

@@ -7,31 +7,26 @@ mod summary;
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{RecordingOptions, command_line};
+use crate::options::{DrivingOptions, command_line};
 use clap::Args;
-use inputs::{Clock, Inputs, RunList};
+use inputs::Inputs;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_odometry::{Comparison, comparison, tum};
+use trackdyn_odometry::{Comparison, tum};
+use trackdyn_recording::Clock;
 
 /// Options of `trackdyn odometry`.
 #[derive(Args)]
 pub struct Options {
     #[command(flatten)]
-    recording: RecordingOptions,
+    driving: DrivingOptions,
     /// Parameters to replay with (schema trackdyn.kinematics/1); repeatable
     #[arg(long, value_name = "FILE")]
     kinematics: Vec<PathBuf>,
     /// Vehicle file (schema trackdyn.vehicle/1), whose gauge is that of the ideal drive
     #[arg(long, value_name = "FILE")]
     vehicle: PathBuf,
-    /// Replay these runs only, such as 7,8,20-29: those that no parameters were fitted to
-    #[arg(long, value_name = "LIST", value_parser = inputs::runs)]
-    runs: Option<RunList>,
-    /// Time in s by which poses lag behind the track speeds [default: estimated]
-    #[arg(long, value_name = "SECONDS", value_parser = inputs::seconds, allow_hyphen_values = true)]
-    tau: Option<f64>,
     /// Folder for odometry.toml, runs.csv, odometry.png and trajectories
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
@@ -40,16 +35,23 @@ pub struct Options {
 /// Replays, prints the table of errors and writes the files.
 pub fn run(options: &Options) -> Outcome {
     let inputs = Inputs::read(options)?;
-    let runs =
-        comparison::select(&inputs.recording, options.runs.as_ref().map_or(&[], RunList::numbers))
-            .map_err(|error| format!("--runs: {error}"))?;
-    let clock = Clock::new(&inputs.recording, options.tau);
-    let named = |error| format!("{}: {error}", options.recording.recording.display());
-    let result =
-        Comparison::new(&inputs.recording, &runs, inputs.sets(), clock.tau).map_err(named)?;
+    let part = options.driving.part(&inputs.recording)?;
+    // All of the recording tells most of its clocks.
+    let clock = Clock::of(&inputs.recording, options.driving.tau);
+    let named = |error| format!("{}: {error}", options.driving.path().display());
+    let result = Comparison::new(&part, inputs.sets(), clock.tau()).map_err(named)?;
     prepare_folder(&options.out)?;
-    if let Some(note) = &clock.note {
-        eprintln!("note: {note}; the clock offset is taken as 0 (set it with --tau)");
+    if let Some(reason) = clock.reason() {
+        eprintln!("note: {reason}; the clock offset is taken as 0 (set it with --tau)");
+    }
+    for file in &inputs.files {
+        if !inputs.is_held_out(file, &result) {
+            eprintln!(
+                "note: {} was fitted to some of these runs, which makes its errors look smaller (choose \
+                 others with --runs or --time)",
+                file.path.display()
+            );
+        }
     }
     if !result.left_out.is_empty() {
         eprintln!(

@@ -1,8 +1,8 @@
 //! Parameters of `diff_drive_controller`.
 
 use crate::number::number;
-use crate::ros2::Wheels;
-use crate::{EquivalentDrive, Frames, Name, Provenance, TextFile};
+use crate::ros2::{Published, Wheels};
+use crate::{EquivalentDrive, Frames, Name, Provenance, Residuals, TextFile};
 
 /// The parameter file.
 pub(super) fn parameters(
@@ -10,6 +10,7 @@ pub(super) fn parameters(
     frames: &Frames,
     wheels: &Wheels,
     controller: &Name,
+    published: Option<&Published>,
     provenance: &Provenance,
 ) -> TextFile {
     let (icr, odom, base) = (frames.icr(), frames.odom(), frames.base());
@@ -50,12 +51,54 @@ pub(super) fn parameters(
     open_loop: false
     position_feedback: true
 
-    # pose_covariance_diagonal and twist_covariance_diagonal keep the defaults of the controller: the
-    # kinematics file has no covariance. The defaults are zeros; set them before a filter reads them.
 "
     );
-    let text = provenance.hash_comment(&notes) + &body;
+    let covariances = published
+        .map_or_else(|| NO_COVARIANCES.to_owned(), |published| covariances(drive, icr, published));
+    let text = provenance.hash_comment(&notes) + &body + &covariances;
     TextFile { name: "diff_drive_controller.yaml", text }
+}
+
+const NO_COVARIANCES: &str =
+    "    # pose_covariance_diagonal and twist_covariance_diagonal keep the defaults of the controller: no
+    # residuals were given (--residuals). The defaults are zeros; set them before a filter reads them.
+";
+
+/// The rate and both diagonals, with where they come from.
+fn covariances(drive: &EquivalentDrive, icr: &Name, published: &Published) -> String {
+    let Published { residuals, rate } = published;
+    let Residuals { source, pieces, duration, runs, distance, .. } = residuals;
+    let source = source.replace(char::is_control, " ");
+    let held_out = if residuals.held_out {
+        "runs that the parameters were not fitted to"
+    } else {
+        "runs that the parameters were fitted to, so that they are too small"
+    };
+    let twist = diagonal(residuals.twist_diagonal(drive, *rate));
+    let pose = diagonal(residuals.pose_diagonal());
+    let rate = number(*rate);
+    format!(
+        "    # Covariances from the residuals in {source},
+    # of {held_out}.
+    # Order: x, y, z, roll, pitch, yaw; 1000000.0 stands for what is not measured.
+
+    # Hz; the variance of the twist goes with it
+    publish_rate: {rate}
+    # (m/s)^2, (rad/s)^2: residual^2 * rate / time, over {pieces} pieces of {duration:.2} s. y is the slip
+    # aside of {icr}, which the controller reports as 0.
+    twist_covariance_diagonal: {twist}
+    # m^2, rad^2: at the end of a drive of {distance:.1} m (mean of {runs} runs); less before, more after.
+    # Let a filter fuse the twist and not the pose.
+    pose_covariance_diagonal: {pose}
+"
+    )
+}
+
+/// Six variances to four digits.
+fn diagonal(variances: [f64; 6]) -> String {
+    let rounded = |variance: f64| format!("{variance:.3e}").parse().unwrap_or(variance);
+    let texts: Vec<String> = variances.into_iter().map(|v| number(rounded(v))).collect();
+    format!("[{}]", texts.join(", "))
 }
 
 fn list(names: &[Name]) -> String {
@@ -79,6 +122,7 @@ mod tests {
             &frames(),
             &wheels.expect("wheels"),
             &name("base_controller"),
+            None,
             &Provenance::default(),
         );
         let yaml: Value = serde_yaml_ng::from_str(&file.text).expect("YAML");
@@ -98,5 +142,38 @@ mod tests {
         assert_eq!(parameters["open_loop"].as_bool(), Some(false));
         assert_eq!(parameters["right_wheel_names"][1].as_str(), Some("d"));
         assert!(parameters.get("pose_covariance_diagonal").is_none());
+    }
+
+    #[test]
+    fn covariances_are_six_numbers_each() {
+        let name = |text: &str| text.parse::<Name>().expect("a name");
+        let wheels = Wheels::new(1.0, vec![name("a")], vec![name("c")]).expect("wheels");
+        let residuals = crate::covariance::tests::residuals();
+        let published = Published::new(residuals.clone(), 20.0).expect("a rate");
+        let file = parameters(
+            &drive(),
+            &frames(),
+            &wheels,
+            &name("c"),
+            Some(&published),
+            &Provenance::default(),
+        );
+        let yaml: Value = serde_yaml_ng::from_str(&file.text).expect("YAML");
+        let parameters = &yaml["c"]["ros__parameters"];
+        assert_eq!(parameters["publish_rate"].as_f64(), Some(20.0));
+        for (key, expected) in [
+            ("twist_covariance_diagonal", residuals.twist_diagonal(&drive(), 20.0)),
+            ("pose_covariance_diagonal", residuals.pose_diagonal()),
+        ] {
+            let numbers = parameters[key].as_sequence().expect(key);
+            assert_eq!(numbers.len(), 6);
+            for (number, expected) in numbers.iter().zip(expected) {
+                // Four digits
+                assert!(
+                    number.is_f64() && (number.as_f64().expect(key) / expected - 1.0).abs() < 1e-3
+                );
+            }
+        }
+        assert!(Published::new(residuals, 0.0).is_err());
     }
 }

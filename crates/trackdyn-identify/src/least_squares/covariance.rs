@@ -1,61 +1,7 @@
 //! Uncertainty from the scatter between blocks of consecutive segments.
 
-use crate::observations::Observations;
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
-use std::ops::Range;
-
-/// Fewer blocks than this make a poor variance: long runs are cut.
-const FEWEST: usize = 24;
-
-/// Parts of a recording that are taken as independent: runs, or pieces of runs where there are few.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Blocks {
-    ranges: Vec<Range<usize>>,
-    /// Whether runs had to be cut.
-    pub cut: bool,
-}
-
-impl Blocks {
-    /// The blocks of these observations.
-    pub fn of(observations: &Observations) -> Self {
-        let segments = observations.segments();
-        let mut runs: Vec<Range<usize>> = Vec::new();
-        for index in 0..segments.len() {
-            match runs.last_mut() {
-                Some(last) if segments[last.start].run == segments[index].run => {
-                    last.end = index + 1;
-                }
-                _ => runs.push(index..index + 1),
-            }
-        }
-        if runs.len() >= FEWEST {
-            return Self { ranges: runs, cut: false };
-        }
-        let length = (segments.len() / (2 * FEWEST)).max(1);
-        let ranges = runs
-            .into_iter()
-            .flat_map(|run| {
-                let pieces = (run.len() / length).max(1);
-                (0..pieces).map(move |k| {
-                    let at = |k: usize| run.start + k * run.len() / pieces;
-                    at(k)..at(k + 1)
-                })
-            })
-            .collect();
-        Self { ranges, cut: true }
-    }
-
-    /// Number of blocks.
-    pub fn count(&self) -> usize {
-        self.ranges.len()
-    }
-
-    /// What each block gives.
-    pub fn map<T>(&self, of: impl Fn(Range<usize>) -> T) -> Vec<T> {
-        self.ranges.iter().cloned().map(of).collect()
-    }
-}
 
 /// Covariance of an estimate by leaving out each block: (B − 1)/B Σ δᵦ δᵦᵀ, with the change
 /// δᵦ = (H − Hᵦ)⁻¹ gᵦ of one Newton step without block b, whose share of the normal equations H is Hᵦ
@@ -92,15 +38,25 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Student's interval with as many degrees of freedom as blocks exceed parameters.
-    pub(super) fn new(value: f64, deviation: f64, blocks: &Blocks, parameters: usize) -> Self {
-        Self::of_groups(value, deviation, blocks.count(), parameters)
+    /// Student's interval of a number by the numbers with one block left out each; none with fewer than two.
+    ///
+    /// σ² = (B − 1)/B Σ (θ₋ᵦ − θ̄)²
+    pub(crate) fn of_jackknife(value: f64, without: &[f64]) -> Option<Self> {
+        if without.len() < 2 {
+            return None;
+        }
+        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 blocks")]
+        let blocks = without.len() as f64;
+        let mean = without.iter().sum::<f64>() / blocks;
+        let scatter: f64 = without.iter().map(|value| (value - mean).powi(2)).sum();
+        let deviation = (scatter * (blocks - 1.0) / blocks).sqrt();
+        Some(Self::new(value, deviation, without.len(), 1)).filter(|_| deviation.is_finite())
     }
 
-    /// The same for this many groups.
-    pub(crate) fn of_groups(value: f64, deviation: f64, groups: usize, parameters: usize) -> Self {
-        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 groups")]
-        let freedom = groups.saturating_sub(parameters).max(1) as f64;
+    /// Student's interval with as many degrees of freedom as blocks exceed parameters.
+    pub(crate) fn new(value: f64, deviation: f64, blocks: usize, parameters: usize) -> Self {
+        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 blocks")]
+        let freedom = blocks.saturating_sub(parameters).max(1) as f64;
         let quantile =
             StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |student| student.inverse_cdf(0.975));
         let half = quantile * deviation;

@@ -4,6 +4,7 @@ use crate::doubt::Doubt;
 use crate::least_squares::Estimate;
 use crate::observations::Observations;
 use crate::parameters::Free;
+use crate::sensor::Nuisance;
 use faer::Mat;
 use nalgebra::{DMatrix, Matrix2, Vector2};
 use trackdyn_core::Side;
@@ -22,6 +23,9 @@ const ALPHA_LIMIT: f64 = 0.1;
 /// pulls the estimate by a tenth or more.
 const EXCITATION: f64 = 10.0;
 
+/// Change of the speeds over the noise of that change, in variance, below which it is mostly noise.
+const CHANGES: f64 = 1.0;
+
 /// What the driving of a recording lacks for these parameters; none where it does. `noise` is that of the
 /// recording.
 pub fn lacks(observations: &Observations, noise: &Noise, free: Free) -> Option<Doubt> {
@@ -32,9 +36,79 @@ pub fn lacks(observations: &Observations, noise: &Noise, free: Free) -> Option<D
     })
 }
 
+/// What the driving of a recording lacks for a property of the sensor; none where it does not.
+pub fn lacks_nuisance(
+    observations: &Observations,
+    noise: &Noise,
+    nuisance: Nuisance,
+) -> Option<Doubt> {
+    match nuisance {
+        Nuisance::LeverArm => Some(Doubt::LeverArm),
+        Nuisance::SensorYaw => {
+            let ratio = translation(observations, noise)?;
+            (ratio < EXCITATION).then_some(Doubt::NoTranslation)
+        }
+        Nuisance::TimeOffset => {
+            let ratio = changes(observations, noise)?;
+            (ratio < CHANGES).then_some(Doubt::NoChange)
+        }
+    }
+}
+
+/// The properties of the sensor in an estimate that are too uncertain to be of use.
+pub fn nuisance_doubts(estimate: &Estimate) -> Vec<Doubt> {
+    let fitted = estimate.unknowns.nuisances.iter();
+    fitted
+        .filter_map(|&nuisance| {
+            let deviation = estimate.nuisance(nuisance)?.deviation;
+            let wide = deviation.is_nan() || deviation > nuisance.limit();
+            wide.then_some(Doubt::WideNuisance { nuisance, deviation })
+        })
+        .collect()
+}
+
+/// Variance of (V_r + V_l)/2, as far as V_r − V_l does not explain it, over that of its noise. None without
+/// encoder noise.
+///
+/// A point of the body moves with (V_r + V_l)/2 straight ahead plus ω times a vector that the ICRs fix. ψ turns
+/// the first; what it does to the second other ICRs do too.
+fn translation(observations: &Observations, noise: &Noise) -> Option<f64> {
+    let encoder = |side: Side| {
+        noise.encoders[side].map(|noise| noise.deviation.powi(2) * noise.update_interval)
+    };
+    let per_second = f64::midpoint(encoder(Side::Left)?, encoder(Side::Right)?);
+    let (mut means, mut mixed, mut differences, mut variance) = (0.0, 0.0, 0.0, 0.0);
+    for segment in observations.segments() {
+        let speed = observations.travelled(segment).map(|distance| distance / segment.duration);
+        let (mean, difference) = (f64::midpoint(speed.right, speed.left), speed.right - speed.left);
+        means += mean * mean;
+        mixed += mean * difference;
+        differences += difference * difference;
+        variance += per_second / (2.0 * segment.duration);
+    }
+    let explained = if differences > 0.0 { mixed * mixed / differences } else { 0.0 };
+    (variance > 0.0).then_some((means - explained) / variance - 1.0)
+}
+
+/// Variance of the change of track speeds from the beginning to the end of segments over that of their noise.
+/// None without encoder noise.
+pub(crate) fn changes(observations: &Observations, noise: &Noise) -> Option<f64> {
+    let variance = |side: Side| noise.encoders[side].map(|noise| 2.0 * noise.deviation.powi(2));
+    let of_noise = variance(Side::Left)? + variance(Side::Right)?;
+    let (mut squares, mut expected) = (0.0, 0.0);
+    for segment in observations.segments() {
+        if let [first, .., last] = observations.pieces(segment) {
+            squares +=
+                (last.v_left - first.v_left).powi(2) + (last.v_right - first.v_right).powi(2);
+            expected += of_noise;
+        }
+    }
+    (expected > 0.0).then_some(squares / expected - 1.0)
+}
+
 /// The parameters of an estimate that are too uncertain for a vehicle with this gauge, m.
 pub fn doubts(estimate: &Estimate, gauge: f64) -> Vec<Doubt> {
-    too_wide(&estimate.deviations()[..estimate.free.count()], gauge)
+    too_wide(&estimate.deviations()[..estimate.unknowns.free.count()], gauge)
 }
 
 /// The parameters whose standard deviations are too large for a vehicle with this gauge, m.

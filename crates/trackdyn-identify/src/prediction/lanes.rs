@@ -52,6 +52,11 @@ impl<'a> Lanes<'a> {
         Self { observations, batches: batches.collect() }
     }
 
+    /// The observations whose segments these are.
+    pub fn observations(&self) -> &'a Observations {
+        self.observations
+    }
+
     /// The predictions of all segments, in their order.
     pub fn predict(&self, parameters: &Parameters) -> Vec<Prediction> {
         let batches: Vec<[Prediction; LANES]> = self

@@ -26,6 +26,12 @@ pub struct Source {
     /// Name of the recording, where the numbers come from one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<String>,
+    /// Its runs that were used.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub runs: Option<String>,
+    /// The time of each of these runs that was used, s from its first reading, where not all was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time_s: Option<[f64; 2]>,
     /// Speeds per track and largest speed, m/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridSource>,
@@ -129,27 +135,16 @@ impl KinematicsFile {
     /// The file of a map.
     pub fn of_map(statistics: &Statistics, sectors: &[Sector], source: Source) -> Self {
         let Statistics { mean, spread, .. } = *statistics;
-        let unplaced = |value| Spanned::new(0..0, rounded(value));
         Self {
-            schema: Spanned::new(0..0, SCHEMA.to_owned()),
-            frame: Spanned::new(0..0, "paper".to_owned()),
-            x_icr_left_m: unplaced(mean.x_left),
-            x_icr_right_m: unplaced(mean.x_right),
-            y_icr_m: rounded(mean.y),
-            steering_efficiency: rounded(statistics.steering_efficiency),
-            eccentricity: rounded(statistics.eccentricity),
             mean_steering_efficiency: Some(rounded(statistics.mean_steering_efficiency)),
             mean_eccentricity: Some(rounded(statistics.mean_eccentricity)),
-            alpha_left: None,
-            alpha_right: None,
-            covariance: None,
             spread: Some(Spread {
                 x_icr_left_m: rounded(spread.x_left),
                 x_icr_right_m: rounded(spread.x_right),
                 y_icr_m: rounded(spread.y),
             }),
-            source,
             sector: sectors.iter().map(SectorTable::of).collect(),
+            ..Self::of_icrs(&mean, statistics.steering_efficiency, source)
         }
     }
 
@@ -162,6 +157,16 @@ impl KinematicsFile {
         source: Source,
     ) -> Self {
         let Kinematics { icrs, alpha } = *kinematics;
+        Self {
+            alpha_left: with_alphas.then_some(rounded(alpha.left)),
+            alpha_right: with_alphas.then_some(rounded(alpha.right)),
+            covariance: Some(covariance),
+            ..Self::of_icrs(&icrs, icrs.steering_efficiency(gauge), source)
+        }
+    }
+
+    /// What every file has.
+    fn of_icrs(icrs: &Icrs, steering_efficiency: f64, source: Source) -> Self {
         let unplaced = |value| Spanned::new(0..0, rounded(value));
         Self {
             schema: Spanned::new(0..0, SCHEMA.to_owned()),
@@ -169,13 +174,13 @@ impl KinematicsFile {
             x_icr_left_m: unplaced(icrs.x_left),
             x_icr_right_m: unplaced(icrs.x_right),
             y_icr_m: rounded(icrs.y),
-            steering_efficiency: rounded(icrs.steering_efficiency(gauge)),
+            steering_efficiency: rounded(steering_efficiency),
             eccentricity: rounded(icrs.eccentricity()),
             mean_steering_efficiency: None,
             mean_eccentricity: None,
-            alpha_left: with_alphas.then_some(rounded(alpha.left)),
-            alpha_right: with_alphas.then_some(rounded(alpha.right)),
-            covariance: Some(covariance),
+            alpha_left: None,
+            alpha_right: None,
+            covariance: None,
             spread: None,
             source,
             sector: Vec::new(),

@@ -1,7 +1,7 @@
 //! One component of the residuals.
 
 use crate::Estimate;
-use crate::blocks::{Sums, estimate};
+use crate::intervals::{Sums, estimate};
 
 /// Statistics of one component of the residuals: along, across, yaw, or the distance between
 /// observed and predicted place. Units: m or rad.

@@ -3,7 +3,7 @@
 use crate::pose_error::{self, Delta, Statistics};
 use crate::{Residual, Trajectory};
 use trackdyn_core::Pose;
-use trackdyn_recording::{Run, hold};
+use trackdyn_recording::{Extent, Run, hold};
 
 /// A run: what was recorded and what each parameter set predicts, pose by pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,12 +70,13 @@ impl Path {
         }
     }
 
-    /// Index of the run, first stamp and length in time, s.
-    pub(super) fn extent(&self) -> (usize, f64, f64) {
-        match self.stamps.as_slice() {
-            [first, .., last] => (self.index, *first, last - first),
-            _ => (self.index, 0.0, 0.0),
-        }
+    /// When it begins and how long it lasts.
+    pub(super) fn extent(&self) -> Extent {
+        let (start, duration) = match self.stamps.as_slice() {
+            [first, .., last] => (*first, last - first),
+            _ => (0.0, 0.0),
+        };
+        Extent { run: self.index, start, duration }
     }
 
     /// Distance travelled, m.
@@ -85,7 +86,7 @@ impl Path {
 
     /// Time from the first to the last pose, s.
     pub fn duration(&self) -> f64 {
-        self.extent().2
+        self.extent().duration
     }
 
     /// Errors of a parameter set over the whole run; none for a set that is not there.

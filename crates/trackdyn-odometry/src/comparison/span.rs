@@ -2,7 +2,8 @@
 
 use super::component::Piece;
 use super::{Component, Path};
-use crate::{Blocks, Residual, Span, Stretch, real};
+use crate::{Residual, Span, Stretch, real};
+use trackdyn_recording::Blocks;
 
 /// Errors of all parameter sets over pieces of one length.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +49,10 @@ impl SpanErrors {
         }
         let pieces: Vec<Piece> = stretches
             .iter()
-            .map(|stretch| Piece { block: blocks.of(stretch), distance: stretch.distance })
+            .map(|stretch| Piece {
+                block: blocks.of(stretch.run, stretch.start).unwrap_or(0),
+                distance: stretch.distance,
+            })
             .collect();
         let residuals: Vec<Vec<Residual>> = (0..sets)
             .map(|set| {

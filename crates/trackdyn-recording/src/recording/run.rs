@@ -27,12 +27,17 @@ pub struct Run {
 }
 
 impl Run {
-    pub(super) fn new(mut rows: UncheckedRun, cleanings: &mut Vec<Cleaning>) -> Self {
+    pub(crate) fn new(mut rows: UncheckedRun, cleanings: &mut Vec<Cleaning>) -> Self {
         clean(&mut rows.tracks, rows.id, cleanings);
         clean(&mut rows.poses, rows.id, cleanings);
         clean(&mut rows.imu, rows.id, cleanings);
         unwrap_yaw(&mut rows.poses.samples, rows.id, cleanings);
         Self { id: rows.id, tracks: rows.tracks, poses: rows.poses, imu: rows.imu }
+    }
+
+    /// Whether it has readings, and poses enough for a motion.
+    pub(crate) fn is_usable(&self) -> bool {
+        !self.tracks().is_empty() && self.poses().len() >= 2
     }
 
     /// Its number in the recording.

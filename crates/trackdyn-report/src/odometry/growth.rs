@@ -8,6 +8,13 @@ use crate::panel::{Labels, Panel};
 use trackdyn_odometry::comparison::SpanErrors;
 use trackdyn_odometry::{Comparison, Span};
 
+/// Distance between neighbouring parameter sets at one length, pixels, where there are few: whiskers that lie
+/// on each other cannot be read.
+const APART: f64 = 9.0;
+
+/// Distance between the first and the last of many, pixels.
+const WIDTH: f64 = 36.0;
+
 /// Draws the root mean square of a quantity over pieces of several lengths.
 pub(super) fn draw(
     canvas: &mut Canvas,
@@ -40,10 +47,12 @@ pub(super) fn draw(
     canvas.clip(area, |canvas| {
         for set in 0..result.sets.len() {
             let mut before = None;
+            let aside = aside(set, result.sets.len());
             for errors in &spans {
                 let rms = (quantity.of)(&errors.sets[set]).rms;
                 let value = quantity.scale * rms.value;
-                let at = panel.pixel([length(errors), value]);
+                let [column, row] = panel.pixel([length(errors), value]);
+                let at = [column + aside, row];
                 let colour = look::colour(set);
                 if let Some(half) = rms.half_width.map(|half| quantity.scale * half) {
                     let ends = [value - half, value + half];
@@ -59,4 +68,11 @@ pub(super) fn draw(
     });
     panel.border(canvas);
     Ok(())
+}
+
+/// How far aside of its length a parameter set stands, pixels.
+#[expect(clippy::cast_precision_loss, reason = "a few sets")]
+fn aside(set: usize, sets: usize) -> f64 {
+    let last = (sets - 1) as f64;
+    (set as f64 - last / 2.0) * APART.min(WIDTH / last.max(1.0))
 }

@@ -24,10 +24,11 @@ const WORST: usize = 5;
 /// # Errors
 /// A message that names the file, line and column.
 pub fn run(path: &Path, vehicle: &VehicleFile, options: &Options) -> Outcome {
-    if options.tau.is_some() || options.settle.is_some() {
-        let name = path.display();
+    let given = options.of_motion();
+    if !given.is_empty() {
+        let (given, name) = (given.join(", "), path.display());
         return Err(
-            format!("--tau, --settle: {name} holds steady points, which have no time").into()
+            format!("{given}: {name} holds steady points, which have no runs and no time").into()
         );
     }
     let table = OperatingPoints::read(path)?;

@@ -1,11 +1,11 @@
 //! The result of an identification as text.
 
 use std::fmt::Write;
-use trackdyn_identify::identification::{Clock, Fit};
+use trackdyn_identify::identification::Fit;
+use trackdyn_identify::least_squares::Interval;
 use trackdyn_identify::{Estimate, Free, Identification, Parameters};
-use trackdyn_motion::Icrs;
 use trackdyn_physics::Vehicle;
-use trackdyn_recording::Recording;
+use trackdyn_recording::{Clock, Recording};
 
 /// One screen: the recording, its clock and noise, the methods side by side.
 pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) -> String {
@@ -25,9 +25,12 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) ->
     noise(&mut text, found);
     match &found.spin_test {
         Ok(spin) => {
+            let deviation = spin.interval.map_or_else(String::new, |interval| {
+                format!(", standard error {:.4} m", interval.deviation)
+            });
             let _ = writeln!(
                 text,
-                "  spin test  x_r - x_l = {:.4} m, chi = {:.4} ({} segments, {:.0} rad)",
+                "  spin test  x_r - x_l = {:.4} m{deviation}; chi = {:.4} ({} segments, {:.0} rad)",
                 spin.gap, spin.steering_efficiency, spin.segments, spin.yaw
             );
         }
@@ -89,36 +92,39 @@ fn fit(text: &mut String, fit: &Fit, gauge: f64) {
         }
         return;
     }
-    parameters(text, fit, estimate);
-    let of = |parameters: &Parameters| {
-        let icrs = parameters.kinematics().icrs;
-        (icrs.steering_efficiency(gauge), Icrs::eccentricity(&icrs))
-    };
-    let ((chi, e), (chi_ga, e_ga)) = (of(&estimate.parameters), of(&fit.genetic.parameters));
-    let _ = writeln!(text, "    {:8}{chi:>10.4}{:>24}{chi_ga:>10.4}", "chi", "");
-    let _ = writeln!(text, "    {:8}{e:>10.4}{:>24}{e_ga:>10.4}", "e", "");
-    let cut = if estimate.blocks.cut { "pieces of runs" } else { "runs" };
+    parameters(text, fit, estimate, gauge);
+    for doubt in &fit.refused {
+        let _ = writeln!(text, "    not fitted: {doubt}");
+    }
+    let cut = if estimate.blocks.are_pieces() { "pieces of runs" } else { "runs" };
     let _ = writeln!(
         text,
         "    residuals {:.2} times the noise; intervals from the noise and from {} {cut}",
-        estimate.whitened_rms,
-        estimate.blocks.count()
+        estimate.whitened_rms, estimate.filled_blocks
     );
 }
 
-fn parameters(text: &mut String, fit: &Fit, estimate: &Estimate) {
+fn parameters(text: &mut String, fit: &Fit, estimate: &Estimate, gauge: f64) {
     let _ =
         writeln!(text, "    {:8}{:>10}{:>24}{:>10}", "", "estimate", "95 % interval", "genetic");
     for k in 0..fit.free.count() {
         let Some(interval) = estimate.interval(k) else { continue };
-        let range = format!("{:.4} to {:.4}", interval.low, interval.high);
-        let _ = writeln!(
-            text,
-            "    {:8}{:>10.4}{range:>24}{:>10.4}{}",
-            Parameters::NAMES[k],
-            interval.value,
-            fit.genetic.parameters.0[k],
-            if Parameters::UNITS[k] == "m" { " m" } else { "" }
-        );
+        let unit = if Parameters::UNITS[k] == "m" { " m" } else { "" };
+        row(text, Parameters::NAMES[k], &interval, Some(fit.genetic.parameters.0[k]), unit);
     }
+    for &nuisance in &estimate.unknowns.nuisances {
+        let Some(interval) = estimate.nuisance(nuisance) else { continue };
+        row(text, nuisance.symbol(), &interval, None, &format!(" {}", nuisance.unit()));
+    }
+    let genetic = &fit.genetic_estimate;
+    row(text, "x_r-x_l", &estimate.gap(), Some(genetic.gap().value), " m");
+    let chi = |of: &Estimate| of.steering_efficiency(gauge);
+    row(text, "chi", &chi(estimate), Some(chi(genetic).value), "");
+    row(text, "e", &estimate.eccentricity(), Some(genetic.eccentricity().value), "");
+}
+
+fn row(text: &mut String, name: &str, interval: &Interval, genetic: Option<f64>, unit: &str) {
+    let range = format!("{:.4} to {:.4}", interval.low, interval.high);
+    let genetic = genetic.map_or_else(String::new, |value| format!("{value:.4}"));
+    let _ = writeln!(text, "    {name:8}{:>10.4}{range:>24}{genetic:>10}{unit}", interval.value);
 }

@@ -1,10 +1,11 @@
 //! The result of a replay as a file, schema `trackdyn.odometry/1`.
 
-use super::inputs::{Clock, Inputs};
+use super::inputs::Inputs;
 use super::summary::end;
 use serde::Serialize;
 use trackdyn_odometry::comparison::{Component, SpanErrors};
 use trackdyn_odometry::{Comparison, Estimate, ParameterSet, Span};
+use trackdyn_recording::Clock;
 
 #[derive(Serialize)]
 struct File<'a> {
@@ -28,6 +29,8 @@ struct Source<'a> {
     recording: &'a str,
     robot: &'a str,
     fingerprint: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time_s: Option<[f64; 2]>,
     vehicle: &'a str,
     vehicle_fingerprint: &'a str,
 }
@@ -49,6 +52,7 @@ struct SetTable {
     file: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     fingerprint: Option<String>,
+    held_out: bool,
     x_icr_left_m: f64,
     x_icr_right_m: f64,
     y_icr_m: f64,
@@ -124,14 +128,15 @@ pub fn text(
             recording: recording.name(),
             robot: recording.robot(),
             fingerprint: recording.fingerprint(),
+            time_s: inputs.time,
             vehicle: &inputs.vehicle,
             vehicle_fingerprint: &inputs.vehicle_fingerprint,
         },
         clock: ClockTable {
-            tau_s: rounded(clock.tau),
-            standard_error_s: clock.standard_error.map(rounded),
+            tau_s: rounded(clock.tau()),
+            standard_error_s: clock.standard_error().map(rounded),
             origin: clock.origin(),
-            note: clock.note.as_deref(),
+            note: clock.reason(),
         },
         set: result
             .sets
@@ -156,6 +161,7 @@ fn of_set(inputs: &Inputs, result: &Comparison, index: usize, set: &ParameterSet
         name: set.name().to_owned(),
         file: file.map(|file| file.path.display().to_string()),
         fingerprint: file.map(|file| file.fingerprint.clone()),
+        held_out: file.is_none_or(|file| inputs.is_held_out(file, result)),
         x_icr_left_m: kinematics.icrs.x_left,
         x_icr_right_m: kinematics.icrs.x_right,
         y_icr_m: kinematics.icrs.y,

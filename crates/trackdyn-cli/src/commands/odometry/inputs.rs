@@ -7,15 +7,16 @@ use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_core::output::fingerprint;
 use trackdyn_motion::Kinematics;
-use trackdyn_motion::kinematics::KinematicsFile;
-use trackdyn_odometry::ParameterSet;
-use trackdyn_recording::Recording;
-use trackdyn_recording::clock::{ClockSearch, clock_offset};
+use trackdyn_motion::kinematics::{KinematicsFile, Source};
+use trackdyn_odometry::{Comparison, ParameterSet};
+use trackdyn_recording::{Recording, RunList};
 
 /// Files, read and checked.
 pub struct Inputs {
-    /// The recording.
+    /// The recording, all of it.
     pub recording: Recording,
+    /// The time of each run that is replayed, s; none: all of it.
+    pub time: Option<[f64; 2]>,
     /// Name of the vehicle.
     pub vehicle: String,
     /// Fingerprint of the vehicle file.
@@ -34,6 +35,8 @@ pub struct ParameterFile {
     pub fingerprint: String,
     /// What it holds, under a name that no other set has.
     pub set: ParameterSet,
+    /// Where its numbers come from.
+    pub source: Source,
 }
 
 impl Inputs {
@@ -51,7 +54,8 @@ impl Inputs {
             .map(|(path, name)| ParameterFile::read(path, &name))
             .collect::<Result<_, _>>()?;
         Ok(Self {
-            recording: options.recording.read()?,
+            recording: options.driving.recording()?,
+            time: options.driving.time(),
             vehicle_fingerprint: fingerprint(vehicle.to_toml().as_bytes()),
             gauge: vehicle.vehicle.gauge,
             vehicle: vehicle.vehicle.name,
@@ -64,6 +68,20 @@ impl Inputs {
         let of_file = |file: &ParameterFile| [Some(file.set.clone()), file.set.without_alpha()];
         let files = self.files.iter().flat_map(of_file).flatten();
         std::iter::once(ParameterSet::ideal(self.gauge)).chain(files).collect()
+    }
+
+    /// Whether the numbers of a file were fitted to other runs, or another time of them, than the result
+    /// replays.
+    pub fn is_held_out(&self, file: &ParameterFile, result: &Comparison) -> bool {
+        const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+        let replayed = RunList::new(result.paths.iter().map(|path| path.run));
+        let fitted = file.source.runs.as_ref().and_then(|runs| runs.parse::<RunList>().ok());
+        let [from, until] = self.time.unwrap_or(ALL);
+        let [fitted_from, fitted_until] = file.source.time_s.unwrap_or(ALL);
+        file.source.fingerprint != self.recording.fingerprint()
+            || fitted.is_some_and(|fitted| !fitted.overlaps(&replayed))
+            || from >= fitted_until
+            || until <= fitted_from
     }
 }
 
@@ -90,7 +108,7 @@ impl ParameterFile {
             return Err(message.into());
         }
         let fingerprint = fingerprint(document.text().as_bytes());
-        Ok(Self { path: path.to_owned(), fingerprint, set })
+        Ok(Self { path: path.to_owned(), fingerprint, set, source: file.source })
     }
 }
 
@@ -122,99 +140,9 @@ fn names(paths: &[PathBuf]) -> Vec<String> {
     names
 }
 
-/// The clock offset and where it is from.
-pub struct Clock {
-    /// τ, s.
-    pub tau: f64,
-    /// Its standard error, where it was estimated, s.
-    pub standard_error: Option<f64>,
-    /// Why it could not be estimated.
-    pub note: Option<String>,
-}
-
-impl Clock {
-    /// The offset given, or that of the recording.
-    pub fn new(recording: &Recording, given: Option<f64>) -> Self {
-        if let Some(tau) = given {
-            return Self { tau, standard_error: None, note: None };
-        }
-        match clock_offset(recording, &ClockSearch::default()) {
-            Ok(offset) => {
-                let standard_error = Some(offset.standard_error);
-                Self { tau: offset.tau, standard_error, note: None }
-            }
-            Err(error) => Self { tau: 0.0, standard_error: None, note: Some(error.to_string()) },
-        }
-    }
-
-    /// In one word, for files.
-    pub fn origin(&self) -> &'static str {
-        match (self.standard_error, &self.note) {
-            (Some(_), _) => "estimated",
-            (None, Some(_)) => "not estimable",
-            (None, None) => "given",
-        }
-    }
-}
-
-/// Seconds of a clock offset.
-///
-/// # Errors
-/// What was expected.
-pub fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value.abs() <= 3600.0 => Ok(value),
-        _ => Err("expected a number of seconds, such as 0.25".to_owned()),
-    }
-}
-
-/// Numbers of runs; a type of its own, for `clap` takes a vector for an option that is repeated.
-#[derive(Clone, Debug)]
-pub struct RunList(Vec<i64>);
-
-impl RunList {
-    /// The numbers, as given.
-    pub fn numbers(&self) -> &[i64] {
-        &self.0
-    }
-}
-
-/// Numbers of runs and ranges of them, separated by commas.
-///
-/// # Errors
-/// What was expected.
-pub fn runs(text: &str) -> Result<RunList, String> {
-    const MOST: i64 = 1_000_000;
-    let expected = || "expected numbers of runs, such as 7,8,20-29".to_owned();
-    let number = |text: &str| text.trim().parse::<i64>().map_err(|_| expected());
-    let mut numbers = Vec::new();
-    for part in text.split(',') {
-        match part.trim().split_once('-').filter(|(first, _)| !first.is_empty()) {
-            Some((first, last)) => {
-                let (first, last) = (number(first)?, number(last)?);
-                if !(first..first.saturating_add(MOST)).contains(&last) {
-                    return Err(expected());
-                }
-                numbers.extend(first..=last);
-            }
-            None => numbers.push(number(part)?),
-        }
-    }
-    Ok(RunList(numbers))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn lists_of_runs() {
-        assert_eq!(runs("7, 9,20-22").expect("numbers").numbers(), [7, 9, 20, 21, 22]);
-        assert_eq!(runs("-3").expect("a number").numbers(), [-3]);
-        for bad in ["", "x", "1,,2", "9-7", "1-", "0-9999999999"] {
-            assert!(runs(bad).is_err(), "{bad}");
-        }
-    }
 
     #[test]
     fn every_set_has_a_name_of_its_own() {

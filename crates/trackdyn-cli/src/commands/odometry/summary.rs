@@ -1,9 +1,10 @@
 //! The result of a replay as text.
 
-use super::inputs::{Clock, Inputs};
+use super::inputs::Inputs;
 use std::fmt::Write;
 use trackdyn_odometry::comparison::{Component, SpanErrors};
 use trackdyn_odometry::{Comparison, Estimate, Span};
+use trackdyn_recording::Clock;
 
 /// One screen: what was replayed, errors per segment, drift, and how sets compare with the ideal.
 pub fn text(inputs: &Inputs, clock: &Clock, result: &Comparison) -> String {
@@ -18,14 +19,14 @@ pub fn text(inputs: &Inputs, clock: &Clock, result: &Comparison) -> String {
         result.duration(),
         result.distance()
     );
-    let _ = write!(text, "clock offset {:.3} s", clock.tau);
-    let _ = match clock.standard_error {
+    let _ = write!(text, "clock offset {:.3} s", clock.tau());
+    let _ = match clock.standard_error() {
         Some(error) => write!(text, " (estimated, standard error {error:.3} s)"),
         None => write!(text, " ({})", clock.origin()),
     };
     let _ = writeln!(text, "; ideal drive: gauge {} m ({})", inputs.gauge, inputs.vehicle);
     let _ = writeln!(text, "± 95 % confidence, {}", result.blocks.description());
-    let width = result.sets.iter().map(|set| set.name().len()).max().unwrap_or(0).clamp(10, 24) + 6;
+    let width = result.sets.iter().map(|set| set.name().len()).max().unwrap_or(0).clamp(10, 26) + 6;
     if let Some(segments) = result.segments() {
         residuals(&mut text, result, segments, width);
     }

@@ -1,0 +1,197 @@
+//! Parts of a recording: what is fitted on one part is judged on another.
+
+use crate::recording::{Recording, Sample, Series, UncheckedRun};
+use crate::{Error, Run};
+use std::fmt;
+use std::str::FromStr;
+
+/// Numbers of runs, written as a list with ranges: `7,8,20-29`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct RunList(Vec<i64>);
+
+impl RunList {
+    /// These runs.
+    pub fn new(numbers: impl IntoIterator<Item = i64>) -> Self {
+        Self(numbers.into_iter().collect())
+    }
+
+    /// The numbers, as given.
+    pub fn numbers(&self) -> &[i64] {
+        &self.0
+    }
+
+    /// Whether both have a run.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        self.0.iter().any(|number| other.0.contains(number))
+    }
+}
+
+impl FromStr for RunList {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        const MOST: i64 = 1_000_000;
+        let expected = || "expected numbers of runs, such as 7,8,20-29".to_owned();
+        let number = |text: &str| text.trim().parse::<i64>().map_err(|_| expected());
+        let mut numbers = Vec::new();
+        for part in text.split(',') {
+            match part.trim().split_once('-').filter(|(first, _)| !first.is_empty()) {
+                Some((first, last)) => {
+                    let (first, last) = (number(first)?, number(last)?);
+                    if !(first..first.saturating_add(MOST)).contains(&last) {
+                        return Err(expected());
+                    }
+                    numbers.extend(first..=last);
+                }
+                None => numbers.push(number(part)?),
+            }
+        }
+        Ok(Self(numbers))
+    }
+}
+
+impl fmt::Display for RunList {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ranges = self.0.chunk_by(|a, b| *a >= 0 && *b == a + 1);
+        for (index, range) in ranges.enumerate() {
+            let comma = if index > 0 { "," } else { "" };
+            match range {
+                [first, .., last] => write!(f, "{comma}{first}-{last}")?,
+                [only] => write!(f, "{comma}{only}")?,
+                [] => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Recording {
+    /// Indices of runs by their numbers, in the order of the recording.
+    ///
+    /// # Errors
+    /// [`Error::UnknownRun`].
+    pub fn indices_of(&self, list: &RunList) -> Result<Vec<usize>, Error> {
+        let is_there = |number: &i64| self.runs().iter().any(|run| run.id() == *number);
+        if let Some(&run) = list.0.iter().find(|number| !is_there(number)) {
+            return Err(Error::UnknownRun { run, expected: expected(self.runs()) });
+        }
+        let runs = self.runs().iter().enumerate();
+        Ok(runs.filter(|(_, run)| list.0.contains(&run.id())).map(|(index, _)| index).collect())
+    }
+
+    /// The numbers of all runs.
+    pub fn run_list(&self) -> RunList {
+        RunList::new(self.runs().iter().map(Run::id))
+    }
+
+    /// The recording of some of its runs only. Its fingerprint is that of the whole: it tells where the
+    /// runs come from.
+    ///
+    /// # Errors
+    /// [`Error::UnknownRun`].
+    pub fn of_runs(&self, list: &RunList) -> Result<Self, Error> {
+        let indices = self.indices_of(list)?;
+        Ok(self.with_runs(indices.into_iter().map(|index| self.runs()[index].clone()).collect()))
+    }
+
+    /// The recording of a time only, s from the first reading of each run; runs without readings or with
+    /// fewer than two poses in it are left out. Its fingerprint is that of the whole.
+    ///
+    /// # Errors
+    /// [`Error::NothingWithin`] where none is left.
+    pub fn within(&self, [from, until]: [f64; 2]) -> Result<Self, Error> {
+        let cut = |run: &Run| {
+            let start = run.tracks().first().map_or(0.0, |reading| reading.t);
+            let time = [start + from, start + until];
+            Run::new(
+                UncheckedRun {
+                    id: run.id(),
+                    tracks: rows_within(run.track_series(), time),
+                    poses: rows_within(run.pose_series(), time),
+                    imu: rows_within(run.imu_series(), time),
+                },
+                &mut Vec::new(),
+            )
+        };
+        let runs: Vec<Run> = self.runs().iter().map(cut).filter(Run::is_usable).collect();
+        if runs.is_empty() {
+            let longest = self.runs().iter().map(Run::duration).fold(0.0, f64::max);
+            return Err(Error::NothingWithin { from, until, longest });
+        }
+        Ok(self.with_runs(runs))
+    }
+}
+
+/// The rows of a time, s.
+fn rows_within<S: Sample>(series: &Series<S>, [from, until]: [f64; 2]) -> Series<S> {
+    let is_within = |row: &usize| (from..=until).contains(&series.samples[*row].time());
+    let rows: Vec<usize> = (0..series.samples.len()).filter(is_within).collect();
+    series.part(&rows)
+}
+
+/// The numbers of runs, shortened.
+fn expected(runs: &[Run]) -> String {
+    match runs {
+        [first, .., last] if runs.len() > 12 => {
+            format!("one of its {} runs, {} to {}", runs.len(), first.id(), last.id())
+        }
+        runs => {
+            let numbers: Vec<String> = runs.iter().map(|run| run.id().to_string()).collect();
+            format!("one of {}", numbers.join(", "))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::synthetic::{Synthetic, random_steps};
+
+    fn list(text: &str) -> RunList {
+        text.parse().expect("a list")
+    }
+
+    fn recording() -> Recording {
+        let schedules = (0..12).map(|run| random_steps(2, 2.0, 1.0, run)).collect();
+        Synthetic { schedules, ..Synthetic::default() }.recording().expect("runs")
+    }
+
+    #[test]
+    fn lists_are_read_and_written() {
+        assert_eq!(list("7, 9,20-22").numbers(), [7, 9, 20, 21, 22]);
+        for text in ["7,9,20-22", "-3", "-3,-2,0-1"] {
+            assert_eq!(list(text).to_string(), text);
+        }
+        for bad in ["", "x", "1,,2", "9-7", "1-", "0-9999999999"] {
+            assert!(bad.parse::<RunList>().is_err(), "{bad}");
+        }
+        assert!(list("1-4").overlaps(&list("4,9")) && !list("1-4").overlaps(&list("5-9")));
+    }
+
+    #[test]
+    fn runs_are_chosen_by_number() {
+        let recording = recording();
+        let part = recording.of_runs(&list("3,1")).expect("there");
+        assert_eq!(part.runs(), [recording.runs()[1].clone(), recording.runs()[3].clone()]);
+        assert_eq!(part.fingerprint(), recording.fingerprint());
+        assert_eq!(recording.run_list().to_string(), "0-11");
+        let error = recording.of_runs(&list("3,99")).expect_err("no run 99");
+        assert_eq!(
+            error.to_string(),
+            "run 99 is not in the recording: expected one of 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11"
+        );
+    }
+
+    #[test]
+    fn a_time_is_cut_out_of_every_run() {
+        let recording = recording();
+        let part = recording.within([1.0, 3.0]).expect("4 s long");
+        assert_eq!(part.runs().len(), 12);
+        // Readings every 0.05 s and poses every 0.1 s, both ends counted.
+        let run = &part.runs()[5];
+        assert_eq!((run.tracks().len(), run.poses().len()), (41, 21));
+        assert_eq!(run.tracks()[0], recording.runs()[5].tracks()[20]);
+        let error = recording.within([9.0, 10.0]).expect_err("too late").to_string();
+        assert!(error.contains("9 to 10 s") && error.contains("4.0 s"), "{error}");
+    }
+}

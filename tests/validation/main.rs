@@ -6,6 +6,7 @@ mod independent_ground;
 mod martinez_2005_asymmetric;
 mod martinez_2005_symmetric;
 mod operating_points;
+mod paper_chain;
 
 use trackdyn_motion::map::Statistics;
 use trackdyn_motion::{Grid, IcrMap};

@@ -9,8 +9,10 @@
 //! Conditions: identified from nine manual paths of 20 m, replayed on two others, eight seeds.
 
 mod errors;
+mod localisation;
 mod models;
 mod robot;
+mod scans;
 
 use errors::{Errors, QUANTITIES, RELATIVE, RELATIVE_YAW, errors, ratio, root_mean_square};
 use models::{NAMES, ORDER, ORDER_OF_YAW, Trained, WITH_ALPHA};

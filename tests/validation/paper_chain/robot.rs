@@ -22,7 +22,7 @@ const READINGS: usize = 9;
 /// No motion resistance: on the floor of a laboratory what resists is inside the running gear, which no
 /// force on the hull shows.
 pub fn auriga() -> Model {
-    with_effects(&[&format!("encoder-scale:left={},right={}", ALPHA.left, ALPHA.right)])
+    with_effects(&[&encoder_scale()])
 }
 
 /// The same with belts that run as shown: what a simulation knows that was not told of α.
@@ -30,11 +30,19 @@ pub fn auriga_without_alpha() -> Model {
     with_effects(&[])
 }
 
+/// The same at a crawl: the base model, whose ICRs are constant.
+pub fn crawling_auriga() -> Model {
+    Model::new(VehicleFile::auriga_alpha().vehicle, parse_effects(&[&encoder_scale()]))
+}
+
+fn encoder_scale() -> String {
+    format!("encoder-scale:left={},right={}", ALPHA.left, ALPHA.right)
+}
+
 fn with_effects(effects: &[&str]) -> Model {
     let mut all = vec!["load-transfer:cog_height_m=0.05"];
     all.extend(effects);
-    let file = VehicleFile::auriga_alpha();
-    Model::new(file.vehicle, parse_effects(&all).with_inertia())
+    Model::new(VehicleFile::auriga_alpha().vehicle, parse_effects(&all).with_inertia())
 }
 
 /// The runs of a generated schedule, driven and recorded.

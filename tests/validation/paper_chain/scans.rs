@@ -80,7 +80,7 @@ impl Drive {
             ..Scanner::default()
         };
         let [start, end] = truth.span().expect("a motion");
-        let scans: Vec<Scan> = (0_u32..)
+        let scans: Vec<Scan> = (0..u32::MAX)
             .map(|k| (k, start + scanner.period * f64::from(k)))
             .take_while(|(_, t)| *t <= end)
             .map(|(k, t)| scanner.scan(&room, t, k.into(), |t| truth.pose_at(t)).expect("a scan"))

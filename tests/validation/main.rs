@@ -7,6 +7,7 @@ mod independent_ground;
 mod martinez_2005_asymmetric;
 mod martinez_2005_symmetric;
 mod operating_points;
+mod paper_chain;
 mod recordings;
 mod two_simulators;
 

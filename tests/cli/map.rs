@@ -91,3 +91,15 @@ fn speeds_of_any_size_are_readable() {
     assert!(run.stdout.contains("left 1.00000e300  right -2.00000e300 m/s"), "{}", run.stdout);
     assert!(run.stdout.lines().all(|line| line.len() < 100), "{}", run.stdout);
 }
+
+#[test]
+fn factors_of_the_encoders_are_parameters_and_not_icrs() {
+    let place = Workplace::new();
+    let run = place.run("map --cog -0.015,0.04 --effect encoder-scale:left=0.98,right=1.02");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let text = String::from_utf8(place.read("out/kinematics.toml")).expect("text");
+    let file: toml::Table = text.parse().expect("TOML");
+    let number = |key: &str| file[key].as_float().expect("a number");
+    assert!((number("x_icr_left_m") + 0.37538).abs() < 5e-6, "{text}");
+    assert_eq!((number("alpha_left"), number("alpha_right")), (0.98, 1.02));
+}

@@ -55,7 +55,8 @@ fn steady_turns_are_the_stationary_ones() {
             let stationary = Stationary::new(&model, &here).solve(shown);
             assert_eq!(stationary.status, Status::Turning, "{}", card.id);
             let expected = stationary.icrs.expect("a turn has ICRs").to_array();
-            let found = Icrs::of_motion(last.belt_speed, &paper_twist_from_ros(&last.twist));
+            let driven = model.drive().belt_speed(shown, PerSide::new(0.0, 0.0));
+            let found = Icrs::of_motion(driven, &paper_twist_from_ros(&last.twist));
             let found = found.expect("a turn").to_array();
             for (found, expected) in found.into_iter().zip(expected) {
                 let error = (found - expected).abs();

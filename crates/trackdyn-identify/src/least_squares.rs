@@ -27,6 +27,9 @@ const MAX_ITERATIONS: usize = 100;
 /// Change of every unknown, m, 1, s or rad, below which the iteration has settled.
 const SETTLED: f64 = 1e-8;
 
+/// Change of every unknown below which the loss is nearly a parabola.
+const NEAR: f64 = 1e-4;
+
 /// What is fitted: kinematic parameters, and properties of the pose sensor beside them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unknowns {
@@ -114,10 +117,16 @@ pub fn least_squares(
     let mut size = f64::INFINITY;
     for iteration in 1..=MAX_ITERATIONS {
         let (matrix, gradient) = here.normal_equations(&here.weights(loss));
-        let mut damped = matrix.clone();
+        // Reweighting comes near from anywhere, but slowly in the end; Newton's step, to whose matrix
+        // outliers add nothing, is quick once it is near.
+        let mut damped = if size < NEAR {
+            here.normal_equations(&here.curvatures(loss)).0
+        } else {
+            matrix.clone()
+        };
         for k in 0..count {
             // A direction that the recording does not show must not send the others astray.
-            damped[(k, k)] = matrix[(k, k)] * (1.0 + damping) + f64::MIN_POSITIVE;
+            damped[(k, k)] += matrix[(k, k)] * damping + f64::MIN_POSITIVE;
         }
         let Some(step) = damped.cholesky().map(|cholesky| cholesky.solve(&gradient)) else {
             damping = (damping * 10.0).max(1e-9);

@@ -51,11 +51,13 @@ fn parameters(options: &Options) -> Result<KinematicsFile, Box<dyn Error>> {
     }
     let vehicle = options.model.vehicle_file()?;
     let grid = Grid::new(21, Grid::PAPER_SPEED)?;
-    let map = IcrMap::solve(&model(&vehicle), grid, &options.model.circumstance(), &|_| ());
+    let model = model(&vehicle);
+    let map = IcrMap::solve(&model, grid, &options.model.circumstance(), &|_| ());
     let statistics = map
         .statistics()
         .ok_or("the vehicle does not turn at any pair of track speeds: it has no ICRs")?;
-    Ok(KinematicsFile::of_map(&statistics, &map.sectors(), Source::default()))
+    Ok(KinematicsFile::of_map(&statistics, &map.sectors(), Source::default())
+        .with_alpha(model.drive().gain))
 }
 
 fn print_motion(speed: PerSide<f64>, kinematics: &Kinematics) {

@@ -55,7 +55,8 @@ pub fn run(options: &Options) -> Outcome {
         return Ok(Exit::NoResult);
     };
     let parameters = options.out.join("kinematics.toml");
-    let contents = KinematicsFile::of_map(&statistics, &map.sectors(), source);
+    let contents =
+        KinematicsFile::of_map(&statistics, &map.sectors(), source).with_alpha(model.drive().gain);
     write_file(&parameters, contents.to_toml().as_bytes())?;
     eprintln!("wrote {} and {}", parameters.display(), picture.display());
     Ok(Exit::Done)

@@ -108,6 +108,11 @@ impl Linearisation {
         self.residuals.iter().map(|r| r.map(|r| loss.weight(r))).collect()
     }
 
+    /// Half the second derivatives of the loss.
+    pub(super) fn curvatures(&self, loss: Loss) -> Vec<Vector3<f64>> {
+        self.residuals.iter().map(|r| r.map(|r| loss.curvature(r))).collect()
+    }
+
     /// Jᵀ W J and Jᵀ W r.
     pub(super) fn normal_equations(
         &self,
@@ -149,8 +154,7 @@ impl Linearisation {
     ) -> Estimate {
         let weights = self.weights(loss);
         let (matrix, _) = self.normal_equations(&weights);
-        let curvatures: Vec<_> =
-            self.residuals.iter().map(|r| r.map(|r| loss.curvature(r))).collect();
+        let curvatures = self.curvatures(loss);
         let (curvature, _) = self.normal_equations(&curvatures);
         let blocks = observations.blocks();
         let ranges = observations.ranges(&blocks).into_iter();

@@ -148,6 +148,15 @@ impl KinematicsFile {
         }
     }
 
+    /// The same with belt speeds per speeds that the encoders show, α; as it is where both are 1.
+    pub fn with_alpha(self, alpha: PerSide<f64>) -> Self {
+        if alpha == PerSide::new(1.0, 1.0) {
+            return self;
+        }
+        let (left, right) = (rounded(alpha.left), rounded(alpha.right));
+        Self { alpha_left: Some(left), alpha_right: Some(right), ..self }
+    }
+
     /// The file of a fit on a vehicle with this gauge, m; `with_alphas` where α was fitted.
     pub fn of_fit(
         kinematics: &Kinematics,

@@ -15,7 +15,8 @@ pub struct Solution {
     pub belt_speed: PerSide<f64>,
     /// Twist of the hull, paper's frame.
     pub twist: Twist,
-    /// The ICRs of the tracks; none where one track holds the robot. In straight driving they are the
+    /// The ICRs of the tracks by the speeds α V that odometry knows, which a belt that slips on its
+    /// sprocket does not reach; none where one track holds the robot. In straight driving they are the
     /// limit of a vanishing turn.
     pub icrs: Option<Icrs>,
     /// Norm of the sum of forces over the weight and moments over weight times gauge.

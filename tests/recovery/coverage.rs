@@ -1,24 +1,16 @@
 //! Intervals hold what they promise.
 
-use crate::{TRUTH, drive, fit};
-use rayon::prelude::*;
+use crate::{TRUTH, drive, fit, shares};
 use trackdyn_identify::{Free, Parameters};
 
 /// Shares of `count` recordings whose 95 % interval holds the truth, one per parameter.
 fn coverage(count: u32, seed: u64) -> [f64; 5] {
-    let hits: Vec<[bool; 5]> = (0..count)
-        .into_par_iter()
-        .map(|k| {
-            let estimate = fit(&drive(seed + u64::from(k)), Free::IcrsAndAlphas).expect("settles");
-            std::array::from_fn(|k| {
-                let interval = estimate.interval(k).expect("free");
-                (interval.low..=interval.high).contains(&TRUTH[k])
-            })
+    shares(count, seed, |seed| {
+        let estimate = fit(&drive(seed), Free::IcrsAndAlphas).expect("settles");
+        std::array::from_fn(|k| {
+            let interval = estimate.interval(k).expect("free");
+            (interval.low..=interval.high).contains(&TRUTH[k])
         })
-        .collect();
-    std::array::from_fn(|k| {
-        let share = hits.iter().map(|hit| f64::from(u8::from(hit[k])));
-        share.sum::<f64>() / f64::from(count)
     })
 }
 

@@ -6,6 +6,7 @@ mod methods;
 mod sensor;
 mod steady;
 
+use rayon::prelude::*;
 use trackdyn_core::PerSide;
 use trackdyn_identify::least_squares::Loss;
 use trackdyn_identify::weighting::SegmentNoise;
@@ -59,4 +60,18 @@ fn fit(recording: &Recording, free: Free) -> Result<Estimate, Error> {
     let measured = SegmentNoise::measured(&noise(recording, 0.0), 0.8).expect("steady driving");
     let weighting = Weighting::Noise(measured);
     least_squares(&observe(recording), &start(), &free.into(), &weighting, Loss::Huber)
+}
+
+/// Shares of `count` draws, with the seeds from `seed` on, in which each of N intervals holds the truth.
+fn shares<const N: usize>(
+    count: u32,
+    seed: u64,
+    holds: impl Fn(u64) -> [bool; N] + Sync,
+) -> [f64; N] {
+    let hits: Vec<[bool; N]> =
+        (0..count).into_par_iter().map(|k| holds(seed + u64::from(k))).collect();
+    std::array::from_fn(|k| {
+        let share = hits.iter().map(|hit| f64::from(u8::from(hit[k])));
+        share.sum::<f64>() / f64::from(count)
+    })
 }

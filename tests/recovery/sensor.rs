@@ -1,7 +1,6 @@
 //! Clock and mount of the pose sensor, fitted beside the kinematic parameters.
 
-use crate::{GAUGE, TRUTH, start};
-use rayon::prelude::*;
+use crate::{GAUGE, TRUTH, shares, start};
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_identify::genetic::GeneticOptions;
 use trackdyn_identify::identification::{Options, identify};
@@ -211,25 +210,17 @@ fn a_clock_offset_that_is_far_off_is_found_too() {
 
 /// Shares of `count` recordings whose 95 % interval holds the truth: τ, ψ and the kinematic parameters.
 fn coverage(count: u32, seed: u64) -> [f64; 7] {
-    let hits: Vec<[bool; 7]> = (0..count)
-        .into_par_iter()
-        .map(|k| {
-            let seed = seed + u64::from(k);
-            let estimate = fit(&drive(steps(seed), seed), &BOTH, 0.01);
-            std::array::from_fn(|k| {
-                let (interval, truth) = match k {
-                    0 => (estimate.nuisance(Nuisance::TimeOffset), TAU),
-                    1 => (estimate.nuisance(Nuisance::SensorYaw), YAW),
-                    k => (estimate.interval(k - 2), TRUTH[k - 2]),
-                };
-                let interval = interval.expect("fitted");
-                (interval.low..=interval.high).contains(&truth)
-            })
+    shares(count, seed, |seed| {
+        let estimate = fit(&drive(steps(seed), seed), &BOTH, 0.01);
+        std::array::from_fn(|k| {
+            let (interval, truth) = match k {
+                0 => (estimate.nuisance(Nuisance::TimeOffset), TAU),
+                1 => (estimate.nuisance(Nuisance::SensorYaw), YAW),
+                k => (estimate.interval(k - 2), TRUTH[k - 2]),
+            };
+            let interval = interval.expect("fitted");
+            (interval.low..=interval.high).contains(&truth)
         })
-        .collect();
-    std::array::from_fn(|k| {
-        let share = hits.iter().map(|hit| f64::from(u8::from(hit[k])));
-        share.sum::<f64>() / f64::from(count)
     })
 }
 

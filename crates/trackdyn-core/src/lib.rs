@@ -19,7 +19,7 @@ pub mod wrench;
 pub use dual::Dual;
 pub use plant::{Plant, Stopped};
 pub use pose::Pose;
-pub use scalar::Scalar;
+pub use scalar::{Scalar, real};
 pub use schedule::{Command, Schedule, ScheduleError};
 pub use side::{PerSide, Side};
 pub use trajectory::{Moment, Trajectory};

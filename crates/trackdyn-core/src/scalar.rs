@@ -71,6 +71,12 @@ pub trait Scalar:
     }
 }
 
+/// A count as a real number.
+#[expect(clippy::cast_precision_loss, reason = "counts of samples stay far below 2⁵³")]
+pub fn real(count: usize) -> f64 {
+    count as f64
+}
+
 impl Scalar for f64 {
     #[inline]
     fn value(self) -> f64 {

@@ -77,14 +77,6 @@ impl Trajectory {
         }
     }
 
-    /// Speeds of the belts at a time: those of the moment before it.
-    ///
-    /// # Panics
-    /// Where the trajectory is empty.
-    pub fn belt_speed_at(&self, t: f64) -> PerSide<f64> {
-        self.around(t).0.belt_speed
-    }
-
     /// The moments at or before and after a time; twice the same one outside.
     fn around(&self, t: f64) -> (&Moment, &Moment) {
         assert!(!self.moments.is_empty(), "a trajectory without moments");

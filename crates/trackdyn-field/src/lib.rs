@@ -27,9 +27,3 @@ pub use rolling::Rolling;
 pub use schedules::{ScheduleKind, ScheduleOptions, ScheduledRun};
 pub use sensors::Sensors;
 pub use tracking::{Ending, Journey, Steering, Tracker, drive};
-
-/// A count as a real number.
-#[expect(clippy::cast_precision_loss, reason = "counts of samples stay far below 2⁵³")]
-pub(crate) fn real(count: usize) -> f64 {
-    count as f64
-}

@@ -6,6 +6,7 @@
 use crate::error::{Error, positive};
 use crate::scan::{Return, Scan};
 use nalgebra::Matrix2;
+use trackdyn_core::real;
 
 mod curve;
 mod fit;
@@ -130,11 +131,6 @@ impl Reference {
 )]
 fn to_index(value: f64) -> usize {
     value as usize
-}
-
-#[expect(clippy::cast_precision_loss, reason = "beams are few")]
-fn real(beam: usize) -> f64 {
-    beam as f64
 }
 
 #[cfg(test)]

@@ -104,6 +104,24 @@ pub fn solve(
     ended(point, norm, iterations)
 }
 
+/// The first end that is a root, else the one with the least residual; later ones are not sought.
+pub fn first_root<E>(
+    ends: impl Iterator<Item = E>,
+    convergence: impl Fn(&E) -> &Convergence,
+) -> Option<E> {
+    let mut best: Option<E> = None;
+    for end in ends {
+        let Convergence { residual, is_root, .. } = *convergence(&end);
+        if is_root {
+            return Some(end);
+        }
+        if best.as_ref().is_none_or(|best| residual < convergence(best).residual) {
+            best = Some(end);
+        }
+    }
+    best
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

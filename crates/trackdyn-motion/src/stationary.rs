@@ -51,7 +51,7 @@ impl<'m> Stationary<'m> {
     /// Solves one slow spin: without effects all motions share its ICRs (the constancy theorem), and
     /// with effects it is a good start for any of them.
     pub fn new(model: &'m Model, circumstance: &Circumstance) -> Self {
-        let weight = model.vehicle().mass * trackdyn_core::STANDARD_GRAVITY;
+        let weight = model.vehicle().weight();
         let scale = [weight, weight * model.vehicle().gauge];
         let mut solver = Self { model, ground: model.ground(circumstance), scale, creeping: None };
         let spin = solver.solve_belts(PerSide::new(-CREEP, CREEP));
@@ -125,20 +125,13 @@ impl<'m> Stationary<'m> {
     /// Never: at least four starts are tried.
     fn solve_belts(&self, belt_speed: PerSide<f64>) -> Solution {
         let first = self.better_anchor();
-        let mut best: Option<Root> = None;
-        for anchor in [first, first.other()] {
-            let problem = Problem { solver: self, belt_speed, anchor };
-            for start in problem.starts() {
-                let root = problem.solve(start);
-                if root.convergence.is_root {
-                    return root.solution();
-                }
-                if best.as_ref().is_none_or(|best| root.residual() < best.residual()) {
-                    best = Some(root);
-                }
-            }
-        }
-        best.expect("several starts were tried").solution()
+        let problems =
+            [first, first.other()].map(|anchor| Problem { solver: self, belt_speed, anchor });
+        let ends =
+            problems.iter().flat_map(|problem| problem.starts().map(|start| problem.solve(start)));
+        newton::first_root(ends, |end| &end.convergence)
+            .expect("several starts were tried")
+            .solution()
     }
 
     /// The side with more grip: it holds on longer.
@@ -226,10 +219,6 @@ impl<'s> Problem<'s> {
 }
 
 impl Root<'_> {
-    fn residual(&self) -> f64 {
-        self.convergence.residual
-    }
-
     fn solution(&self) -> Solution {
         let Problem { solver, belt_speed, anchor, .. } = self.problem;
         let z = self.convergence.point;

@@ -25,7 +25,7 @@ mod stage;
 use crate::newton::Convergence;
 use stage::Stage;
 use trackdyn_core::frames::ros_twist_from_paper;
-use trackdyn_core::{Moment, PerSide, Plant, Pose, STANDARD_GRAVITY, Stopped, Trajectory, Twist};
+use trackdyn_core::{Moment, PerSide, Plant, Pose, Stopped, Trajectory, Twist};
 use trackdyn_physics::{Circumstance, Model, Motion};
 
 /// Slip velocity ε below which a track sticks, m/s.
@@ -59,15 +59,15 @@ struct State {
     driven: PerSide<f64>,
     /// Speeds of the belts, m/s.
     belt_speed: PerSide<f64>,
-    /// Traction over normal load, forward positive.
+    /// Traction over normal load, forward positive; zero where no belt slips on its sprocket.
     traction: PerSide<f64>,
     /// Whether some of the contact would have to pull.
     lifts: bool,
 }
 
 impl<'m> Transient<'m> {
-    /// Longest step, s, unless another one is asked for: steps of a tenth of it change a path of a minute
-    /// by less than a millimetre.
+    /// Longest step, s, unless another one is asked for. What it costs in accuracy is measured in
+    /// docs/theory/transient.md.
     pub const STEP: f64 = 0.01;
 
     /// The robot at rest at a pose (REP-103) and time.
@@ -172,7 +172,9 @@ impl<'m> Transient<'m> {
             return None;
         }
         let motion = stage.motion([point[0], point[1], point[2]]);
-        let traction = stage.traction(&motion);
+        // Only belts that slip on their sprockets ask for the traction.
+        let traction =
+            if drive.slip_per_traction == 0.0 { before.traction } else { stage.traction(&motion) };
         let lifts = self.model.lifts(&ground, &motion);
         Some(State { twist: motion.twist, driven, belt_speed, traction, lifts, ..*before })
     }
@@ -229,9 +231,4 @@ fn has_inertia(model: &Model) -> bool {
         model.balance(&model.ground(&Circumstance::default()), &motion).load
     };
     force(Twist { v_x: 1.0, v_y: 1.0, w: 1.0 }) != force(still)
-}
-
-/// Weight of a vehicle on level ground, N.
-fn weight(model: &Model) -> f64 {
-    model.vehicle().mass * STANDARD_GRAVITY
 }

@@ -7,7 +7,7 @@
 //! # Sources
 //! Efron and Tibshirani, An Introduction to the Bootstrap, 1993, chapter 11.
 
-use crate::real;
+use trackdyn_core::real;
 
 /// Fewer blocks have no interval.
 pub const FEWEST: usize = 5;

@@ -28,9 +28,3 @@ pub use parameter_set::ParameterSet;
 pub use replay::{Trajectory, replay};
 pub use residual::Residual;
 pub use stretch::{Span, Stretch};
-
-/// A count as a real number.
-#[expect(clippy::cast_precision_loss, reason = "counts of samples stay far below 2⁵³")]
-pub(crate) fn real(count: usize) -> f64 {
-    count as f64
-}

@@ -1,7 +1,7 @@
 //! The vehicle: mass, running gear, centre of gravity and the friction it stands on.
 
 use crate::contact::{Friction, Patch};
-use trackdyn_core::Side;
+use trackdyn_core::{STANDARD_GRAVITY, Side};
 
 mod check;
 mod file;
@@ -50,6 +50,11 @@ pub enum RunningGear {
 }
 
 impl Vehicle {
+    /// Weight on level ground, N.
+    pub fn weight(&self) -> f64 {
+        self.mass * STANDARD_GRAVITY
+    }
+
     /// Contact patches of one side.
     pub fn patches(&self, side: Side) -> Vec<Patch> {
         let x = side.sign() * self.gauge / 2.0;

@@ -4,7 +4,7 @@
 //! alike for a while. What is independent are runs, and where there are few, pieces of them that are
 //! long against both. Confidence intervals come from leaving out one block at a time.
 
-use crate::robust::real;
+use trackdyn_core::real;
 
 /// When a run begins and how long it lasts.
 #[derive(Clone, Copy, Debug, PartialEq)]

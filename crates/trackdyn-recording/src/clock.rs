@@ -21,8 +21,9 @@
 //! Instrumental variables: Wooldridge, Econometric Analysis of Cross Section and Panel Data, 2nd
 //! ed., chapter 5 and section 14.1.
 
+use crate::Error;
 use crate::recording::Recording;
-use crate::{Error, robust};
+use trackdyn_core::real;
 
 mod intervals;
 mod moments;
@@ -137,7 +138,7 @@ const WEAKEST: f64 = 0.5;
 pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<ClockOffset, Error> {
     let refuse = |reason: String| Error::NotEstimable { what: "the clock offset", reason };
     let intervals = Intervals::new(recording);
-    let steps = (0..).map(|step| search.earliest + COARSE * robust::real(step));
+    let steps = (0..).map(|step| search.earliest + COARSE * real(step));
     let mut best: Option<(f64, Fit)> = None;
     let mut most = 0;
     for tau in steps.take_while(|tau| *tau <= search.latest + COARSE / 2.0) {

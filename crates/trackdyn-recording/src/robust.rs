@@ -30,12 +30,6 @@ pub(crate) fn deviation_about_zero(values: &mut [f64]) -> Option<f64> {
     Some(median(values)? * NORMAL_FROM_MAD)
 }
 
-/// A count as a real number.
-#[expect(clippy::cast_precision_loss, reason = "counts of samples stay far below 2⁵³")]
-pub(crate) fn real(count: usize) -> f64 {
-    count as f64
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

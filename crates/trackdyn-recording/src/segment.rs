@@ -6,9 +6,9 @@
 
 use crate::hold::{holding, readings};
 use crate::recording::{Recording, Run};
-use crate::robust::{median, real};
+use crate::robust::median;
 use std::ops::Range;
-use trackdyn_core::Pose;
+use trackdyn_core::{Pose, real};
 
 /// How to cut a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,13 +1,13 @@
 //! Recordings with known truth, for tests and examples.
 
+use crate::Error;
 use crate::recording::{
     PoseSample, Recording, Series, Source, StatedNoise, TrackSample, UncheckedRun,
 };
-use crate::{Error, robust};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use trackdyn_core::{PerSide, Pose, Twist, frames};
+use trackdyn_core::{PerSide, Pose, Twist, frames, real};
 
 /// Constant centres of rotation, in the paper's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,7 +147,7 @@ impl Synthetic {
 
 /// Multiples of an interval up to a duration.
 fn stamps(interval: f64, duration: f64) -> impl Iterator<Item = f64> {
-    (0..).map(move |step| interval * robust::real(step)).take_while(move |t| *t < duration + 1e-9)
+    (0..).map(move |step| interval * real(step)).take_while(move |t| *t < duration + 1e-9)
 }
 
 /// The true motion; the robot stands before and after.

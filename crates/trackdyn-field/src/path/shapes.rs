@@ -1,8 +1,9 @@
 //! Paths of simple shape.
 
 use super::Path;
-use crate::{Error, real};
+use crate::Error;
 use std::f64::consts::TAU;
+use trackdyn_core::real;
 
 /// Pieces of a whole circle: its polyline lies within R (1 − cos(π/720)), 0.01 mm for 1 m.
 const PIECES: usize = 720;

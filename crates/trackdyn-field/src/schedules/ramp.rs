@@ -1,8 +1,7 @@
 //! Commands at equal intervals that no belt has to jump after.
 
 use super::ScheduleOptions;
-use crate::real;
-use trackdyn_core::{Command, PerSide, Schedule};
+use trackdyn_core::{Command, PerSide, Schedule, real};
 
 /// A schedule that is being written, one command per interval.
 pub(super) struct Ramp {

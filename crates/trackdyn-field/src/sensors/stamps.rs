@@ -1,9 +1,9 @@
 //! When a sensor looks, and what time it writes down.
 
 use crate::random::{Purpose, stream};
-use crate::real;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
+use trackdyn_core::real;
 
 /// Largest standard deviation of stamps, per interval: a uniform scatter of this one spans √12 · 0.25 =
 /// 0.87 intervals, so that stamps keep their order.

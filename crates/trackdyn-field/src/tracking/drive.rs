@@ -4,10 +4,10 @@ use super::belief::{Belief, Estimate};
 use super::journey::{CrossTrack, Ending, Journey};
 use super::pursuit::{Pursuit, SetPoint, position};
 use super::{Steering, Tracker};
+use crate::Error;
 use crate::path::{Path, distance};
-use crate::{Error, real};
 use trackdyn_core::pose::wrap_angle;
-use trackdyn_core::{Command, PerSide, Plant, Pose, Trajectory};
+use trackdyn_core::{Command, PerSide, Plant, Pose, Trajectory, real};
 
 /// Time for which the tracks are held still at the end, s: what rolls on does so within it.
 const SETTLING: f64 = 0.3;

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
+use trackdyn_core::real;
 
 /// Covariance of an estimate by leaving out each block: (B − 1)/B Σ δᵦ δᵦᵀ, with the change
 /// δᵦ = (H − Hᵦ)⁻¹ gᵦ of one Newton step without block b, whose share of the normal equations H is Hᵦ
@@ -19,8 +20,7 @@ pub fn jackknife(curvature: &DMatrix<f64>, parts: &[(DMatrix<f64>, DVector<f64>)
         let change = super::identifiability::inverse(&(curvature - part)) * score;
         sum + &change * change.transpose()
     });
-    #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 blocks")]
-    let blocks = parts.len() as f64;
+    let blocks = real(parts.len());
     scatter * ((blocks - 1.0) / blocks)
 }
 
@@ -45,8 +45,7 @@ impl Interval {
         if without.len() < 2 {
             return None;
         }
-        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 blocks")]
-        let blocks = without.len() as f64;
+        let blocks = real(without.len());
         let mean = without.iter().sum::<f64>() / blocks;
         let scatter: f64 = without.iter().map(|value| (value - mean).powi(2)).sum();
         let deviation = (scatter * (blocks - 1.0) / blocks).sqrt();
@@ -55,8 +54,7 @@ impl Interval {
 
     /// Student's interval with as many degrees of freedom as blocks exceed parameters.
     pub(crate) fn new(value: f64, deviation: f64, blocks: usize, parameters: usize) -> Self {
-        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 blocks")]
-        let freedom = blocks.saturating_sub(parameters).max(1) as f64;
+        let freedom = real(blocks.saturating_sub(parameters).max(1));
         let quantile =
             StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |student| student.inverse_cdf(0.975));
         let half = quantile * deviation;

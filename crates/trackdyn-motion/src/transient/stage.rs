@@ -1,6 +1,6 @@
 //! One stage of a step: the balance of forces at the end of a short time.
 
-use super::{CREEP, weight};
+use super::CREEP;
 use crate::newton::{self, Convergence, Evaluation, Tolerance};
 use nalgebra::Vector3;
 use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
@@ -38,23 +38,16 @@ impl Stage<'_> {
         };
         let right = Vector3::new(0.0, self.belt_speed.right - left, 0.0);
         let starts = [follows, stays, sticks, self.turning(), right + sticks];
-        let mut best: Option<Convergence> = None;
-        for start in starts {
-            let end = newton::solve(
+        let ends = starts.into_iter().map(|start| {
+            newton::solve(
                 start,
                 f64::INFINITY,
                 TOLERANCE,
                 |z| Evaluation::of_dual(self.residual(Dual::variables(z.into()))),
                 |z| Vector3::from(self.residual([z[0], z[1], z[2]])),
-            );
-            if end.is_root {
-                return end;
-            }
-            if best.is_none_or(|best| end.residual < best.residual) {
-                best = Some(end);
-            }
-        }
-        best.expect("several starts were tried")
+            )
+        });
+        newton::first_root(ends, |end| end).expect("several starts were tried")
     }
 
     /// A turn about a point a quarter of the contact length outside the slower track's centre-line.
@@ -99,7 +92,7 @@ impl Stage<'_> {
         for side in Side::BOTH {
             sum += balance.friction[side].scaled(grip(motion.slip[side].speed));
         }
-        let force = weight(self.model).recip();
+        let force = self.model.vehicle().weight().recip();
         let moment = force / self.model.vehicle().gauge;
         [sum.force_x * force, sum.force_y * force, sum.moment * moment]
     }

@@ -2,7 +2,8 @@
 
 use super::component::Piece;
 use super::{Component, Path};
-use crate::{Residual, Span, Stretch, real};
+use crate::{Residual, Span, Stretch};
+use trackdyn_core::real;
 use trackdyn_recording::Blocks;
 
 /// Errors of all parameter sets over pieces of one length.

@@ -1,6 +1,6 @@
 //! Laying one path over another.
 
-use trackdyn_core::Pose;
+use trackdyn_core::{Pose, real};
 
 /// The motion of the plane that brings the estimated places nearest to those of the reference, in
 /// the sense of least squares: `reference_from_estimate`, to be composed with the estimate's poses.
@@ -14,7 +14,7 @@ use trackdyn_core::Pose;
 /// estimate looks more like the mirror image of the reference than like the reference.
 pub fn align(reference: &[Pose], estimate: &[Pose]) -> Pose {
     let mean = |path: &[Pose]| {
-        let count = crate::real(path.len().max(1));
+        let count = real(path.len().max(1));
         let sum = path.iter().fold([0.0, 0.0], |[x, y], pose| [x + pose.x, y + pose.y]);
         sum.map(|sum| sum / count)
     };

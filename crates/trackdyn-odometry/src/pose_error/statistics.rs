@@ -1,6 +1,6 @@
 //! Statistics of errors.
 
-use crate::real;
+use trackdyn_core::real;
 
 /// What `evo` says of a list of errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -165,7 +165,7 @@ impl<S: Scalar> Panels<S> {
     }
 }
 
-/// The interval, cut in two where `cut` lies inside it.
+/// The interval, cut in two where `at` lies inside it.
 fn cut<S: Scalar>([low, high]: [f64; 2], at: S) -> [Option<[S; 2]>; 2] {
     let (low_edge, high_edge) = (S::from(low), S::from(high));
     if at.value() > low && at.value() < high {

@@ -117,7 +117,7 @@ fn derivatives_of_the_balance_equal_difference_quotients() {
     const STEP: f64 = 1e-6;
     for effect in all() {
         let vehicle = VehicleFile::auriga_alpha().vehicle;
-        let weight = vehicle.mass * trackdyn_core::STANDARD_GRAVITY;
+        let weight = vehicle.weight();
         let model = Model::new(vehicle, Effects::from_iter([effect.clone()]));
         let ground = model.ground(&ELSEWHERE);
         let exact = total(&model, &ground, Dual::variables(ICR));

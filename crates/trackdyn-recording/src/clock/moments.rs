@@ -1,8 +1,8 @@
 //! The offset at which the residual is orthogonal to instruments without the noise of D.
 
 use super::intervals::{Intervals, RunIntervals, Turn};
-use crate::robust::real;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+use trackdyn_core::real;
 
 /// Length of a block whose residuals may be correlated, s.
 const BLOCK: f64 = 5.0;

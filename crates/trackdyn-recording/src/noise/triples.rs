@@ -3,8 +3,8 @@
 use super::{Component, Method, PoseNoise};
 use crate::hold::travelled;
 use crate::recording::{PoseSample, Recording, Run};
-use crate::robust::{MEDIAN_OF_CHI_SQUARE, median, real};
-use trackdyn_core::{PerSide, Pose, Side};
+use crate::robust::{MEDIAN_OF_CHI_SQUARE, median};
+use trackdyn_core::{PerSide, Pose, Side, real};
 
 /// Steps between the poses of a triple.
 const STEPS: [usize; 4] = [1, 2, 4, 8];

@@ -168,7 +168,7 @@ mod tests {
             .enumerate()
             .map(|(index, &yaw)| {
                 let yaw = trackdyn_core::pose::wrap_angle(yaw);
-                let t = crate::robust::real(index);
+                let t = trackdyn_core::real(index);
                 PoseSample { t, pose: trackdyn_core::Pose::new(0.0, 0.0, yaw) }
             })
             .collect();

@@ -1,7 +1,7 @@
 //! The results of drives as a table and as a file, schema `trackdyn.drive/1`.
 
 use super::Drive;
-use crate::options::command_line;
+use crate::tables::Head;
 use serde::Serialize;
 use std::fmt::Write;
 use trackdyn_core::output::fingerprint;
@@ -10,12 +10,8 @@ use trackdyn_physics::VehicleFile;
 
 #[derive(Serialize)]
 struct File<'a> {
-    schema: &'static str,
-    command: String,
-    version: &'static str,
-    vehicle: &'a str,
-    vehicle_fingerprint: String,
-    effects: Vec<String>,
+    #[serde(flatten)]
+    head: Head<'a>,
     path_fingerprint: String,
     path_length_m: f64,
     tracked_point_m: [f64; 2],
@@ -67,12 +63,7 @@ pub fn text(
         }
     });
     toml::to_string(&File {
-        schema: "trackdyn.drive/1",
-        command: command_line(),
-        version: env!("CARGO_PKG_VERSION"),
-        vehicle: &file.vehicle.name,
-        vehicle_fingerprint: fingerprint(file.to_toml().as_bytes()),
-        effects: file.effects.iter().map(ToString::to_string).collect(),
+        head: Head::new("trackdyn.drive/1", file),
         path_fingerprint: fingerprint(path.to_csv().as_bytes()),
         path_length_m: path.length(),
         tracked_point_m: tracker.point,

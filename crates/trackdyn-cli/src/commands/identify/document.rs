@@ -1,5 +1,6 @@
 //! The result of an identification as a file, schema `trackdyn.identification/1`.
 
+use crate::tables::{ClockTable, rounded};
 use serde::Serialize;
 use trackdyn_core::output::fingerprint;
 use trackdyn_identify::identification::Fit;
@@ -7,8 +8,8 @@ use trackdyn_identify::least_squares::Interval;
 use trackdyn_identify::{Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest};
 use trackdyn_motion::kinematics::Source;
 use trackdyn_physics::VehicleFile;
+use trackdyn_recording::Recording;
 use trackdyn_recording::noise::Component;
-use trackdyn_recording::{Clock, Recording};
 
 #[derive(Serialize)]
 struct File<'a> {
@@ -28,16 +29,6 @@ struct SourceTable<'a> {
     robot: &'a str,
     vehicle_fingerprint: String,
     gauge_m: f64,
-}
-
-#[derive(Serialize)]
-struct ClockTable<'a> {
-    tau_s: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    standard_error_s: Option<f64>,
-    origin: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    note: Option<&'a str>,
 }
 
 /// Noise of the recording; keys are absent where it does not show it.
@@ -125,19 +116,10 @@ pub fn text(
             vehicle_fingerprint: fingerprint(vehicle.to_toml().as_bytes()),
             gauge_m: gauge,
         },
-        clock: of_clock(&found.clock),
+        clock: ClockTable::of(&found.clock),
         noise: of_noise(found),
         method,
     })
-}
-
-fn of_clock(clock: &Clock) -> ClockTable<'_> {
-    ClockTable {
-        tau_s: rounded(clock.tau()),
-        standard_error_s: clock.standard_error().map(rounded),
-        origin: clock.origin(),
-        note: clock.reason(),
-    }
 }
 
 fn of_noise(found: &Identification) -> NoiseTable {
@@ -278,9 +260,4 @@ fn of_interval(name: &'static str, unit: &'static str, interval: &Interval) -> E
         low95: finite(low),
         high95: finite(high),
     }
-}
-
-/// The number to nine decimals: what is below is rounding.
-fn rounded(value: f64) -> f64 {
-    (value * 1e9).round() / 1e9
 }

@@ -2,6 +2,7 @@
 
 use super::inputs::Inputs;
 use super::summary::end;
+use crate::tables::{ClockTable, rounded};
 use serde::Serialize;
 use trackdyn_odometry::comparison::{Component, SpanErrors};
 use trackdyn_odometry::{Comparison, Estimate, ParameterSet, Span};
@@ -33,16 +34,6 @@ struct Source<'a> {
     time_s: Option<[f64; 2]>,
     vehicle: &'a str,
     vehicle_fingerprint: &'a str,
-}
-
-#[derive(Serialize)]
-struct ClockTable<'a> {
-    tau_s: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    standard_error_s: Option<f64>,
-    origin: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    note: Option<&'a str>,
 }
 
 #[derive(Serialize)]
@@ -132,12 +123,7 @@ pub fn text(
             vehicle: &inputs.vehicle,
             vehicle_fingerprint: &inputs.vehicle_fingerprint,
         },
-        clock: ClockTable {
-            tau_s: rounded(clock.tau()),
-            standard_error_s: clock.standard_error().map(rounded),
-            origin: clock.origin(),
-            note: clock.reason(),
-        },
+        clock: ClockTable::of(clock),
         set: result
             .sets
             .iter()
@@ -211,9 +197,4 @@ fn of_estimate(estimate: Estimate) -> EstimateTable {
     let [low95, high95] =
         estimate.interval().map_or([None; 2], |ends| ends.map(|end| Some(rounded(end))));
     EstimateTable { value: rounded(estimate.value), low95, high95 }
-}
-
-/// The number to nine decimals: what is below is rounding.
-fn rounded(value: f64) -> f64 {
-    (value * 1e9).round() / 1e9
 }

@@ -1,7 +1,7 @@
 //! What a simulated recording was made from, and its summary.
 
 use super::{Driven, Options};
-use crate::options::command_line;
+use crate::tables::Head;
 use serde::Serialize;
 use std::fmt::Write;
 use trackdyn_core::output::fingerprint;
@@ -11,12 +11,8 @@ use trackdyn_recording::Recording;
 
 #[derive(Serialize)]
 struct File<'a> {
-    schema: &'static str,
-    command: String,
-    version: &'static str,
-    vehicle: &'a str,
-    vehicle_fingerprint: String,
-    effects: Vec<String>,
+    #[serde(flatten)]
+    head: Head<'a>,
     ground: String,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     mechanisms: Vec<String>,
@@ -36,12 +32,7 @@ pub fn text(
     options: &Options,
 ) -> Result<String, toml::ser::Error> {
     toml::to_string(&File {
-        schema: "trackdyn.simulation/1",
-        command: command_line(),
-        version: env!("CARGO_PKG_VERSION"),
-        vehicle: &file.vehicle.name,
-        vehicle_fingerprint: fingerprint(file.to_toml().as_bytes()),
-        effects: file.effects.iter().map(ToString::to_string).collect(),
+        head: Head::new("trackdyn.simulation/1", file),
         ground: format!("{:?}", options.ground).to_lowercase(),
         mechanisms: options.mechanisms.iter().map(ToString::to_string).collect(),
         sensors: &sensors.name,

@@ -3,7 +3,7 @@
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use trackdyn_physics::contact::Friction;
-use trackdyn_physics::{Effects, Model, RunningGear, Vehicle, VehicleFile};
+use trackdyn_physics::{Effects, Model, RunningGear, Uncertainty, Vehicle, VehicleFile};
 
 /// Auriga-alpha with this centre of gravity and these effects (`id:key=value`).
 ///
@@ -56,6 +56,7 @@ pub fn random_vehicle(random: &mut ChaCha8Rng, support: f64) -> Vehicle {
         cog: [0.0, 0.0],
         running_gear,
         friction: Friction { across: mu_y * ratio, along: mu_y },
+        uncertainty: Uncertainty::default(),
     };
     let [rear, front] = Model::new(vehicle.clone(), Effects::none()).footprint().support();
     vehicle.cog =

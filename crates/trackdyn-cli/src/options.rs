@@ -43,6 +43,7 @@ impl ModelOptions {
         };
         if let Some(cog) = self.cog {
             file.vehicle.cog = cog;
+            file.vehicle.uncertainty.cog = None; // the file's is of the value that this one replaces
             file.vehicle.check().map_err(|error| format!("--cog: {error}"))?;
         }
         for effect in &self.effects {

@@ -82,10 +82,45 @@ pub struct Parameter {
     pub unit: &'static str,
     /// What it is.
     pub meaning: &'static str,
+    /// What it does in the law.
+    pub role: Role,
     /// Smallest and largest value that is physical.
     pub range: [f64; 2],
     /// A size that a roboticist may meet; the default where none is given.
     pub typical: f64,
+}
+
+/// What a parameter does in the law of its effect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Role {
+    /// How large the effect is. Where all its sizes are neutral there is no effect, whatever its other
+    /// parameters are.
+    Size {
+        /// Value at which the law is that of the base model, in the parameter's unit. It may lie below the
+        /// physical range: then it is a limit, which the law approaches towards that end of the range.
+        neutral: f64,
+    },
+    /// A coordinate of a place in the world, m.
+    Place {
+        /// Axis of the world: 0 for x, 1 for y.
+        axis: usize,
+    },
+    /// A direction in the world, counter-clockwise from its x axis.
+    Direction,
+    /// A constant of the law that says nothing where the sizes are neutral.
+    Shape,
+}
+
+impl Role {
+    /// Name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Size { .. } => "size",
+            Self::Place { .. } => "place",
+            Self::Direction => "direction",
+            Self::Shape => "shape",
+        }
+    }
 }
 
 /// An invariance that the ICR triple (x_l, x_r, y), as encoders and pose sensor show it, has in the base

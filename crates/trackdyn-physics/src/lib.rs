@@ -17,4 +17,4 @@ pub mod vehicle;
 
 pub use effects::{ActiveEffect, CATALOGUE, EffectError, Effects};
 pub use model::{Balance, Circumstance, Drive, Ground, Model, Motion, Sensor};
-pub use vehicle::{RunningGear, Vehicle, VehicleError, VehicleFile};
+pub use vehicle::{RunningGear, Uncertainty, Vehicle, VehicleError, VehicleFile};

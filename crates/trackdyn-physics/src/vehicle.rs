@@ -5,9 +5,11 @@ use trackdyn_core::{STANDARD_GRAVITY, Side};
 
 mod check;
 mod file;
+mod uncertainty;
 
 pub use check::VehicleError;
 pub use file::VehicleFile;
+pub use uncertainty::{FrictionUncertainty, Uncertainty};
 
 /// A tracked or skid-steer vehicle on its ground.
 ///
@@ -26,6 +28,8 @@ pub struct Vehicle {
     pub running_gear: RunningGear,
     /// Friction coefficients.
     pub friction: Friction,
+    /// How well these values are known.
+    pub uncertainty: Uncertainty,
 }
 
 /// What touches the ground on one side.

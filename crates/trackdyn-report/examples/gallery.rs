@@ -7,7 +7,9 @@ use std::time::Instant;
 use trackdyn_core::output;
 use trackdyn_motion::{Grid, IcrMap};
 use trackdyn_physics::contact::Friction;
-use trackdyn_physics::{Circumstance, Effects, Model, RunningGear, Vehicle, VehicleFile};
+use trackdyn_physics::{
+    Circumstance, Effects, Model, RunningGear, Uncertainty, Vehicle, VehicleFile,
+};
 
 type Anything = Box<dyn std::error::Error>;
 
@@ -39,6 +41,7 @@ fn main() -> Result<(), Anything> {
             axles: vec![0.256, -0.256],
         },
         friction: Friction { across: 0.8, along: 0.7 },
+        uncertainty: Uncertainty::default(),
     };
     draw(&folder, "husky", &husky, &cloud, 41)?;
     let track = |gauge, contact_length, belt_width, cog| Vehicle {
@@ -48,6 +51,7 @@ fn main() -> Result<(), Anything> {
         cog,
         running_gear: RunningGear::Track { contact_length, belt_width },
         friction: Friction { across: 0.9, along: 0.7 },
+        uncertainty: Uncertainty::default(),
     };
     draw(&folder, "long", &track(0.3, 4.0, 0.1, [0.0, 0.1]), &cloud, 41)?;
     draw(&folder, "wide", &track(3.0, 0.5, 0.3, [0.1, 0.01]), &cloud, 41)?;

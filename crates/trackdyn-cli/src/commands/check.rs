@@ -76,6 +76,7 @@ fn vehicle(
     };
     if let Some(cog) = case.cog {
         file.vehicle.cog = cog;
+        file.vehicle.uncertainty.cog = None; // the file's is of the value that this one replaces
         file.vehicle.check().map_err(|error| format!("case \"{}\": {error}", case.name))?;
     }
     for effect in &case.effects {

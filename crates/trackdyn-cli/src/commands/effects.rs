@@ -89,7 +89,10 @@ fn markdown() -> String {
         An effect *breaks* a symmetry when the ICRs change under it: **S** all speeds scaled, **R** all \
         speeds reversed, **P** another manoeuvre, **M** left and right exchanged, **H** another heading, \
         **X** another place, **T** another time, **D** speeds that change instead of steady ones. It breaks \
-        **0** when equal track speeds do not drive straight ahead as fast as the encoders show.\n\n"
+        **0** when equal track speeds do not drive straight ahead as fast as the encoders show.\n\n\
+        A parameter's *role* is **size** where it says how large the effect is (an effect whose sizes are \
+        all neutral is not there), **place** or **direction** where it says where in the world it acts, \
+        and **shape** where it is a constant of the law.\n\n"
         .to_owned();
     let letters = Symmetry::ALL.map(|symmetry| format!(" {} |", symmetry.letter())).concat();
     let rules = "---|".repeat(Symmetry::ALL.len());
@@ -113,14 +116,18 @@ fn markdown_card(card: &Card) -> String {
     let _ = writeln!(text, "**Law.** {}\n", card.law);
     let _ = writeln!(text, "**Assumes.** {}\n", card.assumes);
     let _ = writeln!(text, "**Shows.** {}\n", card.shows);
-    text +=
-        "| parameter | symbol | unit | range | typical | meaning |\n|---|---|---|---|---|---|\n";
+    text += "| parameter | symbol | role | unit | range | typical | meaning |\n|---|---|---|---|---|---|---|\n";
     for parameter in card.parameters {
         let [low, high] = parameter.range;
         let _ = writeln!(
             text,
-            "| `{}` | {} | {} | {low} to {high} | {} | {} |",
-            parameter.key, parameter.symbol, parameter.unit, parameter.typical, parameter.meaning
+            "| `{}` | {} | {} | {} | {low} to {high} | {} | {} |",
+            parameter.key,
+            parameter.symbol,
+            parameter.role.name(),
+            parameter.unit,
+            parameter.typical,
+            parameter.meaning
         );
     }
     let _ = writeln!(text, "\n**Sources.** {}.", card.sources.join("; "));

@@ -1,6 +1,6 @@
 //! A belt that slips on its sprocket.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Drive;
 
 /// Speed that a belt loses under traction.
@@ -25,6 +25,7 @@ impl Effect for BeltSlip {
             symbol: "κ",
             unit: "1",
             meaning: "relative slip per traction over normal load",
+            role: Role::Size { neutral: 0.0 },
             range: [0.0, 0.5],
             typical: 0.05,
         }],

@@ -1,7 +1,7 @@
 //! Soil pushed aside by tracks that slip sideways.
 
 use crate::contact::ShearStress;
-use crate::effect::{Card, Effect, Parameter, Stage};
+use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::model::Site;
 use trackdyn_core::Scalar;
 
@@ -29,6 +29,7 @@ impl Effect for Bulldozing {
             symbol: "μ_b",
             unit: "1",
             meaning: "lateral resistance over normal pressure",
+            role: Role::Size { neutral: 0.0 },
             range: [0.0, 1.0],
             typical: 0.1,
         }],

@@ -1,6 +1,6 @@
 //! Centripetal force of the turning body.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Situation;
 use trackdyn_core::{PerSide, Scalar, Wrench};
 
@@ -27,6 +27,7 @@ impl Effect for Centripetal {
             symbol: "k",
             unit: "1",
             meaning: "ratio of the force to m a",
+            role: Role::Size { neutral: 0.0 },
             range: [0.0, 10.0],
             typical: 1.0,
         }],

@@ -1,6 +1,6 @@
 //! A centre of gravity elsewhere than the vehicle file says.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::vehicle::Vehicle;
 
 /// The centre of gravity moved in the plane.
@@ -25,6 +25,7 @@ impl Effect for CogShift {
                 symbol: "Δx",
                 unit: "m",
                 meaning: "shift to the right",
+                role: Role::Size { neutral: 0.0 },
                 range: [-1.0, 1.0],
                 typical: 0.02,
             },
@@ -33,6 +34,7 @@ impl Effect for CogShift {
                 symbol: "Δy",
                 unit: "m",
                 meaning: "shift forward",
+                role: Role::Size { neutral: 0.0 },
                 range: [-2.0, 2.0],
                 typical: 0.03,
             },

@@ -1,7 +1,7 @@
 //! Adhesion beside friction.
 
 use crate::contact::ShearStress;
-use crate::effect::{Card, Effect, Parameter, Stage};
+use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::model::Site;
 use trackdyn_core::Scalar;
 
@@ -28,6 +28,7 @@ impl Effect for Cohesion {
             symbol: "c",
             unit: "Pa",
             meaning: "shear stress that the ground bears without load",
+            role: Role::Size { neutral: 0.0 },
             range: [0.0, 100_000.0],
             typical: 2000.0,
         }],

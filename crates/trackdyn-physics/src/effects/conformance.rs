@@ -4,7 +4,7 @@ use super::{ActiveEffect, CATALOGUE};
 use crate::contact::pressure::Footprint;
 use crate::contact::quadrature::SlipSite;
 use crate::contact::{Pressure, ShearStress};
-use crate::effect::Stage;
+use crate::effect::{Card, Parameter, Role, Stage};
 use crate::model::{Circumstance, Drive, Ground, Model, Motion, Sensor, Site, Situation};
 use crate::{Effects, VehicleFile};
 use std::collections::BTreeSet;
@@ -23,6 +23,12 @@ fn turn<S: Scalar>(z: [S; 3]) -> Motion<S> {
 }
 
 const ICR: [f64; 3] = [-0.37, 0.05, 1.2];
+
+/// The same turn while it changes.
+fn changing_turn() -> Motion {
+    let acceleration = Twist { v_x: 0.1, v_y: 0.3, w: -0.2 };
+    Motion { acceleration, ..turn(ICR) }
+}
 
 /// A place, heading and time at which every effect shows.
 const ELSEWHERE: Circumstance = Circumstance { position: [3.0, 0.5], heading: 0.4, time: 60.0 };
@@ -64,8 +70,7 @@ fn cards_are_complete() {
 fn hooks_act_at_the_stages_of_the_card_and_nowhere_else() {
     let vehicle = VehicleFile::auriga_alpha().vehicle;
     let footprint = Footprint::of(&vehicle.patches(Side::Left));
-    let mut motion = turn(ICR);
-    motion.acceleration = Twist { v_x: 0.1, v_y: 0.3, w: -0.2 };
+    let motion = changing_turn();
     for effect in all() {
         let mut body = vehicle.clone();
         effect.body(&mut body);
@@ -120,12 +125,12 @@ fn derivatives_of_the_balance_equal_difference_quotients() {
         let weight = vehicle.weight();
         let model = Model::new(vehicle, Effects::from_iter([effect.clone()]));
         let ground = model.ground(&ELSEWHERE);
-        let exact = total(&model, &ground, Dual::variables(ICR));
+        let exact = total(&model, &ground, &turn(Dual::variables(ICR)));
         for variable in 0..3 {
             let at = |step: f64| {
                 let mut z = ICR;
                 z[variable] += step;
-                total(&model, &ground, z)
+                total(&model, &ground, &turn(z))
             };
             let (ahead, behind) = (at(STEP), at(-STEP));
             for k in 0..3 {
@@ -137,12 +142,70 @@ fn derivatives_of_the_balance_equal_difference_quotients() {
     }
 }
 
-fn total<S: Scalar>(model: &Model, ground: &Ground, z: [S; 3]) -> [S; 3] {
-    let balance = model.balance(ground, &turn(z));
+fn total<S: Scalar>(model: &Model, ground: &Ground, motion: &Motion<S>) -> [S; 3] {
+    let balance = model.balance(ground, motion);
     let mut sum = balance.load;
     sum += balance.friction.left;
     sum += balance.friction.right;
     [sum.force_x, sum.force_y, sum.moment]
+}
+
+/// All that a model says of a turn: the wrench on the body over its weight, the drive and the sensor, SI.
+fn behaviour(effects: Effects) -> Vec<f64> {
+    let vehicle = VehicleFile::auriga_alpha().vehicle;
+    let weight = vehicle.mass * trackdyn_core::STANDARD_GRAVITY;
+    let model = Model::new(vehicle, effects);
+    let wrench = total(&model, &model.ground(&ELSEWHERE), &changing_turn());
+    let [force_x, force_y, moment] = wrench.map(|component| component / weight);
+    let &Drive { gain, slip_per_traction, time_constant } = model.drive();
+    let &Sensor { lever: [x, y], yaw, yaw_rate_bias, delay } = model.sensor();
+    [
+        [force_x, force_y, moment],
+        [gain.left, gain.right, slip_per_traction],
+        [time_constant, x, y],
+        [yaw, yaw_rate_bias, delay],
+    ]
+    .concat()
+}
+
+/// How far an effect with these values moves the behaviour: its largest change.
+fn departure(card: &Card, value: impl Fn(&Parameter) -> f64) -> f64 {
+    let settings: Vec<_> = card.parameters.iter().map(|p| (p.key, value(p))).collect();
+    let effect = ActiveEffect::new(card.id, &settings).expect("values in range");
+    let with = behaviour(Effects::from_iter([effect]));
+    let changes = with.iter().zip(behaviour(Effects::none()));
+    changes.map(|(with, without)| (with - without).abs()).fold(0.0, f64::max)
+}
+
+/// The neutral value of a size, or the physical one that is nearest to it; none of other parameters.
+fn neutral(parameter: &Parameter) -> Option<f64> {
+    let [low, high] = parameter.range;
+    match parameter.role {
+        Role::Size { neutral } => Some(neutral.clamp(low, high)),
+        Role::Place { .. } | Role::Direction | Role::Shape => None,
+    }
+}
+
+#[test]
+fn an_effect_is_there_where_one_of_its_sizes_is_not_neutral_and_nowhere_else() {
+    /// Most that neutral sizes leave of what typical ones do. It is nothing but for sizes whose neutral
+    /// value is a limit: their ranges begin at a two-hundredth or less of what is typical.
+    const LEFT: f64 = 0.01;
+    for card in CATALOGUE {
+        let least = LEFT * departure(card, |parameter| parameter.typical);
+        let others: [fn(&Parameter) -> f64; 3] = [|p| p.typical, |p| p.range[0], |p| p.range[1]];
+        for other in others {
+            let left = departure(card, |parameter| neutral(parameter).unwrap_or(other(parameter)));
+            assert!(left <= least, "{}: neutral sizes leave {left}", card.id);
+        }
+        for size in card.parameters.iter().filter(|parameter| neutral(parameter).is_some()) {
+            let alone = departure(card, |parameter| match neutral(parameter) {
+                Some(neutral) if parameter.key != size.key => neutral,
+                _ => parameter.typical,
+            });
+            assert!(alone > least, "{}: {} does {alone} alone", card.id, size.key);
+        }
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Lugs that grip better one way than the other.
 
 use crate::contact::ShearStress;
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Site;
 use trackdyn_core::Scalar;
 
@@ -25,6 +25,7 @@ impl Effect for DirectionalLugs {
             symbol: "δ",
             unit: "1",
             meaning: "relative excess of friction where the belt slips backward, that is, where it pushes forward",
+            role: Role::Size { neutral: 0.0 },
             range: [-0.9, 0.9],
             typical: 0.05,
         }],

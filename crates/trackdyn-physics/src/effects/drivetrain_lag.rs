@@ -1,6 +1,6 @@
 //! Belts that follow the encoders late.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Drive;
 
 /// First-order response of the belts.
@@ -25,6 +25,7 @@ impl Effect for DrivetrainLag {
             symbol: "T",
             unit: "s",
             meaning: "time in which 63 % of a step are done",
+            role: Role::Size { neutral: 0.0 },
             range: [0.0, 2.0],
             typical: 0.15,
         }],

@@ -1,6 +1,6 @@
 //! Encoders that show another speed than the belts have.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Drive;
 use trackdyn_core::PerSide;
 
@@ -27,6 +27,7 @@ impl Effect for EncoderScale {
                 symbol: "α_l",
                 unit: "1",
                 meaning: "belt speed over shown speed, left",
+                role: Role::Size { neutral: 1.0 },
                 range: [0.5, 2.0],
                 typical: 0.98,
             },
@@ -35,6 +36,7 @@ impl Effect for EncoderScale {
                 symbol: "α_r",
                 unit: "1",
                 meaning: "belt speed over shown speed, right",
+                role: Role::Size { neutral: 1.0 },
                 range: [0.5, 2.0],
                 typical: 1.02,
             },

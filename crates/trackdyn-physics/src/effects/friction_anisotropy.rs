@@ -1,6 +1,6 @@
 //! Another ratio of the two friction coefficients.
 
-use crate::effect::{Card, Effect, Parameter, Stage};
+use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::model::Ground;
 use trackdyn_core::Side;
 
@@ -27,6 +27,7 @@ impl Effect for FrictionAnisotropy {
             symbol: "k",
             unit: "1",
             meaning: "factor on μ_x/μ_y",
+            role: Role::Size { neutral: 1.0 },
             range: [0.1, 10.0],
             typical: 1.2,
         }],

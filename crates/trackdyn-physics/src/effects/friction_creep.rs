@@ -1,7 +1,7 @@
 //! Friction that needs slip to build up.
 
 use crate::contact::ShearStress;
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Site;
 use trackdyn_core::Scalar;
 
@@ -27,6 +27,7 @@ impl Effect for FrictionCreep {
             symbol: "v_c",
             unit: "m/s",
             meaning: "slip speed at 63 % of full friction",
+            role: Role::Size { neutral: 0.0 },
             range: [0.0001, 2.0],
             typical: 0.03,
         }],

@@ -1,6 +1,6 @@
 //! Friction that drifts with time.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Ground;
 use trackdyn_core::Side;
 
@@ -26,6 +26,7 @@ impl Effect for FrictionDrift {
             symbol: "r",
             unit: "1/s",
             meaning: "relative change of μ_x/μ_y per second",
+            role: Role::Size { neutral: 0.0 },
             range: [-0.02, 0.02],
             typical: 0.001,
         }],

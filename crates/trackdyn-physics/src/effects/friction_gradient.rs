@@ -1,7 +1,7 @@
 //! Friction that changes along the tracks.
 
 use crate::contact::ShearStress;
-use crate::effect::{Card, Effect, Parameter, Stage};
+use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::model::Site;
 use trackdyn_core::Scalar;
 
@@ -28,6 +28,7 @@ impl Effect for FrictionGradient {
             symbol: "γ",
             unit: "1",
             meaning: "relative excess of friction at the front end",
+            role: Role::Size { neutral: 0.0 },
             range: [-0.9, 0.9],
             typical: 0.2,
         }],

@@ -1,6 +1,6 @@
 //! Different friction under the two sides.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Ground;
 use trackdyn_core::Side;
 
@@ -25,6 +25,7 @@ impl Effect for FrictionSplit {
             symbol: "δ",
             unit: "1",
             meaning: "relative excess of the left side's friction over the mean",
+            role: Role::Size { neutral: 0.0 },
             range: [-0.9, 0.9],
             typical: 0.1,
         }],

@@ -1,6 +1,6 @@
 //! A reported heading that drifts.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Sensor;
 
 /// Constant yaw rate of the pose estimate.
@@ -31,6 +31,7 @@ impl Effect for HeadingDrift {
             symbol: "b",
             unit: "deg/s",
             meaning: "yaw rate that is reported of a robot at rest",
+            role: Role::Size { neutral: 0.0 },
             range: [-10.0, 10.0],
             typical: 0.5,
         }],

@@ -1,6 +1,6 @@
 //! Something passive that is dragged behind.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Situation;
 use trackdyn_core::{PerSide, STANDARD_GRAVITY, Scalar, Wrench};
 
@@ -31,6 +31,7 @@ impl Effect for HitchDrag {
                 symbol: "d",
                 unit: "1",
                 meaning: "drag over the robot's weight",
+                role: Role::Size { neutral: 0.0 },
                 range: [0.0, 0.5],
                 typical: 0.05,
             },
@@ -39,6 +40,7 @@ impl Effect for HitchDrag {
                 symbol: "r",
                 unit: "m",
                 meaning: "distance of the hitch behind the origin",
+                role: Role::Shape,
                 range: [0.0, 5.0],
                 typical: 0.8,
             },

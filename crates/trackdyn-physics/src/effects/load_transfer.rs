@@ -1,6 +1,6 @@
 //! Load transfer of a centre of gravity above the ground.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Situation;
 use trackdyn_core::Scalar;
 
@@ -26,6 +26,7 @@ impl Effect for LoadTransfer {
             symbol: "h",
             unit: "m",
             meaning: "height of the centre of gravity above the ground",
+            role: Role::Size { neutral: 0.0 },
             range: [0.0, 5.0],
             typical: 0.3,
         }],

@@ -1,6 +1,6 @@
 //! Motion resistance of the ground.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Situation;
 use trackdyn_core::{PerSide, Scalar, Side, Wrench};
 
@@ -44,6 +44,7 @@ impl Effect for MotionResistance {
             symbol: "c_rr",
             unit: "1",
             meaning: "resistance over normal load",
+            role: Role::Size { neutral: 0.0 },
             range: [0.0, 0.5],
             typical: 0.05,
         }],

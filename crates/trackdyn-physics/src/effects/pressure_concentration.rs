@@ -1,7 +1,7 @@
 //! Normal pressure that is not linear along a patch.
 
 use crate::contact::ShearStress;
-use crate::effect::{Card, Effect, Parameter, Stage};
+use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::model::Site;
 use trackdyn_core::Scalar;
 
@@ -29,6 +29,7 @@ impl Effect for PressureConcentration {
             symbol: "κ",
             unit: "1",
             meaning: "excess of the pressure at the ends over the mean",
+            role: Role::Size { neutral: 0.0 },
             range: [-0.9, 1.9],
             typical: 0.4,
         }],

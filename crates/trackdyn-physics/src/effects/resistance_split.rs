@@ -1,6 +1,6 @@
 //! Different motion resistance of the two sides.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::effects::motion_resistance::add_resistance;
 use crate::model::Situation;
 use trackdyn_core::{PerSide, Scalar, Side, Wrench};
@@ -26,6 +26,7 @@ impl Effect for ResistanceSplit {
             symbol: "Δc",
             unit: "1",
             meaning: "left minus right coefficient of motion resistance",
+            role: Role::Size { neutral: 0.0 },
             range: [-0.5, 0.5],
             typical: 0.05,
         }],

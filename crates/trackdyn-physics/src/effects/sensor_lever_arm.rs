@@ -1,6 +1,6 @@
 //! A pose sensor that does not sit over the origin.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Sensor;
 
 /// The place of the pose sensor on the hull.
@@ -25,6 +25,7 @@ impl Effect for SensorLeverArm {
                 symbol: "Δx",
                 unit: "m",
                 meaning: "sensor right of the origin",
+                role: Role::Size { neutral: 0.0 },
                 range: [-5.0, 5.0],
                 typical: 0.05,
             },
@@ -33,6 +34,7 @@ impl Effect for SensorLeverArm {
                 symbol: "Δy",
                 unit: "m",
                 meaning: "sensor forward of the origin",
+                role: Role::Size { neutral: 0.0 },
                 range: [-5.0, 5.0],
                 typical: 0.1,
             },

@@ -1,6 +1,6 @@
 //! A pose sensor that looks askew.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Sensor;
 
 /// The heading of the pose sensor against the hull's.
@@ -24,6 +24,7 @@ impl Effect for SensorYaw {
             symbol: "ψ",
             unit: "deg",
             meaning: "sensor turned counter-clockwise",
+            role: Role::Size { neutral: 0.0 },
             range: [-180.0, 180.0],
             typical: 1.0,
         }],

@@ -1,7 +1,7 @@
 //! Shear stress that builds up with shear displacement.
 
 use crate::contact::ShearStress;
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Site;
 use trackdyn_core::Scalar;
 
@@ -27,6 +27,7 @@ impl Effect for ShearDisplacement {
             symbol: "K",
             unit: "m",
             meaning: "shear deformation modulus: displacement at 63 % of full friction",
+            role: Role::Size { neutral: 0.0 },
             range: [1e-4, 0.3],
             typical: 0.02,
         }],

@@ -1,6 +1,6 @@
 //! Sloping ground.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Ground;
 
 /// A plane that rises in one direction of the world.
@@ -25,6 +25,7 @@ impl Effect for Slope {
                 symbol: "β",
                 unit: "deg",
                 meaning: "inclination of the ground",
+                role: Role::Size { neutral: 0.0 },
                 range: [0.0, 60.0],
                 typical: 2.0,
             },
@@ -33,6 +34,7 @@ impl Effect for Slope {
                 symbol: "φ",
                 unit: "deg",
                 meaning: "direction of steepest ascent in the world, counter-clockwise from its x axis",
+                role: Role::Direction,
                 range: [-360.0, 360.0],
                 typical: 0.0,
             },

@@ -1,7 +1,7 @@
 //! Friction that falls with slip speed.
 
 use crate::contact::ShearStress;
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Site;
 use trackdyn_core::Scalar;
 
@@ -29,6 +29,7 @@ impl Effect for StribeckFriction {
                 symbol: "a",
                 unit: "1",
                 meaning: "relative excess of friction at rest",
+                role: Role::Size { neutral: 0.0 },
                 range: [0.0, 2.0],
                 typical: 0.3,
             },
@@ -37,6 +38,7 @@ impl Effect for StribeckFriction {
                 symbol: "v_s",
                 unit: "m/s",
                 meaning: "slip speed at which the excess has fallen to 37 %",
+                role: Role::Shape,
                 range: [0.001, 5.0],
                 typical: 0.1,
             },

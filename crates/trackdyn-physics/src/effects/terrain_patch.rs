@@ -1,6 +1,6 @@
 //! Other ground in one place.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Ground;
 use trackdyn_core::Side;
 
@@ -27,6 +27,7 @@ impl Effect for TerrainPatch {
                 symbol: "x_0",
                 unit: "m",
                 meaning: "centre of the disc in the world, x",
+                role: Role::Place { axis: 0 },
                 range: [-10_000.0, 10_000.0],
                 typical: 3.0,
             },
@@ -35,6 +36,7 @@ impl Effect for TerrainPatch {
                 symbol: "y_0",
                 unit: "m",
                 meaning: "centre of the disc in the world, y",
+                role: Role::Place { axis: 1 },
                 range: [-10_000.0, 10_000.0],
                 typical: 0.0,
             },
@@ -43,6 +45,7 @@ impl Effect for TerrainPatch {
                 symbol: "R",
                 unit: "m",
                 meaning: "radius of the disc",
+                role: Role::Shape,
                 range: [0.01, 10000.0],
                 typical: 2.0,
             },
@@ -51,6 +54,7 @@ impl Effect for TerrainPatch {
                 symbol: "k",
                 unit: "1",
                 meaning: "factor on μ_x/μ_y inside",
+                role: Role::Size { neutral: 1.0 },
                 range: [0.1, 10.0],
                 typical: 1.3,
             },

@@ -1,6 +1,6 @@
 //! A constant pull towards a point of the world.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Situation;
 use trackdyn_core::{PerSide, Scalar, Wrench};
 
@@ -28,6 +28,7 @@ impl Effect for Tether {
                 symbol: "T",
                 unit: "N",
                 meaning: "pull of the cable",
+                role: Role::Size { neutral: 0.0 },
                 range: [0.0, 10000.0],
                 typical: 80.0,
             },
@@ -36,6 +37,7 @@ impl Effect for Tether {
                 symbol: "x_a",
                 unit: "m",
                 meaning: "anchor in the world, x",
+                role: Role::Place { axis: 0 },
                 range: [-1000.0, 1000.0],
                 typical: -4.0,
             },
@@ -44,6 +46,7 @@ impl Effect for Tether {
                 symbol: "y_a",
                 unit: "m",
                 meaning: "anchor in the world, y",
+                role: Role::Place { axis: 1 },
                 range: [-1000.0, 1000.0],
                 typical: 1.0,
             },

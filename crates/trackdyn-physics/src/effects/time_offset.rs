@@ -1,6 +1,6 @@
 //! Clocks of encoders and poses that differ.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Sensor;
 
 /// Poses with stamps that are late.
@@ -24,6 +24,7 @@ impl Effect for TimeOffset {
             symbol: "τ",
             unit: "s",
             meaning: "by how much the poses are late",
+            role: Role::Size { neutral: 0.0 },
             range: [-2.0, 2.0],
             typical: 0.1,
         }],

@@ -1,7 +1,7 @@
 //! Friction that grows with slip speed.
 
 use crate::contact::ShearStress;
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Site;
 use trackdyn_core::Scalar;
 
@@ -25,6 +25,7 @@ impl Effect for ViscousFriction {
             symbol: "c",
             unit: "s/m",
             meaning: "relative growth of friction per m/s of slip",
+            role: Role::Size { neutral: 0.0 },
             range: [0.0, 10.0],
             typical: 0.5,
         }],

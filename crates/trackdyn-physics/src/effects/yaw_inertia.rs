@@ -1,6 +1,6 @@
 //! Inertia of the body while its motion changes.
 
-use crate::effect::{Card, Effect, Parameter, Stage, Symmetry};
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::model::Situation;
 use trackdyn_core::{PerSide, Scalar, Wrench};
 
@@ -28,6 +28,7 @@ impl Effect for YawInertia {
                 symbol: "k",
                 unit: "1",
                 meaning: "ratio of the forces to those of mass m",
+                role: Role::Size { neutral: 0.0 },
                 range: [0.0, 10.0],
                 typical: 1.0,
             },
@@ -36,6 +37,7 @@ impl Effect for YawInertia {
                 symbol: "r",
                 unit: "m",
                 meaning: "radius of gyration about the vertical",
+                role: Role::Shape,
                 range: [0.0, 5.0],
                 typical: 0.3,
             },

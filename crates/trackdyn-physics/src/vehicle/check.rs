@@ -29,7 +29,8 @@ impl Vehicle {
         let friction = "a positive friction coefficient";
         positive("friction.mu_x", self.friction.across, friction)?;
         positive("friction.mu_y", self.friction.along, friction)?;
-        self.check_support()
+        self.check_support()?;
+        self.uncertainty.check()
     }
 
     fn check_running_gear(&self) -> Result<(), VehicleError> {

@@ -2,7 +2,7 @@
 
 use crate::contact::Friction;
 use crate::effects::{ActiveEffect, EffectError, Effects};
-use crate::vehicle::{RunningGear, Vehicle};
+use crate::vehicle::{FrictionUncertainty, RunningGear, Uncertainty, Vehicle};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -63,8 +63,8 @@ impl VehicleFile {
     /// # Panics
     /// Never: the tables hold only what TOML can say.
     pub fn to_toml(&self) -> String {
-        let unplaced = |value| Spanned::new(0..0, value);
         let vehicle = &self.vehicle;
+        let uncertainty = &vehicle.uncertainty;
         let (track, wheels) = match &vehicle.running_gear {
             RunningGear::Track { contact_length, belt_width } => (
                 Some(Track {
@@ -78,21 +78,26 @@ impl VehicleFile {
                 Some(Wheels {
                     contact_length_m: unplaced(*contact_length),
                     width_m: unplaced(*width),
-                    axles_m: Spanned::new(0..0, axles.clone()),
+                    axles_m: unplaced(axles.clone()),
                 }),
             ),
         };
         let tables = Tables {
-            schema: Spanned::new(0..0, SCHEMA.to_owned()),
+            schema: unplaced(SCHEMA.to_owned()),
             name: vehicle.name.clone(),
             mass_kg: unplaced(vehicle.mass),
+            mass_kg_sd: uncertainty.mass.map(unplaced),
             gauge_m: unplaced(vehicle.gauge),
-            cog_m: Spanned::new(0..0, vehicle.cog),
+            gauge_m_sd: uncertainty.gauge.map(unplaced),
+            cog_m: unplaced(vehicle.cog),
+            cog_m_sd: uncertainty.cog.map(unplaced),
             track,
             wheels,
             friction: FrictionTable {
                 mu_x: unplaced(vehicle.friction.across),
+                mu_x_sd: uncertainty.friction.across.map(unplaced),
                 mu_y: unplaced(vehicle.friction.along),
+                mu_y_sd: uncertainty.friction.along.map(unplaced),
             },
             effect: self
                 .effects
@@ -101,10 +106,10 @@ impl VehicleFile {
                     let parameters = effect.card().parameters.iter().zip(effect.values());
                     let table = parameters
                         .map(|(parameter, &value)| {
-                            (Spanned::new(0..0, parameter.key.to_owned()), unplaced(value))
+                            (unplaced(parameter.key.to_owned()), unplaced(value))
                         })
                         .collect();
-                    (Spanned::new(0..0, effect.card().id.to_owned()), table)
+                    (unplaced(effect.card().id.to_owned()), table)
                 })
                 .collect(),
         };
@@ -118,8 +123,11 @@ struct Tables {
     schema: Spanned<String>,
     name: String,
     mass_kg: Spanned<f64>,
+    mass_kg_sd: Option<Spanned<f64>>,
     gauge_m: Spanned<f64>,
+    gauge_m_sd: Option<Spanned<f64>>,
     cog_m: Spanned<[f64; 2]>,
+    cog_m_sd: Option<Spanned<[f64; 2]>>,
     track: Option<Track>,
     wheels: Option<Wheels>,
     friction: FrictionTable,
@@ -146,7 +154,19 @@ struct Wheels {
 #[serde(deny_unknown_fields)]
 struct FrictionTable {
     mu_x: Spanned<f64>,
+    mu_x_sd: Option<Spanned<f64>>,
     mu_y: Spanned<f64>,
+    mu_y_sd: Option<Spanned<f64>>,
+}
+
+/// A value that stands in no file.
+fn unplaced<T>(value: T) -> Spanned<T> {
+    Spanned::new(0..0, value)
+}
+
+/// A value that a file may leave out.
+fn optional<T: Copy>(value: Option<&Spanned<T>>) -> Option<T> {
+    value.map(|value| *value.get_ref())
 }
 
 impl Tables {
@@ -180,6 +200,15 @@ impl Tables {
             friction: Friction {
                 across: *self.friction.mu_x.get_ref(),
                 along: *self.friction.mu_y.get_ref(),
+            },
+            uncertainty: Uncertainty {
+                mass: optional(self.mass_kg_sd.as_ref()),
+                gauge: optional(self.gauge_m_sd.as_ref()),
+                cog: optional(self.cog_m_sd.as_ref()),
+                friction: FrictionUncertainty {
+                    across: optional(self.friction.mu_x_sd.as_ref()),
+                    along: optional(self.friction.mu_y_sd.as_ref()),
+                },
             },
         })
     }
@@ -218,8 +247,11 @@ impl Tables {
         let (table, name) = key.split_once('.').unwrap_or(("", key));
         let span = match (table, name) {
             ("", "mass_kg") => Some(self.mass_kg.span()),
+            ("", "mass_kg_sd") => self.mass_kg_sd.as_ref().map(Spanned::span),
             ("", "gauge_m") => Some(self.gauge_m.span()),
+            ("", "gauge_m_sd") => self.gauge_m_sd.as_ref().map(Spanned::span),
             ("", "cog_m") => Some(self.cog_m.span()),
+            ("", "cog_m_sd") => self.cog_m_sd.as_ref().map(Spanned::span),
             ("track", "contact_length_m") => self.track.as_ref().map(|t| t.contact_length_m.span()),
             ("track", "belt_width_m") => self.track.as_ref().map(|t| t.belt_width_m.span()),
             ("wheels", "contact_length_m") => {
@@ -228,7 +260,9 @@ impl Tables {
             ("wheels", "width_m") => self.wheels.as_ref().map(|w| w.width_m.span()),
             ("wheels", "axles_m") => self.wheels.as_ref().map(|w| w.axles_m.span()),
             ("friction", "mu_x") => Some(self.friction.mu_x.span()),
+            ("friction", "mu_x_sd") => self.friction.mu_x_sd.as_ref().map(Spanned::span),
             ("friction", "mu_y") => Some(self.friction.mu_y.span()),
+            ("friction", "mu_y_sd") => self.friction.mu_y_sd.as_ref().map(Spanned::span),
             _ => None,
         };
         span.unwrap_or(0..0)

@@ -212,6 +212,7 @@ fn departure_of_a_polynomial_law_is_exact() {
             case.friction,
             &case.pressure(),
             &slip,
+            quadrature::Resolution::Fine,
             |_, site| {
                 let mut stress = ShearStress::base();
                 stress.scale(site.unit_slip_length + 1.0);

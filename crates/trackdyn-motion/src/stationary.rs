@@ -59,6 +59,12 @@ impl<'m> Stationary<'m> {
         solver
     }
 
+    /// The same solver with these ICRs as its first start, where a motion that is nearly the wanted one is
+    /// known.
+    pub fn starting_at(&self, icrs: Icrs) -> Self {
+        Self { creeping: Some(icrs), ..self.clone() }
+    }
+
     /// The stationary motion at the track speeds that the encoders show, m/s.
     ///
     /// No pair of speeds knows of another, so the order of solves does not matter. The result carries

@@ -83,7 +83,7 @@ impl<'m> Transient<'m> {
             traction: still,
             lifts: false,
         };
-        Self { model, longest_step: Self::STEP, has_inertia: has_inertia(model), state }
+        Self { model, longest_step: Self::STEP, has_inertia: Self::feels_inertia(model), state }
     }
 
     /// The same with another longest step, s.
@@ -179,6 +179,17 @@ impl<'m> Transient<'m> {
         Some(State { twist: motion.twist, driven, belt_speed, traction, lifts, ..*before })
     }
 
+    /// Whether the forces beside friction depend on the acceleration: else the robot is at its stationary
+    /// motion at once.
+    pub fn feels_inertia(model: &Model) -> bool {
+        let still = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
+        let force = |acceleration: Twist| {
+            let motion = Motion::departing(PerSide::default(), still, acceleration, model.extent());
+            model.balance(&model.ground(&Circumstance::default()), &motion).load
+        };
+        force(Twist { v_x: 1.0, v_y: 1.0, w: 1.0 }) != force(still)
+    }
+
     /// Kinetic energy of the body with this radius of gyration about its centre of gravity (m), J.
     pub fn kinetic_energy(&self, gyration: f64) -> f64 {
         let vehicle = self.model.vehicle();
@@ -221,14 +232,4 @@ impl Plant for Transient<'_> {
         }
         Ok(())
     }
-}
-
-/// Whether the forces beside friction depend on the acceleration.
-fn has_inertia(model: &Model) -> bool {
-    let still = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
-    let force = |acceleration: Twist| {
-        let motion = Motion::departing(PerSide::default(), still, acceleration, model.extent());
-        model.balance(&model.ground(&Circumstance::default()), &motion).load
-    };
-    force(Twist { v_x: 1.0, v_y: 1.0, w: 1.0 }) != force(still)
 }

@@ -19,7 +19,8 @@ pub use sensor::Sensor;
 pub use situation::{Site, Situation};
 
 use crate::contact::pressure::Footprint;
-use crate::contact::{Extent, Patch, Pressure, ShearStress, friction_wrench, quadrature};
+use crate::contact::quadrature::{self, Resolution};
+use crate::contact::{Extent, Patch, Pressure, ShearStress, friction_wrench};
 use crate::effect::Stage;
 use crate::effects::Effects;
 use crate::vehicle::Vehicle;
@@ -46,6 +47,7 @@ pub struct Model {
     drive: Drive,
     sensor: Sensor,
     has_shear_law: bool,
+    resolution: Resolution,
 }
 
 /// The forces on the body, by origin: the result of [`Model::balance`].
@@ -73,7 +75,23 @@ impl Model {
         let extent = PerSide::from_fn(|side| footprint.extent(&patches[side]));
         let has_shear_law =
             effects.iter().any(|effect| effect.card().stages.contains(&Stage::Shear));
-        Self { vehicle, effects, patches, footprint, extent, drive, sensor, has_shear_law }
+        let resolution = Resolution::default();
+        Self {
+            vehicle,
+            effects,
+            patches,
+            footprint,
+            extent,
+            drive,
+            sensor,
+            has_shear_law,
+            resolution,
+        }
+    }
+
+    /// The same with laws of the shear stress integrated this finely.
+    pub fn with_resolution(self, resolution: Resolution) -> Self {
+        Self { resolution, ..self }
     }
 
     /// The vehicle, after the effects of stage `body`.
@@ -187,6 +205,7 @@ impl Model {
             situation.ground.friction[side],
             pressure,
             &situation.motion.slip[side],
+            self.resolution,
             |patch, slip| {
                 let site = Site { situation, side, patch, pressure, slip };
                 let mut stress = ShearStress::base();

@@ -29,7 +29,20 @@ impl Rule {
 static FAR_FIELD: LazyLock<Rule> = LazyLock::new(|| Rule::new(8, 8));
 
 /// Resolves a shear stress that builds up over a few percent of the track's length.
-static SHEAR_LAW: LazyLock<Rule> = LazyLock::new(|| Rule::new(8, 24));
+static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::new(8, 24));
+
+/// Resolves it to a thousandth of what it changes, in a quarter of the time.
+static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::new(4, 12));
+
+/// How finely laws of the shear stress are integrated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Resolution {
+    /// To all digits that a law's kinks allow.
+    #[default]
+    Fine,
+    /// To a thousandth of what a law changes: for comparing with noisy data.
+    Coarse,
+}
 
 /// Friction wrench under the base law where the ICR is far from every patch, about the origin.
 pub fn far_field_wrench<S: Scalar>(
@@ -59,12 +72,17 @@ pub fn departure_wrench<S: Scalar>(
     friction: Friction,
     pressure: &Pressure<S>,
     slip: &SlipField<S>,
+    resolution: Resolution,
     mut law: impl FnMut(&Patch, &SlipSite<S>) -> ShearStress<S>,
 ) -> Wrench<S> {
+    let rule = match resolution {
+        Resolution::Fine => &FINE,
+        Resolution::Coarse => &COARSE,
+    };
     let mut wrench = Wrench::zero();
     for patch in patches {
         let panels = Panels::cut(patch, slip);
-        wrench += integrate(&SHEAR_LAW, &panels, slip, |site| {
+        wrench += integrate(rule, &panels, slip, |site| {
             let ShearStress { factor, added } = law(patch, &site);
             let base = site.traction(friction, pressure, factor.map(|f| f - 1.0));
             [base[0] + factor[0] * added[0], base[1] + factor[1] * added[1]]

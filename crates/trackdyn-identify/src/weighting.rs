@@ -47,6 +47,24 @@ impl SegmentNoise {
     }
 }
 
+/// What of a segment its noise depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// Motion over the segment from its first pose: forward (m), left (m), yaw (rad).
+    pub motion: [f64; 3],
+    /// Its length, s.
+    pub duration: f64,
+    /// Whether its first pose is the last one of the segment before it.
+    pub follows: bool,
+}
+
+impl Seen {
+    fn of(segment: &Observation) -> Self {
+        let Observation { motion, duration, follows, .. } = *segment;
+        Self { motion, duration, follows }
+    }
+}
+
 /// Residuals and their derivatives, three rows per segment, made white: unit variance, no correlation.
 pub struct Whitener {
     /// Per segment: the inverse of the diagonal block of the Cholesky factor, and the block that takes
@@ -61,9 +79,14 @@ impl Whitener {
     /// first as its end and the second as its start. Its Cholesky factor is block-bidiagonal and is
     /// found in one pass.
     pub fn new(weighting: &Weighting, observations: &Observations) -> Self {
-        let mut blocks: Vec<(Matrix3<f64>, Matrix3<f64>)> = Vec::with_capacity(observations.len());
-        let mut before: Option<&Observation> = None;
-        for segment in observations.segments() {
+        Self::of_motions(weighting, observations.segments().iter().map(Seen::of))
+    }
+
+    /// The whitener for motions that were not observed but are expected.
+    pub fn of_motions(weighting: &Weighting, motions: impl Iterator<Item = Seen>) -> Self {
+        let mut blocks: Vec<(Matrix3<f64>, Matrix3<f64>)> = Vec::new();
+        let mut before: Option<Seen> = None;
+        for segment in motions {
             let (own, shared) = match weighting {
                 Weighting::Distance { lever } => {
                     let diagonal = Vector3::new(1.0, 1.0, lever.powi(-2));
@@ -72,8 +95,8 @@ impl Whitener {
                 Weighting::Noise(noise) => {
                     let previous = before.filter(|_| segment.follows);
                     (
-                        noise.own(segment),
-                        previous.map_or(Matrix3::zeros(), |b| noise.shared(b, segment)),
+                        noise.own(&segment),
+                        previous.map_or(Matrix3::zeros(), |b| noise.shared(&b, &segment)),
                     )
                 }
             };
@@ -102,7 +125,7 @@ impl Whitener {
 
 impl SegmentNoise {
     /// Covariance of the residual of a segment.
-    fn own(&self, segment: &Observation) -> Matrix3<f64> {
+    fn own(&self, segment: &Seen) -> Matrix3<f64> {
         let pose = Matrix3::from_diagonal(&Vector3::from(self.pose));
         let start = Self::by_start(segment);
         let turn = rotation(-segment.motion[2]);
@@ -114,7 +137,7 @@ impl SegmentNoise {
     }
 
     /// Covariance of the residual of a segment with that of the one before.
-    fn shared(&self, before: &Observation, segment: &Observation) -> Matrix3<f64> {
+    fn shared(&self, before: &Seen, segment: &Seen) -> Matrix3<f64> {
         let pose = Matrix3::from_diagonal(&Vector3::from(self.pose));
         // The noise of the shared pose, along the body's axes there, is the start of this one and the
         // end of that one.
@@ -123,7 +146,7 @@ impl SegmentNoise {
 
     /// What noise of the first pose, along its axes, does to the observed motion: it is subtracted, and
     /// its yaw turns the motion.
-    fn by_start(segment: &Observation) -> Matrix3<f64> {
+    fn by_start(segment: &Seen) -> Matrix3<f64> {
         let [forward, left, _] = segment.motion;
         -Matrix3::new(1.0, 0.0, -left, 0.0, 1.0, forward, 0.0, 0.0, 1.0)
     }

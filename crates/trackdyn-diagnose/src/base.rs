@@ -1,0 +1,176 @@
+//! The base: the vehicle as its file says, with all that is free in every hypothesis.
+//!
+//! Free are the constant ICRs, which stand for friction ratio, centre of gravity and their like, and what
+//! encoders and pose sensor make of the motion: gains, clock, mount.
+
+use crate::evidence::Evidence;
+use crate::fit::{Fit, Metric};
+use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of};
+use crate::mechanics::{Mechanics, is_instrument};
+use crate::normal::{Columns, Normal, Prior};
+use nalgebra::{Matrix3, Vector3};
+use trackdyn_core::PerSide;
+use trackdyn_motion::{Icrs, Stationary};
+use trackdyn_physics::{CATALOGUE, Circumstance, Effects, Model, Vehicle, VehicleFile};
+
+/// Part of an instrument's signature that must be its own for it to be free beside the others.
+const OWN: f64 = 0.02;
+
+/// What every hypothesis starts from.
+#[derive(Clone)]
+pub struct Base {
+    /// The vehicle as its file says, moved with the recorded clock and nothing fitted but the constant ICRs.
+    pub as_filed: Fit,
+    /// The base at its best, the vehicle's friction ratio and centre of gravity such that it has the constant
+    /// ICRs that were found.
+    pub fit: Fit,
+    /// What is free in every hypothesis.
+    pub nuisances: Vec<Unknown>,
+    /// Effects of encoders and pose sensor among them, by their places in the catalogue.
+    pub instruments: Vec<usize>,
+}
+
+/// The offsets of the constant ICRs.
+pub const OFFSETS: [Unknown; 3] = [Unknown::Offset(0), Unknown::Offset(1), Unknown::Offset(2)];
+
+impl Base {
+    /// The base of a vehicle for this evidence.
+    pub fn new(file: &VehicleFile, evidence: &Evidence, metric: &Metric) -> Self {
+        let hypothesis = Hypothesis {
+            vehicle: file.vehicle.clone(),
+            effects: file.effects.clone(),
+            offset: [0.0; 3],
+        };
+        let as_filed = Fit::new(hypothesis.clone(), &OFFSETS, evidence, metric, None);
+        let start = with_clock(&hypothesis, evidence);
+        let mut nuisances = OFFSETS.to_vec();
+        let instruments = free_instruments(&start, evidence, metric, &as_filed.mechanics);
+        for &effect in &instruments {
+            nuisances.extend(unknowns_of(effect));
+        }
+        let mut fit = Fit::new(start, &nuisances, evidence, metric, Some(&as_filed.mechanics));
+        // The vehicle takes over what it can of the constant ICRs; a second fit tells what is left.
+        if let Some(vehicle) = calibrated(&fit.hypothesis) {
+            let hypothesis = Hypothesis { vehicle, offset: [0.0; 3], ..fit.hypothesis.clone() };
+            let again = Fit::new(hypothesis, &nuisances, evidence, metric, None);
+            if again.objective < fit.objective + 1.0 {
+                fit = again;
+            }
+        }
+        Self { as_filed, fit, nuisances, instruments }
+    }
+}
+
+/// The hypothesis with the clock offset that the recording shows by itself, in whatever effect delays poses.
+fn with_clock(hypothesis: &Hypothesis, evidence: &Evidence) -> Hypothesis {
+    let own = Model::new(hypothesis.vehicle.clone(), hypothesis.effects.clone()).sensor().delay;
+    for (effect, card) in CATALOGUE.iter().enumerate() {
+        let typical: Vec<f64> = card.parameters.iter().map(|parameter| parameter.typical).collect();
+        let effects: Effects = std::iter::once(active(effect, &typical)).collect();
+        let delay = Model::new(hypothesis.vehicle.clone(), effects).sensor().delay;
+        if delay != 0.0 && hypothesis.effect(effect).is_none() {
+            let share = (evidence.tau() - own) / delay;
+            let values: Vec<f64> = card
+                .parameters
+                .iter()
+                .map(|parameter| {
+                    neutral(parameter) + share * (parameter.typical - neutral(parameter))
+                })
+                .collect();
+            return hypothesis.with_effect(active(effect, &values));
+        }
+    }
+    hypothesis.clone()
+}
+
+/// The effects of encoders and pose sensor that this evidence tells from each other and from constant
+/// ICRs, in the catalogue's order.
+fn free_instruments(
+    hypothesis: &Hypothesis,
+    evidence: &Evidence,
+    metric: &Metric,
+    mechanics: &Mechanics,
+) -> Vec<usize> {
+    let mut unknowns = OFFSETS.to_vec();
+    let mut chosen = Vec::new();
+    for (effect, card) in CATALOGUE.iter().enumerate() {
+        let typical: Vec<f64> = card.parameters.iter().map(|parameter| parameter.typical).collect();
+        if !is_instrument(&hypothesis.vehicle, &active(effect, &typical)) {
+            continue;
+        }
+        let more: Vec<Unknown> = unknowns_of(effect).collect();
+        let tried: Vec<Unknown> = unknowns.iter().chain(&more).copied().collect();
+        let fit = Fit::at(hypothesis.clone(), &tried, evidence, metric, Some(mechanics));
+        if own_share(&fit, unknowns.len()) > OWN {
+            unknowns = tried;
+            chosen.push(effect);
+        }
+    }
+    chosen
+}
+
+/// The smallest part of a column beyond the first `base` ones that is its own, as share of its square.
+fn own_share(fit: &Fit, base: usize) -> f64 {
+    let samples = fit.residual.len();
+    let normal = Normal::new(&Columns {
+        residual: &fit.residual,
+        columns: &fit.columns,
+        weights: &vec![1.0; samples],
+        blocks: &vec![0; samples],
+        count: 1,
+    });
+    let flat = vec![Prior { mean: 0.0, deviation: 1e9 }; fit.columns.len()];
+    let before: Vec<usize> = (0..base).collect();
+    let projected = normal.projected(&before, &flat);
+    (base..fit.columns.len())
+        .map(|k| {
+            let whole = normal.product(k, k);
+            if whole > 0.0 { projected.product(k, k) / whole } else { 0.0 }
+        })
+        .fold(1.0, f64::min)
+}
+
+/// A vehicle with another friction ratio and centre of gravity that has the constant ICRs of a hypothesis
+/// without offset; none where there is no such vehicle.
+pub fn calibrated(hypothesis: &Hypothesis) -> Option<Vehicle> {
+    const ROUNDS: usize = 20;
+    let spin = |vehicle: &Vehicle| -> Option<Vector3<f64>> {
+        // Without effects the ICRs are constant: those of a slow spin.
+        let model = Model::new(vehicle.clone(), Effects::none());
+        let solution =
+            Stationary::new(&model, &Circumstance::default()).solve(PerSide::new(-0.1, 0.1));
+        solution.icrs.map(Icrs::to_array).map(Vector3::from)
+    };
+    let wanted = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset);
+    let changed = |by: &Vector3<f64>| -> Vehicle {
+        let mut vehicle = hypothesis.vehicle.clone();
+        vehicle.friction.across *= by[0].exp();
+        vehicle.cog[0] += by[1];
+        vehicle.cog[1] += by[2];
+        vehicle
+    };
+    let mut by = Vector3::zeros();
+    for _ in 0..ROUNDS {
+        let vehicle = changed(&by);
+        vehicle.check().ok()?;
+        let off = wanted - spin(&vehicle)?;
+        if off.amax() < 1e-9 {
+            return Some(vehicle);
+        }
+        let mut slope = Matrix3::zeros();
+        for k in 0..3 {
+            const STEP: f64 = 1e-5;
+            let mut ahead = by;
+            ahead[k] += STEP;
+            slope.set_column(k, &((spin(&changed(&ahead))? - spin(&vehicle)?) / STEP));
+        }
+        let step = slope.lu().solve(&off)?;
+        // No more than half a friction ratio, or a tenth of the gauge, at a time.
+        let gauge = hypothesis.vehicle.gauge;
+        let size = (step[0].abs() / 0.5)
+            .max(step[1].abs() / (0.1 * gauge))
+            .max(step[2].abs() / (0.1 * gauge));
+        by += step / size.max(1.0);
+    }
+    None
+}

@@ -1,0 +1,209 @@
+//! Candidates: every effect of the catalogue, and what it would change in this very evidence.
+//!
+//! The signature of an effect is the prediction with it less the one without, each solved in full: a law may
+//! have no derivative where it vanishes. Where a law has shapes, directions or places beside its size, its
+//! signature is found for several of them, and the one that explains most stands for the effect.
+
+use crate::evidence::Evidence;
+use crate::fit::{Metric, area};
+use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
+use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument};
+use nalgebra::Vector3;
+use rayon::prelude::*;
+use trackdyn_physics::CATALOGUE;
+use trackdyn_physics::effect::{Parameter, Role};
+
+/// An effect with one choice of what is no size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variant {
+    /// Place in the catalogue.
+    pub effect: usize,
+    /// Values of all parameters: those of sizes are where its signature is taken.
+    pub values: Vec<f64>,
+}
+
+/// What a size of an effect would change, per unit of it.
+#[derive(Clone, Debug)]
+pub struct Signature {
+    /// The size.
+    pub unknown: Unknown,
+    /// The change of the prediction per unit, whitened.
+    pub column: Vec<Vector3<f64>>,
+}
+
+impl Variant {
+    /// The sizes.
+    pub fn sizes(&self) -> Vec<usize> {
+        sizes(self.effect)
+    }
+
+    /// The same with its sizes this far from none.
+    pub fn with_sizes(&self, sizes: &[f64]) -> Self {
+        let mut variant = self.clone();
+        for (&parameter, &size) in self.sizes().iter().zip(sizes) {
+            let card = &CATALOGUE[self.effect].parameters[parameter];
+            let [low, high] = card.range;
+            variant.values[parameter] = (neutral(card) + size).clamp(low, high);
+        }
+        variant
+    }
+
+    /// Sizes, as distances from none.
+    pub fn distances(&self) -> Vec<f64> {
+        let parameters = CATALOGUE[self.effect].parameters;
+        self.sizes().iter().map(|&k| self.values[k] - neutral(&parameters[k])).collect()
+    }
+
+    /// The signatures of its sizes; none where the effect cannot act there.
+    fn signatures(&self, beside: &Beside) -> Option<Vec<Signature>> {
+        let vehicle = &beside.hypothesis.vehicle;
+        let whole = active(self.effect, &self.values);
+        let base = if feels_inertia(vehicle, &whole) { &beside.moving } else { &beside.still };
+        let parameters = CATALOGUE[self.effect].parameters;
+        let present = beside.hypothesis.effect(self.effect);
+        self.sizes()
+            .into_iter()
+            .map(|size| {
+                let mut values =
+                    present.map_or_else(|| self.values.clone(), |effect| effect.values().to_vec());
+                let typical = self.values[size] - neutral(&parameters[size]);
+                let distance = if present.is_some() {
+                    // Known to be there: what more of it would change.
+                    let before = values[size];
+                    let [low, high] = parameters[size].range;
+                    values[size] = (before + MORE * typical).clamp(low, high);
+                    values[size] - before
+                } else {
+                    for other in self.sizes().into_iter().filter(|other| *other != size) {
+                        values[other] = neutral(&parameters[other]);
+                    }
+                    typical
+                };
+                let with = base.hypothesis.with_effect(active(self.effect, &values));
+                let instruments = Instruments::of(&with);
+                let with = if is_instrument(vehicle, &whole) {
+                    base.mechanics.predict(&instruments, beside.evidence)
+                } else {
+                    let mechanics = Mechanics::new(&with, beside.evidence);
+                    if mechanics.failure().is_some() {
+                        return None;
+                    }
+                    mechanics.predict(&instruments, beside.evidence)
+                };
+                let change = with
+                    .iter()
+                    .zip(&base.prediction)
+                    .map(|(with, without)| (with - without) / distance);
+                let column = beside.metric.white(beside.evidence, change.collect());
+                Some(Signature { unknown: Unknown::Effect(self.effect, size), column })
+            })
+            .collect()
+    }
+}
+
+/// More of an effect that is known to be there, as part of its typical size.
+const MORE: f64 = 0.2;
+
+/// What signatures are taken beside.
+struct Beside<'a> {
+    hypothesis: &'a Hypothesis,
+    evidence: &'a Evidence,
+    metric: &'a Metric,
+    /// The hypothesis as it is.
+    moving: Prepared,
+    /// The hypothesis without inertia: the signature of what does not stand against acceleration is taken
+    /// from stationary motion.
+    still: Prepared,
+}
+
+/// A hypothesis with its prediction.
+struct Prepared {
+    hypothesis: Hypothesis,
+    mechanics: Mechanics,
+    prediction: Vec<Vector3<f64>>,
+}
+
+impl Prepared {
+    fn new(hypothesis: Hypothesis, evidence: &Evidence) -> Self {
+        let mechanics = Mechanics::new(&hypothesis, evidence);
+        let prediction = mechanics.predict(&Instruments::of(&hypothesis), evidence);
+        Self { hypothesis, mechanics, prediction }
+    }
+}
+
+/// Places of the sizes among an effect's parameters.
+pub fn sizes(effect: usize) -> Vec<usize> {
+    let parameters = CATALOGUE[effect].parameters.iter().enumerate();
+    parameters
+        .filter(|(_, parameter)| matches!(parameter.role, Role::Size { .. }))
+        .map(|(place, _)| place)
+        .collect()
+}
+
+/// The variants of an effect that are tried on this evidence: none of what knows places or directions where the
+/// evidence has none.
+pub fn variants(effect: usize, evidence: &Evidence) -> Vec<Variant> {
+    let parameters = CATALOGUE[effect].parameters;
+    let of_the_world =
+        |parameter: &Parameter| matches!(parameter.role, Role::Place { .. } | Role::Direction);
+    if evidence.is_steady() && parameters.iter().any(of_the_world) {
+        return Vec::new();
+    }
+    let mut all = vec![Vec::new()];
+    for parameter in parameters {
+        let choices = choices(parameter, parameters, evidence);
+        all = all
+            .into_iter()
+            .flat_map(|values: Vec<f64>| {
+                choices.iter().map(move |choice| {
+                    let mut values = values.clone();
+                    values.push(*choice);
+                    values
+                })
+            })
+            .collect();
+    }
+    all.into_iter().map(|values| Variant { effect, values }).collect()
+}
+
+/// Values of a parameter that are tried.
+fn choices(parameter: &Parameter, of: &[Parameter], evidence: &Evidence) -> Vec<f64> {
+    let [low, high] = parameter.range;
+    let inside = |value: f64| value.clamp(low, high);
+    match parameter.role {
+        Role::Size { .. } => vec![parameter.typical],
+        Role::Direction => (0..8).map(|k| inside(45.0 * f64::from(k))).collect(),
+        Role::Shape => [0.4, 1.0, 2.5].map(|factor| inside(factor * parameter.typical)).to_vec(),
+        Role::Place { .. } => {
+            let [middle, spread] = area(evidence, parameter.role);
+            // A place with an extent lies where the robot was; one without may lie far away.
+            let has_extent = of.iter().any(|other| matches!(other.role, Role::Shape));
+            let grid: &[f64] =
+                if has_extent { &[-0.75, -0.25, 0.25, 0.75] } else { &[-3.0, -1.0, 0.0, 1.0, 3.0] };
+            grid.iter().map(|place| inside(middle + place * spread)).collect()
+        }
+    }
+}
+
+/// The signatures of variants beside a hypothesis, in parallel; those that cannot act are left out.
+pub fn signatures(
+    variants: &[Variant],
+    hypothesis: &Hypothesis,
+    evidence: &Evidence,
+    metric: &Metric,
+) -> Vec<(Variant, Vec<Signature>)> {
+    let vehicle = &hypothesis.vehicle;
+    let still = hypothesis.effects.iter().filter(|effect| !feels_inertia(vehicle, effect));
+    let still = Hypothesis { effects: still.cloned().collect(), ..hypothesis.clone() };
+    let beside = Beside {
+        hypothesis,
+        evidence,
+        metric,
+        moving: Prepared::new(hypothesis.clone(), evidence),
+        still: Prepared::new(still, evidence),
+    };
+    variants
+        .par_iter()
+        .filter_map(|variant| Some((variant.clone(), variant.signatures(&beside)?)))
+        .collect()
+}

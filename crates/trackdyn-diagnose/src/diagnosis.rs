@@ -1,0 +1,444 @@
+//! The diagnosis: all steps in order, and what comes out of them.
+
+use crate::base::Base;
+use crate::candidate::{signatures, variants};
+use crate::error::Error;
+use crate::evidence::Evidence;
+use crate::exposure::Exposure;
+use crate::fit::{Fit, Metric};
+use crate::hypothesis::Unknown;
+use crate::isolability::Isolability;
+use crate::locate::cells::{Cell, cells};
+use crate::locate::{Location, excess, locate};
+use crate::mechanics::Instruments;
+use crate::search::{Catalogue, Found, Screened, Search};
+use crate::uncertainty::{Interval, intervals};
+use crate::verdict::{Rules, Verdict, judge, judge_constants, judge_instruments, statics};
+use nalgebra::Vector3;
+use std::collections::BTreeSet;
+use trackdyn_physics::effect::Symmetry;
+use trackdyn_physics::{CATALOGUE, VehicleFile};
+
+/// How to diagnose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Indices of runs that nothing is fitted or chosen on; empty: none are held out.
+    pub held_out: Vec<usize>,
+    /// Draws of the bootstrap.
+    pub draws: usize,
+    /// Seed of everything random.
+    pub seed: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { held_out: Vec::new(), draws: 2000, seed: 1 }
+    }
+}
+
+/// What a diagnosis says in a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// What was left out is named.
+    Explained,
+    /// Nothing that this evidence could show was left out.
+    NothingMissing,
+    /// Several effects, or none alone, explain it.
+    Ambiguous,
+    /// Something is there that the catalogue does not explain.
+    Unexplained,
+}
+
+impl Status {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::Explained, Self::NothingMissing, Self::Ambiguous, Self::Unexplained];
+
+    /// Its word in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Explained => "explained",
+            Self::NothingMissing => "nothing-missing",
+            Self::Ambiguous => "ambiguous",
+            Self::Unexplained => "unexplained",
+        }
+    }
+}
+
+/// What kind of thing was left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Physics of the robot on its ground.
+    Physics,
+    /// What encoders and pose sensor make of the motion.
+    Instrument,
+    /// A wrong number, or one of the effects that only move constant ICRs.
+    Constant,
+}
+
+/// Something that was left out, with its sizes.
+#[derive(Clone, Debug)]
+pub struct Missing {
+    /// What kind of thing it is.
+    pub kind: Kind,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Its parameters with intervals; empty where it stands for a class of constants.
+    pub parameters: Vec<Interval>,
+}
+
+/// Errors on runs that were held out, in units of the noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldOut {
+    /// Root mean square of the whitened residual before.
+    pub before: f64,
+    /// After.
+    pub after: f64,
+    /// What is left when everything that moves ICRs or instruments, model or not, is fitted away.
+    pub noise_floor: f64,
+    /// Whether the runs really were held out; else these are the runs of the fit.
+    pub are_held_out: bool,
+}
+
+impl HeldOut {
+    /// Share of the excess over the noise floor that the corrected model explains; none where there is no
+    /// excess.
+    pub fn excess_explained(&self) -> Option<f64> {
+        let excess = self.before.powi(2) - self.noise_floor.powi(2);
+        (excess > 1e-3 * self.noise_floor.powi(2))
+            .then(|| (self.before.powi(2) - self.after.powi(2)) / excess)
+    }
+}
+
+/// The smallest size of an effect that this evidence could have shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Detectable {
+    /// Place of the effect in the catalogue.
+    pub effect: usize,
+    /// Place of the size among its parameters.
+    pub parameter: usize,
+    /// Distance of the size from none at which it would stand out five standard deviations; none where no
+    /// physical size would.
+    pub size: Option<f64>,
+}
+
+/// The outcome.
+#[derive(Clone)]
+pub struct Diagnosis {
+    /// In a word.
+    pub status: Status,
+    /// Where the vehicle as filed departs from the evidence, clock and constants aside.
+    pub before: Location,
+    /// The same of the corrected model.
+    pub after: Location,
+    /// The same of the vehicle as filed with nothing fitted but constant ICRs.
+    pub filed: Location,
+    /// Symmetries that the evidence breaks.
+    pub broken: Vec<Symmetry>,
+    /// One sentence: channel, driving, symmetries.
+    pub place: String,
+    /// What was left out.
+    pub missing: Vec<Missing>,
+    /// Effects of the best hypothesis that are not claimed, and why.
+    pub refused: Vec<Verdict>,
+    /// All candidates beside the base, best first.
+    pub screened: Vec<Screened>,
+    /// The same beside the corrected model.
+    pub left: Vec<Screened>,
+    /// Effects that only move constant ICRs.
+    pub statics: Vec<usize>,
+    /// What this evidence can tell apart.
+    pub isolability: Isolability,
+    /// The same of all candidates beside the base, what is claimed among them.
+    pub resemblance: Isolability,
+    /// The claimed effects, or else the best candidate, against the evidence.
+    pub exposures: Vec<Exposure>,
+    /// Smallest sizes that would have shown.
+    pub detectable: Vec<Detectable>,
+    /// Errors before and after.
+    pub held_out: HeldOut,
+    /// ICRs in cells of driving, before and after.
+    pub cells: [Vec<Cell>; 2],
+    /// The base: as filed with constants, and with instruments.
+    pub base: Base,
+    /// The best hypothesis, refitted to what is claimed.
+    pub best: Found,
+    /// The metric of all residuals here.
+    pub metric: Metric,
+    /// The vehicle that explains the evidence.
+    pub corrected: VehicleFile,
+}
+
+/// Stages that progress is reported of.
+pub const STAGES: [&str; 6] = ["base", "location", "signatures", "search", "verdicts", "limits"];
+
+/// Diagnoses evidence. `progress` is told of each finished stage.
+///
+/// # Errors
+/// Evidence without turning, or a vehicle that cannot move so.
+pub fn diagnose(
+    evidence: &Evidence,
+    file: &VehicleFile,
+    options: &Options,
+    progress: &dyn Fn(&'static str),
+) -> Result<Diagnosis, Error> {
+    let runs: Vec<bool> =
+        (0..evidence.runs().len()).map(|run| !options.held_out.contains(&run)).collect();
+    let mut metric = Metric { scale: [1.0; 3], runs };
+    loop {
+        let attempt = attempt(evidence, file, options, &metric, progress)?;
+        let scale = metric.residual_scale(evidence, &attempt.best.fit.residual);
+        // Residuals larger than the noise that no effect explains make every other claim less sure.
+        let grows = scale.iter().any(|scale| *scale > TOLERATED);
+        if !grows || metric.scale != [1.0; 3] {
+            return Ok(attempt);
+        }
+        metric.scale = scale.map(|scale| scale.max(1.0));
+    }
+}
+
+/// Residuals may be this much larger than the noise before the noise is taken to be larger.
+const TOLERATED: f64 = 1.1;
+
+fn attempt(
+    evidence: &Evidence,
+    file: &VehicleFile,
+    options: &Options,
+    metric: &Metric,
+    progress: &dyn Fn(&'static str),
+) -> Result<Diagnosis, Error> {
+    let Options { draws, seed, .. } = *options;
+    let base = Base::new(file, evidence, metric);
+    if let Some(reason) = base.as_filed.mechanics.failure() {
+        return Err(Error::NoMotion(reason));
+    }
+    if !turns(&base.as_filed) {
+        return Err(Error::NoTurning);
+    }
+    progress(STAGES[0]);
+    let filed = locate_fit(evidence, metric, &base.as_filed, draws, seed);
+    let located = locate_fit(evidence, metric, &base.fit, draws, seed);
+    progress(STAGES[1]);
+
+    let tried: Vec<_> = (0..CATALOGUE.len())
+        .filter(|effect| !base.instruments.contains(effect))
+        .flat_map(|effect| variants(effect, evidence))
+        .collect();
+    let hypothesis = &base.fit.hypothesis;
+    let catalogue = Catalogue { entries: signatures(&tried, hypothesis, evidence, metric) };
+    progress(STAGES[2]);
+
+    let search = Search { evidence, metric, base: &base, catalogue: &catalogue };
+    let screened = search.screen(&search.nothing());
+    let statics = statics(&search);
+    let found = search.best(&statics, &|| {});
+    progress(STAGES[3]);
+
+    let Judgement { best, missing, refused } = judged(&search, found, &statics, file, options);
+    progress(STAGES[4]);
+
+    let after = locate_fit(evidence, metric, &best.fit, draws, seed);
+    let whole = (base.fit.objective - best.fit.objective).max(0.0);
+    let left_over = after.left_over(Rules::FORM_LEFT * Rules::FORM_LEFT * whole);
+    let status = status(&left_over, &missing);
+    let broken: BTreeSet<Symmetry> = located.broken().into_iter().chain(filed.broken()).collect();
+    let broken: Vec<Symmetry> = broken.into_iter().collect();
+    let left = search.screen(&best);
+    let isolability = Isolability::new(&search, &best, &screened);
+    let resemblance = Isolability::new(&search, &search.nothing(), &screened);
+    let exposures = exposures(&search, &best.fit, &missing, &screened, &statics, file);
+    let detectable = isolability.detectable();
+    let corrected = corrected(file, &best, &missing);
+    let held_out = held_out(evidence, metric, &base, &best, &missing, options);
+    let cells = [&base.fit, &best.fit]
+        .map(|fit| cells(evidence, metric, &fit.residual, &icr_columns(evidence, fit)));
+    let place = crate::place::sentence(evidence, metric, &base, &located, &broken);
+    progress(STAGES[5]);
+    Ok(Diagnosis {
+        status,
+        before: located,
+        after,
+        filed,
+        broken,
+        place,
+        missing,
+        refused,
+        screened,
+        left,
+        statics,
+        isolability,
+        resemblance,
+        exposures,
+        detectable,
+        held_out,
+        cells,
+        base,
+        best,
+        metric: metric.clone(),
+        corrected,
+    })
+}
+
+/// What is claimed, what is refused, and the hypothesis with the claims alone.
+struct Judgement {
+    best: Found,
+    missing: Vec<Missing>,
+    refused: Vec<Verdict>,
+}
+
+/// Judges all that the best hypothesis adds, then instruments and constants beside what is left of it.
+fn judged(
+    search: &Search,
+    found: Found,
+    statics: &[usize],
+    file: &VehicleFile,
+    options: &Options,
+) -> Judgement {
+    let Options { draws, seed, .. } = *options;
+    let physics = judge(search, &found, statics, draws, seed);
+    let dropped = physics.iter().filter(|verdict| verdict.refused.is_some());
+    let best = dropped.fold(found, |found, verdict| search.without(&found, verdict.effect));
+    let instruments = judge_instruments(search, &best, statics, file, draws, seed);
+    let constants = judge_constants(search, &best, statics, file, draws, seed);
+    let intervals = intervals(search, &best);
+    let of = |effect: usize| -> Vec<Interval> {
+        let own = |interval: &&Interval| matches!(interval.unknown, Unknown::Effect(other, _) if other == effect);
+        intervals.iter().filter(own).copied().collect()
+    };
+    let physics = physics.into_iter().map(|verdict| (Kind::Physics, verdict));
+    let instruments = instruments.into_iter().map(|verdict| (Kind::Instrument, verdict));
+    let constants = constants.into_iter().map(|verdict| (Kind::Constant, verdict));
+    let (mut missing, mut refused) = (Vec::new(), Vec::new());
+    for (kind, verdict) in physics.chain(instruments).chain(constants) {
+        if verdict.refused.is_some() {
+            refused.push(verdict);
+        } else {
+            let parameters = if kind == Kind::Constant { Vec::new() } else { of(verdict.effect) };
+            missing.push(Missing { kind, verdict, parameters });
+        }
+    }
+    Judgement { best, missing, refused }
+}
+
+fn status(left_over: &[Symmetry], missing: &[Missing]) -> Status {
+    if !left_over.is_empty() {
+        Status::Unexplained
+    } else if missing.iter().any(|missing| missing.verdict.one_of.len() > 1) {
+        Status::Ambiguous
+    } else if missing.is_empty() {
+        Status::NothingMissing
+    } else {
+        Status::Explained
+    }
+}
+
+/// The claimed effects, or else the best candidate, against the evidence.
+fn exposures(
+    search: &Search,
+    best: &Fit,
+    missing: &[Missing],
+    screened: &[Screened],
+    statics: &[usize],
+    file: &VehicleFile,
+) -> Vec<Exposure> {
+    let claimed = missing.iter().filter(|missing| missing.kind != Kind::Constant);
+    let claimed: Vec<Exposure> = claimed
+        .map(|missing| {
+            let effect = missing.verdict.effect;
+            Exposure::of_fitted(search.evidence, search.metric, best, effect, file)
+        })
+        .collect();
+    if !claimed.is_empty() {
+        return claimed;
+    }
+    // Of what constant ICRs can stand for, there is nothing to see.
+    let shows =
+        |one: &&Screened| one.gain.is_finite() && one.z > 0.0 && !statics.contains(&one.effect);
+    let candidate = screened.iter().find(shows);
+    candidate.map(|one| Exposure::of_candidate(search, one)).into_iter().collect()
+}
+
+/// Whether the constant ICRs are determined at all.
+fn turns(fit: &Fit) -> bool {
+    let gauge = fit.hypothesis.vehicle.gauge;
+    let covariance = &fit.solution.covariance;
+    let gap = covariance[(0, 0)] + covariance[(1, 1)] - 2.0 * covariance[(0, 1)];
+    gap.sqrt() < 0.2 * gauge
+}
+
+/// Derivatives of the prediction by x_l, x_r and y, not whitened.
+pub fn icr_columns(evidence: &Evidence, fit: &Fit) -> [Vec<Vector3<f64>>; 3] {
+    let instruments = Instruments::of(&fit.hypothesis);
+    let step = 1e-3 * fit.hypothesis.vehicle.gauge;
+    let here = fit.mechanics.predict(&instruments, evidence);
+    std::array::from_fn(|k| {
+        let mut moved = instruments;
+        moved.offset[k] += step;
+        let there = fit.mechanics.predict(&moved, evidence);
+        there.iter().zip(&here).map(|(there, here)| (there - here) / step).collect()
+    })
+}
+
+fn locate_fit(
+    evidence: &Evidence,
+    metric: &Metric,
+    fit: &Fit,
+    draws: usize,
+    seed: u64,
+) -> Location {
+    let icrs = icr_columns(evidence, fit);
+    locate(evidence, metric, &fit.residual, &fit.columns, &icrs, draws, seed)
+}
+
+/// The vehicle that explains the evidence: the filed one, with what is claimed. Where the constant ICRs were
+/// wrong, friction ratio and centre of gravity stand for all that could move them.
+fn corrected(file: &VehicleFile, best: &Found, missing: &[Missing]) -> VehicleFile {
+    let mut corrected = file.clone();
+    for missing in missing {
+        match missing.kind {
+            Kind::Constant => {
+                let vehicle = crate::base::calibrated(&best.fit.hypothesis)
+                    .unwrap_or_else(|| best.fit.hypothesis.vehicle.clone());
+                corrected.vehicle.friction = vehicle.friction;
+                corrected.vehicle.cog = vehicle.cog;
+            }
+            Kind::Physics | Kind::Instrument => {
+                if let Some(effect) = best.fit.hypothesis.effect(missing.verdict.effect) {
+                    corrected.effects.insert(effect.clone());
+                }
+            }
+        }
+    }
+    corrected
+}
+
+fn held_out(
+    evidence: &Evidence,
+    metric: &Metric,
+    base: &Base,
+    best: &Found,
+    missing: &[Missing],
+    options: &Options,
+) -> HeldOut {
+    let are_held_out = !options.held_out.is_empty();
+    let metric = if are_held_out {
+        Metric { runs: metric.runs.iter().map(|counts| !counts).collect(), ..metric.clone() }
+    } else {
+        metric.clone()
+    };
+    // An instrument that was claimed is part of what was missing.
+    let instruments = missing.iter().any(|missing| missing.kind == Kind::Instrument);
+    let before = if instruments { &base.as_filed } else { &base.fit };
+    let rms = |residual: &[Vector3<f64>]| excess(evidence, &metric, residual);
+    let after = rms(&best.fit.residual);
+    let flexible = locate_fit(evidence, &metric, &best.fit, 1, options.seed);
+    let count = real_count(evidence, &metric);
+    let noise_floor =
+        (after * after - flexible.explicable.max(0.0) / count).max(0.0).sqrt().min(after);
+    HeldOut { before: rms(&before.residual), after, noise_floor, are_held_out }
+}
+
+fn real_count(evidence: &Evidence, metric: &Metric) -> f64 {
+    let counted = evidence.samples().iter().filter(|sample| metric.runs[sample.run]).count();
+    3.0 * trackdyn_core::real(counted.max(1))
+}

@@ -1,0 +1,227 @@
+//! The diagnosis as a file, schema `trackdyn.diagnosis/1`.
+
+use crate::diagnosis::{Diagnosis, Kind};
+use crate::hypothesis::Unknown;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use trackdyn_core::document::{Document, DocumentError};
+use trackdyn_motion::kinematics::Source;
+use trackdyn_physics::CATALOGUE;
+
+const SCHEMA: &str = "trackdyn.diagnosis/1";
+
+/// A diagnosis file.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct DiagnosisFile {
+    schema: String,
+    /// `explained`, `nothing-missing`, `ambiguous` or `unexplained`.
+    pub status: String,
+    /// Where evidence and model differ.
+    pub located: LocatedTable,
+    /// What was left out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub missing: Vec<MissingTable>,
+    /// Errors on held-out runs.
+    pub fit: FitTable,
+    /// Smallest size of each effect that would have shown, by the keys of its sizes.
+    #[serde(default)]
+    pub detectable: BTreeMap<String, BTreeMap<String, f64>>,
+    /// Where it comes from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<toml::Table>,
+}
+
+/// Where evidence and model differ.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct LocatedTable {
+    /// Root mean square of the whitened residual of the base model.
+    pub excess_over_noise: f64,
+    /// Shares of the excess.
+    pub channels: Channels,
+    /// Letters of the symmetries that are broken.
+    pub broken: Vec<String>,
+    /// One sentence.
+    #[serde(rename = "where")]
+    pub place: String,
+}
+
+/// Shares of the excess by channel.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct Channels {
+    /// Across.
+    pub lateral: f64,
+    /// Along.
+    pub longitudinal: f64,
+    /// Heading.
+    pub yaw: f64,
+}
+
+/// Something that was left out.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct MissingTable {
+    /// Its id; the first of several that explain it alike.
+    pub effect: String,
+    /// All ids that explain it alike.
+    pub one_of: Vec<String>,
+    /// Its parameters; empty where it stands for a class.
+    pub parameters: Vec<ParameterTable>,
+    /// What speaks for it.
+    pub evidence: SupportTable,
+    /// What would decide between several; absent where one is named.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub separate_by: Option<String>,
+}
+
+/// A parameter with its 95 % interval.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct ParameterTable {
+    /// Its key in vehicle files.
+    pub name: String,
+    /// Estimate.
+    pub value: f64,
+    /// Lower end of the interval.
+    pub low95: f64,
+    /// Upper end of the interval.
+    pub high95: f64,
+    /// Unit.
+    pub unit: String,
+}
+
+/// What speaks for a claim.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct SupportTable {
+    /// Family-wise probability of chance.
+    pub p: f64,
+    /// Logarithm of the Bayes factor against the best model without it.
+    pub ln_bayes_factor: f64,
+    /// Gain of log-likelihood on blocks that were left out of the fit.
+    pub held_out_gain: f64,
+}
+
+/// Errors on held-out runs, in units of the noise.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct FitTable {
+    /// Before.
+    pub held_out_before: f64,
+    /// After.
+    pub held_out_after: f64,
+    /// What no model can go below.
+    pub noise_floor: f64,
+    /// Share of the excess that is explained; one where there is none.
+    pub excess_explained: f64,
+}
+
+impl DiagnosisFile {
+    /// The file of a diagnosis.
+    ///
+    /// # Panics
+    /// Never: a source is a table.
+    pub fn new(diagnosis: &Diagnosis, source: &Source) -> Self {
+        let located = &diagnosis.before;
+        let detectable = diagnosis.detectable.iter().filter_map(|one| {
+            let card = &CATALOGUE[one.effect];
+            let size = rounded(one.size?);
+            Some((card.id.to_owned(), card.parameters[one.parameter].key.to_owned(), size))
+        });
+        let mut sizes: BTreeMap<String, BTreeMap<String, f64>> = BTreeMap::new();
+        for (id, key, size) in detectable {
+            sizes.entry(id).or_default().insert(key, size);
+        }
+        let held_out = &diagnosis.held_out;
+        Self {
+            schema: SCHEMA.to_owned(),
+            status: diagnosis.status.name().to_owned(),
+            located: LocatedTable {
+                excess_over_noise: rounded(located.excess_over_noise),
+                channels: Channels {
+                    longitudinal: rounded(located.channels[0]),
+                    lateral: rounded(located.channels[1]),
+                    yaw: rounded(located.channels[2]),
+                },
+                broken: diagnosis.broken.iter().map(|s| s.letter().to_string()).collect(),
+                place: diagnosis.place.clone(),
+            },
+            missing: diagnosis.missing.iter().map(missing).collect(),
+            fit: FitTable {
+                held_out_before: rounded(held_out.before),
+                held_out_after: rounded(held_out.after),
+                noise_floor: rounded(held_out.noise_floor),
+                excess_explained: rounded(held_out.excess_explained().unwrap_or(1.0)),
+            },
+            detectable: sizes,
+            source: Some(toml::Table::try_from(source).expect("a source is a table")),
+        }
+    }
+
+    /// Reads a diagnosis file.
+    ///
+    /// # Errors
+    /// A [`DocumentError`] that points at line and key.
+    pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
+        let file: Self = document.parse()?;
+        if file.schema != SCHEMA {
+            let start = document.text().find("schema").unwrap_or(0);
+            return Err(document.value_error(start..start, "schema", format!("\"{SCHEMA}\"")));
+        }
+        Ok(file)
+    }
+
+    /// Its text.
+    ///
+    /// # Panics
+    /// Never: it holds only what TOML can say.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("numbers, texts and tables are TOML")
+    }
+}
+
+fn missing(missing: &crate::diagnosis::Missing) -> MissingTable {
+    let verdict = &missing.verdict;
+    let ids: Vec<String> =
+        verdict.one_of.iter().map(|&effect| CATALOGUE[effect].id.to_owned()).collect();
+    let parameters = missing.parameters.iter().filter_map(|interval| {
+        let Unknown::Effect(..) = interval.unknown else { return None };
+        let parameter = interval.unknown.parameter()?;
+        Some(ParameterTable {
+            name: parameter.key.to_owned(),
+            value: rounded(interval.value),
+            low95: rounded(interval.low),
+            high95: rounded(interval.high),
+            unit: parameter.unit.to_owned(),
+        })
+    });
+    MissingTable {
+        effect: CATALOGUE[verdict.effect].id.to_owned(),
+        parameters: parameters.collect(),
+        evidence: SupportTable {
+            p: rounded(verdict.support.p),
+            ln_bayes_factor: rounded(verdict.support.ln_bayes_factor),
+            held_out_gain: rounded(verdict.support.held_out_gain),
+        },
+        separate_by: (ids.len() > 1).then(|| separate_by(missing)),
+        one_of: ids,
+    }
+}
+
+/// What would decide between the members of a class.
+pub fn separate_by(missing: &crate::diagnosis::Missing) -> String {
+    match missing.kind {
+        Kind::Constant => "no manoeuvre does: weigh each track (centre of gravity), measure the mount of \
+                           the pose sensor, pull the robot along and across (friction), and give what was \
+                           measured in the vehicle file with its *_sd"
+            .to_owned(),
+        Kind::Physics | Kind::Instrument => {
+            "the manoeuvres that `trackdyn plan` proposes for this diagnosis".to_owned()
+        }
+    }
+}
+
+/// The number to nine significant digits: what is below is rounding.
+fn rounded(value: f64) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent")]
+    let digits = 10.0_f64.powi(8 - value.abs().log10().floor() as i32);
+    (value * digits).round() / digits
+}

@@ -1,0 +1,52 @@
+//! Why a recording cannot be diagnosed.
+
+/// Evidence that does not bear a diagnosis.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Too little driving.
+    #[error(
+        "{found} segments: expected at least {needed}, that is, some {:.0} s of driving with poses and \
+         track speeds", 0.3 * real(*.needed)
+    )]
+    TooFewSegments {
+        /// Segments of the recording.
+        found: usize,
+        /// Segments that are needed.
+        needed: usize,
+    },
+    /// Too small a table.
+    #[error("{found} steady points: expected at least {needed}")]
+    TooFewPoints {
+        /// Points of the table.
+        found: usize,
+        /// Points that are needed.
+        needed: usize,
+    },
+    /// Noise is neither measurable nor stated.
+    #[error(
+        "the noise is not known: expected stretches of steady driving or standing with poses (or, in a \
+         table of steady points, neighbours on lines of one track speed), or a [noise] table in \
+         recording.toml"
+    )]
+    NoNoise,
+    /// A recording without turning.
+    #[error(
+        "the robot hardly turns: expected track speeds that differ, for the instantaneous centres of \
+         rotation show in turns only"
+    )]
+    NoTurning,
+    /// A vehicle that cannot move as recorded.
+    #[error("the vehicle does not move as recorded: {0}")]
+    NoMotion(String),
+    /// A plan without time.
+    #[error("{given} s: expected at least {needed:.2} s, the time of the shortest manoeuvre")]
+    TooShort {
+        /// Time that was given, s.
+        given: f64,
+        /// Time of the shortest manoeuvre, s.
+        needed: f64,
+    },
+}
+
+use trackdyn_core::real;

@@ -1,0 +1,128 @@
+//! Evidence of tables of steady motion.
+
+use super::{Evidence, Sample, Whitening};
+use crate::error::Error;
+use nalgebra::Vector3;
+use trackdyn_core::{PerSide, Pose, real};
+use trackdyn_recording::{OperatingPoint, TrackSample};
+
+/// Time that stands for an instant, s.
+const INSTANT: f64 = 1e-6;
+
+/// Fewer points than this are no evidence.
+const FEWEST: usize = 30;
+
+/// Triples of neighbours that a scatter needs.
+const FEWEST_TRIPLES: usize = 10;
+
+/// Blocks that a table is cut into.
+const BLOCKS: usize = 48;
+
+/// Ratio of the standard deviation to the median absolute deviation of a normal distribution,
+/// 1/Φ⁻¹(3/4).
+const NORMAL_FROM_MAD: f64 = 1.482_602_218_505_602;
+
+type Channel = fn(&OperatingPoint) -> Option<f64>;
+
+const CHANNELS: [Channel; 3] =
+    [|point| point.v_forward, |point| point.v_lateral, |point| point.yaw_rate];
+
+impl Evidence {
+    /// The points of a table. Their scatter comes from neighbours on lines of one track speed: of each
+    /// point against the straight line through the two beside it, which no model enters.
+    ///
+    /// Points are blocks of their own where they are few, else neighbours in the table's order are
+    /// taken together: what shifts during a series of measurements shifts neighbours alike.
+    ///
+    /// # Errors
+    /// Too few points, or no lines to see the scatter on.
+    pub fn of_points(points: &[OperatingPoint]) -> Result<Self, Error> {
+        if points.len() < FEWEST {
+            return Err(Error::TooFewPoints { found: points.len(), needed: FEWEST });
+        }
+        let scatter = CHANNELS.map(|channel| scatter(points, channel));
+        if scatter[2].is_none() {
+            return Err(Error::NoNoise);
+        }
+        let blocks = points.len().min(BLOCKS);
+        let mut samples = Vec::with_capacity(points.len());
+        let mut tracks = Vec::with_capacity(points.len());
+        let mut inverse = Vec::with_capacity(points.len());
+        for (index, point) in points.iter().enumerate() {
+            let measured: [Option<f64>; 3] = std::array::from_fn(|channel| {
+                CHANNELS[channel](point).filter(|_| scatter[channel].is_some())
+            });
+            let motion = Vector3::from(measured.map(|value| value.unwrap_or(0.0) * INSTANT));
+            inverse.push(Vector3::from_fn(|channel, _| {
+                match (measured[channel], scatter[channel]) {
+                    (Some(_), Some(scatter)) => 1.0 / (scatter * INSTANT),
+                    _ => 0.0,
+                }
+            }));
+            samples.push(Sample {
+                run: index,
+                block: index * blocks / points.len(),
+                start: 0.0,
+                duration: INSTANT,
+                motion,
+                pose: Pose::default(),
+                speeds: PerSide::new(point.v_left, point.v_right),
+                acceleration: PerSide::default(),
+            });
+            let (v_left, v_right) = (point.v_left, point.v_right);
+            tracks.push(vec![TrackSample { t: 0.0, v_left, v_right }]);
+        }
+        let list = scatter.map(|scatter| scatter.map_or("-".to_owned(), |s| format!("{s:.4}")));
+        Ok(Self {
+            samples,
+            tracks,
+            whitening: Whitening::Points(inverse),
+            blocks,
+            runs: (0..).take(points.len()).collect(),
+            tau: 0.0,
+            is_steady: true,
+            description: format!(
+                "{} steady points in {blocks} blocks of neighbours in the table; scatter against \
+                 neighbours on lines of one track speed: {} m/s forward, {} m/s left, {} rad/s",
+                points.len(),
+                list[0],
+                list[1],
+                list[2]
+            ),
+        })
+    }
+}
+
+/// Standard deviation of a channel: of the middle of three neighbours that share a track speed against the
+/// line through the outer two. None without neighbours.
+fn scatter(points: &[OperatingPoint], channel: Channel) -> Option<f64> {
+    let mut sizes = Vec::new();
+    for shared in [|point: &OperatingPoint| point.v_right, |point: &OperatingPoint| point.v_left] {
+        let across = |point: &OperatingPoint| point.v_left + point.v_right - shared(point);
+        let mut line: Vec<(f64, f64, f64)> = points
+            .iter()
+            .filter_map(|point| Some((shared(point), across(point), channel(point)?)))
+            .collect();
+        line.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        for triple in line.windows(3) {
+            let [(a, x, left), (b, y, middle), (c, z, right)] = [triple[0], triple[1], triple[2]];
+            // The ICRs may jump where a track changes its direction.
+            let jumps = x * y < 0.0 || y * z < 0.0 || x.abs().min(z.abs()) < 1e-9;
+            if a != b || b != c || x >= y || y >= z || jumps {
+                continue;
+            }
+            let part = (y - x) / (z - x);
+            let off = middle - (1.0 - part) * left - part * right;
+            let gain = (1.0 + part * part + (1.0 - part) * (1.0 - part)).sqrt();
+            sizes.push((off / gain).abs());
+        }
+    }
+    if sizes.len() < FEWEST_TRIPLES {
+        return None;
+    }
+    sizes.sort_by(f64::total_cmp);
+    let rms = (sizes.iter().map(|size| size * size).sum::<f64>() / real(sizes.len())).sqrt();
+    let median = NORMAL_FROM_MAD * sizes[sizes.len() / 2];
+    // Where most readings are rounded away the median says nothing.
+    Some(if median > 0.0 { median } else { rms }).filter(|scatter| *scatter > 0.0)
+}

@@ -1,0 +1,104 @@
+//! What an effect would change against what was seen: the picture of a fit.
+//!
+//! Whatever else is free is taken out of both, as in an added-variable plot: what is left of the departure
+//! then lies on a line of slope one if the effect is there at its size, and about zero if it is not.
+
+use crate::evidence::Evidence;
+use crate::fit::{Fit, Metric};
+use crate::hypothesis::Unknown;
+use crate::mechanics::{Instruments, Mechanics};
+use crate::normal::{Columns, Normal, Prior};
+use crate::search::{Screened, Search};
+use nalgebra::Vector3;
+use trackdyn_physics::VehicleFile;
+
+/// An effect against the evidence, sample by sample, whitened.
+#[derive(Clone, Debug)]
+pub struct Exposure {
+    /// Place of the effect in the catalogue.
+    pub effect: usize,
+    /// Change of the prediction by the effect at its estimated size.
+    pub predicted: Vec<Vector3<f64>>,
+    /// Departure of the evidence from the prediction without it.
+    pub observed: Vec<Vector3<f64>>,
+}
+
+impl Exposure {
+    /// Of an effect of a fit: without it, it is as the vehicle file has it.
+    pub fn of_fitted(
+        evidence: &Evidence,
+        metric: &Metric,
+        fit: &Fit,
+        effect: usize,
+        file: &VehicleFile,
+    ) -> Self {
+        let filed = file
+            .effects
+            .iter()
+            .find(|known| known.card().id == trackdyn_physics::CATALOGUE[effect].id);
+        let without = match filed {
+            Some(filed) => fit.hypothesis.with_effect(filed.clone()),
+            None => fit.hypothesis.without(effect),
+        };
+        let prediction =
+            Mechanics::new(&without, evidence).predict(&Instruments::of(&without), evidence);
+        let observed = metric.residual(evidence, &prediction);
+        let predicted = observed.iter().zip(&fit.residual).map(|(a, b)| a - b).collect();
+        let others = fit.unknowns.iter().zip(&fit.columns);
+        let others: Vec<_> = others
+            .filter(|(unknown, _)| !matches!(unknown, Unknown::Effect(of, _) if *of == effect))
+            .map(|(_, column)| column.clone())
+            .collect();
+        Self { effect, predicted, observed }.beside(evidence, metric, &others, &fit.residual)
+    }
+
+    /// Of a candidate beside the base.
+    pub fn of_candidate(search: &Search, one: &Screened) -> Self {
+        let fit = &search.base.fit;
+        let mut predicted = vec![Vector3::zeros(); fit.residual.len()];
+        let (_, signatures) = &search.catalogue.entries[one.entry];
+        for (signature, size) in signatures.iter().zip(&one.sizes) {
+            for (sum, value) in predicted.iter_mut().zip(&signature.column) {
+                *sum += value * *size;
+            }
+        }
+        Self { effect: one.effect, predicted, observed: fit.residual.clone() }.beside(
+            search.evidence,
+            search.metric,
+            &fit.columns,
+            &fit.residual,
+        )
+    }
+
+    /// With what these columns explain taken out.
+    fn beside(
+        self,
+        evidence: &Evidence,
+        metric: &Metric,
+        columns: &[Vec<Vector3<f64>>],
+        residual: &[Vector3<f64>],
+    ) -> Self {
+        let weights = metric.weights(evidence, residual);
+        let blocks = vec![0; weights.len()];
+        let all: Vec<usize> = (0..columns.len()).collect();
+        let flat = vec![Prior { mean: 0.0, deviation: 1e9 }; columns.len()];
+        let rest = |of: Vec<Vector3<f64>>| -> Vec<Vector3<f64>> {
+            let normal = Normal::new(&Columns {
+                residual: &of,
+                columns,
+                weights: &weights,
+                blocks: &blocks,
+                count: 1,
+            });
+            let factors = normal.fit(&all, &flat).estimate;
+            let mut rest = of;
+            for (column, factor) in columns.iter().zip(factors.iter()) {
+                for (rest, value) in rest.iter_mut().zip(column) {
+                    *rest -= value * *factor;
+                }
+            }
+            rest
+        };
+        Self { predicted: rest(self.predicted), observed: rest(self.observed), ..self }
+    }
+}

@@ -1,0 +1,434 @@
+//! The fit of a hypothesis: all its unknowns by Gauss and Newton's method, robustly.
+//!
+//! # Law
+//! Minimise Σ ρ(|z|) + ½ Σ ((θ − m)/s)², z the whitened residual of a sample, ρ Huber's loss of its length,
+//! and m, s what is known of each unknown beforehand.
+
+use crate::evidence::Evidence;
+use crate::hypothesis::{Hypothesis, Unknown, neutral, typical_size};
+use crate::mechanics::{Instruments, Mechanics, is_instrument};
+use crate::normal::{Columns, Normal, Prior, Solution};
+use nalgebra::Vector3;
+use rayon::prelude::*;
+use trackdyn_physics::contact::Friction;
+use trackdyn_physics::effect::Role;
+use trackdyn_physics::{CATALOGUE, Circumstance, Model, Vehicle};
+
+/// Length of a whitened residual from which on it counts linearly: 1 % of normal residuals are longer.
+const FAR: f64 = 3.4;
+
+/// Iterations of a fit.
+const ITERATIONS: usize = 6;
+
+/// A step that lowers the objective by less than this is the last one.
+const SETTLED: f64 = 0.2;
+
+/// How residuals are measured: what part of the evidence counts, and in which scale.
+#[derive(Clone, Debug)]
+pub struct Metric {
+    /// By what the whitened residuals of each channel are larger than the noise says.
+    pub scale: [f64; 3],
+    /// Whether each run counts.
+    pub runs: Vec<bool>,
+}
+
+/// A hypothesis at its best.
+#[derive(Clone)]
+pub struct Fit {
+    /// The hypothesis with its fitted numbers.
+    pub hypothesis: Hypothesis,
+    /// What was free.
+    pub unknowns: Vec<Unknown>,
+    /// Its mechanics.
+    pub mechanics: Mechanics,
+    /// Whitened and scaled residuals.
+    pub residual: Vec<Vector3<f64>>,
+    /// Derivatives of the prediction by the unknowns, whitened and scaled alike.
+    pub columns: Vec<Vec<Vector3<f64>>>,
+    /// Twice the objective.
+    pub objective: f64,
+    /// The linear fit at the end.
+    pub solution: Solution,
+}
+
+impl Metric {
+    /// The residual column of a prediction.
+    pub fn residual(&self, evidence: &Evidence, prediction: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+        let samples = evidence.samples().iter().zip(prediction);
+        self.white(evidence, samples.map(|(sample, motion)| sample.motion - motion).collect())
+    }
+
+    /// A column, whitened and scaled.
+    pub fn white(&self, evidence: &Evidence, mut column: Vec<Vector3<f64>>) -> Vec<Vector3<f64>> {
+        evidence.whiten(&mut column);
+        let inverse = Vector3::from(self.scale.map(f64::recip));
+        for value in &mut column {
+            value.component_mul_assign(&inverse);
+        }
+        column
+    }
+
+    /// The weight of each sample: one near, less far out, none where its run does not count.
+    pub fn weights(&self, evidence: &Evidence, residual: &[Vector3<f64>]) -> Vec<f64> {
+        let samples = evidence.samples().iter().zip(residual);
+        samples
+            .map(|(sample, z)| {
+                if !self.runs[sample.run] {
+                    return 0.0;
+                }
+                let length = z.norm();
+                if length > FAR { FAR / length } else { 1.0 }
+            })
+            .collect()
+    }
+
+    /// By what the residuals of each channel are larger than this metric takes them to be, from their
+    /// medians: one where nothing is left but noise.
+    pub fn residual_scale(&self, evidence: &Evidence, residual: &[Vector3<f64>]) -> [f64; 3] {
+        /// Ratio of the standard deviation to the median absolute deviation of a normal distribution.
+        const NORMAL_FROM_MAD: f64 = 1.482_602_218_505_602;
+        std::array::from_fn(|channel| {
+            let samples = evidence.samples().iter().zip(residual).enumerate();
+            let mut sizes: Vec<f64> = samples
+                .filter(|(index, (sample, _))| {
+                    self.runs[sample.run] && evidence.is_measured(*index, channel)
+                })
+                .map(|(_, (_, z))| z[channel].abs() * self.scale[channel])
+                .collect();
+            sizes.sort_by(f64::total_cmp);
+            sizes.get(sizes.len() / 2).map_or(1.0, |median| NORMAL_FROM_MAD * median)
+        })
+    }
+
+    /// Twice the robust loss.
+    pub fn loss(&self, evidence: &Evidence, residual: &[Vector3<f64>]) -> f64 {
+        let samples = evidence.samples().iter().zip(residual);
+        samples
+            .filter(|(sample, _)| self.runs[sample.run])
+            .map(|(_, z)| {
+                let length = z.norm();
+                if length > FAR { FAR * (2.0 * length - FAR) } else { length * length }
+            })
+            .sum()
+    }
+}
+
+/// What is known of an unknown beforehand, as standard deviation around no effect.
+///
+/// # Panics
+/// Never: an unknown of an effect has a parameter.
+pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> Prior {
+    /// Sizes of several times the typical one are seldom.
+    const SEVERAL: f64 = 3.0;
+    match unknown {
+        Unknown::Offset(_) => Prior { mean: 0.0, deviation: 0.5 * hypothesis.vehicle.gauge },
+        Unknown::Effect(..) => {
+            let parameter = unknown.parameter().expect("an effect's");
+            if let Some(deviation) = measured(&hypothesis.vehicle, unknown) {
+                return Prior { mean: neutral(parameter), deviation };
+            }
+            match parameter.role {
+                Role::Size { .. } => {
+                    Prior { mean: neutral(parameter), deviation: SEVERAL * typical_size(parameter) }
+                }
+                Role::Place { .. } => {
+                    let [middle, spread] = area(evidence, parameter.role);
+                    Prior { mean: middle, deviation: 3.0 * spread.max(1.0) }
+                }
+                Role::Direction => Prior { mean: 0.0, deviation: 360.0 },
+                Role::Shape => Prior { mean: parameter.typical, deviation: parameter.typical },
+            }
+        }
+    }
+}
+
+/// How far an effect's size may be from none because the owner measured what it changes: the vehicle's centre
+/// of gravity, or its friction ratio. None where it changes something else, or nothing is known.
+pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
+    /// What is known exactly is known to this part of a typical size.
+    const EXACT: f64 = 1e-4;
+    let Unknown::Effect(effect, place) = unknown else { return None };
+    let parameters = CATALOGUE[effect].parameters;
+    let typical = typical_size(&parameters[place]);
+    let values: Vec<f64> = (0..parameters.len())
+        .map(|k| if k == place { parameters[k].typical } else { neutral(&parameters[k]) })
+        .collect();
+    let effects = std::iter::once(crate::hypothesis::active(effect, &values)).collect();
+    let model = Model::new(vehicle.clone(), effects);
+    let floor = |deviation: f64| deviation.max(EXACT * typical);
+    let moved = [0, 1].map(|axis| (model.vehicle().cog[axis] - vehicle.cog[axis]).abs());
+    if moved != [0.0, 0.0] {
+        let deviations = vehicle.uncertainty.cog?;
+        let axis = if moved[0] > moved[1] { 0 } else { 1 };
+        return Some(floor(typical * deviations[axis] / moved[axis]));
+    }
+    let friction = model.ground(&Circumstance::default()).friction;
+    let ratio = |of: &Friction| of.across / of.along;
+    let change = (ratio(&friction.left) / ratio(&vehicle.friction)).ln().abs();
+    let alike = friction.left == friction.right;
+    if alike && change > 0.0 {
+        let known = &vehicle.uncertainty.friction;
+        let relative =
+            (known.across? / vehicle.friction.across).hypot(known.along? / vehicle.friction.along);
+        return Some(floor(typical * relative / change));
+    }
+    None
+}
+
+/// Middle and spread of the recorded places along an axis of the world, m.
+pub fn area(evidence: &Evidence, role: Role) -> [f64; 2] {
+    let Role::Place { axis } = role else { return [0.0, 1.0] };
+    let coordinates = evidence.samples().iter().map(|sample| [sample.pose.x, sample.pose.y][axis]);
+    let (low, high) = coordinates
+        .fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
+    [f64::midpoint(low, high), (high - low) / 2.0]
+}
+
+/// Step of a difference quotient.
+fn step(hypothesis: &Hypothesis, unknown: Unknown) -> f64 {
+    match unknown {
+        Unknown::Offset(_) => 1e-3 * hypothesis.vehicle.gauge,
+        Unknown::Effect(..) => {
+            let parameter = unknown.parameter().expect("an effect's");
+            let value = hypothesis.get(unknown);
+            let size = match parameter.role {
+                Role::Size { .. } => 0.05 * typical_size(parameter),
+                Role::Place { .. } => 0.1,
+                Role::Direction => 2.0,
+                Role::Shape => 0.05 * value.abs().max(0.05 * parameter.typical),
+            };
+            if value + size > parameter.range[1] { -size } else { size }
+        }
+    }
+}
+
+/// The derivatives of the prediction by unknowns, as columns.
+pub fn columns(
+    hypothesis: &Hypothesis,
+    mechanics: &Mechanics,
+    prediction: &[Vector3<f64>],
+    unknowns: &[Unknown],
+    evidence: &Evidence,
+    metric: &Metric,
+) -> Vec<Vec<Vector3<f64>>> {
+    unknowns
+        .par_iter()
+        .map(|&unknown| {
+            let step = step(hypothesis, unknown);
+            let moved = hypothesis.with(unknown, hypothesis.get(unknown) + step);
+            let step = moved.get(unknown) - hypothesis.get(unknown);
+            let instruments = Instruments::of(&moved);
+            let prediction_there = match reach(hypothesis, unknown) {
+                Reach::Instruments => mechanics.predict(&instruments, evidence),
+                Reach::Forces => Mechanics::beside(Some(mechanics), &moved, evidence)
+                    .predict(&instruments, evidence),
+            };
+            let quotient = prediction_there.iter().zip(prediction).map(|(b, a)| (b - a) / step);
+            metric.white(evidence, quotient.collect())
+        })
+        .collect()
+}
+
+/// What of a prediction an unknown changes.
+enum Reach {
+    /// Sensors, gains and lags, offsets.
+    Instruments,
+    /// The balance of forces.
+    Forces,
+}
+
+fn reach(hypothesis: &Hypothesis, unknown: Unknown) -> Reach {
+    let Unknown::Effect(effect, _) = unknown else { return Reach::Instruments };
+    let values: Vec<f64> =
+        CATALOGUE[effect].parameters.iter().map(|parameter| parameter.typical).collect();
+    let effect = crate::hypothesis::active(effect, &values);
+    if is_instrument(&hypothesis.vehicle, &effect) { Reach::Instruments } else { Reach::Forces }
+}
+
+/// A hypothesis with its residuals.
+struct Point {
+    hypothesis: Hypothesis,
+    mechanics: Mechanics,
+    prediction: Vec<Vector3<f64>>,
+    residual: Vec<Vector3<f64>>,
+    objective: f64,
+}
+
+impl Point {
+    fn new(
+        hypothesis: Hypothesis,
+        unknowns: &[Unknown],
+        evidence: &Evidence,
+        metric: &Metric,
+        before: Option<&Mechanics>,
+    ) -> Self {
+        let mechanics = Mechanics::beside(before, &hypothesis, evidence);
+        let prediction = mechanics.predict(&Instruments::of(&hypothesis), evidence);
+        let residual = metric.residual(evidence, &prediction);
+        let known = priors(&hypothesis, unknowns, evidence);
+        let penalty: f64 = known.iter().map(|prior| (prior.mean / prior.deviation).powi(2)).sum();
+        let objective = if mechanics.failure().is_some() {
+            f64::INFINITY
+        } else {
+            metric.loss(evidence, &residual) + penalty
+        };
+        Self { hypothesis, mechanics, prediction, residual, objective }
+    }
+}
+
+impl Fit {
+    /// Fits the unknowns of a hypothesis, from its numbers on. `before` is the mechanics of a hypothesis that
+    /// resembles it ([`Mechanics::beside`]).
+    pub fn new(
+        start: Hypothesis,
+        unknowns: &[Unknown],
+        evidence: &Evidence,
+        metric: &Metric,
+        before: Option<&Mechanics>,
+    ) -> Self {
+        let point = Point::new(start, unknowns, evidence, metric, before);
+        let mut fit = Self::linearised(point, unknowns, evidence, metric);
+        for _ in 0..ITERATIONS {
+            let Some(next) = fit.next(evidence, metric) else { break };
+            let gain = fit.objective - next.objective;
+            fit = Self::linearised(next, unknowns, evidence, metric);
+            if gain < SETTLED {
+                break;
+            }
+        }
+        fit
+    }
+
+    /// The point of a share of the step that lowers the objective; none where no share does, or where the
+    /// whole step promises next to nothing.
+    fn next(&self, evidence: &Evidence, metric: &Metric) -> Option<Point> {
+        /// Shares of a step before it is given up.
+        const SHARES: [f64; 4] = [1.0, 0.4, 0.15, 0.05];
+        SHARES.into_iter().find_map(|share| {
+            let before = Some(&self.mechanics);
+            let point = Point::new(self.stepped(share), &self.unknowns, evidence, metric, before);
+            (point.objective < self.objective).then_some(point)
+        })
+    }
+
+    /// A hypothesis as it stands, with its derivatives.
+    pub fn at(
+        hypothesis: Hypothesis,
+        unknowns: &[Unknown],
+        evidence: &Evidence,
+        metric: &Metric,
+        before: Option<&Mechanics>,
+    ) -> Self {
+        let point = Point::new(hypothesis, unknowns, evidence, metric, before);
+        Self::linearised(point, unknowns, evidence, metric)
+    }
+
+    fn linearised(
+        point: Point,
+        unknowns: &[Unknown],
+        evidence: &Evidence,
+        metric: &Metric,
+    ) -> Self {
+        let Point { hypothesis, mechanics, prediction, residual, objective } = point;
+        let columns = columns(&hypothesis, &mechanics, &prediction, unknowns, evidence, metric);
+        let priors = priors(&hypothesis, unknowns, evidence);
+        let weights = metric.weights(evidence, &residual);
+        let blocks: Vec<usize> = evidence.samples().iter().map(|sample| sample.block).collect();
+        let normal = Normal::new(&Columns {
+            residual: &residual,
+            columns: &columns,
+            weights: &weights,
+            blocks: &blocks,
+            count: evidence.blocks(),
+        });
+        // At a bound that the step would cross, an unknown stays.
+        let mut free: Vec<usize> = (0..unknowns.len()).collect();
+        let solution = loop {
+            let solution = normal.fit(&free, &priors);
+            let steps = free.iter().zip(solution.estimate.iter());
+            let crossing = steps
+                .enumerate()
+                .find(|(_, (k, step))| at_bound(&hypothesis, unknowns[**k], **step))
+                .map(|(place, _)| place);
+            match crossing {
+                Some(place) => {
+                    free.remove(place);
+                }
+                None => break solution,
+            }
+        };
+        let solution = spread(&solution, &free, &priors);
+        Self {
+            hypothesis,
+            unknowns: unknowns.to_vec(),
+            mechanics,
+            residual,
+            columns,
+            objective,
+            solution,
+        }
+    }
+
+    /// The hypothesis a share of the step further.
+    fn stepped(&self, share: f64) -> Hypothesis {
+        let steps = self.unknowns.iter().zip(self.solution.estimate.iter());
+        steps.fold(self.hypothesis.clone(), |moved, (&unknown, step)| {
+            let value = moved.get(unknown) + share * step;
+            moved.with(unknown, value)
+        })
+    }
+
+    /// Logarithm of the evidence, up to what all hypotheses share.
+    pub fn ln_evidence(&self, evidence: &Evidence) -> f64 {
+        // ½ (minimum − its quadratic part) is the same at the optimum; what is left is Occam's factor.
+        let count = self.unknowns.len();
+        let priors = priors(&self.hypothesis, &self.unknowns, evidence);
+        let mut occam = 0.0;
+        let scaled = nalgebra::DMatrix::from_fn(count, count, |a, b| {
+            self.solution.covariance[(a, b)] / (priors[a].deviation * priors[b].deviation)
+        });
+        if let Some(cholesky) = scaled.cholesky() {
+            let factor = cholesky.l_dirty();
+            occam = (0..count).map(|k| 2.0 * factor[(k, k)].ln()).sum();
+        }
+        -0.5 * self.objective + 0.5 * occam
+    }
+
+    /// The model of the fitted hypothesis.
+    pub fn model(&self) -> Model {
+        Model::new(self.hypothesis.vehicle.clone(), self.hypothesis.effects.clone())
+    }
+}
+
+/// Priors of steps from where a hypothesis stands.
+pub fn priors(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Evidence) -> Vec<Prior> {
+    unknowns
+        .iter()
+        .map(|&unknown| {
+            let known = prior(hypothesis, unknown, evidence);
+            Prior { mean: known.mean - hypothesis.get(unknown), ..known }
+        })
+        .collect()
+}
+
+fn at_bound(hypothesis: &Hypothesis, unknown: Unknown, step: f64) -> bool {
+    let Some(parameter) = unknown.parameter() else { return false };
+    let value = hypothesis.get(unknown);
+    let [low, high] = parameter.range;
+    let near = 1e-9 * (high - low);
+    (value <= low + near && step < 0.0) || (value >= high - near && step > 0.0)
+}
+
+/// A solution of some unknowns as one of all: the others do not move, and nothing more is known of them.
+fn spread(solution: &Solution, free: &[usize], priors: &[Prior]) -> Solution {
+    let variances: Vec<f64> = priors.iter().map(|prior| prior.deviation.powi(2)).collect();
+    let mut estimate = nalgebra::DVector::zeros(priors.len());
+    let mut covariance = nalgebra::DMatrix::from_diagonal(&nalgebra::DVector::from(variances));
+    for (a, &i) in free.iter().enumerate() {
+        estimate[i] = solution.estimate[a];
+        for (b, &j) in free.iter().enumerate() {
+            covariance[(i, j)] = solution.covariance[(a, b)];
+        }
+    }
+    Solution { estimate, covariance, ..solution.clone() }
+}

@@ -1,0 +1,126 @@
+//! A hypothesis: a vehicle, effects with their sizes, and a constant offset of the ICRs.
+
+use trackdyn_physics::effect::{Parameter, Role};
+use trackdyn_physics::{ActiveEffect, CATALOGUE, Effects, Vehicle};
+
+/// What is supposed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hypothesis {
+    /// The vehicle.
+    pub vehicle: Vehicle,
+    /// Effects that act.
+    pub effects: Effects,
+    /// What is added to the ICRs (x_l, x_r, y), m: all that slow driving on level ground can tell.
+    pub offset: [f64; 3],
+}
+
+/// A number of a hypothesis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Unknown {
+    /// Offset of x_l, x_r or y.
+    Offset(usize),
+    /// Parameter of an effect, both by their places in the catalogue.
+    Effect(usize, usize),
+}
+
+impl Unknown {
+    /// The parameter of the catalogue; none of an offset.
+    pub fn parameter(self) -> Option<&'static Parameter> {
+        match self {
+            Self::Offset(_) => None,
+            Self::Effect(effect, parameter) => Some(&CATALOGUE[effect].parameters[parameter]),
+        }
+    }
+}
+
+/// The unknowns of an effect.
+pub fn unknowns_of(effect: usize) -> impl Iterator<Item = Unknown> {
+    (0..CATALOGUE[effect].parameters.len()).map(move |parameter| Unknown::Effect(effect, parameter))
+}
+
+/// A parameter's value at which its effect is not there, within the physical range; its typical value
+/// where it is no size.
+pub fn neutral(parameter: &Parameter) -> f64 {
+    match parameter.role {
+        Role::Size { neutral } => neutral.clamp(parameter.range[0], parameter.range[1]),
+        _ => parameter.typical,
+    }
+}
+
+/// Distance of the typical size from none, in the parameter's unit.
+pub fn typical_size(parameter: &Parameter) -> f64 {
+    match parameter.role {
+        Role::Size { neutral } => (parameter.typical - neutral).abs(),
+        _ => parameter.typical.abs(),
+    }
+}
+
+impl Hypothesis {
+    /// Value of an unknown; that of no effect where the effect is not there.
+    pub fn get(&self, unknown: Unknown) -> f64 {
+        match unknown {
+            Unknown::Offset(k) => self.offset[k],
+            Unknown::Effect(effect, parameter) => self.effect(effect).map_or_else(
+                || neutral(&CATALOGUE[effect].parameters[parameter]),
+                |active| active.values()[parameter],
+            ),
+        }
+    }
+
+    /// The same with another value of an unknown, within its physical range. An effect that was not there
+    /// comes with no size and the typical values of what is no size.
+    pub fn with(&self, unknown: Unknown, value: f64) -> Self {
+        let mut changed = self.clone();
+        match unknown {
+            Unknown::Offset(k) => changed.offset[k] = value,
+            Unknown::Effect(effect, parameter) => {
+                let card = &CATALOGUE[effect];
+                let mut values: Vec<f64> = match self.effect(effect) {
+                    Some(active) => active.values().to_vec(),
+                    None => card.parameters.iter().map(neutral).collect(),
+                };
+                let [low, high] = card.parameters[parameter].range;
+                values[parameter] = value.clamp(low, high);
+                changed.effects.insert(active(effect, &values));
+            }
+        }
+        changed
+    }
+
+    /// The effect at a place of the catalogue, where it is there.
+    pub fn effect(&self, effect: usize) -> Option<&ActiveEffect> {
+        self.effects.iter().find(|active| active.card().id == CATALOGUE[effect].id)
+    }
+
+    /// The same with an effect switched on, or with other values.
+    pub fn with_effect(&self, effect: ActiveEffect) -> Self {
+        let mut changed = self.clone();
+        changed.effects.insert(effect);
+        changed
+    }
+
+    /// The same without an effect.
+    pub fn without(&self, effect: usize) -> Self {
+        let id = CATALOGUE[effect].id;
+        let effects =
+            self.effects.iter().filter(|active| active.card().id != id).cloned().collect();
+        Self { effects, ..self.clone() }
+    }
+}
+
+/// An effect with these values, clamped into their physical ranges.
+///
+/// # Panics
+/// Never: names and ranges are the catalogue's.
+pub fn active(effect: usize, values: &[f64]) -> ActiveEffect {
+    let card = &CATALOGUE[effect];
+    let settings: Vec<(&str, f64)> = card
+        .parameters
+        .iter()
+        .zip(values)
+        .map(|(parameter, value)| {
+            (parameter.key, value.clamp(parameter.range[0], parameter.range[1]))
+        })
+        .collect();
+    ActiveEffect::new(card.id, &settings).expect("values within the ranges of the card")
+}

@@ -1,0 +1,102 @@
+//! What this evidence could show, and could tell apart.
+
+use crate::diagnosis::Detectable;
+use crate::hypothesis::{Unknown, neutral};
+use crate::search::{Found, Screened, Search};
+use nalgebra::DMatrix;
+use trackdyn_physics::CATALOGUE;
+
+/// Standard deviations by which an effect must stand out to be detectable.
+pub const DETECTED: f64 = 5.0;
+
+/// The effects' signatures against each other, with all that is free projected out.
+#[derive(Clone, Debug)]
+pub struct Isolability {
+    /// Places of the effects in the catalogue, ascending.
+    pub effects: Vec<usize>,
+    /// z of each effect at its typical size.
+    pub detection: Vec<f64>,
+    /// |cosine| between the signatures of two effects: one where they cannot be told apart.
+    pub cosines: DMatrix<f64>,
+    /// z of each effect at its typical size beside the other one.
+    pub separation: DMatrix<f64>,
+    /// Unit size of each size parameter: z per unit.
+    sizes: Vec<(Unknown, f64)>,
+}
+
+impl Isolability {
+    /// Of the best variant of each screened effect, beside the best hypothesis.
+    pub fn new(search: &Search, best: &Found, screened: &[Screened]) -> Self {
+        let mut order: Vec<&Screened> =
+            screened.iter().filter(|one| !best.effects.contains(&one.effect)).collect();
+        order.sort_by_key(|one| one.effect);
+        let entries: Vec<usize> = order.iter().map(|one| one.entry).collect();
+        let (normal, known, groups) = search.normal(&best.fit, &entries);
+        let base: Vec<usize> = (0..best.fit.columns.len()).collect();
+        let projected = normal.projected(&base, &known);
+        // The signature at typical sizes, as one column.
+        let typical = |place: usize| -> Vec<f64> {
+            let parameters = CATALOGUE[order[place].effect].parameters;
+            let sizes = crate::candidate::sizes(order[place].effect);
+            sizes.iter().map(|&k| parameters[k].typical - neutral(&parameters[k])).collect()
+        };
+        let product = |a: usize, b: usize| -> f64 {
+            let (sizes_a, sizes_b) = (typical(a), typical(b));
+            let pairs = groups[a].iter().zip(&sizes_a);
+            pairs
+                .flat_map(|(&i, x)| {
+                    groups[b].iter().zip(&sizes_b).map(move |(&j, y)| (i, j, x * y))
+                })
+                .map(|(i, j, factor)| factor * projected.product(i, j))
+                .sum()
+        };
+        let count = order.len();
+        let products = DMatrix::from_fn(count, count, product);
+        let detection: Vec<f64> = (0..count).map(|k| products[(k, k)].max(0.0).sqrt()).collect();
+        let cosines = DMatrix::from_fn(count, count, |a, b| {
+            let lengths = detection[a] * detection[b];
+            if lengths > 0.0 { (products[(a, b)] / lengths).abs().min(1.0) } else { 0.0 }
+        });
+        let separation = DMatrix::from_fn(count, count, |a, b| {
+            if a == b {
+                detection[a]
+            } else {
+                detection[a] * (1.0 - cosines[(a, b)].powi(2)).max(0.0).sqrt()
+            }
+        });
+        let mut sizes = Vec::new();
+        for (place, group) in groups.iter().enumerate() {
+            let (_, signatures) = &search.catalogue.entries[order[place].entry];
+            for (signature, &column) in signatures.iter().zip(group) {
+                sizes.push((signature.unknown, projected.product(column, column).max(0.0).sqrt()));
+            }
+        }
+        // Those that are in the best hypothesis already: by how well they are known.
+        for (k, &unknown) in best.fit.unknowns.iter().enumerate() {
+            let Unknown::Effect(_, _) = unknown else { continue };
+            let is_size = unknown.parameter().is_some_and(|parameter| {
+                matches!(parameter.role, trackdyn_physics::effect::Role::Size { .. })
+            });
+            if is_size {
+                sizes.push((unknown, best.fit.solution.covariance[(k, k)].sqrt().recip()));
+            }
+        }
+        sizes.sort_by_key(|(unknown, _)| *unknown);
+        let effects = order.iter().map(|one| one.effect).collect();
+        Self { effects, detection, cosines, separation, sizes }
+    }
+
+    /// The smallest size of every effect that would have stood out.
+    pub fn detectable(&self) -> Vec<Detectable> {
+        self.sizes
+            .iter()
+            .filter_map(|&(unknown, per_unit)| {
+                let Unknown::Effect(effect, parameter) = unknown else { return None };
+                let card = &CATALOGUE[effect].parameters[parameter];
+                let most = (card.range[1] - neutral(card)).max(neutral(card) - card.range[0]);
+                let size = DETECTED / per_unit;
+                Some(Detectable { effect, parameter, size: (size <= most).then_some(size) })
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,96 @@
+//! The ICR triple in cells of driving.
+
+use super::contrasts::Manoeuvre;
+use crate::evidence::{Evidence, Sample};
+use crate::fit::Metric;
+use crate::normal::{Columns, Normal, Prior};
+use nalgebra::Vector3;
+use trackdyn_core::real;
+
+/// Samples that a cell needs.
+const FEWEST: usize = 12;
+
+/// A cell of driving and how the ICRs there depart from the fitted ones.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    /// How it was driven.
+    pub manoeuvre: Manoeuvre,
+    /// Third of the speeds, 0 the slowest.
+    pub speed: usize,
+    /// Forward (for spins: to the left).
+    pub forward: bool,
+    /// Mean of the larger track speed, m/s.
+    pub mean_speed: f64,
+    /// Samples in it.
+    pub samples: usize,
+    /// Departure of x_l, x_r and y, m, with one standard deviation.
+    pub departure: [(f64, f64); 3],
+}
+
+/// The cells with enough turning.
+pub fn cells(
+    evidence: &Evidence,
+    metric: &Metric,
+    residual: &[Vector3<f64>],
+    icrs: &[Vec<Vector3<f64>>; 3],
+) -> Vec<Cell> {
+    let samples = evidence.samples();
+    let fast = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs());
+    let mut speeds: Vec<f64> = samples.iter().map(fast).filter(|speed| *speed > 0.0).collect();
+    speeds.sort_by(f64::total_cmp);
+    if speeds.is_empty() {
+        return Vec::new();
+    }
+    let bounds = [speeds[speeds.len() / 3], speeds[2 * speeds.len() / 3]];
+    let columns: Vec<Vec<Vector3<f64>>> =
+        icrs.iter().map(|column| metric.white(evidence, column.clone())).collect();
+    let weights = metric.weights(evidence, residual);
+    let mut cells = Vec::new();
+    for manoeuvre in [Manoeuvre::Arc, Manoeuvre::CounterRotation, Manoeuvre::Spin] {
+        for speed in 0..3 {
+            for forward in [true, false] {
+                let inside = |sample: &Sample| {
+                    let third = bounds.iter().filter(|bound| fast(sample) > **bound).count();
+                    let ahead = if manoeuvre == Manoeuvre::Spin {
+                        sample.speeds.right > sample.speeds.left
+                    } else {
+                        sample.speeds.left + sample.speeds.right > 0.0
+                    };
+                    Manoeuvre::of(sample) == manoeuvre && third == speed && ahead == forward
+                };
+                let chosen: Vec<usize> = (0..samples.len())
+                    .filter(|&k| weights[k] > 0.0 && inside(&samples[k]))
+                    .collect();
+                if chosen.len() < FEWEST {
+                    continue;
+                }
+                let mean_speed =
+                    chosen.iter().map(|&k| fast(&samples[k])).sum::<f64>() / real(chosen.len());
+                let pick = |of: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
+                    chosen.iter().map(|&k| of[k]).collect()
+                };
+                let some: Vec<Vec<Vector3<f64>>> = columns.iter().map(|of| pick(of)).collect();
+                let normal = Normal::new(&Columns {
+                    residual: &pick(residual),
+                    columns: &some,
+                    weights: &chosen.iter().map(|&k| weights[k]).collect::<Vec<_>>(),
+                    blocks: &vec![0; chosen.len()],
+                    count: 1,
+                });
+                let wide = Prior { mean: 0.0, deviation: 10.0 };
+                let fit = normal.fit(&[0, 1, 2], &[wide; 3]);
+                let departure =
+                    std::array::from_fn(|k| (fit.estimate[k], fit.covariance[(k, k)].sqrt()));
+                cells.push(Cell {
+                    manoeuvre,
+                    speed,
+                    forward,
+                    mean_speed,
+                    samples: chosen.len(),
+                    departure,
+                });
+            }
+        }
+    }
+    cells
+}

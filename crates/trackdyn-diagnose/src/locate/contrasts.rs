@@ -1,0 +1,162 @@
+//! Functions of how the robot was driven that break one symmetry each.
+//!
+//! Over the sectors of (V_l, V_r) a function is even or odd under reversal R and mirror M. With c the sign of
+//! V_l + V_r and d that of V_r − V_l: c is odd under R, d under R and M, c d under M. Of the ICRs, the
+//! middle a = (x_l + x_r)/2 is odd under M, half their distance h and y are even.
+
+use crate::evidence::{Evidence, Sample};
+use nalgebra::Vector3;
+use trackdyn_physics::effect::Symmetry;
+
+/// Ratio of the slower to the faster track, from −1 (spin) to 1 (straight), beyond which driving counts as
+/// straight or as spinning.
+const STRAIGHT: f64 = 0.9;
+const SPIN: f64 = -0.7;
+
+/// How a sample was driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Manoeuvre {
+    /// Tracks alike.
+    Straight,
+    /// Both tracks forward, or both backward.
+    Arc,
+    /// Tracks against each other at different speeds.
+    CounterRotation,
+    /// Tracks against each other at about the same speed.
+    Spin,
+}
+
+impl Manoeuvre {
+    /// The manoeuvre of a sample.
+    pub fn of(sample: &Sample) -> Self {
+        let (left, right) = (sample.speeds.left, sample.speeds.right);
+        let (slow, fast) = if left.abs() < right.abs() { (left, right) } else { (right, left) };
+        let ratio = if fast == 0.0 { 1.0 } else { slow / fast };
+        if ratio > STRAIGHT {
+            Self::Straight
+        } else if ratio >= 0.0 {
+            Self::Arc
+        } else if ratio > SPIN {
+            Self::CounterRotation
+        } else {
+            Self::Spin
+        }
+    }
+
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Straight => "straight driving",
+            Self::Arc => "arcs",
+            Self::CounterRotation => "counter-rotation",
+            Self::Spin => "spins",
+        }
+    }
+}
+
+/// Columns that break a symmetry, not whitened; none of what the evidence has no spread in.
+///
+/// `icrs` are the derivatives of the prediction by x_l, x_r and y.
+pub fn contrasts(
+    evidence: &Evidence,
+    icrs: &[Vec<Vector3<f64>>; 3],
+) -> Vec<(Symmetry, Vec<Vector3<f64>>)> {
+    let samples = evidence.samples();
+    let [left, right, y] = icrs;
+    let combine = |sign: f64| -> Vec<Vector3<f64>> {
+        left.iter().zip(right).map(|(left, right)| right + left * sign).collect()
+    };
+    let (middle, half) = (combine(1.0), combine(-1.0));
+    let mut all = Vec::new();
+    let mut add = |symmetry: Symmetry, of: &[Vector3<f64>], by: &dyn Fn(&Sample) -> f64| {
+        let column: Vec<Vector3<f64>> =
+            samples.iter().zip(of).map(|(sample, value)| value * by(sample)).collect();
+        if column.iter().any(|value| value.norm() > 0.0) {
+            all.push((symmetry, column));
+        }
+    };
+
+    let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
+    let speed = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs()) / fastest;
+    let direction = |sample: &Sample| sign(sample.speeds.left + sample.speeds.right);
+    let turn = |sample: &Sample| sign(sample.speeds.right - sample.speeds.left);
+    let is = |sample: &Sample, manoeuvre: Manoeuvre| {
+        if Manoeuvre::of(sample) == manoeuvre { 1.0 } else { 0.0 }
+    };
+
+    for of in [&middle, &half, y] {
+        add(Symmetry::SpeedScale, of, &|s| speed(s) - 0.5);
+        add(Symmetry::SpeedScale, of, &|s| (speed(s) - 0.5).powi(2));
+        add(Symmetry::Reversal, of, &direction);
+        add(Symmetry::Reversal, of, &turn);
+        add(Symmetry::Manoeuvre, of, &|s| is(s, Manoeuvre::Arc));
+        add(Symmetry::Manoeuvre, of, &|s| is(s, Manoeuvre::CounterRotation));
+    }
+    for of in [&half, y] {
+        add(Symmetry::Mirror, of, &|s| direction(s) * turn(s));
+        add(Symmetry::Mirror, of, &turn);
+    }
+    add(Symmetry::Mirror, &middle, &direction);
+    let straight = |s: &Sample| is(s, Manoeuvre::Straight) * s.duration;
+    for channel in 0..3 {
+        let unit =
+            vec![Vector3::from_fn(|k, _| if k == channel { 1.0 } else { 0.0 }); samples.len()];
+        add(Symmetry::Straight, &unit, &straight);
+        add(Symmetry::Straight, &unit, &|s| {
+            straight(s) * f64::midpoint(s.speeds.left, s.speeds.right)
+        });
+    }
+    if evidence.is_steady() {
+        return all;
+    }
+
+    for of in [&middle, &half, y] {
+        for by in [f64::cos, f64::sin] {
+            add(Symmetry::Heading, of, &|s| by(s.pose.yaw));
+            add(Symmetry::Heading, of, &|s| by(s.pose.yaw) * turn(s));
+        }
+    }
+    let (x_at, y_at) =
+        (scaled(samples, |s: &Sample| s.pose.x), scaled(samples, |s: &Sample| s.pose.y));
+    for of in [&middle, &half, y] {
+        add(Symmetry::Place, of, &x_at);
+        add(Symmetry::Place, of, &y_at);
+        add(Symmetry::Place, of, &|s| x_at(s) * y_at(s));
+        add(Symmetry::Place, of, &|s| x_at(s).powi(2) - 0.3);
+        add(Symmetry::Place, of, &|s| y_at(s).powi(2) - 0.3);
+    }
+    let time = scaled(samples, |s: &Sample| s.start);
+    for of in [&middle, &half, y] {
+        add(Symmetry::Time, of, &time);
+        add(Symmetry::Time, of, &|s| time(s).powi(2) - 0.3);
+    }
+    // What changes of speed do: the motion is ahead of the speeds or behind them.
+    let change = |s: &Sample| (s.acceleration.left + s.acceleration.right) * s.duration / 2.0;
+    let turning = |s: &Sample| (s.acceleration.right - s.acceleration.left) * s.duration;
+    let along = |channel: usize| {
+        vec![Vector3::from_fn(|k, _| if k == channel { 1.0 } else { 0.0 }); samples.len()]
+    };
+    add(Symmetry::Transient, &along(0), &change);
+    add(Symmetry::Transient, &along(1), &turning);
+    add(Symmetry::Transient, &along(2), &turning);
+    let hurry = |s: &Sample| {
+        (s.acceleration.left.abs() + s.acceleration.right.abs()) * s.duration / fastest
+    };
+    for of in [&middle, &half, y] {
+        add(Symmetry::Transient, of, &hurry);
+    }
+    all
+}
+
+fn sign(value: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value.signum() }
+}
+
+/// A coordinate from −1 to 1 over the samples.
+fn scaled(samples: &[Sample], of: impl Fn(&Sample) -> f64) -> impl Fn(&Sample) -> f64 {
+    let range = samples.iter().map(&of);
+    let (low, high) =
+        range.fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
+    let (middle, half) = (f64::midpoint(low, high), ((high - low) / 2.0).max(f64::MIN_POSITIVE));
+    move |sample| (of(sample) - middle) / half
+}

@@ -1,0 +1,228 @@
+//! Normal equations, summed block by block.
+//!
+//! All that a linear model of the residuals can say is in the products of its columns. Kept per block, they
+//! answer at once what a fit without some columns, without some blocks, or with other blocks would be.
+
+use nalgebra::{DMatrix, DVector, Vector3};
+use std::ops::Range;
+
+/// Residuals and columns, both whitened, three rows per sample.
+pub struct Columns<'a> {
+    /// The residuals.
+    pub residual: &'a [Vector3<f64>],
+    /// Derivatives of the prediction.
+    pub columns: &'a [Vec<Vector3<f64>>],
+    /// What each sample counts: less than one where it lies far out.
+    pub weights: &'a [f64],
+    /// Block of each sample.
+    pub blocks: &'a [usize],
+    /// Number of blocks.
+    pub count: usize,
+}
+
+/// Products of columns and residual, per block and in all; the residual stands last.
+#[derive(Clone, Debug)]
+pub struct Normal {
+    blocks: Vec<DMatrix<f64>>,
+    total: DMatrix<f64>,
+}
+
+/// A linear fit: θ minimises |r − C θ|² + Σ (θ − m)²/s².
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// θ, in the order of the columns asked for.
+    pub estimate: DVector<f64>,
+    /// Its covariance if noise and priors are what they are taken for.
+    pub covariance: DMatrix<f64>,
+    /// The minimum.
+    pub misfit: f64,
+    /// −½ minimum − ½ ln det(1 + S J S): the logarithm of the evidence up to what all models share.
+    pub ln_evidence: f64,
+}
+
+/// What is known of a column's factor beforehand: normal with this mean and standard deviation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prior {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation.
+    pub deviation: f64,
+}
+
+impl Normal {
+    /// The products of these columns.
+    pub fn new(of: &Columns) -> Self {
+        let size = of.columns.len() + 1;
+        let mut blocks = vec![DMatrix::zeros(size, size); of.count];
+        let mut row = DMatrix::<f64>::zeros(size, 3);
+        for (sample, residual) in of.residual.iter().enumerate() {
+            if of.weights[sample] == 0.0 {
+                continue;
+            }
+            let root = of.weights[sample].sqrt();
+            for (k, column) in of.columns.iter().enumerate() {
+                row.row_mut(k).copy_from(&(column[sample] * root).transpose());
+            }
+            row.row_mut(size - 1).copy_from(&(residual * root).transpose());
+            let block = &mut blocks[of.blocks[sample]];
+            for c in 0..3 {
+                let column = row.column(c);
+                block.ger(1.0, &column, &column, 1.0);
+            }
+        }
+        let total = sum(&blocks, size);
+        Self { blocks, total }
+    }
+
+    /// Number of columns.
+    pub fn columns(&self) -> usize {
+        self.total.nrows() - 1
+    }
+
+    /// Number of blocks.
+    pub fn blocks(&self) -> usize {
+        self.blocks.len()
+    }
+
+    /// Products of a block; the residual stands last.
+    pub fn block(&self, block: usize) -> &DMatrix<f64> {
+        &self.blocks[block]
+    }
+
+    /// Sum of the squared residuals.
+    pub fn squares(&self) -> f64 {
+        self.total[(self.columns(), self.columns())]
+    }
+
+    /// The same with each block counted this many times.
+    pub fn counted(&self, times: &[f64]) -> Self {
+        let blocks: Vec<DMatrix<f64>> =
+            self.blocks.iter().zip(times).map(|(block, times)| block * *times).collect();
+        let total = sum(&blocks, self.total.nrows());
+        Self { blocks, total }
+    }
+
+    /// The same with blocks left out: what is fitted on the others is judged on these.
+    pub fn split(&self, held_out: Range<usize>) -> (Self, Self) {
+        let inside = |keep: bool| {
+            let times: Vec<f64> = (0..self.blocks.len())
+                .map(|block| if held_out.contains(&block) == keep { 1.0 } else { 0.0 })
+                .collect();
+            self.counted(&times)
+        };
+        (inside(false), inside(true))
+    }
+
+    /// The fit of some columns.
+    pub fn fit(&self, columns: &[usize], priors: &[Prior]) -> Solution {
+        let count = columns.len();
+        let last = self.columns();
+        let mut matrix = DMatrix::zeros(count, count);
+        let mut gradient = DVector::zeros(count);
+        let mut penalty = 0.0;
+        for (a, &i) in columns.iter().enumerate() {
+            for (b, &j) in columns.iter().enumerate() {
+                matrix[(a, b)] = self.total[(i, j)];
+            }
+            let Prior { mean, deviation } = priors[i];
+            let precision = deviation.powi(-2);
+            matrix[(a, a)] += precision;
+            gradient[a] = self.total[(i, last)] + precision * mean;
+            penalty += precision * mean * mean;
+        }
+        // Scaled so that columns of different units have the same size.
+        let scale = DVector::from_fn(count, |k, _| 1.0 / matrix[(k, k)].sqrt());
+        let scaled = DMatrix::from_fn(count, count, |a, b| matrix[(a, b)] * scale[a] * scale[b]);
+        let (estimate, covariance, ln_det) = match scaled.clone().cholesky() {
+            Some(cholesky) => {
+                let right = gradient.component_mul(&scale);
+                let estimate = cholesky.solve(&right).component_mul(&scale);
+                let inverse = cholesky.inverse();
+                let covariance =
+                    DMatrix::from_fn(count, count, |a, b| inverse[(a, b)] * scale[a] * scale[b]);
+                let factor = cholesky.l_dirty();
+                let ln_det: f64 = (0..count).map(|k| 2.0 * (factor[(k, k)] / scale[k]).ln()).sum();
+                (estimate, covariance, ln_det)
+            }
+            None => (
+                DVector::zeros(count),
+                DMatrix::from_diagonal_element(count, count, f64::INFINITY),
+                0.0,
+            ),
+        };
+        let misfit = self.squares() + penalty - gradient.dot(&estimate);
+        // det(1 + S J S) = det(J + S⁻²) · Π s²
+        let occam: f64 =
+            ln_det + columns.iter().map(|&i| 2.0 * priors[i].deviation.ln()).sum::<f64>();
+        Solution { estimate, covariance, misfit, ln_evidence: -0.5 * (misfit + occam) }
+    }
+
+    /// Squared residuals at given factors of some columns.
+    pub fn squares_at(&self, columns: &[usize], factors: &DVector<f64>) -> f64 {
+        let last = self.columns();
+        let mut squares = self.squares();
+        for (a, &i) in columns.iter().enumerate() {
+            squares -= 2.0 * factors[a] * self.total[(i, last)];
+            for (b, &j) in columns.iter().enumerate() {
+                squares += factors[a] * factors[b] * self.total[(i, j)];
+            }
+        }
+        squares
+    }
+
+    /// Removes from columns and residual what `base` columns explain (with their priors), block by block
+    /// with the factors of the whole.
+    pub fn projected(&self, base: &[usize], priors: &[Prior]) -> Self {
+        let size = self.total.nrows();
+        let count = base.len();
+        let mut matrix = DMatrix::zeros(count, count);
+        let mut right = DMatrix::zeros(count, size);
+        for (a, &i) in base.iter().enumerate() {
+            for (b, &j) in base.iter().enumerate() {
+                matrix[(a, b)] = self.total[(i, j)];
+            }
+            matrix[(a, a)] += priors[i].deviation.powi(-2);
+            for j in 0..size {
+                right[(a, j)] = self.total[(i, j)];
+            }
+        }
+        let scale = DVector::from_fn(count, |k, _| 1.0 / matrix[(k, k)].sqrt());
+        let scaled = DMatrix::from_fn(count, count, |a, b| matrix[(a, b)] * scale[a] * scale[b]);
+        let Some(cholesky) = scaled.cholesky() else { return self.clone() };
+        let right = DMatrix::from_fn(count, size, |a, j| right[(a, j)] * scale[a]);
+        let solved = cholesky.solve(&right);
+        // T = 1 − P with P the factors of the base columns in every other column
+        let mut transform = DMatrix::identity(size, size);
+        for (a, &i) in base.iter().enumerate() {
+            for j in 0..size {
+                if !base.contains(&j) {
+                    transform[(i, j)] -= solved[(a, j)] * scale[a];
+                }
+            }
+        }
+        let blocks: Vec<DMatrix<f64>> =
+            self.blocks.iter().map(|block| transform.tr_mul(block) * &transform).collect();
+        let total = sum(&blocks, size);
+        Self { blocks, total }
+    }
+
+    /// Product of a column with the residual, block by block: its score.
+    pub fn scores(&self, column: usize) -> Vec<f64> {
+        let last = self.columns();
+        self.blocks.iter().map(|block| block[(column, last)]).collect()
+    }
+
+    /// Products of columns among each other.
+    pub fn information(&self, columns: &[usize]) -> DMatrix<f64> {
+        DMatrix::from_fn(columns.len(), columns.len(), |a, b| self.total[(columns[a], columns[b])])
+    }
+
+    /// Product of two columns.
+    pub fn product(&self, a: usize, b: usize) -> f64 {
+        self.total[(a, b)]
+    }
+}
+
+fn sum(blocks: &[DMatrix<f64>], size: usize) -> DMatrix<f64> {
+    blocks.iter().fold(DMatrix::zeros(size, size), |sum, block| sum + block)
+}

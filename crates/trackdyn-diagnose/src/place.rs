@@ -1,0 +1,89 @@
+//! Where a mismatch sits, in a sentence.
+
+use crate::base::Base;
+use crate::evidence::{Evidence, Sample};
+use crate::fit::Metric;
+use crate::locate::{Location, Manoeuvre};
+use trackdyn_core::real;
+use trackdyn_physics::effect::Symmetry;
+
+/// Channels in words, in the order of a motion.
+pub const CHANNELS: [&str; 3] = ["longitudinal", "lateral", "yaw"];
+
+/// What a broken symmetry says, in words.
+pub fn words(symmetry: Symmetry) -> &'static str {
+    match symmetry {
+        Symmetry::SpeedScale => "the ICRs move with speed",
+        Symmetry::Reversal => "the ICRs differ between one direction and the reverse",
+        Symmetry::Manoeuvre => "the ICRs differ between arcs, counter-rotation and spins",
+        Symmetry::Mirror => "left and right differ",
+        Symmetry::Heading => "the ICRs move with the heading",
+        Symmetry::Place => "the ICRs move with the place",
+        Symmetry::Time => "the ICRs move with time",
+        Symmetry::Transient => "changes of speed show",
+        Symmetry::Straight => {
+            "straight driving is not straight, or not as fast as the encoders say"
+        }
+    }
+}
+
+/// The sentence of a diagnosis.
+pub fn sentence(
+    evidence: &Evidence,
+    metric: &Metric,
+    base: &Base,
+    located: &Location,
+    broken: &[Symmetry],
+) -> String {
+    if broken.is_empty() {
+        return "nowhere: constant ICRs and what encoders and pose sensor add explain it"
+            .to_owned();
+    }
+    let mut parts = Vec::new();
+    let channel = (0..3).max_by(|&a, &b| located.channels[a].total_cmp(&located.channels[b]));
+    if let Some(channel) = channel.filter(|&channel| located.channels[channel] > 0.0) {
+        let share = 100.0 * located.channels[channel];
+        parts.push(format!("{share:.0} % of the excess is {}", CHANNELS[channel]));
+    }
+    if let Some((manoeuvre, speed)) = worst(evidence, metric, base) {
+        parts.push(format!("it is largest in {} at {speed:.2} m/s", manoeuvre.name()));
+    }
+    let symmetries: Vec<&str> = broken.iter().map(|symmetry| words(*symmetry)).collect();
+    parts.push(symmetries.join(", "));
+    parts.join("; ")
+}
+
+/// The manoeuvre, and the mean track speed of it, with the largest residuals.
+fn worst(evidence: &Evidence, metric: &Metric, base: &Base) -> Option<(Manoeuvre, f64)> {
+    let residual = &base.fit.residual;
+    let weights = metric.weights(evidence, residual);
+    let fast = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs());
+    let fastest = evidence.fastest();
+    let mut best: Option<(f64, Manoeuvre, f64)> = None;
+    for manoeuvre in
+        [Manoeuvre::Straight, Manoeuvre::Arc, Manoeuvre::CounterRotation, Manoeuvre::Spin]
+    {
+        for third in 0..3 {
+            let (low, high) = (fastest * real(third) / 3.0, fastest * real(third + 1) / 3.0);
+            let chosen: Vec<usize> = (0..residual.len())
+                .filter(|&k| {
+                    let sample = &evidence.samples()[k];
+                    let inside = fast(sample) > low && fast(sample) <= high;
+                    weights[k] > 0.0 && inside && Manoeuvre::of(sample) == manoeuvre
+                })
+                .collect();
+            if chosen.len() < 20 {
+                continue;
+            }
+            let count = real(chosen.len());
+            let square =
+                chosen.iter().map(|&k| weights[k] * residual[k].norm_squared()).sum::<f64>();
+            let speed = chosen.iter().map(|&k| fast(&evidence.samples()[k])).sum::<f64>() / count;
+            let mean = square / count;
+            if best.is_none_or(|(most, ..)| mean > most) {
+                best = Some((mean, manoeuvre, speed));
+            }
+        }
+    }
+    best.map(|(_, manoeuvre, speed)| (manoeuvre, speed))
+}

@@ -1,0 +1,126 @@
+//! The plan as a file, schema `trackdyn.plan/1`.
+
+use super::{Answer, Options, Plan, measurement};
+use serde::Serialize;
+use trackdyn_motion::kinematics::Source;
+use trackdyn_physics::CATALOGUE;
+
+/// A plan file.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlanFile {
+    schema: &'static str,
+    duration_s: f64,
+    fastest_m_s: f64,
+    /// What was taken for the noise of a pose.
+    noise: NoiseTable,
+    manoeuvre: Vec<ManoeuvreTable>,
+    pair: Vec<PairTable>,
+    source: Source,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct NoiseTable {
+    pose_xy_m: f64,
+    pose_yaw_rad: f64,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct ManoeuvreTable {
+    name: String,
+    start_s: f64,
+    duration_s: f64,
+    separates: Vec<SeparationTable>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+struct SeparationTable {
+    members: [&'static str; 2],
+    z: f64,
+    z_per_second: f64,
+}
+
+/// Two members over the whole plan.
+#[derive(Clone, Debug, Serialize)]
+struct PairTable {
+    members: [&'static str; 2],
+    z: f64,
+    z_per_second: f64,
+    /// z of the whole menu.
+    z_of_menu: f64,
+    decides: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    needed_s: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    measure: Vec<&'static str>,
+}
+
+impl PlanFile {
+    /// The file of a plan.
+    pub fn new(plan: &Plan, options: &Options, source: Source) -> Self {
+        let ids = |effects: [usize; 2]| effects.map(|effect| CATALOGUE[effect].id);
+        let duration = plan.duration();
+        let manoeuvre = plan.steps.iter().map(|step| ManoeuvreTable {
+            name: step.manoeuvre.name.clone(),
+            start_s: rounded(step.start),
+            duration_s: rounded(step.manoeuvre.duration()),
+            separates: plan
+                .pairs
+                .iter()
+                .zip(&step.z)
+                .map(|(pair, &z)| SeparationTable {
+                    members: ids(pair.effects),
+                    z: rounded(z),
+                    z_per_second: rounded(z / step.manoeuvre.duration()),
+                })
+                .collect(),
+        });
+        let pair = plan.pairs.iter().map(|pair| PairTable {
+            members: ids(pair.effects),
+            z: rounded(pair.z),
+            z_per_second: if duration > 0.0 { rounded(pair.z / duration) } else { 0.0 },
+            z_of_menu: rounded(pair.menu),
+            decides: pair.answer == Answer::Plan,
+            needed_s: match pair.answer {
+                Answer::Longer(time) => Some(rounded(time)),
+                Answer::Plan | Answer::Never => None,
+            },
+            measure: match pair.answer {
+                Answer::Plan => Vec::new(),
+                Answer::Longer(_) | Answer::Never => measurements(pair.effects),
+            },
+        });
+        Self {
+            schema: "trackdyn.plan/1",
+            duration_s: rounded(duration),
+            fastest_m_s: options.fastest,
+            noise: NoiseTable { pose_xy_m: options.noise_xy, pose_yaw_rad: options.noise_yaw },
+            manoeuvre: manoeuvre.collect(),
+            pair: pair.collect(),
+            source,
+        }
+    }
+
+    /// Its text.
+    ///
+    /// # Panics
+    /// Never: it holds only what TOML can say.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("numbers, texts and tables are TOML")
+    }
+}
+
+/// The measurements that tell effects apart at rest.
+pub fn measurements(effects: impl IntoIterator<Item = usize>) -> Vec<&'static str> {
+    let mut all = Vec::new();
+    for measurement in effects.into_iter().map(measurement) {
+        if !all.contains(&measurement) {
+            all.push(measurement);
+        }
+    }
+    all
+}
+
+/// To six decimals: what is below is rounding.
+fn rounded(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6
+}

@@ -1,0 +1,309 @@
+//! Manoeuvres that any tracked robot can drive on a free floor, each from rest to rest.
+//!
+//! No track stands still beside one that runs: resistance turns round there, and which way it points is no one's
+//! choice.
+
+use crate::evidence::planned::READINGS;
+use std::f64::consts::FRAC_PI_4;
+use trackdyn_core::{PerSide, real};
+
+/// Time between readings of the encoders, and between commands, s.
+pub const INTERVAL: f64 = 0.03;
+
+/// Readings of a gentle ramp (0.51 s), and of one that is as sharp as belts follow (0.12 s).
+const GENTLE: usize = 17;
+const SHARP: usize = 4;
+
+/// Readings at constant speeds (2.7 s).
+const STEADY: usize = 90;
+
+/// Readings at rest after a manoeuvre: what is late shows in them.
+const REST: usize = 18;
+
+/// Creeping speeds, m/s.
+const CREEPING: [f64; 3] = [0.05, 0.1, 0.2];
+
+/// Side of a square, as time at its speed: readings.
+const SIDE: usize = 70;
+
+/// A manoeuvre from rest to rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Manoeuvre {
+    /// What is driven, in words.
+    pub name: String,
+    /// Track speeds of each interval, m/s; whole samples.
+    pub speeds: Vec<PerSide<f64>>,
+}
+
+impl Manoeuvre {
+    /// How long it takes, s.
+    pub fn duration(&self) -> f64 {
+        INTERVAL * real(self.speeds.len())
+    }
+
+    /// The largest change of a track's speed from one command to the next, per interval, m/s².
+    pub fn sharpest(&self) -> f64 {
+        let changes = self.speeds.windows(2).map(|pair| {
+            (pair[1].left - pair[0].left).abs().max((pair[1].right - pair[0].right).abs())
+        });
+        changes.fold(0.0, f64::max) / INTERVAL
+    }
+}
+
+/// The menu up to track speeds of `fastest` (m/s). `gap` is the distance between the ICRs, x_r − x_l, by which
+/// turns are measured, m.
+pub fn menu(fastest: f64, gap: f64) -> Vec<Manoeuvre> {
+    let mut menu = Vec::new();
+    for side in SIDES {
+        for share in [0.25, 0.5, 1.0] {
+            let speed = share * fastest;
+            let name = format!("spin {} at {speed:.3} m/s", side.name);
+            menu.push(plain(name, side.spin(speed)));
+        }
+        for (word, sense) in DIRECTIONS {
+            for share in [0.3, 0.6, 1.0] {
+                for ratio in [0.3, 0.6, 0.85] {
+                    let speed = share * fastest;
+                    let name = format!("arc {word} {} at {speed:.3} m/s, ratio {ratio}", side.name);
+                    menu.push(plain(name, side.turn(sense * speed, ratio)));
+                }
+            }
+            for share in [0.5, 1.0] {
+                let speed = share * fastest;
+                for (kind, ratio) in [("counter-rotation", -0.4), ("tight arc", 0.1)] {
+                    let name = format!("{kind} {word} {} at {speed:.3} m/s", side.name);
+                    menu.push(plain(name, side.turn(sense * speed, ratio)));
+                }
+            }
+        }
+    }
+    straight(&mut menu, fastest);
+    transients(&mut menu, fastest);
+    creeping(&mut menu, fastest);
+    for side in SIDES {
+        menu.push(headings(side, fastest, gap));
+        menu.push(square(side, fastest, gap));
+    }
+    menu
+}
+
+#[derive(Clone, Copy)]
+struct Turning {
+    name: &'static str,
+    /// 1 to the left, −1 to the right.
+    sense: f64,
+}
+
+const SIDES: [Turning; 2] =
+    [Turning { name: "left", sense: 1.0 }, Turning { name: "right", sense: -1.0 }];
+
+const DIRECTIONS: [(&str, f64); 2] = [("forward", 1.0), ("backward", -1.0)];
+
+impl Turning {
+    /// The outer track at `speed`, the inner one at `ratio` times it.
+    fn turn(self, speed: f64, ratio: f64) -> PerSide<f64> {
+        if self.sense > 0.0 {
+            PerSide::new(ratio * speed, speed)
+        } else {
+            PerSide::new(speed, ratio * speed)
+        }
+    }
+
+    fn spin(self, speed: f64) -> PerSide<f64> {
+        PerSide::new(-self.sense * speed, self.sense * speed)
+    }
+}
+
+fn plain(name: String, speeds: PerSide<f64>) -> Manoeuvre {
+    let mut drive = Drive::default();
+    drive.to(speeds, GENTLE);
+    drive.hold(STEADY);
+    drive.finish(name)
+}
+
+fn both(speed: f64) -> PerSide<f64> {
+    PerSide::new(speed, speed)
+}
+
+/// Straight runs, with starts and stops, and there and back.
+fn straight(menu: &mut Vec<Manoeuvre>, fastest: f64) {
+    for (word, sense) in DIRECTIONS {
+        for share in [0.5, 1.0] {
+            let speed = share * fastest;
+            menu.push(plain(format!("straight {word} at {speed:.3} m/s"), both(sense * speed)));
+            let mut drive = Drive::default();
+            for _ in 0..3 {
+                drive.to(both(sense * speed), SHARP);
+                drive.hold(REST);
+                drive.to(both(0.0), SHARP);
+                drive.hold(REST);
+            }
+            menu.push(drive.finish(format!("starts and stops {word} at {speed:.3} m/s")));
+        }
+    }
+    for share in [0.5, 1.0] {
+        let speed = share * fastest;
+        let mut drive = Drive::default();
+        for sense in [1.0, -1.0] {
+            drive.to(both(sense * speed), GENTLE);
+            drive.hold(STEADY);
+            drive.to(both(0.0), GENTLE);
+        }
+        menu.push(drive.finish(format!("out and back at {speed:.3} m/s")));
+    }
+}
+
+/// Speeds that change sharply.
+fn transients(menu: &mut Vec<Manoeuvre>, fastest: f64) {
+    let mut steps = |name: String, between: [PerSide<f64>; 2]| {
+        let mut drive = Drive::default();
+        drive.to(between[0], GENTLE);
+        for _ in 0..3 {
+            drive.hold(REST);
+            drive.to(between[1], SHARP);
+            drive.hold(REST);
+            drive.to(between[0], SHARP);
+        }
+        menu.push(drive.finish(name));
+    };
+    for (word, sense) in DIRECTIONS {
+        let between = [0.2, 0.8].map(|share| both(sense * share * fastest));
+        steps(format!("steps of speed {word}"), between);
+        let [left, right] = SIDES.map(|side| side.turn(sense * 0.7 * fastest, 0.3));
+        steps(format!("steps between arcs {word}, left first"), [left, right]);
+        steps(format!("steps between arcs {word}, right first"), [right, left]);
+    }
+    for side in SIDES {
+        let between = [0.15, 0.6].map(|share| side.spin(share * fastest));
+        steps(format!("steps of a spin {}", side.name), between);
+        let between = [side.spin(0.4 * fastest), side.spin(-0.4 * fastest)];
+        steps(format!("reversals of a spin, {} first", side.name), between);
+    }
+}
+
+/// Slow turns.
+fn creeping(menu: &mut Vec<Manoeuvre>, fastest: f64) {
+    for speed in CREEPING.into_iter().filter(|speed| *speed <= fastest) {
+        for side in SIDES {
+            let name = format!("creeping spin {} at {speed:.3} m/s", side.name);
+            menu.push(plain(name, side.spin(speed)));
+            for (word, sense) in DIRECTIONS {
+                let name = format!("creeping arc {word} {} at {speed:.3} m/s", side.name);
+                menu.push(plain(name, side.turn(sense * speed, 0.4)));
+            }
+        }
+    }
+}
+
+/// The same arc at eight headings.
+fn headings(side: Turning, fastest: f64, gap: f64) -> Manoeuvre {
+    let mut drive = Drive::default();
+    for _ in 0..8 {
+        // There and back on the same arc: what is left is the heading.
+        for sense in [1.0, -1.0] {
+            drive.to(side.turn(sense * 0.4 * fastest, 0.5), GENTLE);
+            drive.hold(REST);
+            drive.to(both(0.0), GENTLE);
+        }
+        drive.spin(side, FRAC_PI_4, 0.4 * fastest, gap);
+    }
+    drive.finish(format!("the same arc {} at eight headings", side.name))
+}
+
+/// A square with turns on the spot.
+fn square(side: Turning, fastest: f64, gap: f64) -> Manoeuvre {
+    let mut drive = Drive::default();
+    for _ in 0..4 {
+        drive.to(both(0.7 * fastest), GENTLE);
+        drive.hold(SIDE);
+        drive.to(both(0.0), GENTLE);
+        drive.spin(side, 2.0 * FRAC_PI_4, 0.4 * fastest, gap);
+    }
+    drive.finish(format!("square to the {}", side.name))
+}
+
+/// A manoeuvre that is being written, one command per interval.
+#[derive(Default)]
+struct Drive {
+    speeds: Vec<PerSide<f64>>,
+}
+
+impl Drive {
+    fn now(&self) -> PerSide<f64> {
+        self.speeds.last().copied().unwrap_or_default()
+    }
+
+    /// Goes to these speeds within a number of intervals.
+    fn to(&mut self, target: PerSide<f64>, intervals: usize) {
+        let from = self.now();
+        for k in 1..=intervals {
+            let share = real(k) / real(intervals);
+            let towards = |side| from[side] + share * (target[side] - from[side]);
+            self.speeds.push(if k == intervals { target } else { PerSide::from_fn(towards) });
+        }
+    }
+
+    fn hold(&mut self, intervals: usize) {
+        self.speeds.extend(std::iter::repeat_n(self.now(), intervals));
+    }
+
+    /// Turns on the spot by an angle, from rest to rest, at no more than a speed.
+    fn spin(&mut self, side: Turning, angle: f64, fastest: f64, gap: f64) {
+        // V_r − V_l = ω (x_r − x_l), eq. (9): each track runs half of the arc.
+        let arc = angle * gap / 2.0;
+        let mut steady = 0;
+        while INTERVAL * real(GENTLE + steady) * fastest < arc {
+            steady += 1;
+        }
+        // Up and down a ramp run as far as one ramp's time at full speed.
+        let speed = arc / (INTERVAL * real(GENTLE + steady));
+        self.to(side.spin(speed), GENTLE);
+        self.hold(steady);
+        self.to(both(0.0), GENTLE);
+    }
+
+    /// To rest, and on to whole samples.
+    fn finish(mut self, name: String) -> Manoeuvre {
+        if self.now() != both(0.0) {
+            self.to(both(0.0), GENTLE);
+        }
+        self.hold(REST);
+        self.hold(self.speeds.len().next_multiple_of(READINGS) - self.speeds.len());
+        Manoeuvre { name, speeds: self.speeds }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn manoeuvres_start_and_end_at_rest_and_stay_within_the_limit() {
+        for fastest in [0.02, 0.3, 1.0, 3.0] {
+            let menu = menu(fastest, 0.83);
+            for manoeuvre in &menu {
+                let sizes = manoeuvre.speeds.iter().map(|v| v.left.abs().max(v.right.abs()));
+                let largest = sizes.fold(0.0, f64::max);
+                assert!(largest > 0.0 && largest <= fastest + 1e-12, "{}", manoeuvre.name);
+                assert_eq!(manoeuvre.speeds.len() % READINGS, 0, "{}", manoeuvre.name);
+                assert_eq!(*manoeuvre.speeds.last().expect("some"), both(0.0));
+                let first = manoeuvre.speeds[0];
+                assert!(first.left.abs().max(first.right.abs()) <= fastest / real(SHARP) + 1e-12);
+            }
+            let mut names: Vec<&str> = menu.iter().map(|m| m.name.as_str()).collect();
+            names.sort_unstable();
+            names.dedup();
+            assert_eq!(names.len(), menu.len(), "names are unique");
+        }
+    }
+
+    #[test]
+    fn every_manoeuvre_has_its_mirror_image() {
+        let menu = menu(1.0, 0.83);
+        for manoeuvre in &menu {
+            let mirrored: Vec<PerSide<f64>> =
+                manoeuvre.speeds.iter().map(|v| PerSide::new(v.right, v.left)).collect();
+            assert!(menu.iter().any(|other| other.speeds == mirrored), "{}", manoeuvre.name);
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The effects that explain a recording alike, each at the size at which it does.
+
+use super::question::Question;
+use crate::base::{Base, OFFSETS};
+use crate::candidate::{signatures, variants};
+use crate::evidence::Evidence;
+use crate::fit::{Fit, Metric};
+use crate::hypothesis::{Hypothesis, Unknown, active, unknowns_of};
+use crate::mechanics::{Instruments, Mechanics, is_instrument};
+use crate::search::{Catalogue, Search};
+use nalgebra::Vector3;
+use trackdyn_physics::{CATALOGUE, VehicleFile};
+
+/// One of the members of a class.
+#[derive(Clone)]
+pub struct Rival {
+    /// Place in the catalogue.
+    pub effect: usize,
+    /// The vehicle with it.
+    pub hypothesis: Hypothesis,
+    /// What is free beside: constant ICRs, encoders and pose sensor, and its own parameters.
+    pub unknowns: Vec<Unknown>,
+}
+
+impl Rival {
+    /// The member that the diagnosis fitted, at its fitted size: the vehicle's, else the diagnosis's, else its
+    /// typical one.
+    pub fn fitted(question: &Question, file: &VehicleFile) -> Self {
+        let effect = question.effect;
+        let given = Hypothesis {
+            vehicle: file.vehicle.clone(),
+            effects: file.effects.clone(),
+            offset: [0.0; 3],
+        };
+        let hypothesis = match given.effect(effect) {
+            Some(_) => given,
+            None => given.with_effect(active(effect, &question.values)),
+        };
+        Self { effect, hypothesis, unknowns: Vec::new() }
+    }
+
+    /// The mechanics of it on this evidence.
+    pub fn mechanics(&self, evidence: &Evidence) -> Mechanics {
+        Mechanics::new(&self.hypothesis, evidence)
+    }
+
+    /// How the robot moves if it is this one.
+    pub fn moves(&self, evidence: &Evidence) -> Vec<Vector3<f64>> {
+        self.mechanics(evidence).predict(&Instruments::of(&self.hypothesis), evidence)
+    }
+
+    /// By how much poses are late, s.
+    pub fn delay(&self) -> f64 {
+        Instruments::of(&self.hypothesis).sensor.delay
+    }
+
+    /// The others of the class, each at what mimics this one best on driving where this one acts.
+    pub fn mimicked(&self, question: &Question, driving: &Evidence) -> Vec<Self> {
+        let without = self.hypothesis.without(self.effect);
+        let metric = whole(&without, driving);
+        let vehicle = &self.hypothesis.vehicle;
+        let instruments: Vec<usize> = (0..CATALOGUE.len())
+            .filter(|effect| !question.members.contains(effect))
+            .filter(|&effect| {
+                let parameters = CATALOGUE[effect].parameters.iter();
+                let typical: Vec<f64> = parameters.map(|parameter| parameter.typical).collect();
+                is_instrument(vehicle, &active(effect, &typical))
+            })
+            .collect();
+        let mut nuisances = OFFSETS.to_vec();
+        nuisances.extend(instruments.iter().copied().flat_map(unknowns_of));
+        let fit = Fit::new(without, &nuisances, driving, &metric, None);
+        let base = Base { as_filed: fit.clone(), fit, nuisances, instruments };
+        let others = question.members.iter().copied().filter(|member| *member != self.effect);
+        others
+            .map(|effect| {
+                let hypothesis = &base.fit.hypothesis;
+                let tried = variants(effect, driving);
+                let entries = signatures(&tried, hypothesis, driving, &metric);
+                let catalogue = Catalogue { entries };
+                let search = Search {
+                    evidence: driving,
+                    metric: &metric,
+                    base: &base,
+                    catalogue: &catalogue,
+                };
+                let nothing = search.nothing();
+                let best = search.screen(&nothing).into_iter().next();
+                let found = best.map_or(nothing.clone(), |best| search.refit(&nothing, &[best]));
+                Self { effect, hypothesis: found.fit.hypothesis, unknowns: found.fit.unknowns }
+            })
+            .collect()
+    }
+}
+
+/// A metric so coarse that no part of what an effect changes counts as an outlier: here it is what is looked for.
+fn whole(without: &Hypothesis, driving: &Evidence) -> Metric {
+    /// Length of the longest residual.
+    const LONGEST: f64 = 3.0;
+    let fine = Metric { scale: [1.0; 3], runs: vec![true; driving.runs().len()] };
+    let mechanics = Mechanics::new(without, driving);
+    let moves = mechanics.predict(&Instruments::of(without), driving);
+    let residual = fine.residual(driving, &moves);
+    let longest = residual.iter().map(Vector3::norm).fold(0.0, f64::max);
+    Metric { scale: [(longest / LONGEST).max(1.0); 3], ..fine }
+}

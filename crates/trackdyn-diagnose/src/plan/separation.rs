@@ -1,0 +1,130 @@
+//! How well driving tells two rivals apart.
+//!
+//! # Law
+//! z² = min over θ of |W (p_A − p_B − C θ)|² + Σ (θ/s)²: p the predicted motions, C the derivatives of p_B by
+//! all that is free beside B and by B's own parameters, W the whitening of the noise, s the prior deviations.
+
+use super::rivals::Rival;
+use crate::evidence::Evidence;
+use crate::fit::{Metric, columns, prior};
+use crate::mechanics::Instruments;
+use crate::normal::{Columns, Normal};
+use nalgebra::{DMatrix, DVector, Vector3};
+use rayon::prelude::*;
+
+/// Two rivals, and what is known of all that is free beside them before the plan is driven.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// Both, by their places among the rivals; the second is taken at its best.
+    pub of: [usize; 2],
+    /// Inverse covariance of the unknowns of the second, from priors alone.
+    pub prior: DMatrix<f64>,
+    /// The same from the typical driving.
+    pub driven: DMatrix<f64>,
+    /// z over the typical driving: all manoeuvres of the menu.
+    pub typical: f64,
+}
+
+impl Pair {
+    /// Two rivals on typical driving.
+    pub fn new(of: [usize; 2], rivals: &[Rival], driving: &Evidence, products: &Normal) -> Self {
+        let second = &rivals[of[1]];
+        let precision = second
+            .unknowns
+            .iter()
+            .map(|&unknown| prior(&second.hypothesis, unknown, driving).deviation.powi(-2));
+        let precision: Vec<f64> = precision.collect();
+        let prior = DMatrix::from_diagonal(&DVector::from_vec(precision));
+        let all: Vec<usize> = (0..products.columns()).collect();
+        let driven = products.information(&all);
+        let typical = squared(&total(products), &prior).sqrt();
+        Self { of, prior, driven, typical }
+    }
+}
+
+/// Products of all blocks; the difference stands last.
+pub fn total(products: &Normal) -> DMatrix<f64> {
+    let size = products.columns() + 1;
+    (0..products.blocks())
+        .fold(DMatrix::zeros(size, size), |sum, block| sum + products.block(block))
+}
+
+/// How the robot moves if a rival is the one.
+struct Predicted {
+    moves: Vec<Vector3<f64>>,
+    /// By its unknowns, whitened; none of a rival that is never second.
+    derivatives: Vec<Vec<Vector3<f64>>>,
+}
+
+/// The products of differences and derivatives of each pair, block by block.
+pub fn products(pairs: &[[usize; 2]], rivals: &[Rival], evidence: &Evidence) -> Vec<Normal> {
+    let metric = Metric { scale: [1.0; 3], runs: vec![true; evidence.runs().len()] };
+    let is_second = |k: usize| pairs.iter().any(|pair| pair[1] == k);
+    let seen: Vec<Predicted> = rivals
+        .par_iter()
+        .enumerate()
+        .map(|(k, rival)| {
+            let mechanics = rival.mechanics(evidence);
+            let moves = mechanics.predict(&Instruments::of(&rival.hypothesis), evidence);
+            let derivatives = if is_second(k) {
+                let Rival { hypothesis, unknowns, .. } = rival;
+                columns(hypothesis, &mechanics, &moves, unknowns, evidence, &metric)
+            } else {
+                Vec::new()
+            };
+            Predicted { moves, derivatives }
+        })
+        .collect();
+    let blocks: Vec<usize> = evidence.samples().iter().map(|sample| sample.block).collect();
+    pairs
+        .par_iter()
+        .map(|&[first, second]| {
+            let Predicted { moves, derivatives } = &seen[second];
+            let difference = seen[first].moves.iter().zip(moves).map(|(a, b)| a - b).collect();
+            Normal::new(&Columns {
+                residual: &metric.white(evidence, difference),
+                columns: derivatives,
+                weights: &vec![1.0; blocks.len()],
+                blocks: &blocks,
+                count: evidence.blocks(),
+            })
+        })
+        .collect()
+}
+
+/// z² of products where `known` is the inverse covariance of the unknowns beforehand.
+pub fn squared(products: &DMatrix<f64>, known: &DMatrix<f64>) -> f64 {
+    let (_, remaining) = fitted(products, known);
+    remaining
+}
+
+/// z² of each block at the unknowns that suit all blocks together.
+pub fn shares(products: &Normal, known: &DMatrix<f64>) -> Vec<f64> {
+    let (estimate, _) = fitted(&total(products), known);
+    // (−θ, 1) on the products of a block.
+    let mut factors = -estimate;
+    factors = factors.push(1.0);
+    (0..products.blocks())
+        .map(|block| factors.dot(&(products.block(block) * &factors)).max(0.0))
+        .collect()
+}
+
+/// θ and z².
+fn fitted(products: &DMatrix<f64>, known: &DMatrix<f64>) -> (DVector<f64>, f64) {
+    let count = known.nrows();
+    let matrix = products.view((0, 0), (count, count)) + known;
+    let gradient = products.view((0, count), (count, 1));
+    let whole = products[(count, count)];
+    // Scaled so that columns of different units have the same size.
+    let scale = DVector::from_fn(count, |k, _| 1.0 / matrix[(k, k)].sqrt());
+    let scaled = DMatrix::from_fn(count, count, |a, b| matrix[(a, b)] * scale[a] * scale[b]);
+    let right = gradient.component_mul(&scale);
+    match scaled.cholesky() {
+        Some(cholesky) => {
+            let estimate = cholesky.solve(&right);
+            let remaining = (whole - right.dot(&estimate)).max(0.0);
+            (estimate.component_mul(&scale).column(0).into_owned(), remaining)
+        }
+        None => (DVector::zeros(count), 0.0),
+    }
+}

@@ -1,0 +1,346 @@
+//! The search: which effects, together with all that is free, explain the evidence best.
+//!
+//! Screening is linear: all signatures stand side by side in one set of normal equations, which answers for
+//! every single effect and every pair of the best dozen at once. What looks best is then refitted with the
+//! whole simulator. After each change, every effect of the best hypothesis is left out again and exchanged
+//! for every other one: a search that only adds is fooled by effects that resemble each other.
+
+use crate::base::{Base, calibrated};
+use crate::candidate::{Signature, Variant};
+use crate::evidence::Evidence;
+use crate::fit::{Fit, Metric, prior, priors};
+use crate::hypothesis::{Hypothesis, Unknown, active, unknowns_of};
+use crate::normal::{Columns, Normal, Prior};
+use rayon::prelude::*;
+
+/// Effects that one hypothesis may add.
+pub const MOST_EFFECTS: usize = 3;
+
+/// Effects of which all pairs are screened.
+const DOZEN: usize = 12;
+
+/// Proposals that are refitted with the whole simulator, of singles, pairs and exchanges.
+const REFITTED: [usize; 3] = [3, 2, 2];
+
+/// Logarithm of the evidence that an effect must add to be kept during the search.
+const WORTH: f64 = 3.0;
+
+/// Part of that which the linear screen must promise.
+const NEARLY: f64 = 0.7;
+
+/// Part of the best linear gain that a candidate must reach to be refitted.
+const COMPARABLE: f64 = 0.8;
+
+/// Rounds in which the vehicle takes over the offset of the ICRs, and the offset, as part of the gauge, that
+/// may stay.
+const RECALIBRATIONS: usize = 2;
+const CALIBRATED: f64 = 5e-3;
+
+/// Signatures of all candidates: some variants of each effect.
+pub struct Catalogue {
+    /// Each variant with its signatures.
+    pub entries: Vec<(Variant, Vec<Signature>)>,
+}
+
+/// What the linear screen says of a candidate beside a fit.
+#[derive(Clone, Debug)]
+pub struct Screened {
+    /// Index of the variant in the catalogue.
+    pub entry: usize,
+    /// Place of its effect.
+    pub effect: usize,
+    /// Gain of ln evidence.
+    pub gain: f64,
+    /// Gain of the likelihood alone, as z: √ of what the misfit falls by.
+    pub z: f64,
+    /// Estimated sizes, as distances from none.
+    pub sizes: Vec<f64>,
+    /// Whether a size had to be held within its physical range.
+    pub held: bool,
+}
+
+/// A hypothesis with the effects that it adds to the base.
+#[derive(Clone)]
+pub struct Found {
+    /// The added effects, ascending.
+    pub effects: Vec<usize>,
+    /// The fit.
+    pub fit: Fit,
+    /// Its ln evidence.
+    pub ln_evidence: f64,
+}
+
+/// Everything that a search looks at.
+pub struct Search<'a> {
+    /// The evidence.
+    pub evidence: &'a Evidence,
+    /// The metric.
+    pub metric: &'a Metric,
+    /// The base.
+    pub base: &'a Base,
+    /// The candidates.
+    pub catalogue: &'a Catalogue,
+}
+
+impl Search<'_> {
+    /// The base as a hypothesis that adds nothing.
+    pub fn nothing(&self) -> Found {
+        let fit = self.base.fit.clone();
+        Found { effects: Vec::new(), ln_evidence: fit.ln_evidence(self.evidence), fit }
+    }
+
+    /// The normal equations of a fit with the signatures of these catalogue entries beside.
+    pub fn normal(&self, fit: &Fit, entries: &[usize]) -> (Normal, Vec<Prior>, Vec<Vec<usize>>) {
+        let mut columns = fit.columns.clone();
+        let mut known = priors(&fit.hypothesis, &fit.unknowns, self.evidence);
+        let mut groups = Vec::with_capacity(entries.len());
+        for &entry in entries {
+            let (_, signatures) = &self.catalogue.entries[entry];
+            let first = columns.len();
+            for signature in signatures {
+                columns.push(signature.column.clone());
+                let prior = prior(&fit.hypothesis, signature.unknown, self.evidence);
+                known.push(Prior { mean: 0.0, ..prior });
+            }
+            groups.push((first..columns.len()).collect());
+        }
+        let weights = self.metric.weights(self.evidence, &fit.residual);
+        let blocks: Vec<usize> =
+            self.evidence.samples().iter().map(|sample| sample.block).collect();
+        let normal = Normal::new(&Columns {
+            residual: &fit.residual,
+            columns: &columns,
+            weights: &weights,
+            blocks: &blocks,
+            count: self.evidence.blocks(),
+        });
+        (normal, known, groups)
+    }
+
+    /// Screens all candidates beside a fit; the best variant of each effect, best first.
+    pub fn screen(&self, beside: &Found) -> Vec<Screened> {
+        let entries: Vec<usize> = (0..self.catalogue.entries.len())
+            .filter(|&entry| !beside.effects.contains(&self.catalogue.entries[entry].0.effect))
+            .collect();
+        let (normal, known, groups) = self.normal(&beside.fit, &entries);
+        let base: Vec<usize> = (0..beside.fit.columns.len()).collect();
+        let without = normal.fit(&base, &known);
+        let mut best: Vec<Screened> = Vec::new();
+        let all: Vec<Screened> = entries
+            .par_iter()
+            .zip(&groups)
+            .map(|(&entry, group)| {
+                let columns: Vec<usize> = base.iter().chain(group).copied().collect();
+                let fit = normal.fit(&columns, &known);
+                let variant = &self.catalogue.entries[entry].0;
+                let sizes: Vec<f64> =
+                    fit.estimate.rows(base.len(), group.len()).iter().copied().collect();
+                let held = !is_physical(&beside.fit.hypothesis, variant, &sizes);
+                let drop = (without.misfit - fit.misfit).max(0.0);
+                // Where the robot never met it, there is nothing to see.
+                let unseen = group.iter().all(|&column| normal.product(column, column) == 0.0);
+                Screened {
+                    entry,
+                    effect: variant.effect,
+                    gain: if held || unseen {
+                        f64::NEG_INFINITY
+                    } else {
+                        fit.ln_evidence - without.ln_evidence
+                    },
+                    z: drop.sqrt(),
+                    sizes,
+                    held,
+                }
+            })
+            .collect();
+        for one in all {
+            match best.iter_mut().find(|other| other.effect == one.effect) {
+                Some(other) => {
+                    if one.gain > other.gain || (other.held && one.held && one.z > other.z) {
+                        *other = one;
+                    }
+                }
+                None => best.push(one),
+            }
+        }
+        best.sort_by(|a, b| b.gain.total_cmp(&a.gain).then(a.effect.cmp(&b.effect)));
+        best
+    }
+
+    /// The pairs of the best dozen, best first: gain of ln evidence and both, with the sizes of a pair.
+    fn pairs(&self, beside: &Found, screened: &[Screened]) -> Vec<(f64, [Screened; 2])> {
+        let dozen: Vec<&Screened> = screened.iter().take(DOZEN).collect();
+        let entries: Vec<usize> = dozen.iter().map(|one| one.entry).collect();
+        let (normal, known, groups) = self.normal(&beside.fit, &entries);
+        let base: Vec<usize> = (0..beside.fit.columns.len()).collect();
+        let without = normal.fit(&base, &known);
+        let mut pairs = Vec::new();
+        for a in 0..dozen.len() {
+            for b in a + 1..dozen.len() {
+                let columns: Vec<usize> =
+                    base.iter().chain(&groups[a]).chain(&groups[b]).copied().collect();
+                let fit = normal.fit(&columns, &known);
+                let sizes = |from: usize, count: usize| -> Vec<f64> {
+                    fit.estimate.rows(from, count).iter().copied().collect()
+                };
+                let first = sizes(base.len(), groups[a].len());
+                let second = sizes(base.len() + groups[a].len(), groups[b].len());
+                let hypothesis = &beside.fit.hypothesis;
+                let variant = |one: &Screened| &self.catalogue.entries[one.entry].0;
+                let physical = is_physical(hypothesis, variant(dozen[a]), &first)
+                    && is_physical(hypothesis, variant(dozen[b]), &second);
+                if physical {
+                    let with = |one: &Screened, sizes: Vec<f64>| Screened { sizes, ..one.clone() };
+                    pairs.push((
+                        fit.ln_evidence - without.ln_evidence,
+                        [with(dozen[a], first), with(dozen[b], second)],
+                    ));
+                }
+            }
+        }
+        pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        pairs
+    }
+
+    /// Refits with more effects.
+    pub fn refit(&self, beside: &Found, more: &[Screened]) -> Found {
+        let mut hypothesis = beside.fit.hypothesis.clone();
+        let mut unknowns = beside.fit.unknowns.clone();
+        let mut effects = beside.effects.clone();
+        for one in more {
+            let variant = &self.catalogue.entries[one.entry].0;
+            let present = hypothesis.effect(one.effect).map(|effect| effect.values().to_vec());
+            let values = match present {
+                // Known to be there already: its size moves from where it is.
+                Some(mut values) => {
+                    for (&place, size) in variant.sizes().iter().zip(&one.sizes) {
+                        values[place] += size;
+                    }
+                    values
+                }
+                None => variant.with_sizes(&one.sizes).values,
+            };
+            hypothesis = hypothesis.with_effect(active(one.effect, &values));
+            unknowns.extend(unknowns_of(one.effect));
+            effects.push(one.effect);
+        }
+        effects.sort_unstable();
+        self.found(effects, hypothesis, &unknowns, &beside.fit)
+    }
+
+    /// The best numbers of a hypothesis that adds these effects.
+    fn found(
+        &self,
+        effects: Vec<usize>,
+        hypothesis: Hypothesis,
+        unknowns: &[Unknown],
+        before: &Fit,
+    ) -> Found {
+        let before = Some(&before.mechanics);
+        let mut fit = Fit::new(hypothesis, unknowns, self.evidence, self.metric, before);
+        // What an effect adds to the constant ICRs had gone into the vehicle's friction and centre of gravity
+        // before: the vehicle gives it back.
+        for _ in 0..RECALIBRATIONS {
+            let largest = fit.hypothesis.offset.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
+            if largest < CALIBRATED * fit.hypothesis.vehicle.gauge {
+                break;
+            }
+            let Some(vehicle) = calibrated(&fit.hypothesis) else { break };
+            let again = Hypothesis { vehicle, offset: [0.0; 3], ..fit.hypothesis.clone() };
+            let before = Some(&fit.mechanics);
+            let again = Fit::new(again, unknowns, self.evidence, self.metric, before);
+            if again.objective >= fit.objective {
+                break;
+            }
+            fit = again;
+        }
+        Found { effects, ln_evidence: fit.ln_evidence(self.evidence), fit }
+    }
+
+    /// The hypothesis without one of its added effects, refitted.
+    pub fn without(&self, found: &Found, effect: usize) -> Found {
+        let effects: Vec<usize> =
+            found.effects.iter().copied().filter(|other| *other != effect).collect();
+        if effects.is_empty() {
+            return self.nothing();
+        }
+        let before = self.base.fit.hypothesis.effect(effect);
+        let hypothesis = match before {
+            Some(known) => found.fit.hypothesis.with_effect(known.clone()),
+            None => found.fit.hypothesis.without(effect),
+        };
+        let gone = |unknown: &Unknown| matches!(unknown, Unknown::Effect(of, _) if *of == effect);
+        let unknowns: Vec<Unknown> =
+            found.fit.unknowns.iter().copied().filter(|unknown| !gone(unknown)).collect();
+        self.found(effects, hypothesis, &unknowns, &self.base.fit)
+    }
+
+    /// The best hypothesis. Effects that only move constant ICRs (`statics`) are not tried: these are free.
+    /// `progress` is told each round.
+    pub fn best(&self, statics: &[usize], progress: &dyn Fn()) -> Found {
+        let mut best = self.nothing();
+        loop {
+            progress();
+            let mut proposals: Vec<(Found, Vec<Screened>)> = Vec::new();
+            if best.effects.len() < MOST_EFFECTS {
+                let mut screened = self.screen(&best);
+                screened.retain(|one| !statics.contains(&one.effect));
+                let most = screened.first().map_or(0.0, |one| one.gain);
+                let promising = screened.iter().filter(|one| one.gain > COMPARABLE * most - WORTH);
+                let promising = promising.filter(|one| one.gain > NEARLY * WORTH);
+                for one in promising.take(REFITTED[0]) {
+                    proposals.push((best.clone(), vec![one.clone()]));
+                }
+                if best.effects.len() + 2 <= MOST_EFFECTS {
+                    let single = screened.first().map_or(0.0, |one| one.gain);
+                    let pairs = self.pairs(&best, &screened);
+                    let worthy =
+                        pairs.into_iter().filter(|(gain, _)| *gain > single.max(0.0) + WORTH);
+                    for (_, pair) in worthy.take(REFITTED[1]) {
+                        proposals.push((best.clone(), pair.to_vec()));
+                    }
+                }
+            }
+            let reduced: Vec<Found> =
+                best.effects.iter().map(|&effect| self.without(&best, effect)).collect();
+            for found in &reduced {
+                let screened = self.screen(found);
+                let others = screened
+                    .into_iter()
+                    .filter(|one| one.gain > 0.0 && !best.effects.contains(&one.effect))
+                    .filter(|one| !statics.contains(&one.effect));
+                let missed = best.ln_evidence - found.ln_evidence;
+                let others = others.filter(|one| one.gain > COMPARABLE * missed - WORTH);
+                for one in others.take(REFITTED[2]) {
+                    proposals.push((found.clone(), vec![one]));
+                }
+            }
+            let refitted: Vec<Found> =
+                proposals.iter().map(|(beside, more)| self.refit(beside, more)).collect();
+            // An added effect must be worth it; one that is left out, or exchanged, must only not be missed.
+            let value = |found: &Found| {
+                #[expect(clippy::cast_precision_loss, reason = "at most three")]
+                let added = found.effects.len() as f64;
+                found.ln_evidence - WORTH * added
+            };
+            let next = reduced
+                .into_iter()
+                .chain(refitted)
+                .max_by(|a, b| value(a).total_cmp(&value(b)).then(b.effects.cmp(&a.effects)));
+            match next {
+                Some(next) if value(&next) > value(&best) + 1e-6 => best = next,
+                _ => return best,
+            }
+        }
+    }
+}
+
+/// Whether sizes, as distances from none, lie within their physical ranges.
+fn is_physical(beside: &Hypothesis, variant: &Variant, sizes: &[f64]) -> bool {
+    variant.sizes().iter().zip(sizes).all(|(&place, size)| {
+        let unknown = Unknown::Effect(variant.effect, place);
+        let [low, high] = unknown.parameter().map_or([f64::MIN, f64::MAX], |p| p.range);
+        let value = beside.get(unknown) + size;
+        (low..=high).contains(&value)
+    })
+}

@@ -1,0 +1,64 @@
+//! Intervals of fitted parameters.
+
+use crate::hypothesis::Unknown;
+use crate::search::{Found, Search};
+use nalgebra::{DMatrix, DVector};
+use trackdyn_core::real;
+
+/// A fitted parameter with its 95 % interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// Which.
+    pub unknown: Unknown,
+    /// Estimate, in its unit.
+    pub value: f64,
+    /// Lower end of the interval.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+/// The parameters of the added effects and instruments with their 95 % intervals.
+///
+/// The variance is the larger one of two: by the noise, and by the scatter of the scores from block to block,
+/// which no noise model enters.
+pub fn intervals(search: &Search, best: &Found) -> Vec<Interval> {
+    let fit = &best.fit;
+    let (normal, _, _) = search.normal(fit, &[]);
+    let covariance = &fit.solution.covariance;
+    let count = fit.unknowns.len();
+    let all: Vec<usize> = (0..count).collect();
+    let step = &fit.solution.estimate;
+    let mut scatter = DMatrix::zeros(count, count);
+    let mut blocks = 0;
+    for block in 0..normal.blocks() {
+        let (_, one) = normal.split(block..block + 1);
+        if one.squares() == 0.0 {
+            continue;
+        }
+        blocks += 1;
+        let information = one.information(&all);
+        let score = DVector::from_fn(count, |k, _| one.product(k, count)) - information * step;
+        scatter += &score * score.transpose();
+    }
+    let blocks = real(blocks.max(2));
+    let robust = covariance * scatter * covariance * (blocks / (blocks - 1.0));
+    // Student's t at 97.5 %, by its expansion for many blocks.
+    let t = 1.959_964 + 2.372_3 / (blocks - 1.0);
+    fit.unknowns
+        .iter()
+        .enumerate()
+        .filter(|(_, unknown)| unknown.parameter().is_some())
+        .map(|(k, &unknown)| {
+            let deviation = covariance[(k, k)].max(robust[(k, k)]).max(0.0).sqrt();
+            let value = fit.hypothesis.get(unknown);
+            let [low, high] = unknown.parameter().map_or([f64::MIN, f64::MAX], |p| p.range);
+            Interval {
+                unknown,
+                value,
+                low: (value - t * deviation).max(low),
+                high: (value + t * deviation).min(high),
+            }
+        })
+        .collect()
+}

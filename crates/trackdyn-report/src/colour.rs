@@ -18,14 +18,14 @@ pub const GRID: Rgb = [226, 226, 226];
 /// colour.
 pub const LAST: u8 = 254;
 
-/// A map from 0..1 to colours of rising lightness, readable with any kind of colour vision.
+/// A map from 0..1 to colours, readable with any kind of colour vision.
 #[derive(Clone, Copy, Debug)]
 pub struct ColourMap {
     /// Colours at equal distances, from 0 to 1.
     anchors: &'static [Rgb],
 }
 
-/// Viridis (van der Walt and Smith, 2015).
+/// Viridis (van der Walt and Smith, 2015): of rising lightness.
 pub const VIRIDIS: ColourMap = ColourMap {
     anchors: &[
         [68, 1, 84],
@@ -54,6 +54,38 @@ pub const DARK_PLASMA: ColourMap = ColourMap {
         [225, 100, 98],
         [242, 132, 75],
         [252, 166, 54],
+    ],
+};
+
+/// From white to dark blue (Blues of Brewer, 2003): little and much on white paper.
+pub const BLUES: ColourMap = ColourMap {
+    anchors: &[
+        [255, 255, 255],
+        [222, 235, 247],
+        [198, 219, 239],
+        [158, 202, 225],
+        [107, 174, 214],
+        [66, 146, 198],
+        [33, 113, 181],
+        [8, 81, 156],
+        [8, 48, 107],
+    ],
+};
+
+/// From blue by white to red (RdBu of Brewer, 2003): too little and too much.
+pub const BLUE_RED: ColourMap = ColourMap {
+    anchors: &[
+        [5, 48, 97],
+        [33, 102, 172],
+        [67, 147, 195],
+        [146, 197, 222],
+        [209, 229, 240],
+        [247, 247, 247],
+        [253, 219, 199],
+        [244, 165, 130],
+        [214, 96, 77],
+        [178, 24, 43],
+        [103, 0, 31],
     ],
 };
 

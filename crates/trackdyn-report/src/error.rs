@@ -16,6 +16,9 @@ pub enum Error {
     /// The picture could not be encoded.
     #[error("the picture cannot be encoded")]
     Encoding(#[from] png::EncodingError),
+    /// The report could not be filled in.
+    #[error("the report cannot be filled in: {0}")]
+    Template(#[from] minijinja::Error),
 }
 
 impl From<DrawingAreaErrorKind<Infallible>> for Error {

@@ -1,7 +1,7 @@
 //! The figure of an ICR map.
 
 mod cloud;
-mod colour_bar;
+pub(crate) mod colour_bar;
 mod heading;
 mod heat_map;
 mod legend;

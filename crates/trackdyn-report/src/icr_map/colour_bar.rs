@@ -7,7 +7,7 @@ use crate::panel::ticks::{Ticks, number};
 use crate::text::{Horizontal, Style, Vertical};
 
 /// Draws an upright bar with numbers at its right and the unit above.
-pub(super) fn draw(
+pub(crate) fn draw(
     canvas: &mut Canvas,
     bar: Area,
     colours: &ColourMap,

@@ -1,0 +1,194 @@
+//! The answer in a paragraph: what, where, how much, and so what.
+
+use super::Subject;
+use super::words::{id, ids, significant, symmetry, unit};
+use crate::panel::ticks::number;
+use trackdyn_diagnose::Status;
+use trackdyn_diagnose::diagnosis::{Kind, Missing};
+use trackdyn_diagnose::hypothesis::Unknown;
+use trackdyn_diagnose::locate::cells::Cell;
+use trackdyn_physics::CATALOGUE;
+
+/// The status in words, and what kind of news it is.
+pub(super) fn status(subject: &Subject) -> [&'static str; 2] {
+    match subject.diagnosis.status {
+        Status::Explained => ["Explained: what the model lacks has a name", "good"],
+        Status::NothingMissing => ["Nothing is missing that this evidence could show", "good"],
+        Status::Ambiguous => ["Ambiguous: several effects explain it alike", "mixed"],
+        Status::Unexplained => {
+            ["Unexplained: something is there that the catalogue does not know", "bad"]
+        }
+    }
+}
+
+/// The answer, each part with its question.
+pub(super) fn parts(subject: &Subject) -> Vec<[String; 2]> {
+    let diagnosis = subject.diagnosis;
+    let mut what: Vec<String> = diagnosis.missing.iter().map(|m| named(subject, m)).collect();
+    match (diagnosis.status, what.is_empty()) {
+        (Status::Unexplained, true) => what.push(
+            "Observation and model differ, but no effect of the catalogue, nor two or three together, \
+             explain how."
+                .to_owned(),
+        ),
+        (Status::Unexplained, false) => what.push(left(subject)),
+        (_, true) => what.push(format!(
+            "The model of {} as filed, with constant ICRs (the centres about which the tracks turn), clock \
+             and sensor fitted, explains this evidence down to its noise.",
+            subject.vehicle.vehicle.name
+        )),
+        _ => {}
+    }
+    let place = if diagnosis.broken.is_empty() {
+        "Nowhere: no symmetry of driving is broken beyond chance.".to_owned()
+    } else {
+        let mut letters = diagnosis.place.chars();
+        let first = letters.next().map(char::to_uppercase);
+        format!("{}{}.", first.into_iter().flatten().collect::<String>(), letters.as_str())
+    };
+    let much: Vec<String> = std::iter::once(errors(subject)).chain(worth(subject)).collect();
+    [
+        ["What", what.join(" ").as_str()],
+        ["Where", place.as_str()],
+        ["How much", much.join(" ").as_str()],
+        ["So what", advice(subject)],
+    ]
+    .map(|part| part.map(str::to_owned))
+    .to_vec()
+}
+
+/// What the claims do not explain.
+fn left(subject: &Subject) -> String {
+    let broken = subject.diagnosis.after.broken();
+    let names: Vec<&str> = broken.into_iter().map(|one| symmetry(one)[0]).collect();
+    format!(
+        "That is part of it, not all: what is left still breaks symmetries of driving ({}).",
+        names.join(", ")
+    )
+}
+
+fn named(subject: &Subject, missing: &Missing) -> String {
+    let effects = &missing.verdict.one_of;
+    if missing.kind == Kind::Constant {
+        return format!(
+            "A number of the vehicle file is off, not its physics: the constant ICRs (the centres about which \
+             the tracks turn) differ from what the file gives, for which any one of {} would account.",
+            some(effects)
+        );
+    }
+    let sizes: Vec<String> = missing
+        .parameters
+        .iter()
+        .filter_map(|interval| {
+            let Unknown::Effect(effect, _) = interval.unknown else { return None };
+            let parameter = interval.unknown.parameter()?;
+            (effect == missing.verdict.effect).then(|| {
+                format!(
+                    "{} = {}{} (95 % interval {} to {})",
+                    parameter.key,
+                    significant(interval.value, 3),
+                    unit(parameter.unit),
+                    significant(interval.low, 3),
+                    significant(interval.high, 3)
+                )
+            })
+        })
+        .collect();
+    let sizes = if sizes.is_empty() { String::new() } else { format!(", {}", sizes.join(", ")) };
+    let title = |effect: usize| CATALOGUE[effect].title;
+    if effects.len() > 1 {
+        let names: Vec<String> = effects
+            .iter()
+            .map(|&effect| format!("{} ({})", lower(title(effect)), id(effect)))
+            .collect();
+        return format!(
+            "The model of {} lacks one of these, and this evidence cannot tell which: {}. If it is {}{sizes}.",
+            subject.vehicle.vehicle.name,
+            names.join(" or "),
+            id(missing.verdict.effect)
+        );
+    }
+    let effect = missing.verdict.effect;
+    let lacks = if missing.kind == Kind::Instrument {
+        "What encoders or pose sensor do, not the motion, differs from"
+    } else {
+        "One thing is missing from"
+    };
+    format!("{lacks} the model: {} ({}){sizes}.", lower(title(effect)), id(effect))
+}
+
+/// Names of a few effects, or how many they are.
+pub(super) fn some(effects: &[usize]) -> String {
+    const FEW: usize = 3;
+    if effects.len() > FEW { format!("{} effects", effects.len()) } else { ids(effects, " or ") }
+}
+
+/// A title inside a sentence.
+fn lower(title: &str) -> String {
+    let mut letters = title.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}
+
+fn errors(subject: &Subject) -> String {
+    let fit = &subject.diagnosis.held_out;
+    let on = if fit.are_held_out {
+        "On runs that nothing was fitted or chosen on"
+    } else {
+        "On the runs of the fit (none were held out)"
+    };
+    let share = fit.excess_explained().map_or_else(
+        || "there was no excess over that floor".to_owned(),
+        |share| {
+            format!("{} % of the excess over that floor is explained", number(100.0 * share, 1))
+        },
+    );
+    format!(
+        "{on} the error is {} standard deviations of the noise before and {} after, where {} would be left \
+         if everything that could move ICRs or instruments were fitted away: {share}.",
+        number(fit.before, 3),
+        number(fit.after, 3),
+        number(fit.noise_floor, 3)
+    )
+}
+
+/// What it is worth: the largest departure that is surely one.
+fn worth(subject: &Subject) -> Option<String> {
+    const SURE: f64 = 4.0;
+    if subject.diagnosis.missing.is_empty() {
+        return None;
+    }
+    let [before, _] = subject.cells();
+    let surely = |cell: &Cell| {
+        let sure = cell.departure.iter().filter(|(value, sd)| value.abs() > SURE * sd);
+        sure.map(|(value, _)| value.abs()).fold(0.0, f64::max)
+    };
+    let worst = before.iter().max_by(|a, b| surely(a).total_cmp(&surely(b)))?;
+    (surely(worst) > 0.0).then(|| {
+        format!(
+            "Whoever drives with constant ICRs is off by up to {} mm in one of them, in {} at {} m/s.",
+            number(1e3 * surely(worst), 0),
+            worst.manoeuvre.name(),
+            number(worst.mean_speed, 2)
+        )
+    })
+}
+
+fn advice(subject: &Subject) -> &'static str {
+    match subject.diagnosis.status {
+        Status::Explained => {
+            "vehicle.corrected.toml has what is claimed, to simulate, calibrate and replay with."
+        }
+        Status::NothingMissing => {
+            "There is no reason to change the vehicle file; the detection limits below say what would have \
+             shown, and what would not."
+        }
+        Status::Ambiguous => {
+            "vehicle.corrected.toml takes the first of each class; before more is built on it, do what \
+             decides between its members (below)."
+        }
+        Status::Unexplained => {
+            "Do not build on the corrected vehicle beyond this recording: look at the figures for where and \
+             when it departs, and at the run for what happened there."
+        }
+    }
+}

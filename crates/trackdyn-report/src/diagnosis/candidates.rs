@@ -1,0 +1,214 @@
+//! All candidates: what speaks for each, and why it lost.
+
+use super::Subject;
+use super::words::{id, ids, significant, unit};
+use crate::panel::ticks::number;
+use trackdyn_diagnose::candidate;
+use trackdyn_diagnose::diagnosis::{Kind, Missing};
+use trackdyn_diagnose::hypothesis::Unknown;
+use trackdyn_diagnose::search::Screened;
+use trackdyn_physics::CATALOGUE;
+use trackdyn_physics::effect::Role;
+
+/// Gain of ln evidence below which nothing is kept.
+const WORTH: f64 = 3.0;
+
+/// Resemblance from which on two effects are called alike.
+const ALIKE: f64 = 0.9;
+
+/// How a candidate came out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// It is claimed.
+    Claimed,
+    /// It stands beside a claimed one that explains the same.
+    Twin,
+    /// It is not claimed.
+    Lost,
+    /// It only moves constant ICRs.
+    Constant,
+    /// Its size would be unphysical, or it cannot be seen.
+    Out,
+}
+
+/// An effect of the catalogue.
+pub(super) struct Candidate {
+    pub effect: usize,
+    /// Gain of ln evidence; none where it was not, or could not be, asked.
+    pub gain: Option<f64>,
+    /// √ of what the misfit falls by.
+    pub z: Option<f64>,
+    /// Sizes with their units.
+    pub sizes: String,
+    pub outcome: Outcome,
+    /// Why.
+    pub reason: String,
+}
+
+/// All candidates and the instruments, which are free in every hypothesis, best first.
+pub(super) fn candidates(subject: &Subject) -> Vec<Candidate> {
+    let diagnosis = subject.diagnosis;
+    let mut all: Vec<Candidate> = diagnosis
+        .screened
+        .iter()
+        .map(|one| {
+            let (outcome, reason) = judged(subject, one);
+            Candidate {
+                effect: one.effect,
+                gain: Some(one.gain).filter(|gain| gain.is_finite()),
+                z: Some(one.z),
+                sizes: sizes(subject, one),
+                outcome,
+                reason,
+            }
+        })
+        .collect();
+    for &effect in &diagnosis.base.instruments {
+        let fitted: Vec<String> = CATALOGUE[effect]
+            .parameters
+            .iter()
+            .enumerate()
+            .map(|(place, parameter)| {
+                let value = diagnosis.best.fit.hypothesis.get(Unknown::Effect(effect, place));
+                format!("{} {}{}", parameter.key, significant(value, 4), unit(parameter.unit))
+            })
+            .collect();
+        let missing = claim(subject, effect);
+        let refused = diagnosis.refused.iter().find(|verdict| verdict.effect == effect);
+        let verdict = missing.map(|missing| &missing.verdict).or(refused);
+        let reason = match (missing, refused) {
+            (Some(missing), _) => claimed(missing),
+            (_, Some(verdict)) => refusal(verdict.refused.as_deref()),
+            _ => {
+                "fitted in every hypothesis; ln evidence falls by less than 5 without it".to_owned()
+            }
+        };
+        all.push(Candidate {
+            effect,
+            gain: verdict.map(|verdict| verdict.support.ln_bayes_factor),
+            z: verdict.map(|verdict| verdict.support.z),
+            sizes: fitted.join(", "),
+            outcome: if missing.is_some() { Outcome::Claimed } else { Outcome::Lost },
+            reason,
+        });
+    }
+    let gain = |one: &Candidate| one.gain.unwrap_or(f64::NEG_INFINITY);
+    all.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
+    all
+}
+
+fn claim<'a>(subject: &Subject<'a>, effect: usize) -> Option<&'a Missing> {
+    let missing = subject.diagnosis.missing.iter();
+    missing.filter(|missing| missing.kind != Kind::Constant).find(|m| m.verdict.effect == effect)
+}
+
+fn claimed(missing: &Missing) -> String {
+    match missing.verdict.one_of.len() {
+        0 | 1 => "claimed".to_owned(),
+        _ => format!("claimed as one of {}", ids(&missing.verdict.one_of, ", ")),
+    }
+}
+
+fn refusal(why: Option<&str>) -> String {
+    format!("refused: {}", why.unwrap_or("no reason given"))
+}
+
+fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
+    let diagnosis = subject.diagnosis;
+    let effect = one.effect;
+    if let Some(missing) = claim(subject, effect) {
+        return (Outcome::Claimed, claimed(missing));
+    }
+    let twin = diagnosis.missing.iter().find(|missing| missing.verdict.one_of.contains(&effect));
+    if let Some(missing) = twin {
+        return if missing.kind == Kind::Constant {
+            let reason = "one of the class that only moves constant ICRs, of which one is claimed";
+            (Outcome::Twin, reason.to_owned())
+        } else {
+            let other = id(missing.verdict.effect);
+            (Outcome::Twin, format!("this evidence cannot tell it from {other}"))
+        };
+    }
+    if let Some(verdict) = diagnosis.refused.iter().find(|verdict| verdict.effect == effect) {
+        return (Outcome::Lost, refusal(verdict.refused.as_deref()));
+    }
+    if diagnosis.statics.contains(&effect) {
+        return (Outcome::Constant, "only moves constant ICRs, which are fitted anyway".to_owned());
+    }
+    if one.held {
+        return (Outcome::Out, format!("unphysical: {}", unphysical(subject, one)));
+    }
+    if !one.gain.is_finite() || one.z == 0.0 {
+        return (Outcome::Out, "not visible: nothing in this evidence would change".to_owned());
+    }
+    if one.gain < WORTH {
+        let gain = number(one.gain, 1);
+        return (Outcome::Lost, format!("gain of ln evidence {gain}, below {}", number(WORTH, 0)));
+    }
+    (Outcome::Lost, weaker(subject, one))
+}
+
+/// Why a candidate that explains something by itself is not in the answer.
+fn weaker(subject: &Subject, one: &Screened) -> String {
+    let diagnosis = subject.diagnosis;
+    let answer = &diagnosis.best.effects;
+    let resemblance = &diagnosis.resemblance;
+    let place = |effect: usize| resemblance.effects.iter().position(|other| *other == effect);
+    let alike = answer.iter().filter_map(|&other| {
+        let cosine = resemblance.cosines[(place(one.effect)?, place(other)?)];
+        Some((cosine, other))
+    });
+    let alike = alike.max_by(|a, b| a.0.total_cmp(&b.0));
+    let left = diagnosis.left.iter().find(|left| left.effect == one.effect).map(|left| left.gain);
+    let left = left.map_or(String::new(), |gain| {
+        if gain > WORTH {
+            let gain = number(gain, 1);
+            format!("; beside the answer it promises {gain}, but no claim came of it")
+        } else if gain.is_finite() {
+            format!("; beside the answer it gains {}", number(gain, 1))
+        } else {
+            "; beside the answer it would be unphysical".to_owned()
+        }
+    });
+    match alike {
+        Some((cosine, other)) if cosine > ALIKE => {
+            format!("twin of {}, which explains more{left}", id(other))
+        }
+        Some((_, other)) => format!("weaker than {}{left}", id(other)),
+        None if diagnosis.base.instruments.is_empty() => format!("not needed{left}"),
+        None => format!("no single effect is worth keeping{left}"),
+    }
+}
+
+/// Value of each size: that of no effect, or of the vehicle file, and the estimated distance from it.
+fn values<'a>(subject: &'a Subject, one: &'a Screened) -> impl Iterator<Item = (usize, f64)> + 'a {
+    candidate::sizes(one.effect).into_iter().zip(&one.sizes).map(|(place, size)| {
+        let hypothesis = &subject.diagnosis.base.fit.hypothesis;
+        (place, hypothesis.get(Unknown::Effect(one.effect, place)) + size)
+    })
+}
+
+fn sizes(subject: &Subject, one: &Screened) -> String {
+    let texts = values(subject, one).map(|(place, value)| {
+        let parameter = &CATALOGUE[one.effect].parameters[place];
+        format!("{} {}{}", parameter.key, significant(value, 4), unit(parameter.unit))
+    });
+    texts.collect::<Vec<_>>().join(", ")
+}
+
+fn unphysical(subject: &Subject, one: &Screened) -> String {
+    let outside = values(subject, one).find_map(|(place, value)| {
+        let parameter = &CATALOGUE[one.effect].parameters[place];
+        let [low, high] = parameter.range;
+        let shown = format!("{} {}{}", parameter.key, significant(value, 2), unit(parameter.unit));
+        let Role::Size { neutral: none } = parameter.role else { return None };
+        if (low..=high).contains(&value) {
+            None
+        } else if (value < none && low >= none) || (value > none && high <= none) {
+            Some(format!("of the wrong sign ({shown})"))
+        } else {
+            Some(format!("{shown}, outside {} to {}", significant(low, 2), significant(high, 2)))
+        }
+    });
+    outside.unwrap_or_else(|| "its size lies outside its range".to_owned())
+}

@@ -1,0 +1,301 @@
+//! The report: one page that needs nothing beside itself.
+
+use super::base64::base64;
+use super::candidates::{Outcome, candidates};
+use super::words::{id, ids, probability, significant, unit};
+use super::{Figure, Subject, answer};
+use crate::Error;
+use crate::panel::ticks::number;
+use minijinja::Environment;
+use minijinja::value::Serde;
+use serde::Serialize;
+use trackdyn_diagnose::diagnosis::Kind;
+use trackdyn_diagnose::document::separate_by;
+use trackdyn_diagnose::verdict::Rules;
+use trackdyn_physics::CATALOGUE;
+
+const NAME: &str = "report.html";
+
+/// What the template is given.
+#[derive(Serialize)]
+struct Page<'a> {
+    name: &'a str,
+    vehicle: &'a str,
+    status: &'a str,
+    status_id: &'a str,
+    tone: &'a str,
+    answer: Vec<[String; 2]>,
+    missing: Vec<Missing>,
+    classes: Vec<Class>,
+    refused: Vec<Row>,
+    figures: Vec<Picture<'a>>,
+    candidates: Vec<Candidate>,
+    limits: Vec<Limit>,
+    rules: Vec<String>,
+    evidence: String,
+    noise: String,
+    source: Option<&'a toml::Table>,
+    caption: &'a str,
+}
+
+#[derive(Serialize)]
+struct Missing {
+    name: String,
+    title: String,
+    law: String,
+    shows: String,
+    parameters: Vec<Parameter>,
+    support: Vec<Row>,
+}
+
+#[derive(Serialize)]
+struct Parameter {
+    key: String,
+    meaning: String,
+    value: String,
+    low: String,
+    high: String,
+    unit: String,
+}
+
+#[derive(Serialize)]
+struct Row {
+    name: String,
+    text: String,
+}
+
+#[derive(Serialize)]
+struct Class {
+    question: &'static str,
+    members: Vec<Row>,
+    decides: String,
+}
+
+#[derive(Serialize)]
+struct Picture<'a> {
+    file: &'a str,
+    title: &'a str,
+    reading: &'a str,
+    base64: String,
+}
+
+#[derive(Serialize)]
+struct Candidate {
+    id: String,
+    title: String,
+    gain: String,
+    z: String,
+    sizes: String,
+    reason: String,
+    tone: &'static str,
+}
+
+#[derive(Serialize)]
+struct Limit {
+    id: String,
+    meaning: String,
+    size: String,
+    typical: String,
+}
+
+/// The report as HTML with all figures inside.
+///
+/// The text depends on the arguments only.
+///
+/// # Errors
+/// [`Error::Template`].
+pub fn diagnosis_html(subject: &Subject, figures: &[Figure]) -> Result<String, Error> {
+    let mut environment = Environment::new();
+    environment.add_template(NAME, include_str!("report.html"))?;
+    Ok(environment.get_template(NAME)?.render(Serde(page(subject, figures)))?)
+}
+
+fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Page<'a> {
+    let (diagnosis, evidence) = (subject.diagnosis, subject.evidence);
+    let [status, tone] = answer::status(subject);
+    let refused = diagnosis.refused.iter().map(|verdict| Row {
+        name: ids(&verdict.one_of, " or "),
+        text: verdict.refused.clone().unwrap_or_default(),
+    });
+    let figures = figures.iter().map(|figure| Picture {
+        file: figure.file,
+        title: figure.title,
+        reading: figure.reading,
+        base64: base64(&figure.png),
+    });
+    let unit = if evidence.is_steady() { "points of steady motion" } else { "segments of driving" };
+    let held_out = if diagnosis.held_out.are_held_out {
+        let held_out = diagnosis.metric.runs.iter().filter(|counts| !**counts).count();
+        let what = if evidence.is_steady() { "points" } else { "runs" };
+        format!("{held_out} of {} {what} were held out", diagnosis.metric.runs.len())
+    } else {
+        "none were held out".to_owned()
+    };
+    Page {
+        name: subject.name,
+        vehicle: &subject.vehicle.vehicle.name,
+        status,
+        status_id: diagnosis.status.name(),
+        tone,
+        answer: answer::parts(subject),
+        missing: missing(subject),
+        classes: classes(subject),
+        refused: refused.collect(),
+        figures: figures.collect(),
+        candidates: rows(subject),
+        limits: limits(subject),
+        rules: rules(),
+        evidence: format!("{} {unit}; {held_out}", evidence.samples().len()),
+        noise: noise(subject),
+        source: subject.file.source.as_ref(),
+        caption: subject.caption,
+    }
+}
+
+fn missing(subject: &Subject) -> Vec<Missing> {
+    let missing = subject.diagnosis.missing.iter();
+    missing
+        .map(|missing| {
+            let card = &CATALOGUE[missing.verdict.effect];
+            let support = &missing.verdict.support;
+            let parameters = missing.parameters.iter().filter_map(|interval| {
+                let parameter = interval.unknown.parameter()?;
+                Some(Parameter {
+                    key: parameter.key.to_owned(),
+                    meaning: parameter.meaning.to_owned(),
+                    value: significant(interval.value, 4),
+                    low: significant(interval.low, 4),
+                    high: significant(interval.high, 4),
+                    unit: if parameter.unit == "1" { "–" } else { parameter.unit }.to_owned(),
+                })
+            });
+            let row = |name: &str, text: String| Row { name: name.to_owned(), text };
+            let constant = missing.kind == Kind::Constant;
+            Missing {
+                name: answer::some(&missing.verdict.one_of),
+                title: if constant {
+                    "A wrong number: constant ICRs other than those of the vehicle file".to_owned()
+                } else {
+                    card.title.to_owned()
+                },
+                law: if constant { String::new() } else { card.law.to_owned() },
+                shows: if constant { String::new() } else { card.shows.to_owned() },
+                parameters: parameters.collect(),
+                support: vec![
+                    row("probability of chance", probability(support.p)),
+                    row(
+                        "ln Bayes factor against the best answer without it",
+                        number(support.ln_bayes_factor, 1),
+                    ),
+                    row(
+                        "gain of log-likelihood on blocks left out of the fit",
+                        format!(
+                            "{} ± {}",
+                            number(support.held_out_gain, 1),
+                            number(support.held_out_error, 1)
+                        ),
+                    ),
+                    row(
+                        "resampled recordings that name the same",
+                        format!("{} %", number(100.0 * support.stable, 0)),
+                    ),
+                ],
+            }
+        })
+        .collect()
+}
+
+fn classes(subject: &Subject) -> Vec<Class> {
+    let missing = subject.diagnosis.missing.iter();
+    missing
+        .filter(|missing| missing.verdict.one_of.len() > 1)
+        .map(|missing| Class {
+            question: if missing.kind == Kind::Constant {
+                "Which number is it?"
+            } else {
+                "Which of them is it?"
+            },
+            members: missing
+                .verdict
+                .one_of
+                .iter()
+                .map(|&effect| Row {
+                    name: id(effect).to_owned(),
+                    text: CATALOGUE[effect].title.to_owned(),
+                })
+                .collect(),
+            decides: separate_by(missing),
+        })
+        .collect()
+}
+
+fn rows(subject: &Subject) -> Vec<Candidate> {
+    candidates(subject)
+        .into_iter()
+        .map(|one| Candidate {
+            id: id(one.effect).to_owned(),
+            title: CATALOGUE[one.effect].title.to_owned(),
+            gain: one.gain.map_or("–".to_owned(), |gain| number(gain, 1)),
+            z: one.z.map_or("–".to_owned(), |z| number(z, 1)),
+            sizes: one.sizes,
+            reason: one.reason,
+            tone: match one.outcome {
+                Outcome::Claimed => "claimed",
+                Outcome::Twin => "twin",
+                _ => "lost",
+            },
+        })
+        .collect()
+}
+
+fn limits(subject: &Subject) -> Vec<Limit> {
+    let mut detectable = subject.diagnosis.detectable.clone();
+    detectable.sort_by_key(|one| (one.effect, one.parameter));
+    detectable
+        .iter()
+        .map(|one| {
+            let parameter = &CATALOGUE[one.effect].parameters[one.parameter];
+            let typical = trackdyn_diagnose::hypothesis::typical_size(parameter);
+            Limit {
+                id: id(one.effect).to_owned(),
+                meaning: format!("{}: {}", parameter.key, parameter.meaning),
+                size: one.size.map_or_else(
+                    || "no physical size would show".to_owned(),
+                    |size| format!("{}{}", significant(size, 3), unit(parameter.unit)),
+                ),
+                typical: format!("{}{}", significant(typical, 3), unit(parameter.unit)),
+            }
+        })
+        .collect()
+}
+
+fn rules() -> Vec<String> {
+    vec![
+        format!("the probability of chance, among all that was looked at, is below {}", Rules::P),
+        format!(
+            "its ln Bayes factor against the best answer without it is at least {}",
+            Rules::LN_BAYES_FACTOR
+        ),
+        format!("on blocks left out of the fit it gains more than {} standard errors", Rules::GAIN),
+        format!(
+            "at least {} % of resampled recordings name the same",
+            number(100.0 * Rules::STABLE, 0)
+        ),
+        "its sizes lie inside their physical ranges".to_owned(),
+    ]
+}
+
+fn noise(subject: &Subject) -> String {
+    let scale = subject.diagnosis.metric.scale;
+    let taken = subject.evidence.description();
+    if scale == [1.0; 3] {
+        return format!(
+            "{taken}. It was left as it is: what no effect explains is no larger than it."
+        );
+    }
+    let [forward, left, yaw] = scale.map(|scale| number(scale, 2));
+    format!(
+        "{taken}. What no effect explains is larger than it, so the noise was taken to be {forward} (forward), \
+         {left} (left) and {yaw} (yaw) times as large, which makes every claim less sure."
+    )
+}

@@ -1,0 +1,197 @@
+//! What was seen against what an effect would change.
+
+use super::Subject;
+use super::sheet::{self, Mark, quantile, rows};
+use super::words::{CHANNELS, id};
+use crate::Error;
+use crate::canvas::{Area, Canvas};
+use crate::colour::{GREY, INK, Rgb, WHITE};
+use crate::look;
+use crate::panel::ticks::number;
+use crate::panel::{Labels, Panel, TICK_SIZE, TITLE_SIZE};
+use crate::text::{Horizontal, Style, Vertical};
+use trackdyn_core::real;
+use trackdyn_diagnose::exposure::Exposure;
+
+const TOP: i32 = sheet::TOP + 140;
+const PLOT: [i32; 2] = [620, 420];
+const COLUMNS: [i32; 3] = [158, 918, 1678];
+const ROW: i32 = 640;
+const POINT: Rgb = [176, 196, 214];
+/// Means of about this many groups of samples.
+const GROUPS: f64 = 14.0;
+/// Samples that a group needs.
+const FEWEST: usize = 12;
+/// Part of the largest change below which a channel shows nothing of the effect.
+const NOTHING: f64 = 0.01;
+/// Half interval of a slope from which on it says nothing.
+const VAGUE: f64 = 2.0;
+
+/// Draws a row of channels for each claimed effect, or for the best candidate.
+pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
+    let exposures = &subject.diagnosis.exposures;
+    let height = TOP - 40 + rows(exposures.len().max(1)) * ROW + sheet::FOOT;
+    let explanation = "Observed departure without the effect, against the change that the effect predicts; \
+                       what else is free is taken out of both. An effect that is there puts the means on \
+                       the line, one that is not there on zero.";
+    let title = if subject.claims_nothing() {
+        "Nothing is claimed: the best candidate against the evidence"
+    } else {
+        "What is claimed against the evidence"
+    };
+    let mut canvas = sheet::sheet(height, title, explanation, subject.caption)?;
+    let entries = [
+        (Mark::Disc(POINT), "samples"),
+        (Mark::Entry(1), "means of samples of like change, with 95 % intervals"),
+        (Mark::Line(INK, 3.0), "predicted: slope one"),
+    ];
+    sheet::legend(&mut canvas, [158, sheet::TOP + 20], &entries);
+    if exposures.is_empty() {
+        let text = "No effect of the catalogue changes anything that this evidence can see.";
+        canvas.text(text, [158, TOP + 40], &Style::new(TITLE_SIZE));
+    }
+    for (row, exposure) in exposures.iter().enumerate() {
+        effect(&mut canvas, subject, exposure, TOP + rows(row) * ROW)?;
+    }
+    canvas.to_small_png()
+}
+
+fn effect(
+    canvas: &mut Canvas,
+    subject: &Subject,
+    exposure: &Exposure,
+    top: i32,
+) -> Result<(), Error> {
+    let changes = exposure.predicted.iter().flat_map(|change| change.iter().copied());
+    let extent = 1.1 * quantile(changes.map(f64::abs), 0.997).unwrap_or(0.0);
+    let extent = if extent > 0.0 { extent } else { 1.0 };
+    let all: [Vec<[f64; 2]>; 3] = [0, 1, 2].map(|channel| points(subject, exposure, channel));
+    let groups = all.each_ref().map(|points| groups(points));
+    let highest = groups.iter().flatten().map(|group| group.mean[1].abs() + group.half);
+    let highest = highest.fold(1.15 * extent, f64::max);
+    for channel in 0..3 {
+        let [width, height] = PLOT;
+        let plot = Area::new(COLUMNS[channel], top, width, height);
+        let panel = Panel { plot, x: [-extent, extent], y: [-highest, highest] };
+        let title = format!("{}: {}", id(exposure.effect), CHANNELS[channel]);
+        let y = if channel == 0 { "observed departure (σ of the noise)" } else { "" };
+        panel.frame(
+            canvas,
+            &Labels { title: &title, x: "predicted change (σ of the noise)", y },
+            true,
+        )?;
+        let largest = all[channel].iter().fold(0.0_f64, |most, point| most.max(point[0].abs()));
+        if largest < NOTHING * extent {
+            let style =
+                Style::new(TICK_SIZE).colour(GREY).anchor(Horizontal::Centre, Vertical::Middle);
+            let at = [plot.left + width / 2, plot.top + height / 2];
+            let text =
+                if all[channel].is_empty() { "not measured" } else { "it changes nothing here" };
+            canvas.text(text, at, &style);
+            continue;
+        }
+        let hidden = all[channel].iter().filter(|point| !panel.contains(**point)).count();
+        canvas.clip(plot, |canvas| {
+            for point in &all[channel] {
+                canvas.disc(panel.pixel(*point), 3.0, POINT);
+            }
+            let ends = [[-extent, -extent], [extent, extent]].map(|point| panel.pixel(point));
+            canvas.line(ends[0], ends[1], 3.0, INK);
+            for group in &groups[channel] {
+                let [column, _] = panel.pixel(group.mean);
+                let ends = [group.mean[1] - group.half, group.mean[1] + group.half];
+                let ends = ends.map(|value| panel.pixel([0.0, value])[1]);
+                look::whisker(canvas, column, ends, look::colour(1));
+                look::marker(canvas, 1, panel.pixel(group.mean));
+            }
+        });
+        panel.border(canvas);
+        if let Some((slope, error)) = slope(&all[channel]) {
+            let text = if error < VAGUE {
+                format!("slope {} ± {}", number(slope, 2), number(error, 2))
+            } else {
+                "too small to see".to_owned()
+            };
+            panel.remark(canvas, &text);
+        }
+        if hidden > 0 {
+            let style = Style::new(18.0).colour(GREY).anchor(Horizontal::Right, Vertical::Baseline);
+            let text = format!("beyond the frame: {hidden}");
+            let at = [plot.right() - 12, plot.bottom() - 12];
+            let width = canvas.text_width(&text, 18.0);
+            canvas.fill(Area::new(at[0] - width - 4, at[1] - 17, width + 8, 23), WHITE);
+            canvas.text(&text, at, &style);
+        }
+    }
+    Ok(())
+}
+
+/// Predicted change and observed departure of the samples that count in the fit.
+fn points(subject: &Subject, exposure: &Exposure, channel: usize) -> Vec<[f64; 2]> {
+    let diagnosis = subject.diagnosis;
+    let weights = diagnosis.metric.weights(subject.evidence, &diagnosis.best.fit.residual);
+    (0..exposure.predicted.len())
+        .filter(|&index| weights[index] > 0.0 && subject.evidence.is_measured(index, channel))
+        .map(|index| [exposure.predicted[index][channel], exposure.observed[index][channel]])
+        .filter(|point| point.iter().all(|value| value.is_finite()))
+        .collect()
+}
+
+/// The slope of the departure over the change, and half its 95 % interval where the noise is one.
+fn slope(points: &[[f64; 2]]) -> Option<(f64, f64)> {
+    let square: f64 = points.iter().map(|[x, _]| x * x).sum();
+    let product: f64 = points.iter().map(|[x, y]| x * y).sum();
+    (square > 0.0).then(|| (product / square, 1.96 / square.sqrt()))
+}
+
+/// Samples of like change.
+struct Group {
+    mean: [f64; 2],
+    /// Half the 95 % interval of the mean departure.
+    half: f64,
+}
+
+/// Groups by the change, such that each has about the same part of all changes: where most samples feel
+/// nothing, the few that do are not lost among them.
+fn groups(points: &[[f64; 2]]) -> Vec<Group> {
+    let mut sorted = points.to_vec();
+    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let mean = sorted.iter().map(|[x, _]| x.abs()).sum::<f64>() / real(sorted.len().max(1));
+    let weight = |point: &[f64; 2]| point[0].abs() + 0.3 * mean;
+    let whole: f64 = sorted.iter().map(weight).sum();
+    let (mut groups, mut inside, mut taken) = (Vec::new(), Vec::new(), 0.0);
+    for point in sorted {
+        taken += weight(&point);
+        inside.push(point);
+        if taken >= whole / GROUPS && inside.len() >= FEWEST {
+            groups.extend(group(&inside));
+            (inside, taken) = (Vec::new(), 0.0);
+        }
+    }
+    if inside.len() >= FEWEST {
+        groups.extend(group(&inside));
+    }
+    groups
+}
+
+fn group(points: &[[f64; 2]]) -> Option<Group> {
+    let count = real(points.len());
+    let mean = [0, 1].map(|k| points.iter().map(|point| point[k]).sum::<f64>() / count);
+    let squares: f64 = points.iter().map(|point| (point[1] - mean[1]).powi(2)).sum();
+    let half = 1.96 * (squares / (count * (count - 1.0))).sqrt();
+    half.is_finite().then_some(Group { mean, half })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::groups;
+
+    #[test]
+    fn the_few_samples_that_feel_an_effect_have_groups_of_their_own() {
+        let mut points = vec![[0.0, 0.1]; 900];
+        points.extend(vec![[5.0, 5.2]; 60]);
+        let groups = groups(&points);
+        assert!(groups.iter().any(|group| (group.mean[0] - 5.0).abs() < 1e-9));
+        assert!(super::groups(&[]).is_empty());
+    }
+}

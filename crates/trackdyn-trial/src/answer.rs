@@ -1,0 +1,125 @@
+//! What was concealed: the answers of a trial.
+
+use crate::plan::{Difficulty, Stratum};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use trackdyn_proof::{ActiveMechanism, Origin};
+
+/// Schema of the answers.
+pub const SCHEMA: &str = "trackdyn.answers/1";
+
+/// The answers of all cases.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Answers {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Version of the program that made them.
+    pub version: String,
+    /// Seed from which everything was drawn.
+    pub seed: u64,
+    /// The cases, in the order of their ids.
+    #[serde(rename = "case")]
+    pub cases: Vec<Answer>,
+}
+
+/// The answer of one case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Answer {
+    /// Name of its folder.
+    pub id: String,
+    /// What kind of case it is.
+    pub stratum: Stratum,
+    /// What is wrong, in a hard null.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub difficulty: Option<Difficulty>,
+    /// Style of the training runs.
+    pub driving: String,
+    /// Largest track speed, m/s.
+    pub fastest_m_per_s: f64,
+    /// Preset of the sensors.
+    pub sensors: String,
+    /// Standard deviation of a pose's x and y, m.
+    pub pose_white_m: f64,
+    /// Standard deviation of a pose's yaw, rad.
+    pub pose_white_rad: f64,
+    /// Effects that the vehicle file lists with their true sizes, as `id:key=value,...`.
+    pub known: Vec<String>,
+    /// Fingerprint of the recording.
+    pub recording: String,
+    /// The vehicle as it is, before effects: the text of its file.
+    pub vehicle: String,
+    /// What is concealed.
+    #[serde(default, rename = "concealed", skip_serializing_if = "Vec::is_empty")]
+    pub concealed: Vec<Concealed>,
+    /// Errors of instruments that are truly there, and that it is right to name.
+    #[serde(default, rename = "instrument", skip_serializing_if = "Vec::is_empty")]
+    pub instruments: Vec<Instrument>,
+}
+
+/// A concealed mechanism, and what could be found of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Concealed {
+    /// Id of the mechanism.
+    pub mechanism: String,
+    /// Whether the catalogue has it.
+    pub in_catalogue: bool,
+    /// Values by key.
+    pub parameters: BTreeMap<String, f64>,
+    /// Letters of the invariances that it breaks.
+    pub breaks: Vec<String>,
+    /// z that was aimed at; absent where the size was drawn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z_wanted: Option<f64>,
+    /// Norm of the whitened difference that it makes, outside the nuisances.
+    pub z_det: f64,
+    /// The same outside the alternative that comes closest.
+    pub z_iso: f64,
+    /// That alternative.
+    pub nearest: String,
+    /// Alternatives from which the recording cannot tell it.
+    pub class: Vec<String>,
+}
+
+/// An error of an instrument.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Instrument {
+    /// Id of the mechanism.
+    pub mechanism: String,
+    /// Values by key.
+    pub parameters: BTreeMap<String, f64>,
+}
+
+impl Concealed {
+    /// Whether the recording shows it at all.
+    pub fn is_detectable(&self) -> bool {
+        self.z_det >= crate::oracle::DETECTABLE
+    }
+
+    /// Whether the recording can tell it from everything else in the catalogue.
+    pub fn is_isolable(&self) -> bool {
+        self.is_detectable() && self.z_iso >= crate::oracle::DISTINCT
+    }
+}
+
+impl Instrument {
+    pub(crate) fn of(active: &ActiveMechanism) -> Self {
+        Self { mechanism: active.sheet().id.to_owned(), parameters: parameters(active) }
+    }
+}
+
+pub(crate) fn parameters(active: &ActiveMechanism) -> BTreeMap<String, f64> {
+    let keys = active.sheet().parameters.iter().map(|parameter| parameter.key.to_owned());
+    keys.zip(active.values().iter().copied()).collect()
+}
+
+pub(crate) fn letters(active: &ActiveMechanism) -> Vec<String> {
+    active.sheet().breaks.iter().map(|broken| broken.letter().to_string()).collect()
+}
+
+pub(crate) fn is_in_catalogue(active: &ActiveMechanism) -> bool {
+    active.sheet().origin == Origin::Catalogue
+}

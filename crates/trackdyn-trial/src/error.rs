@@ -1,0 +1,87 @@
+//! What a trial cannot do.
+
+use std::path::PathBuf;
+use trackdyn_core::document::DocumentError;
+use trackdyn_core::output::OutputError;
+
+/// A trial that cannot be made, opened or scored.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A robot that cannot be built or whose motion cannot go on.
+    #[error("{case}: {reason}")]
+    Ground {
+        /// The case.
+        case: String,
+        /// What happened.
+        reason: String,
+    },
+    /// A file that cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A file that is not what it should be.
+    #[error(transparent)]
+    Document(Box<DocumentError>),
+    /// A recording that cannot be written or read.
+    #[error(transparent)]
+    Recording(#[from] trackdyn_recording::Error),
+    /// A file or folder that cannot be read or changed.
+    #[error("{}: {cause}", path.display())]
+    File {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        cause: std::io::Error,
+    },
+    /// A key that is none.
+    #[error("{}: expected 64 hexadecimal digits, the key of a trial", path.display())]
+    Key {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Bytes that are not those that were committed to.
+    #[error("{what}: SHA-256 {found}, but commitment.txt has {committed}: {reason}")]
+    Broken {
+        /// What was compared.
+        what: &'static str,
+        /// What it is now.
+        found: String,
+        /// What it was.
+        committed: String,
+        /// What this means.
+        reason: &'static str,
+    },
+    /// A recording that is not the one the answers belong to.
+    #[error("{case}: the recording has the fingerprint {found}, and the sealed answer {sealed}")]
+    OtherRecording {
+        /// The case.
+        case: String,
+        /// What it is now.
+        found: String,
+        /// What it was.
+        sealed: String,
+    },
+    /// A number that is out of range.
+    #[error("{name} = {value}: expected {expected}")]
+    Option {
+        /// Its name.
+        name: &'static str,
+        /// Its value.
+        value: String,
+        /// What would do.
+        expected: &'static str,
+    },
+}
+
+impl Error {
+    pub(crate) fn file(path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.into();
+        move |cause| Self::File { path, cause }
+    }
+}
+
+impl From<DocumentError> for Error {
+    fn from(error: DocumentError) -> Self {
+        Self::Document(Box::new(error))
+    }
+}

@@ -1,0 +1,176 @@
+//! The folder of a trial.
+//!
+//! ```text
+//! DIR/answers.sealed
+//! DIR/commitment.txt
+//! DIR/case-0001/vehicle.toml
+//! DIR/case-0001/recording/{recording.toml,tracks.csv,poses.csv}
+//! ```
+//!
+//! What a diagnosis writes goes to `DIR/case-0001/diagnosis`, and why a process failed to
+//! `DIR/case-0001/failure.txt`. Names, layout, rounding and stamps of the files are the same in all cases.
+
+use crate::answer::{Answer, Answers};
+use crate::case::Case;
+use crate::diagnosis::{self, Diagnosis};
+use crate::error::Error;
+use crate::score::{Judged, Reply};
+use crate::seal::{self, Commitment, Key};
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+use trackdyn_core::document::Document;
+use trackdyn_core::output::{prepare_folder, write_file};
+use trackdyn_physics::{Vehicle, VehicleFile};
+use trackdyn_recording::folder;
+
+/// The sealed answers.
+pub const SEALED: &str = "answers.sealed";
+/// The published hashes.
+pub const COMMITMENT: &str = "commitment.txt";
+/// The recording of a case.
+pub const RECORDING: &str = "recording";
+/// The vehicle of a case.
+pub const VEHICLE: &str = "vehicle.toml";
+/// What the diagnosis of a case wrote.
+pub const DIAGNOSIS: &str = "diagnosis";
+
+/// Why the diagnosis of a case failed.
+pub const FAILURE: &str = "failure.txt";
+
+/// Stamp of all files: 1 December 2005, when the paper's issue had appeared, s of Unix time.
+const STAMP: u64 = 1_133_395_200;
+
+/// Writes the folder of a case.
+///
+/// # Errors
+/// [`Error::Output`], [`Error::Recording`], [`Error::File`].
+pub fn write_case(trial: &Path, case: &Case) -> Result<(), Error> {
+    let home = trial.join(&case.answer.id);
+    let recording = home.join(RECORDING);
+    prepare_folder(&home)?;
+    folder::write(&case.recording, &recording)?;
+    write_file(&home.join(VEHICLE), case.vehicle.to_toml().as_bytes())?;
+    let all = files(&home).into_iter().chain([recording, home]);
+    all.into_iter().try_for_each(|path| stamp(&path))
+}
+
+/// Seals the answers into the folder of a trial, and publishes the commitment.
+///
+/// # Errors
+/// [`Error::Output`].
+///
+/// # Panics
+/// Never: hashes are TOML.
+pub fn write_answers(trial: &Path, answers: &Answers, key: &Key) -> Result<Commitment, Error> {
+    let (sealed, commitment) = seal::seal(&seal::text(answers), key);
+    write_file(&trial.join(SEALED), &sealed)?;
+    let text = toml::to_string(&commitment).expect("texts are TOML");
+    write_file(&trial.join(COMMITMENT), text.as_bytes())?;
+    Ok(commitment)
+}
+
+/// Opens the answers of a trial.
+///
+/// # Errors
+/// Those of [`seal::open`]; [`Error::File`], [`Error::Document`].
+pub fn open_answers(trial: &Path, key: &Key) -> Result<Answers, Error> {
+    let path = trial.join(SEALED);
+    let sealed = std::fs::read(&path).map_err(Error::file(path))?;
+    let commitment: Commitment = Document::read(&trial.join(COMMITMENT))?.parse()?;
+    seal::open(&sealed, key, &commitment)
+}
+
+/// The cases of a trial, in the order of their names.
+///
+/// # Errors
+/// [`Error::File`].
+pub fn cases(trial: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(trial).map_err(Error::file(trial))? {
+        let path = entry.map_err(Error::file(trial))?.path();
+        let is_case =
+            path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("case-"));
+        if is_case && path.join(RECORDING).is_dir() {
+            found.push(path);
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// Puts what came back of every case beside its answer.
+///
+/// # Errors
+/// [`Error::OtherRecording`] where a recording was changed after the answers were sealed; files that
+/// cannot be read.
+pub fn judge(trial: &Path, answers: &Answers) -> Result<Vec<Judged>, Error> {
+    answers.cases.iter().map(|answer| judge_case(trial, answer)).collect()
+}
+
+fn judge_case(trial: &Path, answer: &Answer) -> Result<Judged, Error> {
+    let home = trial.join(&answer.id);
+    let recording = folder::read(&home.join(RECORDING))?;
+    if recording.fingerprint() != answer.recording {
+        return Err(Error::OtherRecording {
+            case: answer.id.clone(),
+            found: recording.fingerprint().to_owned(),
+            sealed: answer.recording.clone(),
+        });
+    }
+    let owned = VehicleFile::from_document(&Document::read(&home.join(VEHICLE))?)?;
+    let truth = Document::new(format!("{}, sealed vehicle", answer.id), &answer.vehicle);
+    let truth = VehicleFile::from_document(&truth)?;
+    let (written, failure) = (home.join(DIAGNOSIS), home.join(FAILURE));
+    let reply = if written.join(diagnosis::FILE).exists() {
+        match Diagnosis::read(&written) {
+            Ok(diagnosis) => Reply::Diagnosed(Box::new(diagnosis)),
+            Err(error) => Reply::Failed(error.to_string()),
+        }
+    } else if failure.exists() {
+        Reply::Failed(std::fs::read_to_string(&failure).map_err(Error::file(failure))?)
+    } else {
+        Reply::Absent
+    };
+    let owner_errors = owner_errors(&owned.vehicle, &truth.vehicle);
+    let outside = outside(&home)?;
+    Ok(Judged { answer: answer.clone(), owner_errors, outside, reply })
+}
+
+/// The files that a diagnosis gets of a case.
+fn files(home: &Path) -> [PathBuf; 4] {
+    let recording = home.join(RECORDING);
+    let [manifest, tracks, poses] =
+        ["recording.toml", "tracks.csv", "poses.csv"].map(|name| recording.join(name));
+    [manifest, tracks, poses, home.join(VEHICLE)]
+}
+
+/// Sizes (bytes) and stamps (s of Unix time) of the files of a case.
+fn outside(home: &Path) -> Result<Vec<f64>, Error> {
+    let mut shown = Vec::new();
+    for path in files(home) {
+        let file = std::fs::metadata(&path).map_err(Error::file(&path))?;
+        let stamp = file.modified().map_err(Error::file(&path))?;
+        let stamp = stamp.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+        #[expect(clippy::cast_precision_loss, reason = "sizes stay far below 2⁵³")]
+        shown.extend([file.len() as f64, stamp.as_secs_f64()]);
+    }
+    Ok(shown)
+}
+
+/// Effects of the static class by which a vehicle file is off.
+fn owner_errors(owned: &Vehicle, truth: &Vehicle) -> Vec<&'static str> {
+    let mut errors = Vec::new();
+    if owned.cog != truth.cog {
+        errors.push("cog-shift");
+    }
+    if owned.friction != truth.friction {
+        errors.push("friction-anisotropy");
+    }
+    errors
+}
+
+fn stamp(path: &Path) -> Result<(), Error> {
+    let time = SystemTime::UNIX_EPOCH + Duration::from_secs(STAMP);
+    File::open(path).and_then(|file| file.set_modified(time)).map_err(Error::file(path))
+}

@@ -1,0 +1,45 @@
+//! The sealed trial: the proof that a diagnosis finds what was concealed from it.
+//!
+//! - [`mod@plan`]: which cases there are: nulls, singles, pairs, equivalence cases, laws outside the
+//!   catalogue.
+//! - [`case`]: one case: a robot that nobody has seen, driven on the independent ground with something
+//!   concealed, and its recording.
+//! - [`oracle`]: what could be found of it: z_det and z_iso.
+//! - [`answer`]: what was concealed.
+//! - [`seal`]: the answers under a key, and the commitment to them.
+//! - [`diagnosis`], [`score`]: what came back, and what it is worth.
+//! - [`folder`]: the folder of a trial, in which nothing but the recordings tells cases apart.
+//!
+//! The diagnosis is not part of this crate: it is a program that gets a recording and a vehicle file.
+
+mod alternatives;
+pub mod answer;
+pub mod case;
+pub mod diagnosis;
+mod dose;
+pub mod driving;
+pub mod error;
+pub mod folder;
+mod ground;
+mod instruments;
+mod machine;
+pub mod oracle;
+pub mod plan;
+mod random;
+pub mod score;
+pub mod seal;
+mod signature;
+mod subspace;
+
+pub use answer::{Answer, Answers};
+pub use case::Case;
+pub use diagnosis::Diagnosis;
+pub use error::Error;
+pub use plan::{PlannedCase, Stratum, plan};
+pub use score::Score;
+
+/// A count as a real number.
+#[expect(clippy::cast_precision_loss, reason = "counts stay far below 2⁵³")]
+pub(crate) fn real(count: usize) -> f64 {
+    count as f64
+}

@@ -1,0 +1,171 @@
+//! What could be found: how strongly an effect shows, and how far it is from the next other effect.
+
+use crate::alternatives::{Alternative, alternatives};
+use crate::dose::{Dose, Scene};
+use crate::driving::Drive;
+use crate::ground::Ground;
+use crate::signature::Bench;
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use trackdyn_field::Sensors;
+
+/// z from which on an effect can be detected.
+pub const DETECTABLE: f64 = 5.0;
+/// z from which on an effect can be told from every other one.
+pub const DISTINCT: f64 = 4.0;
+/// z at which sizes are found: far above what the phases of shoes make of any change, some 3. Smaller
+/// sizes are taken in proportion, as every law is linear where it is small.
+const CLEAR: f64 = 120.0;
+/// Deviation of z from [`CLEAR`], as a ratio, that is good enough.
+const CLOSE_ENOUGH: f64 = 0.4;
+/// Smallest z per unit of strength by which a size can be set.
+const VISIBLE: f64 = 0.5;
+/// Runs on which effects are told from each other, and sizes are searched for.
+const FEW_RUNS: usize = 4;
+
+/// The runs and sensors by which effects are judged.
+pub(crate) struct Judge<'a> {
+    pub(crate) bench: &'a Bench,
+    pub(crate) ground: &'a Ground<'a>,
+    pub(crate) runs: &'a [Drive],
+    pub(crate) sensors: &'a Sensors,
+}
+
+/// An effect at its size, with what it leaves in the recording.
+#[derive(Clone, Debug)]
+pub(crate) struct Sized {
+    pub(crate) dose: Dose,
+    pub(crate) strength: f64,
+    pub(crate) signature: Vec<f64>,
+}
+
+/// How an effect stands among the others.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Standing {
+    /// Length of the signature outside the nuisances.
+    pub(crate) z_det: f64,
+    /// Length outside the nuisances and the alternative that comes closest.
+    pub(crate) z_iso: f64,
+    /// That alternative.
+    pub(crate) nearest: &'static str,
+    /// All alternatives that leave less than [`DISTINCT`].
+    pub(crate) class: Vec<&'static str>,
+}
+
+impl Judge<'_> {
+    /// An effect of a strength.
+    pub(crate) fn at(&self, dose: Dose, strength: f64) -> Result<Sized, String> {
+        let signature = self.signature(&dose, strength, self.runs)?;
+        Ok(Sized { dose, strength, signature })
+    }
+
+    /// An effect at the wanted z, or at its largest strength where it does not reach it, or at `otherwise`
+    /// where it does not show at all.
+    pub(crate) fn sized(&self, dose: Dose, wanted: f64, otherwise: f64) -> Result<Sized, String> {
+        let few = &self.runs[..FEW_RUNS.min(self.runs.len())];
+        let more_runs = (crate::real(self.runs.len()) / crate::real(few.len())).sqrt();
+        let z = |strength: f64| {
+            let signature = self.signature(&dose, strength, few)?;
+            Ok::<f64, String>(more_runs * self.z(&signature))
+        };
+        let mut strength = dose.largest().min(1.0);
+        let mut shown = z(strength)?;
+        if shown < VISIBLE * strength {
+            let strength = otherwise.min(dose.largest());
+            return self.at(dose, strength);
+        }
+        let next = (strength * CLEAR / shown).min(dose.largest());
+        if (next / strength).ln().abs() > CLOSE_ENOUGH {
+            // a size beyond what the robot can do is met half-way
+            (strength, shown) = match z(next) {
+                Ok(found) => (next, found),
+                Err(_) => ((strength * next).sqrt(), z((strength * next).sqrt())?),
+            };
+            let next = (strength * CLEAR / shown).min(dose.largest());
+            strength = if z(next).is_ok() { next } else { strength };
+        }
+        let mut sized = self.at(dose, strength)?;
+        let share = wanted / self.z(&sized.signature);
+        let share = share.max(sized.dose.smallest() / sized.strength);
+        if share < 1.0 {
+            sized.strength *= share;
+            sized.signature.iter_mut().for_each(|value| *value *= share);
+        }
+        Ok(sized)
+    }
+
+    /// How effects stand, each with those beside it that are concealed too taken for known.
+    pub(crate) fn standings(
+        &self,
+        concealed: &[Sized],
+        known: &[&str],
+        scene: Scene,
+        random: &mut ChaCha8Rng,
+    ) -> Result<Vec<Standing>, String> {
+        let ids: Vec<&str> = concealed.iter().map(|sized| sized.dose.id()).collect();
+        let excluded: Vec<&str> = known.iter().chain(&ids).copied().collect();
+        let others = alternatives(&excluded, scene, random);
+        let columns = self.columns(&others)?;
+        let rows = columns.iter().flatten().map(Vec::len).min().unwrap_or(self.bench.rows());
+        let standings = concealed.iter().enumerate().map(|(index, sized)| {
+            let beside = concealed.iter().enumerate().filter(|(other, _)| *other != index);
+            let beside: Vec<_> = beside.map(|(_, other)| other.signature.as_slice()).collect();
+            let taken = |rows: usize| {
+                let mut space = self.bench.nuisances(rows);
+                for column in &beside {
+                    space.add(column[..rows].to_vec());
+                }
+                space
+            };
+            let z_det = taken(self.bench.rows()).outside(&sized.signature);
+            let (space, part) = (taken(rows), &sized.signature[..rows]);
+            let whole = space.outside(part);
+            let mut left: Vec<(&'static str, f64)> = Vec::new();
+            for (alternative, columns) in others.iter().zip(&columns) {
+                let mut space = space.clone();
+                for column in columns {
+                    space.add(column.clone());
+                }
+                let share = if whole > 0.0 { space.outside(part) / whole } else { 0.0 };
+                left.push((alternative.id, z_det * share));
+            }
+            standing(z_det, &left)
+        });
+        Ok(standings.collect())
+    }
+
+    fn signature(&self, dose: &Dose, strength: f64, runs: &[Drive]) -> Result<Vec<f64>, String> {
+        let ground = self.ground.and(dose.at(strength));
+        self.bench.signature(&ground.observe(runs, self.sensors)?)
+    }
+
+    /// Length of a signature outside the nuisances.
+    fn z(&self, signature: &[f64]) -> f64 {
+        self.bench.nuisances(signature.len()).outside(signature)
+    }
+
+    /// Signatures of alternatives in the first runs, without inertia: cheap, and alike in shape.
+    fn columns(&self, others: &[Alternative]) -> Result<Vec<Vec<Vec<f64>>>, String> {
+        let few = &self.runs[..FEW_RUNS.min(self.runs.len())];
+        let still = Ground { active: Vec::new(), ..*self.ground };
+        let without = still.observe(few, self.sensors)?;
+        let residuals = self.bench.residuals(&without)?;
+        let column = |(dose, strength): &(Dose, f64)| {
+            let with = still.and(dose.at(*strength)).observe(few, self.sensors)?;
+            self.bench.difference(&with, &without, &residuals)
+        };
+        let all = others.par_iter().map(|alternative| {
+            alternative.members.par_iter().map(column).collect::<Result<Vec<_>, String>>()
+        });
+        all.collect()
+    }
+}
+
+fn standing(z_det: f64, left: &[(&'static str, f64)]) -> Standing {
+    let nearest = left.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1));
+    let (nearest, z_iso) = nearest.unwrap_or(("", z_det));
+    let mut class: Vec<_> = left.iter().filter(|(_, z)| *z < DISTINCT).map(|(id, _)| *id).collect();
+    class.sort_unstable();
+    class.dedup();
+    Standing { z_det, z_iso, nearest, class }
+}

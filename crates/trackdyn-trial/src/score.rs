@@ -1,0 +1,59 @@
+//! Scores: what the diagnoses of a trial are worth.
+//!
+//! Every score is a list of cases that count and of those among them that succeed. A further score is
+//! one more function in [`rates`], [`means`] or a table of its own; whether the manoeuvre that a
+//! diagnosis plans resolves its ambiguity will be one.
+
+mod confusion;
+pub mod interval;
+pub mod means;
+mod metadata;
+mod power;
+pub mod rates;
+mod tables;
+mod verdict;
+
+pub use confusion::Confusion;
+pub use means::Mean;
+pub use power::PowerBin;
+pub use rates::Rate;
+pub use tables::{cases_csv, confusion_csv, markdown, power_csv, rates_csv};
+pub use verdict::{Judged, Reply};
+
+/// All scores of a trial.
+#[derive(Clone, Debug)]
+pub struct Score {
+    /// Cases with an answer, and what came back.
+    pub judged: Vec<Judged>,
+    /// Cases that the diagnosis has not seen yet.
+    pub absent: usize,
+    /// Rates with their intervals.
+    pub rates: Vec<Rate>,
+    /// Means and medians.
+    pub means: Vec<Mean>,
+    /// What is found against what could be found.
+    pub power: Vec<PowerBin>,
+    /// What was taken for what.
+    pub confusion: Confusion,
+}
+
+impl Score {
+    /// Scores cases; those that were not diagnosed do not count.
+    pub fn of(cases: Vec<Judged>) -> Self {
+        let (judged, absent): (Vec<_>, Vec<_>) =
+            cases.into_iter().partition(|case| case.reply != Reply::Absent);
+        let mut rates = rates::rates(&judged);
+        rates.push(metadata::told_from_files(&judged));
+        Self {
+            rates,
+            means: means::means(&judged),
+            power: power::power(&judged),
+            confusion: Confusion::of(&judged),
+            absent: absent.len(),
+            judged,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

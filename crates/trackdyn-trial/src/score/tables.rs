@@ -1,0 +1,154 @@
+//! Scores as tables: Markdown to read, CSV to work with.
+
+use super::Score;
+use super::interval::clopper_pearson;
+use super::power::PowerBin;
+use std::fmt::Write;
+
+/// The scores as a page.
+pub fn markdown(score: &Score) -> String {
+    let mut text = String::from("# Scores of the trial\n\n");
+    let _ = writeln!(text, "{} cases diagnosed, {} not yet.", score.judged.len(), score.absent);
+    text.push_str("Intervals: 95 %, Clopper and Pearson.\n\n## Rates\n\n");
+    text.push_str("| what | of | rate | interval |\n|---|---|---|---|\n");
+    for rate in &score.rates {
+        let (share, interval) = shown(rate.successes, rate.cases);
+        let _ = writeln!(
+            text,
+            "| {} | {} of {} | {share} | {interval} |",
+            rate.name, rate.successes, rate.cases
+        );
+    }
+    text.push_str("\n## Means\n\n| what | cases | mean | median |\n|---|---|---|---|\n");
+    for mean in &score.means {
+        let _ = writeln!(
+            text,
+            "| {} | {} | {:.3} | {:.3} |",
+            mean.name, mean.cases, mean.mean, mean.median
+        );
+    }
+    text.push_str("\n## Power\n\nSingle effects of the catalogue, without the static class.\n\n");
+    text.push_str("| z | cases | truth in the set | interval | named exactly | interval |\n");
+    text.push_str("|---|---|---|---|---|---|\n");
+    for bin in score.power.iter().filter(|bin| bin.cases > 0) {
+        let (in_set, of_set) = shown(bin.in_set, bin.cases);
+        let (exact, of_exact) = shown(bin.exact, bin.cases);
+        let limits = limits(bin);
+        let _ = writeln!(
+            text,
+            "| {limits} | {} | {in_set} | {of_set} | {exact} | {of_exact} |",
+            bin.cases
+        );
+    }
+    text.push_str("\n## What was taken for what\n\n");
+    let columns = score.confusion.columns();
+    let _ = writeln!(text, "| concealed | {} |", columns.join(" | "));
+    let _ = writeln!(text, "|{}", "---|".repeat(columns.len() + 1));
+    for row in score.confusion.rows() {
+        let cells = columns.iter().map(|column| match score.confusion.count(row, column) {
+            0 => String::new(),
+            count => count.to_string(),
+        });
+        let _ = writeln!(text, "| {row} | {} |", cells.collect::<Vec<_>>().join(" | "));
+    }
+    text
+}
+
+/// `what,successes,cases,rate,low95,high95`.
+pub fn rates_csv(score: &Score) -> String {
+    let mut text = String::from("what,successes,cases,rate,low95,high95\n");
+    for rate in &score.rates {
+        let numbers = csv_numbers(rate.successes, rate.cases);
+        let _ = writeln!(text, "\"{}\",{},{},{numbers}", rate.name, rate.successes, rate.cases);
+    }
+    text
+}
+
+/// `z,from,until,cases,in_set,in_set_low95,in_set_high95,exact,exact_low95,exact_high95`, shares.
+pub fn power_csv(score: &Score) -> String {
+    let mut text = String::from(
+        "z,from,until,cases,in_set,in_set_low95,in_set_high95,exact,exact_low95,exact_high95\n",
+    );
+    for bin in &score.power {
+        let (in_set, exact) =
+            (csv_numbers(bin.in_set, bin.cases), csv_numbers(bin.exact, bin.cases));
+        let [from, until] = bin.limits;
+        let _ = writeln!(text, "{},{from},{until},{},{in_set},{exact}", bin.of, bin.cases);
+    }
+    text
+}
+
+/// What was concealed against what was named; one row per truth.
+pub fn confusion_csv(score: &Score) -> String {
+    let columns = score.confusion.columns();
+    let mut text = format!("concealed,{}\n", columns.join(","));
+    for row in score.confusion.rows() {
+        let cells = columns.iter().map(|column| score.confusion.count(row, column).to_string());
+        let _ = writeln!(text, "{row},{}", cells.collect::<Vec<_>>().join(","));
+    }
+    text
+}
+
+/// One row per case: what was there and what was said.
+pub fn cases_csv(score: &Score) -> String {
+    let mut text = String::from(
+        "case,stratum,concealed,z_det,z_iso,nearest,status,named,broken,false_claim\n",
+    );
+    for case in &score.judged {
+        let answer = &case.answer;
+        let list = |of: &dyn Fn(&crate::answer::Concealed) -> String| {
+            answer.concealed.iter().map(of).collect::<Vec<_>>().join(" ")
+        };
+        let (status, named, broken) = match case.diagnosis() {
+            None => ("failed", String::new(), String::new()),
+            Some(diagnosis) => {
+                let named = diagnosis.missing.iter().map(|claim| claim.members().join("|"));
+                let named = named.collect::<Vec<_>>().join(" ");
+                (diagnosis.status.name(), named, diagnosis.located.broken.join(""))
+            }
+        };
+        let _ = writeln!(
+            text,
+            "{},{},{},{},{},{},{status},{named},{broken},{}",
+            answer.id,
+            answer.stratum.name(),
+            list(&|c| c.mechanism.clone()),
+            list(&|c| c.z_det.to_string()),
+            list(&|c| c.z_iso.to_string()),
+            list(&|c| c.nearest.clone()),
+            case.claims_falsely()
+        );
+    }
+    text
+}
+
+fn shown(successes: usize, cases: usize) -> (String, String) {
+    match clopper_pearson(successes, cases) {
+        Some([low, high]) => {
+            let share = crate::real(successes) / crate::real(cases);
+            (
+                format!("{:.1} %", 100.0 * share),
+                format!("{:.1} to {:.1} %", 100.0 * low, 100.0 * high),
+            )
+        }
+        None => ("-".to_owned(), "-".to_owned()),
+    }
+}
+
+fn csv_numbers(successes: usize, cases: usize) -> String {
+    match clopper_pearson(successes, cases) {
+        Some([low, high]) => {
+            format!("{:.4},{low:.4},{high:.4}", crate::real(successes) / crate::real(cases))
+        }
+        None => ",,".to_owned(),
+    }
+}
+
+fn limits(bin: &PowerBin) -> String {
+    let [from, until] = bin.limits;
+    if until.is_finite() {
+        format!("{} {from} to {until}", bin.of)
+    } else {
+        format!("{} from {from} on", bin.of)
+    }
+}

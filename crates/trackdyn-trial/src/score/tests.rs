@@ -1,0 +1,125 @@
+//! Scores on answers and diagnoses that are written by hand.
+
+use super::*;
+use crate::answer::{Answer, Concealed, Instrument};
+use crate::diagnosis::Diagnosis;
+use crate::plan::Stratum;
+
+fn concealed(id: &str, z_det: f64, z_iso: f64) -> Concealed {
+    Concealed {
+        mechanism: id.to_owned(),
+        in_catalogue: trackdyn_physics::CATALOGUE.iter().any(|card| card.id == id),
+        parameters: [("coefficient".to_owned(), 0.05)].into(),
+        breaks: vec!["P".to_owned()],
+        z_wanted: None,
+        z_det,
+        z_iso,
+        nearest: String::new(),
+        class: Vec::new(),
+    }
+}
+
+fn case(stratum: Stratum, concealed: Vec<Concealed>, diagnosis: &str) -> Judged {
+    let diagnosis: Diagnosis = toml::from_str(diagnosis).expect("a diagnosis");
+    Judged {
+        answer: Answer {
+            id: "case-0001".to_owned(),
+            stratum,
+            difficulty: None,
+            driving: String::new(),
+            fastest_m_per_s: 1.0,
+            sensors: String::new(),
+            pose_white_m: 0.0,
+            pose_white_rad: 0.0,
+            known: Vec::new(),
+            recording: String::new(),
+            vehicle: String::new(),
+            concealed,
+            instruments: vec![Instrument {
+                mechanism: "encoder-scale".to_owned(),
+                parameters: [("left".to_owned(), 1.02)].into(),
+            }],
+        },
+        owner_errors: Vec::new(),
+        outside: Vec::new(),
+        reply: Reply::Diagnosed(Box::new(diagnosis)),
+    }
+}
+
+/// (successes, cases) of the rate whose name begins like this.
+fn rate(cases: &[Judged], name: &str) -> (usize, usize) {
+    let rates = rates::rates(cases);
+    let rate = rates.iter().find(|rate| rate.name.starts_with(name));
+    rate.map_or((0, 0), |rate| (rate.successes, rate.cases))
+}
+
+const NOTHING: &str = "status = 'nothing-missing'";
+const SLOPE: &str = "status = 'explained'\n[[missing]]\neffect = 'slope'\none_of = ['slope']\n";
+const SLOPE_OR_TETHER: &str =
+    "status = 'ambiguous'\n[[missing]]\neffect = 'slope'\none_of = ['slope', 'tether']\n";
+const SCALE: &str = "status = 'explained'\n[[missing]]\neffect = 'encoder-scale'\n\
+                     parameters = [{ name = 'left', value = 1, low95 = 1.01, high95 = 1.03 }]\n\
+                     [source]\nfurther = 'keys are passed over'\n";
+
+#[test]
+fn only_what_is_not_there_is_a_false_claim() {
+    let null = |text| case(Stratum::PlainNull, Vec::new(), text);
+    let cases = [null(NOTHING), null(SCALE), null(SLOPE), null(SLOPE_OR_TETHER)];
+    // an encoder that is truly off is no false claim; a set of which nothing is true is one
+    assert_eq!(rate(&cases, "false claim: nulls"), (2, 4));
+}
+
+#[test]
+fn isolation_is_exact_and_sets_are_no_isolation() {
+    let single = |text| case(Stratum::Single, vec![concealed("slope", 20.0, 9.0)], text);
+    let both = format!("{SLOPE}[[missing]]\neffect = 'centripetal'\n");
+    let beside = format!("{SLOPE}[[missing]]\neffect = 'encoder-scale'\n");
+    let cases =
+        [single(NOTHING), single(SLOPE), single(SLOPE_OR_TETHER), single(&both), single(&beside)];
+    assert_eq!(rate(&cases, "exact isolation"), (2, 5));
+    assert_eq!(rate(&cases, "truth in the reported set"), (4, 5));
+    assert_eq!(rate(&cases, "over-claim"), (0, 0));
+    let sizes = means::means(&cases);
+    // sets of 1, 2, 1 and 1
+    assert!((sizes[0].mean - 1.25).abs() < 1e-12 && sizes[0].cases == 4);
+}
+
+#[test]
+fn naming_one_of_a_class_that_cannot_be_split_is_an_over_claim() {
+    let close = |text| case(Stratum::Equivalence, vec![concealed("slope", 20.0, 1.0)], text);
+    let cases = [close(SLOPE), close(SLOPE_OR_TETHER), close(NOTHING), close(SCALE)];
+    assert_eq!(rate(&cases, "over-claim"), (1, 4));
+    assert_eq!(rate(&cases, "exact isolation"), (0, 0));
+}
+
+#[test]
+fn pairs_intervals_and_laws_outside() {
+    let pair = vec![concealed("slope", 20.0, 9.0), concealed("motion-resistance", 20.0, 9.0)];
+    let resistance = "[[missing]]\neffect = 'motion-resistance'\n\
+                      parameters = [{ name = 'coefficient', value = 0.05, low95 = 0.04, high95 = 0.06 }]\n";
+    let both = case(Stratum::Pair, pair.clone(), &format!("{SLOPE}{resistance}"));
+    let one = case(Stratum::Pair, pair, SLOPE);
+    assert_eq!(rate(&[both.clone(), one], "both named"), (1, 2));
+    let null = case(Stratum::PlainNull, Vec::new(), SCALE);
+    assert_eq!(rate(&[both, null], "95 %"), (2, 2));
+    let outside = |text| case(Stratum::Outside, vec![concealed("steering-grip", 20.0, 9.0)], text);
+    let flagged = outside("status = 'unexplained'\n[located]\nbroken = ['P']\n");
+    let cases = [flagged, outside(SLOPE)];
+    assert_eq!(rate(&cases, "outside the catalogue, unlike"), (1, 2));
+    assert_eq!(rate(&cases, "outside the catalogue: broken symmetries are all"), (1, 2));
+    assert_eq!(rate(&cases, "outside the catalogue: one effect"), (1, 2));
+}
+
+#[test]
+fn what_was_not_run_does_not_count_and_what_failed_is_counted() {
+    let mut absent = case(Stratum::PlainNull, Vec::new(), NOTHING);
+    absent.reply = Reply::Absent;
+    let mut failed = case(Stratum::Single, vec![concealed("slope", 20.0, 9.0)], NOTHING);
+    failed.reply = Reply::Failed("no".to_owned());
+    let score = Score::of(vec![absent, failed]);
+    assert_eq!((score.judged.len(), score.absent), (1, 1));
+    assert_eq!(rate(&score.judged, "exact isolation"), (0, 1));
+    assert_eq!(rate(&score.judged, "process failed"), (1, 1));
+    assert!(markdown(&score).contains("| slope | 1 |"));
+    assert!(cases_csv(&score).contains("case-0001,single,slope,20,9,,failed,,,false"));
+}

@@ -1,0 +1,111 @@
+//! A case with its answer and what the diagnosis said of it.
+
+use crate::answer::{Answer, Concealed};
+use crate::diagnosis::{Diagnosis, Missing};
+use crate::plan::{STATIC_CLASS, Stratum};
+
+/// What came back of a case.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Reply {
+    /// Its diagnosis.
+    Diagnosed(Box<Diagnosis>),
+    /// The process failed, or what it wrote cannot be read.
+    Failed(String),
+    /// It has not been run.
+    Absent,
+}
+
+/// A case with its answer and what came back.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// What was concealed.
+    pub answer: Answer,
+    /// Effects of the static class by which the owner's vehicle file is off.
+    pub owner_errors: Vec<&'static str>,
+    /// Sizes of the case's files (bytes) and their stamps (s): what the outside of a case shows.
+    pub outside: Vec<f64>,
+    /// What came back.
+    pub reply: Reply,
+}
+
+impl Judged {
+    /// The diagnosis; none where the process failed.
+    pub fn diagnosis(&self) -> Option<&Diagnosis> {
+        match &self.reply {
+            Reply::Diagnosed(diagnosis) => Some(diagnosis),
+            Reply::Failed(_) | Reply::Absent => None,
+        }
+    }
+
+    /// The concealed effect of a case that has one, of the catalogue.
+    pub fn only(&self) -> Option<&Concealed> {
+        match self.answer.concealed.as_slice() {
+            [only] if only.in_catalogue => Some(only),
+            _ => None,
+        }
+    }
+
+    /// Whether an effect is truly there: concealed, an error of an instrument, or of the vehicle file.
+    pub fn is_true(&self, effect: &str) -> bool {
+        self.answer.concealed.iter().any(|concealed| concealed.mechanism == effect)
+            || self.is_known_error(effect)
+    }
+
+    /// Whether it is an error of an instrument or of the vehicle file, which is right to name and no
+    /// physics of the trial.
+    fn is_known_error(&self, effect: &str) -> bool {
+        self.answer.instruments.iter().any(|instrument| instrument.mechanism == effect)
+            || self.owner_errors.contains(&effect)
+    }
+
+    /// Whether something is named of which nothing is true.
+    pub fn claims_falsely(&self) -> bool {
+        self.claims().iter().any(|claim| !claim.members().iter().any(|m| self.is_true(m)))
+    }
+
+    /// What is named, without what is only an error of instruments or of the vehicle file.
+    pub fn physics(&self) -> Vec<&Missing> {
+        let concealed = |m: &str| self.answer.concealed.iter().any(|c| c.mechanism == m);
+        self.claims()
+            .into_iter()
+            .filter(|claim| {
+                let members = claim.members();
+                members.iter().any(|m| concealed(m))
+                    || !members.iter().any(|m| self.is_known_error(m))
+            })
+            .collect()
+    }
+
+    /// Whether an effect is named, and nothing beside it.
+    pub fn names_exactly(&self, effects: &[&str]) -> bool {
+        let physics = self.physics();
+        physics.len() == effects.len()
+            && effects.iter().all(|effect| physics.iter().any(|claim| claim.members() == [*effect]))
+    }
+
+    /// The smallest set that is named and holds an effect.
+    pub fn set_with(&self, effect: &str) -> Option<Vec<&str>> {
+        let sets = self.claims().into_iter().map(Missing::members);
+        sets.filter(|members| members.contains(&effect)).min_by_key(Vec::len)
+    }
+
+    /// Whether one effect is named by itself that is not an error of instruments or of the vehicle file.
+    pub fn names_one_alone(&self) -> bool {
+        self.physics().iter().any(|claim| claim.members().len() == 1)
+    }
+
+    /// Whether the vehicle or the static class alone is concerned: nothing that a recording shows beside
+    /// constant ICRs.
+    pub fn is_static(&self) -> bool {
+        self.only().is_some_and(|only| STATIC_CLASS.contains(&only.mechanism.as_str()))
+    }
+
+    /// Whether its stratum is one of these.
+    pub fn is_of(&self, strata: &[Stratum]) -> bool {
+        strata.contains(&self.answer.stratum)
+    }
+
+    fn claims(&self) -> Vec<&Missing> {
+        self.diagnosis().map_or(Vec::new(), |diagnosis| diagnosis.missing.iter().collect())
+    }
+}

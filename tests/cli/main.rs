@@ -2,13 +2,16 @@
 
 mod bad_input;
 mod check;
+mod diagnose;
 mod documents;
 mod export;
 mod identify;
 mod map;
 mod odometry;
+mod plan;
 mod recordings;
 mod simulate;
+mod trial;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

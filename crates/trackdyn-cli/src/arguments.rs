@@ -36,6 +36,12 @@ pub enum Command {
     Inspect(commands::inspect::Options),
     /// Identify the kinematic parameters from a recording: spin test, genetic algorithm, least squares
     Identify(commands::identify::Options),
+    /// Locate where a model and recordings differ, and say which physics was left out
+    Diagnose(commands::diagnose::Options),
+    /// Propose the driving that tells apart what a diagnosis could not
+    Plan(commands::plan::Options),
+    /// Prove the diagnosis on concealed physics: make sealed cases, run it on them, score its answers
+    Trial(commands::trial::Options),
     /// Print completions for a shell
     Completions(commands::completions::Options),
     /// Print the manual page
@@ -56,6 +62,9 @@ impl Command {
             Self::Effects(options) => commands::effects::run(options),
             Self::Inspect(options) => commands::inspect::run(options),
             Self::Identify(options) => commands::identify::run(options),
+            Self::Diagnose(options) => commands::diagnose::run(options),
+            Self::Plan(options) => commands::plan::run(options),
+            Self::Trial(options) => commands::trial::run(options),
             Self::Completions(options) => commands::completions::run(options, Arguments::command()),
             Self::Man => commands::man::run(Arguments::command()),
         }

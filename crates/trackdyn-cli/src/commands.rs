@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod completions;
+pub mod diagnose;
 pub mod drive;
 pub mod effects;
 pub mod export;
@@ -11,7 +12,9 @@ pub mod kinematics;
 pub mod man;
 pub mod map;
 pub mod odometry;
+pub mod plan;
 pub mod simulate;
+pub mod trial;
 
 use crate::exit::Exit;
 use std::error::Error;

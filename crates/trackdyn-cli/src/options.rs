@@ -114,9 +114,17 @@ impl RecordingOptions {
     /// # Errors
     /// A message that names the file and, where there is one, line and column.
     pub fn read(&self) -> Result<Recording, Box<dyn std::error::Error>> {
-        let recording = match tracks_of(&self.recording, self.tracks.as_deref())? {
-            Some(tracks) => tum::read(&self.recording, tracks, "unknown")?,
-            None => trackdyn_recording::read(&self.recording, &self.rosbag())?,
+        self.read_path(&self.recording)
+    }
+
+    /// Reads another recording in the same way.
+    ///
+    /// # Errors
+    /// As [`RecordingOptions::read`].
+    pub fn read_path(&self, path: &Path) -> Result<Recording, Box<dyn std::error::Error>> {
+        let recording = match tracks_of(path, self.tracks.as_deref())? {
+            Some(tracks) => tum::read(path, tracks, "unknown")?,
+            None => trackdyn_recording::read(path, &self.rosbag())?,
         };
         for warning in recording.warnings() {
             eprintln!("note: {warning}");

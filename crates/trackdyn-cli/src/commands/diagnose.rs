@@ -1,0 +1,157 @@
+//! `trackdyn diagnose`: where model and recording differ, and what was left out.
+
+mod report;
+mod summary;
+
+use crate::commands::Outcome;
+use crate::exit::Exit;
+use crate::options::{RecordingOptions, command_line, read_vehicle};
+use crate::progress::Progress;
+use clap::Args;
+use std::path::PathBuf;
+use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
+use trackdyn_diagnose::diagnosis::STAGES;
+use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, diagnose};
+use trackdyn_motion::kinematics::Source;
+use trackdyn_physics::VehicleFile;
+use trackdyn_recording::{OperatingPoints, Recording, RunList};
+
+/// Options of `trackdyn diagnose`.
+#[derive(Args)]
+pub struct Options {
+    #[command(flatten)]
+    recording: RecordingOptions,
+    /// More recordings of the same robot
+    more: Vec<PathBuf>,
+    /// Vehicle file (schema trackdyn.vehicle/1); its effects are part of the model, and what its *_sd say is
+    /// taken as known
+    #[arg(long, value_name = "FILE")]
+    vehicle: PathBuf,
+    /// Runs to judge the result on, which nothing is fitted or chosen on: a list such as 9-11, or `none`
+    /// [default: every fourth run where there are eight or more]
+    #[arg(long, value_name = "RUNS|none")]
+    held_out: Option<String>,
+    /// Draws of the bootstrap behind the tests
+    #[arg(long, value_name = "N", default_value_t = 2000,
+          value_parser = clap::value_parser!(u32).range(1000..=100_000))]
+    draws: u32,
+    /// Seed of the bootstrap
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Folder for diagnosis.toml, vehicle.corrected.toml, report.html and the figures
+    #[arg(long, value_name = "DIR", default_value = "out/diagnosis")]
+    out: PathBuf,
+}
+
+/// What is diagnosed, and where it comes from.
+struct Subject {
+    name: String,
+    fingerprint: String,
+    runs: Option<String>,
+    evidence: Evidence,
+    held_out: Vec<usize>,
+}
+
+/// Diagnoses, prints the answer in one screen and writes it.
+pub fn run(options: &Options) -> Outcome {
+    let vehicle = read_vehicle(&options.vehicle)?;
+    let subject = subject(options, &vehicle)?;
+    prepare_folder(&options.out)?;
+    let progress = Progress::new(2 * STAGES.len());
+    let settings = trackdyn_diagnose::Options {
+        held_out: subject.held_out.clone(),
+        draws: options.draws as usize,
+        seed: options.seed,
+    };
+    let diagnosis = diagnose(&subject.evidence, &vehicle, &settings, &|_| progress.advance(1))?;
+    progress.finish();
+    print!("{}", summary::text(&diagnosis, &subject.evidence, &subject.name));
+    write(&diagnosis, &subject, &vehicle, options)?;
+    Ok(Exit::Done)
+}
+
+fn write(
+    diagnosis: &Diagnosis,
+    subject: &Subject,
+    vehicle: &VehicleFile,
+    options: &Options,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let source = Source {
+        command: command_line(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        vehicle: vehicle.vehicle.name.clone(),
+        fingerprint: subject.fingerprint.clone(),
+        recording: Some(subject.name.clone()),
+        runs: subject.runs.clone(),
+        seed: Some(options.seed),
+        ..Source::default()
+    };
+    let file = DiagnosisFile::new(diagnosis, &source);
+    let corrected = format!(
+        "# {} as a diagnosis of {} corrects it (trackdyn {}, vehicle {}, recording {}).\n{}",
+        vehicle.vehicle.name,
+        subject.name,
+        env!("CARGO_PKG_VERSION"),
+        fingerprint(vehicle.to_toml().as_bytes()),
+        subject.fingerprint,
+        diagnosis.corrected.to_toml()
+    );
+    for (name, text) in [("diagnosis.toml", file.to_toml()), ("vehicle.corrected.toml", corrected)]
+    {
+        let path = options.out.join(name);
+        write_file(&path, text.as_bytes())?;
+        eprintln!("wrote {}", path.display());
+    }
+    report::write(diagnosis, subject, vehicle, &file, &options.out)
+}
+
+fn subject(
+    options: &Options,
+    vehicle: &VehicleFile,
+) -> Result<Subject, Box<dyn std::error::Error>> {
+    if let Some(table) = OperatingPoints::file_of(&options.recording.recording) {
+        if !options.more.is_empty() {
+            return Err("a table of steady points is diagnosed alone: expected one".into());
+        }
+        let points = OperatingPoints::read(&table)?;
+        let evidence = Evidence::of_points(&points.points)?;
+        let held_out =
+            every_fourth(evidence.runs().len(), options.held_out.as_deref() == Some("none"));
+        let fingerprint = fingerprint(&std::fs::read(&table)?);
+        return Ok(Subject { name: points.name, fingerprint, runs: None, evidence, held_out });
+    }
+    let mut recordings = vec![options.recording.read()?];
+    for path in &options.more {
+        recordings.push(options.recording.read_path(path)?);
+    }
+    let recording = match recordings.as_slice() {
+        [one] => one.clone(),
+        several => Recording::joined(several)?,
+    };
+    let runs = recording.runs().len();
+    let held_out = match options.held_out.as_deref() {
+        None => every_fourth(runs, false),
+        Some("none") => Vec::new(),
+        Some(list) => {
+            let list: RunList = list.parse().map_err(|error| format!("--held-out: {error}"))?;
+            recording.indices_of(&list)?
+        }
+    };
+    if held_out.len() == runs {
+        return Err("--held-out: expected at least one run to fit".into());
+    }
+    let evidence = Evidence::of_recording(&recording, vehicle.vehicle.gauge)?;
+    Ok(Subject {
+        name: recording.name().to_owned(),
+        fingerprint: recording.fingerprint().to_owned(),
+        runs: Some(recording.run_list().to_string()),
+        evidence,
+        held_out,
+    })
+}
+
+/// Every fourth of many runs.
+fn every_fourth(runs: usize, none: bool) -> Vec<usize> {
+    const MANY: usize = 8;
+    if none || runs < MANY { Vec::new() } else { (3..runs).step_by(4).collect() }
+}

@@ -1,0 +1,42 @@
+//! The report of a diagnosis and its figures.
+
+use super::Subject;
+use std::path::Path;
+use trackdyn_core::output::{fingerprint, write_file};
+use trackdyn_diagnose::{Diagnosis, DiagnosisFile};
+use trackdyn_physics::VehicleFile;
+use trackdyn_report::{diagnosis_figures, diagnosis_html};
+
+/// Writes report.html and its figures.
+pub fn write(
+    diagnosis: &Diagnosis,
+    subject: &Subject,
+    vehicle: &VehicleFile,
+    file: &DiagnosisFile,
+    folder: &Path,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let caption = format!(
+        "trackdyn {}, recording {} {}, vehicle {} {}",
+        env!("CARGO_PKG_VERSION"),
+        subject.name,
+        subject.fingerprint,
+        vehicle.vehicle.name,
+        fingerprint(vehicle.to_toml().as_bytes())
+    );
+    let subject = trackdyn_report::Subject {
+        diagnosis,
+        evidence: &subject.evidence,
+        vehicle,
+        file,
+        name: &subject.name,
+        caption: &caption,
+    };
+    let figures = diagnosis_figures(&subject)?;
+    for figure in &figures {
+        write_file(&folder.join(figure.file), &figure.png)?;
+    }
+    let report = folder.join("report.html");
+    write_file(&report, diagnosis_html(&subject, &figures)?.as_bytes())?;
+    eprintln!("wrote {} and {} figures beside it", report.display(), figures.len());
+    Ok(())
+}

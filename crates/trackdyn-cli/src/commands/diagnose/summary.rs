@@ -1,0 +1,124 @@
+//! A diagnosis in one screen.
+
+use std::fmt::Write;
+use trackdyn_diagnose::diagnosis::{Kind, Missing};
+use trackdyn_diagnose::document::separate_by;
+use trackdyn_diagnose::locate::SURE;
+use trackdyn_diagnose::place::words;
+use trackdyn_diagnose::{Diagnosis, Evidence, Status};
+use trackdyn_physics::CATALOGUE;
+
+/// Effects whose limits are printed where nothing is missing.
+const LIMITS: usize = 6;
+
+/// The text of a diagnosis.
+pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
+    let mut text = String::new();
+    let samples = evidence.samples().len();
+    let unit = if evidence.is_steady() { "points" } else { "segments" };
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{name}: {samples} {unit}, {}", evidence.description());
+    let _ = writeln!(text, "\nstatus   {}", diagnosis.status.name());
+    let _ = writeln!(
+        text,
+        "where    {} ({:.2} times the noise with clock, mount and constant ICRs fitted)",
+        diagnosis.place, diagnosis.before.excess_over_noise
+    );
+    if diagnosis.missing.is_empty() {
+        let _ = writeln!(text, "missing  {}", nothing(diagnosis));
+    }
+    for (index, missing) in diagnosis.missing.iter().enumerate() {
+        let head = if index == 0 { "missing " } else { "        " };
+        let _ = writeln!(text, "{head} {}", line(missing));
+        if missing.verdict.one_of.len() > 1 {
+            let _ = writeln!(text, "           decides: {}", separate_by(missing));
+        }
+    }
+    for verdict in &diagnosis.refused {
+        let id = CATALOGUE[verdict.effect].id;
+        let why = verdict.refused.as_deref().unwrap_or_default();
+        let _ = writeln!(text, "refused  {id}: {why}");
+    }
+    if diagnosis.status == Status::Unexplained {
+        let left = diagnosis.after.tests.iter().filter(|one| one.test.p < SURE);
+        let left: Vec<String> = left
+            .map(|one| {
+                let test = &one.test;
+                format!(
+                    "{} (chi2 {:.0} of {} columns, p = {:.4})",
+                    words(one.symmetry),
+                    test.statistic,
+                    test.degrees,
+                    test.p
+                )
+            })
+            .collect();
+        let _ = writeln!(text, "left     {}", left.join("; "));
+    }
+    let fit = &diagnosis.held_out;
+    let on = if fit.are_held_out { "held-out runs" } else { "the runs of the fit" };
+    let explained = fit.excess_explained();
+    let share = explained.map_or("no excess".to_owned(), |share| {
+        format!("{:.1} % of the excess explained", 100.0 * share)
+    });
+    let _ = writeln!(
+        text,
+        "fit      on {on}: {:.3} before, {:.3} after, noise floor {:.3} ({share})",
+        fit.before, fit.after, fit.noise_floor
+    );
+    text
+}
+
+fn nothing(diagnosis: &Diagnosis) -> String {
+    if diagnosis.status == Status::Unexplained {
+        return "something outside the catalogue: no effect, nor two or three, explains it"
+            .to_owned();
+    }
+    let limits: Vec<String> = diagnosis
+        .detectable
+        .iter()
+        .filter_map(|one| {
+            let card = &CATALOGUE[one.effect];
+            let parameter = &card.parameters[one.parameter];
+            Some(format!("{} {:.2e} {}", card.id, one.size?, parameter.unit))
+        })
+        .take(LIMITS)
+        .collect();
+    format!(
+        "nothing; the smallest that this recording would have shown: {}, ...",
+        limits.join(", ")
+    )
+}
+
+fn line(missing: &Missing) -> String {
+    let id = |effect: &usize| CATALOGUE[*effect].id;
+    let verdict = &missing.verdict;
+    if missing.kind == Kind::Constant {
+        let ids: Vec<&str> = verdict.one_of.iter().map(id).collect();
+        return format!(
+            "a wrong number, not physics: the constant ICRs differ from the vehicle file's. One of {}",
+            ids.join(", ")
+        );
+    }
+    let sizes: Vec<String> = missing
+        .parameters
+        .iter()
+        .filter_map(|interval| {
+            let parameter = interval.unknown.parameter()?;
+            let unit = if parameter.unit == "1" { "" } else { parameter.unit };
+            Some(format!(
+                "{} = {:.4} [{:.4}, {:.4}] {unit}",
+                parameter.key, interval.value, interval.low, interval.high
+            ))
+        })
+        .collect();
+    let names: Vec<&str> = verdict.one_of.iter().map(id).collect();
+    let kind = if missing.kind == Kind::Instrument { " (encoders or pose sensor)" } else { "" };
+    format!(
+        "{}{kind}: {}; ln Bayes factor {:.1}, p = {:.4}",
+        names.join(" or "),
+        sizes.join(", "),
+        verdict.support.ln_bayes_factor,
+        verdict.support.p
+    )
+}

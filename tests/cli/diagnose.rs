@@ -1,0 +1,173 @@
+//! `trackdyn diagnose`: small recoveries, what it must not say, and what it refuses.
+
+use crate::{Run, Workplace};
+
+const VEHICLE: &str = "drive/auriga.toml";
+
+/// A drive of Auriga-alpha with what is concealed from its owner, and the vehicle file that the owner has.
+fn drive(place: &Workplace, concealed: &str) {
+    let run = place.run(&format!("simulate --quasi-static {concealed} --out drive"));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let run = place.run("simulate --quasi-static --runs 1 --duration 2 --out owner");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let vehicle = String::from_utf8(place.read("owner/vehicle.toml")).expect("text");
+    place.write(VEHICLE, &vehicle);
+}
+
+fn diagnosed(place: &Workplace, more: &str) -> (Run, toml::Table) {
+    let run = place.run(&format!("diagnose drive --vehicle {VEHICLE} --out found {more}"));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let text = String::from_utf8(place.read("found/diagnosis.toml")).expect("text");
+    let file = text.parse().expect("TOML");
+    (run, file)
+}
+
+/// What is named: the members of each entry, clock offset aside, which every simulated sensor has.
+fn named(file: &toml::Table) -> Vec<Vec<String>> {
+    let Some(missing) = file.get("missing") else { return Vec::new() };
+    let members = missing.as_array().expect("tables").iter().map(|one| {
+        let ids = one["one_of"].as_array().expect("ids").iter();
+        ids.map(|id| id.as_str().expect("an id").to_owned()).collect::<Vec<_>>()
+    });
+    members.filter(|ids| ids != &["time-offset"]).collect()
+}
+
+fn value(file: &toml::Table, effect: &str, parameter: &str) -> f64 {
+    let missing = file["missing"].as_array().expect("tables");
+    let one = missing.iter().find(|one| one["effect"].as_str() == Some(effect)).expect("named");
+    let parameters = one["parameters"].as_array().expect("tables");
+    let of = parameters.iter().find(|one| one["name"].as_str() == Some(parameter)).expect("there");
+    of["value"].as_float().expect("a number")
+}
+
+#[test]
+fn where_nothing_is_concealed_no_physics_is_named() {
+    let place = Workplace::new();
+    drive(&place, "");
+    let (_, file) = diagnosed(&place, "");
+    assert!(named(&file).is_empty(), "{file}");
+    assert_ne!(file["status"].as_str(), Some("unexplained"));
+    // What could have been there unseen is said for the effects that driving shows.
+    assert!(file["detectable"]["centripetal"]["strength"].as_float().expect("a size") < 0.5);
+}
+
+#[test]
+fn centripetal_force_of_the_independent_ground_is_named_and_sized() {
+    let place = Workplace::new();
+    drive(&place, "--ground independent --effect centripetal");
+    let (run, file) = diagnosed(&place, "");
+    assert_eq!(named(&file), [["centripetal"]], "{}", run.stdout);
+    // Two simulators agree on it to a few percent.
+    assert!((value(&file, "centripetal", "strength") - 1.0).abs() < 0.1, "{file}");
+    let broken = file["located"]["broken"].as_array().expect("letters");
+    assert!(broken.iter().any(|letter| letter.as_str() == Some("S")), "{file}");
+    let fit = |key: &str| file["fit"][key].as_float().expect("a number");
+    assert!(fit("held_out_after") < fit("held_out_before"));
+    assert!(fit("excess_explained") > 0.9, "{file}");
+    // The corrected vehicle runs where vehicles run.
+    let run = place.run("map --vehicle found/vehicle.corrected.toml --grid 5 --out map");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+}
+
+#[test]
+fn a_wrong_encoder_scale_is_named_as_that() {
+    let place = Workplace::new();
+    drive(&place, "--effect encoder-scale:left=0.98,right=1.02");
+    let (run, file) = diagnosed(&place, "");
+    assert_eq!(named(&file), [["encoder-scale"]], "{}", run.stdout);
+    assert!((value(&file, "encoder-scale", "left") - 0.98).abs() < 2e-3, "{file}");
+}
+
+#[test]
+fn exact_twins_are_not_split() {
+    let place = Workplace::new();
+    drive(&place, "--effect friction-split:split=0.05");
+    let (run, file) = diagnosed(&place, "");
+    let named = named(&file);
+    assert_eq!(named.len(), 1, "{}", run.stdout);
+    for member in ["friction-split", "cog-shift"] {
+        assert!(named[0].iter().any(|id| id == member), "{member}: {}", run.stdout);
+    }
+    assert_eq!(file["status"].as_str(), Some("ambiguous"));
+    assert!(run.stdout.contains("weigh each track"), "{}", run.stdout);
+
+    // Weighed to a millimetre, the centre of gravity cannot be a centimetre aside.
+    let vehicle = String::from_utf8(place.read(VEHICLE)).expect("text");
+    let cog = vehicle.lines().find(|line| line.starts_with("cog_m")).expect("a key");
+    place.write(VEHICLE, &vehicle.replace(cog, &format!("{cog}\ncog_m_sd = [0.001, 0.001]")));
+    let (run, file) = diagnosed(&place, "");
+    let named = self::named(&file);
+    assert!(named[0].iter().any(|id| id == "friction-split"), "{}", run.stdout);
+    assert!(!named[0].iter().any(|id| id == "cog-shift"), "{}", run.stdout);
+}
+
+#[test]
+fn straight_driving_is_refused_with_what_is_missing() {
+    let place = Workplace::new();
+    let rows: Vec<String> = (0..40)
+        .map(|k| {
+            let v = if k % 2 == 0 { 0.5 } else { -0.4 };
+            format!("{},{v},{v}\n", 3 * k)
+        })
+        .collect();
+    place.write("straight.csv", &format!("t,v_left,v_right\n{}", rows.concat()));
+    drive(&place, "--schedule straight.csv");
+    let run = place.run(&format!("diagnose drive --vehicle {VEHICLE} --out found"));
+    assert_eq!(run.status, 1, "{}", run.stdout);
+    assert!(run.stderr.contains("hardly turns"), "{}", run.stderr);
+}
+
+#[test]
+fn the_order_of_runs_and_the_number_of_threads_change_nothing() {
+    let place = Workplace::new();
+    drive(&place, "--effect motion-resistance");
+    let (_, forwards) = diagnosed(&place, "--held-out none");
+    let text = place.read("found/diagnosis.toml");
+    let arguments = format!("diagnose drive --vehicle {VEHICLE} --out found --held-out none");
+    let run = place.run_with_threads(&arguments, 1);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert_eq!(place.read("found/diagnosis.toml"), text);
+
+    // The runs numbered the other way round.
+    for file in ["tracks.csv", "poses.csv"] {
+        let path = format!("drive/{file}");
+        let text = String::from_utf8(place.read(&path)).expect("text");
+        let mut lines = text.lines();
+        let head = lines.next().expect("a header").to_owned();
+        let column = head.split(',').position(|name| name == "run").expect("a column");
+        let renumbered = lines.map(|line| {
+            let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            let run: i64 = cells[column].parse().expect("a number");
+            cells[column] = (100 - run).to_string();
+            cells.join(",")
+        });
+        let rows: Vec<String> = renumbered.collect();
+        place.write(&path, &format!("{head}\n{}\n", rows.join("\n")));
+    }
+    let (_, backwards) = diagnosed(&place, "--held-out none");
+    assert_eq!(named(&forwards), [["motion-resistance"]]);
+    assert_eq!(named(&backwards), named(&forwards));
+    let size = |file: &toml::Table| value(file, "motion-resistance", "coefficient");
+    assert!((size(&forwards) - size(&backwards)).abs() < 1e-4);
+    assert!((size(&forwards) - 0.05).abs() < 0.003, "{}", size(&forwards));
+}
+
+#[test]
+fn bad_input_is_refused_and_leaves_nothing() {
+    let place = Workplace::new();
+    drive(&place, "--runs 2");
+    place.write("points.csv", "v_left,v_right,v_forward,v_lateral,yaw_rate\n0.1,0.2,0.15,,0.2\n");
+    for (arguments, message) in [
+        (format!("diagnose nowhere --vehicle {VEHICLE}"), "nowhere"),
+        ("diagnose drive --vehicle nothing.toml".to_owned(), "nothing.toml"),
+        (format!("diagnose drive --vehicle {VEHICLE} --held-out 99"), "run 99"),
+        (format!("diagnose drive --vehicle {VEHICLE} --held-out 0-1"), "at least one run to fit"),
+        (format!("diagnose points.csv --vehicle {VEHICLE}"), "expected at least 30"),
+    ] {
+        let before = place.files();
+        let run = place.run(&format!("{arguments} --out found"));
+        assert_eq!(run.status, 1, "{arguments}: {}", run.stdout);
+        assert!(run.stderr.contains(message), "{arguments}: {}", run.stderr);
+        assert_eq!(place.files(), before, "{arguments}");
+    }
+}

@@ -159,7 +159,7 @@ pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
     let moved = [0, 1].map(|axis| (model.vehicle().cog[axis] - vehicle.cog[axis]).abs());
     if moved != [0.0, 0.0] {
         let deviations = vehicle.uncertainty.cog?;
-        let axis = if moved[0] > moved[1] { 0 } else { 1 };
+        let axis = usize::from(moved[0] <= moved[1]);
         return Some(floor(typical * deviations[axis] / moved[axis]));
     }
     let friction = model.ground(&Circumstance::default()).friction;

@@ -1,4 +1,16 @@
 //! Which physics: what a model of a tracked robot lacks, from its recordings.
+//!
+//! - [`evidence`]: what was seen, drives and tables of steady motion alike, and what its residuals weigh.
+//! - [`hypothesis`]: a vehicle with effects; [`mechanics`], [`surface`]: what it predicts of the evidence.
+//! - [`fit`], [`normal`]: its unknowns at their best, and normal equations by blocks.
+//! - [`base`]: what is free in every hypothesis: constant ICRs, encoders and pose sensor.
+//! - [`locate`], [`significance`], [`place`]: where evidence departs from it, without a model of why.
+//! - [`candidate`], [`search`]: the signature of every effect, and which effects explain the evidence.
+//! - [`verdict`], [`uncertainty`], [`isolability`]: what is claimed, how large it is, what is told apart.
+//! - [`mod@diagnosis`]: all of it in order; [`document`]: as a file; [`exposure`]: for the eye.
+//! - [`mod@plan`]: the driving that would tell apart what is left.
+//!
+//! No effect is known by name here: what an effect does is asked of the simulator.
 
 pub mod base;
 pub mod candidate;

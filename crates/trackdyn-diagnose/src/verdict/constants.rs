@@ -1,0 +1,94 @@
+//! Constant ICRs that differ from those of the vehicle file: a wrong number, or one of a class of effects.
+
+use super::{Rules, Support, Verdict, refusal};
+use crate::base::OFFSETS;
+use crate::fit::{Fit, measured};
+use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of};
+use crate::search::{Found, Search};
+use trackdyn_core::real;
+use trackdyn_physics::{CATALOGUE, VehicleFile};
+
+/// Share of its own beyond constant ICRs below which an effect is of their class.
+const STATIC: f64 = 0.03;
+
+/// Effects that only move the constant ICRs, in all their variants, ascending.
+pub fn statics(search: &Search) -> Vec<usize> {
+    let nothing = search.nothing();
+    let entries: Vec<usize> = (0..search.catalogue.entries.len()).collect();
+    let (normal, known, groups) = search.normal(&nothing.fit, &entries);
+    let offsets: Vec<usize> = (0..nothing.fit.unknowns.len())
+        .filter(|&k| OFFSETS.contains(&nothing.fit.unknowns[k]))
+        .collect();
+    let projected = normal.projected(&offsets, &known);
+    let is_static = |group: &Vec<usize>| {
+        group.iter().all(|&column| {
+            let whole = normal.product(column, column);
+            whole > 0.0 && projected.product(column, column) <= STATIC * whole
+        })
+    };
+    let mut effects: Vec<usize> =
+        search.catalogue.entries.iter().map(|(variant, _)| variant.effect).collect();
+    effects.dedup();
+    effects.retain(|effect| {
+        let own = entries.iter().filter(|&&e| search.catalogue.entries[e].0.effect == *effect);
+        own.clone().count() > 0 && own.copied().all(|entry| is_static(&groups[entry]))
+    });
+    effects.sort_unstable();
+    effects
+}
+
+/// Judges the constant ICRs against those of the vehicle file: a wrong number, or one of the class of effects
+/// that only move them.
+pub fn judge_constants(
+    search: &Search,
+    best: &Found,
+    statics: &[usize],
+    file: &VehicleFile,
+    draws: usize,
+    seed: u64,
+) -> Option<Verdict> {
+    let filed = Hypothesis {
+        vehicle: file.vehicle.clone(),
+        offset: [0.0; 3],
+        ..best.fit.hypothesis.clone()
+    };
+    let fixed: Vec<Unknown> =
+        best.fit.unknowns.iter().copied().filter(|unknown| !OFFSETS.contains(unknown)).collect();
+    let evidence = search.evidence;
+    let before = Some(&best.fit.mechanics);
+    let dropped = Fit::new(filed.clone(), &fixed, evidence, search.metric, before);
+    let free = Fit::new(filed.clone(), &best.fit.unknowns, evidence, search.metric, before);
+    let ln_bayes_factor = free.ln_evidence(evidence) - dropped.ln_evidence(evidence);
+    let z = (dropped.objective - free.objective).max(0.0).sqrt();
+    if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
+        return None;
+    }
+    let columns = [0, 1, 2];
+    let mut residual = free.clone();
+    for k in columns {
+        let size = free.hypothesis.offset[k];
+        for (value, by) in residual.residual.iter_mut().zip(&free.columns[k]) {
+            *value += by * size;
+        }
+    }
+    let mut support = Support::of_columns(search, &residual, &columns, draws, seed);
+    support.ln_bayes_factor = ln_bayes_factor;
+    support.z = z;
+    let refused = refusal(&support, z, 0.0);
+    // What the owner measured can have moved within its uncertainty only: is that enough?
+    let can = |effect: &usize| {
+        if unknowns_of(*effect).all(|unknown| measured(&file.vehicle, unknown).is_none()) {
+            return true;
+        }
+        let unknowns: Vec<Unknown> = fixed.iter().copied().chain(unknowns_of(*effect)).collect();
+        let none: Vec<f64> = CATALOGUE[*effect].parameters.iter().map(neutral).collect();
+        let start = filed.with_effect(active(*effect, &none));
+        let fit = Fit::new(start, &unknowns, evidence, search.metric, before);
+        // Each unknown fewer than the three constants is worth two: chance alone gives one half.
+        let fewer = OFFSETS.len().saturating_sub(unknowns_of(*effect).count());
+        (fit.objective - free.objective) / 2.0 < Rules::SAME + 2.0 * real(fewer)
+    };
+    let one_of: Vec<usize> = statics.iter().copied().filter(can).collect();
+    let effect = *one_of.first()?;
+    Some(Verdict { effect, one_of, support, refused })
+}

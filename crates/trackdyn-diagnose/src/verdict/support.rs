@@ -1,0 +1,149 @@
+//! What speaks for a claim.
+
+use crate::fit::Fit;
+use crate::normal::{Normal, Prior};
+use crate::search::{Found, Screened, Search};
+use crate::significance::test;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use trackdyn_core::real;
+
+/// Folds of the cross-validation and draws of resampled recordings.
+const FOLDS: usize = 12;
+const RESAMPLED: usize = 200;
+
+/// What speaks for a claim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Support {
+    /// Family-wise probability of chance.
+    pub p: f64,
+    /// Logarithm of the Bayes factor.
+    pub ln_bayes_factor: f64,
+    /// Gain of log-likelihood on blocks that were held out.
+    pub held_out_gain: f64,
+    /// Its standard error.
+    pub held_out_error: f64,
+    /// Share of resampled recordings in which it, or a member of its class, is the best.
+    pub stable: f64,
+    /// √ of what the misfit falls by.
+    pub z: f64,
+}
+
+impl Support {
+    /// Nothing speaks for it.
+    pub(super) fn none() -> Self {
+        Self {
+            p: 1.0,
+            ln_bayes_factor: 0.0,
+            held_out_gain: 0.0,
+            held_out_error: 0.0,
+            stable: 0.0,
+            z: 0.0,
+        }
+    }
+
+    /// The support of an effect of the catalogue, beside the best hypothesis without it.
+    ///
+    /// Chance is asked of all variants of all effects as one family: the best was chosen from them.
+    pub(super) fn of_effect(
+        search: &Search,
+        without: &Found,
+        screened: &[Screened],
+        own: &Screened,
+        class: &[usize],
+        draws: usize,
+        seed: u64,
+    ) -> Self {
+        let entries: Vec<usize> = screened.iter().map(|one| one.entry).collect();
+        let (normal, known, groups) = search.normal(&without.fit, &entries);
+        let base: Vec<usize> = (0..without.fit.columns.len()).collect();
+        let place = screened.iter().position(|one| one.entry == own.entry).unwrap_or(0);
+        let p = Self::chance(search, without, own.entry, draws, seed);
+        let columns: Vec<usize> = base.iter().chain(&groups[place]).copied().collect();
+        let (held_out_gain, held_out_error) = cross_validated(&normal, &known, &base, &columns);
+        let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x5eed);
+        let named = (0..RESAMPLED)
+            .filter(|_| {
+                let mut times = vec![0.0; normal.blocks()];
+                for _ in 0..normal.blocks() {
+                    times[random.random_range(0..normal.blocks())] += 1.0;
+                }
+                let resampled = normal.counted(&times);
+                let gain = |k: usize| {
+                    let columns: Vec<usize> = base.iter().chain(&groups[k]).copied().collect();
+                    resampled.fit(&columns, &known).ln_evidence
+                };
+                let contenders = (0..screened.len()).filter(|&k| screened[k].gain.is_finite());
+                let best = contenders.max_by(|&a, &b| gain(a).total_cmp(&gain(b)));
+                best.is_some_and(|k| class.contains(&screened[k].effect))
+            })
+            .count();
+        Self {
+            p,
+            held_out_gain,
+            held_out_error,
+            stable: real(named) / real(RESAMPLED),
+            ..Self::none()
+        }
+    }
+
+    /// Family-wise probability of chance of a variant among all that were tried.
+    fn chance(search: &Search, without: &Found, entry: usize, draws: usize, seed: u64) -> f64 {
+        let variants = search.catalogue.entries.iter().enumerate();
+        let entries: Vec<usize> = variants
+            .filter(|(_, (variant, _))| !without.effects.contains(&variant.effect))
+            .map(|(entry, _)| entry)
+            .collect();
+        let (normal, known, groups) = search.normal(&without.fit, &entries);
+        let base: Vec<usize> = (0..without.fit.columns.len()).collect();
+        let projected = normal.projected(&base, &known);
+        let place = entries.iter().position(|other| *other == entry);
+        place.map_or(1.0, |place| test(&projected, &groups, draws, seed)[place].p)
+    }
+
+    /// The support of columns of a fit whose residual still has their part in it.
+    pub(super) fn of_columns(
+        search: &Search,
+        fit: &Fit,
+        columns: &[usize],
+        draws: usize,
+        seed: u64,
+    ) -> Self {
+        let (normal, known, _) = search.normal(fit, &[]);
+        let known: Vec<Prior> = known.iter().map(|prior| Prior { mean: 0.0, ..*prior }).collect();
+        let base: Vec<usize> = (0..fit.columns.len()).filter(|k| !columns.contains(k)).collect();
+        let projected = normal.projected(&base, &known);
+        let p = test(&projected, &[columns.to_vec()], draws, seed)[0].p;
+        let all: Vec<usize> = base.iter().chain(columns).copied().collect();
+        let (held_out_gain, held_out_error) = cross_validated(&normal, &known, &base, &all);
+        Self { p, held_out_gain, held_out_error, stable: 1.0, ..Self::none() }
+    }
+}
+
+/// Gain of log-likelihood by more columns on blocks that were left out of their fit, and its standard error
+/// from block to block.
+fn cross_validated(
+    normal: &Normal,
+    known: &[Prior],
+    base: &[usize],
+    columns: &[usize],
+) -> (f64, f64) {
+    let count = normal.blocks();
+    let mut gains = vec![0.0; count];
+    for fold in 0..FOLDS {
+        let range = fold * count / FOLDS..(fold + 1) * count / FOLDS;
+        let (training, _) = normal.split(range.clone());
+        let (less, more) = (training.fit(base, known), training.fit(columns, known));
+        for block in range {
+            let (_, one) = normal.split(block..block + 1);
+            gains[block] = (one.squares_at(base, &less.estimate)
+                - one.squares_at(columns, &more.estimate))
+                / 2.0;
+        }
+    }
+    let counting: Vec<f64> = gains.iter().copied().filter(|gain| *gain != 0.0).collect();
+    let blocks = real(counting.len().max(2));
+    let sum: f64 = counting.iter().sum();
+    let spread: f64 = counting.iter().map(|gain| (gain - sum / blocks).powi(2)).sum();
+    (sum, (spread * blocks / (blocks - 1.0)).sqrt())
+}

@@ -92,7 +92,7 @@ impl<'m> Stationary<'m> {
                 }
                 solution = self.solve_belts(next);
             }
-            let driven = drive.belt_speed(track_speed, PerSide::new(0.0, 0.0));
+            let driven = drive.driven(track_speed);
             solution.icrs = solution.icrs.and_then(|_| Icrs::of_motion(driven, &solution.twist));
         }
         Solution { track_speed, ..solution }

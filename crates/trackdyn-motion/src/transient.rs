@@ -147,7 +147,7 @@ impl<'m> Transient<'m> {
         guess: Twist,
     ) -> Option<State> {
         let drive = self.model.drive();
-        let target = drive.belt_speed(shown, PerSide::new(0.0, 0.0));
+        let target = drive.driven(shown);
         let lag = drive.time_constant;
         // T dV/dt = V_e − V while V_e is held
         let remaining = if lag > 0.0 { (-after / lag).exp() } else { 0.0 };

@@ -19,13 +19,19 @@ impl Drive {
         Self { gain: PerSide::new(1.0, 1.0), slip_per_traction: 0.0, time_constant: 0.0 }
     }
 
+    /// Steady speeds of the sprockets, m/s, at the speeds that the encoders show (m/s).
+    pub fn driven(&self, shown: PerSide<f64>) -> PerSide<f64> {
+        // V = α V_e
+        PerSide::from_fn(|side| self.gain[side] * shown[side])
+    }
+
     /// Steady speeds of the belts, m/s, at the speeds that the encoders show (m/s) and the traction of
     /// each side over its normal load, forward positive, 1.
     pub fn belt_speed(&self, shown: PerSide<f64>, traction: PerSide<f64>) -> PerSide<f64> {
+        let driven = self.driven(shown);
         PerSide::from_fn(|side| {
             // V = α V_e − κ |α V_e| T/N
-            let driven = self.gain[side] * shown[side];
-            driven - self.slip_per_traction * driven.abs() * traction[side]
+            driven[side] - self.slip_per_traction * driven[side].abs() * traction[side]
         })
     }
 }

@@ -25,6 +25,7 @@ use crate::parameters::{Free, Parameters};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use row::{Row, observed};
 use trackdyn_recording::OperatingPoint;
+use trackdyn_recording::robust::NORMAL_FROM_MAD;
 
 /// Channels of a point: forward (m/s), left (m/s), yaw rate (rad/s).
 pub const CHANNELS: usize = 3;
@@ -40,10 +41,6 @@ const SCATTER_ITERATIONS: usize = 20;
 
 /// Change of every parameter, m or 1, below which the iteration has settled.
 const SETTLED: f64 = 1e-10;
-
-/// Ratio of the standard deviation to the median absolute deviation of a normal distribution,
-/// 1/Φ⁻¹(3/4).
-const NORMAL_FROM_MAD: f64 = 1.482_602_218_505_602;
 
 /// Fitted parameters of steady points.
 #[derive(Clone, Debug)]

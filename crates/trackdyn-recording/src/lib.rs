@@ -8,6 +8,7 @@
 //! - [`clock`]: how late the poses are against the encoders.
 //! - [`blocks`]: parts that count as independent.
 //! - [`noise`]: how noisy poses and encoders are, from the recording itself.
+//! - [`robust`]: statistics by medians.
 //! - [`synthetic`]: recordings with known truth.
 //! - [`table`]: CSV tables, for other readers of columns of numbers.
 //!
@@ -22,7 +23,7 @@ pub mod hold;
 pub mod noise;
 pub mod operating_points;
 pub mod recording;
-mod robust;
+pub mod robust;
 pub mod rosbag;
 pub mod segment;
 pub mod selection;

@@ -22,6 +22,43 @@ pub struct OperatingPoint {
     pub yaw_rate: Option<f64>,
 }
 
+/// Three neighbours on a line of one track speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineTriple {
+    /// Their other track speed, ascending, m/s.
+    pub across: [f64; 3],
+    /// How far the middle one lies off the straight line through the outer two, in the channel's unit and such
+    /// that it scatters as a single reading does.
+    pub off: f64,
+}
+
+/// The triples of neighbours on all lines of one track speed, in a channel; no model enters.
+pub fn line_triples(
+    points: &[OperatingPoint],
+    channel: impl Fn(&OperatingPoint) -> Option<f64>,
+) -> Vec<LineTriple> {
+    let mut triples = Vec::new();
+    for shared in [|point: &OperatingPoint| point.v_right, |point: &OperatingPoint| point.v_left] {
+        let across = |point: &OperatingPoint| point.v_left + point.v_right - shared(point);
+        let mut line: Vec<(f64, f64, f64)> = points
+            .iter()
+            .filter_map(|point| Some((shared(point), across(point), channel(point)?)))
+            .collect();
+        line.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        for triple in line.windows(3) {
+            let [(a, x, left), (b, y, middle), (c, z, right)] = [triple[0], triple[1], triple[2]];
+            if a != b || b != c || x >= y || y >= z {
+                continue;
+            }
+            let part = (y - x) / (z - x);
+            let off = middle - (1.0 - part) * left - part * right;
+            let gain = (1.0 + part * part + (1.0 - part) * (1.0 - part)).sqrt();
+            triples.push(LineTriple { across: [x, y, z], off: off / gain });
+        }
+    }
+    triples
+}
+
 /// A table of steady motions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OperatingPoints {

@@ -2,7 +2,7 @@
 
 /// Ratio of the standard deviation to the median absolute deviation of a normal distribution,
 /// 1 / Φ⁻¹(3/4).
-pub(crate) const NORMAL_FROM_MAD: f64 = 1.482_602_218_505_602;
+pub const NORMAL_FROM_MAD: f64 = 1.482_602_218_505_602;
 
 /// Ratio of the median of squares to the mean of squares of a normal distribution, Φ⁻¹(3/4)².
 pub(crate) const MEDIAN_OF_CHI_SQUARE: f64 = 0.454_936_423_119_572_9;

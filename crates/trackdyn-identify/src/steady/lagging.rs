@@ -9,8 +9,9 @@
 //! The scatter of yaw rates, found without a model: of each point between its neighbours on a line of
 //! constant track speed, against the straight line through these.
 
-use super::NORMAL_FROM_MAD;
 use trackdyn_recording::OperatingPoint;
+use trackdyn_recording::operating_points::line_triples;
+use trackdyn_recording::robust::NORMAL_FROM_MAD;
 
 /// A shortfall of this many standard deviations is none of chance: of a hundred thousand pairs of points
 /// one exceeds 4.4, and the worst of many pairs is what is looked at.
@@ -36,7 +37,7 @@ pub fn lagging(points: &[OperatingPoint]) -> Vec<Lagging> {
         .enumerate()
         .filter_map(|(index, point)| Some((index, point, point.yaw_rate?)))
         .collect();
-    let Some(scatter) = scatter(&turning).filter(|scatter| *scatter > 0.0) else {
+    let Some(scatter) = scatter(points).filter(|scatter| *scatter > 0.0) else {
         return Vec::new();
     };
     let mut found = Vec::new();
@@ -58,26 +59,10 @@ pub fn lagging(points: &[OperatingPoint]) -> Vec<Lagging> {
     found
 }
 
-/// Standard deviation of yaw rates, rad/s: of the middle of three neighbours that share a track speed
-/// against the line through the outer two.
-fn scatter(turning: &[(usize, &OperatingPoint, f64)]) -> Option<f64> {
-    let mut sizes = Vec::new();
-    for shared in [|point: &OperatingPoint| point.v_right, |point: &OperatingPoint| point.v_left] {
-        let across = |point: &OperatingPoint| point.v_left + point.v_right - shared(point);
-        let mut line: Vec<(f64, f64, f64)> =
-            turning.iter().map(|(_, point, rate)| (shared(point), across(point), *rate)).collect();
-        line.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        for triple in line.windows(3) {
-            let [(a, x, left), (b, y, middle), (c, z, right)] = [triple[0], triple[1], triple[2]];
-            if a != b || b != c || x >= y || y >= z {
-                continue;
-            }
-            let part = (y - x) / (z - x);
-            let off = middle - (1.0 - part) * left - part * right;
-            let gain = (1.0 + part * part + (1.0 - part) * (1.0 - part)).sqrt();
-            sizes.push((off / gain).abs());
-        }
-    }
+/// Standard deviation of yaw rates, rad/s; none without neighbours on lines of one track speed.
+fn scatter(points: &[OperatingPoint]) -> Option<f64> {
+    let triples = line_triples(points, |point| point.yaw_rate);
+    let mut sizes: Vec<f64> = triples.iter().map(|triple| triple.off.abs()).collect();
     sizes.sort_by(f64::total_cmp);
     sizes.get(sizes.len() / 2).map(|median| NORMAL_FROM_MAD * median)
 }

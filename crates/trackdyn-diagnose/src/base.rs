@@ -5,7 +5,7 @@
 
 use crate::evidence::Evidence;
 use crate::fit::{Fit, Metric};
-use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of};
+use crate::hypothesis::{Hypothesis, Unknown, active, neutral, typical, unknowns_of};
 use crate::mechanics::{Mechanics, is_instrument};
 use crate::normal::{Columns, Normal, Prior};
 use nalgebra::{Matrix3, Vector3};
@@ -36,11 +36,7 @@ pub const OFFSETS: [Unknown; 3] = [Unknown::Offset(0), Unknown::Offset(1), Unkno
 impl Base {
     /// The base of a vehicle for this evidence.
     pub fn new(file: &VehicleFile, evidence: &Evidence, metric: &Metric) -> Self {
-        let hypothesis = Hypothesis {
-            vehicle: file.vehicle.clone(),
-            effects: file.effects.clone(),
-            offset: [0.0; 3],
-        };
+        let hypothesis = Hypothesis::filed(file);
         let as_filed = Fit::new(hypothesis.clone(), &OFFSETS, evidence, metric, None);
         let start = with_clock(&hypothesis, evidence);
         let mut nuisances = OFFSETS.to_vec();
@@ -65,8 +61,7 @@ impl Base {
 fn with_clock(hypothesis: &Hypothesis, evidence: &Evidence) -> Hypothesis {
     let own = Model::new(hypothesis.vehicle.clone(), hypothesis.effects.clone()).sensor().delay;
     for (effect, card) in CATALOGUE.iter().enumerate() {
-        let typical: Vec<f64> = card.parameters.iter().map(|parameter| parameter.typical).collect();
-        let effects: Effects = std::iter::once(active(effect, &typical)).collect();
+        let effects: Effects = std::iter::once(typical(effect)).collect();
         let delay = Model::new(hypothesis.vehicle.clone(), effects).sensor().delay;
         if delay != 0.0 && hypothesis.effect(effect).is_none() {
             let share = (evidence.tau() - own) / delay;
@@ -93,9 +88,8 @@ fn free_instruments(
 ) -> Vec<usize> {
     let mut unknowns = OFFSETS.to_vec();
     let mut chosen = Vec::new();
-    for (effect, card) in CATALOGUE.iter().enumerate() {
-        let typical: Vec<f64> = card.parameters.iter().map(|parameter| parameter.typical).collect();
-        if !is_instrument(&hypothesis.vehicle, &active(effect, &typical)) {
+    for effect in 0..CATALOGUE.len() {
+        if !is_instrument(&hypothesis.vehicle, &typical(effect)) {
             continue;
         }
         let more: Vec<Unknown> = unknowns_of(effect).collect();

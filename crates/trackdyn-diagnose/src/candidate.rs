@@ -48,12 +48,6 @@ impl Variant {
         variant
     }
 
-    /// Sizes, as distances from none.
-    pub fn distances(&self) -> Vec<f64> {
-        let parameters = CATALOGUE[self.effect].parameters;
-        self.sizes().iter().map(|&k| self.values[k] - neutral(&parameters[k])).collect()
-    }
-
     /// The signatures of its sizes; none where the effect cannot act there.
     fn signatures(&self, beside: &Beside) -> Option<Vec<Signature>> {
         let vehicle = &beside.hypothesis.vehicle;

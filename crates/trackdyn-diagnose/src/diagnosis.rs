@@ -1,21 +1,21 @@
 //! The diagnosis: all steps in order, and what comes out of them.
 
-use crate::base::Base;
+use crate::base::{Base, calibrated};
 use crate::candidate::{signatures, variants};
 use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::exposure::Exposure;
 use crate::fit::{Fit, Metric};
-use crate::hypothesis::Unknown;
 use crate::isolability::Isolability;
 use crate::locate::cells::{Cell, cells};
-use crate::locate::{Location, excess, locate};
+use crate::locate::{IcrColumns, Location, excess, locate};
 use crate::mechanics::Instruments;
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, intervals};
 use crate::verdict::{Rules, Verdict, judge, judge_constants, judge_instruments, statics};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
+use trackdyn_core::real;
 use trackdyn_physics::effect::Symmetry;
 use trackdyn_physics::{CATALOGUE, VehicleFile};
 
@@ -216,8 +216,12 @@ fn attempt(
         return Err(Error::NoTurning);
     }
     progress(STAGES[0]);
-    let filed = locate_fit(evidence, metric, &base.as_filed, draws, seed);
-    let located = locate_fit(evidence, metric, &base.fit, draws, seed);
+    let of_base = icr_columns(evidence, &base.fit);
+    let place = |fit: &Fit, icrs: &IcrColumns| {
+        locate(evidence, metric, &fit.residual, &fit.columns, icrs, draws, seed)
+    };
+    let filed = place(&base.as_filed, &icr_columns(evidence, &base.as_filed));
+    let located = place(&base.fit, &of_base);
     progress(STAGES[1]);
 
     let tried: Vec<_> = (0..CATALOGUE.len())
@@ -231,13 +235,14 @@ fn attempt(
     let search = Search { evidence, metric, base: &base, catalogue: &catalogue };
     let screened = search.screen(&search.nothing());
     let statics = statics(&search);
-    let found = search.best(&statics, &|| {});
+    let found = search.best(&statics);
     progress(STAGES[3]);
 
     let Judgement { best, missing, refused } = judged(&search, found, &statics, file, options);
     progress(STAGES[4]);
 
-    let after = locate_fit(evidence, metric, &best.fit, draws, seed);
+    let of_best = icr_columns(evidence, &best.fit);
+    let after = place(&best.fit, &of_best);
     let whole = (base.fit.objective - best.fit.objective).max(0.0);
     let left_over = after.left_over(Rules::FORM_LEFT * Rules::FORM_LEFT * whole);
     let status = status(&left_over, &missing);
@@ -246,12 +251,12 @@ fn attempt(
     let left = search.screen(&best);
     let isolability = Isolability::new(&search, &best, &screened);
     let resemblance = Isolability::new(&search, &search.nothing(), &screened);
-    let exposures = exposures(&search, &best.fit, &missing, &screened, &statics, file);
+    let exposures = exposures(&search, &best.fit, &missing, &screened, &statics);
     let detectable = isolability.detectable();
     let corrected = corrected(file, &best, &missing);
-    let held_out = held_out(evidence, metric, &base, &best, &missing, options);
-    let cells = [&base.fit, &best.fit]
-        .map(|fit| cells(evidence, metric, &fit.residual, &icr_columns(evidence, fit)));
+    let held_out = held_out(&search, &best, &of_best, &missing, options);
+    let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]
+        .map(|(fit, icrs)| cells(evidence, metric, &fit.residual, icrs));
     let place = crate::place::sentence(evidence, metric, &base, &located, &broken);
     progress(STAGES[5]);
     Ok(Diagnosis {
@@ -298,12 +303,11 @@ fn judged(
     let physics = judge(search, &found, statics, draws, seed);
     let dropped = physics.iter().filter(|verdict| verdict.refused.is_some());
     let best = dropped.fold(found, |found, verdict| search.without(&found, verdict.effect));
-    let instruments = judge_instruments(search, &best, statics, file, draws, seed);
+    let instruments = judge_instruments(search, &best, statics, draws, seed);
     let constants = judge_constants(search, &best, statics, file, draws, seed);
     let intervals = intervals(search, &best);
     let of = |effect: usize| -> Vec<Interval> {
-        let own = |interval: &&Interval| matches!(interval.unknown, Unknown::Effect(other, _) if other == effect);
-        intervals.iter().filter(own).copied().collect()
+        intervals.iter().filter(|interval| interval.unknown.is_of(effect)).copied().collect()
     };
     let physics = physics.into_iter().map(|verdict| (Kind::Physics, verdict));
     let instruments = instruments.into_iter().map(|verdict| (Kind::Instrument, verdict));
@@ -339,15 +343,10 @@ fn exposures(
     missing: &[Missing],
     screened: &[Screened],
     statics: &[usize],
-    file: &VehicleFile,
 ) -> Vec<Exposure> {
     let claimed = missing.iter().filter(|missing| missing.kind != Kind::Constant);
-    let claimed: Vec<Exposure> = claimed
-        .map(|missing| {
-            let effect = missing.verdict.effect;
-            Exposure::of_fitted(search.evidence, search.metric, best, effect, file)
-        })
-        .collect();
+    let claimed: Vec<Exposure> =
+        claimed.map(|missing| Exposure::of_fitted(search, best, missing.verdict.effect)).collect();
     if !claimed.is_empty() {
         return claimed;
     }
@@ -367,7 +366,7 @@ fn turns(fit: &Fit) -> bool {
 }
 
 /// Derivatives of the prediction by x_l, x_r and y, not whitened.
-pub fn icr_columns(evidence: &Evidence, fit: &Fit) -> [Vec<Vector3<f64>>; 3] {
+pub fn icr_columns(evidence: &Evidence, fit: &Fit) -> IcrColumns {
     let instruments = Instruments::of(&fit.hypothesis);
     let step = 1e-3 * fit.hypothesis.vehicle.gauge;
     let here = fit.mechanics.predict(&instruments, evidence);
@@ -379,17 +378,6 @@ pub fn icr_columns(evidence: &Evidence, fit: &Fit) -> [Vec<Vector3<f64>>; 3] {
     })
 }
 
-fn locate_fit(
-    evidence: &Evidence,
-    metric: &Metric,
-    fit: &Fit,
-    draws: usize,
-    seed: u64,
-) -> Location {
-    let icrs = icr_columns(evidence, fit);
-    locate(evidence, metric, &fit.residual, &fit.columns, &icrs, draws, seed)
-}
-
 /// The vehicle that explains the evidence: the filed one, with what is claimed. Where the constant ICRs were
 /// wrong, friction ratio and centre of gravity stand for all that could move them.
 fn corrected(file: &VehicleFile, best: &Found, missing: &[Missing]) -> VehicleFile {
@@ -397,7 +385,7 @@ fn corrected(file: &VehicleFile, best: &Found, missing: &[Missing]) -> VehicleFi
     for missing in missing {
         match missing.kind {
             Kind::Constant => {
-                let vehicle = crate::base::calibrated(&best.fit.hypothesis)
+                let vehicle = calibrated(&best.fit.hypothesis)
                     .unwrap_or_else(|| best.fit.hypothesis.vehicle.clone());
                 corrected.vehicle.friction = vehicle.friction;
                 corrected.vehicle.cog = vehicle.cog;
@@ -413,32 +401,28 @@ fn corrected(file: &VehicleFile, best: &Found, missing: &[Missing]) -> VehicleFi
 }
 
 fn held_out(
-    evidence: &Evidence,
-    metric: &Metric,
-    base: &Base,
+    search: &Search,
     best: &Found,
+    icrs: &IcrColumns,
     missing: &[Missing],
     options: &Options,
 ) -> HeldOut {
+    let Search { evidence, base, .. } = *search;
     let are_held_out = !options.held_out.is_empty();
-    let metric = if are_held_out {
-        Metric { runs: metric.runs.iter().map(|counts| !counts).collect(), ..metric.clone() }
-    } else {
-        metric.clone()
-    };
+    let mut metric = search.metric.clone();
+    if are_held_out {
+        metric.runs = metric.runs.iter().map(|counts| !counts).collect();
+    }
     // An instrument that was claimed is part of what was missing.
     let instruments = missing.iter().any(|missing| missing.kind == Kind::Instrument);
     let before = if instruments { &base.as_filed } else { &base.fit };
     let rms = |residual: &[Vector3<f64>]| excess(evidence, &metric, residual);
-    let after = rms(&best.fit.residual);
-    let flexible = locate_fit(evidence, &metric, &best.fit, 1, options.seed);
-    let count = real_count(evidence, &metric);
+    let fit = &best.fit;
+    let after = rms(&fit.residual);
+    let flexible = locate(evidence, &metric, &fit.residual, &fit.columns, icrs, 1, options.seed);
+    let samples = evidence.samples().iter();
+    let count = real(samples.filter(|sample| metric.runs[sample.run]).count().max(1));
     let noise_floor =
-        (after * after - flexible.explicable.max(0.0) / count).max(0.0).sqrt().min(after);
+        (after * after - flexible.explicable.max(0.0) / (3.0 * count)).max(0.0).sqrt().min(after);
     HeldOut { before: rms(&before.residual), after, noise_floor, are_held_out }
-}
-
-fn real_count(evidence: &Evidence, metric: &Metric) -> f64 {
-    let counted = evidence.samples().iter().filter(|sample| metric.runs[sample.run]).count();
-    3.0 * trackdyn_core::real(counted.max(1))
 }

@@ -5,12 +5,10 @@
 
 use crate::evidence::Evidence;
 use crate::fit::{Fit, Metric};
-use crate::hypothesis::Unknown;
 use crate::mechanics::{Instruments, Mechanics};
 use crate::normal::{Columns, Normal, Prior};
 use crate::search::{Screened, Search};
 use nalgebra::Vector3;
-use trackdyn_physics::VehicleFile;
 
 /// An effect against the evidence, sample by sample, whitened.
 #[derive(Clone, Debug)]
@@ -25,28 +23,16 @@ pub struct Exposure {
 
 impl Exposure {
     /// Of an effect of a fit: without it, it is as the vehicle file has it.
-    pub fn of_fitted(
-        evidence: &Evidence,
-        metric: &Metric,
-        fit: &Fit,
-        effect: usize,
-        file: &VehicleFile,
-    ) -> Self {
-        let filed = file
-            .effects
-            .iter()
-            .find(|known| known.card().id == trackdyn_physics::CATALOGUE[effect].id);
-        let without = match filed {
-            Some(filed) => fit.hypothesis.with_effect(filed.clone()),
-            None => fit.hypothesis.without(effect),
-        };
+    pub fn of_fitted(search: &Search, fit: &Fit, effect: usize) -> Self {
+        let Search { evidence, metric, base, .. } = *search;
+        let without = fit.hypothesis.with_effect_of(&base.as_filed.hypothesis, effect);
         let prediction =
             Mechanics::new(&without, evidence).predict(&Instruments::of(&without), evidence);
         let observed = metric.residual(evidence, &prediction);
         let predicted = observed.iter().zip(&fit.residual).map(|(a, b)| a - b).collect();
         let others = fit.unknowns.iter().zip(&fit.columns);
         let others: Vec<_> = others
-            .filter(|(unknown, _)| !matches!(unknown, Unknown::Effect(of, _) if *of == effect))
+            .filter(|(unknown, _)| !unknown.is_of(effect))
             .map(|(_, column)| column.clone())
             .collect();
         Self { effect, predicted, observed }.beside(evidence, metric, &others, &fit.residual)

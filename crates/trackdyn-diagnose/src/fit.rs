@@ -5,14 +5,15 @@
 //! and m, s what is known of each unknown beforehand.
 
 use crate::evidence::Evidence;
-use crate::hypothesis::{Hypothesis, Unknown, neutral, typical_size};
+use crate::hypothesis::{Hypothesis, Unknown, active, neutral, typical, typical_size};
 use crate::mechanics::{Instruments, Mechanics, is_instrument};
 use crate::normal::{Columns, Normal, Prior, Solution};
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
 use trackdyn_physics::contact::Friction;
 use trackdyn_physics::effect::Role;
 use trackdyn_physics::{CATALOGUE, Circumstance, Model, Vehicle};
+use trackdyn_recording::robust::NORMAL_FROM_MAD;
 
 /// Length of a whitened residual from which on it counts linearly: 1 % of normal residuals are longer.
 const FAR: f64 = 3.4;
@@ -82,11 +83,26 @@ impl Metric {
             .collect()
     }
 
+    /// The normal equations of whitened residuals and columns, by the evidence's blocks.
+    pub fn normal(
+        &self,
+        evidence: &Evidence,
+        residual: &[Vector3<f64>],
+        columns: &[Vec<Vector3<f64>>],
+    ) -> Normal {
+        let blocks: Vec<usize> = evidence.samples().iter().map(|sample| sample.block).collect();
+        Normal::new(&Columns {
+            residual,
+            columns,
+            weights: &self.weights(evidence, residual),
+            blocks: &blocks,
+            count: evidence.blocks(),
+        })
+    }
+
     /// By what the residuals of each channel are larger than this metric takes them to be, from their
     /// medians: one where nothing is left but noise.
     pub fn residual_scale(&self, evidence: &Evidence, residual: &[Vector3<f64>]) -> [f64; 3] {
-        /// Ratio of the standard deviation to the median absolute deviation of a normal distribution.
-        const NORMAL_FROM_MAD: f64 = 1.482_602_218_505_602;
         std::array::from_fn(|channel| {
             let samples = evidence.samples().iter().zip(residual).enumerate();
             let mut sizes: Vec<f64> = samples
@@ -149,18 +165,18 @@ pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
     const EXACT: f64 = 1e-4;
     let Unknown::Effect(effect, place) = unknown else { return None };
     let parameters = CATALOGUE[effect].parameters;
-    let typical = typical_size(&parameters[place]);
+    let size = typical_size(&parameters[place]);
     let values: Vec<f64> = (0..parameters.len())
         .map(|k| if k == place { parameters[k].typical } else { neutral(&parameters[k]) })
         .collect();
-    let effects = std::iter::once(crate::hypothesis::active(effect, &values)).collect();
+    let effects = std::iter::once(active(effect, &values)).collect();
     let model = Model::new(vehicle.clone(), effects);
-    let floor = |deviation: f64| deviation.max(EXACT * typical);
+    let floor = |deviation: f64| deviation.max(EXACT * size);
     let moved = [0, 1].map(|axis| (model.vehicle().cog[axis] - vehicle.cog[axis]).abs());
     if moved != [0.0, 0.0] {
         let deviations = vehicle.uncertainty.cog?;
         let axis = usize::from(moved[0] <= moved[1]);
-        return Some(floor(typical * deviations[axis] / moved[axis]));
+        return Some(floor(size * deviations[axis] / moved[axis]));
     }
     let friction = model.ground(&Circumstance::default()).friction;
     let ratio = |of: &Friction| of.across / of.along;
@@ -170,7 +186,7 @@ pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
         let known = &vehicle.uncertainty.friction;
         let relative =
             (known.across? / vehicle.friction.across).hypot(known.along? / vehicle.friction.along);
-        return Some(floor(typical * relative / change));
+        return Some(floor(size * relative / change));
     }
     None
 }
@@ -218,10 +234,10 @@ pub fn columns(
             let moved = hypothesis.with(unknown, hypothesis.get(unknown) + step);
             let step = moved.get(unknown) - hypothesis.get(unknown);
             let instruments = Instruments::of(&moved);
-            let prediction_there = match reach(hypothesis, unknown) {
-                Reach::Instruments => mechanics.predict(&instruments, evidence),
-                Reach::Forces => Mechanics::beside(Some(mechanics), &moved, evidence)
-                    .predict(&instruments, evidence),
+            let prediction_there = if is_outside(hypothesis, unknown) {
+                mechanics.predict(&instruments, evidence)
+            } else {
+                Mechanics::beside(Some(mechanics), &moved, evidence).predict(&instruments, evidence)
             };
             let quotient = prediction_there.iter().zip(prediction).map(|(b, a)| (b - a) / step);
             metric.white(evidence, quotient.collect())
@@ -229,20 +245,12 @@ pub fn columns(
         .collect()
 }
 
-/// What of a prediction an unknown changes.
-enum Reach {
-    /// Sensors, gains and lags, offsets.
-    Instruments,
-    /// The balance of forces.
-    Forces,
-}
-
-fn reach(hypothesis: &Hypothesis, unknown: Unknown) -> Reach {
-    let Unknown::Effect(effect, _) = unknown else { return Reach::Instruments };
-    let values: Vec<f64> =
-        CATALOGUE[effect].parameters.iter().map(|parameter| parameter.typical).collect();
-    let effect = crate::hypothesis::active(effect, &values);
-    if is_instrument(&hypothesis.vehicle, &effect) { Reach::Instruments } else { Reach::Forces }
+/// Whether an unknown leaves the balance of forces as it is: offsets, sensors, gains and lags.
+fn is_outside(hypothesis: &Hypothesis, unknown: Unknown) -> bool {
+    match unknown {
+        Unknown::Offset(_) => true,
+        Unknown::Effect(effect, _) => is_instrument(&hypothesis.vehicle, &typical(effect)),
+    }
 }
 
 /// A hypothesis with its residuals.
@@ -332,15 +340,7 @@ impl Fit {
         let Point { hypothesis, mechanics, prediction, residual, objective } = point;
         let columns = columns(&hypothesis, &mechanics, &prediction, unknowns, evidence, metric);
         let priors = priors(&hypothesis, unknowns, evidence);
-        let weights = metric.weights(evidence, &residual);
-        let blocks: Vec<usize> = evidence.samples().iter().map(|sample| sample.block).collect();
-        let normal = Normal::new(&Columns {
-            residual: &residual,
-            columns: &columns,
-            weights: &weights,
-            blocks: &blocks,
-            count: evidence.blocks(),
-        });
+        let normal = metric.normal(evidence, &residual, &columns);
         // At a bound that the step would cross, an unknown stays.
         let mut free: Vec<usize> = (0..unknowns.len()).collect();
         let solution = loop {
@@ -378,13 +378,18 @@ impl Fit {
         })
     }
 
+    /// What was free, without the parameters of an effect.
+    pub fn unknowns_without(&self, effect: usize) -> Vec<Unknown> {
+        self.unknowns.iter().copied().filter(|unknown| !unknown.is_of(effect)).collect()
+    }
+
     /// Logarithm of the evidence, up to what all hypotheses share.
     pub fn ln_evidence(&self, evidence: &Evidence) -> f64 {
         // ½ (minimum − its quadratic part) is the same at the optimum; what is left is Occam's factor.
         let count = self.unknowns.len();
         let priors = priors(&self.hypothesis, &self.unknowns, evidence);
         let mut occam = 0.0;
-        let scaled = nalgebra::DMatrix::from_fn(count, count, |a, b| {
+        let scaled = DMatrix::from_fn(count, count, |a, b| {
             self.solution.covariance[(a, b)] / (priors[a].deviation * priors[b].deviation)
         });
         if let Some(cholesky) = scaled.cholesky() {
@@ -392,11 +397,6 @@ impl Fit {
             occam = (0..count).map(|k| 2.0 * factor[(k, k)].ln()).sum();
         }
         -0.5 * self.objective + 0.5 * occam
-    }
-
-    /// The model of the fitted hypothesis.
-    pub fn model(&self) -> Model {
-        Model::new(self.hypothesis.vehicle.clone(), self.hypothesis.effects.clone())
     }
 }
 
@@ -422,8 +422,8 @@ fn at_bound(hypothesis: &Hypothesis, unknown: Unknown, step: f64) -> bool {
 /// A solution of some unknowns as one of all: the others do not move, and nothing more is known of them.
 fn spread(solution: &Solution, free: &[usize], priors: &[Prior]) -> Solution {
     let variances: Vec<f64> = priors.iter().map(|prior| prior.deviation.powi(2)).collect();
-    let mut estimate = nalgebra::DVector::zeros(priors.len());
-    let mut covariance = nalgebra::DMatrix::from_diagonal(&nalgebra::DVector::from(variances));
+    let mut estimate = DVector::zeros(priors.len());
+    let mut covariance = DMatrix::from_diagonal(&DVector::from(variances));
     for (a, &i) in free.iter().enumerate() {
         estimate[i] = solution.estimate[a];
         for (b, &j) in free.iter().enumerate() {

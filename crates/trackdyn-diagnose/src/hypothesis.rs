@@ -1,7 +1,7 @@
 //! A hypothesis: a vehicle, effects with their sizes, and a constant offset of the ICRs.
 
 use trackdyn_physics::effect::{Parameter, Role};
-use trackdyn_physics::{ActiveEffect, CATALOGUE, Effects, Vehicle};
+use trackdyn_physics::{ActiveEffect, CATALOGUE, Effects, Vehicle, VehicleFile};
 
 /// What is supposed.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +31,11 @@ impl Unknown {
             Self::Effect(effect, parameter) => Some(&CATALOGUE[effect].parameters[parameter]),
         }
     }
+
+    /// Whether it is a parameter of this effect.
+    pub fn is_of(self, effect: usize) -> bool {
+        matches!(self, Self::Effect(of, _) if of == effect)
+    }
 }
 
 /// The unknowns of an effect.
@@ -56,6 +61,12 @@ pub fn typical_size(parameter: &Parameter) -> f64 {
 }
 
 impl Hypothesis {
+    /// What a vehicle file says.
+    pub fn filed(file: &VehicleFile) -> Self {
+        let VehicleFile { vehicle, effects } = file.clone();
+        Self { vehicle, effects, offset: [0.0; 3] }
+    }
+
     /// Value of an unknown; that of no effect where the effect is not there.
     pub fn get(&self, unknown: Unknown) -> f64 {
         match unknown {
@@ -99,6 +110,14 @@ impl Hypothesis {
         changed
     }
 
+    /// The same with an effect as another hypothesis has it: without it where that one is.
+    pub fn with_effect_of(&self, other: &Self, effect: usize) -> Self {
+        match other.effect(effect) {
+            Some(known) => self.with_effect(known.clone()),
+            None => self.without(effect),
+        }
+    }
+
     /// The same without an effect.
     pub fn without(&self, effect: usize) -> Self {
         let id = CATALOGUE[effect].id;
@@ -106,6 +125,14 @@ impl Hypothesis {
             self.effects.iter().filter(|active| active.card().id != id).cloned().collect();
         Self { effects, ..self.clone() }
     }
+}
+
+/// An effect at its typical size.
+///
+/// # Panics
+/// Never: typical sizes are in range.
+pub fn typical(effect: usize) -> ActiveEffect {
+    ActiveEffect::new(CATALOGUE[effect].id, &[]).expect("an effect of the catalogue")
 }
 
 /// An effect with these values, clamped into their physical ranges.

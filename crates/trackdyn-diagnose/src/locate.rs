@@ -13,11 +13,14 @@ pub use contrasts::{Manoeuvre, contrasts};
 
 use crate::evidence::Evidence;
 use crate::fit::Metric;
-use crate::normal::{Columns, Normal, Prior};
+use crate::normal::Prior;
 use crate::significance::{Test, test};
 use nalgebra::Vector3;
 use trackdyn_core::real;
 use trackdyn_physics::effect::Symmetry;
+
+/// Derivatives of a prediction by x_l, x_r and y, not whitened.
+pub type IcrColumns = [Vec<Vector3<f64>>; 3];
 
 /// A test of one symmetry.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,7 +76,7 @@ pub fn locate(
     metric: &Metric,
     residual: &[Vector3<f64>],
     fitted: &[Vec<Vector3<f64>>],
-    icrs: &[Vec<Vector3<f64>>; 3],
+    icrs: &IcrColumns,
     draws: usize,
     seed: u64,
 ) -> Location {
@@ -88,15 +91,7 @@ pub fn locate(
             None => groups.push((symmetry, vec![index])),
         }
     }
-    let weights = metric.weights(evidence, residual);
-    let blocks: Vec<usize> = evidence.samples().iter().map(|sample| sample.block).collect();
-    let normal = Normal::new(&Columns {
-        residual,
-        columns: &columns,
-        weights: &weights,
-        blocks: &blocks,
-        count: evidence.blocks(),
-    });
+    let normal = metric.normal(evidence, residual, &columns);
     let base: Vec<usize> = (0..fitted.len()).collect();
     let flat = vec![Prior { mean: 0.0, deviation: 1e9 }; columns.len()];
     let projected = normal.projected(&base, &flat);

@@ -11,14 +11,15 @@
 //! The departures are found without the laws that change the shear stress: these need a quadrature per
 //! solve, and what they change in a departure is a product of two small things.
 
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::Hypothesis;
 use crate::surface::Surface;
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::sync::Arc;
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
-use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
+use trackdyn_core::{PerSide, Plant, Pose, Side, Trajectory, Twist};
 use trackdyn_motion::{Stationary, Status, Transient};
 use trackdyn_physics::contact::quadrature::Resolution;
 use trackdyn_physics::effect::Stage;
@@ -150,21 +151,10 @@ impl Mechanics {
         self.ground.is_some()
     }
 
-    /// The stationary motions.
-    pub fn surface(&self) -> &Surface {
-        &self.surface
-    }
-
     /// The motion of every sample, as the pose sensor reports it: forward (m), left (m), yaw (rad).
     pub fn predict(&self, instruments: &Instruments, evidence: &Evidence) -> Vec<Vector3<f64>> {
         let Instruments { drive, sensor, offset } = instruments;
-        let filtered;
-        let tracks = if drive.time_constant > 0.0 {
-            filtered = lagging(evidence.tracks(), drive.time_constant);
-            &filtered
-        } else {
-            evidence.tracks()
-        };
+        let tracks = lagging(evidence.tracks(), drive.time_constant);
         let samples = evidence.samples();
         (0..samples.len())
             .into_par_iter()
@@ -179,7 +169,7 @@ impl Mechanics {
                 let until = sample.start + sample.duration;
                 let pieces = held(&tracks[sample.run], sample.start, until, sensor.delay);
                 let pose = pieces.fold(Pose::default(), |pose, piece| {
-                    let speeds = driven(drive, piece.speeds);
+                    let speeds = drive.driven(piece.speeds);
                     let mut twist = self.surface.twist(speeds, offset);
                     if let Some(departure) = &departure {
                         twist = plus(&twist, departure);
@@ -205,13 +195,8 @@ fn minus(a: &Twist, b: &Twist) -> Twist {
     Twist { v_x: a.v_x - b.v_x, v_y: a.v_y - b.v_y, w: a.w - b.w }
 }
 
-/// Speeds of the belts before they slip on their sprockets, m/s.
-fn driven(drive: &Drive, shown: PerSide<f64>) -> PerSide<f64> {
-    PerSide::new(drive.gain.left * shown.left, drive.gain.right * shown.right)
-}
-
 /// Where the robot was during a sample.
-fn circumstance(sample: &crate::evidence::Sample) -> Circumstance {
+fn circumstance(sample: &Sample) -> Circumstance {
     let half =
         Pose::exp(&Pose::new(sample.motion[0], sample.motion[1], sample.motion[2]).log(1.0), 0.5);
     let middle = sample.pose.compose(&half);
@@ -228,12 +213,12 @@ fn varies(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> bool
     if evidence.is_steady() {
         return false;
     }
-    let model = single(vehicle, effect);
+    let model = single(vehicle, effect).with_resolution(Resolution::Coarse);
     let speeds = PerSide::new(-0.2, 0.5);
     let forces = |at: &Circumstance| {
         let motion = Motion::anchored(
             speeds,
-            trackdyn_core::Side::Left,
+            Side::Left,
             [-vehicle.gauge, 0.1 * vehicle.gauge],
             0.5 / vehicle.gauge,
         );
@@ -255,7 +240,7 @@ fn by_ground(with: &Model, without: &Model, drive: &Drive, evidence: &Evidence) 
     let samples = evidence.samples().par_iter().with_min_len(TASK);
     samples
         .map(|sample| {
-            let speeds = driven(drive, sample.speeds);
+            let speeds = drive.driven(sample.speeds);
             let here = Stationary::new(with, &circumstance(sample)).solve(speeds);
             let there = solver.solve(speeds);
             let usable = |status: Status| !matches!(status, Status::NotConverged);
@@ -290,7 +275,7 @@ impl Inertia {
     ) -> Result<Self, String> {
         let surface = Surface::new(model, largest, None);
         let gained = |reading: &TrackSample| {
-            let speeds = driven(drive, PerSide::new(reading.v_left, reading.v_right));
+            let speeds = drive.driven(PerSide::new(reading.v_left, reading.v_right));
             TrackSample { t: reading.t, v_left: speeds.left, v_right: speeds.right }
         };
         let belts: Vec<Vec<TrackSample>> = lagging(evidence.tracks(), drive.time_constant)
@@ -303,7 +288,7 @@ impl Inertia {
     }
 
     /// The motion in time less the stationary motion, as a twist over a sample.
-    fn departure(&self, sample: &crate::evidence::Sample, delay: f64) -> Twist {
+    fn departure(&self, sample: &Sample, delay: f64) -> Twist {
         let (from, until) = (sample.start, sample.start + sample.duration);
         let path = &self.paths[sample.run];
         let moved = path.pose_at(from - delay).relative(&path.pose_at(until - delay));
@@ -339,9 +324,9 @@ fn path_in_time(
 }
 
 /// Readings of belts that follow with a lag, each with its mean over the time that it holds.
-fn lagging(tracks: &[Vec<TrackSample>], time_constant: f64) -> Vec<Vec<TrackSample>> {
+fn lagging(tracks: &[Vec<TrackSample>], time_constant: f64) -> Cow<'_, [Vec<TrackSample>]> {
     if time_constant <= 0.0 {
-        return tracks.to_vec();
+        return Cow::Borrowed(tracks);
     }
     tracks.iter().map(|run| lagging_run(run, time_constant)).collect()
 }

@@ -102,15 +102,12 @@ impl Normal {
         Self { blocks, total }
     }
 
-    /// The same with blocks left out: what is fitted on the others is judged on these.
-    pub fn split(&self, held_out: Range<usize>) -> (Self, Self) {
-        let inside = |keep: bool| {
-            let times: Vec<f64> = (0..self.blocks.len())
-                .map(|block| if held_out.contains(&block) == keep { 1.0 } else { 0.0 })
-                .collect();
-            self.counted(&times)
-        };
-        (inside(false), inside(true))
+    /// The same without some blocks: what is fitted on the others is judged on these.
+    pub fn without(&self, held_out: &Range<usize>) -> Self {
+        let times: Vec<f64> = (0..self.blocks.len())
+            .map(|block| if held_out.contains(&block) { 0.0 } else { 1.0 })
+            .collect();
+        self.counted(&times)
     }
 
     /// The fit of some columns.
@@ -157,14 +154,14 @@ impl Normal {
         Solution { estimate, covariance, misfit, ln_evidence: -0.5 * (misfit + occam) }
     }
 
-    /// Squared residuals at given factors of some columns.
-    pub fn squares_at(&self, columns: &[usize], factors: &DVector<f64>) -> f64 {
-        let last = self.columns();
-        let mut squares = self.squares();
+    /// Squared residuals of a block at given factors of some columns.
+    pub fn squares_at(&self, block: usize, columns: &[usize], factors: &DVector<f64>) -> f64 {
+        let (products, last) = (&self.blocks[block], self.columns());
+        let mut squares = products[(last, last)];
         for (a, &i) in columns.iter().enumerate() {
-            squares -= 2.0 * factors[a] * self.total[(i, last)];
+            squares -= 2.0 * factors[a] * products[(i, last)];
             for (b, &j) in columns.iter().enumerate() {
-                squares += factors[a] * factors[b] * self.total[(i, j)];
+                squares += factors[a] * factors[b] * products[(i, j)];
             }
         }
         squares

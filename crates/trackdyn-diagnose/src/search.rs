@@ -10,7 +10,7 @@ use crate::candidate::{Signature, Variant};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, Metric, prior, priors};
 use crate::hypothesis::{Hypothesis, Unknown, active, unknowns_of};
-use crate::normal::{Columns, Normal, Prior};
+use crate::normal::{Normal, Prior};
 use rayon::prelude::*;
 
 /// Effects that one hypothesis may add.
@@ -104,16 +104,7 @@ impl Search<'_> {
             }
             groups.push((first..columns.len()).collect());
         }
-        let weights = self.metric.weights(self.evidence, &fit.residual);
-        let blocks: Vec<usize> =
-            self.evidence.samples().iter().map(|sample| sample.block).collect();
-        let normal = Normal::new(&Columns {
-            residual: &fit.residual,
-            columns: &columns,
-            weights: &weights,
-            blocks: &blocks,
-            count: self.evidence.blocks(),
-        });
+        let normal = self.metric.normal(self.evidence, &fit.residual, &columns);
         (normal, known, groups)
     }
 
@@ -264,23 +255,15 @@ impl Search<'_> {
         if effects.is_empty() {
             return self.nothing();
         }
-        let before = self.base.fit.hypothesis.effect(effect);
-        let hypothesis = match before {
-            Some(known) => found.fit.hypothesis.with_effect(known.clone()),
-            None => found.fit.hypothesis.without(effect),
-        };
-        let gone = |unknown: &Unknown| matches!(unknown, Unknown::Effect(of, _) if *of == effect);
-        let unknowns: Vec<Unknown> =
-            found.fit.unknowns.iter().copied().filter(|unknown| !gone(unknown)).collect();
+        let hypothesis = found.fit.hypothesis.with_effect_of(&self.base.fit.hypothesis, effect);
+        let unknowns = found.fit.unknowns_without(effect);
         self.found(effects, hypothesis, &unknowns, &self.base.fit)
     }
 
     /// The best hypothesis. Effects that only move constant ICRs (`statics`) are not tried: these are free.
-    /// `progress` is told each round.
-    pub fn best(&self, statics: &[usize], progress: &dyn Fn()) -> Found {
+    pub fn best(&self, statics: &[usize]) -> Found {
         let mut best = self.nothing();
         loop {
-            progress();
             let mut proposals: Vec<(Found, Vec<Screened>)> = Vec::new();
             if best.effects.len() < MOST_EFFECTS {
                 let mut screened = self.screen(&best);

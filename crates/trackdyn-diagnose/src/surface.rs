@@ -11,7 +11,7 @@
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_4, PI};
-use trackdyn_core::{PerSide, Twist};
+use trackdyn_core::{PerSide, Twist, real};
 use trackdyn_motion::{Icrs, Stationary, Status};
 use trackdyn_physics::{Circumstance, Model};
 
@@ -45,7 +45,7 @@ impl Surface {
             .map(|index| {
                 let (sector, rest) = (index / (SIZES * ANGLES), index % (SIZES * ANGLES));
                 let (size, angle) = (sizes.at[rest / ANGLES], angles.at[rest % ANGLES]);
-                let phi = (trackdyn_core::real(sector) + angle) * FRAC_PI_4;
+                let phi = (real(sector) + angle) * FRAC_PI_4;
                 // Nodes crowd at small speeds, where friction may depend on them most.
                 let rho = largest * size * size;
                 let speeds = PerSide::new(rho * phi.cos(), rho * phi.sin());
@@ -65,7 +65,7 @@ impl Surface {
 
     /// Share of the nodes without a motion: part of the contact lifts, or no balance was found.
     pub fn unsolved(&self) -> f64 {
-        trackdyn_core::real(self.unsolved) / trackdyn_core::real(self.nodes.len())
+        real(self.unsolved) / real(self.nodes.len())
     }
 
     /// The twist (paper's frame) at belt speeds, with the ICRs moved by `offset` (x_l, x_r, y), m.
@@ -84,7 +84,7 @@ impl Surface {
         let phi = speeds.right.atan2(speeds.left).rem_euclid(2.0 * PI) / FRAC_PI_4;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 8")]
         let sector = (phi as usize).min(SECTORS - 1);
-        let along = self.angles.weights(phi - trackdyn_core::real(sector));
+        let along = self.angles.weights(phi - real(sector));
         let outwards = self.sizes.weights(rho.sqrt());
         let nodes = &self.nodes[sector * SIZES * ANGLES..][..SIZES * ANGLES];
         let mut sum = Vector3::zeros();
@@ -144,8 +144,7 @@ struct Nodes<const N: usize> {
 
 impl<const N: usize> Nodes<N> {
     fn new() -> Self {
-        let angle =
-            |k: usize| (2.0 * trackdyn_core::real(k) + 1.0) * PI / (2.0 * trackdyn_core::real(N));
+        let angle = |k: usize| (2.0 * real(k) + 1.0) * PI / (2.0 * real(N));
         let at = std::array::from_fn(|k| 0.5 - 0.5 * angle(k).cos());
         let weight =
             std::array::from_fn(|k| if k % 2 == 0 { angle(k).sin() } else { -angle(k).sin() });

@@ -27,18 +27,17 @@ pub fn intervals(search: &Search, best: &Found) -> Vec<Interval> {
     let (normal, _, _) = search.normal(fit, &[]);
     let covariance = &fit.solution.covariance;
     let count = fit.unknowns.len();
-    let all: Vec<usize> = (0..count).collect();
     let step = &fit.solution.estimate;
     let mut scatter = DMatrix::zeros(count, count);
     let mut blocks = 0;
     for block in 0..normal.blocks() {
-        let (_, one) = normal.split(block..block + 1);
-        if one.squares() == 0.0 {
+        let products = normal.block(block);
+        if products[(count, count)] == 0.0 {
             continue;
         }
         blocks += 1;
-        let information = one.information(&all);
-        let score = DVector::from_fn(count, |k, _| one.product(k, count)) - information * step;
+        let information = products.view((0, 0), (count, count));
+        let score = DVector::from_fn(count, |k, _| products[(k, count)]) - information * step;
         scatter += &score * score.transpose();
     }
     let blocks = real(blocks.max(2));

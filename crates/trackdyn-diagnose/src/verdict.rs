@@ -61,7 +61,7 @@ pub fn judge(
     draws: usize,
     seed: u64,
 ) -> Vec<Verdict> {
-    let whole = (search.nothing().fit.objective - best.fit.objective).max(0.0).sqrt();
+    let whole = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
     let physics = best.effects.iter().filter(|effect| !statics.contains(effect));
     physics
         .map(|&effect| {
@@ -71,14 +71,9 @@ pub fn judge(
             let mut strongest = without.ln_evidence;
             let own = screened.iter().find(|one| one.effect == effect);
             let own_gain = own.map_or(0.0, |one| one.gain);
-            let rivals = screened.iter().filter(|one| {
-                let comparable = is_comparable(one.gain, own_gain);
-                one.effect != effect
-                    && !best.effects.contains(&one.effect)
-                    && comparable
-                    && one.gain.is_finite()
-                    && !statics.contains(&one.effect)
-            });
+            let rivals = screened
+                .iter()
+                .filter(|one| one.effect != effect && is_rival(one, own_gain, best, statics));
             for rival in rivals.take(RIVALS) {
                 let exchanged = search.refit(&without, std::slice::from_ref(rival));
                 let behind = (exchanged.fit.objective - best.fit.objective) / 2.0;
@@ -92,12 +87,10 @@ pub fn judge(
             }
             one_of.sort_unstable();
             let z = (without.fit.objective - best.fit.objective).max(0.0).sqrt();
-            let support = own.map_or(Support::none(), |own| {
-                let mut support =
-                    Support::of_effect(search, &without, &screened, own, &one_of, draws, seed);
-                support.ln_bayes_factor = best.ln_evidence - strongest;
-                support.z = z;
-                support
+            let support = own.map_or(Support::none(), |own| Support {
+                ln_bayes_factor: best.ln_evidence - strongest,
+                z,
+                ..Support::of_effect(search, &without, &screened, own, &one_of, draws, seed)
             });
             let unfit =
                 best.fit.unknowns.iter().find_map(|&unknown| at_limit(&best.fit, unknown, effect));
@@ -109,9 +102,12 @@ pub fn judge(
         .collect()
 }
 
-/// Whether the linear screen leaves it open that one candidate does as well as another.
-fn is_comparable(gain: f64, own: f64) -> bool {
-    gain > 0.85 * own - 2.0 * Rules::SAME
+/// Whether the linear screen leaves it open that a candidate does as well as what gains `own`.
+fn is_rival(one: &Screened, own: f64, best: &Found, statics: &[usize]) -> bool {
+    one.gain.is_finite()
+        && one.gain > 0.85 * own - 2.0 * Rules::SAME
+        && !best.effects.contains(&one.effect)
+        && !statics.contains(&one.effect)
 }
 
 /// Why a claim is refused by the rules; none where it is not.
@@ -161,11 +157,10 @@ fn nearly_as_filed(search: &Search, found: &Hypothesis, effect: usize) -> Option
 fn at_limit(fit: &Fit, unknown: Unknown, effect: usize) -> Option<String> {
     let parameter = unknown.parameter()?;
     let is_size = matches!(parameter.role, Role::Size { .. });
-    let Unknown::Effect(of, _) = unknown else { return None };
     let value = fit.hypothesis.get(unknown);
     let [low, high] = parameter.range;
     let at = (value - low).min(high - value) <= 1e-6 * (high - low);
-    (of == effect && is_size && at)
+    (unknown.is_of(effect) && is_size && at)
         .then(|| format!("{} = {value} lies at the limit of what is physical", parameter.key))
 }
 

@@ -4,6 +4,8 @@ use super::{Evidence, Sample, Whitening};
 use crate::error::Error;
 use nalgebra::Vector3;
 use trackdyn_core::{PerSide, Pose, real};
+use trackdyn_recording::operating_points::line_triples;
+use trackdyn_recording::robust::NORMAL_FROM_MAD;
 use trackdyn_recording::{OperatingPoint, TrackSample};
 
 /// Time that stands for an instant, s.
@@ -17,10 +19,6 @@ const FEWEST_TRIPLES: usize = 10;
 
 /// Blocks that a table is cut into.
 const BLOCKS: usize = 48;
-
-/// Ratio of the standard deviation to the median absolute deviation of a normal distribution,
-/// 1/Φ⁻¹(3/4).
-const NORMAL_FROM_MAD: f64 = 1.482_602_218_505_602;
 
 type Channel = fn(&OperatingPoint) -> Option<f64>;
 
@@ -93,30 +91,13 @@ impl Evidence {
     }
 }
 
-/// Standard deviation of a channel: of the middle of three neighbours that share a track speed against the
-/// line through the outer two. None without neighbours.
+/// Standard deviation of a channel, from neighbours on lines of one track speed. None without enough of them.
 fn scatter(points: &[OperatingPoint], channel: Channel) -> Option<f64> {
-    let mut sizes = Vec::new();
-    for shared in [|point: &OperatingPoint| point.v_right, |point: &OperatingPoint| point.v_left] {
-        let across = |point: &OperatingPoint| point.v_left + point.v_right - shared(point);
-        let mut line: Vec<(f64, f64, f64)> = points
-            .iter()
-            .filter_map(|point| Some((shared(point), across(point), channel(point)?)))
-            .collect();
-        line.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        for triple in line.windows(3) {
-            let [(a, x, left), (b, y, middle), (c, z, right)] = [triple[0], triple[1], triple[2]];
-            // The ICRs may jump where a track changes its direction.
-            let jumps = x * y < 0.0 || y * z < 0.0 || x.abs().min(z.abs()) < 1e-9;
-            if a != b || b != c || x >= y || y >= z || jumps {
-                continue;
-            }
-            let part = (y - x) / (z - x);
-            let off = middle - (1.0 - part) * left - part * right;
-            let gain = (1.0 + part * part + (1.0 - part) * (1.0 - part)).sqrt();
-            sizes.push((off / gain).abs());
-        }
-    }
+    // The ICRs may jump where a track changes its direction.
+    let jumps = |[x, y, z]: [f64; 3]| x * y < 0.0 || y * z < 0.0 || x.abs().min(z.abs()) < 1e-9;
+    let triples = line_triples(points, channel).into_iter();
+    let smooth = triples.filter(|triple| !jumps(triple.across));
+    let mut sizes: Vec<f64> = smooth.map(|triple| triple.off.abs()).collect();
     if sizes.len() < FEWEST_TRIPLES {
         return None;
     }

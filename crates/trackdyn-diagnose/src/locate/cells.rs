@@ -1,5 +1,6 @@
 //! The ICR triple in cells of driving.
 
+use super::IcrColumns;
 use super::contrasts::Manoeuvre;
 use crate::evidence::{Evidence, Sample};
 use crate::fit::Metric;
@@ -32,7 +33,7 @@ pub fn cells(
     evidence: &Evidence,
     metric: &Metric,
     residual: &[Vector3<f64>],
-    icrs: &[Vec<Vector3<f64>>; 3],
+    icrs: &IcrColumns,
 ) -> Vec<Cell> {
     let samples = evidence.samples();
     let fast = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs());

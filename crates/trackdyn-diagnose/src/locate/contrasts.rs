@@ -4,6 +4,7 @@
 //! V_l + V_r and d that of V_r − V_l: c is odd under R, d under R and M, c d under M. Of the ICRs, the
 //! middle a = (x_l + x_r)/2 is odd under M, half their distance h and y are even.
 
+use super::IcrColumns;
 use crate::evidence::{Evidence, Sample};
 use nalgebra::Vector3;
 use trackdyn_physics::effect::Symmetry;
@@ -57,10 +58,7 @@ impl Manoeuvre {
 /// Columns that break a symmetry, not whitened; none of what the evidence has no spread in.
 ///
 /// `icrs` are the derivatives of the prediction by x_l, x_r and y.
-pub fn contrasts(
-    evidence: &Evidence,
-    icrs: &[Vec<Vector3<f64>>; 3],
-) -> Vec<(Symmetry, Vec<Vector3<f64>>)> {
+pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<Vector3<f64>>)> {
     let samples = evidence.samples();
     let [left, right, y] = icrs;
     let combine = |sign: f64| -> Vec<Vector3<f64>> {

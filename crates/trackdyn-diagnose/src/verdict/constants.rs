@@ -5,6 +5,7 @@ use crate::base::OFFSETS;
 use crate::fit::{Fit, measured};
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of};
 use crate::search::{Found, Search};
+use std::collections::BTreeMap;
 use trackdyn_core::real;
 use trackdyn_physics::{CATALOGUE, VehicleFile};
 
@@ -13,28 +14,23 @@ const STATIC: f64 = 0.03;
 
 /// Effects that only move the constant ICRs, in all their variants, ascending.
 pub fn statics(search: &Search) -> Vec<usize> {
-    let nothing = search.nothing();
+    let fit = &search.base.fit;
     let entries: Vec<usize> = (0..search.catalogue.entries.len()).collect();
-    let (normal, known, groups) = search.normal(&nothing.fit, &entries);
-    let offsets: Vec<usize> = (0..nothing.fit.unknowns.len())
-        .filter(|&k| OFFSETS.contains(&nothing.fit.unknowns[k]))
-        .collect();
+    let (normal, known, groups) = search.normal(fit, &entries);
+    let offsets: Vec<usize> =
+        (0..fit.unknowns.len()).filter(|&k| OFFSETS.contains(&fit.unknowns[k])).collect();
     let projected = normal.projected(&offsets, &known);
-    let is_static = |group: &Vec<usize>| {
+    let is_static = |group: &[usize]| {
         group.iter().all(|&column| {
             let whole = normal.product(column, column);
             whole > 0.0 && projected.product(column, column) <= STATIC * whole
         })
     };
-    let mut effects: Vec<usize> =
-        search.catalogue.entries.iter().map(|(variant, _)| variant.effect).collect();
-    effects.dedup();
-    effects.retain(|effect| {
-        let own = entries.iter().filter(|&&e| search.catalogue.entries[e].0.effect == *effect);
-        own.clone().count() > 0 && own.copied().all(|entry| is_static(&groups[entry]))
-    });
-    effects.sort_unstable();
-    effects
+    let mut effects = BTreeMap::new();
+    for ((variant, _), group) in search.catalogue.entries.iter().zip(&groups) {
+        *effects.entry(variant.effect).or_insert(true) &= is_static(group);
+    }
+    effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
 }
 
 /// Judges the constant ICRs against those of the vehicle file: a wrong number, or one of the class of effects
@@ -63,17 +59,11 @@ pub fn judge_constants(
     if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
         return None;
     }
-    let columns = [0, 1, 2];
-    let mut residual = free.clone();
-    for k in columns {
-        let size = free.hypothesis.offset[k];
-        for (value, by) in residual.residual.iter_mut().zip(&free.columns[k]) {
-            *value += by * size;
-        }
-    }
-    let mut support = Support::of_columns(search, &residual, &columns, draws, seed);
-    support.ln_bayes_factor = ln_bayes_factor;
-    support.z = z;
+    let support = Support {
+        ln_bayes_factor,
+        z,
+        ..Support::of_columns(search, &free, &[0, 1, 2], &free.hypothesis.offset, draws, seed)
+    };
     let refused = refusal(&support, z, 0.0);
     // What the owner measured can have moved within its uncertainty only: is that enough?
     let can = |effect: &usize| {

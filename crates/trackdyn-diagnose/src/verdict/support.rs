@@ -101,15 +101,23 @@ impl Support {
         place.map_or(1.0, |place| test(&projected, &groups, draws, seed)[place].p)
     }
 
-    /// The support of columns of a fit whose residual still has their part in it.
+    /// The support of columns of a fit, asked of the residual with their part put back: `parts` are their
+    /// factors.
     pub(super) fn of_columns(
         search: &Search,
         fit: &Fit,
         columns: &[usize],
+        parts: &[f64],
         draws: usize,
         seed: u64,
     ) -> Self {
-        let (normal, known, _) = search.normal(fit, &[]);
+        let mut fit = fit.clone();
+        for (&column, part) in columns.iter().zip(parts) {
+            for (value, by) in fit.residual.iter_mut().zip(&fit.columns[column]) {
+                *value += by * *part;
+            }
+        }
+        let (normal, known, _) = search.normal(&fit, &[]);
         let known: Vec<Prior> = known.iter().map(|prior| Prior { mean: 0.0, ..*prior }).collect();
         let base: Vec<usize> = (0..fit.columns.len()).filter(|k| !columns.contains(k)).collect();
         let projected = normal.projected(&base, &known);
@@ -132,12 +140,11 @@ fn cross_validated(
     let mut gains = vec![0.0; count];
     for fold in 0..FOLDS {
         let range = fold * count / FOLDS..(fold + 1) * count / FOLDS;
-        let (training, _) = normal.split(range.clone());
+        let training = normal.without(&range);
         let (less, more) = (training.fit(base, known), training.fit(columns, known));
         for block in range {
-            let (_, one) = normal.split(block..block + 1);
-            gains[block] = (one.squares_at(base, &less.estimate)
-                - one.squares_at(columns, &more.estimate))
+            gains[block] = (normal.squares_at(block, base, &less.estimate)
+                - normal.squares_at(block, columns, &more.estimate))
                 / 2.0;
         }
     }

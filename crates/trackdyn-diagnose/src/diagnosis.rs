@@ -1,6 +1,6 @@
 //! The diagnosis: all steps in order, and what comes out of them.
 
-use crate::base::{Base, calibrated};
+use crate::base::{Base, Calibration};
 use crate::candidate::{signatures, variants};
 use crate::error::Error;
 use crate::evidence::Evidence;
@@ -10,6 +10,7 @@ use crate::isolability::Isolability;
 use crate::locate::cells::{Cell, cells};
 use crate::locate::{IcrColumns, Location, excess, locate};
 use crate::mechanics::Instruments;
+use crate::noise::with_remaining_noise;
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, intervals};
 use crate::verdict::{Rules, Verdict, judge, judge_constants, judge_instruments, statics};
@@ -163,6 +164,8 @@ pub struct Diagnosis {
     pub base: Base,
     /// The best hypothesis, refitted to what is claimed.
     pub best: Found,
+    /// The evidence with the noise that its residuals show.
+    pub evidence: Evidence,
     /// The metric of all residuals here.
     pub metric: Metric,
     /// The vehicle that explains the evidence.
@@ -185,9 +188,19 @@ pub fn diagnose(
     let runs: Vec<bool> =
         (0..evidence.runs().len()).map(|run| !options.held_out.contains(&run)).collect();
     let mut metric = Metric { scale: [1.0; 3], runs };
+    let base = Base::new(file, evidence, &metric);
+    if let Some(reason) = base.as_filed.mechanics.failure() {
+        return Err(Error::NoMotion(reason));
+    }
+    if !turns(&base.as_filed) {
+        return Err(Error::NoTurning);
+    }
+    let evidence = with_remaining_noise(evidence, &base, &metric);
     loop {
-        let attempt = attempt(evidence, file, options, &metric, progress)?;
-        let scale = metric.residual_scale(evidence, &attempt.best.fit.residual);
+        let base = base.refitted(&evidence, &metric);
+        progress(STAGES[0]);
+        let attempt = attempt(&evidence, file, options, &metric, base, progress);
+        let scale = metric.residual_scale(&evidence, &attempt.best.fit.residual);
         // Residuals larger than the noise that no effect explains make every other claim less sure.
         let grows = scale.iter().any(|scale| *scale > TOLERATED);
         if !grows || metric.scale != [1.0; 3] {
@@ -205,17 +218,10 @@ fn attempt(
     file: &VehicleFile,
     options: &Options,
     metric: &Metric,
+    base: Base,
     progress: &dyn Fn(&'static str),
-) -> Result<Diagnosis, Error> {
+) -> Diagnosis {
     let Options { draws, seed, .. } = *options;
-    let base = Base::new(file, evidence, metric);
-    if let Some(reason) = base.as_filed.mechanics.failure() {
-        return Err(Error::NoMotion(reason));
-    }
-    if !turns(&base.as_filed) {
-        return Err(Error::NoTurning);
-    }
-    progress(STAGES[0]);
     let of_base = icr_columns(evidence, &base.fit);
     let place = |fit: &Fit, icrs: &IcrColumns| {
         locate(evidence, metric, &fit.residual, &fit.columns, icrs, draws, seed)
@@ -235,7 +241,7 @@ fn attempt(
     let search = Search { evidence, metric, base: &base, catalogue: &catalogue };
     let screened = search.screen(&search.nothing());
     let statics = statics(&search);
-    let found = search.best(&statics);
+    let found = search.best();
     progress(STAGES[3]);
 
     let Judgement { best, missing, refused } = judged(&search, found, &statics, file, options);
@@ -259,7 +265,7 @@ fn attempt(
         .map(|(fit, icrs)| cells(evidence, metric, &fit.residual, icrs));
     let place = crate::place::sentence(evidence, metric, &base, &located, &broken);
     progress(STAGES[5]);
-    Ok(Diagnosis {
+    Diagnosis {
         status,
         before: located,
         after,
@@ -280,8 +286,9 @@ fn attempt(
         base,
         best,
         metric: metric.clone(),
+        evidence: evidence.clone(),
         corrected,
-    })
+    }
 }
 
 /// What is claimed, what is refused, and the hypothesis with the claims alone.
@@ -300,10 +307,10 @@ fn judged(
     options: &Options,
 ) -> Judgement {
     let Options { draws, seed, .. } = *options;
-    let physics = judge(search, &found, statics, draws, seed);
+    let physics = judge(search, &found, draws, seed);
     let dropped = physics.iter().filter(|verdict| verdict.refused.is_some());
     let best = dropped.fold(found, |found, verdict| search.without(&found, verdict.effect));
-    let instruments = judge_instruments(search, &best, statics, draws, seed);
+    let instruments = judge_instruments(search, &best, draws, seed);
     let constants = judge_constants(search, &best, statics, file, draws, seed);
     let intervals = intervals(search, &best);
     let of = |effect: usize| -> Vec<Interval> {
@@ -385,8 +392,10 @@ fn corrected(file: &VehicleFile, best: &Found, missing: &[Missing]) -> VehicleFi
     for missing in missing {
         match missing.kind {
             Kind::Constant => {
-                let vehicle = calibrated(&best.fit.hypothesis)
-                    .unwrap_or_else(|| best.fit.hypothesis.vehicle.clone());
+                let hypothesis = &best.fit.hypothesis;
+                let vehicle = Calibration::Vehicle
+                    .calibrated(hypothesis)
+                    .map_or_else(|| hypothesis.vehicle.clone(), |calibrated| calibrated.vehicle);
                 corrected.vehicle.friction = vehicle.friction;
                 corrected.vehicle.cog = vehicle.cog;
             }

@@ -24,6 +24,7 @@ pub mod hypothesis;
 pub mod isolability;
 pub mod locate;
 pub mod mechanics;
+pub mod noise;
 pub mod normal;
 pub mod place;
 pub mod plan;

@@ -280,7 +280,7 @@ impl Inertia {
         };
         let belts: Vec<Vec<TrackSample>> = lagging(evidence.tracks(), drive.time_constant)
             .iter()
-            .map(|run| run.iter().map(gained).collect())
+            .map(|run| smooth(run).iter().map(gained).collect())
             .collect();
         let paths: Result<Vec<Trajectory>, String> =
             belts.par_iter().map(|run| path_in_time(model, &surface, run)).collect();
@@ -321,6 +321,22 @@ fn path_in_time(
             .map_err(|stopped| stopped.to_string())?;
     }
     Ok(path)
+}
+
+/// Readings without the steps between them: v'_k = (v_{k−1} + 2 v_k + v_{k+1})/4.
+///
+/// A counter's ticks make the speeds jump to and fro, by more than a robot's speed changes between two readings.
+/// Stationary motion averages that out; a body with mass under dry friction, shaken so, would slide more easily
+/// than it does.
+fn smooth(run: &[TrackSample]) -> Vec<TrackSample> {
+    (0..run.len())
+        .map(|k| {
+            let [before, here, after] =
+                [run[k.saturating_sub(1)], run[k], run[(k + 1).min(run.len() - 1)]];
+            let mean = |v: fn(&TrackSample) -> f64| (v(&before) + 2.0 * v(&here) + v(&after)) / 4.0;
+            TrackSample { t: here.t, v_left: mean(|s| s.v_left), v_right: mean(|s| s.v_right) }
+        })
+        .collect()
 }
 
 /// Readings of belts that follow with a lag, each with its mean over the time that it holds.

@@ -5,7 +5,7 @@
 //! whole simulator. After each change, every effect of the best hypothesis is left out again and exchanged
 //! for every other one: a search that only adds is fooled by effects that resemble each other.
 
-use crate::base::{Base, calibrated};
+use crate::base::Base;
 use crate::candidate::{Signature, Variant};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, Metric, prior, priors};
@@ -232,12 +232,14 @@ impl Search<'_> {
         // What an effect adds to the constant ICRs had gone into the vehicle's friction and centre of gravity
         // before: the vehicle gives it back.
         for _ in 0..RECALIBRATIONS {
-            let largest = fit.hypothesis.offset.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
-            if largest < CALIBRATED * fit.hypothesis.vehicle.gauge {
+            let calibration = self.base.calibration;
+            let moved: [f64; 3] = std::array::from_fn(|k| {
+                fit.hypothesis.offset[k] - self.base.fit.hypothesis.offset[k]
+            });
+            if calibration.due(moved) < CALIBRATED * fit.hypothesis.vehicle.gauge {
                 break;
             }
-            let Some(vehicle) = calibrated(&fit.hypothesis) else { break };
-            let again = Hypothesis { vehicle, offset: [0.0; 3], ..fit.hypothesis.clone() };
+            let Some(again) = calibration.calibrated(&fit.hypothesis) else { break };
             let before = Some(&fit.mechanics);
             let again = Fit::new(again, unknowns, self.evidence, self.metric, before);
             if again.objective >= fit.objective {
@@ -260,14 +262,13 @@ impl Search<'_> {
         self.found(effects, hypothesis, &unknowns, &self.base.fit)
     }
 
-    /// The best hypothesis. Effects that only move constant ICRs (`statics`) are not tried: these are free.
-    pub fn best(&self, statics: &[usize]) -> Found {
+    /// The best hypothesis.
+    pub fn best(&self) -> Found {
         let mut best = self.nothing();
         loop {
             let mut proposals: Vec<(Found, Vec<Screened>)> = Vec::new();
             if best.effects.len() < MOST_EFFECTS {
-                let mut screened = self.screen(&best);
-                screened.retain(|one| !statics.contains(&one.effect));
+                let screened = self.screen(&best);
                 let most = screened.first().map_or(0.0, |one| one.gain);
                 let promising = screened.iter().filter(|one| one.gain > COMPARABLE * most - WORTH);
                 let promising = promising.filter(|one| one.gain > NEARLY * WORTH);
@@ -290,8 +291,7 @@ impl Search<'_> {
                 let screened = self.screen(found);
                 let others = screened
                     .into_iter()
-                    .filter(|one| one.gain > 0.0 && !best.effects.contains(&one.effect))
-                    .filter(|one| !statics.contains(&one.effect));
+                    .filter(|one| one.gain > 0.0 && !best.effects.contains(&one.effect));
                 let missed = best.ln_evidence - found.ln_evidence;
                 let others = others.filter(|one| one.gain > COMPARABLE * missed - WORTH);
                 for one in others.take(REFITTED[2]) {

@@ -6,9 +6,19 @@
 //! them, and the largest statistic of each draw is kept: a test is significant as part of the family if it
 //! exceeds nearly all of these.
 //!
+//! What is there must not pass for chance. Signs are given to what a block's score u_b leaves beside the fitted
+//! size θ, as the others would fit it without that block, I_b being the information of the block and Σ I_b = 1:
+//!
+//! ũ_b = (1 − I_b)⁻¹ (u_b − I_b θ),  θ = Σ u_b
+//!
+//! Few blocks that know much are given little trust: there ũ_b is large. So that one such group does not hide
+//! all others of its family, statistics are divided by the dispersion c = Σ |ũ_b|²/k of their scores, k the
+//! degrees of freedom, where it is larger than the one that the noise alone would give.
+//!
 //! # Sources
 //! Wu, Annals of Statistics 14(4), 1986; Cameron, Gelbach, Miller, Review of Economics and Statistics
-//! 90(3), 2008; Westfall, Young, Resampling-based multiple testing, 1993.
+//! 90(3), 2008; MacKinnon, Nielsen, Webb, Journal of Applied Econometrics 38(5), 2023 (jackknifed scores);
+//! Westfall, Young, Resampling-based multiple testing, 1993.
 
 use crate::normal::Normal;
 use nalgebra::{DMatrix, DVector};
@@ -35,8 +45,7 @@ const DEPENDENT: f64 = 1e-9;
 /// Tests groups of columns of which the base was projected out, all as one family.
 pub fn test(projected: &Normal, groups: &[Vec<usize>], draws: usize, seed: u64) -> Vec<Test> {
     let groups: Vec<Group> = groups.iter().map(|columns| Group::new(projected, columns)).collect();
-    let observed: Vec<f64> =
-        groups.iter().map(|group| group.statistic(&vec![1.0; projected.blocks()])).collect();
+    let observed: Vec<f64> = groups.iter().map(Group::observed).collect();
     let largest: Vec<f64> = (0..draws)
         .into_par_iter()
         .map(|draw| {
@@ -64,10 +73,17 @@ pub fn test(projected: &Normal, groups: &[Vec<usize>], draws: usize, seed: u64) 
 
 /// Scores of a group, in axes in which they are independent and of unit size.
 struct Group {
-    /// Per block.
-    scores: Vec<DVector<f64>>,
+    /// Sum over the blocks.
+    score: DVector<f64>,
+    /// What each block's score leaves beside it.
+    remainders: Vec<DVector<f64>>,
+    /// c ≥ 1.
+    dispersion: f64,
     degrees: usize,
 }
+
+/// Part of the information that one block may hold at most, to be judged by the others.
+const MOST_KNOWN: f64 = 0.9;
 
 impl Group {
     fn new(projected: &Normal, columns: &[usize]) -> Self {
@@ -82,31 +98,48 @@ impl Group {
         let kept: Vec<usize> = (0..columns.len())
             .filter(|&k| eigen.eigenvalues[k] > 1e-6 * largest && largest > DEPENDENT)
             .collect();
-        let per_column: Vec<Vec<f64>> =
-            columns.iter().map(|&column| projected.scores(column)).collect();
-        let scores = (0..projected.blocks())
-            .map(|block| {
-                DVector::from_fn(kept.len(), |k, _| {
-                    let axis = eigen.eigenvectors.column(kept[k]);
-                    let along: f64 = (0..columns.len())
-                        .map(|c| axis[c] * per_column[c][block] / length[c].max(f64::MIN_POSITIVE))
-                        .sum();
-                    along / eigen.eigenvalues[kept[k]].sqrt()
-                })
+        // Axes of unit size, as combinations of the columns.
+        let axes = DMatrix::from_fn(columns.len(), kept.len(), |c, k| {
+            let scale = length[c].max(f64::MIN_POSITIVE) * eigen.eigenvalues[kept[k]].sqrt();
+            eigen.eigenvectors[(c, kept[k])] / scale
+        });
+        let last = projected.columns();
+        let score_of = |block: usize| {
+            let products = projected.block(block);
+            axes.tr_mul(&DVector::from_fn(columns.len(), |c, _| products[(columns[c], last)]))
+        };
+        let scores: Vec<DVector<f64>> = (0..projected.blocks()).map(score_of).collect();
+        let score = scores.iter().fold(DVector::zeros(kept.len()), |sum, score| sum + score);
+        let remainders: Vec<DVector<f64>> = scores
+            .iter()
+            .enumerate()
+            .map(|(block, own)| {
+                let products = projected.block(block);
+                let information = DMatrix::from_fn(columns.len(), columns.len(), |a, b| {
+                    products[(columns[a], columns[b])]
+                });
+                left_beside(own, &(axes.tr_mul(&information) * &axes), &score)
             })
             .collect();
-        Self { scores, degrees: kept.len() }
+        // c = Σ |ũ_b|²/k
+        let squares: f64 = remainders.iter().map(DVector::norm_squared).sum();
+        let dispersion = (squares / real(kept.len().max(1))).max(1.0);
+        Self { score, remainders, dispersion, degrees: kept.len() }
+    }
+
+    fn observed(&self) -> f64 {
+        self.score.norm_squared()
     }
 
     fn statistic(&self, signs: &[f64]) -> f64 {
         let mut sum = DVector::zeros(self.degrees);
-        for (score, sign) in self.scores.iter().zip(signs) {
-            sum.axpy(*sign, score, 1.0);
+        for (remainder, sign) in self.remainders.iter().zip(signs) {
+            sum.axpy(*sign, remainder, 1.0);
         }
         sum.norm_squared()
     }
 
-    /// A χ² as nearly a standard normal number, whatever its degrees of freedom.
+    /// A χ² of this dispersion as nearly a standard normal number, whatever its degrees of freedom.
     ///
     /// # Sources
     /// Wilson, Hilferty, Proceedings of the National Academy of Sciences 17(12), 1931.
@@ -115,6 +148,23 @@ impl Group {
             return f64::NEG_INFINITY;
         }
         let variance = 2.0 / (9.0 * real(self.degrees));
-        ((statistic / real(self.degrees)).cbrt() - (1.0 - variance)) / variance.sqrt()
+        ((statistic / self.dispersion / real(self.degrees)).cbrt() - (1.0 - variance))
+            / variance.sqrt()
     }
+}
+
+/// ũ = (1 − I)⁻¹ (u − I θ)
+fn left_beside(
+    own: &DVector<f64>,
+    information: &DMatrix<f64>,
+    whole: &DVector<f64>,
+) -> DVector<f64> {
+    if own.is_empty() {
+        return own.clone();
+    }
+    let eigen = information.clone().symmetric_eigen();
+    let along = eigen.eigenvectors.tr_mul(&(own - information * whole));
+    let grown = along
+        .zip_map(&eigen.eigenvalues, |value, known| value / (1.0 - known.clamp(0.0, MOST_KNOWN)));
+    eigen.eigenvectors * grown
 }

@@ -53,17 +53,11 @@ pub struct Verdict {
     pub refused: Option<String>,
 }
 
-/// Judges every effect that the best hypothesis adds, but those that only move constant ICRs.
-pub fn judge(
-    search: &Search,
-    best: &Found,
-    statics: &[usize],
-    draws: usize,
-    seed: u64,
-) -> Vec<Verdict> {
+/// Judges every effect that the best hypothesis adds.
+pub fn judge(search: &Search, best: &Found, draws: usize, seed: u64) -> Vec<Verdict> {
     let whole = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
-    let physics = best.effects.iter().filter(|effect| !statics.contains(effect));
-    physics
+    best.effects
+        .iter()
         .map(|&effect| {
             let without = search.without(best, effect);
             let screened = search.screen(&without);
@@ -71,9 +65,8 @@ pub fn judge(
             let mut strongest = without.ln_evidence;
             let own = screened.iter().find(|one| one.effect == effect);
             let own_gain = own.map_or(0.0, |one| one.gain);
-            let rivals = screened
-                .iter()
-                .filter(|one| one.effect != effect && is_rival(one, own_gain, best, statics));
+            let rivals =
+                screened.iter().filter(|one| one.effect != effect && is_rival(one, own_gain, best));
             for rival in rivals.take(RIVALS) {
                 let exchanged = search.refit(&without, std::slice::from_ref(rival));
                 let behind = (exchanged.fit.objective - best.fit.objective) / 2.0;
@@ -103,11 +96,10 @@ pub fn judge(
 }
 
 /// Whether the linear screen leaves it open that a candidate does as well as what gains `own`.
-fn is_rival(one: &Screened, own: f64, best: &Found, statics: &[usize]) -> bool {
+fn is_rival(one: &Screened, own: f64, best: &Found) -> bool {
     one.gain.is_finite()
         && one.gain > 0.85 * own - 2.0 * Rules::SAME
         && !best.effects.contains(&one.effect)
-        && !statics.contains(&one.effect)
 }
 
 /// Why a claim is refused by the rules; none where it is not.

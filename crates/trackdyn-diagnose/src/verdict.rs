@@ -33,6 +33,9 @@ impl Rules {
     /// Part of the whole departure that an effect must explain beside others: a law is known to about a tenth
     /// of what it does, and what it leaves is not another effect.
     pub const FORM: f64 = 0.1;
+    /// Part of the gauge by which constant ICRs must differ from those of the vehicle file to be a wrong number:
+    /// shoes, tyres and their pressure are known no better.
+    pub const CONSTANT: f64 = 0.01;
     /// Part of the whole departure that the forms of the named laws may leave in one symmetry.
     pub const FORM_LEFT: f64 = 0.2;
 }

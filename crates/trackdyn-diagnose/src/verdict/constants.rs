@@ -33,6 +33,19 @@ pub fn statics(search: &Search) -> Vec<usize> {
     effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
 }
 
+/// Constant ICRs that are nearly those of the vehicle file: no model of the contact is better.
+fn as_good_as_filed(free: &Fit) -> Option<String> {
+    let Hypothesis { vehicle, offset, .. } = &free.hypothesis;
+    let largest = offset.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
+    (largest < Rules::CONSTANT * vehicle.gauge).then(|| {
+        format!(
+            "ICRs differ from the vehicle file's by {:.1} mm, less than {:.0} % of the gauge",
+            1e3 * largest,
+            100.0 * Rules::CONSTANT
+        )
+    })
+}
+
 /// Judges the constant ICRs against those of the vehicle file: a wrong number, or one of the class of effects
 /// that only move them.
 pub fn judge_constants(
@@ -64,7 +77,7 @@ pub fn judge_constants(
         z,
         ..Support::of_columns(search, &free, &[0, 1, 2], &free.hypothesis.offset, draws, seed)
     };
-    let refused = refusal(&support, z, 0.0);
+    let refused = refusal(&support, z, 0.0).or_else(|| as_good_as_filed(&free));
     // What the owner measured can have moved within its uncertainty only: is that enough?
     let can = |effect: &usize| {
         if unknowns_of(*effect).all(|unknown| measured(&file.vehicle, unknown).is_none()) {

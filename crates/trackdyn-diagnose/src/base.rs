@@ -151,7 +151,8 @@ pub enum Calibration {
 }
 
 impl Calibration {
-    const ALL: [Self; 3] = [Self::Vehicle, Self::Friction, Self::None];
+    /// All of them, the first choice first.
+    pub const ALL: [Self; 3] = [Self::Vehicle, Self::Friction, Self::None];
 
     /// What of an offset of the ICRs the vehicle ought to take over, m.
     pub fn due(self, [left, right, y]: [f64; 3]) -> f64 {
@@ -166,13 +167,6 @@ impl Calibration {
     /// such vehicle.
     pub fn calibrated(self, hypothesis: &Hypothesis) -> Option<Hypothesis> {
         const ROUNDS: usize = 20;
-        let spin = |vehicle: &Vehicle| -> Option<Vector3<f64>> {
-            // Without effects the ICRs are constant: those of a slow spin.
-            let model = Model::new(vehicle.clone(), Effects::none());
-            let solution =
-                Stationary::new(&model, &Circumstance::default()).solve(PerSide::new(-0.1, 0.1));
-            solution.icrs.map(Icrs::to_array).map(Vector3::from)
-        };
         let wanted = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset);
         let changed = |by: &Vector3<f64>| -> Vehicle {
             let mut vehicle = hypothesis.vehicle.clone();
@@ -213,4 +207,17 @@ impl Calibration {
         }
         None
     }
+}
+
+/// The constant ICRs of a vehicle, m: those of a slow spin without effects.
+fn spin(vehicle: &Vehicle) -> Option<Vector3<f64>> {
+    let model = Model::new(vehicle.clone(), Effects::none());
+    let solution = Stationary::new(&model, &Circumstance::default()).solve(PerSide::new(-0.1, 0.1));
+    solution.icrs.map(Icrs::to_array).map(Vector3::from)
+}
+
+/// The hypothesis with another vehicle and the offset that leaves its constant ICRs where they are.
+pub fn with_vehicle(hypothesis: &Hypothesis, vehicle: &Vehicle) -> Option<Hypothesis> {
+    let offset = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset) - spin(vehicle)?;
+    Some(Hypothesis { vehicle: vehicle.clone(), offset: offset.into(), ..hypothesis.clone() })
 }

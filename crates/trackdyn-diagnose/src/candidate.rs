@@ -166,7 +166,7 @@ fn choices(parameter: &Parameter, of: &[Parameter], evidence: &Evidence) -> Vec<
     let inside = |value: f64| value.clamp(low, high);
     match parameter.role {
         Role::Size { .. } => vec![parameter.typical],
-        Role::Direction => (0..8).map(|k| inside(45.0 * f64::from(k))).collect(),
+        Role::Direction => (0..24).map(|k| inside(15.0 * f64::from(k))).collect(),
         Role::Shape => [0.4, 1.0, 2.5].map(|factor| inside(factor * parameter.typical)).to_vec(),
         Role::Place { .. } => {
             let [middle, spread] = area(evidence, parameter.role);

@@ -10,7 +10,7 @@ use crate::isolability::Isolability;
 use crate::locate::cells::{Cell, cells};
 use crate::locate::{IcrColumns, Location, excess, locate};
 use crate::mechanics::Instruments;
-use crate::noise::with_remaining_noise;
+use crate::noise::{sharper, with_remaining_noise};
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, intervals};
 use crate::verdict::{Rules, Verdict, judge, judge_constants, judge_instruments, statics};
@@ -195,11 +195,11 @@ pub fn diagnose(
     if !turns(&base.as_filed) {
         return Err(Error::NoTurning);
     }
-    let evidence = with_remaining_noise(evidence, &base, &metric);
+    let evidence = with_remaining_noise(evidence, &base.fit, &metric);
     loop {
         let base = base.refitted(&evidence, &metric);
         progress(STAGES[0]);
-        let attempt = attempt(&evidence, file, options, &metric, base, progress);
+        let attempt = attempt(&evidence, file, options, &metric, base, true, progress);
         let scale = metric.residual_scale(&evidence, &attempt.best.fit.residual);
         // Residuals larger than the noise that no effect explains make every other claim less sure.
         let grows = scale.iter().any(|scale| *scale > TOLERATED);
@@ -219,6 +219,7 @@ fn attempt(
     options: &Options,
     metric: &Metric,
     base: Base,
+    is_first: bool,
     progress: &dyn Fn(&'static str),
 ) -> Diagnosis {
     let Options { draws, seed, .. } = *options;
@@ -242,6 +243,11 @@ fn attempt(
     let screened = search.screen(&search.nothing());
     let statics = statics(&search);
     let found = search.best();
+    let again = if is_first { sharper(evidence, &found.fit, metric) } else { None };
+    if let Some(evidence) = again {
+        let base = search.base.refitted(&evidence, metric);
+        return attempt(&evidence, file, options, metric, base, false, progress);
+    }
     progress(STAGES[3]);
 
     let Judgement { best, missing, refused } = judged(&search, found, &statics, file, options);
@@ -307,7 +313,7 @@ fn judged(
     options: &Options,
 ) -> Judgement {
     let Options { draws, seed, .. } = *options;
-    let physics = judge(search, &found, draws, seed);
+    let physics = judge(search, &found, file, draws, seed);
     let dropped = physics.iter().filter(|verdict| verdict.refused.is_some());
     let best = dropped.fold(found, |found, verdict| search.without(&found, verdict.effect));
     let instruments = judge_instruments(search, &best, draws, seed);

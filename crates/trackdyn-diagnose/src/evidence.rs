@@ -20,7 +20,7 @@ pub struct Sample {
     pub run: usize,
     /// Index of the block that it belongs to: blocks are independent of one another.
     pub block: usize,
-    /// Time at which it begins, s of the pose clock.
+    /// Time at which it begins, s of the pose clock since the recording began.
     pub start: f64,
     /// How long it lasts, s.
     pub duration: f64,

@@ -166,6 +166,7 @@ impl Mechanics {
                     self.inertia.as_ref().map(|inertia| inertia.departure(sample, sensor.delay));
                 let departure =
                     [by_ground, by_inertia].into_iter().flatten().reduce(|a, b| plus(&a, &b));
+                let departure = departure.map(|departure| seen_from(&departure, offset));
                 let until = sample.start + sample.duration;
                 let pieces = held(&tracks[sample.run], sample.start, until, sensor.delay);
                 let pose = pieces.fold(Pose::default(), |pose, piece| {
@@ -193,6 +194,13 @@ fn plus(a: &Twist, b: &Twist) -> Twist {
 
 fn minus(a: &Twist, b: &Twist) -> Twist {
     Twist { v_x: a.v_x - b.v_x, v_y: a.v_y - b.v_y, w: a.w - b.w }
+}
+
+/// What a change of the twist is at the point from which the ICRs have this offset: δv = ω × r, with y for all of
+/// them and the mean of the x as r. The rest of the offset is no matter of where one looks from.
+fn seen_from(twist: &Twist, [left, right, y]: &[f64; 3]) -> Twist {
+    let middle = f64::midpoint(*left, *right);
+    Twist { v_x: twist.v_x + y * twist.w, v_y: twist.v_y - middle * twist.w, w: twist.w }
 }
 
 /// Where the robot was during a sample.

@@ -12,6 +12,9 @@
 //!
 //! Its level is then set by the median of |z|², which is that of a χ² with three degrees of freedom.
 //!
+//! Strong physics may leave more than contrasts can take up. Where a hypothesis does explain more, so that a
+//! variance falls, the noise is looked for once more beside it.
+//!
 //! What is measured without any model ([`trackdyn_recording::noise`]) is where this starts from. Poses alone
 //! cannot tell the ripple of a drive, which the encoders see, from a walk of the pose; nor can encoders alone
 //! tell counts that err against each other from slip.
@@ -20,10 +23,9 @@
 //! Lange, Little, Taylor, Journal of the American Statistical Association 84(408), 1989 (t likelihood); Berndt,
 //! Hall, Hall, Hausman, Annals of Economic and Social Measurement 3(4), 1974 (steps).
 
-use crate::base::Base;
 use crate::diagnosis::icr_columns;
 use crate::evidence::Evidence;
-use crate::fit::Metric;
+use crate::fit::{Fit, Metric};
 use crate::locate::contrasts;
 use crate::normal::Prior;
 use nalgebra::{Cholesky, SMatrix, SVector, Vector3};
@@ -53,18 +55,36 @@ const LARGEST_STEP: f64 = 1.5;
 /// A walk that adds less than this share of the white noise to a segment is none.
 const NO_WALK: f64 = 1e-5;
 
-/// The evidence with the noise that the residuals beside a base show. Tables of steady points keep theirs.
-pub fn with_remaining_noise(evidence: &Evidence, base: &Base, metric: &Metric) -> Evidence {
+/// By what a variance must be smaller beside a hypothesis for the noise to be another one.
+const SHARPER: f64 = 1.3;
+
+/// The evidence with the noise that the residuals beside a fit show. Tables of steady points keep theirs.
+pub fn with_remaining_noise(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Evidence {
     let mut evidence = evidence.clone();
     for _ in 0..ROUNDS {
         let Some(&noise) = evidence.noise() else { break };
-        let left = remaining(&evidence, base, metric);
+        let left = remaining(&evidence, fit, metric);
         let noise = most_likely(&evidence, metric, noise, &left);
         evidence = evidence.with_noise(noise);
         evidence = evidence.without(&outlying(&evidence, &noise, &left));
     }
     evidence
 }
+
+/// The evidence with the noise beside a hypothesis that explains more than contrasts can; none where this does
+/// not make it smaller.
+pub fn sharper(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Option<Evidence> {
+    let before = evidence.noise()?;
+    let again = with_remaining_noise(evidence, fit, metric);
+    let after = again.noise()?;
+    // What a variance adds to a sample decides: a walk of nearly nothing may be half of that.
+    let duration = evidence.samples().first()?.duration;
+    let added = |noise: &SegmentNoise, k: usize| noise.pose[k] + noise.walk[k] * duration * SLOW;
+    (0..3).any(|k| added(before, k) > SHARPER * added(after, k)).then_some(again)
+}
+
+/// Samples over which slow effects are summed.
+const SLOW: f64 = 10.0;
 
 /// Samples at whose shared pose the sensor erred: each by itself is far off, both together are not.
 fn outlying(evidence: &Evidence, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
@@ -105,8 +125,7 @@ fn outlying(evidence: &Evidence, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
 }
 
 /// What is left of the residual when all contrasts are fitted, not white.
-fn remaining(evidence: &Evidence, base: &Base, metric: &Metric) -> Vec<Vector3<f64>> {
-    let fit = &base.fit;
+fn remaining(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Vec<Vector3<f64>> {
     let prediction =
         fit.mechanics.predict(&crate::mechanics::Instruments::of(&fit.hypothesis), evidence);
     let residual = metric.residual(evidence, &prediction);

@@ -9,9 +9,11 @@ pub use instruments::judge_instruments;
 pub use support::Support;
 
 use crate::fit::Fit;
-use crate::hypothesis::{Hypothesis, Unknown};
-use crate::search::{Found, Screened, Search};
+use crate::hypothesis::{Hypothesis, Unknown, typical};
+use crate::mechanics::is_instrument;
+use crate::search::{AS_FILED, Found, Screened, Search};
 use nalgebra::DVector;
+use trackdyn_physics::VehicleFile;
 use trackdyn_physics::effect::Role;
 
 /// What a claim must reach.
@@ -40,7 +42,10 @@ impl Rules {
     pub const FORM_LEFT: f64 = 0.2;
 }
 
-/// Rivals of an effect that are refitted.
+/// Share of its own beyond constant ICRs below which an effect mostly moves these.
+const MOSTLY: f64 = 0.1;
+
+/// Rivals of an effect that are refitted, and named with it at most.
 const RIVALS: usize = 3;
 
 /// Something that was left out, or why it is not claimed.
@@ -57,15 +62,31 @@ pub struct Verdict {
 }
 
 /// Judges every effect that the best hypothesis adds.
-pub fn judge(search: &Search, best: &Found, draws: usize, seed: u64) -> Vec<Verdict> {
-    let whole = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
+///
+/// `file` is the vehicle's.
+pub fn judge(
+    search: &Search,
+    best: &Found,
+    file: &VehicleFile,
+    draws: usize,
+    seed: u64,
+) -> Vec<Verdict> {
+    let departure = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
+    // What mostly moves constant ICRs is known to a part of all that moved them.
+    let mostly = constants::statics_within(search, MOSTLY);
+    let is_static = |effect: &usize| mostly.contains(effect);
+    let by_constants = if best.effects.iter().any(is_static) {
+        constants::departure(search, best, file)
+    } else {
+        0.0
+    };
     best.effects
         .iter()
         .map(|&effect| {
             let without = search.without(best, effect);
             let screened = search.screen(&without);
             let mut one_of = vec![effect];
-            let mut strongest = without.ln_evidence;
+            let mut others = Vec::new();
             let own = screened.iter().find(|one| one.effect == effect);
             let own_gain = own.map_or(0.0, |one| one.gain);
             let rivals =
@@ -78,15 +99,30 @@ pub fn judge(search: &Search, best: &Found, draws: usize, seed: u64) -> Vec<Verd
                 if behind < Rules::SAME || apart < Rules::ISOLATED {
                     one_of.push(rival.effect);
                 } else {
-                    strongest = strongest.max(exchanged.ln_evidence);
+                    others.push((rival.effect, exchanged.ln_evidence));
                 }
             }
+            // What other recordings of the same robot would name instead is one answer with it.
+            let named = support::named(search, &without, &screened, seed);
+            let share = |one_of: &[usize]| -> f64 {
+                one_of.iter().filter_map(|effect| named.get(effect)).sum()
+            };
+            while one_of.len() <= RIVALS && share(&one_of) < Rules::STABLE {
+                let next = named.iter().filter(|(effect, _)| !one_of.contains(effect));
+                let Some((&next, _)) = next.max_by(|a, b| a.1.total_cmp(b.1)) else { break };
+                one_of.push(next);
+            }
+            let stable = share(&one_of);
+            let rivals = others.iter().filter(|(effect, _)| !one_of.contains(effect));
+            let strongest = rivals.fold(without.ln_evidence, |most, (_, one)| most.max(*one));
             one_of.sort_unstable();
             let z = (without.fit.objective - best.fit.objective).max(0.0).sqrt();
+            let whole = if is_static(&effect) { departure.hypot(by_constants) } else { departure };
             let support = own.map_or(Support::none(), |own| Support {
                 ln_bayes_factor: best.ln_evidence - strongest,
                 z,
-                ..Support::of_effect(search, &without, &screened, own, &one_of, draws, seed)
+                stable,
+                ..Support::of_effect(search, &without, own, draws, seed)
             });
             let unfit =
                 best.fit.unknowns.iter().find_map(|&unknown| at_limit(&best.fit, unknown, effect));
@@ -99,9 +135,14 @@ pub fn judge(search: &Search, best: &Found, draws: usize, seed: u64) -> Vec<Verd
 }
 
 /// Whether the linear screen leaves it open that a candidate does as well as what gains `own`.
+///
+/// Signatures of encoders and pose sensor are taken far from where they are needed; they promise less than they keep.
 fn is_rival(one: &Screened, own: f64, best: &Found) -> bool {
+    let hypothesis = &best.fit.hypothesis;
+    let is_instrument = is_instrument(&hypothesis.vehicle, &typical(one.effect));
+    let share = if is_instrument { 0.5 } else { 0.85 };
     one.gain.is_finite()
-        && one.gain > 0.85 * own - 2.0 * Rules::SAME
+        && one.gain > share * own - 2.0 * Rules::SAME
         && !best.effects.contains(&one.effect)
 }
 
@@ -132,7 +173,7 @@ fn refusal(support: &Support, z: f64, whole: f64) -> Option<String> {
         ));
     }
     if z < Rules::FORM * whole {
-        return Some("no larger than what the form of the other law may leave".to_owned());
+        return Some("no larger than what the form of the other laws may leave".to_owned());
     }
     None
 }
@@ -143,7 +184,7 @@ fn nearly_as_filed(search: &Search, found: &Hypothesis, effect: usize) -> Option
     let found = found.effect(effect)?;
     let near = crate::candidate::sizes(effect).into_iter().all(|place| {
         let (filed, found) = (filed.values()[place], found.values()[place]);
-        (found - filed).abs() <= Rules::FORM_LEFT * filed.abs()
+        (found - filed).abs() <= AS_FILED * filed.abs()
     });
     near.then(|| "the vehicle file knows it, at nearly this size".to_owned())
 }

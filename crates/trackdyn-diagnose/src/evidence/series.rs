@@ -8,7 +8,7 @@ use trackdyn_identify::observations::Observations;
 use trackdyn_identify::spin_test;
 use trackdyn_identify::weighting::SegmentNoise;
 use trackdyn_recording::noise::noise;
-use trackdyn_recording::{Clock, Recording, SegmentOptions};
+use trackdyn_recording::{Clock, Recording, SegmentOptions, TrackSample};
 
 /// How far a fitted clock offset may go beyond the one that the recording shows by itself, s.
 const TAU_MARGIN: f64 = 0.15;
@@ -43,12 +43,18 @@ impl Evidence {
             let position = stated.position * stated.position;
             SegmentNoise { pose: [position, position, stated.yaw * stated.yaw], walk: [0.0; 3] }
         });
-        let (noise, origin) = match (SegmentNoise::measured(&measured, gap), stated) {
+        let (noise, source) = match (SegmentNoise::measured(&measured, gap), stated) {
             (Some(noise), _) => (noise, "measured without a model"),
             (None, Some(noise)) => (noise, "as the recording states it"),
             (None, None) => return Err(Error::NoNoise),
         };
         let blocks = observations.blocks();
+        let tracks = recording.runs().iter().map(|run| run.tracks().to_vec());
+        let mut tracks: Vec<Vec<TrackSample>> = tracks.collect();
+        // Time is that of the recording: laws that know it begin where it begins, whatever its clock shows.
+        let first = tracks.iter().flatten().fold(f64::INFINITY, |first, track| first.min(track.t));
+        let origin = first.floor();
+        tracks.iter_mut().flatten().for_each(|track| track.t -= origin);
         let mut samples = Vec::with_capacity(observations.len());
         for segment in observations.segments() {
             let run = &recording.runs()[segment.run];
@@ -63,7 +69,7 @@ impl Evidence {
             samples.push(Sample {
                 run: segment.run,
                 block: blocks.of(segment.run, segment.start).unwrap_or(0),
-                start: segment.start,
+                start: segment.start - origin,
                 duration: segment.duration,
                 motion: Vector3::from(segment.motion),
                 pose: run.poses().get(first).map_or(Pose::default(), |sample| sample.pose),
@@ -78,12 +84,12 @@ impl Evidence {
         Ok(Self {
             whitening: Whitening::of(noise, &samples),
             samples,
-            tracks: recording.runs().iter().map(|run| run.tracks().to_vec()).collect(),
+            tracks,
             blocks: blocks.count(),
             runs: recording.runs().iter().map(trackdyn_recording::Run::id).collect(),
             tau,
             is_steady: false,
-            description: format!("{}; noise {origin}", blocks.description()),
+            description: format!("{}; noise {source}", blocks.description()),
         })
     }
 }

@@ -14,6 +14,11 @@ const STATIC: f64 = 0.03;
 
 /// Effects that only move the constant ICRs, in all their variants, ascending.
 pub fn statics(search: &Search) -> Vec<usize> {
+    statics_within(search, STATIC)
+}
+
+/// Effects of whose signatures no more than a share is their own beyond constant ICRs.
+pub(super) fn statics_within(search: &Search, share: f64) -> Vec<usize> {
     let fit = &search.base.fit;
     let entries: Vec<usize> = (0..search.catalogue.entries.len()).collect();
     let (normal, known, groups) = search.normal(fit, &entries);
@@ -23,7 +28,7 @@ pub fn statics(search: &Search) -> Vec<usize> {
     let is_static = |group: &[usize]| {
         group.iter().all(|&column| {
             let whole = normal.product(column, column);
-            whole > 0.0 && projected.product(column, column) <= STATIC * whole
+            whole > 0.0 && projected.product(column, column) <= share * whole
         })
     };
     let mut effects = BTreeMap::new();
@@ -31,6 +36,23 @@ pub fn statics(search: &Search) -> Vec<usize> {
         *effects.entry(variant.effect).or_insert(true) &= is_static(group);
     }
     effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
+}
+
+/// The best hypothesis with the vehicle as filed and no offset, and what else is free in it.
+fn as_filed(best: &Found, file: &VehicleFile) -> (Hypothesis, Vec<Unknown>) {
+    let vehicle = file.vehicle.clone();
+    let filed = Hypothesis { vehicle, offset: [0.0; 3], ..best.fit.hypothesis.clone() };
+    let fixed =
+        best.fit.unknowns.iter().copied().filter(|unknown| !OFFSETS.contains(unknown)).collect();
+    (filed, fixed)
+}
+
+/// √ of what the misfit falls by when constant ICRs may differ from those of the vehicle file.
+pub(super) fn departure(search: &Search, best: &Found, file: &VehicleFile) -> f64 {
+    let (filed, fixed) = as_filed(best, file);
+    let before = Some(&best.fit.mechanics);
+    let dropped = Fit::new(filed, &fixed, search.evidence, search.metric, before);
+    (dropped.objective - best.fit.objective).max(0.0).sqrt()
 }
 
 /// Constant ICRs that are nearly those of the vehicle file: no model of the contact is better.
@@ -56,13 +78,7 @@ pub fn judge_constants(
     draws: usize,
     seed: u64,
 ) -> Option<Verdict> {
-    let filed = Hypothesis {
-        vehicle: file.vehicle.clone(),
-        offset: [0.0; 3],
-        ..best.fit.hypothesis.clone()
-    };
-    let fixed: Vec<Unknown> =
-        best.fit.unknowns.iter().copied().filter(|unknown| !OFFSETS.contains(unknown)).collect();
+    let (filed, fixed) = as_filed(best, file);
     let evidence = search.evidence;
     let before = Some(&best.fit.mechanics);
     let dropped = Fit::new(filed.clone(), &fixed, evidence, search.metric, before);

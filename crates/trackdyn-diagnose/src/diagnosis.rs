@@ -225,7 +225,7 @@ fn attempt(
     progress(STAGES[1]);
 
     let tried: Vec<_> = (0..CATALOGUE.len())
-        .filter(|effect| !base.instruments.contains(effect))
+        .filter(|effect| !base.instruments.contains(effect) && !CATALOGUE[*effect].is_form())
         .flat_map(|effect| variants(effect, evidence))
         .collect();
     let hypothesis = &base.fit.hypothesis;

@@ -9,6 +9,7 @@ mod identify;
 mod map;
 mod odometry;
 mod plan;
+mod proposal;
 mod recordings;
 mod simulate;
 mod trial;

@@ -10,6 +10,7 @@ use crate::isolability::Isolability;
 use crate::locate::cells::{Cell, cells};
 use crate::locate::{IcrColumns, Location, excess, locate};
 use crate::mechanics::Instruments;
+use crate::proposal::{Proposal, completed};
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, intervals};
 use crate::verdict::{Rules, Verdict, judge, judge_constants, judge_instruments, statics};
@@ -167,6 +168,8 @@ pub struct Diagnosis {
     pub metric: Metric,
     /// The vehicle that explains the evidence.
     pub corrected: VehicleFile,
+    /// A law for what no effect explains, where something is left and one was found.
+    pub proposed: Option<Proposal>,
 }
 
 /// Stages that progress is reported of.
@@ -191,7 +194,7 @@ pub fn diagnose(
         // Residuals larger than the noise that no effect explains make every other claim less sure.
         let grows = scale.iter().any(|scale| *scale > TOLERATED);
         if !grows || metric.scale != [1.0; 3] {
-            return Ok(attempt);
+            return Ok(completed(attempt, evidence, options));
         }
         metric.scale = scale.map(|scale| scale.max(1.0));
     }
@@ -281,6 +284,7 @@ fn attempt(
         best,
         metric: metric.clone(),
         corrected,
+        proposed: None,
     })
 }
 

@@ -10,6 +10,7 @@ mod interrupted;
 mod map;
 mod odometry;
 mod plan;
+mod proposal;
 mod recordings;
 mod simulate;
 mod trial;

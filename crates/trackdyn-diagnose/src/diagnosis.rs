@@ -11,6 +11,7 @@ use crate::locate::cells::{Cell, cells};
 use crate::locate::{IcrColumns, Location, excess, locate};
 use crate::mechanics::Instruments;
 use crate::noise::{sharper, with_remaining_noise};
+use crate::proposal::{Proposal, completed};
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, intervals};
 use crate::verdict::{Rules, Verdict, judge, judge_constants, judge_instruments, statics};
@@ -170,6 +171,8 @@ pub struct Diagnosis {
     pub metric: Metric,
     /// The vehicle that explains the evidence.
     pub corrected: VehicleFile,
+    /// A law for what no effect explains, where something is left and one was found.
+    pub proposed: Option<Proposal>,
 }
 
 /// Stages that progress is reported of.
@@ -195,16 +198,17 @@ pub fn diagnose(
     if !turns(&base.as_filed) {
         return Err(Error::NoTurning);
     }
-    let evidence = with_remaining_noise(evidence, &base.fit, &metric);
+    let mut evidence = with_remaining_noise(evidence, &base.fit, &metric);
     loop {
         let base = base.refitted(&evidence, &metric);
         progress(STAGES[0]);
         let attempt = attempt(&evidence, file, options, &metric, base, true, progress);
+        evidence = attempt.evidence.clone();
         let scale = metric.residual_scale(&evidence, &attempt.best.fit.residual);
         // Residuals larger than the noise that no effect explains make every other claim less sure.
         let grows = scale.iter().any(|scale| *scale > TOLERATED);
         if !grows || metric.scale != [1.0; 3] {
-            return Ok(attempt);
+            return Ok(completed(attempt, options));
         }
         metric.scale = scale.map(|scale| scale.max(1.0));
     }
@@ -232,7 +236,7 @@ fn attempt(
     progress(STAGES[1]);
 
     let tried: Vec<_> = (0..CATALOGUE.len())
-        .filter(|effect| !base.instruments.contains(effect))
+        .filter(|effect| !base.instruments.contains(effect) && !CATALOGUE[*effect].is_form())
         .flat_map(|effect| variants(effect, evidence))
         .collect();
     let hypothesis = &base.fit.hypothesis;
@@ -294,6 +298,7 @@ fn attempt(
         metric: metric.clone(),
         evidence: evidence.clone(),
         corrected,
+        proposed: None,
     }
 }
 

@@ -7,6 +7,7 @@ mod support;
 pub use constants::{judge_constants, statics};
 pub use instruments::judge_instruments;
 pub use support::Support;
+pub(crate) use support::cross_validated;
 
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, typical};

@@ -140,7 +140,7 @@ pub(super) fn named(
 
 /// Gain of log-likelihood by more columns on blocks that were left out of their fit, and its standard error
 /// from block to block.
-fn cross_validated(
+pub(crate) fn cross_validated(
     normal: &Normal,
     known: &[Prior],
     base: &[usize],

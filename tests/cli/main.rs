@@ -10,6 +10,7 @@ mod map;
 mod odometry;
 mod plan;
 mod recordings;
+mod sealed_trial;
 mod simulate;
 mod trial;
 

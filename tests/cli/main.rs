@@ -12,6 +12,7 @@ mod odometry;
 mod plan;
 mod proposal;
 mod recordings;
+mod sealed_trial;
 mod simulate;
 mod trial;
 

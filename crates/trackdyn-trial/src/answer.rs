@@ -18,6 +18,9 @@ pub struct Answers {
     pub version: String,
     /// Seed from which everything was drawn.
     pub seed: u64,
+    /// Time of a run where it is not the usual one, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run_time_s: Option<f64>,
     /// The cases, in the order of their ids.
     #[serde(rename = "case")]
     pub cases: Vec<Answer>,

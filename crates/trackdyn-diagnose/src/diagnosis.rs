@@ -199,6 +199,12 @@ pub fn diagnose(
         return Err(Error::NoTurning);
     }
     let mut evidence = with_remaining_noise(evidence, &base.fit, &metric);
+    // Late stamps are noise that a lag of the drive would smooth: regular ones stand if they explain more.
+    let base = base.refitted(&evidence, &metric);
+    let regular = evidence.with_regular_stamps();
+    if base.refitted(&regular, &metric).fit.objective < base.fit.objective - STAMPED {
+        evidence = with_remaining_noise(&regular, &base.fit, &metric);
+    }
     loop {
         let base = base.refitted(&evidence, &metric);
         progress(STAGES[0]);
@@ -213,6 +219,9 @@ pub fn diagnose(
         metric.scale = scale.map(|scale| scale.max(1.0));
     }
 }
+
+/// By how much regular stamps must lower twice the misfit.
+const STAMPED: f64 = 4.0;
 
 /// Residuals may be this much larger than the noise before the noise is taken to be larger.
 const TOLERATED: f64 = 1.1;

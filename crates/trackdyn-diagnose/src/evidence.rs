@@ -6,6 +6,7 @@
 pub mod planned;
 mod points;
 mod series;
+mod stamps;
 
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -132,6 +133,12 @@ impl Evidence {
             Whitening::Points(_) => vec![false; self.samples.len()].into(),
         };
         Self { whitening: Whitening::without(noise, &self.samples, lost), ..self.clone() }
+    }
+
+    /// The same with readings at regular times: stamps of a clock that ticks evenly, and is read late by chance.
+    pub fn with_regular_stamps(&self) -> Self {
+        let tracks = self.tracks.iter().map(|run| stamps::regular(run)).collect();
+        Self { tracks, ..self.clone() }
     }
 
     /// The same without some samples of a recording.

@@ -134,6 +134,14 @@ pub fn sizes(effect: usize) -> Vec<usize> {
         .collect()
 }
 
+/// All variants of all mechanisms that are tried on this evidence, but of the instruments that are free anyway.
+pub fn candidates(instruments: &[usize], evidence: &Evidence) -> Vec<Variant> {
+    (0..CATALOGUE.len())
+        .filter(|effect| !instruments.contains(effect) && !CATALOGUE[*effect].is_form())
+        .flat_map(|effect| variants(effect, evidence))
+        .collect()
+}
+
 /// The variants of an effect that are tried on this evidence: none of what knows places or directions where the
 /// evidence has none.
 pub fn variants(effect: usize, evidence: &Evidence) -> Vec<Variant> {

@@ -1,7 +1,7 @@
 //! The diagnosis: all steps in order, and what comes out of them.
 
 use crate::base::{Base, Calibration};
-use crate::candidate::{signatures, variants};
+use crate::candidate::{candidates, signatures};
 use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::exposure::Exposure;
@@ -18,8 +18,8 @@ use crate::verdict::{Rules, Verdict, judge, judge_constants, judge_instruments, 
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 use trackdyn_core::real;
+use trackdyn_physics::VehicleFile;
 use trackdyn_physics::effect::Symmetry;
-use trackdyn_physics::{CATALOGUE, VehicleFile};
 
 /// How to diagnose.
 #[derive(Clone, Debug, PartialEq)]
@@ -244,10 +244,7 @@ fn attempt(
     let located = place(&base.fit, &of_base);
     progress(STAGES[1]);
 
-    let tried: Vec<_> = (0..CATALOGUE.len())
-        .filter(|effect| !base.instruments.contains(effect) && !CATALOGUE[*effect].is_form())
-        .flat_map(|effect| variants(effect, evidence))
-        .collect();
+    let tried = candidates(&base.instruments, evidence);
     let hypothesis = &base.fit.hypothesis;
     let catalogue = Catalogue { entries: signatures(&tried, hypothesis, evidence, metric) };
     progress(STAGES[2]);

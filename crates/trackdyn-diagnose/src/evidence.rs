@@ -145,7 +145,9 @@ impl Evidence {
     pub fn without(&self, samples: &[usize]) -> Self {
         let Whitening::Segments { noise, lost, .. } = &self.whitening else { return self.clone() };
         let mut lost = lost.to_vec();
-        samples.iter().for_each(|&sample| lost[sample] = true);
+        for &sample in samples {
+            lost[sample] = true;
+        }
         Self { whitening: Whitening::without(*noise, &self.samples, lost.into()), ..self.clone() }
     }
 

@@ -227,7 +227,7 @@ impl Likelihood<'_> {
             .map(|((sample, z), ln_determinant)| {
                 if self.metric.runs[sample.run] && *z != Vector3::zeros() {
                     // ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν)
-                    ln_determinant - (TAILS + 3.0) / 2.0 * (z.norm_squared() / TAILS).ln_1p()
+                    ln_determinant - 0.5 * (TAILS + 3.0) * (z.norm_squared() / TAILS).ln_1p()
                 } else {
                     0.0
                 }

@@ -97,7 +97,9 @@ pub fn judge(
                 let behind = (exchanged.fit.objective - best.fit.objective) / 2.0;
                 let apart =
                     own.map_or(f64::INFINITY, |own| separation(search, &without, own, rival));
-                if behind < Rules::SAME || apart < Rules::ISOLATED {
+                let less = best.ln_evidence - exchanged.ln_evidence;
+                if behind < Rules::SAME || less < Rules::LN_BAYES_FACTOR || apart < Rules::ISOLATED
+                {
                     one_of.push(rival.effect);
                 } else {
                     others.push((rival.effect, exchanged.ln_evidence));

@@ -1,12 +1,12 @@
 //! The order in which candidates stand says nothing.
 
 use trackdyn_diagnose::base::Base;
-use trackdyn_diagnose::candidate::{signatures, variants};
+use trackdyn_diagnose::candidate::{candidates, signatures};
 use trackdyn_diagnose::evidence::Evidence;
 use trackdyn_diagnose::fit::{Fit, Metric};
 use trackdyn_diagnose::search::{Catalogue, Found, Search};
-use trackdyn_diagnose::verdict::statics;
-use trackdyn_physics::{CATALOGUE, Effects, VehicleFile};
+
+use trackdyn_physics::{Effects, VehicleFile};
 use trackdyn_recording::Recording;
 use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
@@ -37,10 +37,7 @@ fn both_ways() -> [Found; 2] {
     let evidence = Evidence::of_recording(&recording(), file.vehicle.gauge).expect("enough");
     let metric = Metric { scale: [1.0; 3], runs: vec![true; evidence.runs().len()] };
     let base = Base::new(&file, &evidence, &metric);
-    let tried: Vec<_> = (0..CATALOGUE.len())
-        .filter(|effect| !base.instruments.contains(effect))
-        .flat_map(|effect| variants(effect, &evidence))
-        .collect();
+    let tried = candidates(&base.instruments, &evidence);
     let mut entries = signatures(&tried, &base.fit.hypothesis, &evidence, &metric);
     [false, true].map(|is_reversed| {
         if is_reversed {
@@ -49,7 +46,7 @@ fn both_ways() -> [Found; 2] {
         let catalogue = Catalogue { entries: entries.clone() };
         let search =
             Search { evidence: &evidence, metric: &metric, base: &base, catalogue: &catalogue };
-        search.best(&statics(&search))
+        search.best()
     })
 }
 

@@ -116,6 +116,7 @@ impl Draw<'_> {
             }
             .to_toml(),
             concealed: concealed.into_iter().map(|(_, answer)| answer).collect(),
+            clock_offset_s: sensors.clock_offset(),
             instruments: instruments.errors.iter().map(Instrument::of).collect(),
         };
         Ok(Case { answer, recording, vehicle })

@@ -33,7 +33,8 @@ pub(super) fn outcomes(judged: &[Judged]) -> Vec<(&str, bool)> {
 fn covered(case: &Judged, claim: &Missing) -> Vec<bool> {
     let concealed = case.answer.concealed.iter().filter(|c| c.in_catalogue);
     let concealed = concealed.map(|c| (&c.mechanism, &c.parameters));
-    let instruments = case.answer.instruments.iter().map(|i| (&i.mechanism, &i.parameters));
+    let shown = case.answer.shown_errors();
+    let instruments = shown.iter().map(|i| (&i.mechanism, &i.parameters));
     let truth = concealed.chain(instruments).find(|(id, _)| **id == claim.effect);
     let Some((id, parameters)) = truth.filter(|(id, _)| means_the_same(id)) else {
         return Vec::new();

@@ -35,6 +35,7 @@ fn case(stratum: Stratum, concealed: Vec<Concealed>, diagnosis: &str) -> Judged 
             recording: String::new(),
             vehicle: String::new(),
             concealed,
+            clock_offset_s: 0.0,
             instruments: vec![Instrument {
                 mechanism: "encoder-scale".to_owned(),
                 parameters: [("left".to_owned(), 1.02)].into(),

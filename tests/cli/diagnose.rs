@@ -147,7 +147,8 @@ fn the_order_of_runs_and_the_number_of_threads_change_nothing() {
         place.write(&path, &format!("{head}\n{}\n", rows.join("\n")));
     }
     let (_, backwards) = diagnosed(&place, "--held-out none");
-    assert_eq!(named(&forwards), [["motion-resistance"]]);
+    // The clock offset of the sensors may be named too.
+    assert!(named(&forwards).contains(&vec!["motion-resistance".to_owned()]), "{forwards}");
     assert_eq!(named(&backwards), named(&forwards));
     let size = |file: &toml::Table| value(file, "motion-resistance", "coefficient");
     assert!((size(&forwards) - size(&backwards)).abs() < 1e-4);

@@ -15,7 +15,7 @@ import tempfile
 import numpy as np
 
 SEGMENT = 0.27  # s
-DELAYS = np.arange(-0.05, 0.25, 0.005)  # s
+COARSE, FINE = np.arange(-0.05, 0.25, 0.025), np.arange(-0.02, 0.021, 0.005)  # s
 
 
 def arguments():
@@ -155,15 +155,16 @@ def discrepancy():
     """Arguments, training mask, residual and library of a recording, with the clock offset that explains most."""
     given = arguments()
     held_out = runs_of(given.held_out)
-    best = None
-    for delay in DELAYS:
+
+    def at(delay):
         segments = Segments(given.recording, delay)
         training = ~np.isin(segments.run, list(held_out))
         residual, scale, factors = constant_icrs(segments, training)
-        misfit = np.log(scale).sum()
-        if best is None or misfit < best[0]:
-            best = misfit, segments, training, residual, scale, factors
-    _, segments, training, residual, scale, factors = best
+        return np.log(scale).sum(), delay, segments, training, residual, scale, factors
+
+    misfit = lambda found: found[0]
+    near = min(map(at, COARSE), key=misfit)[1]
+    _, _, segments, training, residual, scale, factors = min(map(at, near + FINE), key=misfit)
     # Outliers count no more than ten standard deviations.
     length = np.linalg.norm(residual, axis=1, keepdims=True)
     residual = residual * np.minimum(1.0, 10 / np.maximum(length, 1e-9))

@@ -265,8 +265,7 @@ fn attempt(
 
     let of_best = icr_columns(evidence, &best.fit);
     let after = place(&best.fit, &of_best);
-    let whole = (base.fit.objective - best.fit.objective).max(0.0);
-    let left_over = after.left_over(Rules::FORM_LEFT * Rules::FORM_LEFT * whole);
+    let left_over = after.left_over(Rules::tolerated(evidence, &base, &best));
     let status = status(&left_over, &missing);
     let broken: BTreeSet<Symmetry> = located.broken().into_iter().chain(filed.broken()).collect();
     let broken: Vec<Symmetry> = broken.into_iter().collect();

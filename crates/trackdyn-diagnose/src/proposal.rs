@@ -128,8 +128,7 @@ fn law(
     options: &Options,
 ) -> Option<Proposal> {
     let Diagnosis { base, best, metric, .. } = diagnosis;
-    let whole = (base.fit.objective - best.fit.objective).max(0.0);
-    let form = Rules::FORM_LEFT * Rules::FORM_LEFT * whole;
+    let form = Rules::tolerated(evidence, base, best);
     let left_over = diagnosis.after.left_over(form);
     let kept = symmetry::kept([&diagnosis.filed, &diagnosis.before, &diagnosis.after]);
     let terms = CATALOGUE[effect].terms().into_iter();

@@ -9,11 +9,14 @@ pub use instruments::judge_instruments;
 pub use support::Support;
 pub(crate) use support::cross_validated;
 
+use crate::base::Base;
+use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, typical};
 use crate::mechanics::is_instrument;
 use crate::search::{AS_FILED, Found, Screened, Search};
 use nalgebra::DVector;
+use trackdyn_core::real;
 use trackdyn_physics::VehicleFile;
 use trackdyn_physics::effect::Role;
 
@@ -39,14 +42,28 @@ impl Rules {
     /// Part of the gauge by which constant ICRs must differ from those of the vehicle file to be a wrong number:
     /// shoes, tyres and their pressure are known no better.
     pub const CONSTANT: f64 = 0.01;
+    /// Part of the noise that may be left in one symmetry, in squares: no simulator equals the ground to all digits.
+    pub const LEFT: f64 = 0.01;
     /// Part of the whole departure that the forms of the named laws may leave in one symmetry.
     pub const FORM_LEFT: f64 = 0.2;
+}
+
+impl Rules {
+    /// χ² that may be left in one symmetry beside a hypothesis: a part of what its laws took away, and of the noise.
+    pub fn tolerated(evidence: &Evidence, base: &Base, best: &Found) -> f64 {
+        let whole = (base.fit.objective - best.fit.objective).max(0.0);
+        let residuals = 3.0 * real(evidence.samples().len());
+        Self::FORM_LEFT * Self::FORM_LEFT * whole + Self::LEFT * residuals
+    }
 }
 
 /// Share of its own beyond constant ICRs below which an effect mostly moves these.
 const MOSTLY: f64 = 0.1;
 
-/// Rivals of an effect that are refitted, and named with it at most.
+/// Effects that are named together at most because resampled recordings name now this one, now that.
+const UNSTABLE: usize = 2;
+
+/// Rivals of an effect that are refitted.
 const RIVALS: usize = 3;
 
 /// Something that was left out, or why it is not claimed.
@@ -110,7 +127,7 @@ pub fn judge(
             let share = |one_of: &[usize]| -> f64 {
                 one_of.iter().filter_map(|effect| named.get(effect)).sum()
             };
-            while one_of.len() <= RIVALS && share(&one_of) < Rules::STABLE {
+            while one_of.len() < UNSTABLE && share(&one_of) < Rules::STABLE {
                 let next = named.iter().filter(|(effect, _)| !one_of.contains(effect));
                 let Some((&next, _)) = next.max_by(|a, b| a.1.total_cmp(b.1)) else { break };
                 one_of.push(next);

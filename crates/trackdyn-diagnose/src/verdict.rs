@@ -107,9 +107,9 @@ pub fn judge(
             let mut others = Vec::new();
             let own = screened.iter().find(|one| one.effect == effect);
             let own_gain = own.map_or(0.0, |one| one.gain);
-            let rivals =
-                screened.iter().filter(|one| one.effect != effect && is_rival(one, own_gain, best));
-            for rival in rivals.take(RIVALS) {
+            let is_close = |one: &&Screened| one.effect != effect && is_rival(one, own_gain, best);
+            let close: Vec<&Screened> = screened.iter().filter(is_close).collect();
+            for rival in close.iter().take(RIVALS).copied() {
                 let exchanged = search.refit(&without, std::slice::from_ref(rival));
                 let behind = (exchanged.fit.objective - best.fit.objective) / 2.0;
                 let apart =
@@ -122,6 +122,8 @@ pub fn judge(
                     others.push((rival.effect, exchanged.ln_evidence));
                 }
             }
+            let too_many = (close.len() > RIVALS && one_of.len() > RIVALS)
+                .then(|| format!("{} effects explain it as well", close.len()));
             // What other recordings of the same robot would name instead is one answer with it.
             let named = support::named(search, &without, &screened, seed);
             let share = |one_of: &[usize]| -> f64 {
@@ -148,6 +150,7 @@ pub fn judge(
                 best.fit.unknowns.iter().find_map(|&unknown| at_limit(&best.fit, unknown, effect));
             let refused = refusal(&support, z, whole)
                 .or(unfit)
+                .or(too_many)
                 .or_else(|| nearly_as_filed(search, &best.fit.hypothesis, effect));
             Verdict { effect, one_of, support, refused }
         })

@@ -38,18 +38,26 @@ pub(super) fn statics_within(search: &Search, share: f64) -> Vec<usize> {
     effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
 }
 
-/// The best hypothesis with the vehicle as filed and no offset, and what else is free in it.
-fn as_filed(best: &Found, file: &VehicleFile) -> (Hypothesis, Vec<Unknown>) {
-    let vehicle = file.vehicle.clone();
-    let filed = Hypothesis { vehicle, offset: [0.0; 3], ..best.fit.hypothesis.clone() };
-    let fixed =
-        best.fit.unknowns.iter().copied().filter(|unknown| !OFFSETS.contains(unknown)).collect();
-    (filed, fixed)
+/// The best hypothesis with the vehicle as filed, no offset, and no effect that mostly stands for one; and what
+/// else is free in it.
+fn as_filed(search: &Search, best: &Found, file: &VehicleFile) -> (Hypothesis, Vec<Unknown>) {
+    let base = &search.base.fit.hypothesis;
+    let mostly = statics_within(search, super::MOSTLY);
+    let added: Vec<usize> =
+        best.effects.iter().copied().filter(|effect| mostly.contains(effect)).collect();
+    let without = added.iter().fold(best.fit.hypothesis.clone(), |hypothesis, &effect| {
+        hypothesis.with_effect_of(base, effect)
+    });
+    let filed = Hypothesis { vehicle: file.vehicle.clone(), offset: [0.0; 3], ..without };
+    let is_fixed = |unknown: &Unknown| {
+        !OFFSETS.contains(unknown) && !added.iter().any(|&effect| unknown.is_of(effect))
+    };
+    (filed, best.fit.unknowns.iter().copied().filter(is_fixed).collect())
 }
 
 /// √ of what the misfit falls by when constant ICRs may differ from those of the vehicle file.
 pub(super) fn departure(search: &Search, best: &Found, file: &VehicleFile) -> f64 {
-    let (filed, fixed) = as_filed(best, file);
+    let (filed, fixed) = as_filed(search, best, file);
     let before = Some(&best.fit.mechanics);
     let dropped = Fit::new(filed, &fixed, search.evidence, search.metric, before);
     (dropped.objective - best.fit.objective).max(0.0).sqrt()
@@ -78,11 +86,12 @@ pub fn judge_constants(
     draws: usize,
     seed: u64,
 ) -> Option<Verdict> {
-    let (filed, fixed) = as_filed(best, file);
+    let (filed, fixed) = as_filed(search, best, file);
     let evidence = search.evidence;
     let before = Some(&best.fit.mechanics);
     let dropped = Fit::new(filed.clone(), &fixed, evidence, search.metric, before);
-    let free = Fit::new(filed.clone(), &best.fit.unknowns, evidence, search.metric, before);
+    let moving: Vec<Unknown> = OFFSETS.iter().chain(&fixed).copied().collect();
+    let free = Fit::new(filed.clone(), &moving, evidence, search.metric, before);
     let ln_bayes_factor = free.ln_evidence(evidence) - dropped.ln_evidence(evidence);
     let z = (dropped.objective - free.objective).max(0.0).sqrt();
     if ln_bayes_factor < Rules::LN_BAYES_FACTOR {

@@ -265,8 +265,8 @@ impl Search<'_> {
         let mut best = found;
         for calibration in Calibration::ALL {
             let Some(hypothesis) = calibration.calibrated(&whole) else { continue };
-            let unknowns = &best.fit.unknowns;
-            let fit = Fit::new(hypothesis, unknowns, self.evidence, self.metric, None);
+            let (unknowns, before) = (&best.fit.unknowns, Some(&best.fit.mechanics));
+            let fit = Fit::new(hypothesis, unknowns, self.evidence, self.metric, before);
             if fit.objective < best.fit.objective - TOLD {
                 best = Found { ln_evidence: fit.ln_evidence(self.evidence), fit, ..best };
             }

@@ -43,11 +43,7 @@ impl Evidence {
             let position = stated.position * stated.position;
             SegmentNoise { pose: [position, position, stated.yaw * stated.yaw], walk: [0.0; 3] }
         });
-        let (noise, source) = match (SegmentNoise::measured(&measured, gap), stated) {
-            (Some(noise), _) => (noise, "measured without a model"),
-            (None, Some(noise)) => (noise, "as the recording states it"),
-            (None, None) => return Err(Error::NoNoise),
-        };
+        let noise = SegmentNoise::measured(&measured, gap).or(stated).ok_or(Error::NoNoise)?;
         let blocks = observations.blocks();
         let tracks = recording.runs().iter().map(|run| run.tracks().to_vec());
         let mut tracks: Vec<Vec<TrackSample>> = tracks.collect();
@@ -89,7 +85,7 @@ impl Evidence {
             runs: recording.runs().iter().map(trackdyn_recording::Run::id).collect(),
             tau,
             is_steady: false,
-            description: format!("{}; noise {source}", blocks.description()),
+            description: format!("{}; noise from what no driving explains", blocks.description()),
         })
     }
 }

@@ -1,4 +1,6 @@
-//! Models and vehicles that several test suites share.
+//! Models, vehicles and drives that several test suites share.
+
+pub mod concealed;
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

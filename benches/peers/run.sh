@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Run a peer benchmark in its own virtual environment. The first argument names the script, peers.py or
-# identify.py (default: peers.py); further arguments go to it.
+# Run a peer benchmark in its own virtual environment. The first argument names the script, peers.py,
+# identify.py or one of baselines (default: peers.py); further arguments go to it.
 # PYTHON names the interpreter (3.11 or newer); default: python3.
 set -euo pipefail
 
@@ -16,6 +16,9 @@ case "${1:-}" in
 esac
 
 [ -x "$venv/bin/python" ] || "${PYTHON:-python3}" -m venv "$venv"
-"$venv/bin/python" -m pip install --quiet --disable-pip-version-check \
-    --requirement "$here/requirements.txt"
+if [ "$here/requirements.txt" -nt "$venv/installed" ]; then
+    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check \
+        --requirement "$here/requirements.txt"
+    touch "$venv/installed"
+fi
 exec "$venv/bin/python" "$here/$script" "$@"

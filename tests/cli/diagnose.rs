@@ -2,10 +2,10 @@
 
 use crate::{Run, Workplace};
 
-const VEHICLE: &str = "drive/auriga.toml";
+pub const VEHICLE: &str = "drive/auriga.toml";
 
 /// A drive of Auriga-alpha with what is concealed from its owner, and the vehicle file that the owner has.
-fn drive(place: &Workplace, concealed: &str) {
+pub fn drive(place: &Workplace, concealed: &str) {
     let run = place.run(&format!("simulate --quasi-static {concealed} --out drive"));
     assert_eq!(run.status, 0, "{}", run.stderr);
     let run = place.run("simulate --quasi-static --runs 1 --duration 2 --out owner");
@@ -14,7 +14,7 @@ fn drive(place: &Workplace, concealed: &str) {
     place.write(VEHICLE, &vehicle);
 }
 
-fn diagnosed(place: &Workplace, more: &str) -> (Run, toml::Table) {
+pub fn diagnosed(place: &Workplace, more: &str) -> (Run, toml::Table) {
     let run = place.run(&format!("diagnose drive --vehicle {VEHICLE} --out found {more}"));
     assert_eq!(run.status, 0, "{}", run.stderr);
     let text = String::from_utf8(place.read("found/diagnosis.toml")).expect("text");
@@ -47,6 +47,7 @@ fn where_nothing_is_concealed_no_physics_is_named() {
     let (_, file) = diagnosed(&place, "");
     assert!(named(&file).is_empty(), "{file}");
     assert_ne!(file["status"].as_str(), Some("unexplained"));
+    assert!(file.get("proposed").is_none(), "{file}");
     // What could have been there unseen is said for the effects that driving shows.
     assert!(file["detectable"]["centripetal"]["strength"].as_float().expect("a size") < 0.5);
 }
@@ -57,6 +58,7 @@ fn centripetal_force_of_the_independent_ground_is_named_and_sized() {
     drive(&place, "--ground independent --effect centripetal");
     let (run, file) = diagnosed(&place, "");
     assert_eq!(named(&file), [["centripetal"]], "{}", run.stdout);
+    assert!(file.get("proposed").is_none(), "{file}");
     // Two simulators agree on it to a few percent.
     assert!((value(&file, "centripetal", "strength") - 1.0).abs() < 0.1, "{file}");
     let broken = file["located"]["broken"].as_array().expect("letters");
@@ -145,7 +147,8 @@ fn the_order_of_runs_and_the_number_of_threads_change_nothing() {
         place.write(&path, &format!("{head}\n{}\n", rows.join("\n")));
     }
     let (_, backwards) = diagnosed(&place, "--held-out none");
-    assert_eq!(named(&forwards), [["motion-resistance"]]);
+    // The clock offset of the sensors may be named too.
+    assert!(named(&forwards).contains(&vec!["motion-resistance".to_owned()]), "{forwards}");
     assert_eq!(named(&backwards), named(&forwards));
     let size = |file: &toml::Table| value(file, "motion-resistance", "coefficient");
     assert!((size(&forwards) - size(&backwards)).abs() < 1e-4);

@@ -6,10 +6,13 @@ mod diagnose;
 mod documents;
 mod export;
 mod identify;
+mod interrupted;
 mod map;
 mod odometry;
 mod plan;
+mod proposal;
 mod recordings;
+mod sealed_trial;
 mod simulate;
 mod trial;
 

@@ -3,7 +3,7 @@
 use crate::{Run, Workplace, project_text};
 
 /// A diagnosis that leaves these members open.
-fn diagnosis(status: &str, members: &[&str]) -> String {
+pub fn diagnosis(status: &str, members: &[&str]) -> String {
     let head = format!(
         "schema = \"trackdyn.diagnosis/1\"\nstatus = \"{status}\"\n\
          [located]\nexcess_over_noise = 2.0\nbroken = []\nwhere = \"\"\n\

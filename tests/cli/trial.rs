@@ -1,6 +1,7 @@
 //! `trackdyn trial`: what a diagnosis sees of a trial, and what it does not.
 
 use crate::Workplace;
+use crate::plan::diagnosis;
 use std::path::Path;
 use std::time::SystemTime;
 
@@ -19,11 +20,11 @@ fn text(place: &Workplace, name: &str) -> String {
     String::from_utf8(place.read(name)).expect("text")
 }
 
-/// A program in the place of the diagnosis, with this body; `$8` is the folder for what it writes.
+/// A program in the place of the diagnosis, called `tool`, with this body; `$7` is the folder for what it writes.
 #[cfg(unix)]
 fn tool(place: &Workplace, body: &str) -> String {
     use std::os::unix::fs::PermissionsExt;
-    place.write("tool.sh", &format!("#!/bin/sh\nmkdir -p $8\n{body}\n"));
+    place.write("tool.sh", &format!("#!/bin/sh\n{body}\n"));
     let path = place.path().join("tool.sh");
     std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).expect("a program");
     path.display().to_string()
@@ -87,42 +88,42 @@ fn a_diagnosis_reaches_nothing_of_the_trial_and_is_scored_by_the_sealed_answers(
     // what a process can know of where it is goes to the diagnosis' folder
     let spy = tool(
         &place,
-        "{ pwd; echo \"$@\"; env; ls -aR; } > $8/seen.txt\n\
-                            echo 'status = \"nothing-missing\"' > $8/diagnosis.toml",
+        "{ pwd; echo \"$@\"; env; ls -aR; } > $7/seen.txt\n\
+                            echo 'status = \"nothing-missing\"' > $7/diagnosis.toml",
     );
-    let run = place.run(&format!("trial run cases --tool {spy}"));
+    let run = place.run(&format!("trial run cases --program {spy}"));
     assert_eq!((run.status, run.stdout.contains("2 diagnosed now")), (0, true), "{}", run.stderr);
     for case in ["case-0001", "case-0002"] {
-        let seen = text(&place, &format!("cases/{case}/diagnosis/seen.txt"));
+        let seen = text(&place, &format!("cases/{case}/diagnosis.tool/seen.txt"));
         let here = place.path().display().to_string();
         assert!(
             !["case-", "answers", "secret", "424242", &here].iter().any(|w| seen.contains(w)),
             "{seen}"
         );
     }
-    let run = place.run(&format!("trial run cases --tool {spy}"));
+    let run = place.run(&format!("trial run cases --program {spy}"));
     assert!(run.stdout.contains("0 diagnosed now, 0 failed, 2 before"), "{}", run.stdout);
 
     assert_eq!(
-        place.run("trial score cases").status,
+        place.run("trial score cases --name tool").status,
         1,
         "the key is not where it would be looked for"
     );
-    let run = place.run("trial score cases --key secret/answers.key");
+    let run = place.run("trial score cases --name tool --key secret/answers.key");
     assert_eq!(run.status, 0, "{}", run.stderr);
     assert!(run.stdout.contains("| false claim: nulls | 0 of 2 |"), "{}", run.stdout);
 
     // another recording, and another commitment, do not pass
     let poses = text(&place, "cases/case-0001/recording/poses.csv");
     place.write("cases/case-0001/recording/poses.csv", &poses.replacen("0,0.", "0,1.", 1));
-    let run = place.run("trial score cases --key secret/answers.key");
+    let run = place.run("trial score cases --name tool --key secret/answers.key");
     assert!(run.status == 1 && run.stderr.contains("fingerprint"), "{}", run.stderr);
     let commitment = text(&place, "cases/commitment.txt");
     place.write(
         "cases/commitment.txt",
         &commitment.replacen("answers_sha256 = \"", "answers_sha256 = \"0", 1),
     );
-    let run = place.run("trial score cases --key secret/answers.key");
+    let run = place.run("trial score cases --name tool --key secret/answers.key");
     assert!(run.status == 1 && run.stderr.contains("SHA-256"), "{}", run.stderr);
 }
 
@@ -131,17 +132,130 @@ fn a_diagnosis_reaches_nothing_of_the_trial_and_is_scored_by_the_sealed_answers(
 fn a_process_that_fails_is_recorded_and_can_be_run_again() {
     let place = trial();
     let broken = tool(&place, "echo 'last words' >&2\nexit 3");
-    let run = place.run(&format!("trial run cases --shard 2/2 --tool {broken}"));
-    assert!(run.stdout.contains("1 cases: 0 diagnosed now, 1 failed"), "{}", run.stdout);
-    let failure = text(&place, "cases/case-0002/failure.txt");
+    let run = place.run(&format!("trial run cases --shard 2/2 --program {broken}"));
+    assert!(run.stdout.contains("tool: 1 cases: 0 diagnosed now, 1 failed"), "{}", run.stdout);
+    let failure = text(&place, "cases/case-0002/failure.tool.txt");
     assert!(failure.contains("exit status: 3") && failure.contains("last words"), "{failure}");
     let slow = tool(&place, "sleep 20");
-    let run = place.run(&format!("trial run cases --shard 2/2 --retry --limit 1 --tool {slow}"));
+    let run = place.run(&format!("trial run cases --shard 2/2 --retry --limit 1 --program {slow}"));
     assert!(run.stderr.contains("ended after 1 s"), "{}", run.stderr);
-    let works = tool(&place, "echo 'status = \"ambiguous\"' > $8/diagnosis.toml");
-    let run = place.run(&format!("trial run cases --retry --tool {works}"));
+    let works = tool(&place, "echo 'status = \"ambiguous\"' > $7/diagnosis.toml");
+    let run = place.run(&format!("trial run cases --retry --program {works}"));
     assert!(run.stdout.contains("2 diagnosed now"), "{}", run.stdout);
-    assert!(!place.path().join("cases/case-0002/failure.txt").exists());
+    assert!(!place.path().join("cases/case-0002/failure.tool.txt").exists());
+}
+
+/// The files of a trial's cases with their bytes, and the hash of its answers.
+fn made(place: &Workplace, folder: &str) -> (Vec<(String, Vec<u8>)>, String) {
+    let names = place.files().into_iter().map(|file| file.display().to_string());
+    let cases = names.filter(|name| name.starts_with(&format!("{folder}/case-")));
+    let files = cases.map(|name| (name[folder.len()..].to_owned(), place.read(&name)));
+    let commitment = text(place, &format!("{folder}/commitment.txt"));
+    (files.collect(), commitment.lines().next().expect("a hash").to_owned())
+}
+
+#[test]
+fn an_interrupted_trial_is_taken_up_and_is_the_same_as_any_other() {
+    const MAKE: &str = "trial make --cases 3 --seed 31 --duration 10 --out";
+    let place = Workplace::new();
+    assert_eq!(place.run_with_threads(&format!("{MAKE} whole"), 1).status, 0);
+    let mut process = std::process::Command::new(env!("CARGO_BIN_EXE_trackdyn"))
+        .args(format!("{MAKE} cases").split_whitespace())
+        .current_dir(place.path())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let draft = place.path().join("cases.key.making");
+    let is_there = |number: u32| draft.join(format!("case-000{number}")).exists();
+    while !(1..=3).any(is_there) && process.try_wait().expect("a process").is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    process.kill().expect("it runs");
+    process.wait().expect("it ends");
+    let kept = (1..=3).filter(|number| is_there(*number)).count();
+    // killed between the first case and the last
+    assert!((1..3).contains(&kept), "{kept} cases");
+    assert!(
+        !place.files().iter().any(|file| file.starts_with("cases")),
+        "nothing is there by halves"
+    );
+
+    for other in ["--cases 3 --seed 32", "--cases 4 --seed 31", "--cases 3 --seed 31"] {
+        let run = place.run(&format!("trial make {other} --out cases"));
+        assert!(
+            run.status == 1 && run.stderr.contains("begun for 3 cases with seed 31"),
+            "{}",
+            run.stderr
+        );
+    }
+    let run = place.run(&format!("{MAKE} cases"));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stderr.contains(&format!("{kept} of 3 cases were there")), "{}", run.stderr);
+    assert!(made(&place, "cases") == made(&place, "whole"));
+    assert!(!draft.exists(), "answers do not lie about");
+    let home = place.path().join("cases");
+    assert_eq!(stamp(&home.join("case-0001")), stamp(&home.join("case-0003/vehicle.toml")));
+}
+
+#[cfg(unix)]
+#[test]
+fn several_programs_are_scored_side_by_side() {
+    let place = trial();
+    let says = |words: &str| tool(&place, &format!("echo '{words}' > $7/diagnosis.toml"));
+    let nothing = says("status = \"nothing-missing\"");
+    assert_eq!(place.run(&format!("trial run cases --name silent --program {nothing}")).status, 0);
+    // as little as a program may write
+    let slope = "schema = \"trackdyn.diagnosis/1\"\nstatus = \"explained\"\n[[missing]]\neffect = \"slope\"\n\
+                 one_of = [\"slope\"]\nparameters = [{ name = \"angle_deg\", value = 2 }]\n[fit]";
+    let slope = says(slope);
+    assert_eq!(place.run(&format!("trial run cases --name bold --program {slope}")).status, 0);
+    let nonsense = says("status = \"perhaps\"");
+    let run = place.run(&format!("trial run cases --name odd --program {nonsense}"));
+    assert!(run.stdout.contains("odd: 2 cases: 0 diagnosed now, 2 failed"), "{}", run.stdout);
+    let run = place.run("trial run cases --name x --program nowhere");
+    assert!(run.status == 1 && run.stderr.contains("nowhere"), "{}", run.stderr);
+
+    let run = place
+        .run("trial score cases --key secret/answers.key --name silent --name bold --out both");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let row = run.stdout.lines().find(|line| line.contains("false claim: nulls |")).expect("a row");
+    assert!(row.contains("| 0.0 % of 2 ") && row.contains("| 100.0 % of 2 "), "{row}");
+    for file in ["power.png", "rates.png", "coverage.png", "bold/confusion.png"] {
+        let png = place.read(&format!("both/{file}"));
+        assert!(png.starts_with(b"\x89PNG"), "{file}");
+    }
+    assert!(text(&place, "both/bold/cases.csv").contains(",explained,slope,,true"));
+    let run = place.run("trial score cases --key secret/answers.key --name odd");
+    assert!(run.stdout.contains("| process failed | 2 of 2 |"), "{}", run.stdout);
+}
+
+#[test]
+fn what_a_diagnosis_leaves_open_is_driven_for() {
+    let place = Workplace::new();
+    let run = place.run("trial make --cases 2 --seed 9 --duration 10 --out cases");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let run = place.run("trial drive cases");
+    assert!(run.status == 2 && run.stdout.contains("nothing to drive for"), "{}", run.stderr);
+
+    // a set that driving splits, and one of constants, which none does
+    let sets: [&[&str]; 2] = [&["drivetrain-lag", "time-offset"], &["cog-shift", "friction-split"]];
+    for (case, set) in ["case-0001", "case-0002"].into_iter().zip(sets) {
+        let home = format!("cases/{case}");
+        std::fs::create_dir(place.path().join(&home).join("diagnosis")).expect("a folder");
+        place.write(&format!("{home}/diagnosis/diagnosis.toml"), &diagnosis("ambiguous", set));
+        let vehicle = text(&place, &format!("{home}/vehicle.toml"));
+        place.write(&format!("{home}/diagnosis/vehicle.corrected.toml"), &vehicle);
+    }
+    let run = place.run("trial drive cases --duration 20 --out driven");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("| a plan to drive: open sets | 1 of 1 |"), "{}", run.stdout);
+    assert!(run.stdout.contains("failed: driven | 0 of 1 |"), "{}", run.stdout);
+    let written = ["plan/plan.csv", "again/poses.csv", "diagnosis/diagnosis.toml"];
+    let read = || written.map(|file| place.read(&format!("driven/case-0001/{file}")));
+    let first = read();
+    // what was driven is not driven again
+    assert_eq!(place.run("trial drive cases --duration 20 --out driven").stdout, run.stdout);
+    assert!(first == read() && !place.path().join("driven/case-0002").exists());
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Properties that hold for every vehicle, ground and speed.
 
 mod contact;
+mod force_law;
 mod map;
 mod stationary;
 mod tanh_sinh;

@@ -28,6 +28,8 @@ pub struct Base {
     pub nuisances: Vec<Unknown>,
     /// Effects of encoders and pose sensor among them, by their places in the catalogue.
     pub instruments: Vec<usize>,
+    /// What of the vehicle takes over constant ICRs.
+    pub calibration: Calibration,
 }
 
 /// The offsets of the constant ICRs.
@@ -44,16 +46,28 @@ impl Base {
         for &effect in &instruments {
             nuisances.extend(unknowns_of(effect));
         }
-        let mut fit = Fit::new(start, &nuisances, evidence, metric, Some(&as_filed.mechanics));
+        let plain = Fit::new(start, &nuisances, evidence, metric, Some(&as_filed.mechanics));
         // The vehicle takes over what it can of the constant ICRs; a second fit tells what is left.
-        if let Some(vehicle) = calibrated(&fit.hypothesis) {
-            let hypothesis = Hypothesis { vehicle, offset: [0.0; 3], ..fit.hypothesis.clone() };
+        let (mut fit, mut calibration) = (plain.clone(), Calibration::None);
+        for tried in Calibration::ALL {
+            let Some(hypothesis) = tried.calibrated(&plain.hypothesis) else { continue };
             let again = Fit::new(hypothesis, &nuisances, evidence, metric, None);
-            if again.objective < fit.objective + 1.0 {
-                fit = again;
+            // Where nothing tells them apart, the first one stands.
+            let better = if calibration == Calibration::None { -1.0 } else { 1.0 };
+            if again.objective < fit.objective - better {
+                (fit, calibration) = (again, tried);
             }
         }
-        Self { as_filed, fit, nuisances, instruments }
+        Self { as_filed, fit, nuisances, instruments, calibration }
+    }
+
+    /// The same at its best for the evidence with another noise, or in another metric.
+    pub fn refitted(&self, evidence: &Evidence, metric: &Metric) -> Self {
+        let again = |fit: &Fit| {
+            let (start, before) = (fit.hypothesis.clone(), Some(&fit.mechanics));
+            Fit::new(start, &fit.unknowns, evidence, metric, before)
+        };
+        Self { as_filed: again(&self.as_filed), fit: again(&self.fit), ..self.clone() }
     }
 }
 
@@ -124,47 +138,86 @@ fn own_share(fit: &Fit, base: usize) -> f64 {
         .fold(1.0, f64::min)
 }
 
-/// A vehicle with another friction ratio and centre of gravity that has the constant ICRs of a hypothesis
-/// without offset; none where there is no such vehicle.
-pub fn calibrated(hypothesis: &Hypothesis) -> Option<Vehicle> {
-    const ROUNDS: usize = 20;
-    let spin = |vehicle: &Vehicle| -> Option<Vector3<f64>> {
-        // Without effects the ICRs are constant: those of a slow spin.
-        let model = Model::new(vehicle.clone(), Effects::none());
-        let solution =
-            Stationary::new(&model, &Circumstance::default()).solve(PerSide::new(-0.1, 0.1));
-        solution.icrs.map(Icrs::to_array).map(Vector3::from)
-    };
-    let wanted = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset);
-    let changed = |by: &Vector3<f64>| -> Vehicle {
-        let mut vehicle = hypothesis.vehicle.clone();
-        vehicle.friction.across *= by[0].exp();
-        vehicle.cog[0] += by[1];
-        vehicle.cog[1] += by[2];
-        vehicle
-    };
-    let mut by = Vector3::zeros();
-    for _ in 0..ROUNDS {
-        let vehicle = changed(&by);
-        vehicle.check().ok()?;
-        let off = wanted - spin(&vehicle)?;
-        if off.amax() < 1e-9 {
-            return Some(vehicle);
+/// What of a vehicle's numbers takes over an offset of the ICRs. As long as ICRs are constant, nothing tells
+/// which; effects that act on the centre of gravity do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Calibration {
+    /// Friction ratio and centre of gravity: no offset is left.
+    Vehicle,
+    /// The friction ratio, by the distance of the ICRs. What is left is as a mount of the pose sensor makes it.
+    Friction,
+    /// Nothing.
+    None,
+}
+
+impl Calibration {
+    /// All of them, the first choice first.
+    pub const ALL: [Self; 3] = [Self::Vehicle, Self::Friction, Self::None];
+
+    /// What of an offset of the ICRs the vehicle ought to take over, m.
+    pub fn due(self, [left, right, y]: [f64; 3]) -> f64 {
+        match self {
+            Self::Vehicle => left.abs().max(right.abs()).max(y.abs()),
+            Self::Friction => (right - left).abs(),
+            Self::None => 0.0,
         }
-        let mut slope = Matrix3::zeros();
-        for k in 0..3 {
-            const STEP: f64 = 1e-5;
-            let mut ahead = by;
-            ahead[k] += STEP;
-            slope.set_column(k, &((spin(&changed(&ahead))? - spin(&vehicle)?) / STEP));
-        }
-        let step = slope.lu().solve(&off)?;
-        // No more than half a friction ratio, or a tenth of the gauge, at a time.
-        let gauge = hypothesis.vehicle.gauge;
-        let size = (step[0].abs() / 0.5)
-            .max(step[1].abs() / (0.1 * gauge))
-            .max(step[2].abs() / (0.1 * gauge));
-        by += step / size.max(1.0);
     }
-    None
+
+    /// The hypothesis with a vehicle that takes over the offset of its constant ICRs; none where there is no
+    /// such vehicle.
+    pub fn calibrated(self, hypothesis: &Hypothesis) -> Option<Hypothesis> {
+        const ROUNDS: usize = 20;
+        let wanted = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset);
+        let changed = |by: &Vector3<f64>| -> Vehicle {
+            let mut vehicle = hypothesis.vehicle.clone();
+            vehicle.friction.across *= by[0].exp();
+            vehicle.cog[0] += by[1];
+            vehicle.cog[1] += by[2];
+            vehicle
+        };
+        let mut by = Vector3::zeros();
+        for _ in 0..ROUNDS {
+            let vehicle = changed(&by);
+            vehicle.check().ok()?;
+            let off = wanted - spin(&vehicle)?;
+            if self.due(off.into()) < 1e-9 {
+                return Some(Hypothesis { vehicle, offset: off.into(), ..hypothesis.clone() });
+            }
+            let mut slope = Matrix3::zeros();
+            for k in 0..3 {
+                const STEP: f64 = 1e-5;
+                let mut ahead = by;
+                ahead[k] += STEP;
+                slope.set_column(k, &((spin(&changed(&ahead))? - spin(&vehicle)?) / STEP));
+            }
+            let step = match self {
+                Self::Vehicle => slope.lu().solve(&off)?,
+                Self::Friction => {
+                    let gap = |icrs: &Vector3<f64>| icrs[1] - icrs[0];
+                    Vector3::new(gap(&off) / gap(&slope.column(0).into_owned()), 0.0, 0.0)
+                }
+                Self::None => return None,
+            };
+            // No more than half a friction ratio, or a tenth of the gauge, at a time.
+            let gauge = hypothesis.vehicle.gauge;
+            let size = (step[0].abs() / 0.5)
+                .max(step[1].abs() / (0.1 * gauge))
+                .max(step[2].abs() / (0.1 * gauge));
+            by += step / size.max(1.0);
+        }
+        None
+    }
+}
+
+/// The constant ICRs of a vehicle, m: those of a slow spin without effects.
+fn spin(vehicle: &Vehicle) -> Option<Vector3<f64>> {
+    let model = Model::new(vehicle.clone(), Effects::none());
+    let solution = Stationary::new(&model, &Circumstance::default()).solve(PerSide::new(-0.1, 0.1));
+    solution.icrs.map(Icrs::to_array).map(Vector3::from)
+}
+
+/// The hypothesis with another vehicle and the offset that leaves its constant ICRs where they are.
+pub fn with_vehicle(hypothesis: &Hypothesis, vehicle: &Vehicle) -> Option<Hypothesis> {
+    let offset = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset) - spin(vehicle)?;
+    Some(Hypothesis { vehicle: vehicle.clone(), offset: offset.into(), ..hypothesis.clone() })
 }

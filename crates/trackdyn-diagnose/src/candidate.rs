@@ -134,6 +134,14 @@ pub fn sizes(effect: usize) -> Vec<usize> {
         .collect()
 }
 
+/// All variants of all mechanisms that are tried on this evidence, but of the instruments that are free anyway.
+pub fn candidates(instruments: &[usize], evidence: &Evidence) -> Vec<Variant> {
+    (0..CATALOGUE.len())
+        .filter(|effect| !instruments.contains(effect) && !CATALOGUE[*effect].is_form())
+        .flat_map(|effect| variants(effect, evidence))
+        .collect()
+}
+
 /// The variants of an effect that are tried on this evidence: none of what knows places or directions where the
 /// evidence has none.
 pub fn variants(effect: usize, evidence: &Evidence) -> Vec<Variant> {
@@ -166,7 +174,7 @@ fn choices(parameter: &Parameter, of: &[Parameter], evidence: &Evidence) -> Vec<
     let inside = |value: f64| value.clamp(low, high);
     match parameter.role {
         Role::Size { .. } => vec![parameter.typical],
-        Role::Direction => (0..8).map(|k| inside(45.0 * f64::from(k))).collect(),
+        Role::Direction => (0..24).map(|k| inside(15.0 * f64::from(k))).collect(),
         Role::Shape => [0.4, 1.0, 2.5].map(|factor| inside(factor * parameter.typical)).to_vec(),
         Role::Place { .. } => {
             let [middle, spread] = area(evidence, parameter.role);

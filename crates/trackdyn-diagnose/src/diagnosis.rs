@@ -1,7 +1,7 @@
 //! The diagnosis: all steps in order, and what comes out of them.
 
-use crate::base::{Base, calibrated};
-use crate::candidate::{signatures, variants};
+use crate::base::{Base, Calibration};
+use crate::candidate::{candidates, signatures};
 use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::exposure::Exposure;
@@ -10,14 +10,16 @@ use crate::isolability::Isolability;
 use crate::locate::cells::{Cell, cells};
 use crate::locate::{IcrColumns, Location, excess, locate};
 use crate::mechanics::Instruments;
+use crate::noise::{sharper, with_remaining_noise};
+use crate::proposal::{Proposal, completed};
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, intervals};
 use crate::verdict::{Rules, Verdict, judge, judge_constants, judge_instruments, statics};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 use trackdyn_core::real;
+use trackdyn_physics::VehicleFile;
 use trackdyn_physics::effect::Symmetry;
-use trackdyn_physics::{CATALOGUE, VehicleFile};
 
 /// How to diagnose.
 #[derive(Clone, Debug, PartialEq)]
@@ -163,10 +165,14 @@ pub struct Diagnosis {
     pub base: Base,
     /// The best hypothesis, refitted to what is claimed.
     pub best: Found,
+    /// The evidence with the noise that its residuals show.
+    pub evidence: Evidence,
     /// The metric of all residuals here.
     pub metric: Metric,
     /// The vehicle that explains the evidence.
     pub corrected: VehicleFile,
+    /// A law for what no effect explains, where something is left and one was found.
+    pub proposed: Option<Proposal>,
 }
 
 /// Stages that progress is reported of.
@@ -185,17 +191,37 @@ pub fn diagnose(
     let runs: Vec<bool> =
         (0..evidence.runs().len()).map(|run| !options.held_out.contains(&run)).collect();
     let mut metric = Metric { scale: [1.0; 3], runs };
+    let base = Base::new(file, evidence, &metric);
+    if let Some(reason) = base.as_filed.mechanics.failure() {
+        return Err(Error::NoMotion(reason));
+    }
+    if !turns(&base.as_filed) {
+        return Err(Error::NoTurning);
+    }
+    let mut evidence = with_remaining_noise(evidence, &base.fit, &metric);
+    // Late stamps are noise that a lag of the drive would smooth: regular ones stand if they explain more.
+    let base = base.refitted(&evidence, &metric);
+    let regular = evidence.with_regular_stamps();
+    if base.refitted(&regular, &metric).fit.objective < base.fit.objective - STAMPED {
+        evidence = with_remaining_noise(&regular, &base.fit, &metric);
+    }
     loop {
-        let attempt = attempt(evidence, file, options, &metric, progress)?;
-        let scale = metric.residual_scale(evidence, &attempt.best.fit.residual);
+        let base = base.refitted(&evidence, &metric);
+        progress(STAGES[0]);
+        let attempt = attempt(&evidence, file, options, &metric, base, true, progress);
+        evidence = attempt.evidence.clone();
+        let scale = metric.residual_scale(&evidence, &attempt.best.fit.residual);
         // Residuals larger than the noise that no effect explains make every other claim less sure.
         let grows = scale.iter().any(|scale| *scale > TOLERATED);
         if !grows || metric.scale != [1.0; 3] {
-            return Ok(attempt);
+            return Ok(completed(attempt, options));
         }
         metric.scale = scale.map(|scale| scale.max(1.0));
     }
 }
+
+/// By how much regular stamps must lower twice the misfit.
+const STAMPED: f64 = 4.0;
 
 /// Residuals may be this much larger than the noise before the noise is taken to be larger.
 const TOLERATED: f64 = 1.1;
@@ -205,17 +231,11 @@ fn attempt(
     file: &VehicleFile,
     options: &Options,
     metric: &Metric,
+    base: Base,
+    is_first: bool,
     progress: &dyn Fn(&'static str),
-) -> Result<Diagnosis, Error> {
+) -> Diagnosis {
     let Options { draws, seed, .. } = *options;
-    let base = Base::new(file, evidence, metric);
-    if let Some(reason) = base.as_filed.mechanics.failure() {
-        return Err(Error::NoMotion(reason));
-    }
-    if !turns(&base.as_filed) {
-        return Err(Error::NoTurning);
-    }
-    progress(STAGES[0]);
     let of_base = icr_columns(evidence, &base.fit);
     let place = |fit: &Fit, icrs: &IcrColumns| {
         locate(evidence, metric, &fit.residual, &fit.columns, icrs, draws, seed)
@@ -224,10 +244,7 @@ fn attempt(
     let located = place(&base.fit, &of_base);
     progress(STAGES[1]);
 
-    let tried: Vec<_> = (0..CATALOGUE.len())
-        .filter(|effect| !base.instruments.contains(effect))
-        .flat_map(|effect| variants(effect, evidence))
-        .collect();
+    let tried = candidates(&base.instruments, evidence);
     let hypothesis = &base.fit.hypothesis;
     let catalogue = Catalogue { entries: signatures(&tried, hypothesis, evidence, metric) };
     progress(STAGES[2]);
@@ -235,7 +252,12 @@ fn attempt(
     let search = Search { evidence, metric, base: &base, catalogue: &catalogue };
     let screened = search.screen(&search.nothing());
     let statics = statics(&search);
-    let found = search.best(&statics);
+    let found = search.best();
+    let again = if is_first { sharper(evidence, &found.fit, metric) } else { None };
+    if let Some(evidence) = again {
+        let base = search.base.refitted(&evidence, metric);
+        return attempt(&evidence, file, options, metric, base, false, progress);
+    }
     progress(STAGES[3]);
 
     let Judgement { best, missing, refused } = judged(&search, found, &statics, file, options);
@@ -243,8 +265,7 @@ fn attempt(
 
     let of_best = icr_columns(evidence, &best.fit);
     let after = place(&best.fit, &of_best);
-    let whole = (base.fit.objective - best.fit.objective).max(0.0);
-    let left_over = after.left_over(Rules::FORM_LEFT * Rules::FORM_LEFT * whole);
+    let left_over = after.left_over(Rules::tolerated(evidence, &base, &best));
     let status = status(&left_over, &missing);
     let broken: BTreeSet<Symmetry> = located.broken().into_iter().chain(filed.broken()).collect();
     let broken: Vec<Symmetry> = broken.into_iter().collect();
@@ -259,7 +280,7 @@ fn attempt(
         .map(|(fit, icrs)| cells(evidence, metric, &fit.residual, icrs));
     let place = crate::place::sentence(evidence, metric, &base, &located, &broken);
     progress(STAGES[5]);
-    Ok(Diagnosis {
+    Diagnosis {
         status,
         before: located,
         after,
@@ -280,8 +301,10 @@ fn attempt(
         base,
         best,
         metric: metric.clone(),
+        evidence: evidence.clone(),
         corrected,
-    })
+        proposed: None,
+    }
 }
 
 /// What is claimed, what is refused, and the hypothesis with the claims alone.
@@ -300,10 +323,10 @@ fn judged(
     options: &Options,
 ) -> Judgement {
     let Options { draws, seed, .. } = *options;
-    let physics = judge(search, &found, statics, draws, seed);
+    let physics = judge(search, &found, file, draws, seed);
     let dropped = physics.iter().filter(|verdict| verdict.refused.is_some());
     let best = dropped.fold(found, |found, verdict| search.without(&found, verdict.effect));
-    let instruments = judge_instruments(search, &best, statics, draws, seed);
+    let instruments = judge_instruments(search, &best, draws, seed);
     let constants = judge_constants(search, &best, statics, file, draws, seed);
     let intervals = intervals(search, &best);
     let of = |effect: usize| -> Vec<Interval> {
@@ -385,8 +408,10 @@ fn corrected(file: &VehicleFile, best: &Found, missing: &[Missing]) -> VehicleFi
     for missing in missing {
         match missing.kind {
             Kind::Constant => {
-                let vehicle = calibrated(&best.fit.hypothesis)
-                    .unwrap_or_else(|| best.fit.hypothesis.vehicle.clone());
+                let hypothesis = &best.fit.hypothesis;
+                let vehicle = Calibration::Vehicle
+                    .calibrated(hypothesis)
+                    .map_or_else(|| hypothesis.vehicle.clone(), |calibrated| calibrated.vehicle);
                 corrected.vehicle.friction = vehicle.friction;
                 corrected.vehicle.cog = vehicle.cog;
             }

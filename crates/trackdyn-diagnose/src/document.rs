@@ -1,5 +1,9 @@
 //! The diagnosis as a file, schema `trackdyn.diagnosis/1`.
 
+mod proposed;
+
+pub use proposed::{ProposalTable, ProposedTable};
+
 use crate::diagnosis::{Diagnosis, Kind};
 use crate::hypothesis::Unknown;
 use serde::{Deserialize, Serialize};
@@ -21,6 +25,12 @@ pub struct DiagnosisFile {
     /// What was left out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub missing: Vec<MissingTable>,
+    /// Terms of a law that is proposed for what no effect explains.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub proposed: Vec<ProposedTable>,
+    /// What that law is worth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub proposal: Option<ProposalTable>,
     /// Errors on held-out runs.
     pub fit: FitTable,
     /// Smallest size of each effect that would have shown, by the keys of its sizes.
@@ -142,6 +152,8 @@ impl DiagnosisFile {
                 place: diagnosis.place.clone(),
             },
             missing: diagnosis.missing.iter().map(missing).collect(),
+            proposed: diagnosis.proposed.as_ref().map_or_else(Vec::new, proposed::terms),
+            proposal: diagnosis.proposed.as_ref().map(proposed::law),
             fit: FitTable {
                 held_out_before: rounded(held_out.before),
                 held_out_after: rounded(held_out.after),

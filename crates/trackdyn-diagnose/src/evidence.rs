@@ -6,10 +6,12 @@
 pub mod planned;
 mod points;
 mod series;
+mod stamps;
 
 use nalgebra::Vector3;
+use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose};
-use trackdyn_identify::weighting::Whitener;
+use trackdyn_identify::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 use trackdyn_recording::TrackSample;
 
 /// One observed motion.
@@ -19,7 +21,7 @@ pub struct Sample {
     pub run: usize,
     /// Index of the block that it belongs to: blocks are independent of one another.
     pub block: usize,
-    /// Time at which it begins, s of the pose clock.
+    /// Time at which it begins, s of the pose clock since the recording began.
     pub start: f64,
     /// How long it lasts, s.
     pub duration: f64,
@@ -31,6 +33,8 @@ pub struct Sample {
     pub speeds: PerSide<f64>,
     /// Change of the track speeds over it, per its length, m/s².
     pub acceleration: PerSide<f64>,
+    /// Whether its first pose is the last one of the sample before it.
+    pub follows: bool,
 }
 
 /// The samples of recordings or of a table, and what their residuals weigh.
@@ -50,9 +54,26 @@ pub struct Evidence {
 #[derive(Clone)]
 enum Whitening {
     /// Neighbours share a noisy pose.
-    Segments(std::sync::Arc<Whitener>),
+    Segments { noise: SegmentNoise, whitener: Arc<Whitener>, lost: Arc<[bool]> },
     /// Inverse standard deviations of the channels; zero where one was not measured.
     Points(Vec<Vector3<f64>>),
+}
+
+impl Whitening {
+    fn of(noise: SegmentNoise, samples: &[Sample]) -> Self {
+        Self::without(noise, samples, vec![false; samples.len()].into())
+    }
+
+    /// The same without the samples that are lost: they tell nothing, nor of their neighbours.
+    fn without(noise: SegmentNoise, samples: &[Sample], lost: Arc<[bool]>) -> Self {
+        let seen = samples.iter().enumerate().map(|(index, sample)| Seen {
+            motion: sample.motion.into(),
+            duration: sample.duration,
+            follows: sample.follows && !(index > 0 && lost[index - 1]),
+        });
+        let whitener = Arc::new(Whitener::of_motions(&Weighting::Noise(noise), seen));
+        Self::Segments { noise, whitener, lost }
+    }
 }
 
 impl Evidence {
@@ -97,10 +118,51 @@ impl Evidence {
         speeds.fold(0.0, |most, track| most.max(track.v_left.abs()).max(track.v_right.abs()))
     }
 
+    /// Noise of the segments of a recording; none of a table.
+    pub fn noise(&self) -> Option<&SegmentNoise> {
+        match &self.whitening {
+            Whitening::Segments { noise, .. } => Some(noise),
+            Whitening::Points(_) => None,
+        }
+    }
+
+    /// The same samples with another noise of their segments.
+    pub fn with_noise(&self, noise: SegmentNoise) -> Self {
+        let lost = match &self.whitening {
+            Whitening::Segments { lost, .. } => Arc::clone(lost),
+            Whitening::Points(_) => vec![false; self.samples.len()].into(),
+        };
+        Self { whitening: Whitening::without(noise, &self.samples, lost), ..self.clone() }
+    }
+
+    /// The same with readings at regular times: stamps of a clock that ticks evenly, and is read late by chance.
+    pub fn with_regular_stamps(&self) -> Self {
+        let tracks = self.tracks.iter().map(|run| stamps::regular(run)).collect();
+        Self { tracks, ..self.clone() }
+    }
+
+    /// The same without some samples of a recording.
+    pub fn without(&self, samples: &[usize]) -> Self {
+        let Whitening::Segments { noise, lost, .. } = &self.whitening else { return self.clone() };
+        let mut lost = lost.to_vec();
+        for &sample in samples {
+            lost[sample] = true;
+        }
+        Self { whitening: Whitening::without(*noise, &self.samples, lost.into()), ..self.clone() }
+    }
+
     /// Makes a column of residuals or of their derivatives white, in place: unit variance, no correlation.
     pub fn whiten(&self, column: &mut [Vector3<f64>]) {
         match &self.whitening {
-            Whitening::Segments(whitener) => whitener.whiten(column),
+            Whitening::Segments { whitener, lost, .. } => {
+                for (value, _) in column.iter_mut().zip(lost.iter()).filter(|(_, lost)| **lost) {
+                    *value = Vector3::zeros();
+                }
+                whitener.whiten(column);
+                for (value, _) in column.iter_mut().zip(lost.iter()).filter(|(_, lost)| **lost) {
+                    *value = Vector3::zeros();
+                }
+            }
             Whitening::Points(inverse) => {
                 for (value, inverse) in column.iter_mut().zip(inverse) {
                     value.component_mul_assign(inverse);
@@ -109,10 +171,30 @@ impl Evidence {
         }
     }
 
+    /// Gives a white column the noise's correlations, in place: the inverse of [`Evidence::whiten`].
+    pub fn colour(&self, column: &mut [Vector3<f64>]) {
+        match &self.whitening {
+            Whitening::Segments { whitener, .. } => whitener.colour(column),
+            Whitening::Points(inverse) => {
+                for (value, inverse) in column.iter_mut().zip(inverse) {
+                    value.component_div_assign(&inverse.map(|i| if i > 0.0 { i } else { 1.0 }));
+                }
+            }
+        }
+    }
+
+    /// Logarithms of the determinants of what whitens each sample, given those before it; none of a table.
+    pub fn ln_determinants(&self) -> Vec<f64> {
+        match &self.whitening {
+            Whitening::Segments { whitener, .. } => whitener.ln_determinants().collect(),
+            Whitening::Points(_) => Vec::new(),
+        }
+    }
+
     /// Whether a channel of a sample was measured.
     pub fn is_measured(&self, sample: usize, channel: usize) -> bool {
         match &self.whitening {
-            Whitening::Segments(_) => true,
+            Whitening::Segments { lost, .. } => !lost[sample],
             Whitening::Points(inverse) => inverse[sample][channel] > 0.0,
         }
     }

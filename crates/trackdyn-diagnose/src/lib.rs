@@ -7,6 +7,7 @@
 //! - [`locate`], [`significance`], [`place`]: where evidence departs from it, without a model of why.
 //! - [`candidate`], [`search`]: the signature of every effect, and which effects explain the evidence.
 //! - [`verdict`], [`uncertainty`], [`isolability`]: what is claimed, how large it is, what is told apart.
+//! - [`proposal`]: the form of a force for what no effect explains.
 //! - [`mod@diagnosis`]: all of it in order; [`document`]: as a file; [`exposure`]: for the eye.
 //! - [`mod@plan`]: the driving that would tell apart what is left.
 //!
@@ -24,9 +25,11 @@ pub mod hypothesis;
 pub mod isolability;
 pub mod locate;
 pub mod mechanics;
+pub mod noise;
 pub mod normal;
 pub mod place;
 pub mod plan;
+pub mod proposal;
 pub mod search;
 pub mod significance;
 pub mod surface;

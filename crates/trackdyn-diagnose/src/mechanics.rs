@@ -166,6 +166,7 @@ impl Mechanics {
                     self.inertia.as_ref().map(|inertia| inertia.departure(sample, sensor.delay));
                 let departure =
                     [by_ground, by_inertia].into_iter().flatten().reduce(|a, b| plus(&a, &b));
+                let departure = departure.map(|departure| seen_from(&departure, offset));
                 let until = sample.start + sample.duration;
                 let pieces = held(&tracks[sample.run], sample.start, until, sensor.delay);
                 let pose = pieces.fold(Pose::default(), |pose, piece| {
@@ -193,6 +194,13 @@ fn plus(a: &Twist, b: &Twist) -> Twist {
 
 fn minus(a: &Twist, b: &Twist) -> Twist {
     Twist { v_x: a.v_x - b.v_x, v_y: a.v_y - b.v_y, w: a.w - b.w }
+}
+
+/// What a change of the twist is at the point from which the ICRs have this offset: δv = ω × r, with y for all of
+/// them and the mean of the x as r. The rest of the offset is no matter of where one looks from.
+fn seen_from(twist: &Twist, [left, right, y]: &[f64; 3]) -> Twist {
+    let middle = f64::midpoint(*left, *right);
+    Twist { v_x: twist.v_x + y * twist.w, v_y: twist.v_y - middle * twist.w, w: twist.w }
 }
 
 /// Where the robot was during a sample.
@@ -280,7 +288,7 @@ impl Inertia {
         };
         let belts: Vec<Vec<TrackSample>> = lagging(evidence.tracks(), drive.time_constant)
             .iter()
-            .map(|run| run.iter().map(gained).collect())
+            .map(|run| smooth(run).iter().map(gained).collect())
             .collect();
         let paths: Result<Vec<Trajectory>, String> =
             belts.par_iter().map(|run| path_in_time(model, &surface, run)).collect();
@@ -321,6 +329,22 @@ fn path_in_time(
             .map_err(|stopped| stopped.to_string())?;
     }
     Ok(path)
+}
+
+/// Readings without the steps between them: v'_k = (v_{k−1} + 2 v_k + v_{k+1})/4.
+///
+/// A counter's ticks make the speeds jump to and fro, by more than a robot's speed changes between two readings.
+/// Stationary motion averages that out; a body with mass under dry friction, shaken so, would slide more easily
+/// than it does.
+fn smooth(run: &[TrackSample]) -> Vec<TrackSample> {
+    (0..run.len())
+        .map(|k| {
+            let [before, here, after] =
+                [run[k.saturating_sub(1)], run[k], run[(k + 1).min(run.len() - 1)]];
+            let mean = |v: fn(&TrackSample) -> f64| (v(&before) + 2.0 * v(&here) + v(&after)) / 4.0;
+            TrackSample { t: here.t, v_left: mean(|s| s.v_left), v_right: mean(|s| s.v_right) }
+        })
+        .collect()
 }
 
 /// Readings of belts that follow with a lag, each with its mean over the time that it holds.

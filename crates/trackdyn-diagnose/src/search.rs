@@ -5,7 +5,7 @@
 //! whole simulator. After each change, every effect of the best hypothesis is left out again and exchanged
 //! for every other one: a search that only adds is fooled by effects that resemble each other.
 
-use crate::base::{Base, calibrated};
+use crate::base::{Base, Calibration, with_vehicle};
 use crate::candidate::{Signature, Variant};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, Metric, prior, priors};
@@ -35,6 +35,13 @@ const COMPARABLE: f64 = 0.8;
 /// may stay.
 const RECALIBRATIONS: usize = 2;
 const CALIBRATED: f64 = 5e-3;
+
+/// Part of its filed size by which an effect of the vehicle file must differ to be looked at: what a strong law of the
+/// shear stress changes in the departures by ground and inertia is left out, and sizes give way to that.
+pub const AS_FILED: f64 = 0.5;
+
+/// By how much twice the misfit must fall for another meaning of the constant ICRs.
+const TOLD: f64 = 4.0;
 
 /// Signatures of all candidates: some variants of each effect.
 pub struct Catalogue {
@@ -232,12 +239,14 @@ impl Search<'_> {
         // What an effect adds to the constant ICRs had gone into the vehicle's friction and centre of gravity
         // before: the vehicle gives it back.
         for _ in 0..RECALIBRATIONS {
-            let largest = fit.hypothesis.offset.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
-            if largest < CALIBRATED * fit.hypothesis.vehicle.gauge {
+            let calibration = self.base.calibration;
+            let moved: [f64; 3] = std::array::from_fn(|k| {
+                fit.hypothesis.offset[k] - self.base.fit.hypothesis.offset[k]
+            });
+            if calibration.due(moved) < CALIBRATED * fit.hypothesis.vehicle.gauge {
                 break;
             }
-            let Some(vehicle) = calibrated(&fit.hypothesis) else { break };
-            let again = Hypothesis { vehicle, offset: [0.0; 3], ..fit.hypothesis.clone() };
+            let Some(again) = calibration.calibrated(&fit.hypothesis) else { break };
             let before = Some(&fit.mechanics);
             let again = Fit::new(again, unknowns, self.evidence, self.metric, before);
             if again.objective >= fit.objective {
@@ -246,6 +255,23 @@ impl Search<'_> {
             fit = again;
         }
         Found { effects, ln_evidence: fit.ln_evidence(self.evidence), fit }
+    }
+
+    /// The same with the constant ICRs as another of the vehicle's numbers, where its effects now tell that it is
+    /// this one.
+    fn reconsidered(&self, found: Found) -> Found {
+        let filed = &self.base.as_filed.hypothesis.vehicle;
+        let Some(whole) = with_vehicle(&found.fit.hypothesis, filed) else { return found };
+        let mut best = found;
+        for calibration in Calibration::ALL {
+            let Some(hypothesis) = calibration.calibrated(&whole) else { continue };
+            let (unknowns, before) = (&best.fit.unknowns, Some(&best.fit.mechanics));
+            let fit = Fit::new(hypothesis, unknowns, self.evidence, self.metric, before);
+            if fit.objective < best.fit.objective - TOLD {
+                best = Found { ln_evidence: fit.ln_evidence(self.evidence), fit, ..best };
+            }
+        }
+        best
     }
 
     /// The hypothesis without one of its added effects, refitted.
@@ -260,14 +286,25 @@ impl Search<'_> {
         self.found(effects, hypothesis, &unknowns, &self.base.fit)
     }
 
-    /// The best hypothesis. Effects that only move constant ICRs (`statics`) are not tried: these are free.
-    pub fn best(&self, statics: &[usize]) -> Found {
+    /// Whether the screen only makes an effect of the vehicle file a little larger or smaller: no law is known
+    /// better.
+    fn is_as_filed(&self, one: &Screened) -> bool {
+        let filed = self.base.as_filed.hypothesis.effect(one.effect);
+        filed.is_some_and(|filed| {
+            let places = self.catalogue.entries[one.entry].0.sizes();
+            let mut sizes = places.iter().zip(&one.sizes);
+            sizes.all(|(&place, size)| size.abs() <= AS_FILED * filed.values()[place].abs())
+        })
+    }
+
+    /// The best hypothesis.
+    pub fn best(&self) -> Found {
         let mut best = self.nothing();
         loop {
             let mut proposals: Vec<(Found, Vec<Screened>)> = Vec::new();
             if best.effects.len() < MOST_EFFECTS {
                 let mut screened = self.screen(&best);
-                screened.retain(|one| !statics.contains(&one.effect));
+                screened.retain(|one| !self.is_as_filed(one));
                 let most = screened.first().map_or(0.0, |one| one.gain);
                 let promising = screened.iter().filter(|one| one.gain > COMPARABLE * most - WORTH);
                 let promising = promising.filter(|one| one.gain > NEARLY * WORTH);
@@ -291,7 +328,7 @@ impl Search<'_> {
                 let others = screened
                     .into_iter()
                     .filter(|one| one.gain > 0.0 && !best.effects.contains(&one.effect))
-                    .filter(|one| !statics.contains(&one.effect));
+                    .filter(|one| !self.is_as_filed(one));
                 let missed = best.ln_evidence - found.ln_evidence;
                 let others = others.filter(|one| one.gain > COMPARABLE * missed - WORTH);
                 for one in others.take(REFITTED[2]) {
@@ -311,7 +348,7 @@ impl Search<'_> {
                 .chain(refitted)
                 .max_by(|a, b| value(a).total_cmp(&value(b)).then(b.effects.cmp(&a.effects)));
             match next {
-                Some(next) if value(&next) > value(&best) + 1e-6 => best = next,
+                Some(next) if value(&next) > value(&best) + 1e-6 => best = self.reconsidered(next),
                 _ => return best,
             }
         }

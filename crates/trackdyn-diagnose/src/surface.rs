@@ -20,7 +20,11 @@ const SECTORS: usize = 8;
 
 /// Nodes in the direction, and in the size.
 const ANGLES: usize = 6;
-const SIZES: usize = 6;
+const SIZES: usize = 8;
+
+/// Ratio of the largest to the smallest tabulated speed. Nodes are even in its logarithm, for friction depends on
+/// speeds most where they are small; below, the motion is that of the smallest in proportion.
+const RANGE: f64 = 100.0;
 
 /// A table of stationary motions.
 #[derive(Clone, Debug)]
@@ -46,8 +50,7 @@ impl Surface {
                 let (sector, rest) = (index / (SIZES * ANGLES), index % (SIZES * ANGLES));
                 let (size, angle) = (sizes.at[rest / ANGLES], angles.at[rest % ANGLES]);
                 let phi = (real(sector) + angle) * FRAC_PI_4;
-                // Nodes crowd at small speeds, where friction may depend on them most.
-                let rho = largest * size * size;
+                let rho = largest * RANGE.powf(size - 1.0);
                 let speeds = PerSide::new(rho * phi.cos(), rho * phi.sin());
                 let start = before.and_then(|before| icrs(&before.nodes[index]));
                 let solution = match start {
@@ -80,12 +83,14 @@ impl Surface {
     }
 
     fn at(&self, speeds: PerSide<f64>) -> Vector3<f64> {
-        let rho = (speeds.left.hypot(speeds.right) / self.largest).min(1.0);
+        // ρ = ρ_max R^(u − 1)
+        let share = speeds.left.hypot(speeds.right) / self.largest;
+        let size = (1.0 + share.ln() / RANGE.ln()).clamp(0.0, 1.0);
         let phi = speeds.right.atan2(speeds.left).rem_euclid(2.0 * PI) / FRAC_PI_4;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 8")]
         let sector = (phi as usize).min(SECTORS - 1);
         let along = self.angles.weights(phi - real(sector));
-        let outwards = self.sizes.weights(rho.sqrt());
+        let outwards = self.sizes.weights(size);
         let nodes = &self.nodes[sector * SIZES * ANGLES..][..SIZES * ANGLES];
         let mut sum = Vector3::zeros();
         for (row, weight) in nodes.chunks_exact(ANGLES).zip(outwards) {

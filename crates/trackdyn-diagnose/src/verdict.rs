@@ -7,11 +7,17 @@ mod support;
 pub use constants::{judge_constants, statics};
 pub use instruments::judge_instruments;
 pub use support::Support;
+pub(crate) use support::cross_validated;
 
+use crate::base::Base;
+use crate::evidence::Evidence;
 use crate::fit::Fit;
-use crate::hypothesis::{Hypothesis, Unknown};
-use crate::search::{Found, Screened, Search};
+use crate::hypothesis::{Hypothesis, Unknown, typical};
+use crate::mechanics::is_instrument;
+use crate::search::{AS_FILED, Found, Screened, Search};
 use nalgebra::DVector;
+use trackdyn_core::real;
+use trackdyn_physics::VehicleFile;
 use trackdyn_physics::effect::Role;
 
 /// What a claim must reach.
@@ -33,9 +39,29 @@ impl Rules {
     /// Part of the whole departure that an effect must explain beside others: a law is known to about a tenth
     /// of what it does, and what it leaves is not another effect.
     pub const FORM: f64 = 0.1;
+    /// Part of the gauge by which constant ICRs must differ from those of the vehicle file to be a wrong number:
+    /// shoes, tyres and their pressure are known no better.
+    pub const CONSTANT: f64 = 0.01;
+    /// Part of the noise that may be left in one symmetry, in squares: no simulator equals the ground to all digits.
+    pub const LEFT: f64 = 0.01;
     /// Part of the whole departure that the forms of the named laws may leave in one symmetry.
     pub const FORM_LEFT: f64 = 0.2;
 }
+
+impl Rules {
+    /// χ² that may be left in one symmetry beside a hypothesis: a part of what its laws took away, and of the noise.
+    pub fn tolerated(evidence: &Evidence, base: &Base, best: &Found) -> f64 {
+        let whole = (base.fit.objective - best.fit.objective).max(0.0);
+        let residuals = 3.0 * real(evidence.samples().len());
+        Self::FORM_LEFT * Self::FORM_LEFT * whole + Self::LEFT * residuals
+    }
+}
+
+/// Share of its own beyond constant ICRs below which an effect mostly moves these.
+const MOSTLY: f64 = 0.1;
+
+/// Effects that are named together at most because resampled recordings name now this one, now that.
+const UNSTABLE: usize = 2;
 
 /// Rivals of an effect that are refitted.
 const RIVALS: usize = 3;
@@ -53,49 +79,78 @@ pub struct Verdict {
     pub refused: Option<String>,
 }
 
-/// Judges every effect that the best hypothesis adds, but those that only move constant ICRs.
+/// Judges every effect that the best hypothesis adds.
+///
+/// `file` is the vehicle's.
 pub fn judge(
     search: &Search,
     best: &Found,
-    statics: &[usize],
+    file: &VehicleFile,
     draws: usize,
     seed: u64,
 ) -> Vec<Verdict> {
-    let whole = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
-    let physics = best.effects.iter().filter(|effect| !statics.contains(effect));
-    physics
+    let departure = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
+    // What mostly moves constant ICRs is known to a part of all that moved them.
+    let mostly = constants::statics_within(search, MOSTLY);
+    let is_static = |effect: &usize| mostly.contains(effect);
+    let by_constants = if best.effects.iter().any(is_static) {
+        constants::departure(search, best, file)
+    } else {
+        0.0
+    };
+    best.effects
+        .iter()
         .map(|&effect| {
             let without = search.without(best, effect);
             let screened = search.screen(&without);
             let mut one_of = vec![effect];
-            let mut strongest = without.ln_evidence;
+            let mut others = Vec::new();
             let own = screened.iter().find(|one| one.effect == effect);
             let own_gain = own.map_or(0.0, |one| one.gain);
-            let rivals = screened
-                .iter()
-                .filter(|one| one.effect != effect && is_rival(one, own_gain, best, statics));
-            for rival in rivals.take(RIVALS) {
+            let is_close = |one: &&Screened| one.effect != effect && is_rival(one, own_gain, best);
+            let close: Vec<&Screened> = screened.iter().filter(is_close).collect();
+            for rival in close.iter().take(RIVALS).copied() {
                 let exchanged = search.refit(&without, std::slice::from_ref(rival));
                 let behind = (exchanged.fit.objective - best.fit.objective) / 2.0;
                 let apart =
                     own.map_or(f64::INFINITY, |own| separation(search, &without, own, rival));
-                if behind < Rules::SAME || apart < Rules::ISOLATED {
+                let less = best.ln_evidence - exchanged.ln_evidence;
+                if behind < Rules::SAME || less < Rules::LN_BAYES_FACTOR || apart < Rules::ISOLATED
+                {
                     one_of.push(rival.effect);
                 } else {
-                    strongest = strongest.max(exchanged.ln_evidence);
+                    others.push((rival.effect, exchanged.ln_evidence));
                 }
             }
+            let too_many = (close.len() > RIVALS && one_of.len() > RIVALS)
+                .then(|| format!("{} effects explain it as well", close.len()));
+            // What other recordings of the same robot would name instead is one answer with it.
+            let named = support::named(search, &without, &screened, seed);
+            let share = |one_of: &[usize]| -> f64 {
+                one_of.iter().filter_map(|effect| named.get(effect)).sum()
+            };
+            while one_of.len() < UNSTABLE && share(&one_of) < Rules::STABLE {
+                let next = named.iter().filter(|(effect, _)| !one_of.contains(effect));
+                let Some((&next, _)) = next.max_by(|a, b| a.1.total_cmp(b.1)) else { break };
+                one_of.push(next);
+            }
+            let stable = share(&one_of);
+            let rivals = others.iter().filter(|(effect, _)| !one_of.contains(effect));
+            let strongest = rivals.fold(without.ln_evidence, |most, (_, one)| most.max(*one));
             one_of.sort_unstable();
             let z = (without.fit.objective - best.fit.objective).max(0.0).sqrt();
+            let whole = if is_static(&effect) { departure.hypot(by_constants) } else { departure };
             let support = own.map_or(Support::none(), |own| Support {
                 ln_bayes_factor: best.ln_evidence - strongest,
                 z,
-                ..Support::of_effect(search, &without, &screened, own, &one_of, draws, seed)
+                stable,
+                ..Support::of_effect(search, &without, own, draws, seed)
             });
             let unfit =
                 best.fit.unknowns.iter().find_map(|&unknown| at_limit(&best.fit, unknown, effect));
             let refused = refusal(&support, z, whole)
                 .or(unfit)
+                .or(too_many)
                 .or_else(|| nearly_as_filed(search, &best.fit.hypothesis, effect));
             Verdict { effect, one_of, support, refused }
         })
@@ -103,11 +158,15 @@ pub fn judge(
 }
 
 /// Whether the linear screen leaves it open that a candidate does as well as what gains `own`.
-fn is_rival(one: &Screened, own: f64, best: &Found, statics: &[usize]) -> bool {
+///
+/// Signatures of encoders and pose sensor are taken far from where they are needed; they promise less than they keep.
+fn is_rival(one: &Screened, own: f64, best: &Found) -> bool {
+    let hypothesis = &best.fit.hypothesis;
+    let is_instrument = is_instrument(&hypothesis.vehicle, &typical(one.effect));
+    let share = if is_instrument { 0.5 } else { 0.85 };
     one.gain.is_finite()
-        && one.gain > 0.85 * own - 2.0 * Rules::SAME
+        && one.gain > share * own - 2.0 * Rules::SAME
         && !best.effects.contains(&one.effect)
-        && !statics.contains(&one.effect)
 }
 
 /// Why a claim is refused by the rules; none where it is not.
@@ -137,7 +196,7 @@ fn refusal(support: &Support, z: f64, whole: f64) -> Option<String> {
         ));
     }
     if z < Rules::FORM * whole {
-        return Some("no larger than what the form of the other law may leave".to_owned());
+        return Some("no larger than what the form of the other laws may leave".to_owned());
     }
     None
 }
@@ -148,7 +207,7 @@ fn nearly_as_filed(search: &Search, found: &Hypothesis, effect: usize) -> Option
     let found = found.effect(effect)?;
     let near = crate::candidate::sizes(effect).into_iter().all(|place| {
         let (filed, found) = (filed.values()[place], found.values()[place]);
-        (found - filed).abs() <= Rules::FORM_LEFT * filed.abs()
+        (found - filed).abs() <= AS_FILED * filed.abs()
     });
     near.then(|| "the vehicle file knows it, at nearly this size".to_owned())
 }

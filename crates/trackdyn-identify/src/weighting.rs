@@ -112,6 +112,23 @@ impl Whitener {
         Self { blocks }
     }
 
+    /// Logarithm of the determinant of what whitens each segment, given those before it.
+    pub fn ln_determinants(&self) -> impl Iterator<Item = f64> + '_ {
+        self.blocks.iter().map(|(inverse, _)| inverse.determinant().ln())
+    }
+
+    /// Gives a white column the noise's correlations, in place: the inverse of [`Whitener::whiten`].
+    pub fn colour(&self, column: &mut [Vector3<f64>]) {
+        let mut before = Vector3::zeros();
+        for (value, (inverse, gain)) in column.iter_mut().zip(&self.blocks) {
+            // r = L z + K z_before
+            let white = *value;
+            let factor = inverse.try_inverse().unwrap_or(Matrix3::identity());
+            *value = factor * white + gain * before;
+            before = white;
+        }
+    }
+
     /// Whitens a column of three rows per segment, in place.
     pub fn whiten(&self, column: &mut [Vector3<f64>]) {
         let mut before = Vector3::zeros();

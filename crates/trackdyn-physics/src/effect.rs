@@ -3,6 +3,10 @@
 //! An effect is physics that the base model leaves out. It is written once, in one file of
 //! [`effects`](crate::effects), and serves the simulator and the diagnosis alike.
 
+mod term;
+
+pub use term::{Nature, Pairing, Term};
+
 use crate::contact::ShearStress;
 use crate::model::{Drive, Ground, Sensor, Site, Situation};
 use crate::vehicle::Vehicle;
@@ -16,6 +20,14 @@ use trackdyn_core::{PerSide, Scalar, Wrench};
 pub trait Effect: Copy + Sized {
     /// Description and parameters.
     const CARD: Card;
+
+    /// Whether it is a mechanism or a form.
+    const NATURE: Nature = Nature::Mechanism;
+
+    /// The terms of a form; none of a mechanism.
+    fn terms() -> Vec<Term> {
+        Vec::new()
+    }
 
     /// The effect with its parameters in the order and the units of the card, each within its range.
     fn from_values(values: &[f64]) -> Self;

@@ -6,12 +6,13 @@ mod active;
 #[cfg(test)]
 mod conformance;
 mod error;
+mod nature;
 
 pub use active::{ActiveEffect, Effects};
 pub use error::EffectError;
 
 use crate::contact::ShearStress;
-use crate::effect::{Card, Effect};
+use crate::effect::{Card, Effect, Nature, Term};
 use crate::model::{Drive, Ground, Sensor, Site, Situation};
 use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Wrench};
@@ -46,6 +47,7 @@ catalogue! {
     tether::Tether,
     terrain_patch::TerrainPatch,
     friction_drift::FrictionDrift,
+    force_law::ForceLaw,
 }
 
 /// The effects that together are Newton's second law.

@@ -11,11 +11,11 @@ mod isolability;
 mod parity;
 mod path;
 mod plane;
-mod sheet;
 mod signature;
 mod words;
 
 use crate::Error;
+use crate::sheet;
 use nalgebra::Vector3;
 use trackdyn_diagnose::diagnosis::{Diagnosis, Kind, icr_columns};
 use trackdyn_diagnose::fit::{Fit, Metric};

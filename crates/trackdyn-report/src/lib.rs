@@ -12,6 +12,7 @@
 //! - [`icr_map()`]: the figure of an ICR map.
 //! - [`odometry()`]: the figure of an odometry replay.
 //! - [`path_tracking()`]: the figure of drives along a path.
+//! - [`power()`], [`shares()`], [`confusion()`]: figures of what programs find of what is there.
 
 pub mod brush;
 pub mod canvas;
@@ -24,6 +25,8 @@ mod look;
 mod odometry;
 pub mod panel;
 mod path_tracking;
+mod scores;
+mod sheet;
 pub mod text;
 
 pub use diagnosis::{Figure, Subject, diagnosis_figures, diagnosis_html};
@@ -31,3 +34,4 @@ pub use error::Error;
 pub use icr_map::icr_map;
 pub use odometry::odometry;
 pub use path_tracking::{TrackedDrive, path_tracking};
+pub use scores::{Entrant, Matrix, Power, Share, Shares, confusion, power, shares};

@@ -18,6 +18,9 @@ pub struct Answers {
     pub version: String,
     /// Seed from which everything was drawn.
     pub seed: u64,
+    /// Time of a run where it is not the usual one, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run_time_s: Option<f64>,
     /// The cases, in the order of their ids.
     #[serde(rename = "case")]
     pub cases: Vec<Answer>,
@@ -53,7 +56,10 @@ pub struct Answer {
     /// What is concealed.
     #[serde(default, rename = "concealed", skip_serializing_if = "Vec::is_empty")]
     pub concealed: Vec<Concealed>,
-    /// Errors of instruments that are truly there, and that it is right to name.
+    /// Clock offset of the sensors as such, s: the delay of poses beside that of the encoders.
+    #[serde(default)]
+    pub clock_offset_s: f64,
+    /// Errors of instruments that come to it, and that it is right to name.
     #[serde(default, rename = "instrument", skip_serializing_if = "Vec::is_empty")]
     pub instruments: Vec<Instrument>,
 }
@@ -81,6 +87,27 @@ pub struct Concealed {
     pub nearest: String,
     /// Alternatives from which the recording cannot tell it.
     pub class: Vec<String>,
+}
+
+/// The error of an instrument that a clock offset is, and its parameter.
+const CLOCK: [&str; 2] = ["time-offset", "delay_s"];
+
+impl Answer {
+    /// Errors of instruments as a recording shows them: those that were put in, and the clock offset that the sensors
+    /// have as such.
+    pub fn shown_errors(&self) -> Vec<Instrument> {
+        let [clock, delay] = CLOCK;
+        let mut shown = self.instruments.clone();
+        if self.clock_offset_s != 0.0 {
+            if !shown.iter().any(|error| error.mechanism == clock) {
+                shown.push(Instrument { mechanism: clock.to_owned(), parameters: BTreeMap::new() });
+            }
+            for error in shown.iter_mut().filter(|error| error.mechanism == clock) {
+                *error.parameters.entry(delay.to_owned()).or_default() += self.clock_offset_s;
+            }
+        }
+        shown
+    }
 }
 
 /// An error of an instrument.

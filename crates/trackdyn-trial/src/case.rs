@@ -5,21 +5,23 @@ use crate::answer::{Answer, Concealed, Instrument, is_in_catalogue, letters, par
 use crate::dose::{Dose, Scene};
 use crate::driving::Driving;
 use crate::error::Error;
-use crate::ground::{Fineness, Ground, observations, seen};
-use crate::instruments::{Instruments, known as mechanism};
+use crate::ground::{Fineness, Ground, observations};
+use crate::instruments::{Instruments, mechanism};
 use crate::machine::Machine;
-use crate::oracle::{Judge, Sized};
+use crate::oracle::{Judge, Sized, Standing};
+use crate::order::Order;
 use crate::plan::{PlannedCase, STATIC_CLASS, Stratum};
 use crate::random::{Purpose, log_uniform, stream, uniform};
+use crate::recorded::recorded;
 use crate::signature::Bench;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use trackdyn_physics::{ActiveEffect, VehicleFile};
 use trackdyn_proof::ActiveMechanism;
-use trackdyn_recording::{Recording, Source, UncheckedRun};
+use trackdyn_recording::Recording;
 
 /// Draws of a case before it is given up.
-const ATTEMPTS: u64 = 12;
+pub(crate) const ATTEMPTS: u64 = 12;
 /// Share of the robots that move without `yaw-inertia`, and as many without `centripetal`, where neither
 /// is concealed: an effect that is absent from a vehicle file is not for that reason concealed.
 const WITHOUT_INERTIA: f64 = 0.06;
@@ -49,11 +51,11 @@ impl Case {
     ///
     /// # Errors
     /// [`Error::Ground`] where a dozen draws give no robot that drives.
-    pub fn make(planned: &PlannedCase, number: u64, seed: u64) -> Result<Self, Error> {
+    pub fn make(planned: &PlannedCase, number: u64, order: &Order) -> Result<Self, Error> {
         let id = name(number);
         let mut reason = String::new();
         for attempt in 0..ATTEMPTS {
-            let draw = Draw { planned, id: &id, seed, number: number + 1, attempt };
+            let draw = Draw { planned, id: &id, order, number: number + 1, attempt };
             match draw.case() {
                 Ok(case) => return Ok(case),
                 Err(why) => reason = why,
@@ -71,21 +73,22 @@ pub fn name(number: u64) -> String {
 struct Draw<'a> {
     planned: &'a PlannedCase,
     id: &'a str,
-    seed: u64,
+    order: &'a Order,
     number: u64,
     attempt: u64,
 }
 
 impl Draw<'_> {
     fn random(&self, purpose: Purpose) -> ChaCha8Rng {
-        stream(self.seed, self.number, self.attempt, purpose)
+        stream(self.order.seed, self.number, self.attempt, purpose)
     }
 
     fn case(&self) -> Result<Case, String> {
         let mut random = self.random(Purpose::Machine);
         let machine = Machine::draw(&mut random);
         let known = self.known(&machine, &mut random);
-        let driving = Driving::draw(&machine, &mut self.random(Purpose::Driving))?;
+        let driving =
+            Driving::draw(&machine, self.order.run_time_s, &mut self.random(Purpose::Driving))?;
         let instruments = Instruments::draw(
             self.planned.difficulty,
             self.planned.stratum == Stratum::PlainNull,
@@ -93,10 +96,7 @@ impl Draw<'_> {
             &mut self.random(Purpose::Instruments),
         );
         let mut concealed = self.concealed(&machine, &known, &driving, &instruments)?;
-        let runs = self.recorded(&machine, &known, &driving, &instruments, &mut concealed)?;
-        let recording = Recording::new(self.id, "robot", runs, Source::computed(), Vec::new())
-            .map_err(|error| error.to_string())?
-            .with_stated_noise(instruments.stated.map(rounded_noise));
+        let recording = self.recorded(&machine, &known, &driving, &instruments, &mut concealed)?;
         let vehicle = self.owned(&machine, &known)?;
         let sensors = &instruments.sensors;
         let answer = Answer {
@@ -116,6 +116,7 @@ impl Draw<'_> {
             }
             .to_toml(),
             concealed: concealed.into_iter().map(|(_, answer)| answer).collect(),
+            clock_offset_s: sensors.clock_offset(),
             instruments: instruments.errors.iter().map(Instrument::of).collect(),
         };
         Ok(Case { answer, recording, vehicle })
@@ -180,37 +181,26 @@ impl Draw<'_> {
         let (runs, sensors) = (driving.training(), &instruments.sensors);
         let judge = Judge { bench: &bench, ground: &ground, runs, sensors };
         let mut sizes = Vec::new();
+        let mut wanted = Vec::new();
         for id in &self.planned.concealed {
             let (dose, size) = self.dose(id, scene, &mut random);
-            let sized = match size {
+            sizes.push(match size {
                 Size::Z { wanted, otherwise } => judge.sized(dose, wanted, otherwise)?,
                 Size::Strength(strength) => {
                     let strength = strength.min(dose.largest());
                     judge.at(dose, strength)?
                 }
-            };
-            sizes.push((sized, size.wanted()));
+            });
+            wanted.push(size.wanted());
         }
-        let (sizes, wanted): (Vec<Sized>, Vec<Option<f64>>) = sizes.into_iter().unzip();
         let known: Vec<&str> = known.iter().map(|known| known.sheet().id).collect();
         let standings = judge.standings(&sizes, &known, scene, &mut random)?;
-        let answers =
-            sizes.into_iter().zip(standings).zip(wanted).map(|((sized, standing), wanted)| {
-                let active = sized.dose.at(sized.strength);
-                let answer = Concealed {
-                    mechanism: active.sheet().id.to_owned(),
-                    in_catalogue: is_in_catalogue(&active),
-                    parameters: parameters(&active),
-                    breaks: letters(&active),
-                    z_wanted: wanted.map(two_digits),
-                    z_det: two_digits(standing.z_det),
-                    z_iso: two_digits(standing.z_iso),
-                    nearest: standing.nearest.to_owned(),
-                    class: standing.class.into_iter().map(str::to_owned).collect(),
-                };
-                (sized, answer)
-            });
-        Ok(answers.collect())
+        let all = sizes.into_iter().zip(standings).zip(wanted);
+        let all = all.map(|((sized, standing), wanted)| {
+            let answer = answer(&sized, standing, wanted);
+            (sized, answer)
+        });
+        Ok(all.collect())
     }
 
     /// A mechanism with its places, and how its size is found.
@@ -262,7 +252,7 @@ impl Draw<'_> {
         driving: &Driving,
         instruments: &Instruments,
         concealed: &mut [(Sized, Concealed)],
-    ) -> Result<Vec<UncheckedRun>, String> {
+    ) -> Result<Recording, String> {
         let mut reason = String::new();
         for _ in 0..SHRINKS {
             let hidden = concealed.iter().map(|(sized, _)| sized.dose.at(sized.strength));
@@ -272,9 +262,7 @@ impl Draw<'_> {
             match ground.drive(&driving.runs) {
                 Ok(driven) => {
                     let noise = self.random(Purpose::Noise).random();
-                    let mut runs = seen(&driven, &instruments.sensors, noise)?;
-                    runs.iter_mut().for_each(round);
-                    return Ok(runs);
+                    return recorded(self.id, &driven, instruments, noise);
                 }
                 Err(why) => reason = why,
             }
@@ -290,6 +278,22 @@ impl Draw<'_> {
             }
         }
         Err(reason)
+    }
+}
+
+/// What stands in the answers of an effect at its size.
+fn answer(sized: &Sized, standing: Standing, wanted: Option<f64>) -> Concealed {
+    let active = sized.dose.at(sized.strength);
+    Concealed {
+        mechanism: active.sheet().id.to_owned(),
+        in_catalogue: is_in_catalogue(&active),
+        parameters: parameters(&active),
+        breaks: letters(&active),
+        z_wanted: wanted.map(two_digits),
+        z_det: two_digits(standing.z_det),
+        z_iso: two_digits(standing.z_iso),
+        nearest: standing.nearest.to_owned(),
+        class: standing.class.into_iter().map(str::to_owned).collect(),
     }
 }
 
@@ -309,26 +313,6 @@ impl Size {
             Self::Strength(_) => None,
         }
     }
-}
-
-/// Digits after the point of every number of a recording, as a power of ten: a micrometre, a microsecond.
-const LAST_DIGIT: f64 = 1e6;
-
-/// Rounds all numbers of a run alike: how they are written says nothing.
-fn round(run: &mut UncheckedRun) {
-    let digits = |value: &mut f64| *value = (*value * LAST_DIGIT).round() / LAST_DIGIT + 0.0;
-    for sample in &mut run.tracks.samples {
-        [&mut sample.t, &mut sample.v_left, &mut sample.v_right].into_iter().for_each(digits);
-    }
-    for sample in &mut run.poses.samples {
-        let pose = &mut sample.pose;
-        [&mut sample.t, &mut pose.x, &mut pose.y, &mut pose.yaw].into_iter().for_each(digits);
-    }
-}
-
-fn rounded_noise(noise: trackdyn_recording::StatedNoise) -> trackdyn_recording::StatedNoise {
-    let digits = |value: f64| (value * LAST_DIGIT).round() / LAST_DIGIT;
-    trackdyn_recording::StatedNoise { position: digits(noise.position), yaw: digits(noise.yaw) }
 }
 
 fn two_digits(value: f64) -> f64 {

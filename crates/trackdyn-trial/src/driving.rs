@@ -14,7 +14,7 @@ pub const TRAINING_RUNS: usize = 9;
 pub const HELD_OUT_RUNS: usize = 3;
 /// The held-out runs as the diagnosis is told of them.
 pub const HELD_OUT: &str = "9-11";
-/// Time of a run, s: 1807 segments of 0.27 s over nine runs (Martinez et al. 2005, section 5).
+/// Usual time of a run, s: 1807 segments of 0.27 s over nine runs (Martinez et al. 2005, section 5).
 pub const RUN_TIME: f64 = 54.0;
 /// Half the width of the square in which runs start, m.
 const START: f64 = 1.5;
@@ -42,7 +42,12 @@ pub(crate) struct Driving {
 }
 
 impl Driving {
-    pub(crate) fn draw(machine: &Machine, random: &mut ChaCha8Rng) -> Result<Self, String> {
+    /// Runs of this time (s) by a robot.
+    pub(crate) fn draw(
+        machine: &Machine,
+        run_time: f64,
+        random: &mut ChaCha8Rng,
+    ) -> Result<Self, String> {
         let kinds = [ScheduleKind::Manual, ScheduleKind::Designed];
         let [style, other] = if random.random() { kinds } else { [kinds[1], kinds[0]] };
         // larger robots are faster, and the yaw rates of a spin stay alike
@@ -53,7 +58,7 @@ impl Driving {
             runs: Some(count),
             seed: random.random(),
             fastest,
-            duration: Some(RUN_TIME),
+            duration: Some(run_time),
             ..ScheduleOptions::default()
         };
         let schedules = |kind: ScheduleKind| kind.generate(&options).map_err(|e| e.to_string());

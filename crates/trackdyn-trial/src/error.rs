@@ -61,7 +61,30 @@ pub enum Error {
         /// What it was.
         sealed: String,
     },
-    /// A number that is out of range.
+    /// A trial that is there already.
+    #[error(
+        "{} is there already: a trial is made once: expected a new --out and a new --key",
+        path.display()
+    )]
+    Made {
+        /// What is there.
+        path: PathBuf,
+    },
+    /// A trial that was begun, and is another one than is asked for.
+    #[error(
+        "{}: begun for {begun}, and asked for {asked}: expected what it was begun for, or a new --out \
+         and --key",
+        folder.display()
+    )]
+    OtherOrder {
+        /// Where it was begun.
+        folder: PathBuf,
+        /// What it was begun for.
+        begun: String,
+        /// What is asked for.
+        asked: String,
+    },
+    /// A number or a name that will not do.
     #[error("{name} = {value}: expected {expected}")]
     Option {
         /// Its name.

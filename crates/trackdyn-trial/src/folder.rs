@@ -8,19 +8,20 @@
 //! ```
 //!
 //! What a diagnosis writes goes to `DIR/case-0001/diagnosis`, and why a process failed to
-//! `DIR/case-0001/failure.txt`. Names, layout, rounding and stamps of the files are the same in all cases.
+//! `DIR/case-0001/failure.txt`; those of another program NAME to `diagnosis.NAME` and `failure.NAME.txt`. Names, layout, rounding and stamps of the files are the same in all cases.
 
 use crate::answer::{Answer, Answers};
 use crate::case::Case;
 use crate::diagnosis::{self, Diagnosis};
+use crate::entry::Entry;
 use crate::error::Error;
 use crate::score::{Judged, Reply};
 use crate::seal::{self, Commitment, Key};
-use std::fs::File;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use trackdyn_core::document::Document;
-use trackdyn_core::output::{prepare_folder, write_file};
+use trackdyn_core::output::write_file;
 use trackdyn_physics::{Vehicle, VehicleFile};
 use trackdyn_recording::folder;
 
@@ -32,27 +33,50 @@ pub const COMMITMENT: &str = "commitment.txt";
 pub const RECORDING: &str = "recording";
 /// The vehicle of a case.
 pub const VEHICLE: &str = "vehicle.toml";
-/// What the diagnosis of a case wrote.
+/// What this project's own diagnosis of a case wrote.
 pub const DIAGNOSIS: &str = "diagnosis";
-
-/// Why the diagnosis of a case failed.
-pub const FAILURE: &str = "failure.txt";
-
 /// Stamp of all files: 1 December 2005, when the paper's issue had appeared, s of Unix time.
 const STAMP: u64 = 1_133_395_200;
 
-/// Writes the folder of a case.
+/// Writes what a diagnosis gets of a case to a folder.
 ///
 /// # Errors
-/// [`Error::Output`], [`Error::Recording`], [`Error::File`].
-pub fn write_case(trial: &Path, case: &Case) -> Result<(), Error> {
-    let home = trial.join(&case.answer.id);
-    let recording = home.join(RECORDING);
-    prepare_folder(&home)?;
-    folder::write(&case.recording, &recording)?;
-    write_file(&home.join(VEHICLE), case.vehicle.to_toml().as_bytes())?;
-    let all = files(&home).into_iter().chain([recording, home]);
-    all.into_iter().try_for_each(|path| stamp(&path))
+/// [`Error::Output`], [`Error::Recording`].
+pub(crate) fn write_case(home: &Path, case: &Case) -> Result<(), Error> {
+    folder::write(&case.recording, &home.join(RECORDING))?;
+    Ok(write_file(&home.join(VEHICLE), case.vehicle.to_toml().as_bytes())?)
+}
+
+/// Copies what a diagnosis gets of a case from one folder to another, all with the same stamp.
+///
+/// # Errors
+/// [`Error::File`].
+pub(crate) fn copy_case(from: &Path, to: &Path) -> Result<(), Error> {
+    let recording = to.join(RECORDING);
+    fs::create_dir(&recording).map_err(Error::file(&recording))?;
+    for (source, copy) in files(from).iter().zip(files(to)) {
+        fs::copy(source, copy).map_err(Error::file(source))?;
+    }
+    files(to).iter().chain([&recording, &to.to_owned()]).try_for_each(|path| stamp(path))
+}
+
+/// Makes a folder of this name: filled under another one, and renamed when it is complete.
+///
+/// # Errors
+/// Those of `fill`; [`Error::File`].
+pub(crate) fn place(
+    parent: &Path,
+    name: &str,
+    fill: impl FnOnce(&Path) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let partial = parent.join(format!(".{name}"));
+    if partial.exists() {
+        fs::remove_dir_all(&partial).map_err(Error::file(&partial))?;
+    }
+    fs::create_dir(&partial).map_err(Error::file(&partial))?;
+    fill(&partial)?;
+    let complete = parent.join(name);
+    fs::rename(&partial, &complete).map_err(Error::file(complete))
 }
 
 /// Seals the answers into the folder of a trial, and publishes the commitment.
@@ -76,7 +100,7 @@ pub fn write_answers(trial: &Path, answers: &Answers, key: &Key) -> Result<Commi
 /// Those of [`seal::open`]; [`Error::File`], [`Error::Document`].
 pub fn open_answers(trial: &Path, key: &Key) -> Result<Answers, Error> {
     let path = trial.join(SEALED);
-    let sealed = std::fs::read(&path).map_err(Error::file(path))?;
+    let sealed = fs::read(&path).map_err(Error::file(path))?;
     let commitment: Commitment = Document::read(&trial.join(COMMITMENT))?.parse()?;
     seal::open(&sealed, key, &commitment)
 }
@@ -87,7 +111,7 @@ pub fn open_answers(trial: &Path, key: &Key) -> Result<Answers, Error> {
 /// [`Error::File`].
 pub fn cases(trial: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut found = Vec::new();
-    for entry in std::fs::read_dir(trial).map_err(Error::file(trial))? {
+    for entry in fs::read_dir(trial).map_err(Error::file(trial))? {
         let path = entry.map_err(Error::file(trial))?.path();
         let is_case =
             path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("case-"));
@@ -99,16 +123,16 @@ pub fn cases(trial: &Path) -> Result<Vec<PathBuf>, Error> {
     Ok(found)
 }
 
-/// Puts what came back of every case beside its answer.
+/// Puts what came back of every case from a program beside its answer.
 ///
 /// # Errors
 /// [`Error::OtherRecording`] where a recording was changed after the answers were sealed; files that
 /// cannot be read.
-pub fn judge(trial: &Path, answers: &Answers) -> Result<Vec<Judged>, Error> {
-    answers.cases.iter().map(|answer| judge_case(trial, answer)).collect()
+pub fn judge(trial: &Path, answers: &Answers, entry: &Entry) -> Result<Vec<Judged>, Error> {
+    answers.cases.iter().map(|answer| judge_case(trial, answer, entry)).collect()
 }
 
-fn judge_case(trial: &Path, answer: &Answer) -> Result<Judged, Error> {
+fn judge_case(trial: &Path, answer: &Answer, entry: &Entry) -> Result<Judged, Error> {
     let home = trial.join(&answer.id);
     let recording = folder::read(&home.join(RECORDING))?;
     if recording.fingerprint() != answer.recording {
@@ -121,14 +145,14 @@ fn judge_case(trial: &Path, answer: &Answer) -> Result<Judged, Error> {
     let owned = VehicleFile::from_document(&Document::read(&home.join(VEHICLE))?)?;
     let truth = Document::new(format!("{}, sealed vehicle", answer.id), &answer.vehicle);
     let truth = VehicleFile::from_document(&truth)?;
-    let (written, failure) = (home.join(DIAGNOSIS), home.join(FAILURE));
+    let (written, failure) = (entry.diagnosis(&home), entry.failure(&home));
     let reply = if written.join(diagnosis::FILE).exists() {
         match Diagnosis::read(&written) {
             Ok(diagnosis) => Reply::Diagnosed(Box::new(diagnosis)),
             Err(error) => Reply::Failed(error.to_string()),
         }
     } else if failure.exists() {
-        Reply::Failed(std::fs::read_to_string(&failure).map_err(Error::file(failure))?)
+        Reply::Failed(fs::read_to_string(&failure).map_err(Error::file(failure))?)
     } else {
         Reply::Absent
     };
@@ -149,7 +173,7 @@ fn files(home: &Path) -> [PathBuf; 4] {
 fn outside(home: &Path) -> Result<Vec<f64>, Error> {
     let mut shown = Vec::new();
     for path in files(home) {
-        let file = std::fs::metadata(&path).map_err(Error::file(&path))?;
+        let file = fs::metadata(&path).map_err(Error::file(&path))?;
         let stamp = file.modified().map_err(Error::file(&path))?;
         let stamp = stamp.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
         #[expect(clippy::cast_precision_loss, reason = "sizes stay far below 2⁵³")]

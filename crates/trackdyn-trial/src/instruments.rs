@@ -130,7 +130,7 @@ impl Small {
             Self::LeverArm(size) => {
                 lever(size * gauge / 0.42 * first, size * gauge / 0.42 * second)
             }
-            Self::SensorYaw(size) => known("sensor-yaw", &[("yaw_deg", size * first)]),
+            Self::SensorYaw(size) => mechanism("sensor-yaw", &[("yaw_deg", size * first)]),
         }
     }
 }
@@ -147,26 +147,26 @@ fn of_difficulty(
         }
         Difficulty::EncoderScale => vec![scale(1.0 + signed(0.01, 0.04), 1.0 + signed(0.01, 0.04))],
         Difficulty::ClockAndYaw => vec![
-            known("time-offset", &[("delay_s", signed(0.03, 0.15))]),
-            known("sensor-yaw", &[("yaw_deg", signed(0.5, 3.0))]),
+            mechanism("time-offset", &[("delay_s", signed(0.03, 0.15))]),
+            mechanism("sensor-yaw", &[("yaw_deg", signed(0.5, 3.0))]),
         ],
         Difficulty::HeadingDrift => {
-            vec![known("heading-drift", &[("rate_deg_per_s", signed(0.05, 0.4))])]
+            vec![mechanism("heading-drift", &[("rate_deg_per_s", signed(0.05, 0.4))])]
         }
         Difficulty::NoiseStatement | Difficulty::Outliers | Difficulty::ColouredNoise => Vec::new(),
     }
 }
 
 fn scale(left: f64, right: f64) -> ActiveMechanism {
-    known("encoder-scale", &[("left", left), ("right", right)])
+    mechanism("encoder-scale", &[("left", left), ("right", right)])
 }
 
 fn lever(x: f64, y: f64) -> ActiveMechanism {
-    known("sensor-lever-arm", &[("x_m", x), ("y_m", y)])
+    mechanism("sensor-lever-arm", &[("x_m", x), ("y_m", y)])
 }
 
 /// A mechanism whose parameters are in range.
-pub(crate) fn known(id: &str, settings: &[(&str, f64)]) -> ActiveMechanism {
+pub(crate) fn mechanism(id: &str, settings: &[(&str, f64)]) -> ActiveMechanism {
     let settings: Vec<_> =
         settings.iter().map(|(key, value)| (*key, (value * 1e5).round() / 1e5)).collect();
     match ActiveMechanism::new(id, &settings) {

@@ -6,8 +6,11 @@
 //!   concealed, and its recording.
 //! - [`oracle`]: what could be found of it: z_det and z_iso.
 //! - [`answer`]: what was concealed.
+//! - [`draft`]: a trial in the making, which can be interrupted.
 //! - [`seal`]: the answers under a key, and the commitment to them.
+//! - [`entry`]: the programs that are put to it.
 //! - [`diagnosis`], [`score`]: what came back, and what it is worth.
+//! - [`revisit`]: a case once more, driven by another schedule.
 //! - [`folder`]: the folder of a trial, in which nothing but the recordings tells cases apart.
 //!
 //! The diagnosis is not part of this crate: it is a program that gets a recording and a vehicle file.
@@ -17,15 +20,20 @@ pub mod answer;
 pub mod case;
 pub mod diagnosis;
 mod dose;
+pub mod draft;
 pub mod driving;
+pub mod entry;
 pub mod error;
 pub mod folder;
 mod ground;
 mod instruments;
 mod machine;
 pub mod oracle;
+pub mod order;
 pub mod plan;
 mod random;
+mod recorded;
+pub mod revisit;
 pub mod score;
 pub mod seal;
 mod signature;
@@ -34,7 +42,10 @@ mod subspace;
 pub use answer::{Answer, Answers};
 pub use case::Case;
 pub use diagnosis::Diagnosis;
+pub use draft::Draft;
+pub use entry::Entry;
 pub use error::Error;
+pub use order::Order;
 pub use plan::{PlannedCase, Stratum, plan};
 pub use score::Score;
 

@@ -5,6 +5,7 @@ use crate::dose::{Dose, Scene};
 use crate::driving::Drive;
 use crate::ground::Ground;
 use crate::signature::Bench;
+use crate::subspace::Subspace;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use trackdyn_field::Sensors;
@@ -110,28 +111,30 @@ impl Judge<'_> {
         let standings = concealed.iter().enumerate().map(|(index, sized)| {
             let beside = concealed.iter().enumerate().filter(|(other, _)| *other != index);
             let beside: Vec<_> = beside.map(|(_, other)| other.signature.as_slice()).collect();
-            let taken = |rows: usize| {
-                let mut space = self.bench.nuisances(rows);
-                for column in &beside {
-                    space.add(column[..rows].to_vec());
-                }
-                space
-            };
+            let taken = |rows| self.taken(rows, &beside);
             let z_det = taken(self.bench.rows()).outside(&sized.signature);
             let (space, part) = (taken(rows), &sized.signature[..rows]);
             let whole = space.outside(part);
-            let mut left: Vec<(&'static str, f64)> = Vec::new();
-            for (alternative, columns) in others.iter().zip(&columns) {
+            let left = others.iter().zip(&columns).map(|(alternative, columns)| {
                 let mut space = space.clone();
                 for column in columns {
                     space.add(column.clone());
                 }
                 let share = if whole > 0.0 { space.outside(part) / whole } else { 0.0 };
-                left.push((alternative.id, z_det * share));
-            }
-            standing(z_det, &left)
+                (alternative.id, z_det * share)
+            });
+            standing(z_det, &left.collect::<Vec<_>>())
         });
         Ok(standings.collect())
+    }
+
+    /// What nuisances and further signatures span in the first rows.
+    fn taken(&self, rows: usize, beside: &[&[f64]]) -> Subspace {
+        let mut space = self.bench.nuisances(rows);
+        for column in beside {
+            space.add(column[..rows].to_vec());
+        }
+        space
     }
 
     fn signature(&self, dose: &Dose, strength: f64, runs: &[Drive]) -> Result<Vec<f64>, String> {
@@ -169,3 +172,6 @@ fn standing(z_det: f64, left: &[(&'static str, f64)]) -> Standing {
     class.dedup();
     Standing { z_det, z_iso, nearest, class }
 }
+
+#[cfg(test)]
+mod tests;

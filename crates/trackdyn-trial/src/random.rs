@@ -23,6 +23,8 @@ pub(crate) enum Purpose {
     Noise = 6,
     /// Places of shoes.
     Shoes = 7,
+    /// Noise of what is recorded when a case is visited once more.
+    Revisit = 8,
 }
 
 /// Purposes that a case has room for.

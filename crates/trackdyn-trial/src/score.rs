@@ -1,15 +1,17 @@
 //! Scores: what the diagnoses of a trial are worth.
 //!
 //! Every score is a list of cases that count and of those among them that succeed. A further score is
-//! one more function in [`rates`], [`means`] or a table of its own; whether the manoeuvre that a
-//! diagnosis plans resolves its ambiguity will be one.
+//! one more function in [`rates`], [`means`] or a table of its own. [`resolution`] stands apart: whether the
+//! manoeuvre that is planned for an ambiguous diagnosis resolves it is known after driving it only.
 
 mod confusion;
+pub mod coverage;
 pub mod interval;
 pub mod means;
 mod metadata;
 mod power;
 pub mod rates;
+pub mod resolution;
 mod tables;
 mod verdict;
 
@@ -17,7 +19,11 @@ pub use confusion::Confusion;
 pub use means::Mean;
 pub use power::PowerBin;
 pub use rates::Rate;
-pub use tables::{cases_csv, confusion_csv, markdown, power_csv, rates_csv};
+pub use resolution::{Outcome, Revisited};
+pub use tables::{
+    cases_csv, comparison, confusion_csv, distinct, markdown, power_csv, rates_csv,
+    resolution_markdown,
+};
 pub use verdict::{Judged, Reply};
 
 /// All scores of a trial.
@@ -29,6 +35,8 @@ pub struct Score {
     pub absent: usize,
     /// Rates with their intervals.
     pub rates: Vec<Rate>,
+    /// Rates at which intervals hold the true sizes, by effect.
+    pub coverage: Vec<Rate>,
     /// Means and medians.
     pub means: Vec<Mean>,
     /// What is found against what could be found.
@@ -46,6 +54,7 @@ impl Score {
         rates.push(metadata::told_from_files(&judged));
         Self {
             rates,
+            coverage: coverage::coverage(&judged),
             means: means::means(&judged),
             power: power::power(&judged),
             confusion: Confusion::of(&judged),

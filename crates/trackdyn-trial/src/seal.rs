@@ -137,7 +137,13 @@ mod tests {
     use crate::answer::SCHEMA;
 
     fn answers() -> Answers {
-        Answers { schema: SCHEMA.to_owned(), version: "1".to_owned(), seed: 77, cases: Vec::new() }
+        Answers {
+            schema: SCHEMA.to_owned(),
+            version: "1".to_owned(),
+            seed: 77,
+            run_time_s: None,
+            cases: Vec::new(),
+        }
     }
 
     #[test]

@@ -4,7 +4,7 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use clap::Args;
 use std::fmt::Write;
-use trackdyn_physics::effect::{Card, Symmetry};
+use trackdyn_physics::effect::{Card, Parameter, Symmetry, Term};
 use trackdyn_physics::{ActiveEffect, CATALOGUE};
 
 /// Options of `trackdyn effects`.
@@ -31,10 +31,22 @@ pub fn run(options: &Options) -> Outcome {
     Ok(Exit::Done)
 }
 
-/// The letters of the symmetries that an effect breaks.
-fn letters(card: &Card) -> String {
-    let of = |symmetry| if card.breaks.contains(&symmetry) { symmetry.letter() } else { '.' };
+/// The letters of the symmetries that an effect, or a term of a form, breaks.
+fn letters(breaks: &[Symmetry]) -> String {
+    let of = |symmetry| if breaks.contains(&symmetry) { symmetry.letter() } else { '.' };
     Symmetry::ALL.map(of).into_iter().collect()
+}
+
+/// Parameters that no term of a form holds: all of a mechanism.
+fn alone(card: &Card) -> impl Iterator<Item = &'static Parameter> {
+    let of_terms: Vec<usize> = card.terms().into_iter().flat_map(|one| one.coefficients).collect();
+    let all = card.parameters.iter().enumerate();
+    all.filter(move |(place, _)| !of_terms.contains(place)).map(|(_, parameter)| parameter)
+}
+
+/// Keys of the coefficients of a term.
+fn keys(card: &Card, term: &Term) -> Vec<&'static str> {
+    term.coefficients.iter().map(|&place| card.parameters[place].key).collect()
 }
 
 fn stages(card: &Card) -> String {
@@ -45,7 +57,7 @@ fn list() -> String {
     let width = CATALOGUE.iter().map(|card| card.id.len()).max().unwrap_or(0);
     let mut text = format!("{:width$}  breaks  what it is\n", "effect");
     for card in CATALOGUE {
-        let _ = writeln!(text, "{:width$}  {}   {}", card.id, letters(card), card.title);
+        let _ = writeln!(text, "{:width$}  {}   {}", card.id, letters(card.breaks), card.title);
     }
     text += "\n\
         breaks: the ICRs change with S speed, R reversal, P manoeuvre, M mirror, H heading,\n\
@@ -66,9 +78,14 @@ fn card(card: &Card) -> String {
     row("law", card.law);
     row("assumes", card.assumes);
     row("shows", card.shows);
-    row("breaks", &letters(card));
+    row("breaks", &letters(card.breaks));
     row("acts at", &stages(card));
-    for parameter in card.parameters {
+    for term in card.terms() {
+        row(if term.key == card.parameters[0].key { "terms" } else { "" }, &{
+            format!("{}  {}", letters(&term.breaks), keys(card, &term).join(", "))
+        });
+    }
+    for parameter in alone(card) {
         let [low, high] = parameter.range;
         row("", "");
         row(parameter.symbol, &format!("{} [{}]", parameter.key, parameter.unit));
@@ -92,7 +109,10 @@ fn markdown() -> String {
         **0** when equal track speeds do not drive straight ahead as fast as the encoders show.\n\n\
         A parameter's *role* is **size** where it says how large the effect is (an effect whose sizes are \
         all neutral is not there), **place** or **direction** where it says where in the world it acts, \
-        and **shape** where it is a constant of the law.\n\n"
+        and **shape** where it is a constant of the law.\n\n\
+        An effect is a mechanism, unless its section has a table of coefficients: then it is a *form*, which \
+        describes without a cause. A diagnosis never names a form; it proposes terms of one. Coefficients \
+        that are left out are none.\n\n"
         .to_owned();
     let letters = Symmetry::ALL.map(|symmetry| format!(" {} |", symmetry.letter())).concat();
     let rules = "---|".repeat(Symmetry::ALL.len());
@@ -111,13 +131,41 @@ fn markdown() -> String {
     text
 }
 
+/// The terms of a form; nothing of a mechanism.
+fn markdown_terms(card: &Card) -> String {
+    let terms = card.terms();
+    let mut text = String::new();
+    if terms.is_empty() {
+        return text;
+    }
+    text +=
+        "| coefficients | what they multiply | breaks | typical | range |\n|---|---|---|---|---|\n";
+    for term in terms {
+        let keys: Vec<String> = keys(card, &term).iter().map(|key| format!("`{key}`")).collect();
+        let parameter = &card.parameters[term.coefficients[0]];
+        let [low, high] = parameter.range;
+        let breaks: String = term.breaks.iter().map(|symmetry| symmetry.letter()).collect();
+        let _ = writeln!(
+            text,
+            "| {} | {}{} | {breaks} | {} | {low} to {high} |",
+            keys.join(", "),
+            parameter.meaning.replace('|', "\\|"),
+            if keys.len() > 1 { ", and what belongs to it" } else { "" },
+            parameter.typical,
+        );
+    }
+    text.push('\n');
+    text
+}
+
 fn markdown_card(card: &Card) -> String {
     let mut text = format!("## {}\n\n{}.\n\n", card.id, card.title);
     let _ = writeln!(text, "**Law.** {}\n", card.law);
     let _ = writeln!(text, "**Assumes.** {}\n", card.assumes);
     let _ = writeln!(text, "**Shows.** {}\n", card.shows);
+    text += &markdown_terms(card);
     text += "| parameter | symbol | role | unit | range | typical | meaning |\n|---|---|---|---|---|---|---|\n";
-    for parameter in card.parameters {
+    for parameter in alone(card) {
         let [low, high] = parameter.range;
         let _ = writeln!(
             text,

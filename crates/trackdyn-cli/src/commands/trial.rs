@@ -1,6 +1,9 @@
 //! `trackdyn trial`: the proof that the diagnosis finds what was concealed from it.
 
+mod drive;
+mod figures;
 mod make;
+mod room;
 mod run;
 mod score;
 
@@ -26,6 +29,8 @@ enum Step {
     Run(run::Options),
     /// Check the commitment, open the answers and score the diagnoses
     Score(score::Options),
+    /// Drive what is planned for ambiguous diagnoses on their concealed ground, and score what it resolves
+    Drive(drive::Options),
 }
 
 /// Runs a step.
@@ -34,6 +39,7 @@ pub fn run(options: &Options) -> Outcome {
         Step::Make(options) => make::run(options),
         Step::Run(options) => run::run(options),
         Step::Score(options) => score::run(options),
+        Step::Drive(options) => drive::run(options),
     }
 }
 

@@ -2,9 +2,8 @@
 
 use super::{Evidence, Sample, Whitening};
 use nalgebra::Vector3;
-use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose};
-use trackdyn_identify::weighting::{Seen, SegmentNoise, Weighting, Whitener};
+use trackdyn_identify::weighting::SegmentNoise;
 use trackdyn_recording::TrackSample;
 use trackdyn_recording::hold::{held, travelled};
 
@@ -52,18 +51,7 @@ impl Evidence {
             let motions = moves(&evidence);
             evidence.place(runs, &motions);
         }
-        let mut run = None;
-        let seen: Vec<Seen> = evidence
-            .samples
-            .iter()
-            .map(|sample| Seen {
-                motion: sample.motion.into(),
-                duration: sample.duration,
-                follows: run.replace(sample.run) == Some(sample.run),
-            })
-            .collect();
-        let whitener = Whitener::of_motions(&Weighting::Noise(noise), seen.into_iter());
-        evidence.whitening = Whitening::Segments(Arc::new(whitener));
+        evidence.whitening = Whitening::of(noise, &evidence.samples);
         evidence
     }
 
@@ -115,6 +103,7 @@ fn samples_of(
             pose: run.pose,
             speeds: travelled(tracks, start, end, tau).map(|distance| distance / duration),
             acceleration: PerSide::from_fn(|side| (after[side] - before[side]) / duration),
+            follows: k > 0,
         }
     })
 }

@@ -66,6 +66,7 @@ impl Evidence {
                 pose: Pose::default(),
                 speeds: PerSide::new(point.v_left, point.v_right),
                 acceleration: PerSide::default(),
+                follows: false,
             });
             let (v_left, v_right) = (point.v_left, point.v_right);
             tracks.push(vec![TrackSample { t: 0.0, v_left, v_right }]);

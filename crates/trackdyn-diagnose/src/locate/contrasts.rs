@@ -112,6 +112,7 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<V
         for by in [f64::cos, f64::sin] {
             add(Symmetry::Heading, of, &|s| by(s.pose.yaw));
             add(Symmetry::Heading, of, &|s| by(s.pose.yaw) * turn(s));
+            add(Symmetry::Heading, of, &|s| by(2.0 * s.pose.yaw));
         }
     }
     let (x_at, y_at) =

@@ -1,7 +1,7 @@
 //! The effects that explain a recording alike, each at the size at which it does.
 
 use super::question::Question;
-use crate::base::{Base, OFFSETS};
+use crate::base::{Base, Calibration, OFFSETS};
 use crate::candidate::{signatures, variants};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, Metric};
@@ -70,7 +70,8 @@ impl Rival {
         let mut nuisances = OFFSETS.to_vec();
         nuisances.extend(instruments.iter().copied().flat_map(unknowns_of));
         let fit = Fit::new(without, &nuisances, driving, &metric, None);
-        let base = Base { as_filed: fit.clone(), fit, nuisances, instruments };
+        let calibration = Calibration::Vehicle;
+        let base = Base { as_filed: fit.clone(), fit, nuisances, instruments, calibration };
         let others = question.members.iter().copied().filter(|member| *member != self.effect);
         others
             .map(|effect| {

@@ -14,6 +14,11 @@ const STATIC: f64 = 0.03;
 
 /// Effects that only move the constant ICRs, in all their variants, ascending.
 pub fn statics(search: &Search) -> Vec<usize> {
+    statics_within(search, STATIC)
+}
+
+/// Effects of whose signatures no more than a share is their own beyond constant ICRs.
+pub(super) fn statics_within(search: &Search, share: f64) -> Vec<usize> {
     let fit = &search.base.fit;
     let entries: Vec<usize> = (0..search.catalogue.entries.len()).collect();
     let (normal, known, groups) = search.normal(fit, &entries);
@@ -23,7 +28,7 @@ pub fn statics(search: &Search) -> Vec<usize> {
     let is_static = |group: &[usize]| {
         group.iter().all(|&column| {
             let whole = normal.product(column, column);
-            whole > 0.0 && projected.product(column, column) <= STATIC * whole
+            whole > 0.0 && projected.product(column, column) <= share * whole
         })
     };
     let mut effects = BTreeMap::new();
@@ -31,6 +36,44 @@ pub fn statics(search: &Search) -> Vec<usize> {
         *effects.entry(variant.effect).or_insert(true) &= is_static(group);
     }
     effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
+}
+
+/// The best hypothesis with the vehicle as filed, no offset, and no effect that mostly stands for one; and what
+/// else is free in it.
+fn as_filed(search: &Search, best: &Found, file: &VehicleFile) -> (Hypothesis, Vec<Unknown>) {
+    let base = &search.base.fit.hypothesis;
+    let mostly = statics_within(search, super::MOSTLY);
+    let added: Vec<usize> =
+        best.effects.iter().copied().filter(|effect| mostly.contains(effect)).collect();
+    let without = added.iter().fold(best.fit.hypothesis.clone(), |hypothesis, &effect| {
+        hypothesis.with_effect_of(base, effect)
+    });
+    let filed = Hypothesis { vehicle: file.vehicle.clone(), offset: [0.0; 3], ..without };
+    let is_fixed = |unknown: &Unknown| {
+        !OFFSETS.contains(unknown) && !added.iter().any(|&effect| unknown.is_of(effect))
+    };
+    (filed, best.fit.unknowns.iter().copied().filter(is_fixed).collect())
+}
+
+/// √ of what the misfit falls by when constant ICRs may differ from those of the vehicle file.
+pub(super) fn departure(search: &Search, best: &Found, file: &VehicleFile) -> f64 {
+    let (filed, fixed) = as_filed(search, best, file);
+    let before = Some(&best.fit.mechanics);
+    let dropped = Fit::new(filed, &fixed, search.evidence, search.metric, before);
+    (dropped.objective - best.fit.objective).max(0.0).sqrt()
+}
+
+/// Constant ICRs that are nearly those of the vehicle file: no model of the contact is better.
+fn as_good_as_filed(free: &Fit) -> Option<String> {
+    let Hypothesis { vehicle, offset, .. } = &free.hypothesis;
+    let largest = offset.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
+    (largest < Rules::CONSTANT * vehicle.gauge).then(|| {
+        format!(
+            "ICRs differ from the vehicle file's by {:.1} mm, less than {:.0} % of the gauge",
+            1e3 * largest,
+            100.0 * Rules::CONSTANT
+        )
+    })
 }
 
 /// Judges the constant ICRs against those of the vehicle file: a wrong number, or one of the class of effects
@@ -43,17 +86,12 @@ pub fn judge_constants(
     draws: usize,
     seed: u64,
 ) -> Option<Verdict> {
-    let filed = Hypothesis {
-        vehicle: file.vehicle.clone(),
-        offset: [0.0; 3],
-        ..best.fit.hypothesis.clone()
-    };
-    let fixed: Vec<Unknown> =
-        best.fit.unknowns.iter().copied().filter(|unknown| !OFFSETS.contains(unknown)).collect();
+    let (filed, fixed) = as_filed(search, best, file);
     let evidence = search.evidence;
     let before = Some(&best.fit.mechanics);
     let dropped = Fit::new(filed.clone(), &fixed, evidence, search.metric, before);
-    let free = Fit::new(filed.clone(), &best.fit.unknowns, evidence, search.metric, before);
+    let moving: Vec<Unknown> = OFFSETS.iter().chain(&fixed).copied().collect();
+    let free = Fit::new(filed.clone(), &moving, evidence, search.metric, before);
     let ln_bayes_factor = free.ln_evidence(evidence) - dropped.ln_evidence(evidence);
     let z = (dropped.objective - free.objective).max(0.0).sqrt();
     if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
@@ -64,7 +102,7 @@ pub fn judge_constants(
         z,
         ..Support::of_columns(search, &free, &[0, 1, 2], &free.hypothesis.offset, draws, seed)
     };
-    let refused = refusal(&support, z, 0.0);
+    let refused = refusal(&support, z, 0.0).or_else(|| as_good_as_filed(&free));
     // What the owner measured can have moved within its uncertainty only: is that enough?
     let can = |effect: &usize| {
         if unknowns_of(*effect).all(|unknown| measured(&file.vehicle, unknown).is_none()) {

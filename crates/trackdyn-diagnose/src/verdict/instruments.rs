@@ -5,13 +5,7 @@ use crate::fit::Fit;
 use crate::search::{Found, Search};
 
 /// Judges the effects of encoders and pose sensor that are free in every hypothesis.
-pub fn judge_instruments(
-    search: &Search,
-    best: &Found,
-    statics: &[usize],
-    draws: usize,
-    seed: u64,
-) -> Vec<Verdict> {
+pub fn judge_instruments(search: &Search, best: &Found, draws: usize, seed: u64) -> Vec<Verdict> {
     let filed = &search.base.as_filed.hypothesis;
     let mut verdicts = Vec::new();
     for &effect in &search.base.instruments {
@@ -23,7 +17,7 @@ pub fn judge_instruments(
         }
         let mut one_of = vec![effect];
         let screened = search.screen(&dropped);
-        let rivals = screened.iter().filter(|one| is_rival(one, ln_bayes_factor, best, statics));
+        let rivals = screened.iter().filter(|one| is_rival(one, ln_bayes_factor, best));
         for rival in rivals.take(RIVALS) {
             let exchanged = search.refit(&dropped, std::slice::from_ref(rival));
             if (exchanged.fit.objective - best.fit.objective) / 2.0 < Rules::SAME {

@@ -6,6 +6,8 @@ use crate::search::{Found, Screened, Search};
 use crate::significance::test;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 use trackdyn_core::real;
 
 /// Folds of the cross-validation and draws of resampled recordings.
@@ -48,43 +50,16 @@ impl Support {
     pub(super) fn of_effect(
         search: &Search,
         without: &Found,
-        screened: &[Screened],
         own: &Screened,
-        class: &[usize],
         draws: usize,
         seed: u64,
     ) -> Self {
-        let entries: Vec<usize> = screened.iter().map(|one| one.entry).collect();
-        let (normal, known, groups) = search.normal(&without.fit, &entries);
+        let (normal, known, groups) = search.normal(&without.fit, &[own.entry]);
         let base: Vec<usize> = (0..without.fit.columns.len()).collect();
-        let place = screened.iter().position(|one| one.entry == own.entry).unwrap_or(0);
-        let p = Self::chance(search, without, own.entry, draws, seed);
-        let columns: Vec<usize> = base.iter().chain(&groups[place]).copied().collect();
+        let columns: Vec<usize> = base.iter().chain(&groups[0]).copied().collect();
         let (held_out_gain, held_out_error) = cross_validated(&normal, &known, &base, &columns);
-        let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x5eed);
-        let named = (0..RESAMPLED)
-            .filter(|_| {
-                let mut times = vec![0.0; normal.blocks()];
-                for _ in 0..normal.blocks() {
-                    times[random.random_range(0..normal.blocks())] += 1.0;
-                }
-                let resampled = normal.counted(&times);
-                let gain = |k: usize| {
-                    let columns: Vec<usize> = base.iter().chain(&groups[k]).copied().collect();
-                    resampled.fit(&columns, &known).ln_evidence
-                };
-                let contenders = (0..screened.len()).filter(|&k| screened[k].gain.is_finite());
-                let best = contenders.max_by(|&a, &b| gain(a).total_cmp(&gain(b)));
-                best.is_some_and(|k| class.contains(&screened[k].effect))
-            })
-            .count();
-        Self {
-            p,
-            held_out_gain,
-            held_out_error,
-            stable: real(named) / real(RESAMPLED),
-            ..Self::none()
-        }
+        let p = Self::chance(search, without, own.entry, draws, seed);
+        Self { p, held_out_gain, held_out_error, ..Self::none() }
     }
 
     /// Family-wise probability of chance of a variant among all that were tried.
@@ -128,9 +103,44 @@ impl Support {
     }
 }
 
+/// The effects that the screen names beside a hypothesis, by the share of resampled recordings in which each is the
+/// best.
+pub(super) fn named(
+    search: &Search,
+    without: &Found,
+    screened: &[Screened],
+    seed: u64,
+) -> BTreeMap<usize, f64> {
+    let contenders: Vec<&Screened> = screened.iter().filter(|one| one.gain.is_finite()).collect();
+    let entries: Vec<usize> = contenders.iter().map(|one| one.entry).collect();
+    let (normal, known, groups) = search.normal(&without.fit, &entries);
+    let base: Vec<usize> = (0..without.fit.columns.len()).collect();
+    let best_of = |draw: usize| -> Option<usize> {
+        let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x5eed);
+        random.set_stream(draw as u64);
+        let mut times = vec![0.0; normal.blocks()];
+        for _ in 0..normal.blocks() {
+            times[random.random_range(0..normal.blocks())] += 1.0;
+        }
+        let resampled = normal.counted(&times);
+        let gain = |k: &usize| {
+            let columns: Vec<usize> = base.iter().chain(&groups[*k]).copied().collect();
+            resampled.fit(&columns, &known).ln_evidence
+        };
+        let gains = (0..contenders.len()).map(|k| (k, gain(&k)));
+        gains.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| contenders[k].effect)
+    };
+    let best: Vec<Option<usize>> = (0..RESAMPLED).into_par_iter().map(best_of).collect();
+    let mut shares = BTreeMap::new();
+    for effect in best.into_iter().flatten() {
+        *shares.entry(effect).or_insert(0.0) += 1.0 / real(RESAMPLED);
+    }
+    shares
+}
+
 /// Gain of log-likelihood by more columns on blocks that were left out of their fit, and its standard error
 /// from block to block.
-fn cross_validated(
+pub(crate) fn cross_validated(
     normal: &Normal,
     known: &[Prior],
     base: &[usize],

@@ -2,7 +2,7 @@
 
 use super::{CATALOGUE, EffectError, INERTIA, Law};
 use crate::contact::ShearStress;
-use crate::effect::Card;
+use crate::effect::{Card, Parameter};
 use crate::model::{Drive, Ground, Sensor, Site, Situation};
 use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Wrench};
@@ -17,7 +17,7 @@ pub struct ActiveEffect {
 
 impl ActiveEffect {
     /// The effect `id` with `settings` (key, value) and the typical size of every parameter that
-    /// they leave out.
+    /// they leave out; the coefficients of a form that they leave out are none.
     ///
     /// # Errors
     /// Unknown effect or parameter (with the nearest name), a parameter given twice, or a value
@@ -47,7 +47,7 @@ impl ActiveEffect {
         let values: Vec<f64> = values
             .into_iter()
             .zip(card.parameters)
-            .map(|(value, parameter)| value.unwrap_or(parameter.typical))
+            .map(|(value, parameter)| value.unwrap_or_else(|| card.default_of(parameter)))
             .collect();
         Ok(Self { index, law: Law::from_values(index, &values), values })
     }
@@ -61,14 +61,21 @@ impl ActiveEffect {
     pub fn values(&self) -> &[f64] {
         &self.values
     }
+
+    /// Parameters with the values that a text has to give: all of a mechanism, and of a form those that it
+    /// has.
+    pub fn stated(&self) -> impl Iterator<Item = (&'static Parameter, f64)> {
+        let card = self.card();
+        let values = card.parameters.iter().zip(self.values.iter().copied());
+        values.filter(|(parameter, value)| !card.is_form() || *value != card.default_of(parameter))
+    }
 }
 
 /// `id:key=value,key=value`, the form that the command line takes.
 impl std::fmt::Display for ActiveEffect {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let card = self.card();
-        write!(f, "{}", card.id)?;
-        for (k, (parameter, value)) in card.parameters.iter().zip(&self.values).enumerate() {
+        write!(f, "{}", self.card().id)?;
+        for (k, (parameter, value)) in self.stated().enumerate() {
             let separator = if k == 0 { ':' } else { ',' };
             write!(f, "{separator}{}={value}", parameter.key)?;
         }

@@ -10,8 +10,15 @@ macro_rules! catalogue {
         /// The cards of all effects, in the catalogue's order.
         pub const CATALOGUE: &[Card] = &[$(<$module::$effect as Effect>::CARD),+];
 
+        /// What each effect of the catalogue is.
+        const NATURES: &[Nature] = &[$(<$module::$effect as Effect>::NATURE),+];
+
+        /// The terms of each effect of the catalogue.
+        const TERMS: &[fn() -> Vec<Term>] = &[$(<$module::$effect as Effect>::terms),+];
+
         /// One effect of the catalogue with its parameters.
         #[derive(Clone, Copy, Debug, PartialEq)]
+        #[expect(clippy::large_enum_variant, reason = "a model has a few, and laws are copied")]
         enum Law {
             $($effect($module::$effect)),+
         }

@@ -103,9 +103,9 @@ impl VehicleFile {
                 .effects
                 .iter()
                 .map(|effect| {
-                    let parameters = effect.card().parameters.iter().zip(effect.values());
-                    let table = parameters
-                        .map(|(parameter, &value)| {
+                    let table = effect
+                        .stated()
+                        .map(|(parameter, value)| {
                             (unplaced(parameter.key.to_owned()), unplaced(value))
                         })
                         .collect();

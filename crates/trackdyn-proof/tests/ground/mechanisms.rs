@@ -37,7 +37,8 @@ fn sheets_are_complete() {
 
 #[test]
 fn effects_of_the_catalogue_have_their_names_and_parameters_here() {
-    for card in CATALOGUE {
+    // A form has no mechanism.
+    for card in CATALOGUE.iter().filter(|card| !card.is_form()) {
         let sheet = MECHANISMS.iter().find(|sheet| sheet.id == card.id);
         let sheet = sheet.unwrap_or_else(|| panic!("no mechanism {}", card.id));
         assert_eq!(sheet.origin, Origin::Catalogue, "{}", card.id);

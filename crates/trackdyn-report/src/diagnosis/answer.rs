@@ -7,6 +7,7 @@ use trackdyn_diagnose::Status;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::locate::cells::Cell;
+use trackdyn_diagnose::proposal::Proposal;
 use trackdyn_physics::CATALOGUE;
 
 /// The status in words, and what kind of news it is.
@@ -39,6 +40,7 @@ pub(super) fn parts(subject: &Subject) -> Vec<[String; 2]> {
         )),
         _ => {}
     }
+    what.extend(diagnosis.proposed.as_ref().map(proposed));
     let place = if diagnosis.broken.is_empty() {
         "Nowhere: no symmetry of driving is broken beyond chance.".to_owned()
     } else {
@@ -64,6 +66,28 @@ fn left(subject: &Subject) -> String {
     format!(
         "That is part of it, not all: what is left still breaks symmetries of driving ({}).",
         names.join(", ")
+    )
+}
+
+/// The law that is proposed for what no effect explains.
+fn proposed(proposal: &Proposal) -> String {
+    let names: Vec<&str> = proposal.breaks().into_iter().map(|one| symmetry(one)[0]).collect();
+    let share = proposal.explains().map_or(String::new(), |share| {
+        format!(", {} % of what was left above the noise floor", number(100.0 * share, 0))
+    });
+    let rest = if proposal.left_over.is_empty() {
+        "after which no symmetry is surely broken".to_owned()
+    } else {
+        let names: Vec<&str> = proposal.left_over.iter().map(|&one| symmetry(one)[0]).collect();
+        format!("after which symmetries are surely broken still ({})", names.join(", "))
+    };
+    format!(
+        "A force of this form, whose cause the catalogue does not know, describes it: {} (breaks {}). With it the \
+         error falls from {} to {} standard deviations of the noise{share}, {rest}.",
+        proposal.sentence(),
+        names.join(", "),
+        number(proposal.held_out.before, 3),
+        number(proposal.held_out.after, 3)
     )
 }
 

@@ -34,26 +34,20 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
         let concealed = &case.answer.concealed;
         !concealed.is_empty() && concealed.iter().all(|c| c.in_catalogue && c.is_detectable())
     };
-    let fits = |of: fn(&Fit) -> Option<f64>| {
-        let cases = judged.iter().filter(detectable);
-        cases.filter_map(move |case| of(&case.diagnosis()?.fit)).collect::<Vec<_>>()
+    let fits = || judged.iter().filter(detectable).filter_map(|case| Some(&case.diagnosis()?.fit));
+    let over_floor = |of: fn(&Fit) -> Option<f64>| {
+        fits().filter_map(move |fit| Some(of(fit)? / fit.noise_floor?))
     };
     let sizes = judged.iter().filter_map(|case| {
         let truth = case.only().filter(|truth| Concealed::is_detectable(truth))?;
         Some(crate::real(case.set_with(&truth.mechanism)?.len()))
     });
-    let over_floor = |of: fn(&Fit) -> Option<f64>| {
-        let cases = judged.iter().filter(detectable);
-        cases
-            .filter_map(move |case| {
-                let fit = &case.diagnosis()?.fit;
-                Some(of(fit)? / fit.noise_floor?)
-            })
-            .collect::<Vec<_>>()
-    };
     [
         Mean::of("members of the reported set with the truth in it", sizes),
-        Mean::of("share of the held-out excess explained", fits(|fit| fit.excess_explained)),
+        Mean::of(
+            "share of the held-out excess explained",
+            fits().filter_map(|fit| fit.excess_explained),
+        ),
         Mean::of(
             "held-out rms over the noise floor, before",
             over_floor(|fit| fit.held_out_before),

@@ -1,11 +1,11 @@
 //! Rates: of how many cases how many succeed.
 
+use super::coverage;
 use super::interval::clopper_pearson;
 use super::verdict::Judged;
 use crate::answer::Concealed;
-use crate::diagnosis::{Missing, Size, Status};
-use crate::dose::sheet;
-use crate::plan::{Difficulty, INSTRUMENTS, Stratum};
+use crate::diagnosis::Status;
+use crate::plan::{Difficulty, Stratum};
 
 /// A share of cases.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +46,10 @@ pub fn rates(judged: &[Judged]) -> Vec<Rate> {
     let mut rates = nulls(judged);
     rates.extend(singles(judged));
     rates.extend(pairs(judged));
-    rates.push(coverage(judged));
+    rates.push(Rate::of(
+        "95 % interval holds the true size",
+        coverage::outcomes(judged).into_iter().map(|(_, holds)| holds),
+    ));
     rates.extend(outside(judged));
     let failed = judged.iter().map(|case| case.diagnosis().is_none());
     rates.push(Rate::of("process failed", failed));
@@ -115,45 +118,6 @@ fn pairs(judged: &[Judged]) -> Vec<Rate> {
             both(Concealed::is_detectable).map(sets),
         ),
     ]
-}
-
-/// Whether 95 % intervals hold the true sizes, over all parameters that mean the same in the catalogue.
-fn coverage(judged: &[Judged]) -> Rate {
-    let mut outcomes = Vec::new();
-    for case in judged {
-        let claims = case.diagnosis().map_or(&[][..], |diagnosis| &diagnosis.missing);
-        for claim in claims.iter().filter(|claim| claim.members().len() == 1) {
-            outcomes.extend(covered(case, claim));
-        }
-    }
-    Rate::of("95 % interval holds the true size", outcomes)
-}
-
-fn covered(case: &Judged, claim: &Missing) -> Vec<bool> {
-    let concealed = case.answer.concealed.iter().filter(|c| c.in_catalogue);
-    let concealed = concealed.map(|c| (&c.mechanism, &c.parameters));
-    let instruments = case.answer.instruments.iter().map(|i| (&i.mechanism, &i.parameters));
-    let truth = concealed.chain(instruments).find(|(id, _)| **id == claim.effect);
-    let Some((id, parameters)) = truth.filter(|(id, _)| means_the_same(id)) else {
-        return Vec::new();
-    };
-    let inside = |size: &Size| {
-        let truth = parameters.get(&size.name)?;
-        let (low, high) = (size.low95?, size.high95?);
-        // directions come back after a whole turn
-        let turns = if is_direction(id, &size.name) { [-360.0, 0.0, 360.0] } else { [0.0; 3] };
-        Some(turns.iter().any(|turn| (low..=high).contains(&(truth + turn))))
-    };
-    claim.parameters.iter().filter_map(inside).collect()
-}
-
-/// Whether a size of the independent ground is that of the catalogue: the sheet says so.
-fn means_the_same(id: &str) -> bool {
-    INSTRUMENTS.contains(&id) || sheet(id).size.starts_with("the same")
-}
-
-fn is_direction(id: &str, key: &str) -> bool {
-    sheet(id).parameters.iter().any(|p| p.key == key && p.unit == "deg" && p.range[1] >= 180.0)
 }
 
 fn outside(judged: &[Judged]) -> Vec<Rate> {

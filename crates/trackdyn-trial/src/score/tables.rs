@@ -3,6 +3,8 @@
 use super::Score;
 use super::interval::clopper_pearson;
 use super::power::PowerBin;
+use super::rates::Rate;
+use super::resolution::{self, Outcome, Revisited};
 use std::fmt::Write;
 
 /// The scores as a page.
@@ -10,15 +12,7 @@ pub fn markdown(score: &Score) -> String {
     let mut text = String::from("# Scores of the trial\n\n");
     let _ = writeln!(text, "{} cases diagnosed, {} not yet.", score.judged.len(), score.absent);
     text.push_str("Intervals: 95 %, Clopper and Pearson.\n\n## Rates\n\n");
-    text.push_str("| what | of | rate | interval |\n|---|---|---|---|\n");
-    for rate in &score.rates {
-        let (share, interval) = shown(rate.successes, rate.cases);
-        let _ = writeln!(
-            text,
-            "| {} | {} of {} | {share} | {interval} |",
-            rate.name, rate.successes, rate.cases
-        );
-    }
+    rate_table(&mut text, &score.rates);
     text.push_str("\n## Means\n\n| what | cases | mean | median |\n|---|---|---|---|\n");
     for mean in &score.means {
         let _ = writeln!(
@@ -54,10 +48,72 @@ pub fn markdown(score: &Score) -> String {
     text
 }
 
+/// The rates of several programs beside each other, as a page.
+///
+/// A rate is empty where no case of a program counts.
+pub fn comparison(scores: &[(&str, &Score)]) -> String {
+    let names: Vec<&str> = scores.iter().map(|(name, _)| *name).collect();
+    let mut text = String::from("# Scores of several programs\n\n");
+    for (name, score) in scores {
+        let (judged, absent) = (score.judged.len(), score.absent);
+        let _ = writeln!(text, "- {name}: {judged} cases diagnosed, {absent} not yet.");
+    }
+    let _ =
+        writeln!(text, "\n| what | {} |\n|---{}|", names.join(" | "), "|---".repeat(names.len()));
+    for what in distinct(scores.iter().flat_map(|(_, score)| &score.rates)) {
+        let cells = scores.iter().map(|(_, score)| {
+            let rate = score.rates.iter().find(|rate| rate.name == what && rate.cases > 0);
+            rate.map_or_else(String::new, |rate| {
+                let (share, interval) = shown(rate.successes, rate.cases);
+                format!("{share} of {} ({interval})", rate.cases)
+            })
+        });
+        let _ = writeln!(text, "| {what} | {} |", cells.collect::<Vec<_>>().join(" | "));
+    }
+    text
+}
+
+/// Names of rates in the order in which they come up.
+pub fn distinct<'a>(rates: impl Iterator<Item = &'a Rate>) -> Vec<&'a str> {
+    let mut names: Vec<&str> = Vec::new();
+    for rate in rates {
+        if !names.contains(&rate.name.as_str()) {
+            names.push(&rate.name);
+        }
+    }
+    names
+}
+
+/// What further driving made of ambiguous diagnoses, as a page.
+pub fn resolution_markdown(revisited: &[Revisited]) -> String {
+    let mut text = String::from("# Further driving\n\n");
+    text.push_str("Intervals: 95 %, Clopper and Pearson.\n\n");
+    rate_table(&mut text, &resolution::rates(revisited));
+    text.push_str("\n| case | concealed | open before | with the truth, after | outcome |\n");
+    text.push_str("|---|---|---|---|---|\n");
+    for case in revisited {
+        let concealed = case.before.answer.concealed.iter().map(|c| c.mechanism.as_str());
+        let outcome = match &case.outcome {
+            Outcome::NothingToDrive => "nothing to drive",
+            Outcome::Failed(reason) => reason.lines().next().unwrap_or_default(),
+            Outcome::Diagnosed(diagnosis) => diagnosis.status.name(),
+        };
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {outcome} |",
+            case.before.answer.id,
+            concealed.collect::<Vec<_>>().join(" "),
+            case.set_before().join(", "),
+            case.set_after().unwrap_or_default().join(", "),
+        );
+    }
+    text
+}
+
 /// `what,successes,cases,rate,low95,high95`.
-pub fn rates_csv(score: &Score) -> String {
+pub fn rates_csv(rates: &[Rate]) -> String {
     let mut text = String::from("what,successes,cases,rate,low95,high95\n");
-    for rate in &score.rates {
+    for rate in rates {
         let numbers = csv_numbers(rate.successes, rate.cases);
         let _ = writeln!(text, "\"{}\",{},{},{numbers}", rate.name, rate.successes, rate.cases);
     }
@@ -120,6 +176,15 @@ pub fn cases_csv(score: &Score) -> String {
         );
     }
     text
+}
+
+fn rate_table(text: &mut String, rates: &[Rate]) {
+    text.push_str("| what | of | rate | interval |\n|---|---|---|---|\n");
+    for rate in rates {
+        let (share, interval) = shown(rate.successes, rate.cases);
+        let Rate { name, successes, cases } = rate;
+        let _ = writeln!(text, "| {name} | {successes} of {cases} | {share} | {interval} |");
+    }
 }
 
 fn shown(successes: usize, cases: usize) -> (String, String) {

@@ -35,6 +35,7 @@ fn case(stratum: Stratum, concealed: Vec<Concealed>, diagnosis: &str) -> Judged 
             recording: String::new(),
             vehicle: String::new(),
             concealed,
+            clock_offset_s: 0.0,
             instruments: vec![Instrument {
                 mechanism: "encoder-scale".to_owned(),
                 parameters: [("left".to_owned(), 1.02)].into(),
@@ -122,4 +123,38 @@ fn what_was_not_run_does_not_count_and_what_failed_is_counted() {
     assert_eq!(rate(&score.judged, "process failed"), (1, 1));
     assert!(markdown(&score).contains("| slope | 1 |"));
     assert!(cases_csv(&score).contains("case-0001,single,slope,20,9,,failed,,,false"));
+}
+
+#[test]
+fn further_driving_resolves_what_it_leaves_the_truth_of_alone() {
+    let open = |truth| case(Stratum::Single, vec![concealed(truth, 20.0, 2.0)], SLOPE_OR_TETHER);
+    let (slope, patch) = (open("slope"), open("terrain-patch"));
+    let diagnosed =
+        |text: &str| Outcome::Diagnosed(Box::new(toml::from_str(text).expect("a diagnosis")));
+    let tether = "status = 'explained'\n[[missing]]\neffect = 'tether'\none_of = ['tether']\n";
+    let revisited = [
+        Revisited { before: &slope, outcome: diagnosed(SLOPE) },
+        Revisited { before: &slope, outcome: diagnosed(SLOPE_OR_TETHER) },
+        Revisited { before: &slope, outcome: diagnosed(tether) },
+        Revisited { before: &slope, outcome: Outcome::NothingToDrive },
+        Revisited { before: &slope, outcome: Outcome::Failed("no".to_owned()) },
+        Revisited { before: &patch, outcome: diagnosed(SLOPE) },
+    ];
+    let rates = resolution::rates(&revisited);
+    let counts: Vec<_> = rates.iter().map(|rate| (rate.successes, rate.cases)).collect();
+    // planned; truth before; still there; smaller; resolved; misled; failed
+    assert_eq!(counts, [(5, 6), (4, 5), (2, 4), (1, 4), (1, 4), (2, 5), (1, 5)]);
+    assert!(
+        resolution_markdown(&revisited).contains("| case-0001 | slope | slope, tether | slope |")
+    );
+}
+
+#[test]
+fn sets_that_move_constants_only_are_not_driven_for() {
+    let constants = "status = 'ambiguous'\n[[missing]]\neffect = 'cog-shift'\n\
+                     one_of = ['cog-shift', 'friction-split', 'sensor-lever-arm']\n";
+    let of = |text| case(Stratum::Single, vec![concealed("slope", 20.0, 2.0)], text);
+    assert!(resolution::open_sets(&of(constants)).is_empty());
+    assert_eq!(resolution::open_sets(&of(SLOPE_OR_TETHER)), [["slope", "tether"]]);
+    assert!(resolution::open_sets(&of(SLOPE)).is_empty());
 }

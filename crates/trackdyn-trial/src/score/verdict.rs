@@ -54,7 +54,7 @@ impl Judged {
     /// Whether it is an error of an instrument or of the vehicle file, which is right to name and no
     /// physics of the trial.
     fn is_known_error(&self, effect: &str) -> bool {
-        self.answer.instruments.iter().any(|instrument| instrument.mechanism == effect)
+        self.answer.shown_errors().iter().any(|error| error.mechanism == effect)
             || self.owner_errors.contains(&effect)
     }
 

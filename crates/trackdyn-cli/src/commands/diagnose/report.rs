@@ -25,7 +25,7 @@ pub fn write(
     );
     let subject = trackdyn_report::Subject {
         diagnosis,
-        evidence: &subject.evidence,
+        evidence: &diagnosis.evidence,
         vehicle,
         file,
         name: &subject.name,

@@ -5,8 +5,10 @@ use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::document::separate_by;
 use trackdyn_diagnose::locate::SURE;
 use trackdyn_diagnose::place::words;
+use trackdyn_diagnose::proposal::Proposal;
 use trackdyn_diagnose::{Diagnosis, Evidence, Status};
 use trackdyn_physics::CATALOGUE;
+use trackdyn_physics::effect::Symmetry;
 
 /// Effects whose limits are printed where nothing is missing.
 const LIMITS: usize = 6;
@@ -55,6 +57,9 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
             .collect();
         let _ = writeln!(text, "left     {}", left.join("; "));
     }
+    if let Some(proposal) = &diagnosis.proposed {
+        let _ = writeln!(text, "form     {}", form(proposal));
+    }
     let fit = &diagnosis.held_out;
     let on = if fit.are_held_out { "held-out runs" } else { "the runs of the fit" };
     let explained = fit.excess_explained();
@@ -67,6 +72,28 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
         fit.before, fit.after, fit.noise_floor
     );
     text
+}
+
+/// The law that is proposed where no effect explains what is left.
+fn form(proposal: &Proposal) -> String {
+    let letters = |symmetries: &[Symmetry]| -> String {
+        symmetries.iter().map(|symmetry| symmetry.letter()).collect()
+    };
+    let share = proposal.explains().map_or(String::new(), |share| {
+        format!(", {:.0} % of what was left above the noise floor", 100.0 * share)
+    });
+    let rest = if proposal.left_over.is_empty() {
+        "no symmetry is surely broken any more".to_owned()
+    } else {
+        format!("{} surely broken still", letters(&proposal.left_over))
+    };
+    format!(
+        "not in the catalogue, no cause known: {} (breaks {}; error {:.3} to {:.3}{share}; {rest})",
+        proposal.sentence(),
+        letters(&proposal.breaks()),
+        proposal.held_out.before,
+        proposal.held_out.after
+    )
 }
 
 fn nothing(diagnosis: &Diagnosis) -> String {

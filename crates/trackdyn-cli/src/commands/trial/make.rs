@@ -3,20 +3,20 @@
 use super::key_file;
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::options::finite;
 use crate::progress::Progress;
 use clap::Args;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
-use trackdyn_core::output::prepare_folder;
-use trackdyn_trial::answer::SCHEMA;
-use trackdyn_trial::seal::Key;
-use trackdyn_trial::{Answers, Case, Error, PlannedCase, Stratum, folder, plan};
+use trackdyn_trial::driving::RUN_TIME;
+use trackdyn_trial::{Case, Draft, Error, Order, PlannedCase, Stratum, plan};
 
 /// Most cases.
 const MOST: i64 = 9999;
-/// Cases that are made before they are written, in the order of their numbers: a folder's place on the
-/// disk does not say how long its case took.
-const BATCH: usize = 32;
+/// Shortest and longest run, s: a start, a stop and some driving between; an hour.
+const RUN_TIMES: [f64; 2] = [10.0, 3600.0];
+/// Largest seed: numbers in TOML have 63 bits.
+const LARGEST_SEED: u64 = i64::MAX as u64;
 
 /// Options of `trackdyn trial make`.
 #[derive(Args)]
@@ -25,8 +25,11 @@ pub struct Options {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST))]
     cases: u32,
     /// Seed of everything that is drawn; whoever knows it can make the answers again
-    #[arg(long, value_name = "SEED")]
+    #[arg(long, value_name = "SEED", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED))]
     seed: u64,
+    /// Time of each of the twelve runs of a case, s; less makes a trial quicker, and effects harder to find
+    #[arg(long, value_name = "SECONDS", default_value_t = RUN_TIME, value_parser = run_time)]
+    duration: f64,
     /// Folder for the cases, the sealed answers and the commitment to them
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -35,49 +38,52 @@ pub struct Options {
     key: Option<PathBuf>,
 }
 
-/// Makes the cases.
+/// Makes the cases that are not there yet, and seals the answers when all are.
 pub fn run(options: &Options) -> Outcome {
-    let key_file = key_file(options.key.as_deref(), &options.out)?;
-    refuse_inside(&key_file, &options.out)?;
-    if options.out.join(folder::SEALED).exists() || key_file.exists() {
-        let what = "a trial is made once: expected a new --out and a new --key";
-        return Err(format!("{}: {what}", options.out.display()).into());
-    }
-    prepare_folder(&options.out)?;
-    let planned = plan(options.cases as usize, options.seed);
-    let progress = Progress::new(planned.len());
-    let numbered: Vec<_> = (0..).zip(&planned).collect();
-    let mut answers = Vec::with_capacity(planned.len());
-    for batch in numbered.chunks(BATCH) {
-        let make = |(number, planned): &(u64, &PlannedCase)| {
-            let case = Case::make(planned, *number, options.seed);
-            progress.advance(1);
-            case
-        };
-        let cases = batch.par_iter().map(make).collect::<Result<Vec<Case>, Error>>()?;
-        for case in cases {
-            folder::write_case(&options.out, &case)?;
-            answers.push(case.answer);
-        }
-    }
-    progress.finish();
-    let counts = Stratum::ALL.map(|stratum| {
-        format!("{} {}", answers.iter().filter(|a| a.stratum == stratum).count(), stratum.name())
-    });
-    let answers = Answers {
-        schema: SCHEMA.to_owned(),
+    let key = key_file(options.key.as_deref(), &options.out)?;
+    refuse_inside(&key, &options.out)?;
+    let order = Order {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         seed: options.seed,
-        cases: answers,
+        cases: options.cases as usize,
+        run_time_s: options.duration,
     };
-    let key = Key::new();
-    key.write(&key_file)?;
-    let commitment = folder::write_answers(&options.out, &answers, &key)?;
+    let draft = Draft::begin(&options.out, &key, &order)?;
+    let planned = plan(order.cases, order.seed);
+    let all = (0_u64..).zip(&planned);
+    let open: Vec<_> = all.filter(|(number, _)| !draft.has(*number)).collect();
+    let progress = Progress::new(planned.len());
+    if open.len() < planned.len() {
+        eprintln!("{} of {} cases were there", planned.len() - open.len(), planned.len());
+        progress.advance(planned.len() - open.len());
+    }
+    let make = |(number, planned): &(u64, &PlannedCase)| {
+        draft.keep(&Case::make(planned, *number, &order)?)?;
+        progress.advance(1);
+        Ok(())
+    };
+    open.par_iter().try_for_each(make).map_err(|error: Error| error)?;
+    progress.finish();
+    let (answers, commitment) = draft.publish(&options.out)?;
+    let counts = Stratum::ALL.map(|stratum| {
+        let of = answers.cases.iter().filter(|answer| answer.stratum == stratum);
+        format!("{} {}", of.count(), stratum.name())
+    });
     println!("{} cases: {}", options.cases, counts.join(", "));
     println!("answers  SHA-256 {}", commitment.answers_sha256);
     println!("sealed   SHA-256 {}", commitment.sealed_sha256);
-    eprintln!("wrote {} and the key to {}", options.out.display(), key_file.display());
+    eprintln!("wrote {} and the key to {}", options.out.display(), key.display());
     Ok(Exit::Done)
+}
+
+fn run_time(text: &str) -> Result<f64, String> {
+    let [low, high] = RUN_TIMES;
+    let value = finite(text)?;
+    if (low..=high).contains(&value) {
+        Ok(value)
+    } else {
+        Err(format!("expected {low} to {high} s"))
+    }
 }
 
 /// A key in the trial's own folder would go wherever the recordings go.

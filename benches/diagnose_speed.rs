@@ -1,0 +1,114 @@
+//! Time and memory of a diagnosis: of a recording as long as the paper's, of four and of sixteen times as
+//! long, with nothing concealed and with load transfer.
+//!
+//! `diagnose_speed [--longest N]` prints a table; N is 1, 4 or 16 (default 16).
+
+use std::cell::RefCell;
+use std::error::Error;
+use std::time::Instant;
+use trackdyn_diagnose::diagnosis::STAGES;
+use trackdyn_diagnose::{Evidence, Options, diagnose};
+use trackdyn_field::sensors::Preset;
+use trackdyn_field::{ScheduleKind, ScheduleOptions};
+use trackdyn_recording::Recording;
+use trackdyn_tests::concealed::{Drive, named, owned, sensors};
+
+/// Runs of the paper, and the time of each that gives its 1807 segments, three poses of 0.1 s each, s.
+const RUNS: usize = 9;
+const RUN_TIME: f64 = 60.3;
+
+/// What is concealed.
+const CONCEALED: [&[&str]; 2] = [&[], &["load-transfer:cog_height_m=0.15"]];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let longest: usize = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => 16,
+        ["--longest", times] => times.parse()?,
+        _ => return Err("usage: diagnose_speed [--longest N]".into()),
+    };
+    println!(
+        "| concealed | segments | seconds | CPU seconds | attempts | {} | before [MiB] | peak [MiB] | named |",
+        STAGES.join(" | ")
+    );
+    println!("|{}", "---|".repeat(8 + STAGES.len()));
+    for times in [1, 4, 16].into_iter().filter(|times| *times <= longest) {
+        for concealed in CONCEALED {
+            report(&recording(times, concealed)?, concealed)?;
+        }
+    }
+    Ok(())
+}
+
+/// A drive by hand, so many times as long as the paper's.
+fn recording(times: usize, concealed: &[&str]) -> Result<Recording, Box<dyn Error>> {
+    let options = ScheduleOptions {
+        runs: Some(times * RUNS),
+        duration: Some(RUN_TIME),
+        ..ScheduleOptions::default()
+    };
+    let runs = ScheduleKind::Manual.generate(&options)?;
+    let drive = Drive::new(&owned(concealed).vehicle, concealed, &runs, 1)?;
+    Ok(drive.recording(&sensors(Preset::Laboratory), 1))
+}
+
+/// Diagnoses and prints a row.
+fn report(recording: &Recording, concealed: &[&str]) -> Result<(), Box<dyn Error>> {
+    let file = owned(concealed);
+    forget_peak();
+    let before = status("VmRSS:");
+    let (begun, spent) = (Instant::now(), cpu_seconds());
+    let evidence = Evidence::of_recording(recording, file.vehicle.gauge)?;
+    let held_out = (3..recording.runs().len()).step_by(4).collect();
+    let options = Options { held_out, draws: 2000, ..Options::default() };
+    let stages = RefCell::new((Instant::now(), [0.0; STAGES.len()], 0));
+    let diagnosis = diagnose(&evidence, &file, &options, &|name| {
+        let (last, seconds, attempts) = &mut *stages.borrow_mut();
+        let stage = STAGES.iter().position(|stage| *stage == name).unwrap_or(0);
+        seconds[stage] += last.elapsed().as_secs_f64();
+        *attempts += usize::from(stage == 0);
+        *last = Instant::now();
+    })?;
+    let whole = begun.elapsed().as_secs_f64();
+    let spent = cpu_seconds() - spent;
+    let (_, seconds, attempts) = stages.into_inner();
+    let seconds: Vec<String> = seconds.iter().map(|s| format!("{s:.2}")).collect();
+    let named: Vec<String> = named(&diagnosis)
+        .into_iter()
+        .map(|(_, members)| members.into_iter().collect::<Vec<_>>().join(" or "))
+        .collect();
+    println!(
+        "| {} | {} | {whole:.1} | {spent:.1} | {attempts} | {} | {before} | {} | {} |",
+        concealed.first().unwrap_or(&"nothing"),
+        evidence.samples().len(),
+        seconds.join(" | "),
+        status("VmHWM:"),
+        named.join(", ")
+    );
+    Ok(())
+}
+
+/// Lets the system count the peak of memory anew, where it can.
+fn forget_peak() {
+    // Where it cannot, the peak is that of the whole process: the table says more than there is.
+    let _ = std::fs::write("/proc/self/clear_refs", "5");
+}
+
+/// Time that the processors have spent on this process, s; 0 where the system does not say.
+fn cpu_seconds() -> f64 {
+    /// Ticks of a second in the account of Linux.
+    const TICKS: f64 = 100.0;
+    let text = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // After the name in brackets: user and system time are the 12th and 13th.
+    let rest = text.rsplit(')').next().unwrap_or_default();
+    let ticks = rest.split_whitespace().skip(11).take(2);
+    ticks.filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / TICKS
+}
+
+/// A line of the system's account of this process, MiB; `-` where there is none.
+fn status(key: &str) -> String {
+    let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = text.lines().find(|line| line.starts_with(key));
+    let kib = line.and_then(|line| line.split_whitespace().nth(1)?.parse::<f64>().ok());
+    kib.map_or("-".to_owned(), |kib| format!("{:.0}", kib / 1024.0))
+}

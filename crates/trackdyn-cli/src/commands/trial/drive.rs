@@ -1,0 +1,169 @@
+//! `trackdyn trial drive`: whether the driving that is planned for an ambiguous diagnosis resolves it.
+//!
+//! After opening: each case with an open set is planned for by a process, driven on its own ground, and
+//! diagnosed anew, from the old recording and the new one together, by another process.
+
+use super::key_file;
+use super::room::{OUT, Program, Room};
+use crate::commands::Outcome as Exited;
+use crate::exit::Exit;
+use crate::progress::Progress;
+use clap::Args;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use trackdyn_core::Schedule;
+use trackdyn_core::output::{prepare_folder, write_file};
+use trackdyn_trial::driving::HELD_OUT;
+use trackdyn_trial::revisit::revisit;
+use trackdyn_trial::score::resolution::{open_sets, rates};
+use trackdyn_trial::score::{Judged, Outcome, Revisited, rates_csv, resolution_markdown};
+use trackdyn_trial::seal::Key;
+use trackdyn_trial::{Answers, Diagnosis, Entry, diagnosis, folder};
+
+/// The recording of the new driving, and the plan for it.
+const AGAIN: &str = "again";
+const PLAN: &str = "plan";
+const SCHEDULE: &str = "plan.csv";
+/// What a diagnosis leaves for a plan.
+const CORRECTED: &str = "vehicle.corrected.toml";
+
+/// Options of `trackdyn trial drive`.
+#[derive(Args)]
+pub struct Options {
+    /// Folder of the trial
+    trial: PathBuf,
+    /// File with the key to the answers [default: beside DIR, NAME.key]
+    #[arg(long, value_name = "FILE")]
+    key: Option<PathBuf>,
+    /// Time of the planned driving, s
+    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
+    duration: u32,
+    /// Time after which a process is ended and counts as failed, s
+    #[arg(long, value_name = "SECONDS", default_value_t = 3600)]
+    limit: u64,
+    /// Folder for plans, recordings, diagnoses and scores [default: DIR/driven]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Where a case is and where what comes of it goes.
+struct Visit<'a> {
+    answers: &'a Answers,
+    judged: &'a Judged,
+    case: PathBuf,
+    home: PathBuf,
+    options: &'a Options,
+}
+
+/// Drives on where diagnoses are ambiguous, and scores what comes of it.
+pub fn run(options: &Options) -> Exited {
+    let key = Key::read(&key_file(options.key.as_deref(), &options.trial)?)?;
+    let answers = folder::open_answers(&options.trial, &key)?;
+    let judged = folder::judge(&options.trial, &answers, &Entry::default())?;
+    let open: Vec<&Judged> = judged.iter().filter(|case| !open_sets(case).is_empty()).collect();
+    if open.is_empty() {
+        println!("nothing to drive for: no diagnosis leaves a set open that driving may split");
+        return Ok(Exit::NoResult);
+    }
+    let out = options.out.clone().unwrap_or_else(|| options.trial.join("driven"));
+    let progress = Progress::new(open.len());
+    let mut revisited = Vec::with_capacity(open.len());
+    for judged in open {
+        let id = &judged.answer.id;
+        let (case, home) = (options.trial.join(id), out.join(id));
+        let visit = Visit { answers: &answers, judged, case, home, options };
+        revisited.push(Revisited { before: judged, outcome: visit.outcome()? });
+        progress.advance(1);
+    }
+    progress.finish();
+    let page = resolution_markdown(&revisited);
+    write_file(&out.join("driven.md"), page.as_bytes())?;
+    write_file(&out.join("rates.csv"), rates_csv(&rates(&revisited)).as_bytes())?;
+    print!("{page}");
+    eprintln!("wrote plans, recordings, diagnoses and scores to {}", out.display());
+    Ok(Exit::Done)
+}
+
+impl Visit<'_> {
+    /// What came of the case, now or before; a failure is tried again.
+    fn outcome(&self) -> Result<Outcome, Box<dyn Error>> {
+        prepare_folder(&self.home)?;
+        let written = self.home.join(folder::DIAGNOSIS);
+        if !written.join(diagnosis::FILE).exists() {
+            if let Some(reason) = self.plan()? {
+                return Ok(Outcome::Failed(reason));
+            }
+            let Some(schedule) = self.schedule()? else { return Ok(Outcome::NothingToDrive) };
+            match revisit(self.answers, &self.judged.answer.id, schedule) {
+                Ok(recording) => {
+                    trackdyn_recording::folder::write(&recording, &self.home.join(AGAIN))?;
+                }
+                Err(error) => return Ok(Outcome::Failed(error.to_string())),
+            }
+            if let Some(reason) = self.diagnose(&written)? {
+                return Ok(Outcome::Failed(reason));
+            }
+        }
+        Ok(match Diagnosis::read(&written) {
+            Ok(diagnosis) => Outcome::Diagnosed(Box::new(diagnosis)),
+            Err(error) => Outcome::Failed(error.to_string()),
+        })
+    }
+
+    /// Plans by what the diagnosis left and what an owner knows of the sensors; says why it failed.
+    fn plan(&self) -> Result<Option<String>, Box<dyn Error>> {
+        let room = Room::new()?;
+        let before = Entry::default().diagnosis(&self.case);
+        for name in [diagnosis::FILE, CORRECTED] {
+            room.bring(&before.join(name), name)?;
+        }
+        let answer = &self.judged.answer;
+        let numbers = [
+            answer.fastest_m_per_s,
+            f64::from(self.options.duration),
+            answer.pose_white_m,
+            answer.pose_white_rad,
+        ];
+        let keys = ["--fastest", "--duration", "--noise-xy-m", "--noise-yaw-rad"];
+        let numbers = numbers.map(|number| number.to_string());
+        let mut arguments = vec!["--diagnosis", diagnosis::FILE, "--out", OUT];
+        arguments.extend(keys.iter().zip(&numbers).flat_map(|(key, text)| [*key, text]));
+        let failed = room.run(&self.program("plan")?, &arguments)?;
+        if failed.is_none() {
+            room.take(&self.home.join(PLAN))?;
+        }
+        Ok(failed)
+    }
+
+    /// What is to be driven; none where no driving decides.
+    fn schedule(&self) -> Result<Option<Schedule>, Box<dyn Error>> {
+        let path = self.home.join(PLAN).join(SCHEDULE);
+        if !path.exists() {
+            return Ok(None);
+        }
+        let runs = trackdyn_field::schedules::read(&path)?;
+        Ok(runs.into_iter().next().map(|run| run.schedule))
+    }
+
+    /// Diagnoses old and new driving together; says why it failed.
+    fn diagnose(&self, place: &Path) -> Result<Option<String>, Box<dyn Error>> {
+        let room = Room::new()?;
+        for name in [folder::RECORDING, folder::VEHICLE] {
+            room.bring(&self.case.join(name), name)?;
+        }
+        room.bring(&self.home.join(AGAIN), AGAIN)?;
+        let sources = [folder::RECORDING, AGAIN, "--vehicle", folder::VEHICLE];
+        let arguments = [&sources[..], &["--held-out", HELD_OUT, "--out", OUT]].concat();
+        let failed = room.run(&self.program("diagnose")?, &arguments)?;
+        if failed.is_none() {
+            room.take(place)?;
+        }
+        Ok(failed)
+    }
+
+    fn program(&self, command: &'static str) -> Result<Program, Box<dyn Error>> {
+        let limit = Duration::from_secs(self.options.limit);
+        Ok(Program { path: std::env::current_exe()?, first: Some(command), limit })
+    }
+}

@@ -1,0 +1,135 @@
+//! A room of its own for a process: a folder under a name that is drawn, without the caller's environment.
+//!
+//! What the process gets is copied in, what it wrote is taken out when it has ended: neither its
+//! arguments nor its working folder lead to anything else.
+
+use std::error::Error;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// Time between looks at a process.
+const LOOK: Duration = Duration::from_millis(20);
+/// Characters of a failed process' last words that are kept.
+const LAST_WORDS: usize = 4000;
+/// What the process says.
+const TALK: &str = "stderr.txt";
+/// The folder that the process writes to, below its own.
+pub const OUT: &str = "out";
+
+/// A program.
+pub struct Program {
+    /// Where it is.
+    pub path: PathBuf,
+    /// Its first argument, where it is one of several commands.
+    pub first: Option<&'static str>,
+    /// Time after which a process is ended.
+    pub limit: Duration,
+}
+
+/// A folder for one process.
+pub struct Room(TempDir);
+
+impl Room {
+    /// An empty room.
+    pub fn new() -> io::Result<Self> {
+        let room = tempfile::Builder::new().prefix("trackdyn-").tempdir()?;
+        fs::create_dir(room.path().join(OUT))?;
+        Ok(Self(room))
+    }
+
+    /// Copies a file or a folder in, under a name.
+    pub fn bring(&self, from: &Path, name: &str) -> io::Result<()> {
+        let to = self.0.path().join(name);
+        if from.is_dir() { copy(from, &to) } else { fs::copy(from, to).map(drop) }
+    }
+
+    /// Where the process writes to.
+    pub fn out(&self) -> PathBuf {
+        self.0.path().join(OUT)
+    }
+
+    /// Runs a program here until it ends, and says why it failed; nothing where it did not.
+    pub fn run(
+        &self,
+        program: &Program,
+        arguments: &[&str],
+    ) -> Result<Option<String>, Box<dyn Error>> {
+        let status = self.wait(program, arguments)?;
+        let how = match status {
+            Some(status) if status.success() => return Ok(None),
+            Some(status) => format!("ended with {status}"),
+            None => format!("was ended after {} s", program.limit.as_secs()),
+        };
+        let words = fs::read(self.0.path().join(TALK)).unwrap_or_default();
+        let words = String::from_utf8_lossy(&words);
+        let start = words.char_indices().rev().nth(LAST_WORDS).map_or(0, |(place, _)| place);
+        Ok(Some(format!("the process {how}\n{}", &words[start..])))
+    }
+
+    /// Puts what was written in the place of a folder, whole.
+    pub fn take(&self, place: &Path) -> io::Result<()> {
+        let name = place.file_name().unwrap_or_default().to_string_lossy();
+        let partial = place.with_file_name(format!(".{name}"));
+        let remove = |old: &Path| if old.exists() { fs::remove_dir_all(old) } else { Ok(()) };
+        remove(&partial)?;
+        copy(&self.out(), &partial)?;
+        remove(place)?;
+        fs::rename(partial, place)
+    }
+
+    /// How the process ended; none where it took too long.
+    fn wait(
+        &self,
+        program: &Program,
+        arguments: &[&str],
+    ) -> Result<Option<ExitStatus>, Box<dyn Error>> {
+        let mut command = Command::new(&program.path);
+        command
+            .args(program.first)
+            .args(arguments)
+            .current_dir(&self.0)
+            .env_clear()
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(File::create(self.0.path().join(TALK))?);
+        for name in ["PATH", "RAYON_NUM_THREADS"] {
+            if let Some(value) = std::env::var_os(name) {
+                command.env(name, value);
+            }
+        }
+        let started = Instant::now();
+        let mut process = command
+            .spawn()
+            .map_err(|cause| format!("{}: cannot be run: {cause}", program.path.display()))?;
+        loop {
+            if let Some(status) = process.try_wait()? {
+                return Ok(Some(status));
+            }
+            if started.elapsed() > program.limit {
+                process.kill()?;
+                process.wait()?;
+                return Ok(None);
+            }
+            std::thread::sleep(LOOK);
+        }
+    }
+}
+
+/// Copies the files of a folder and of those in it.
+fn copy(from: &Path, to: &Path) -> io::Result<()> {
+    fs::create_dir_all(to)?;
+    for entry in fs::read_dir(from)? {
+        let path = entry?.path();
+        let target = to.join(path.file_name().unwrap_or_default());
+        if path.is_dir() {
+            copy(&path, &target)?;
+        } else {
+            fs::copy(&path, &target)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,101 @@
+//! The tables of a proposed law.
+
+use super::{ParameterTable, SupportTable, rounded};
+use crate::proposal::Proposal;
+use serde::{Deserialize, Serialize};
+use trackdyn_physics::CATALOGUE;
+use trackdyn_physics::effect::Symmetry;
+
+/// A term of a proposed law.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct ProposedTable {
+    /// The form that it belongs to: its id in vehicle files.
+    pub form: String,
+    /// Its key.
+    pub term: String,
+    /// The component of the wrench.
+    pub component: String,
+    /// How large it is: of cosine and sine, and of two axes, the length.
+    pub value: f64,
+    /// Lower end of the 95 % interval.
+    pub low95: f64,
+    /// Upper end of the interval.
+    pub high95: f64,
+    /// What it counts.
+    pub unit: String,
+    /// All of it in words.
+    pub what: String,
+    /// Letters of the symmetries that the term breaks.
+    pub symmetries: Vec<String>,
+    /// Its coefficients.
+    pub parameters: Vec<ParameterTable>,
+    /// What speaks for it; the Bayes factor is against the law without the term.
+    pub evidence: SupportTable,
+}
+
+/// What a proposed law is worth.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct ProposalTable {
+    /// Share of what the named effects leave above the noise floor; absent where that is nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub explains: Option<f64>,
+    /// Error without it on held-out runs.
+    pub held_out_before: f64,
+    /// Error with it.
+    pub held_out_after: f64,
+    /// Letters of the symmetries that are surely broken still.
+    pub left_over: Vec<String>,
+}
+
+/// The terms of a law.
+pub(super) fn terms(proposal: &Proposal) -> Vec<ProposedTable> {
+    let card = &CATALOGUE[proposal.effect];
+    proposal
+        .terms
+        .iter()
+        .map(|proposed| {
+            let size = proposed.size();
+            let parameters = proposed.coefficients.iter().filter_map(|interval| {
+                let parameter = interval.unknown.parameter()?;
+                Some(ParameterTable {
+                    name: parameter.key.to_owned(),
+                    value: rounded(interval.value),
+                    low95: rounded(interval.low),
+                    high95: rounded(interval.high),
+                    unit: parameter.unit.to_owned(),
+                })
+            });
+            ProposedTable {
+                form: card.id.to_owned(),
+                term: proposed.term.key.to_owned(),
+                component: proposed.term.component.to_owned(),
+                value: rounded(size.value),
+                low95: rounded(size.value - size.half),
+                high95: rounded(size.value + size.half),
+                unit: proposed.term.unit.to_owned(),
+                what: proposed.phrase(proposal.contact_length),
+                symmetries: letters(&proposed.term.breaks),
+                parameters: parameters.collect(),
+                evidence: SupportTable {
+                    p: rounded(proposed.support.p),
+                    ln_bayes_factor: rounded(proposed.support.ln_bayes_factor),
+                    held_out_gain: rounded(proposed.support.held_out_gain),
+                },
+            }
+        })
+        .collect()
+}
+
+/// The law as a whole.
+pub(super) fn law(proposal: &Proposal) -> ProposalTable {
+    ProposalTable {
+        explains: proposal.explains().map(rounded),
+        held_out_before: rounded(proposal.held_out.before),
+        held_out_after: rounded(proposal.held_out.after),
+        left_over: letters(&proposal.left_over),
+    }
+}
+
+fn letters(symmetries: &[Symmetry]) -> Vec<String> {
+    symmetries.iter().map(|symmetry| symmetry.letter().to_string()).collect()
+}

@@ -1,0 +1,386 @@
+//! How noisy the evidence is: what is left when all that driving could explain is fitted away.
+//!
+//! # Law
+//! To the base belong constant ICRs, encoders and pose sensor; beside them stand the contrasts of
+//! [`locate`](crate::locate), which let the ICRs go with speed, direction, manoeuvre, side, heading, place, time
+//! and change of speed, whatever the reason. The residual r of all these is noise: white noise R of each pose,
+//! which neighbouring segments share, and a random walk q within each segment ([`SegmentNoise`]). The
+//! six variances are those under which r is most likely, with a heavy-tailed likelihood, so that outliers do not
+//! count:
+//!
+//! maximise Σ ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν),  z = L⁻¹ r, L the Cholesky factor of their covariance.
+//!
+//! Its level is then set by the median of |z|², which is that of a χ² with three degrees of freedom.
+//!
+//! Strong physics may leave more than contrasts can take up. Where a hypothesis does explain more, so that a
+//! variance falls, the noise is looked for once more beside it.
+//!
+//! What is measured without any model ([`trackdyn_recording::noise`]) is where this starts from. Poses alone
+//! cannot tell the ripple of a drive, which the encoders see, from a walk of the pose; nor can encoders alone
+//! tell counts that err against each other from slip.
+//!
+//! # Sources
+//! Lange, Little, Taylor, Journal of the American Statistical Association 84(408), 1989 (t likelihood); Berndt,
+//! Hall, Hall, Hausman, Annals of Economic and Social Measurement 3(4), 1974 (steps).
+
+use crate::diagnosis::icr_columns;
+use crate::evidence::Evidence;
+use crate::fit::{Fit, Metric};
+use crate::locate::contrasts;
+use crate::normal::Prior;
+use nalgebra::{Cholesky, SMatrix, SVector, Vector3};
+use trackdyn_core::Pose;
+use trackdyn_identify::weighting::SegmentNoise;
+
+/// Degrees of freedom of the heavy-tailed likelihood.
+const TAILS: f64 = 5.0;
+
+/// Median of a χ² with three degrees of freedom.
+const MEDIAN: f64 = 2.365_973_884_375_338;
+
+/// |z|² of a sample that one in a million would reach by chance, and that of a pair which one in a hundred does.
+const FAR_OFF: f64 = 30.7;
+const TOGETHER: f64 = 11.3;
+
+/// Rounds in which columns are fitted in the noise that was found.
+const ROUNDS: usize = 2;
+
+/// Steps of a maximisation, and the gain that ends it.
+const STEPS: usize = 20;
+const SETTLED: f64 = 0.05;
+
+/// A variance changes by no more than this factor in a step, e-fold.
+const LARGEST_STEP: f64 = 1.5;
+
+/// A walk that adds less than this share of the white noise to a segment is none.
+const NO_WALK: f64 = 1e-5;
+
+/// By what a variance must be smaller beside a hypothesis for the noise to be another one.
+const SHARPER: f64 = 1.3;
+
+/// The evidence with the noise that the residuals beside a fit show. Tables of steady points keep theirs.
+pub fn with_remaining_noise(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Evidence {
+    let mut evidence = evidence.clone();
+    for _ in 0..ROUNDS {
+        let Some(&noise) = evidence.noise() else { break };
+        let left = remaining(&evidence, fit, metric);
+        let noise = most_likely(&evidence, metric, noise, &left);
+        evidence = evidence.with_noise(noise);
+        evidence = evidence.without(&outlying(&evidence, &noise, &left));
+    }
+    evidence
+}
+
+/// The evidence with the noise beside a hypothesis that explains more than contrasts can; none where this does
+/// not make it smaller.
+pub fn sharper(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Option<Evidence> {
+    let before = evidence.noise()?;
+    let again = with_remaining_noise(evidence, fit, metric);
+    let after = again.noise()?;
+    // What a variance adds to a sample decides: a walk of nearly nothing may be half of that.
+    let duration = evidence.samples().first()?.duration;
+    let added = |noise: &SegmentNoise, k: usize| noise.pose[k] + noise.walk[k] * duration * SLOW;
+    (0..3).any(|k| added(before, k) > SHARPER * added(after, k)).then_some(again)
+}
+
+/// Samples over which slow effects are summed.
+const SLOW: f64 = 10.0;
+
+/// Samples at whose shared pose the sensor erred: each by itself is far off, both together are not.
+fn outlying(evidence: &Evidence, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
+    let mut white = left.to_vec();
+    evidence.whiten(&mut white);
+    let samples = evidence.samples();
+    let pose = |motion: &Vector3<f64>| Pose::new(motion[0], motion[1], motion[2]);
+    let mut lost: Vec<usize> = Vec::new();
+    for index in 1..samples.len() {
+        let pair = [index - 1, index];
+        // What a pose that erred tells of the next ones is wrong too, and is judged in the next round.
+        if lost.last().is_some_and(|last| index <= last + 3) {
+            continue;
+        }
+        if !samples[index].follows || white[index - 1].norm_squared() < FAR_OFF {
+            continue;
+        }
+        let both =
+            |of: &dyn Fn(usize) -> Vector3<f64>| pose(&of(pair[0])).compose(&pose(&of(pair[1])));
+        let observed = both(&|k| samples[k].motion);
+        let expected = both(&|k| samples[k].motion - left[k]);
+        let off = expected.relative(&observed);
+        let duration = samples[pair[0]].duration + samples[pair[1]].duration;
+        let reach = observed.x.hypot(observed.y).powi(2);
+        // the poses at both ends, the walk between them, and what the first one's yaw makes of the way
+        let variance = |k: usize| {
+            let turned = if k < 2 { noise.pose[2] * reach } else { 0.0 };
+            2.0 * noise.pose[k] + noise.walk[k] * duration + turned
+        };
+        let together = off.x.powi(2) / variance(0)
+            + off.y.powi(2) / variance(1)
+            + off.yaw.powi(2) / variance(2);
+        if together < TOGETHER {
+            lost.extend(pair);
+        }
+    }
+    lost
+}
+
+/// What is left of the residual when all contrasts are fitted, not white.
+fn remaining(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Vec<Vector3<f64>> {
+    let prediction =
+        fit.mechanics.predict(&crate::mechanics::Instruments::of(&fit.hypothesis), evidence);
+    let residual = metric.residual(evidence, &prediction);
+    let mut columns = crate::fit::columns(
+        &fit.hypothesis,
+        &fit.mechanics,
+        &prediction,
+        &fit.unknowns,
+        evidence,
+        metric,
+    );
+    let icrs = icr_columns(evidence, fit);
+    let contrasts = contrasts(evidence, &icrs);
+    columns.extend(contrasts.into_iter().map(|(_, column)| metric.white(evidence, column)));
+    let normal = metric.normal(evidence, &residual, &columns);
+    let all: Vec<usize> = (0..columns.len()).collect();
+    let flat = vec![Prior { mean: 0.0, deviation: 1e6 }; columns.len()];
+    let factors = normal.fit(&all, &flat).estimate;
+    let mut left = residual;
+    for (column, factor) in columns.iter().zip(factors.iter()) {
+        for (value, by) in left.iter_mut().zip(column) {
+            *value -= by * *factor;
+        }
+    }
+    evidence.colour(&mut left);
+    left
+}
+
+/// The noise under which residuals are most likely.
+fn most_likely(
+    evidence: &Evidence,
+    metric: &Metric,
+    start: SegmentNoise,
+    residual: &[Vector3<f64>],
+) -> SegmentNoise {
+    let likelihood = Likelihood { evidence, metric, residual };
+    let mut here = SVector::<f64, 6>::from_fn(|k, _| {
+        if k < 3 {
+            start.pose[k].ln()
+        } else {
+            start.walk[k - 3].max(0.03 * start.pose[k - 3]).ln()
+        }
+    });
+    let mut terms = likelihood.terms(&here);
+    let mut value: f64 = terms.iter().sum();
+    for _ in 0..STEPS {
+        let step = likelihood.step(&here, &terms);
+        let next = [1.0, 0.4, 0.1].into_iter().find_map(|share| {
+            let there = (here + step * share).map(|v| v.clamp(-80.0, 20.0));
+            let terms = likelihood.terms(&there);
+            let sum: f64 = terms.iter().sum();
+            (sum > value).then_some((there, terms, sum))
+        });
+        let Some((there, found, sum)) = next else { break };
+        let gain = sum - value;
+        (here, terms, value) = (there, found, sum);
+        if gain < SETTLED {
+            break;
+        }
+    }
+    let noise = noise_of(&here);
+    let mut squares: Vec<f64> = likelihood.counted(&likelihood.white(&noise)).collect();
+    squares.sort_by(f64::total_cmp);
+    let level = squares.get(squares.len() / 2).map_or(1.0, |median| median / MEDIAN);
+    SegmentNoise { pose: noise.pose.map(|v| v * level), walk: noise.walk.map(|v| v * level) }
+}
+
+/// Residuals whose noise is looked for.
+struct Likelihood<'a> {
+    evidence: &'a Evidence,
+    metric: &'a Metric,
+    residual: &'a [Vector3<f64>],
+}
+
+impl Likelihood<'_> {
+    fn white(&self, noise: &SegmentNoise) -> (Evidence, Vec<Vector3<f64>>) {
+        let evidence = self.evidence.with_noise(*noise);
+        let mut white = self.residual.to_vec();
+        evidence.whiten(&mut white);
+        (evidence, white)
+    }
+
+    fn counted<'b>(
+        &'b self,
+        (_, white): &'b (Evidence, Vec<Vector3<f64>>),
+    ) -> impl Iterator<Item = f64> + 'b {
+        let samples = self.evidence.samples().iter().zip(white);
+        samples
+            .filter(|(sample, _)| self.metric.runs[sample.run])
+            .map(|(_, z)| z.norm_squared())
+            .filter(|square| *square > 0.0)
+    }
+
+    /// The logarithm of the likelihood of each segment.
+    fn terms(&self, variances: &SVector<f64, 6>) -> Vec<f64> {
+        let (evidence, white) = self.white(&noise_of(variances));
+        let samples = evidence.samples().iter().zip(&white).zip(evidence.ln_determinants());
+        samples
+            .map(|((sample, z), ln_determinant)| {
+                if self.metric.runs[sample.run] && *z != Vector3::zeros() {
+                    // ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν)
+                    ln_determinant - 0.5 * (TAILS + 3.0) * (z.norm_squared() / TAILS).ln_1p()
+                } else {
+                    0.0
+                }
+            })
+            .collect()
+    }
+
+    /// The step of Berndt and others: (Σ g gᵀ)⁻¹ Σ g, g the derivatives of each term.
+    fn step(&self, here: &SVector<f64, 6>, terms: &[f64]) -> SVector<f64, 6> {
+        const STEP: f64 = 1e-3;
+        let there: [Vec<f64>; 6] = std::array::from_fn(|k| {
+            let mut moved = *here;
+            moved[k] += STEP;
+            self.terms(&moved)
+        });
+        let mut information = SMatrix::<f64, 6, 6>::identity() * 1e-3;
+        let mut gradient = SVector::<f64, 6>::zeros();
+        for (index, term) in terms.iter().enumerate() {
+            let g = SVector::<f64, 6>::from_fn(|k, _| (there[k][index] - term) / STEP);
+            gradient += g;
+            information += g * g.transpose();
+        }
+        let step = Cholesky::new(information).map_or(gradient, |factor| factor.solve(&gradient));
+        step.map(|value| value.clamp(-LARGEST_STEP, LARGEST_STEP))
+    }
+}
+
+fn noise_of(variances: &SVector<f64, 6>) -> SegmentNoise {
+    let pose = std::array::from_fn(|k| variances[k].exp());
+    let walk = std::array::from_fn(|k| variances[3 + k].exp().max(NO_WALK * pose[k]));
+    SegmentNoise { pose, walk }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evidence::planned::{PlannedRun, READINGS};
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use trackdyn_recording::TrackSample;
+
+    const TRUE: SegmentNoise =
+        SegmentNoise { pose: [9e-6, 4e-6, 4e-6], walk: [1e-6, 4e-6, 2.5e-7] };
+
+    /// A winding drive of 1500 segments, and what was seen beside its motion.
+    fn drive(errors: &[Vector3<f64>]) -> Evidence {
+        let tracks: Vec<TrackSample> = (0..=1500 * READINGS)
+            .map(|k| {
+                let t = 0.03 * f64::from(u32::try_from(k).expect("small"));
+                TrackSample {
+                    t,
+                    v_left: 0.4 + 0.4 * (0.3 * t).sin(),
+                    v_right: 0.5 * (0.17 * t).cos(),
+                }
+            })
+            .collect();
+        let run = PlannedRun { pose: Pose::default(), tracks, blocks: vec![0] };
+        Evidence::planned(&[run], TRUE, 0.0, |evidence| {
+            let turn = |s: &crate::evidence::Sample| s.speeds.right - s.speeds.left;
+            let ahead = |s: &crate::evidence::Sample| f64::midpoint(s.speeds.left, s.speeds.right);
+            let samples = evidence.samples().iter();
+            let none = std::iter::repeat(const { &Vector3::new(0.0, 0.0, 0.0) });
+            let errors = errors.iter().chain(none);
+            samples
+                .zip(errors)
+                .map(|(s, error)| Vector3::new(ahead(s), 0.0, turn(s)) * s.duration + error)
+                .collect()
+        })
+    }
+
+    /// Noise of that kind: white numbers with its correlations.
+    fn noisy(evidence: &Evidence, seed: u64) -> Vec<Vector3<f64>> {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        // A sum of twelve uniform numbers is normal enough, and has variance one.
+        let mut normal = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
+        let mut residual: Vec<_> =
+            evidence.samples().iter().map(|_| Vector3::from_fn(|_, _| normal())).collect();
+        evidence.colour(&mut residual);
+        residual
+    }
+
+    fn metric() -> Metric {
+        Metric { scale: [1.0; 3], runs: vec![true] }
+    }
+
+    fn found(evidence: &Evidence, residual: &[Vector3<f64>]) -> SegmentNoise {
+        let wrong = SegmentNoise { pose: [4e-5, 1e-6, 1e-5], walk: [0.0, 1e-4, 1e-5] };
+        most_likely(evidence, &metric(), wrong, residual)
+    }
+
+    #[test]
+    fn colour_undoes_whitening() {
+        let evidence = drive(&[]);
+        let residual = noisy(&evidence, 1);
+        let mut there = residual.clone();
+        evidence.whiten(&mut there);
+        evidence.colour(&mut there);
+        for (a, b) in residual.iter().zip(&there) {
+            assert!((a - b).norm() < 1e-12 * (1e-3 + a.norm()), "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn white_noise_and_walk_are_found_from_a_wrong_start() {
+        let evidence = drive(&[]);
+        for seed in 1..6 {
+            let noise = found(&evidence, &noisy(&evidence, seed));
+            // A variance is known to √(2/n) of itself from n independent numbers: 1500 for a pose; a walk
+            // shows against poses of 2 to 4 mm over a dozen segments and more, 100 times in the drive, 16 %
+            // and in yaw, the smallest, over fifty, 27 %.
+            let close = |found: f64, truth: f64, deviation: f64| {
+                assert!((found / truth).ln().abs() < 4.0 * deviation, "{seed}: {noise:?}");
+            };
+            for k in 0..3 {
+                close(noise.pose[k], TRUE.pose[k], 0.05);
+            }
+            for (k, deviation) in [0.16, 0.16, 0.27].into_iter().enumerate() {
+                close(noise.walk[k], TRUE.walk[k], deviation);
+            }
+        }
+    }
+
+    #[test]
+    fn poses_far_off_are_lost_and_change_nothing_else() {
+        let evidence = drive(&[]);
+        let clean = noisy(&evidence, 7);
+        let mut residual = clean.clone();
+        let far: Vec<usize> = (20..1480).step_by(40).collect();
+        for (&index, size) in far.iter().zip([0.05, -0.08, 0.12].into_iter().cycle()) {
+            // A pose that lies `size` m ahead and to the left, and is turned: the end of one sample and
+            // the start of the next.
+            let samples = evidence.samples();
+            let sample = |k: usize| {
+                let motion = samples[k].motion;
+                Pose::new(motion[0], motion[1], motion[2])
+            };
+            let error = Pose::new(size, 0.5 * size, 0.4 * size);
+            let first = sample(index).compose(&error);
+            let second = error.relative(&sample(index + 1));
+            for (k, wrong) in [(index, first), (index + 1, second)] {
+                let motion = samples[k].motion;
+                residual[k] += Vector3::new(wrong.x, wrong.y, wrong.yaw) - motion;
+            }
+        }
+        let seen = drive(&residual);
+        let noise = found(&seen, &residual);
+        let lost = outlying(&seen.with_noise(noise), &noise, &residual);
+        let expected: Vec<usize> = far.iter().flat_map(|&index| [index, index + 1]).collect();
+        assert_eq!(lost, expected);
+        let after = found(&seen.without(&lost), &residual);
+        let without = found(&evidence, &clean);
+        for k in 0..3 {
+            assert!((after.pose[k] / without.pose[k]).ln().abs() < 0.1, "{after:?} {without:?}");
+        }
+    }
+}

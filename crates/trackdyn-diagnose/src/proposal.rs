@@ -1,0 +1,280 @@
+//! A form for what the catalogue does not explain: terms of an empirical force that are worth their keep.
+//!
+//! # Law
+//! The residual of the best hypothesis is regressed on the signatures of all terms that the forms of the
+//! catalogue offer, each found by the simulator with a little of that force, with everything else that is
+//! free beside them. What is chosen goes into the simulator as a force, and all numbers are fitted anew.
+//!
+//! # Assumes
+//! That a force on the body can stand for it. It is never called an effect, for it has no cause.
+
+mod selection;
+pub mod symmetry;
+pub mod words;
+
+use crate::base::Calibration;
+use crate::diagnosis::{Diagnosis, HeldOut, Kind, Missing, Options, Status, icr_columns};
+use crate::evidence::Evidence;
+use crate::fit::{Fit, Metric, columns, prior};
+use crate::hypothesis::Unknown;
+use crate::locate::{Location, excess, locate};
+use crate::mechanics::Instruments;
+use crate::normal::Prior;
+use crate::search::{Catalogue, Found, Search};
+use crate::uncertainty::{Interval, intervals};
+use crate::verdict::Rules;
+use selection::{Library, Selected};
+use trackdyn_core::real;
+use trackdyn_physics::effect::{Symmetry, Term};
+use trackdyn_physics::{CATALOGUE, Effects, Model, Vehicle, VehicleFile};
+
+/// A law that is proposed for what no effect explains.
+#[derive(Clone)]
+pub struct Proposal {
+    /// The form, by its place in the catalogue.
+    pub effect: usize,
+    /// Its terms, most telling first.
+    pub terms: Vec<Proposed>,
+    /// The best hypothesis with it, refitted.
+    pub found: Found,
+    /// Where that one still departs from the evidence.
+    pub after: Location,
+    /// Symmetries that are surely broken still.
+    pub left_over: Vec<Symmetry>,
+    /// Errors without the law and with it, on the runs that judge the diagnosis.
+    pub held_out: HeldOut,
+    /// Length of the contact, m.
+    pub contact_length: f64,
+}
+
+/// A term of the law.
+#[derive(Clone, Debug)]
+pub struct Proposed {
+    /// The term.
+    pub term: Term,
+    /// Its coefficients with their 95 % intervals.
+    pub coefficients: Vec<Interval>,
+    /// What speaks for it.
+    pub support: Support,
+}
+
+/// What speaks for a term.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Support {
+    /// Probability that the best of all admissible terms is as good by chance.
+    pub p: f64,
+    /// Logarithm of the Bayes factor against the law without it.
+    pub ln_bayes_factor: f64,
+    /// Gain of log-likelihood on blocks that were left out of the fit.
+    pub held_out_gain: f64,
+    /// Its standard error.
+    pub held_out_error: f64,
+}
+
+impl Support {
+    /// Whether it reaches what a claim must reach.
+    fn suffices(&self) -> bool {
+        self.p < Rules::P
+            && self.ln_bayes_factor >= Rules::LN_BAYES_FACTOR
+            && self.held_out_gain >= Rules::GAIN * self.held_out_error
+    }
+}
+
+impl Proposal {
+    /// Share of what the best hypothesis left above the noise floor that the law explains, at most one, for the
+    /// floor is an estimate; none where nothing was left.
+    pub fn explains(&self) -> Option<f64> {
+        self.held_out.excess_explained().map(|share| share.min(1.0))
+    }
+
+    /// The law in words.
+    pub fn sentence(&self) -> String {
+        let phrases = self.terms.iter().map(|proposed| proposed.phrase(self.contact_length));
+        phrases.collect::<Vec<_>>().join("; ")
+    }
+
+    /// Symmetries that its terms break, ascending.
+    pub fn breaks(&self) -> Vec<Symmetry> {
+        let breaks = |symmetry: &Symmetry| {
+            self.terms.iter().any(|proposed| proposed.term.breaks.contains(symmetry))
+        };
+        Symmetry::ALL.into_iter().filter(breaks).collect()
+    }
+}
+
+/// A diagnosis that leaves something unexplained, with the law that is proposed for it: in `proposed`, and in the
+/// corrected vehicle.
+pub fn completed(mut diagnosis: Diagnosis, options: &Options) -> Diagnosis {
+    if diagnosis.status == Status::Unexplained {
+        diagnosis.proposed = propose(&diagnosis, &diagnosis.evidence, options);
+        if let Some(proposal) = &diagnosis.proposed {
+            correct(&mut diagnosis.corrected, proposal, &diagnosis.missing);
+        }
+    }
+    diagnosis
+}
+
+/// The law of the first form that has one to propose.
+fn propose(diagnosis: &Diagnosis, evidence: &Evidence, options: &Options) -> Option<Proposal> {
+    let forms = (0..CATALOGUE.len()).filter(|&effect| CATALOGUE[effect].is_form());
+    forms.into_iter().find_map(|effect| law(effect, diagnosis, evidence, options))
+}
+
+/// The law of a form: its terms chosen, and fitted in the simulator.
+fn law(
+    effect: usize,
+    diagnosis: &Diagnosis,
+    evidence: &Evidence,
+    options: &Options,
+) -> Option<Proposal> {
+    let Diagnosis { base, best, metric, .. } = diagnosis;
+    let form = Rules::tolerated(evidence, base, best);
+    let left_over = diagnosis.after.left_over(form);
+    let kept = symmetry::kept([&diagnosis.filed, &diagnosis.before, &diagnosis.after]);
+    let terms = CATALOGUE[effect].terms().into_iter();
+    let terms = terms
+        .filter(|term| symmetry::is_admissible(term, &diagnosis.after, &left_over, &kept))
+        .collect();
+
+    let catalogue = Catalogue { entries: Vec::new() };
+    let search = Search { evidence, metric, base, catalogue: &catalogue };
+    let library = library(effect, terms, &search, &best.fit);
+    let selected = selection::select(&library, options);
+    if selected.is_empty() {
+        return None;
+    }
+    let found = refitted(effect, &selected, &library, &search, best);
+    let held_out = judged(diagnosis, evidence, &found);
+    let icrs = icr_columns(evidence, &found.fit);
+    let Fit { residual, columns, .. } = &found.fit;
+    let after = locate(evidence, metric, residual, columns, &icrs, options.draws, options.seed);
+    let still = after.left_over(form);
+    // A law that leaves most of it, breaks what was whole, or fails where nothing was fitted, is none.
+    let remains = remainder(&after, &left_over) / remainder(&diagnosis.after, &left_over);
+    let sound = remains < MOST_LEFT
+        && still.iter().all(|symmetry| left_over.contains(symmetry))
+        && held_out.after < held_out.before
+        && found.ln_evidence - best.ln_evidence >= Rules::LN_BAYES_FACTOR
+        && !found.fit.unknowns.iter().any(|&unknown| at_limit(&found.fit, unknown, effect));
+    if !sound {
+        return None;
+    }
+    let intervals = intervals(&search, &found);
+    let of = |unknown: Unknown| intervals.iter().find(|one| one.unknown == unknown).copied();
+    let terms = selected.into_iter().map(|selected| Proposed {
+        coefficients: library.unknowns(selected.term).into_iter().filter_map(of).collect(),
+        term: library.terms[selected.term].clone(),
+        support: selected.support,
+    });
+    Some(Proposal {
+        effect,
+        terms: terms.collect(),
+        after,
+        left_over: still,
+        held_out,
+        contact_length: contact_length(&found.fit.hypothesis.vehicle),
+        found,
+    })
+}
+
+/// Part of what breaks the left-over symmetries that a law may leave.
+const MOST_LEFT: f64 = 0.5;
+
+/// What breaks these symmetries: χ² beyond its degrees of freedom.
+fn remainder(location: &Location, symmetries: &[Symmetry]) -> f64 {
+    let tests = location.tests.iter().filter(|test| symmetries.contains(&test.symmetry));
+    tests.map(|test| (test.test.statistic - real(test.test.degrees)).max(0.0)).sum()
+}
+
+/// The normal equations of the best fit with the signatures of all terms beside.
+fn library(effect: usize, terms: Vec<Term>, search: &Search, fit: &Fit) -> Library {
+    let Search { evidence, metric, .. } = *search;
+    let mut unknowns: Vec<Unknown> = terms
+        .iter()
+        .flat_map(|term| term.coefficients.iter().map(|&k| Unknown::Effect(effect, k)))
+        .collect();
+    unknowns.sort_unstable();
+    unknowns.dedup();
+    let hypothesis = &fit.hypothesis;
+    let prediction = fit.mechanics.predict(&Instruments::of(hypothesis), evidence);
+    let more = columns(hypothesis, &fit.mechanics, &prediction, &unknowns, evidence, metric);
+    let known = unknowns.iter().map(|&unknown| {
+        let known = prior(hypothesis, unknown, evidence);
+        Prior { mean: known.mean - hypothesis.get(unknown), ..known }
+    });
+    let (_, mut priors, _) = search.normal(fit, &[]);
+    priors.extend(known);
+    let free = fit.columns.len();
+    let all: Vec<_> = fit.columns.iter().cloned().chain(more).collect();
+    let normal = metric.normal(evidence, &fit.residual, &all);
+    Library { effect, terms, unknowns, normal, priors, free }
+}
+
+/// The best hypothesis with the chosen terms as a force in the simulator, everything fitted anew.
+fn refitted(
+    effect: usize,
+    selected: &[Selected],
+    library: &Library,
+    search: &Search,
+    best: &Found,
+) -> Found {
+    let mut hypothesis = best.fit.hypothesis.clone();
+    let mut unknowns = best.fit.unknowns.clone();
+    let chosen: Vec<usize> = selected.iter().map(|selected| selected.term).collect();
+    for (unknown, step) in library.estimate(&chosen) {
+        hypothesis = hypothesis.with(unknown, hypothesis.get(unknown) + step);
+        if !unknowns.contains(&unknown) {
+            unknowns.push(unknown);
+        }
+    }
+    let before = Some(&best.fit.mechanics);
+    let fit = Fit::new(hypothesis, &unknowns, search.evidence, search.metric, before);
+    let mut effects = best.effects.clone();
+    effects.push(effect);
+    effects.sort_unstable();
+    Found { effects, ln_evidence: fit.ln_evidence(search.evidence), fit }
+}
+
+/// The errors without the law and with it, on the runs that judge the diagnosis.
+fn judged(diagnosis: &Diagnosis, evidence: &Evidence, found: &Found) -> HeldOut {
+    let HeldOut { after: before, noise_floor, are_held_out, .. } = diagnosis.held_out;
+    let runs = diagnosis.metric.runs.iter().map(|counts| counts != &are_held_out).collect();
+    let metric = Metric { scale: diagnosis.metric.scale, runs };
+    let after = excess(evidence, &metric, &found.fit.residual);
+    HeldOut { before, after, noise_floor, are_held_out }
+}
+
+/// Length of the contact between its ends, m.
+fn contact_length(vehicle: &Vehicle) -> f64 {
+    let model = Model::new(vehicle.clone(), Effects::none());
+    let [rear, front] = model.footprint().ends;
+    front - rear
+}
+
+/// Whether a coefficient ended at the limit of its range.
+fn at_limit(fit: &Fit, unknown: Unknown, effect: usize) -> bool {
+    let Some(parameter) = unknown.parameter().filter(|_| unknown.is_of(effect)) else {
+        return false;
+    };
+    let [low, high] = parameter.range;
+    let value = fit.hypothesis.get(unknown);
+    (value - low).min(high - value) <= 1e-6 * (high - low)
+}
+
+/// Puts the law into the corrected vehicle, with what else is claimed at the sizes that it has beside the law.
+fn correct(corrected: &mut VehicleFile, proposal: &Proposal, missing: &[Missing]) {
+    let hypothesis = &proposal.found.fit.hypothesis;
+    for missing in missing {
+        if missing.kind == Kind::Constant {
+            if let Some(calibrated) = Calibration::Vehicle.calibrated(hypothesis) {
+                corrected.vehicle.friction = calibrated.vehicle.friction;
+                corrected.vehicle.cog = calibrated.vehicle.cog;
+            }
+        } else if let Some(effect) = hypothesis.effect(missing.verdict.effect) {
+            corrected.effects.insert(effect.clone());
+        }
+    }
+    if let Some(effect) = hypothesis.effect(proposal.effect) {
+        corrected.effects.insert(effect.clone());
+    }
+}

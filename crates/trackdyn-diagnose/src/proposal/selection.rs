@@ -1,0 +1,186 @@
+//! Which terms: forward selection, with elimination and exchange after every step.
+
+use super::Support;
+use crate::diagnosis::Options;
+use crate::hypothesis::Unknown;
+use crate::normal::{Normal, Prior};
+use crate::significance::test;
+use crate::verdict::{Rules, cross_validated};
+use rayon::prelude::*;
+use trackdyn_physics::effect::Term;
+
+/// Terms that a law may have.
+const MOST_TERMS: usize = 3;
+
+/// All admissible terms of a form beside a fit.
+pub(super) struct Library {
+    /// The form, by its place in the catalogue.
+    pub effect: usize,
+    /// The terms.
+    pub terms: Vec<Term>,
+    /// Coefficients, ascending: the columns behind those of the fit.
+    pub unknowns: Vec<Unknown>,
+    /// Normal equations: what is free, then the coefficients.
+    pub normal: Normal,
+    /// What is known of each column's factor beforehand.
+    pub priors: Vec<Prior>,
+    /// Number of columns that are free anyway.
+    pub free: usize,
+}
+
+/// A term that was chosen.
+pub(super) struct Selected {
+    /// Its place in the library.
+    pub term: usize,
+    /// What speaks for it.
+    pub support: Support,
+}
+
+impl Library {
+    /// The coefficients of a term.
+    pub(super) fn unknowns(&self, term: usize) -> Vec<Unknown> {
+        let coefficients = self.terms[term].coefficients.iter();
+        coefficients.map(|&k| Unknown::Effect(self.effect, k)).collect()
+    }
+
+    /// The estimates of the coefficients of some terms together, as changes.
+    pub(super) fn estimate(&self, terms: &[usize]) -> Vec<(Unknown, f64)> {
+        let columns = self.columns(terms);
+        let solution = self.normal.fit(&columns, &self.priors);
+        let of_terms = columns.iter().zip(solution.estimate.iter()).skip(self.free);
+        of_terms.map(|(&column, step)| (self.unknowns[column - self.free], *step)).collect()
+    }
+
+    /// What is free and the columns of some terms.
+    fn columns(&self, terms: &[usize]) -> Vec<usize> {
+        let mut columns: Vec<usize> = (0..self.free).collect();
+        for &term in terms {
+            for column in self.group(term) {
+                if !columns.contains(&column) {
+                    columns.push(column);
+                }
+            }
+        }
+        columns
+    }
+
+    /// The columns of a term.
+    fn group(&self, term: usize) -> Vec<usize> {
+        let place = |unknown: Unknown| self.unknowns.iter().position(|other| *other == unknown);
+        let places = self.unknowns(term).into_iter().filter_map(place);
+        places.map(|place| self.free + place).collect()
+    }
+
+    fn ln_evidence(&self, terms: &[usize]) -> f64 {
+        self.normal.fit(&self.columns(terms), &self.priors).ln_evidence
+    }
+
+    /// The best choice with one more of the terms, or with another in the place of one.
+    fn best_of(&self, choices: Vec<Vec<usize>>) -> Option<(Vec<usize>, f64)> {
+        let valued: Vec<(Vec<usize>, f64)> = choices
+            .into_par_iter()
+            .map(|terms| {
+                let value = self.ln_evidence(&terms);
+                (terms, value)
+            })
+            .collect();
+        valued.into_iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
+    }
+
+    /// What speaks for a term beside the others.
+    fn support(&self, term: usize, terms: &[usize], options: &Options) -> Support {
+        let others: Vec<usize> = terms.iter().copied().filter(|other| *other != term).collect();
+        let base = self.columns(&others);
+        let projected = self.normal.projected(&base, &self.priors);
+        let family: Vec<usize> =
+            (0..self.terms.len()).filter(|other| !others.contains(other)).collect();
+        let groups: Vec<Vec<usize>> = family
+            .iter()
+            .map(|&term| {
+                self.group(term).into_iter().filter(|column| !base.contains(column)).collect()
+            })
+            .collect();
+        let tests = test(&projected, &groups, options.draws, options.seed);
+        let own = family.iter().position(|other| *other == term);
+        let columns = self.columns(terms);
+        let (held_out_gain, held_out_error) =
+            cross_validated(&self.normal, &self.priors, &base, &columns);
+        Support {
+            p: own.map_or(1.0, |own| tests[own].p),
+            ln_bayes_factor: self.ln_evidence(terms) - self.ln_evidence(&others),
+            held_out_gain,
+            held_out_error,
+        }
+    }
+}
+
+/// The terms that are worth it, most telling first; none where no term is.
+pub(super) fn select(library: &Library, options: &Options) -> Vec<Selected> {
+    let mut chosen = search(library);
+    loop {
+        let mut selected: Vec<Selected> = chosen
+            .iter()
+            .map(|&term| Selected { term, support: library.support(term, &chosen, options) })
+            .collect();
+        let gain = |selected: &Selected| selected.support.ln_bayes_factor;
+        selected.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
+        match selected.iter().rfind(|selected| !selected.support.suffices()) {
+            Some(weakest) => chosen.retain(|term| *term != weakest.term),
+            None => return selected,
+        }
+    }
+}
+
+fn search(library: &Library) -> Vec<usize> {
+    let all: Vec<usize> = (0..library.terms.len()).collect();
+    let mut chosen: Vec<usize> = Vec::new();
+    let mut value = library.ln_evidence(&chosen);
+    while chosen.len() < MOST_TERMS {
+        let others = all.iter().filter(|term| !chosen.contains(term));
+        let more = others.map(|&term| chosen.iter().copied().chain([term]).collect()).collect();
+        let Some((terms, with)) = library.best_of(more) else { break };
+        if with - value < Rules::LN_BAYES_FACTOR {
+            break;
+        }
+        (chosen, value) = exchanged(library, &all, terms, with);
+    }
+    chosen
+}
+
+/// The choice after every exchange of one term for another that helps, and without those that are not missed.
+fn exchanged(
+    library: &Library,
+    all: &[usize],
+    mut chosen: Vec<usize>,
+    mut value: f64,
+) -> (Vec<usize>, f64) {
+    loop {
+        let exchanges = (0..chosen.len()).flat_map(|place| {
+            let others = all.iter().filter(|term| !chosen.contains(term));
+            let chosen = &chosen;
+            others.map(move |&term| {
+                let mut terms = chosen.clone();
+                terms[place] = term;
+                terms
+            })
+        });
+        let best = library.best_of(exchanges.collect());
+        match best.filter(|(_, with)| *with > value + 1e-6) {
+            Some((terms, with)) => (chosen, value) = (terms, with),
+            None => break,
+        }
+    }
+    loop {
+        let without = (0..chosen.len()).map(|place| {
+            let mut terms = chosen.clone();
+            terms.remove(place);
+            terms
+        });
+        match library.best_of(without.collect()) {
+            Some((terms, left)) if value - left < Rules::LN_BAYES_FACTOR => {
+                (chosen, value) = (terms, left);
+            }
+            _ => return (chosen, value),
+        }
+    }
+}

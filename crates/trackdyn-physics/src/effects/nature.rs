@@ -1,0 +1,33 @@
+//! Mechanisms and forms.
+
+use super::{CATALOGUE, NATURES, TERMS};
+use crate::effect::{Card, Nature, Parameter, Role, Term};
+
+impl Card {
+    /// Whether it is a mechanism or a form.
+    pub fn nature(&self) -> Nature {
+        self.place().map_or(Nature::Mechanism, |place| NATURES[place])
+    }
+
+    /// Whether it is a form: what no mechanism of the catalogue explains may be described by it.
+    pub fn is_form(&self) -> bool {
+        self.nature() == Nature::Form
+    }
+
+    /// The terms of a form; none of a mechanism.
+    pub fn terms(&self) -> Vec<Term> {
+        self.place().map_or_else(Vec::new, |place| TERMS[place]())
+    }
+
+    /// Value of a parameter that is not given: the typical one, and none of a coefficient of a form.
+    pub fn default_of(&self, parameter: &Parameter) -> f64 {
+        match parameter.role {
+            Role::Size { neutral } if self.is_form() => neutral,
+            _ => parameter.typical,
+        }
+    }
+
+    fn place(&self) -> Option<usize> {
+        CATALOGUE.iter().position(|card| card.id == self.id)
+    }
+}

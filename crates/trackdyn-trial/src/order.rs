@@ -1,0 +1,32 @@
+//! What is asked of a trial.
+
+use crate::driving::RUN_TIME;
+use serde::{Deserialize, Serialize};
+
+/// What is asked of a trial. With the program's version it determines every byte but the key.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Order {
+    /// Version of the program that makes it.
+    pub version: String,
+    /// Seed from which everything is drawn, at most 2⁶³ - 1.
+    pub seed: u64,
+    /// Number of cases.
+    pub cases: usize,
+    /// Time of each run, s.
+    pub run_time_s: f64,
+}
+
+impl Order {
+    /// Time of a run where it is not the usual one, s.
+    pub(crate) fn unusual_run_time(&self) -> Option<f64> {
+        (self.run_time_s != RUN_TIME).then_some(self.run_time_s)
+    }
+}
+
+impl std::fmt::Display for Order {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { version, seed, cases, run_time_s } = self;
+        write!(f, "{cases} cases with seed {seed} and runs of {run_time_s} s, version {version}")
+    }
+}

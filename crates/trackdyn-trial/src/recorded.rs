@@ -1,0 +1,39 @@
+//! What is recorded of driven runs.
+
+use crate::ground::{Driven, seen};
+use crate::instruments::Instruments;
+use trackdyn_recording::{Recording, Source, StatedNoise, UncheckedRun};
+
+/// Digits after the point of every number of a recording, as a power of ten: a micrometre, a microsecond.
+const LAST_DIGIT: f64 = 1e6;
+
+/// The recording that the instruments of a case make of driven runs, with the noise of a seed.
+pub(crate) fn recorded(
+    name: &str,
+    driven: &[Driven],
+    instruments: &Instruments,
+    noise: u64,
+) -> Result<Recording, String> {
+    let mut runs = seen(driven, &instruments.sensors, noise)?;
+    runs.iter_mut().for_each(round);
+    let recording = Recording::new(name, "robot", runs, Source::computed(), Vec::new());
+    let recording = recording.map_err(|error| error.to_string())?;
+    Ok(recording.with_stated_noise(instruments.stated.map(rounded)))
+}
+
+/// Rounds all numbers of a run alike: how they are written says nothing.
+fn round(run: &mut UncheckedRun) {
+    let digits = |value: &mut f64| *value = (*value * LAST_DIGIT).round() / LAST_DIGIT + 0.0;
+    for sample in &mut run.tracks.samples {
+        [&mut sample.t, &mut sample.v_left, &mut sample.v_right].into_iter().for_each(digits);
+    }
+    for sample in &mut run.poses.samples {
+        let pose = &mut sample.pose;
+        [&mut sample.t, &mut pose.x, &mut pose.y, &mut pose.yaw].into_iter().for_each(digits);
+    }
+}
+
+fn rounded(noise: StatedNoise) -> StatedNoise {
+    let digits = |value: f64| (value * LAST_DIGIT).round() / LAST_DIGIT;
+    StatedNoise { position: digits(noise.position), yaw: digits(noise.yaw) }
+}

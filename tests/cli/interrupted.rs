@@ -1,0 +1,108 @@
+//! A diagnosis that is broken off, and recordings with too little in them: nothing half done is left.
+
+use crate::Workplace;
+use std::path::PathBuf;
+
+/// Driving of this many runs and seconds.
+fn drive(place: &Workplace, options: &str) {
+    let run = place.run(&format!("simulate --quasi-static {options} --out drive"));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+}
+
+/// Files below a folder; none where there is no folder.
+fn files_in(place: &Workplace, folder: &str) -> Vec<PathBuf> {
+    place.files().into_iter().filter(|file| file.starts_with(folder)).collect()
+}
+
+#[cfg(unix)]
+mod signals {
+    use super::{drive, files_in};
+    use crate::Workplace;
+    use std::process::{Child, Command, ExitStatus, Stdio};
+    use std::time::{Duration, Instant};
+
+    const DIAGNOSE: [&str; 6] =
+        ["diagnose", "drive", "--vehicle", "drive/vehicle.toml", "--out", "found"];
+
+    fn start(place: &Workplace) -> Child {
+        Command::new(env!("CARGO_BIN_EXE_trackdyn"))
+            .args(DIAGNOSE)
+            .current_dir(place.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts")
+    }
+
+    /// Presses Ctrl-C; gives how the process ended.
+    fn interrupt(child: &mut Child) -> ExitStatus {
+        let id = child.id().to_string();
+        let sent = Command::new("kill").args(["-INT", &id]).status().expect("kill");
+        assert!(sent.success());
+        child.wait().expect("an end")
+    }
+
+    /// Waits until something is so, at most a minute.
+    fn wait_until(is_so: impl Fn() -> bool) {
+        let start = Instant::now();
+        while !is_so() {
+            assert!(start.elapsed() < Duration::from_secs(60), "it never came");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+
+    #[test]
+    fn a_diagnosis_that_is_broken_off_leaves_no_file() {
+        let place = Workplace::new();
+        // Seconds of computing lie between the folder and the first file.
+        drive(&place, "--runs 27");
+        let before = place.files();
+        let mut child = start(&place);
+        wait_until(|| place.path().join("found").exists());
+        let status = interrupt(&mut child);
+        assert!(!status.success(), "it was done already: {status}");
+        assert_eq!(place.files(), before);
+    }
+
+    #[test]
+    fn files_of_a_diagnosis_that_is_broken_off_while_it_writes_are_whole() {
+        let place = Workplace::new();
+        drive(&place, "--runs 2");
+        let mut child = start(&place);
+        wait_until(|| place.path().join("found/diagnosis.toml").exists());
+        interrupt(&mut child);
+        for file in files_in(&place, "found") {
+            let name = file.file_name().expect("a name").to_string_lossy().into_owned();
+            assert!(!name.starts_with('.'), "{name} is half written");
+            let bytes = place.read(&file.to_string_lossy());
+            match file.extension().and_then(|end| end.to_str()) {
+                Some("toml") => {
+                    let text = String::from_utf8(bytes).expect("text");
+                    text.parse::<toml::Table>().expect("TOML to its end");
+                }
+                Some("png") => assert!(bytes.ends_with(b"IEND\xaeB`\x82"), "{name}"),
+                Some("html") => assert!(bytes.trim_ascii_end().ends_with(b"</html>"), "{name}"),
+                _ => panic!("{name} is none of a diagnosis"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_recording_with_too_little_in_it_is_refused_with_what_is_missing() {
+    for (options, vehicle, message) in [
+        ("--runs 1 --duration 8", "drive/vehicle.toml", "segments: expected at least 60"),
+        ("--runs 1 --duration 2", "drive/vehicle.toml", "segments: expected at least 60"),
+    ] {
+        let place = Workplace::new();
+        drive(&place, options);
+        let before = place.files();
+        let run = place.run(&format!("diagnose drive --vehicle {vehicle} --out found"));
+        assert_eq!(run.status, 1, "{options}: {}", run.stdout);
+        assert!(run.stderr.contains(message), "{options}: {}", run.stderr);
+        assert!(run.stderr.contains("s of driving"), "{}", run.stderr);
+        assert!(run.stdout.is_empty(), "{}", run.stdout);
+        assert_eq!(place.files(), before, "{options}");
+        assert!(!place.path().join("found").exists(), "{options}");
+    }
+}

@@ -1,0 +1,159 @@
+//! Drives on the independent ground with something concealed, and what a diagnosis says of them.
+
+use crate::uniform;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+use std::f64::consts::PI;
+use trackdyn_core::{Plant, Pose, Trajectory};
+use trackdyn_diagnose::diagnosis::{Kind, Missing};
+use trackdyn_diagnose::{Diagnosis, Error, Evidence, Options, diagnose};
+use trackdyn_field::schedules::as_commanded;
+use trackdyn_field::sensors::{PoseFrame, Preset, Sensors, Views};
+use trackdyn_field::{ScheduleKind, ScheduleOptions, ScheduledRun};
+use trackdyn_physics::{CATALOGUE, Effects, Vehicle, VehicleFile};
+use trackdyn_proof::{ActiveMechanism, Robot, Setup};
+use trackdyn_recording::{Recording, Source, UncheckedRun};
+
+/// Half the width of the square in which runs start, m.
+const START: f64 = 1.5;
+
+/// Newton's law: every robot has it, and its owner knows.
+pub const INERTIA: [&str; 2] = ["yaw-inertia", "centripetal"];
+
+/// A drive on the independent ground, before any sensor sees it.
+pub struct Drive {
+    runs: Vec<Driven>,
+}
+
+/// A run as it was driven.
+struct Driven {
+    id: i64,
+    /// What the encoders see.
+    encoders: Trajectory,
+    /// The body's motion.
+    body: Trajectory,
+    /// What the pose sensor takes it for, before noise.
+    poses: Trajectory,
+}
+
+impl Drive {
+    /// Drives a vehicle with what is concealed (`id:key=value`) and with Newton's law, each run from a
+    /// place and a heading that are drawn.
+    ///
+    /// # Errors
+    /// What no mechanism is, and a robot that tips over.
+    pub fn new(
+        vehicle: &Vehicle,
+        concealed: &[&str],
+        runs: &[ScheduledRun],
+        seed: u64,
+    ) -> Result<Self, String> {
+        let mut active = Vec::new();
+        for text in concealed {
+            active.push(text.parse().map_err(|error| format!("{text}: {error}"))?);
+        }
+        let is_concealed =
+            |id: &str| active.iter().any(|mechanism: &ActiveMechanism| mechanism.sheet().id == id);
+        let known: Vec<&str> = INERTIA.into_iter().filter(|id| !is_concealed(id)).collect();
+        for id in known {
+            active.push(ActiveMechanism::new(id, &[]).map_err(|error| error.to_string())?);
+        }
+        let runs = runs.par_iter().map(|run| Driven::new(vehicle, &active, run, seed));
+        Ok(Self { runs: runs.collect::<Result<_, _>>()? })
+    }
+
+    /// What sensors make of it.
+    ///
+    /// # Panics
+    /// For sensors that cannot be, and runs of less than two poses.
+    pub fn recording(&self, sensors: &Sensors, seed: u64) -> Recording {
+        let runs = self.runs.iter().map(|run| {
+            let views = Views { encoders: &run.encoders, body: &run.body, poses: &run.poses };
+            sensors.observe_views(run.id, &views, seed).expect("sensors that can be")
+        });
+        recording(runs.collect())
+    }
+}
+
+impl Driven {
+    fn new(
+        vehicle: &Vehicle,
+        active: &[ActiveMechanism],
+        run: &ScheduledRun,
+        seed: u64,
+    ) -> Result<Self, String> {
+        let ScheduledRun { id, schedule } = run;
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(id.cast_unsigned());
+        let place = [uniform(&mut random, -START, START), uniform(&mut random, -START, START)];
+        let start = Pose::new(place[0], place[1], uniform(&mut random, -PI, PI));
+        let [start_time, _] = schedule.span();
+        let seed = seed.wrapping_add(id.cast_unsigned());
+        let setup = Setup { start, start_time, seed, ..Setup::default() };
+        let mut robot = Robot::new(vehicle, active, &setup).map_err(|error| error.to_string())?;
+        let body = robot.follow(schedule).map_err(|stopped| stopped.to_string())?;
+        let poses = robot.report(&body);
+        Ok(Self { id: *id, encoders: as_commanded(schedule, &body), body, poses })
+    }
+}
+
+/// A recording of these rows.
+///
+/// # Panics
+/// Where no run has two poses.
+pub fn recording(runs: Vec<UncheckedRun>) -> Recording {
+    Recording::new("concealed", "robot", runs, Source::computed(), Vec::new()).expect("poses")
+}
+
+/// Runs of a kind, as long as is usual for it.
+///
+/// # Panics
+/// Never: the options are the usual ones.
+pub fn runs(kind: ScheduleKind, count: usize, seed: u64) -> Vec<ScheduledRun> {
+    let duration = (kind == ScheduleKind::Designed).then_some(45.0);
+    let options =
+        ScheduleOptions { runs: Some(count), seed, duration, ..ScheduleOptions::default() };
+    kind.generate(&options).expect("a schedule")
+}
+
+/// Sensors of a preset whose poses are those of one world: places and headings mean the same in all runs.
+pub fn sensors(preset: Preset) -> Sensors {
+    let mut sensors = preset.sensors();
+    sensors.imu = None;
+    sensors.pose.frame = PoseFrame::World;
+    sensors
+}
+
+/// Auriga-alpha as its owner knows it: all of it, Newton's law as well, but what is concealed.
+///
+/// # Panics
+/// Never: effects are of the catalogue.
+pub fn owned(concealed: &[&str]) -> VehicleFile {
+    let id = |text: &str| text.split(':').next().unwrap_or_default().to_owned();
+    let known = INERTIA.into_iter().filter(|of| !concealed.iter().any(|text| id(text) == *of));
+    let effects: Effects = known.map(|id| id.parse().expect("an effect")).collect();
+    VehicleFile { effects, ..VehicleFile::auriga_alpha() }
+}
+
+/// The diagnosis of a recording, every fourth run held out where there are eight or more.
+///
+/// # Errors
+/// Why there is none.
+pub fn diagnosed(recording: &Recording, file: &VehicleFile) -> Result<Diagnosis, Error> {
+    let count = recording.runs().len();
+    let held_out = if count < 8 { Vec::new() } else { (3..count).step_by(4).collect() };
+    let evidence = Evidence::of_recording(recording, file.vehicle.gauge)?;
+    diagnose(&evidence, file, &Options { held_out, ..Options::default() }, &|_| ())
+}
+
+/// Members of an answer by their names.
+pub fn members(missing: &Missing) -> BTreeSet<&'static str> {
+    missing.verdict.one_of.iter().map(|&effect| CATALOGUE[effect].id).collect()
+}
+
+/// All that is named, with its kind.
+pub fn named(diagnosis: &Diagnosis) -> Vec<(Kind, BTreeSet<&'static str>)> {
+    diagnosis.missing.iter().map(|missing| (missing.kind, members(missing))).collect()
+}

@@ -1,0 +1,7 @@
+//! A diagnosis says no more than the evidence bears.
+
+mod images;
+mod measured;
+mod nulls;
+mod one_sided;
+mod twins;

@@ -159,13 +159,33 @@ fn far_field_takes_over_without_a_step() {
             centre[0] + 6.0 * half_diagonal * direction.cos(),
             centre[1] + 6.0 * half_diagonal * direction.sin(),
         ];
-        let arguments = (&[case.patch], case.friction, case.pressure(), case.slip());
-        let near =
-            closed_form::friction_wrench(arguments.0, arguments.1, &arguments.2, &arguments.3);
-        let far =
-            quadrature::far_field_wrench(arguments.0, arguments.1, &arguments.2, &arguments.3);
+        let Case { patch, friction, .. } = case;
+        let (pressure, slip) = (case.pressure(), case.slip());
+        let near = closed_form::friction_wrench([patch].iter(), friction, &pressure, &slip);
+        let far = quadrature::far_field_wrench([patch].iter(), friction, &pressure, &slip);
         for ((a, b), scale) in components(&near).iter().zip(components(&far)).zip(case.scale()) {
             assert!((a - b).abs() < 1e-11 * scale, "{a} {b} {case:?}");
+        }
+    }
+}
+
+#[test]
+fn patches_near_and_far_add_up() {
+    let mut random = ChaCha8Rng::seed_from_u64(18);
+    for _ in 0..2000 {
+        let case = Case::random(&mut random, 0.0);
+        let [x, y] = case.patch.centre();
+        let far = Patch::centred(
+            [x, y + 12.0 * case.patch.length()],
+            case.patch.width(),
+            case.patch.length(),
+        );
+        let of = |patches: &[Patch]| {
+            components(&friction_wrench(patches, case.friction, &case.pressure(), &case.slip()))
+        };
+        let (both, near, far) = (of(&[case.patch, far]), of(&[case.patch]), of(&[far]));
+        for k in 0..3 {
+            assert!((both[k] - near[k] - far[k]).abs() <= 1e-13 * (near[k].abs() + far[k].abs()));
         }
     }
 }

@@ -24,6 +24,12 @@ const ITERATIONS: usize = 6;
 /// A step that lowers the objective by less than this is the last one.
 const SETTLED: f64 = 0.2;
 
+/// Part of the gain that a step promises by which the true one may differ for its derivatives to stand.
+const FORETOLD: f64 = 0.1;
+
+/// Fall of the objective since the derivatives were found up to which they describe the minimum.
+const NEAR: f64 = 10.0;
+
 /// How residuals are measured: what part of the evidence counts, and in which scale.
 #[derive(Clone, Debug)]
 pub struct Metric {
@@ -50,6 +56,8 @@ pub struct Fit {
     pub objective: f64,
     /// The linear fit at the end.
     pub solution: Solution,
+    /// What the objective would fall by if the prediction were linear.
+    promised: f64,
 }
 
 impl Metric {
@@ -296,11 +304,23 @@ impl Fit {
     ) -> Self {
         let point = Point::new(start, unknowns, evidence, metric, before);
         let mut fit = Self::linearised(point, unknowns, evidence, metric);
+        // What the objective fell by since the derivatives were found.
+        let mut since = 0.0;
         for _ in 0..ITERATIONS {
             let Some(next) = fit.next(evidence, metric) else { break };
             let gain = fit.objective - next.objective;
-            fit = Self::linearised(next, unknowns, evidence, metric);
-            if gain < SETTLED {
+            since += gain;
+            let is_last = gain < SETTLED;
+            // Derivatives that foretold the gain stand, as long as they are not those of a far point at the end.
+            let foretold = (gain - fit.promised).abs() < FORETOLD * fit.promised + SETTLED;
+            if foretold && (!is_last || since < NEAR) {
+                let columns = std::mem::take(&mut fit.columns);
+                fit = Self::with_columns(next, unknowns, columns, evidence, metric);
+            } else {
+                fit = Self::linearised(next, unknowns, evidence, metric);
+                since = 0.0;
+            }
+            if is_last {
                 break;
             }
         }
@@ -337,8 +357,20 @@ impl Fit {
         evidence: &Evidence,
         metric: &Metric,
     ) -> Self {
-        let Point { hypothesis, mechanics, prediction, residual, objective } = point;
-        let columns = columns(&hypothesis, &mechanics, &prediction, unknowns, evidence, metric);
+        let Point { hypothesis, mechanics, prediction, .. } = &point;
+        let columns = columns(hypothesis, mechanics, prediction, unknowns, evidence, metric);
+        Self::with_columns(point, unknowns, columns, evidence, metric)
+    }
+
+    /// A point with these derivatives.
+    fn with_columns(
+        point: Point,
+        unknowns: &[Unknown],
+        columns: Vec<Vec<Vector3<f64>>>,
+        evidence: &Evidence,
+        metric: &Metric,
+    ) -> Self {
+        let Point { hypothesis, mechanics, residual, objective, .. } = point;
         let priors = priors(&hypothesis, unknowns, evidence);
         let normal = metric.normal(evidence, &residual, &columns);
         // At a bound that the step would cross, an unknown stays.
@@ -357,6 +389,9 @@ impl Fit {
                 None => break solution,
             }
         };
+        let penalty: f64 =
+            free.iter().map(|&k| (priors[k].mean / priors[k].deviation).powi(2)).sum();
+        let promised = (normal.squares() + penalty - solution.misfit).max(0.0);
         let solution = spread(&solution, &free, &priors);
         Self {
             hypothesis,
@@ -366,6 +401,7 @@ impl Fit {
             columns,
             objective,
             solution,
+            promised,
         }
     }
 

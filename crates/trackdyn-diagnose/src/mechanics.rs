@@ -13,7 +13,7 @@
 
 use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::Hypothesis;
-use crate::surface::Surface;
+use crate::surface::{Steady, Surface};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -27,7 +27,7 @@ use trackdyn_physics::{
     ActiveEffect, Circumstance, Drive, Effects, Model, Motion, Sensor, Vehicle,
 };
 use trackdyn_recording::TrackSample;
-use trackdyn_recording::hold::held;
+use trackdyn_recording::hold::{held, readings};
 
 /// Speeds beyond the largest recorded one that a hypothesis may reach by its gains.
 const HEADROOM: f64 = 1.1;
@@ -43,6 +43,9 @@ const TASK: usize = 64;
 #[derive(Clone)]
 pub struct Mechanics {
     surface: Surface,
+    /// The stationary motion at each reading, of belts that follow the encoders as `drive` says.
+    steady: Arc<Vec<Vec<Steady>>>,
+    drive: Drive,
     /// What changing ground adds to the twist during each sample, paper's frame.
     ground: Option<Arc<Vec<Twist>>>,
     /// What inertia adds.
@@ -103,7 +106,9 @@ impl Mechanics {
         let model = Model::new(vehicle.clone(), constant.iter().cloned().collect())
             .with_resolution(Resolution::Coarse);
         let surface = Surface::new(&model, largest, before.map(|before| &before.surface));
-        let mut mechanics = Self { surface, ground: None, inertia: None, failed: None };
+        let steady = Arc::new(steady(&surface, &drive, evidence.tracks()));
+        let mut mechanics =
+            Self { surface, steady, drive, ground: None, inertia: None, failed: None };
         let simple = Model::new(vehicle.clone(), without_shear(&constant));
         if !varying.is_empty() {
             let mut effects = without_shear(&constant);
@@ -154,7 +159,11 @@ impl Mechanics {
     /// The motion of every sample, as the pose sensor reports it: forward (m), left (m), yaw (rad).
     pub fn predict(&self, instruments: &Instruments, evidence: &Evidence) -> Vec<Vector3<f64>> {
         let Instruments { drive, sensor, offset } = instruments;
-        let tracks = lagging(evidence.tracks(), drive.time_constant);
+        let steady = if *drive == self.drive {
+            Cow::Borrowed(&*self.steady)
+        } else {
+            Cow::Owned(steady(&self.surface, drive, evidence.tracks()))
+        };
         let samples = evidence.samples();
         (0..samples.len())
             .into_par_iter()
@@ -167,21 +176,43 @@ impl Mechanics {
                 let departure =
                     [by_ground, by_inertia].into_iter().flatten().reduce(|a, b| plus(&a, &b));
                 let departure = departure.map(|departure| seen_from(&departure, offset));
-                let until = sample.start + sample.duration;
-                let pieces = held(&tracks[sample.run], sample.start, until, sensor.delay);
-                let pose = pieces.fold(Pose::default(), |pose, piece| {
-                    let speeds = drive.driven(piece.speeds);
-                    let mut twist = self.surface.twist(speeds, offset);
+                let tracks = &evidence.tracks()[sample.run];
+                let steady = &steady[sample.run];
+                let pose = moved(tracks, sample, sensor.delay, |reading| {
+                    let mut twist = steady[reading].twist(offset);
                     if let Some(departure) = &departure {
                         twist = plus(&twist, departure);
                     }
-                    let seen = ros_twist_from_paper(&sensor.reported(&twist));
-                    pose.compose(&Pose::exp(&seen, piece.duration))
+                    ros_twist_from_paper(&sensor.reported(&twist))
                 });
                 Vector3::new(pose.x, pose.y, pose.yaw)
             })
             .collect()
     }
+}
+
+/// The stationary motion at each reading of each run.
+fn steady(surface: &Surface, drive: &Drive, tracks: &[Vec<TrackSample>]) -> Vec<Vec<Steady>> {
+    let belts = lagging(tracks, drive.time_constant);
+    let motion = |reading: &TrackSample| {
+        surface.motion(drive.driven(PerSide::new(reading.v_left, reading.v_right)))
+    };
+    belts.par_iter().map(|run| run.iter().map(motion).collect()).collect()
+}
+
+/// The motion over a sample, seen from its start, with the twist (REP-103) at each reading that it holds.
+fn moved(
+    tracks: &[TrackSample],
+    sample: &Sample,
+    delay: f64,
+    twist: impl Fn(usize) -> Twist,
+) -> Pose {
+    let until = sample.start + sample.duration;
+    let readings = readings(tracks, sample.start, until, delay);
+    let pieces = held(tracks, sample.start, until, delay);
+    readings.zip(pieces).fold(Pose::default(), |pose, (reading, piece)| {
+        pose.compose(&Pose::exp(&twist(reading), piece.duration))
+    })
 }
 
 fn single(vehicle: &Vehicle, effect: &ActiveEffect) -> Model {
@@ -269,8 +300,8 @@ struct Inertia {
     paths: Vec<Trajectory>,
     /// Speeds of the belts behind it, m/s.
     belts: Vec<Vec<TrackSample>>,
-    /// The stationary motions without it.
-    surface: Surface,
+    /// The stationary twists there without it.
+    steady: Vec<Vec<Twist>>,
 }
 
 impl Inertia {
@@ -292,7 +323,10 @@ impl Inertia {
             .collect();
         let paths: Result<Vec<Trajectory>, String> =
             belts.par_iter().map(|run| path_in_time(model, &surface, run)).collect();
-        Ok(Self { effects, paths: paths?, belts, surface })
+        let speeds = |reading: &TrackSample| PerSide::new(reading.v_left, reading.v_right);
+        let twist = |reading: &TrackSample| surface.motion(speeds(reading)).twist(&[0.0; 3]);
+        let steady = belts.iter().map(|run| run.iter().map(twist).collect()).collect();
+        Ok(Self { effects, paths: paths?, belts, steady })
     }
 
     /// The motion in time less the stationary motion, as a twist over a sample.
@@ -300,10 +334,9 @@ impl Inertia {
         let (from, until) = (sample.start, sample.start + sample.duration);
         let path = &self.paths[sample.run];
         let moved = path.pose_at(from - delay).relative(&path.pose_at(until - delay));
-        let pieces = held(&self.belts[sample.run], from, until, delay);
-        let steady = pieces.fold(Pose::default(), |pose, piece| {
-            let twist = self.surface.twist(piece.speeds, &[0.0; 3]);
-            pose.compose(&Pose::exp(&ros_twist_from_paper(&twist), piece.duration))
+        let steady = &self.steady[sample.run];
+        let steady = self::moved(&self.belts[sample.run], sample, delay, |reading| {
+            ros_twist_from_paper(&steady[reading])
         });
         let twist = |pose: &Pose| paper_twist_from_ros(&pose.log(sample.duration));
         minus(&twist(&moved), &twist(&steady))
@@ -319,7 +352,7 @@ fn path_in_time(
     let mut path = Trajectory::default();
     let Some(first) = belts.first() else { return Ok(path) };
     let speeds = |sample: &TrackSample| PerSide::new(sample.v_left, sample.v_right);
-    let start = surface.twist(speeds(first), &[0.0; 3]);
+    let start = surface.motion(speeds(first)).twist(&[0.0; 3]);
     let mut robot =
         Transient::at_rest(model, first.t, Pose::default()).with_step(STEP).with_twist(start);
     path.push(robot.moment());

@@ -26,10 +26,14 @@ const SIZES: usize = 8;
 /// speeds most where they are small; below, the motion is that of the smallest in proportion.
 const RANGE: f64 = 100.0;
 
+/// 1/(2 ln R), R = [`RANGE`]: a squared speed's logarithm over that of the range.
+const PER_RANGE: f64 = 0.5 / (2.0 * std::f64::consts::LN_10);
+
 /// A table of stationary motions.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    largest: f64,
+    /// 1/ρ_max², ρ_max the largest tabulated speed.
+    per_squared: f64,
     /// Per sector, size and direction: (v_x, v_y − V̄, w)/(V_r − V_l).
     nodes: Vec<Vector3<f64>>,
     angles: Nodes<ANGLES>,
@@ -63,7 +67,7 @@ impl Surface {
             .collect();
         let unsolved = solved.iter().filter(|node| node.is_none()).count();
         let nodes = filled(&solved);
-        Self { largest, nodes, angles, sizes, unsolved }
+        Self { per_squared: largest.powi(-2), nodes, angles, sizes, unsolved }
     }
 
     /// Share of the nodes without a motion: part of the contact lifts, or no balance was found.
@@ -71,21 +75,18 @@ impl Surface {
         real(self.unsolved) / real(self.nodes.len())
     }
 
-    /// The twist (paper's frame) at belt speeds, with the ICRs moved by `offset` (x_l, x_r, y), m.
-    pub fn twist(&self, speeds: PerSide<f64>, offset: &[f64; 3]) -> Twist {
+    /// The stationary motion (paper's frame) at belt speeds.
+    pub fn motion(&self, speeds: PerSide<f64>) -> Steady {
         let (difference, mean) =
             (speeds.right - speeds.left, f64::midpoint(speeds.left, speeds.right));
-        if difference == 0.0 {
-            return Twist { v_x: 0.0, v_y: mean, w: 0.0 };
-        }
-        let [across, along, turn] = moved(self.at(speeds), offset);
-        Twist { v_x: across * difference, v_y: along * difference + mean, w: turn * difference }
+        let beyond = if difference == 0.0 { Vector3::zeros() } else { self.at(speeds) };
+        Steady { mean, difference, beyond }
     }
 
     fn at(&self, speeds: PerSide<f64>) -> Vector3<f64> {
         // ρ = ρ_max R^(u − 1)
-        let share = speeds.left.hypot(speeds.right) / self.largest;
-        let size = (1.0 + share.ln() / RANGE.ln()).clamp(0.0, 1.0);
+        let squared = (speeds.left * speeds.left + speeds.right * speeds.right) * self.per_squared;
+        let size = (1.0 + squared.ln() * PER_RANGE).clamp(0.0, 1.0);
         let phi = speeds.right.atan2(speeds.left).rem_euclid(2.0 * PI) / FRAC_PI_4;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 8")]
         let sector = (phi as usize).min(SECTORS - 1);
@@ -99,6 +100,24 @@ impl Surface {
             }
         }
         sum
+    }
+}
+
+/// A stationary motion at one pair of belt speeds.
+#[derive(Clone, Copy, Debug)]
+pub struct Steady {
+    mean: f64,
+    difference: f64,
+    /// (v_x, v_y − V̄, w)/(V_r − V_l).
+    beyond: Vector3<f64>,
+}
+
+impl Steady {
+    /// The twist (paper's frame), with the ICRs moved by `offset` (x_l, x_r, y), m.
+    pub fn twist(&self, offset: &[f64; 3]) -> Twist {
+        let Self { mean, difference, beyond } = *self;
+        let [across, along, turn] = moved(beyond, offset);
+        Twist { v_x: across * difference, v_y: along * difference + mean, w: turn * difference }
     }
 }
 
@@ -140,30 +159,39 @@ fn moved(twist: Vector3<f64>, [left, right, y]: &[f64; 3]) -> [f64; 3] {
     [shrink * twist[0] + turn * y, shrink * twist[1] - turn * (left + right) / 2.0, turn]
 }
 
-/// Chebyshev nodes of the first kind on [0, 1] and their barycentric weights.
+/// Chebyshev nodes of the first kind on [0, 1].
 #[derive(Clone, Debug)]
 struct Nodes<const N: usize> {
     at: [f64; N],
+    /// 1/Π (x_k − x_j), over all other nodes j.
     weight: [f64; N],
 }
 
 impl<const N: usize> Nodes<N> {
     fn new() -> Self {
         let angle = |k: usize| (2.0 * real(k) + 1.0) * PI / (2.0 * real(N));
-        let at = std::array::from_fn(|k| 0.5 - 0.5 * angle(k).cos());
-        let weight =
-            std::array::from_fn(|k| if k % 2 == 0 { angle(k).sin() } else { -angle(k).sin() });
+        let at: [f64; N] = std::array::from_fn(|k| 0.5 - 0.5 * angle(k).cos());
+        let weight = std::array::from_fn(|k| {
+            let others = (0..N).filter(|j| *j != k);
+            others.map(|j| (at[k] - at[j]).recip()).product()
+        });
         Self { at, weight }
     }
 
-    /// Values of the Lagrange polynomials.
+    /// Values of the Lagrange polynomials, c_k Π (x − x_j) over all other nodes j.
     fn weights(&self, x: f64) -> [f64; N] {
-        if let Some(node) = self.at.iter().position(|at| *at == x) {
-            return std::array::from_fn(|k| if k == node { 1.0 } else { 0.0 });
+        let mut weights = self.weight;
+        let mut product = 1.0;
+        for (weight, at) in weights.iter_mut().zip(&self.at) {
+            *weight *= product;
+            product *= x - at;
         }
-        let terms: [f64; N] = std::array::from_fn(|k| self.weight[k] / (x - self.at[k]));
-        let sum: f64 = terms.iter().sum();
-        terms.map(|term| term / sum)
+        product = 1.0;
+        for (weight, at) in weights.iter_mut().zip(&self.at).rev() {
+            *weight *= product;
+            product *= x - at;
+        }
+        weights
     }
 }
 
@@ -205,7 +233,7 @@ mod tests {
                 if solution.status == Status::NotConverged {
                     continue;
                 }
-                let (table, twist) = (surface.twist(speeds, &[0.0; 3]), solution.twist);
+                let (table, twist) = (surface.motion(speeds).twist(&[0.0; 3]), solution.twist);
                 // The yaw rate as the speed of a track.
                 let off = [table.v_x - twist.v_x, table.v_y - twist.v_y, 0.4 * (table.w - twist.w)];
                 squares += off.iter().map(|off| off * off).sum::<f64>();
@@ -223,7 +251,7 @@ mod tests {
         let surface = Surface::new(&model, 1.5, None);
         let speeds = PerSide::new(0.3, 0.8);
         let icrs = |offset: [f64; 3]| {
-            let twist = surface.twist(speeds, &offset);
+            let twist = surface.motion(speeds).twist(&offset);
             trackdyn_motion::Icrs::of_motion(speeds, &twist).expect("turns").to_array()
         };
         let (before, after) = (icrs([0.0; 3]), icrs([0.01, -0.02, 0.03]));

@@ -29,17 +29,24 @@ pub struct Friction {
 
 /// Friction wrench on the body from the patches of one side, about the frame's origin.
 ///
-/// Closed form wherever it keeps its digits; where the ICR is so far away that the closed form
-/// would cancel, the integrand is smooth and a fixed Gauss rule is exact to rounding.
+/// Closed form for each patch where it keeps its digits; where the ICR is so far away that the closed form
+/// would cancel, the integrand is smooth and a Gauss rule is exact to rounding.
 pub fn friction_wrench<S: Scalar>(
     patches: &[Patch],
     friction: Friction,
     pressure: &Pressure<S>,
     slip: &SlipField<S>,
 ) -> Wrench<S> {
-    if patches.iter().all(|patch| closed_form::applies(patch, slip)) {
-        closed_form::friction_wrench(patches, friction, pressure, slip)
-    } else {
-        quadrature::far_field_wrench(patches, friction, pressure, slip)
+    let is_near = |patch: &&Patch| closed_form::applies(patch, slip);
+    let near = patches.iter().filter(is_near).count();
+    if near == patches.len() {
+        return closed_form::friction_wrench(patches.iter(), friction, pressure, slip);
     }
+    let far = patches.iter().filter(|patch| !is_near(patch));
+    let mut wrench = quadrature::far_field_wrench(far, friction, pressure, slip);
+    if near > 0 {
+        let near = patches.iter().filter(is_near);
+        wrench += closed_form::friction_wrench(near, friction, pressure, slip);
+    }
+    wrench
 }

@@ -30,20 +30,27 @@ const REACH: f64 = 6.0;
 /// Whether the closed form keeps its digits for this patch and slip.
 #[inline]
 pub fn applies<S: Scalar>(patch: &Patch, slip: &SlipField<S>) -> bool {
+    distance_squared(patch, slip) < REACH * REACH
+}
+
+/// Squared distance from the centre of the patch to the ICR, in half diagonals of the patch; infinite where
+/// the field does not rotate.
+#[inline]
+pub fn distance_squared<S: Scalar>(patch: &Patch, slip: &SlipField<S>) -> f64 {
     let [x, y] = patch.centre();
     let (lateral, forward, rotation) =
         (slip.lateral.value(), slip.forward.value(), slip.rotation.value());
     // |s(centre)| = |rotation| · distance from the centre to the ICR
     let slip_squared = (lateral - rotation * y).powi(2) + (forward + rotation * x).powi(2);
     let half_diagonal_squared = (patch.width().powi(2) + patch.length().powi(2)) / 4.0;
-    slip_squared < (REACH * rotation).powi(2) * half_diagonal_squared
+    slip_squared / (rotation * rotation * half_diagonal_squared)
 }
 
 /// Friction wrench about the frame's origin of patches that share friction, pressure and slip.
 ///
 /// Meaningful where [`applies`] holds for each patch.
-pub fn friction_wrench<S: Scalar>(
-    patches: &[Patch],
+pub fn friction_wrench<'p, S: Scalar>(
+    patches: impl Iterator<Item = &'p Patch>,
     friction: Friction,
     pressure: &Pressure<S>,
     slip: &SlipField<S>,

@@ -245,7 +245,7 @@ pub fn columns(
             let prediction_there = if is_outside(hypothesis, unknown) {
                 mechanics.predict(&instruments, evidence)
             } else {
-                Mechanics::beside(Some(mechanics), &moved, evidence).predict(&instruments, evidence)
+                mechanics.varied(&moved, evidence).predict(&instruments, evidence)
             };
             let quotient = prediction_there.iter().zip(prediction).map(|(b, a)| (b - a) / step);
             metric.white(evidence, quotient.collect())
@@ -278,7 +278,7 @@ impl Point {
         metric: &Metric,
         before: Option<&Mechanics>,
     ) -> Self {
-        let mechanics = Mechanics::beside(before, &hypothesis, evidence);
+        let mechanics = Mechanics::beside(before, &hypothesis, unknowns, evidence);
         let prediction = mechanics.predict(&Instruments::of(&hypothesis), evidence);
         let residual = metric.residual(evidence, &prediction);
         let known = priors(&hypothesis, unknowns, evidence);

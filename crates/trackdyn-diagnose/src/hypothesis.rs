@@ -1,6 +1,6 @@
 //! A hypothesis: a vehicle, effects with their sizes, and a constant offset of the ICRs.
 
-use trackdyn_physics::effect::{Parameter, Role};
+use trackdyn_physics::effect::{Card, Parameter, Role};
 use trackdyn_physics::{ActiveEffect, CATALOGUE, Effects, Vehicle, VehicleFile};
 
 /// What is supposed.
@@ -24,6 +24,14 @@ pub enum Unknown {
 }
 
 impl Unknown {
+    /// The card of its effect; none of an offset.
+    pub fn card(self) -> Option<&'static Card> {
+        match self {
+            Self::Offset(_) => None,
+            Self::Effect(effect, _) => Some(&CATALOGUE[effect]),
+        }
+    }
+
     /// The parameter of the catalogue; none of an offset.
     pub fn parameter(self) -> Option<&'static Parameter> {
         match self {
@@ -140,7 +148,15 @@ pub fn typical(effect: usize) -> ActiveEffect {
 /// # Panics
 /// Never: names and ranges are the catalogue's.
 pub fn active(effect: usize, values: &[f64]) -> ActiveEffect {
-    let card = &CATALOGUE[effect];
+    with_values(&typical(effect), values)
+}
+
+/// An effect with other values, clamped into their physical ranges.
+///
+/// # Panics
+/// Never: names and ranges are the catalogue's.
+pub fn with_values(effect: &ActiveEffect, values: &[f64]) -> ActiveEffect {
+    let card = effect.card();
     let settings: Vec<(&str, f64)> = card
         .parameters
         .iter()

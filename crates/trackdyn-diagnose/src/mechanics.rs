@@ -11,29 +11,31 @@
 //! The departures are found without the laws that change the shear stress: these need a quadrature per
 //! solve, and what they change in a departure is a product of two small things.
 
+mod belts;
+mod ground;
+mod inertia;
+
 use crate::evidence::{Evidence, Sample};
-use crate::hypothesis::Hypothesis;
+use crate::hypothesis::{Hypothesis, Unknown};
 use crate::surface::{Steady, Surface};
+use belts::lagging;
+use ground::{by_ground, varies};
+use inertia::{Case, InertiaNear};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::Arc;
-use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
-use trackdyn_core::{PerSide, Plant, Pose, Side, Trajectory, Twist};
-use trackdyn_motion::{Stationary, Status, Transient};
+use trackdyn_core::frames::ros_twist_from_paper;
+use trackdyn_core::{PerSide, Pose, Twist};
+use trackdyn_motion::Transient;
 use trackdyn_physics::contact::quadrature::Resolution;
 use trackdyn_physics::effect::Stage;
-use trackdyn_physics::{
-    ActiveEffect, Circumstance, Drive, Effects, Model, Motion, Sensor, Vehicle,
-};
+use trackdyn_physics::{ActiveEffect, Drive, Effects, Model, Sensor, Vehicle};
 use trackdyn_recording::TrackSample;
 use trackdyn_recording::hold::{held, readings};
 
 /// Speeds beyond the largest recorded one that a hypothesis may reach by its gains.
 const HEADROOM: f64 = 1.1;
-
-/// Longest step of the motion in time, s: readings come more often.
-const STEP: f64 = 0.05;
 
 /// Samples that one task predicts.
 const TASK: usize = 64;
@@ -49,7 +51,7 @@ pub struct Mechanics {
     /// What changing ground adds to the twist during each sample, paper's frame.
     ground: Option<Arc<Vec<Twist>>>,
     /// What inertia adds.
-    inertia: Option<Arc<Inertia>>,
+    inertia: Option<InertiaNear>,
     failed: Option<String>,
 }
 
@@ -87,12 +89,45 @@ pub fn feels_inertia(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
 impl Mechanics {
     /// The mechanics of a hypothesis for this evidence.
     pub fn new(hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
-        Self::beside(None, hypothesis, evidence)
+        Self::found(None, hypothesis, evidence, |inert, case| InertiaNear::here(inert, case))
     }
 
-    /// The same where `before` is the mechanics of a hypothesis that resembles it: with the same effects of
-    /// inertia, what these add is taken from there, for its change is a product of two small things.
-    pub fn beside(before: Option<&Self>, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
+    /// The same where `before` is the mechanics of a hypothesis that resembles it, and some numbers are free: where
+    /// the effects of inertia are about the same, what these add is taken from there, for its change is a product
+    /// of two small things.
+    pub fn beside(
+        before: Option<&Self>,
+        hypothesis: &Hypothesis,
+        free: &[Unknown],
+        evidence: &Evidence,
+    ) -> Self {
+        let delay = Instruments::of(hypothesis).sensor.delay;
+        Self::found(before, hypothesis, evidence, |inert, case| {
+            let is_free = |effect: &ActiveEffect| {
+                free.iter()
+                    .any(|unknown| unknown.card().is_some_and(|card| card.id == effect.card().id))
+            };
+            let free_at = inert.iter().any(is_free).then_some(delay);
+            let known = before.and_then(|before| before.inertia.as_ref());
+            InertiaNear::beside(known, inert, case, free_at)
+        })
+    }
+
+    /// The same for a hypothesis that differs by the step of a difference quotient: what inertia adds is taken
+    /// from here wherever it can be, for any other error would be divided by the step.
+    pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
+        Self::found(Some(self), hypothesis, evidence, |inert, case| {
+            let known = self.inertia.as_ref().and_then(|known| known.moved(&inert, f64::MAX));
+            known.map_or_else(|| InertiaNear::here(inert, case), Ok)
+        })
+    }
+
+    fn found(
+        before: Option<&Self>,
+        hypothesis: &Hypothesis,
+        evidence: &Evidence,
+        inertia: impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, String>,
+    ) -> Self {
         let vehicle = &hypothesis.vehicle;
         let mechanical = hypothesis.effects.iter().filter(|effect| !is_instrument(vehicle, effect));
         let (varying, constant): (Vec<_>, Vec<_>) =
@@ -115,21 +150,22 @@ impl Mechanics {
             for effect in varying {
                 effects.insert(effect);
             }
-            let model = Model::new(vehicle.clone(), effects);
-            mechanics.ground = Some(Arc::new(by_ground(&model, &simple, &drive, evidence)));
+            let with = Model::new(vehicle.clone(), effects);
+            let departure = if simple.effects() == model.effects() {
+                by_ground(&with, &mechanics.surface, &drive, evidence)
+            } else {
+                by_ground(&with, &Surface::new(&simple, largest, None), &drive, evidence)
+            };
+            mechanics.ground = Some(Arc::new(departure));
         }
         let inert = simple.effects().iter().filter(|effect| feels_inertia(vehicle, effect));
         let inert: Vec<ActiveEffect> = inert.cloned().collect();
         if inert.is_empty() || evidence.is_steady() {
             return mechanics;
         }
-        let known = before.and_then(|before| before.inertia.clone());
-        if let Some(known) = known.filter(|known| known.effects == inert) {
-            mechanics.inertia = Some(known);
-            return mechanics;
-        }
-        match Inertia::new(inert, &simple, largest, &drive, evidence) {
-            Ok(inertia) => mechanics.inertia = Some(Arc::new(inertia)),
+        let case = Case { model: &simple, largest, drive: &drive, evidence };
+        match inertia(inert, &case) {
+            Ok(inertia) => mechanics.inertia = Some(inertia),
             Err(reason) => mechanics.failed = Some(reason),
         }
         mechanics
@@ -171,8 +207,10 @@ impl Mechanics {
             .map(|index| {
                 let sample = &samples[index];
                 let by_ground = self.ground.as_ref().map(|departures| departures[index]);
-                let by_inertia =
-                    self.inertia.as_ref().map(|inertia| inertia.departure(sample, sensor.delay));
+                let by_inertia = self
+                    .inertia
+                    .as_ref()
+                    .map(|inertia| inertia.departure(index, sample, sensor.delay));
                 let departure =
                     [by_ground, by_inertia].into_iter().flatten().reduce(|a, b| plus(&a, &b));
                 let departure = departure.map(|departure| seen_from(&departure, offset));
@@ -232,176 +270,4 @@ fn minus(a: &Twist, b: &Twist) -> Twist {
 fn seen_from(twist: &Twist, [left, right, y]: &[f64; 3]) -> Twist {
     let middle = f64::midpoint(*left, *right);
     Twist { v_x: twist.v_x + y * twist.w, v_y: twist.v_y - middle * twist.w, w: twist.w }
-}
-
-/// Where the robot was during a sample.
-fn circumstance(sample: &Sample) -> Circumstance {
-    let half =
-        Pose::exp(&Pose::new(sample.motion[0], sample.motion[1], sample.motion[2]).log(1.0), 0.5);
-    let middle = sample.pose.compose(&half);
-    Circumstance {
-        position: [middle.x, middle.y],
-        heading: middle.yaw,
-        time: sample.start + sample.duration / 2.0,
-    }
-}
-
-/// Whether the forces hang on where the robot is, where it heads, or when.
-fn varies(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> bool {
-    const PROBES: usize = 200;
-    if evidence.is_steady() {
-        return false;
-    }
-    let model = single(vehicle, effect).with_resolution(Resolution::Coarse);
-    let speeds = PerSide::new(-0.2, 0.5);
-    let forces = |at: &Circumstance| {
-        let motion = Motion::anchored(
-            speeds,
-            Side::Left,
-            [-vehicle.gauge, 0.1 * vehicle.gauge],
-            0.5 / vehicle.gauge,
-        );
-        let balance = model.balance(&model.ground(at), &motion);
-        (balance.friction.left, balance.friction.right, balance.load)
-    };
-    let samples = evidence.samples();
-    let mut probes = samples.iter().step_by((samples.len() / PROBES).max(1));
-    let Some(first) = probes.next().map(|sample| forces(&circumstance(sample))) else {
-        return false;
-    };
-    probes.any(|sample| forces(&circumstance(sample)) != first)
-}
-
-/// The stationary motion where each sample was, less the one without the effects that know places,
-/// headings or times.
-fn by_ground(with: &Model, without: &Model, drive: &Drive, evidence: &Evidence) -> Vec<Twist> {
-    let solver = Stationary::new(without, &Circumstance::default());
-    let samples = evidence.samples().par_iter().with_min_len(TASK);
-    samples
-        .map(|sample| {
-            let speeds = drive.driven(sample.speeds);
-            let here = Stationary::new(with, &circumstance(sample)).solve(speeds);
-            let there = solver.solve(speeds);
-            let usable = |status: Status| !matches!(status, Status::NotConverged);
-            if usable(here.status) && usable(there.status) {
-                minus(&here.twist, &there.twist)
-            } else {
-                Twist { v_x: 0.0, v_y: 0.0, w: 0.0 }
-            }
-        })
-        .collect()
-}
-
-/// What inertia adds to the stationary motion.
-struct Inertia {
-    /// The effects that it comes from.
-    effects: Vec<ActiveEffect>,
-    /// Motion in time of each run, by the clock of the encoders.
-    paths: Vec<Trajectory>,
-    /// Speeds of the belts behind it, m/s.
-    belts: Vec<Vec<TrackSample>>,
-    /// The stationary twists there without it.
-    steady: Vec<Vec<Twist>>,
-}
-
-impl Inertia {
-    fn new(
-        effects: Vec<ActiveEffect>,
-        model: &Model,
-        largest: f64,
-        drive: &Drive,
-        evidence: &Evidence,
-    ) -> Result<Self, String> {
-        let surface = Surface::new(model, largest, None);
-        let gained = |reading: &TrackSample| {
-            let speeds = drive.driven(PerSide::new(reading.v_left, reading.v_right));
-            TrackSample { t: reading.t, v_left: speeds.left, v_right: speeds.right }
-        };
-        let belts: Vec<Vec<TrackSample>> = lagging(evidence.tracks(), drive.time_constant)
-            .iter()
-            .map(|run| smooth(run).iter().map(gained).collect())
-            .collect();
-        let paths: Result<Vec<Trajectory>, String> =
-            belts.par_iter().map(|run| path_in_time(model, &surface, run)).collect();
-        let speeds = |reading: &TrackSample| PerSide::new(reading.v_left, reading.v_right);
-        let twist = |reading: &TrackSample| surface.motion(speeds(reading)).twist(&[0.0; 3]);
-        let steady = belts.iter().map(|run| run.iter().map(twist).collect()).collect();
-        Ok(Self { effects, paths: paths?, belts, steady })
-    }
-
-    /// The motion in time less the stationary motion, as a twist over a sample.
-    fn departure(&self, sample: &Sample, delay: f64) -> Twist {
-        let (from, until) = (sample.start, sample.start + sample.duration);
-        let path = &self.paths[sample.run];
-        let moved = path.pose_at(from - delay).relative(&path.pose_at(until - delay));
-        let steady = &self.steady[sample.run];
-        let steady = self::moved(&self.belts[sample.run], sample, delay, |reading| {
-            ros_twist_from_paper(&steady[reading])
-        });
-        let twist = |pose: &Pose| paper_twist_from_ros(&pose.log(sample.duration));
-        minus(&twist(&moved), &twist(&steady))
-    }
-}
-
-/// The motion in time over a run.
-fn path_in_time(
-    model: &Model,
-    surface: &Surface,
-    belts: &[TrackSample],
-) -> Result<Trajectory, String> {
-    let mut path = Trajectory::default();
-    let Some(first) = belts.first() else { return Ok(path) };
-    let speeds = |sample: &TrackSample| PerSide::new(sample.v_left, sample.v_right);
-    let start = surface.motion(speeds(first)).twist(&[0.0; 3]);
-    let mut robot =
-        Transient::at_rest(model, first.t, Pose::default()).with_step(STEP).with_twist(start);
-    path.push(robot.moment());
-    for pair in belts.windows(2) {
-        robot
-            .drive(speeds(&pair[0]), pair[1].t, &mut path)
-            .map_err(|stopped| stopped.to_string())?;
-    }
-    Ok(path)
-}
-
-/// Readings without the steps between them: v'_k = (v_{k−1} + 2 v_k + v_{k+1})/4.
-///
-/// A counter's ticks make the speeds jump to and fro, by more than a robot's speed changes between two readings.
-/// Stationary motion averages that out; a body with mass under dry friction, shaken so, would slide more easily
-/// than it does.
-fn smooth(run: &[TrackSample]) -> Vec<TrackSample> {
-    (0..run.len())
-        .map(|k| {
-            let [before, here, after] =
-                [run[k.saturating_sub(1)], run[k], run[(k + 1).min(run.len() - 1)]];
-            let mean = |v: fn(&TrackSample) -> f64| (v(&before) + 2.0 * v(&here) + v(&after)) / 4.0;
-            TrackSample { t: here.t, v_left: mean(|s| s.v_left), v_right: mean(|s| s.v_right) }
-        })
-        .collect()
-}
-
-/// Readings of belts that follow with a lag, each with its mean over the time that it holds.
-fn lagging(tracks: &[Vec<TrackSample>], time_constant: f64) -> Cow<'_, [Vec<TrackSample>]> {
-    if time_constant <= 0.0 {
-        return Cow::Borrowed(tracks);
-    }
-    tracks.iter().map(|run| lagging_run(run, time_constant)).collect()
-}
-
-fn lagging_run(tracks: &[TrackSample], time_constant: f64) -> Vec<TrackSample> {
-    let Some(first) = tracks.first() else { return Vec::new() };
-    let mut belts = [first.v_left, first.v_right];
-    let mut filtered = Vec::with_capacity(tracks.len());
-    for (index, reading) in tracks.iter().enumerate() {
-        let next = tracks.get(index + 1).map_or(reading.t, |next| next.t);
-        let steps = (next - reading.t) / time_constant;
-        let remaining = (-steps).exp();
-        // V(t) = V_e + (V_0 − V_e) e^(−t/T); its mean over the time that V_e holds
-        let share = if steps > 1e-9 { (1.0 - remaining) / steps } else { 1.0 };
-        let shown = [reading.v_left, reading.v_right];
-        let mean: [f64; 2] = std::array::from_fn(|k| shown[k] + (belts[k] - shown[k]) * share);
-        belts = std::array::from_fn(|k| shown[k] + (belts[k] - shown[k]) * remaining);
-        filtered.push(TrackSample { t: reading.t, v_left: mean[0], v_right: mean[1] });
-    }
-    filtered
 }

@@ -113,6 +113,11 @@ pub struct Steady {
 }
 
 impl Steady {
+    /// The ICRs; none where one is infinitely far.
+    pub fn icrs(&self) -> Option<Icrs> {
+        icrs(&self.beyond)
+    }
+
     /// The twist (paper's frame), with the ICRs moved by `offset` (x_l, x_r, y), m.
     pub fn twist(&self, offset: &[f64; 3]) -> Twist {
         let Self { mean, difference, beyond } = *self;

@@ -51,12 +51,17 @@ impl<'m> Stationary<'m> {
     /// Solves one slow spin: without effects all motions share its ICRs (the constancy theorem), and
     /// with effects it is a good start for any of them.
     pub fn new(model: &'m Model, circumstance: &Circumstance) -> Self {
-        let weight = model.vehicle().weight();
-        let scale = [weight, weight * model.vehicle().gauge];
-        let mut solver = Self { model, ground: model.ground(circumstance), scale, creeping: None };
+        let mut solver = Self::from_start(model, circumstance, None);
         let spin = solver.solve_belts(PerSide::new(-CREEP, CREEP));
         solver.creeping = spin.icrs.filter(|_| spin.status == Status::Turning);
         solver
+    }
+
+    /// The solver with these ICRs as its first start in place of the slow spin.
+    pub fn from_start(model: &'m Model, circumstance: &Circumstance, start: Option<Icrs>) -> Self {
+        let weight = model.vehicle().weight();
+        let scale = [weight, weight * model.vehicle().gauge];
+        Self { model, ground: model.ground(circumstance), scale, creeping: start }
     }
 
     /// The same solver with these ICRs as its first start, where a motion that is nearly the wanted one is

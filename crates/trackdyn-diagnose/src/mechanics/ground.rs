@@ -1,0 +1,74 @@
+//! Ground that changes with place, heading or time.
+
+use super::{minus, single};
+use crate::evidence::{Evidence, Sample};
+use crate::surface::Surface;
+use rayon::prelude::*;
+use trackdyn_core::{PerSide, Pose, Side, Twist};
+use trackdyn_motion::{Stationary, Status};
+use trackdyn_physics::contact::quadrature::Resolution;
+use trackdyn_physics::{ActiveEffect, Circumstance, Drive, Model, Motion, Vehicle};
+
+/// Samples that one task solves.
+const TASK: usize = 64;
+
+/// Where the robot was during a sample.
+fn circumstance(sample: &Sample) -> Circumstance {
+    let half =
+        Pose::exp(&Pose::new(sample.motion[0], sample.motion[1], sample.motion[2]).log(1.0), 0.5);
+    let middle = sample.pose.compose(&half);
+    Circumstance {
+        position: [middle.x, middle.y],
+        heading: middle.yaw,
+        time: sample.start + sample.duration / 2.0,
+    }
+}
+
+/// Whether the forces hang on where the robot is, where it heads, or when.
+pub fn varies(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> bool {
+    const PROBES: usize = 200;
+    if evidence.is_steady() {
+        return false;
+    }
+    let model = single(vehicle, effect).with_resolution(Resolution::Coarse);
+    let speeds = PerSide::new(-0.2, 0.5);
+    let forces = |at: &Circumstance| {
+        let motion = Motion::anchored(
+            speeds,
+            Side::Left,
+            [-vehicle.gauge, 0.1 * vehicle.gauge],
+            0.5 / vehicle.gauge,
+        );
+        let balance = model.balance(&model.ground(at), &motion);
+        (balance.friction.left, balance.friction.right, balance.load)
+    };
+    let samples = evidence.samples();
+    let mut probes = samples.iter().step_by((samples.len() / PROBES).max(1));
+    let Some(first) = probes.next().map(|sample| forces(&circumstance(sample))) else {
+        return false;
+    };
+    probes.any(|sample| forces(&circumstance(sample)) != first)
+}
+
+/// The stationary motion where each sample was, less the one without the effects that know places, headings or
+/// times, of which `without` is the table.
+pub fn by_ground(
+    with: &Model,
+    without: &Surface,
+    drive: &Drive,
+    evidence: &Evidence,
+) -> Vec<Twist> {
+    let samples = evidence.samples().par_iter().with_min_len(TASK);
+    samples
+        .map(|sample| {
+            let speeds = drive.driven(sample.speeds);
+            let there = without.motion(speeds);
+            let solver = Stationary::from_start(with, &circumstance(sample), there.icrs());
+            let here = solver.solve(speeds);
+            if here.status == Status::NotConverged {
+                return Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
+            }
+            minus(&here.twist, &there.twist(&[0.0; 3]))
+        })
+        .collect()
+}

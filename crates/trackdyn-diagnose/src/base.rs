@@ -5,7 +5,9 @@
 
 use crate::evidence::Evidence;
 use crate::fit::{Fit, Metric};
-use crate::hypothesis::{Hypothesis, Unknown, active, neutral, typical, unknowns_of};
+use crate::hypothesis::{
+    Hypothesis, Unknown, active, neutral, typical, unknowns_of, with_friction,
+};
 use crate::mechanics::{Mechanics, is_instrument};
 use crate::normal::{Columns, Normal, Prior};
 use nalgebra::{Matrix3, Vector3};
@@ -45,6 +47,13 @@ impl Base {
         let instruments = free_instruments(&start, evidence, metric, &as_filed.mechanics);
         for &effect in &instruments {
             nuisances.extend(unknowns_of(effect));
+        }
+        // What has mass tells how much friction there is.
+        let tried: Vec<Unknown> =
+            nuisances.iter().copied().chain([Unknown::FrictionLevel]).collect();
+        let fit = Fit::at(start.clone(), &tried, evidence, metric, Some(&as_filed.mechanics));
+        if own_share(&fit, nuisances.len()) > OWN {
+            nuisances = tried;
         }
         let plain = Fit::new(start, &nuisances, evidence, metric, Some(&as_filed.mechanics));
         // The vehicle takes over what it can of the constant ICRs; a second fit tells what is left.
@@ -170,7 +179,9 @@ impl Calibration {
         let wanted = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset);
         let changed = |by: &Vector3<f64>| -> Vehicle {
             let mut vehicle = hypothesis.vehicle.clone();
-            vehicle.friction.across *= by[0].exp();
+            // Nobody knows one coefficient better than the other.
+            vehicle.friction.across *= (by[0] / 2.0).exp();
+            vehicle.friction.along *= (-by[0] / 2.0).exp();
             vehicle.cog[0] += by[1];
             vehicle.cog[1] += by[2];
             vehicle
@@ -219,5 +230,6 @@ fn spin(vehicle: &Vehicle) -> Option<Vector3<f64>> {
 /// The hypothesis with another vehicle and the offset that leaves its constant ICRs where they are.
 pub fn with_vehicle(hypothesis: &Hypothesis, vehicle: &Vehicle) -> Option<Hypothesis> {
     let offset = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset) - spin(vehicle)?;
-    Some(Hypothesis { vehicle: vehicle.clone(), offset: offset.into(), ..hypothesis.clone() })
+    let vehicle = with_friction(vehicle, hypothesis.friction_level);
+    Some(Hypothesis { vehicle, offset: offset.into(), ..hypothesis.clone() })
 }

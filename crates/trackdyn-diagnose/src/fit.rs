@@ -146,6 +146,9 @@ pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> 
     const SEVERAL: f64 = 3.0;
     match unknown {
         Unknown::Offset(_) => Prior { mean: 0.0, deviation: 0.5 * hypothesis.vehicle.gauge },
+        Unknown::FrictionLevel => {
+            Prior { mean: 0.0, deviation: friction_known(&hypothesis.vehicle) }
+        }
         Unknown::Effect(..) => {
             let parameter = unknown.parameter().expect("an effect's");
             if let Some(deviation) = measured(&hypothesis.vehicle, unknown) {
@@ -163,6 +166,19 @@ pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> 
                 Role::Shape => Prior { mean: parameter.typical, deviation: parameter.typical },
             }
         }
+    }
+}
+
+/// Standard deviation of the logarithm of friction, as its owner knows it.
+fn friction_known(vehicle: &Vehicle) -> f64 {
+    /// A coefficient that was not measured is known to a third.
+    const GUESSED: f64 = 0.3;
+    let friction = &vehicle.uncertainty.friction;
+    match (friction.across, friction.along) {
+        (Some(across), Some(along)) => {
+            (across / vehicle.friction.across).hypot(along / vehicle.friction.along) / 2.0
+        }
+        _ => GUESSED,
     }
 }
 
@@ -212,6 +228,7 @@ pub fn area(evidence: &Evidence, role: Role) -> [f64; 2] {
 fn step(hypothesis: &Hypothesis, unknown: Unknown) -> f64 {
     match unknown {
         Unknown::Offset(_) => 1e-3 * hypothesis.vehicle.gauge,
+        Unknown::FrictionLevel => 0.05,
         Unknown::Effect(..) => {
             let parameter = unknown.parameter().expect("an effect's");
             let value = hypothesis.get(unknown);
@@ -257,6 +274,7 @@ pub fn columns(
 fn is_outside(hypothesis: &Hypothesis, unknown: Unknown) -> bool {
     match unknown {
         Unknown::Offset(_) => true,
+        Unknown::FrictionLevel => false,
         Unknown::Effect(effect, _) => is_instrument(&hypothesis.vehicle, &typical(effect)),
     }
 }

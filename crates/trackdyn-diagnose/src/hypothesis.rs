@@ -12,6 +12,9 @@ pub struct Hypothesis {
     pub effects: Effects,
     /// What is added to the ICRs (x_l, x_r, y), m: all that slow driving on level ground can tell.
     pub offset: [f64; 3],
+    /// ln of the factor by which both friction coefficients of the vehicle differ from those first supposed:
+    /// steady driving knows their ratio alone, but what has mass slides the farther the less friction there is.
+    pub friction_level: f64,
 }
 
 /// A number of a hypothesis.
@@ -19,23 +22,25 @@ pub struct Hypothesis {
 pub enum Unknown {
     /// Offset of x_l, x_r or y.
     Offset(usize),
+    /// Level of friction.
+    FrictionLevel,
     /// Parameter of an effect, both by their places in the catalogue.
     Effect(usize, usize),
 }
 
 impl Unknown {
-    /// The card of its effect; none of an offset.
+    /// The card of its effect; none of an offset, or the level of friction.
     pub fn card(self) -> Option<&'static Card> {
         match self {
-            Self::Offset(_) => None,
+            Self::Offset(_) | Self::FrictionLevel => None,
             Self::Effect(effect, _) => Some(&CATALOGUE[effect]),
         }
     }
 
-    /// The parameter of the catalogue; none of an offset.
+    /// The parameter of the catalogue; none of an offset, or the level of friction.
     pub fn parameter(self) -> Option<&'static Parameter> {
         match self {
-            Self::Offset(_) => None,
+            Self::Offset(_) | Self::FrictionLevel => None,
             Self::Effect(effect, parameter) => Some(&CATALOGUE[effect].parameters[parameter]),
         }
     }
@@ -72,13 +77,14 @@ impl Hypothesis {
     /// What a vehicle file says.
     pub fn filed(file: &VehicleFile) -> Self {
         let VehicleFile { vehicle, effects } = file.clone();
-        Self { vehicle, effects, offset: [0.0; 3] }
+        Self { vehicle, effects, offset: [0.0; 3], friction_level: 0.0 }
     }
 
     /// Value of an unknown; that of no effect where the effect is not there.
     pub fn get(&self, unknown: Unknown) -> f64 {
         match unknown {
             Unknown::Offset(k) => self.offset[k],
+            Unknown::FrictionLevel => self.friction_level,
             Unknown::Effect(effect, parameter) => self.effect(effect).map_or_else(
                 || neutral(&CATALOGUE[effect].parameters[parameter]),
                 |active| active.values()[parameter],
@@ -92,6 +98,10 @@ impl Hypothesis {
         let mut changed = self.clone();
         match unknown {
             Unknown::Offset(k) => changed.offset[k] = value,
+            Unknown::FrictionLevel => {
+                changed.vehicle = with_friction(&self.vehicle, value - self.friction_level);
+                changed.friction_level = value;
+            }
             Unknown::Effect(effect, parameter) => {
                 let card = &CATALOGUE[effect];
                 let mut values: Vec<f64> = match self.effect(effect) {
@@ -133,6 +143,14 @@ impl Hypothesis {
             self.effects.iter().filter(|active| active.card().id != id).cloned().collect();
         Self { effects, ..self.clone() }
     }
+}
+
+/// A vehicle with both friction coefficients times e^`level`.
+pub fn with_friction(vehicle: &Vehicle, level: f64) -> Vehicle {
+    let mut changed = vehicle.clone();
+    changed.friction.across *= level.exp();
+    changed.friction.along *= level.exp();
+    changed
 }
 
 /// An effect at its typical size.

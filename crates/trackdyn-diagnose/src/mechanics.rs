@@ -107,7 +107,8 @@ impl Mechanics {
                 free.iter()
                     .any(|unknown| unknown.card().is_some_and(|card| card.id == effect.card().id))
             };
-            let free_at = inert.iter().any(is_free).then_some(delay);
+            let is_free = inert.iter().any(is_free) || free.contains(&Unknown::FrictionLevel);
+            let free_at = is_free.then_some(delay);
             let known = before.and_then(|before| before.inertia.as_ref());
             InertiaNear::beside(known, inert, case, free_at)
         })
@@ -117,7 +118,10 @@ impl Mechanics {
     /// from here wherever it can be, for any other error would be divided by the step.
     pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
         Self::found(Some(self), hypothesis, evidence, |inert, case| {
-            let known = self.inertia.as_ref().and_then(|known| known.moved(&inert, f64::MAX));
+            let known = self
+                .inertia
+                .as_ref()
+                .and_then(|known| known.moved(&inert, case.model.vehicle(), f64::MAX));
             known.map_or_else(|| InertiaNear::here(inert, case), Ok)
         })
     }

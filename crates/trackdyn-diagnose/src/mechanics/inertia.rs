@@ -7,7 +7,7 @@
 use super::belts::{lagging, smooth};
 use super::{minus, moved, plus};
 use crate::evidence::{Evidence, Sample};
-use crate::hypothesis::{neutral, typical_size, with_values};
+use crate::hypothesis::{neutral, typical_size, with_friction, with_values};
 use crate::surface::Surface;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -29,6 +29,9 @@ const ALIKE: f64 = 1.0;
 
 /// Part of the gauge, and of the friction ratio, by which the vehicle may differ.
 const CLOSE: f64 = 0.02;
+
+/// Difference of the logarithm of friction that is rounding.
+const SAME: f64 = 1e-12;
 
 /// What the motion in time is found for.
 pub struct Case<'a> {
@@ -56,6 +59,8 @@ struct Slopes {
     inert: Vec<ActiveEffect>,
     /// Place of the effect, place of its parameter, and the change of each sample per unit of it.
     by: Vec<(usize, usize, Vec<Twist>)>,
+    /// The same by the logarithm of friction.
+    by_level: Vec<Twist>,
 }
 
 impl InertiaNear {
@@ -73,7 +78,8 @@ impl InertiaNear {
         free_at: Option<f64>,
     ) -> Result<Self, String> {
         let known = before.filter(|before| before.at.resembles(case, &inert));
-        if let Some(near) = known.and_then(|known| known.moved(&inert, REACH)) {
+        if let Some(near) = known.and_then(|known| known.moved(&inert, case.model.vehicle(), REACH))
+        {
             return Ok(near);
         }
         let here = Self::here(inert, case)?;
@@ -86,25 +92,25 @@ impl InertiaNear {
         Ok(Self { slopes, ..here })
     }
 
-    /// The same for other values of the effects that it comes from, up to `reach` of a typical size; none where
-    /// these are not near, or slopes not known.
-    pub fn moved(&self, inert: &[ActiveEffect], reach: f64) -> Option<Self> {
-        if self.at.inert == inert {
+    /// The same for other values of the effects that it comes from, up to `reach` of a typical size, and as much
+    /// more or less friction; none where these are not near, or slopes not known.
+    pub fn moved(&self, inert: &[ActiveEffect], vehicle: &Vehicle, reach: f64) -> Option<Self> {
+        let level = (level(vehicle) / level(&self.at.vehicle)).ln();
+        if self.at.inert == inert && level.abs() < SAME {
             return Some(Self { shift: None, ..self.clone() });
         }
-        let slopes = self.slopes.as_ref().filter(|_| are_near(&self.at.inert, inert, reach))?;
-        let mut shift: Option<Vec<Twist>> = None;
+        let slopes = self.slopes.as_ref()?;
+        if !are_near(&self.at.inert, inert, reach) || level.abs() > reach {
+            return None;
+        }
+        let mut shift: Vec<Twist> = slopes.by_level.iter().map(|by| scaled(by, level)).collect();
         for (k, place, slope) in &slopes.by {
             let by = inert[*k].values()[*place] - self.at.inert[*k].values()[*place];
-            if by != 0.0 {
-                let moves = slope.iter().map(|slope| scaled(slope, by));
-                shift = Some(match shift {
-                    Some(sum) => sum.iter().zip(moves).map(|(a, b)| plus(a, &b)).collect(),
-                    None => moves.collect(),
-                });
+            for (sum, slope) in shift.iter_mut().zip(slope) {
+                *sum = plus(sum, &scaled(slope, by));
             }
         }
-        Some(Self { shift: shift.map(Arc::new), ..self.clone() })
+        Some(Self { shift: Some(Arc::new(shift)), ..self.clone() })
     }
 
     /// What it adds to the twist (paper's frame) during a sample, of this index.
@@ -122,26 +128,27 @@ impl Slopes {
             samples.map(|sample| inertia.departure(sample, delay)).collect()
         };
         let before = departures(at);
-        let inert = at.inert.clone();
+        let (vehicle, effects) = (case.model.vehicle(), case.model.effects());
+        let slope = |model: &Model, step: f64| -> Option<Vec<Twist>> {
+            let after = departures(&Inertia::new(Vec::new(), &Case { model, ..*case }).ok()?);
+            let slope = after.iter().zip(&before);
+            Some(slope.map(|(there, here)| scaled(&minus(there, here), step.recip())).collect())
+        };
         let mut by = Vec::new();
-        for (k, effect) in inert.iter().enumerate() {
+        for (k, effect) in at.inert.iter().enumerate() {
             for (place, parameter) in effect.card().parameters.iter().enumerate() {
                 let value = effect.values()[place];
                 let step = REACH * typical_size(parameter);
                 let step = if value + step > parameter.range[1] { -step } else { step };
                 let mut values = effect.values().to_vec();
                 values[place] += step;
-                let mut effects = case.model.effects().clone();
+                let mut effects = effects.clone();
                 effects.insert(with_values(effect, &values));
-                let model = Model::new(case.model.vehicle().clone(), effects);
-                let after =
-                    departures(&Inertia::new(Vec::new(), &Case { model: &model, ..*case }).ok()?);
-                let slope = after.iter().zip(&before);
-                let slope = slope.map(|(there, here)| scaled(&minus(there, here), step.recip()));
-                by.push((k, place, slope.collect()));
+                by.push((k, place, slope(&Model::new(vehicle.clone(), effects), step)?));
             }
         }
-        Some(Self { inert, by })
+        let rougher = Model::new(with_friction(vehicle, REACH), effects.clone());
+        Some(Self { inert: at.inert.clone(), by, by_level: slope(&rougher, REACH)? })
     }
 }
 
@@ -154,6 +161,11 @@ fn are_near(known: &[ActiveEffect], effects: &[ActiveEffect], reach: f64) -> boo
         a.card().id == b.card().id && values.all(|near| near)
     };
     known.len() == effects.len() && known.iter().zip(effects).all(|(a, b)| near(a, b))
+}
+
+/// Geometric mean of the friction coefficients.
+fn level(vehicle: &Vehicle) -> f64 {
+    (vehicle.friction.across * vehicle.friction.along).sqrt()
 }
 
 fn scaled(twist: &Twist, by: f64) -> Twist {

@@ -27,11 +27,7 @@ impl Rival {
     /// typical one.
     pub fn fitted(question: &Question, file: &VehicleFile) -> Self {
         let effect = question.effect;
-        let given = Hypothesis {
-            vehicle: file.vehicle.clone(),
-            effects: file.effects.clone(),
-            offset: [0.0; 3],
-        };
+        let given = Hypothesis::filed(file);
         let hypothesis = match given.effect(effect) {
             Some(_) => given,
             None => given.with_effect(active(effect, &question.values)),

@@ -3,7 +3,7 @@
 use super::{Rules, Support, Verdict, refusal};
 use crate::base::OFFSETS;
 use crate::fit::{Fit, measured};
-use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of};
+use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of, with_friction};
 use crate::search::{Found, Search};
 use std::collections::BTreeMap;
 use trackdyn_core::real;
@@ -48,7 +48,8 @@ fn as_filed(search: &Search, best: &Found, file: &VehicleFile) -> (Hypothesis, V
     let without = added.iter().fold(best.fit.hypothesis.clone(), |hypothesis, &effect| {
         hypothesis.with_effect_of(base, effect)
     });
-    let filed = Hypothesis { vehicle: file.vehicle.clone(), offset: [0.0; 3], ..without };
+    let vehicle = with_friction(&file.vehicle, without.friction_level);
+    let filed = Hypothesis { vehicle, offset: [0.0; 3], ..without };
     let is_fixed = |unknown: &Unknown| {
         !OFFSETS.contains(unknown) && !added.iter().any(|&effect| unknown.is_of(effect))
     };

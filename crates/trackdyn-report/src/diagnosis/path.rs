@@ -94,11 +94,7 @@ fn replay(subject: &Subject) -> Option<Replay> {
 /// The motion of every sample with a vehicle file, moved by the recording's clock where the file says nothing
 /// of it.
 fn motions(subject: &Subject, file: &VehicleFile) -> Vec<Vector3<f64>> {
-    let hypothesis = Hypothesis {
-        vehicle: file.vehicle.clone(),
-        effects: file.effects.clone(),
-        offset: [0.0; 3],
-    };
+    let hypothesis = Hypothesis::filed(file);
     let mut instruments = Instruments::of(&hypothesis);
     if instruments.sensor.delay == 0.0 {
         instruments.sensor.delay = subject.evidence.tau();

@@ -155,11 +155,7 @@ impl Mechanics {
                 effects.insert(effect);
             }
             let with = Model::new(vehicle.clone(), effects);
-            let departure = if simple.effects() == model.effects() {
-                by_ground(&with, &mechanics.surface, &drive, evidence)
-            } else {
-                by_ground(&with, &Surface::new(&simple, largest, None), &drive, evidence)
-            };
+            let departure = by_ground(&with, &simple, &mechanics.surface, &drive, evidence);
             mechanics.ground = Some(Arc::new(departure));
         }
         let inert = simple.effects().iter().filter(|effect| feels_inertia(vehicle, effect));

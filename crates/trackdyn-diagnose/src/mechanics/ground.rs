@@ -51,24 +51,30 @@ pub fn varies(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> 
 }
 
 /// The stationary motion where each sample was, less the one without the effects that know places, headings or
-/// times, of which `without` is the table.
+/// times. `table` is nearly that one: where the search starts.
 pub fn by_ground(
     with: &Model,
-    without: &Surface,
+    without: &Model,
+    table: &Surface,
     drive: &Drive,
     evidence: &Evidence,
 ) -> Vec<Twist> {
+    let level = Stationary::new(without, &Circumstance::default());
     let samples = evidence.samples().par_iter().with_min_len(TASK);
     samples
         .map(|sample| {
             let speeds = drive.driven(sample.speeds);
-            let there = without.motion(speeds);
-            let solver = Stationary::from_start(with, &circumstance(sample), there.icrs());
-            let here = solver.solve(speeds);
-            if here.status == Status::NotConverged {
-                return Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
+            let start = table.motion(speeds).icrs();
+            let there = start.map_or_else(|| level.clone(), |icrs| level.starting_at(icrs));
+            let there = there.solve(speeds);
+            let start = there.icrs.or(start);
+            let here = Stationary::from_start(with, &circumstance(sample), start).solve(speeds);
+            let usable = |status: Status| status != Status::NotConverged;
+            if usable(here.status) && usable(there.status) {
+                minus(&here.twist, &there.twist)
+            } else {
+                Twist { v_x: 0.0, v_y: 0.0, w: 0.0 }
             }
-            minus(&here.twist, &there.twist(&[0.0; 3]))
         })
         .collect()
 }

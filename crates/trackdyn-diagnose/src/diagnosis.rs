@@ -14,7 +14,9 @@ use crate::noise::{sharper, with_remaining_noise};
 use crate::proposal::{Proposal, completed};
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, intervals};
-use crate::verdict::{Rules, Verdict, judge, judge_constants, judge_instruments, statics};
+use crate::verdict::{
+    Rules, Verdict, judge, judge_constants, judge_instruments, mostly_statics, statics,
+};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 use trackdyn_core::real;
@@ -324,7 +326,10 @@ fn judged(
 ) -> Judgement {
     let Options { draws, seed, .. } = *options;
     let physics = judge(search, &found, file, draws, seed);
+    // What mostly moves constant ICRs is free in every hypothesis: it stays, claimed or not.
+    let stays = mostly_statics(search);
     let dropped = physics.iter().filter(|verdict| verdict.refused.is_some());
+    let dropped = dropped.filter(|verdict| !stays.contains(&verdict.effect));
     let best = dropped.fold(found, |found, verdict| search.without(&found, verdict.effect));
     let instruments = judge_instruments(search, &best, draws, seed);
     let constants = judge_constants(search, &best, statics, file, draws, seed);

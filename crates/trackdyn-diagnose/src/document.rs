@@ -5,7 +5,7 @@ mod proposed;
 pub use proposed::{ProposalTable, ProposedTable};
 
 use crate::diagnosis::{Diagnosis, Kind};
-use crate::hypothesis::Unknown;
+use crate::uncertainty::Interval;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use trackdyn_core::document::{Document, DocumentError};
@@ -187,21 +187,25 @@ impl DiagnosisFile {
     }
 }
 
-fn missing(missing: &crate::diagnosis::Missing) -> MissingTable {
-    let verdict = &missing.verdict;
-    let ids: Vec<String> =
-        verdict.one_of.iter().map(|&effect| CATALOGUE[effect].id.to_owned()).collect();
-    let parameters = missing.parameters.iter().filter_map(|interval| {
-        let Unknown::Effect(..) = interval.unknown else { return None };
+impl ParameterTable {
+    /// The table of a parameter of an effect; none of what is no parameter.
+    fn of(interval: &Interval) -> Option<Self> {
         let parameter = interval.unknown.parameter()?;
-        Some(ParameterTable {
+        Some(Self {
             name: parameter.key.to_owned(),
             value: rounded(interval.value),
             low95: rounded(interval.low),
             high95: rounded(interval.high),
             unit: parameter.unit.to_owned(),
         })
-    });
+    }
+}
+
+fn missing(missing: &crate::diagnosis::Missing) -> MissingTable {
+    let verdict = &missing.verdict;
+    let ids: Vec<String> =
+        verdict.one_of.iter().map(|&effect| CATALOGUE[effect].id.to_owned()).collect();
+    let parameters = missing.parameters.iter().filter_map(ParameterTable::of);
     MissingTable {
         effect: CATALOGUE[verdict.effect].id.to_owned(),
         parameters: parameters.collect(),

@@ -62,7 +62,8 @@ impl Location {
     /// form of its laws may leave.
     pub fn left_over(&self, form: f64) -> Vec<Symmetry> {
         let tests = self.tests.iter();
-        let tests = tests.filter(|test| test.test.p < SURE && test.test.statistic > form);
+        let beyond = |test: &SymmetryTest| test.test.statistic - real(test.test.degrees);
+        let tests = tests.filter(|test| test.test.p < SURE && beyond(test) > form);
         tests.map(|test| test.symmetry).collect()
     }
 }

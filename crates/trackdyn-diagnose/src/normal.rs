@@ -49,6 +49,9 @@ pub struct Prior {
     pub deviation: f64,
 }
 
+/// Part of its own square by which a column may differ from others and still be taken for them.
+const RIDGE: f64 = 1e-10;
+
 impl Normal {
     /// The products of these columns.
     pub fn new(of: &Columns) -> Self {
@@ -184,7 +187,12 @@ impl Normal {
             }
         }
         let scale = DVector::from_fn(count, |k, _| 1.0 / matrix[(k, k)].sqrt());
-        let scaled = DMatrix::from_fn(count, count, |a, b| matrix[(a, b)] * scale[a] * scale[b]);
+        let mut scaled =
+            DMatrix::from_fn(count, count, |a, b| matrix[(a, b)] * scale[a] * scale[b]);
+        // Columns that stand for each other are projected out as one.
+        for k in 0..count {
+            scaled[(k, k)] += RIDGE;
+        }
         let Some(cholesky) = scaled.cholesky() else { return self.clone() };
         let right = DMatrix::from_fn(count, size, |a, j| right[(a, j)] * scale[a]);
         let solved = cholesky.solve(&right);

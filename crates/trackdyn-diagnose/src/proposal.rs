@@ -22,7 +22,7 @@ use crate::mechanics::Instruments;
 use crate::normal::Prior;
 use crate::search::{Catalogue, Found, Search};
 use crate::uncertainty::{Interval, intervals};
-use crate::verdict::Rules;
+use crate::verdict::{Rules, Support};
 use selection::{Library, Selected};
 use trackdyn_core::real;
 use trackdyn_physics::effect::{Symmetry, Term};
@@ -56,28 +56,6 @@ pub struct Proposed {
     pub coefficients: Vec<Interval>,
     /// What speaks for it.
     pub support: Support,
-}
-
-/// What speaks for a term.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Support {
-    /// Probability that the best of all admissible terms is as good by chance.
-    pub p: f64,
-    /// Logarithm of the Bayes factor against the law without it.
-    pub ln_bayes_factor: f64,
-    /// Gain of log-likelihood on blocks that were left out of the fit.
-    pub held_out_gain: f64,
-    /// Its standard error.
-    pub held_out_error: f64,
-}
-
-impl Support {
-    /// Whether it reaches what a claim must reach.
-    fn suffices(&self) -> bool {
-        self.p < Rules::P
-            && self.ln_bayes_factor >= Rules::LN_BAYES_FACTOR
-            && self.held_out_gain >= Rules::GAIN * self.held_out_error
-    }
 }
 
 impl Proposal {

@@ -4,10 +4,9 @@ mod constants;
 mod instruments;
 mod support;
 
-pub use constants::{judge_constants, statics};
+pub use constants::{judge_constants, mostly_statics, statics};
 pub use instruments::judge_instruments;
-pub use support::Support;
-pub(crate) use support::cross_validated;
+pub use support::{Support, cross_validated};
 
 use crate::base::Base;
 use crate::evidence::Evidence;
@@ -57,9 +56,6 @@ impl Rules {
     }
 }
 
-/// Share of its own beyond constant ICRs below which an effect mostly moves these.
-const MOSTLY: f64 = 0.1;
-
 /// Effects that are named together at most because resampled recordings name now this one, now that.
 const UNSTABLE: usize = 2;
 
@@ -91,7 +87,7 @@ pub fn judge(
 ) -> Vec<Verdict> {
     let departure = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
     // What mostly moves constant ICRs is known to a part of all that moved them.
-    let mostly = constants::statics_within(search, MOSTLY);
+    let mostly = mostly_statics(search);
     let is_static = |effect: &usize| mostly.contains(effect);
     let by_constants = if best.effects.iter().any(is_static) {
         constants::departure(search, best, file)
@@ -171,23 +167,8 @@ fn is_rival(one: &Screened, own: f64, best: &Found) -> bool {
 
 /// Why a claim is refused by the rules; none where it is not.
 fn refusal(support: &Support, z: f64, whole: f64) -> Option<String> {
-    if support.ln_bayes_factor < Rules::LN_BAYES_FACTOR {
-        return Some(format!(
-            "ln Bayes factor {:.1}, below {}",
-            support.ln_bayes_factor,
-            Rules::LN_BAYES_FACTOR
-        ));
-    }
-    if support.p >= Rules::P {
-        return Some(format!("may be chance: family-wise p = {:.3}", support.p));
-    }
-    if support.held_out_gain < Rules::GAIN * support.held_out_error {
-        return Some(format!(
-            "gain on held-out blocks {:.1} is less than {} standard errors of {:.1}",
-            support.held_out_gain,
-            Rules::GAIN,
-            support.held_out_error
-        ));
+    if let Some(reason) = support.falls_short() {
+        return Some(reason);
     }
     if support.stable < Rules::STABLE {
         return Some(format!(

@@ -15,17 +15,12 @@ use library::{Library, PLACEBOS};
 use nalgebra::Vector3;
 use noise::Noise;
 use rayon::prelude::*;
-use trackdyn_core::real;
 use trackdyn_diagnose::fit::Metric;
-use trackdyn_diagnose::normal::{Normal, Prior};
 use trackdyn_diagnose::significance::test;
-use trackdyn_diagnose::verdict::Rules;
+use trackdyn_diagnose::verdict::{Rules, cross_validated};
 
 /// Draws of signs.
 const SIGNS: usize = 1000;
-
-/// Folds of the cross-validation.
-const FOLDS: usize = 12;
 
 /// Residuals larger than the noise by this much make the noise larger.
 const TOLERATED: f64 = 1.1;
@@ -65,29 +60,6 @@ fn claimed(library: &Library, residual: &[Vector3<f64>], seed: u64) -> Vec<usize
     let tests = test(&projected, &groups, SIGNS, seed);
     let of = |placebo: &usize| tests[library.groups.len() + placebo].p;
     passed.into_iter().filter(|placebo| of(placebo) < Rules::P).collect()
-}
-
-/// Gain of log-likelihood on blocks that were left out, and its standard error from block to block.
-fn cross_validated(
-    normal: &Normal,
-    known: &[Prior],
-    base: &[usize],
-    columns: &[usize],
-) -> (f64, f64) {
-    let count = normal.blocks();
-    let mut gains = vec![0.0; count];
-    for fold in 0..FOLDS {
-        let range = fold * count / FOLDS..(fold + 1) * count / FOLDS;
-        let training = normal.without(&range);
-        let (less, more) = (training.fit(base, known), training.fit(columns, known));
-        for block in range {
-            let before = normal.squares_at(block, base, &less.estimate);
-            gains[block] = (before - normal.squares_at(block, columns, &more.estimate)) / 2.0;
-        }
-    }
-    let (blocks, sum) = (real(count), gains.iter().sum::<f64>());
-    let spread: f64 = gains.iter().map(|gain| (gain - sum / blocks).powi(2)).sum();
-    (sum, (spread * blocks / (blocks - 1.0)).sqrt())
 }
 
 impl Library {

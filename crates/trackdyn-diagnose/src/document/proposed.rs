@@ -55,16 +55,7 @@ pub(super) fn terms(proposal: &Proposal) -> Vec<ProposedTable> {
         .iter()
         .map(|proposed| {
             let size = proposed.size();
-            let parameters = proposed.coefficients.iter().filter_map(|interval| {
-                let parameter = interval.unknown.parameter()?;
-                Some(ParameterTable {
-                    name: parameter.key.to_owned(),
-                    value: rounded(interval.value),
-                    low95: rounded(interval.low),
-                    high95: rounded(interval.high),
-                    unit: parameter.unit.to_owned(),
-                })
-            });
+            let parameters = proposed.coefficients.iter().filter_map(ParameterTable::of);
             ProposedTable {
                 form: card.id.to_owned(),
                 term: proposed.term.key.to_owned(),

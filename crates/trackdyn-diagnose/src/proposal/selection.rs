@@ -1,11 +1,10 @@
 //! Which terms: forward selection, with elimination and exchange after every step.
 
-use super::Support;
 use crate::diagnosis::Options;
 use crate::hypothesis::Unknown;
 use crate::normal::{Normal, Prior};
 use crate::significance::test;
-use crate::verdict::{Rules, cross_validated};
+use crate::verdict::{Rules, Support, cross_validated};
 use rayon::prelude::*;
 use trackdyn_physics::effect::Term;
 
@@ -110,6 +109,7 @@ impl Library {
             ln_bayes_factor: self.ln_evidence(terms) - self.ln_evidence(&others),
             held_out_gain,
             held_out_error,
+            ..Support::none()
         }
     }
 }
@@ -124,7 +124,7 @@ pub(super) fn select(library: &Library, options: &Options) -> Vec<Selected> {
             .collect();
         let gain = |selected: &Selected| selected.support.ln_bayes_factor;
         selected.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
-        match selected.iter().rfind(|selected| !selected.support.suffices()) {
+        match selected.iter().rfind(|selected| selected.support.falls_short().is_some()) {
             Some(weakest) => chosen.retain(|term| *term != weakest.term),
             None => return selected,
         }

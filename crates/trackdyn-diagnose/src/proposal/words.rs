@@ -109,7 +109,7 @@ fn decimals(half: f64) -> usize {
 mod tests {
     use super::*;
     use crate::hypothesis::Unknown;
-    use crate::proposal::Support;
+    use crate::verdict::Support;
     use trackdyn_physics::CATALOGUE;
 
     /// The term of a key, with these coefficients ± 0.004.
@@ -124,8 +124,13 @@ mod tests {
             low: value - 0.004,
             high: value + 0.004,
         });
-        let support =
-            Support { p: 0.0005, ln_bayes_factor: 9.0, held_out_gain: 9.0, held_out_error: 1.0 };
+        let support = Support {
+            p: 0.0005,
+            ln_bayes_factor: 9.0,
+            held_out_gain: 9.0,
+            held_out_error: 1.0,
+            ..Support::none()
+        };
         Proposed { coefficients: coefficients.collect(), term, support }
     }
 

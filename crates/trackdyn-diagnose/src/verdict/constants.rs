@@ -12,13 +12,21 @@ use trackdyn_physics::{CATALOGUE, VehicleFile};
 /// Share of its own beyond constant ICRs below which an effect is of their class.
 const STATIC: f64 = 0.03;
 
+/// The same below which it mostly moves these.
+const MOSTLY: f64 = 0.1;
+
 /// Effects that only move the constant ICRs, in all their variants, ascending.
 pub fn statics(search: &Search) -> Vec<usize> {
     statics_within(search, STATIC)
 }
 
+/// Effects that mostly move the constant ICRs, ascending.
+pub fn mostly_statics(search: &Search) -> Vec<usize> {
+    statics_within(search, MOSTLY)
+}
+
 /// Effects of whose signatures no more than a share is their own beyond constant ICRs.
-pub(super) fn statics_within(search: &Search, share: f64) -> Vec<usize> {
+fn statics_within(search: &Search, share: f64) -> Vec<usize> {
     let fit = &search.base.fit;
     let entries: Vec<usize> = (0..search.catalogue.entries.len()).collect();
     let (normal, known, groups) = search.normal(fit, &entries);
@@ -42,7 +50,7 @@ pub(super) fn statics_within(search: &Search, share: f64) -> Vec<usize> {
 /// else is free in it.
 fn as_filed(search: &Search, best: &Found, file: &VehicleFile) -> (Hypothesis, Vec<Unknown>) {
     let base = &search.base.fit.hypothesis;
-    let mostly = statics_within(search, super::MOSTLY);
+    let mostly = mostly_statics(search);
     let added: Vec<usize> =
         best.effects.iter().copied().filter(|effect| mostly.contains(effect)).collect();
     let without = added.iter().fold(best.fit.hypothesis.clone(), |hypothesis, &effect| {

@@ -1,5 +1,6 @@
 //! What speaks for a claim.
 
+use super::Rules;
 use crate::fit::Fit;
 use crate::normal::{Normal, Prior};
 use crate::search::{Found, Screened, Search};
@@ -33,7 +34,7 @@ pub struct Support {
 
 impl Support {
     /// Nothing speaks for it.
-    pub(super) fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Self {
             p: 1.0,
             ln_bayes_factor: 0.0,
@@ -42,6 +43,26 @@ impl Support {
             stable: 0.0,
             z: 0.0,
         }
+    }
+
+    /// What it lacks of what every claim must reach; none where it lacks nothing.
+    pub(crate) fn falls_short(&self) -> Option<String> {
+        let Self { p, ln_bayes_factor, held_out_gain, held_out_error, .. } = *self;
+        if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
+            return Some(format!(
+                "ln Bayes factor {ln_bayes_factor:.1}, below {}",
+                Rules::LN_BAYES_FACTOR
+            ));
+        }
+        if p >= Rules::P {
+            return Some(format!("may be chance: family-wise p = {p:.3}"));
+        }
+        (held_out_gain < Rules::GAIN * held_out_error).then(|| {
+            format!(
+                "gain on held-out blocks {held_out_gain:.1} is less than {} standard errors of {held_out_error:.1}",
+                Rules::GAIN
+            )
+        })
     }
 
     /// The support of an effect of the catalogue, beside the best hypothesis without it.
@@ -140,7 +161,7 @@ pub(super) fn named(
 
 /// Gain of log-likelihood by more columns on blocks that were left out of their fit, and its standard error
 /// from block to block.
-pub(crate) fn cross_validated(
+pub fn cross_validated(
     normal: &Normal,
     known: &[Prior],
     base: &[usize],

@@ -4,8 +4,12 @@ pub mod concealed;
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
+use std::path::{Path, PathBuf};
+use trackdyn_core::document::Document;
 use trackdyn_physics::contact::Friction;
 use trackdyn_physics::{Effects, Model, RunningGear, Uncertainty, Vehicle, VehicleFile};
+use trackdyn_recording::Recording;
+use trackdyn_recording::rosbag::RosbagOptions;
 
 /// Auriga-alpha with this centre of gravity and these effects (`id:key=value`).
 ///
@@ -64,4 +68,29 @@ pub fn random_vehicle(random: &mut ChaCha8Rng, support: f64) -> Vehicle {
     vehicle.cog =
         [uniform(random, -0.5, 0.5) * gauge * support, uniform(random, rear, front) * support];
     vehicle
+}
+
+/// A public recording of a real robot, which the project does not carry: `TRACKDYN_DATA` names their folder, else it is
+/// `../shared/data` beside the checkout. None, and a note, where it is not at hand.
+///
+/// # Panics
+/// Where the recording cannot be read.
+pub fn real_recording(name: &str) -> Option<Recording> {
+    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
+    let folder = std::env::var_os("TRACKDYN_DATA").map_or_else(beside, PathBuf::from).join(name);
+    if !folder.is_dir() {
+        println!("skipped: {name} is not there (TRACKDYN_DATA names the folder of recordings)");
+        return None;
+    }
+    Some(trackdyn_recording::read(&folder, &RosbagOptions::default()).expect(name))
+}
+
+/// A vehicle file of `configs/vehicles`.
+///
+/// # Panics
+/// Where there is none, or it is none.
+pub fn vehicle(name: &str) -> VehicleFile {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs/vehicles");
+    let document = Document::read(&folder.join(name).with_extension("toml")).expect(name);
+    VehicleFile::from_document(&document).expect(name)
 }

@@ -4,4 +4,5 @@ mod images;
 mod measured;
 mod nulls;
 mod one_sided;
+mod real;
 mod twins;

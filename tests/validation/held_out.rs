@@ -3,12 +3,13 @@
 //! Goal: identified ICRs beat the ideal drive in yaw on driving that they were not fitted to, by more than the
 //! 95 % interval of the ratio. The table in `docs/validation.md` is what this test computes.
 
-use crate::recordings::{identified, read};
+use crate::recordings::identified;
 use trackdyn_identify::identification::Fit;
 use trackdyn_identify::least_squares::Interval;
 use trackdyn_odometry::comparison::{Component, SetErrors};
 use trackdyn_odometry::{Comparison, Estimate, ParameterSet};
 use trackdyn_recording::{Clock, RunList};
+use trackdyn_tests::real_recording;
 
 /// Recording, gauge (m), runs that are fitted to, runs that are judged on.
 const CASES: [(&str, f64, &str, &str); 5] = [
@@ -24,7 +25,7 @@ fn identified_icrs_forecast_the_other_half() {
     let page = include_str!("../../docs/validation.md");
     let mut stale = Vec::new();
     for (name, gauge, fitted, judged) in CASES {
-        let Some(recording) = read(name) else { continue };
+        let Some(recording) = real_recording(name) else { continue };
         let part = |list: &str| {
             let list: RunList = list.parse().expect("a list");
             recording.of_runs(&list).expect(name)

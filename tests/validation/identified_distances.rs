@@ -6,9 +6,10 @@
 //! Conditions: no α; of the Warthog the windows that are marked as steady; of the Husky those whose stamps are
 //! right (docs/validation.md says what is wrong with the others).
 
-use crate::recordings::{at_20_hertz, identified, read, steady};
+use crate::recordings::{at_20_hertz, identified, steady};
 use trackdyn_identify::Nuisance;
 use trackdyn_recording::{Recording, RunList};
+use trackdyn_tests::real_recording;
 
 /// Which runs count.
 type Choice = fn(&Recording) -> RunList;
@@ -25,7 +26,7 @@ const CASES: [(&str, f64, Choice, f64); 5] = [
 #[test]
 fn distances_agree_with_independent_fits() {
     for (name, gauge, choice, independent) in CASES {
-        let Some(recording) = read(name) else { continue };
+        let Some(recording) = real_recording(name) else { continue };
         let part = recording.of_runs(&choice(&recording)).expect(name);
         let found = identified(&part, gauge, &[]);
         let gap = found.fits[0].least_squares.as_ref().expect(name).gap();
@@ -43,7 +44,7 @@ fn distances_agree_with_independent_fits() {
 
 #[test]
 fn stamps_that_are_stretched_stretch_the_distance() {
-    let Some(recording) = read("husky-tile") else { return };
+    let Some(recording) = real_recording("husky-tile") else { return };
     let distance = |runs: &RunList| {
         let part = recording.of_runs(runs).expect("runs");
         identified(&part, 0.555, &[]).fits[0]
@@ -68,7 +69,7 @@ fn clock_and_yaw_of_the_sensor_are_those_of_the_page() {
     let page = include_str!("../../docs/validation.md");
     let mut stale = Vec::new();
     for (name, gauge, ..) in CASES {
-        let Some(recording) = read(name) else { continue };
+        let Some(recording) = real_recording(name) else { continue };
         let wanted = [Nuisance::TimeOffset, Nuisance::SensorYaw];
         let found = identified(&recording, gauge, &wanted);
         let estimate = found.fits[0].least_squares.as_ref().expect(name);

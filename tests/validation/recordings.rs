@@ -1,26 +1,12 @@
-//! Public recordings of real robots, which the project does not carry: `TRACKDYN_DATA` names their folder, else
-//! it is `../shared/data` beside the checkout. Without them tests say that they skip.
+//! What is identified from public recordings of real robots.
 //!
 //! Source: norlab-ulaval DRIVE (BSD-3-Clause).
 
-use std::path::{Path, PathBuf};
 use trackdyn_identify::genetic::GeneticOptions;
 use trackdyn_identify::identification::{Options, identify};
 use trackdyn_identify::{Identification, Nuisance};
 use trackdyn_recording::recording::Cells;
-use trackdyn_recording::rosbag::RosbagOptions;
 use trackdyn_recording::{Recording, Run, RunList};
-
-/// Reads a recording; none where it is not at hand.
-pub fn read(name: &str) -> Option<Recording> {
-    let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
-    let folder = std::env::var_os("TRACKDYN_DATA").map_or_else(beside, PathBuf::from).join(name);
-    if !folder.is_dir() {
-        println!("skipped: {name} is not there (TRACKDYN_DATA names the folder of recordings)");
-        return None;
-    }
-    Some(trackdyn_recording::read(&folder, &RosbagOptions::default()).expect(name))
-}
 
 /// All methods on a recording of a vehicle with this gauge, m; these fitted beside the ICRs.
 pub fn identified(recording: &Recording, gauge: f64, nuisances: &[Nuisance]) -> Identification {

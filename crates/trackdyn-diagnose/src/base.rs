@@ -4,7 +4,7 @@
 //! encoders and pose sensor make of the motion: gains, clock, mount.
 
 use crate::evidence::Evidence;
-use crate::fit::{Fit, Metric};
+use crate::fit::{Fit, Metric, prior};
 use crate::hypothesis::{
     Hypothesis, Unknown, active, neutral, typical, unknowns_of, with_friction,
 };
@@ -17,6 +17,9 @@ use trackdyn_physics::{CATALOGUE, Circumstance, Effects, Model, Vehicle, Vehicle
 
 /// Part of an instrument's signature that must be its own for it to be free beside the others.
 const OWN: f64 = 0.02;
+
+/// Part of what its owner's guess may be off by to which the evidence must know the level of friction for it to be free.
+const BETTER: f64 = 0.5;
 
 /// What every hypothesis starts from.
 #[derive(Clone)]
@@ -48,11 +51,13 @@ impl Base {
         for &effect in &instruments {
             nuisances.extend(unknowns_of(effect));
         }
-        // What has mass tells how much friction there is.
+        // What has mass tells how much friction there is, if the evidence knows that better than the owner.
         let tried: Vec<Unknown> =
             nuisances.iter().copied().chain([Unknown::FrictionLevel]).collect();
         let fit = Fit::at(start.clone(), &tried, evidence, metric, Some(&as_filed.mechanics));
-        if own_share(&fit, nuisances.len()) > OWN {
+        let known = fit.solution.covariance[(nuisances.len(), nuisances.len())].sqrt();
+        let guessed = prior(&start, Unknown::FrictionLevel, evidence).deviation;
+        if known < BETTER * guessed {
             nuisances = tried;
         }
         let plain = Fit::new(start, &nuisances, evidence, metric, Some(&as_filed.mechanics));

@@ -10,7 +10,7 @@ use trackdyn_physics::{Effects, VehicleFile};
 use trackdyn_recording::Recording;
 use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
-/// A drive with constant ICRs: the centripetal force that its owner believes in is not there.
+/// A drive with constant ICRs: the lugs that its owner believes in do not grip more one way than the other.
 fn recording() -> Recording {
     let synthetic = Synthetic {
         schedules: (0..6).map(|run| random_steps(14, 1.98, 0.8, 400 + run)).collect(),
@@ -27,7 +27,7 @@ fn recording() -> Recording {
 
 fn owned() -> VehicleFile {
     let effects: Effects =
-        ["centripetal"].iter().map(|text| text.parse().expect("an effect")).collect();
+        ["directional-lugs"].iter().map(|text| text.parse().expect("an effect")).collect();
     VehicleFile { effects, ..VehicleFile::auriga_alpha() }
 }
 
@@ -53,7 +53,7 @@ fn both_ways() -> [Found; 2] {
 #[test]
 fn reversed_candidates_give_the_same_hypothesis() {
     let [one, other] = both_ways();
-    // The robot has no centripetal force, and its file says that it has: there is something to find.
+    // What the file says is not so: there is something to find.
     assert!(!one.effects.is_empty());
     assert_eq!(one.effects, other.effects);
     // Sums of columns in another order: rounding.

@@ -1,0 +1,121 @@
+//! Real recordings in which something is hidden that a real sensor, robot or ground could do.
+//!
+//! Poses, speeds and ground are those of the recording; what is altered is said at each test. Nobody knows all
+//! that is in a real recording, so that what is asked is the difference that the alteration makes.
+
+use std::collections::BTreeSet;
+use trackdyn_diagnose::diagnosis::Kind;
+use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
+use trackdyn_physics::{CATALOGUE, VehicleFile};
+use trackdyn_recording::recording::UncheckedRun;
+use trackdyn_recording::{Recording, Run};
+use trackdyn_tests::concealed::{diagnosed, members, named, recording};
+use trackdyn_tests::{real_recording, vehicle};
+
+/// A recording with every run altered.
+fn altered(of: &Recording, change: impl Fn(&mut UncheckedRun)) -> Recording {
+    recording(of.runs().iter().map(|run| changed(run, &change)).collect())
+}
+
+fn changed(run: &Run, change: impl Fn(&mut UncheckedRun)) -> UncheckedRun {
+    let mut rows = UncheckedRun {
+        id: run.id(),
+        tracks: run.track_series().clone(),
+        poses: run.pose_series().clone(),
+        imu: run.imu_series().clone(),
+    };
+    change(&mut rows);
+    rows
+}
+
+/// What a diagnosis found of a parameter: its value and half of its interval.
+fn found(diagnosis: &Diagnosis, effect: &str, key: &str) -> (f64, f64) {
+    let missing = diagnosis.missing.iter().flat_map(|missing| &missing.parameters);
+    let mut of = missing.filter(|interval| {
+        let is_of = |card: &trackdyn_physics::effect::Card| card.id == effect;
+        interval.unknown.card().is_some_and(is_of)
+            && interval.unknown.parameter().is_some_and(|parameter| parameter.key == key)
+    });
+    let interval = of.next().unwrap_or_else(|| panic!("{effect} {key} in {:?}", said(diagnosis)));
+    (interval.value, (interval.high - interval.low) / 2.0)
+}
+
+fn said(diagnosis: &Diagnosis) -> Vec<BTreeSet<&'static str>> {
+    named(diagnosis).into_iter().map(|(_, members)| members).collect()
+}
+
+/// Altered: stamps of the poses, 0.08 s later. Real: all else.
+#[test]
+fn poses_that_come_later_are_found_to_the_interval() {
+    const LATER: f64 = 0.08;
+    let Some(real) = real_recording("warthog-asphalt-a") else { return };
+    let file = vehicle("warthog");
+    let delay = |recording: &Recording| {
+        found(&diagnosed(recording, &file).expect("turns"), "time-offset", "delay_s")
+    };
+    let before = delay(&real);
+    let after = delay(&altered(&real, |run| {
+        run.poses.samples.iter_mut().for_each(|pose| pose.t += LATER);
+    }));
+    let off = after.0 - before.0 - LATER;
+    println!("delay {before:?} then {after:?}: {off:.4} s off");
+    assert!(off.abs() < before.1.hypot(after.1), "{before:?} {after:?}");
+}
+
+/// Altered: speeds of the left wheels, as if they were 4 % larger than their encoders think. Real: all else.
+#[test]
+fn a_larger_wheel_on_one_side_is_found_to_the_interval() {
+    const THINKS: f64 = 0.96;
+    let Some(real) = real_recording("warthog-asphalt-a") else { return };
+    let file = vehicle("warthog");
+    let hidden = altered(&real, |run| {
+        run.tracks.samples.iter_mut().for_each(|reading| reading.v_left *= THINKS);
+    });
+    let diagnosis = diagnosed(&hidden, &file).expect("turns");
+    let (left, half) = found(&diagnosis, "encoder-scale", "left");
+    println!("left {left} ± {half}: {:?}", said(&diagnosis));
+    assert!((left * THINKS - 1.0).abs() < 0.01 + half, "{left} ± {half}");
+}
+
+/// Altered: every second window is one of gravel. Real: both halves.
+#[test]
+fn gravel_among_asphalt_is_not_taken_for_one_ground() {
+    let (Some(asphalt), Some(gravel)) =
+        (real_recording("warthog-asphalt-a"), real_recording("warthog-gravel"))
+    else {
+        return;
+    };
+    let file = vehicle("warthog");
+    let pairs = asphalt.runs().iter().zip(gravel.runs()).enumerate();
+    let mixed = pairs.map(|(k, (asphalt, gravel))| {
+        changed(if k % 2 == 0 { asphalt } else { gravel }, |run| {
+            run.id = i64::try_from(k).expect("few");
+        })
+    });
+    let diagnosis = diagnosed(&recording(mixed.collect()), &file).expect("turns");
+    println!("{} {:?} {:?}", diagnosis.status.name(), said(&diagnosis), diagnosis.broken);
+    assert_ne!(diagnosis.status.name(), "nothing-missing");
+}
+
+/// Withheld: the windows of the fastest third. Real: all.
+#[test]
+fn what_slow_driving_shows_forecasts_fast_driving() {
+    let Some(real) = real_recording("warthog-gravel") else { return };
+    let file = vehicle("warthog");
+    let speed = |run: &Run| {
+        let speeds =
+            run.tracks().iter().map(|reading| (reading.v_left + reading.v_right).abs() / 2.0);
+        speeds.fold(0.0, f64::max)
+    };
+    let mut order: Vec<usize> = (0..real.runs().len()).collect();
+    order.sort_by(|a, b| speed(&real.runs()[*a]).total_cmp(&speed(&real.runs()[*b])));
+    let held_out = order.split_off(2 * order.len() / 3);
+    let evidence = Evidence::of_recording(&real, file.vehicle.gauge).expect("segments");
+    let options = Options { held_out, ..Options::default() };
+    let diagnosis = diagnose(&evidence, &file, &options, &|_| ()).expect("turns");
+    let physics = diagnosis.missing.iter().filter(|missing| missing.kind == Kind::Physics);
+    let physics: Vec<_> = physics.map(members).collect();
+    println!("{physics:?} {:?}", diagnosis.held_out);
+    assert!(CATALOGUE.iter().any(|card| physics.iter().any(|one| one.contains(card.id))));
+    assert!(diagnosis.held_out.after < diagnosis.held_out.before);
+}

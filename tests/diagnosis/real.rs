@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
-use trackdyn_physics::{CATALOGUE, VehicleFile};
+use trackdyn_physics::CATALOGUE;
 use trackdyn_recording::recording::UncheckedRun;
 use trackdyn_recording::{Recording, Run};
 use trackdyn_tests::concealed::{diagnosed, members, named, recording};

@@ -89,7 +89,7 @@ pub fn feels_inertia(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
 impl Mechanics {
     /// The mechanics of a hypothesis for this evidence.
     pub fn new(hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
-        Self::found(None, hypothesis, evidence, |inert, case| InertiaNear::here(inert, case))
+        Self::found(None, hypothesis, evidence, InertiaNear::here)
     }
 
     /// The same where `before` is the mechanics of a hypothesis that resembles it, and some numbers are free: where

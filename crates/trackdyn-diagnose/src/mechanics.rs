@@ -163,7 +163,7 @@ impl Mechanics {
         if inert.is_empty() || evidence.is_steady() {
             return mechanics;
         }
-        let case = Case { model: &simple, largest, drive: &drive, evidence };
+        let case = Case { vehicle, model: &simple, largest, drive: &drive, evidence };
         match inertia(inert, &case) {
             Ok(inertia) => mechanics.inertia = Some(inertia),
             Err(reason) => mechanics.failed = Some(reason),

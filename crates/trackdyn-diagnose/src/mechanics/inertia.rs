@@ -35,6 +35,8 @@ const SAME: f64 = 1e-12;
 
 /// What the motion in time is found for.
 pub struct Case<'a> {
+    /// The robot, without what effects make of it.
+    pub vehicle: &'a Vehicle,
     /// The robot, inertia among its effects.
     pub model: &'a Model,
     /// Largest speed of a belt, m/s.
@@ -128,7 +130,7 @@ impl Slopes {
             samples.map(|sample| inertia.departure(sample, delay)).collect()
         };
         let before = departures(at);
-        let (vehicle, effects) = (case.model.vehicle(), case.model.effects());
+        let (vehicle, effects) = (case.vehicle, case.model.effects());
         let slope = |model: &Model, step: f64| -> Option<Vec<Twist>> {
             let after = departures(&Inertia::new(Vec::new(), &Case { model, ..*case }).ok()?);
             let slope = after.iter().zip(&before);
@@ -189,7 +191,7 @@ struct Inertia {
 
 impl Inertia {
     fn new(inert: Vec<ActiveEffect>, case: &Case) -> Result<Self, String> {
-        let Case { model, largest, drive, evidence } = *case;
+        let Case { model, largest, drive, evidence, .. } = *case;
         let surface = Surface::new(model, largest, None);
         let gained = |reading: &TrackSample| {
             let speeds = drive.driven(PerSide::new(reading.v_left, reading.v_right));

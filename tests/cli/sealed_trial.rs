@@ -83,7 +83,6 @@ fn rate(rates: &str, name: &str) -> (usize, usize, [f64; 2]) {
 }
 
 #[test]
-#[ignore = "minutes: cargo test --release -p trackdyn-cli --test cli -- --ignored a_small_sealed_trial"]
 fn a_small_sealed_trial() {
     let place = Workplace::new();
     std::fs::create_dir(place.path().join("secret")).expect("a folder");

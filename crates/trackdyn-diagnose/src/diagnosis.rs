@@ -14,9 +14,7 @@ use crate::noise::{sharper, with_remaining_noise};
 use crate::proposal::{Proposal, completed};
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, intervals};
-use crate::verdict::{
-    Rules, Verdict, judge, judge_constants, judge_instruments, mostly_statics, statics,
-};
+use crate::verdict::{Rules, Statics, Verdict, judge, judge_constants, judge_instruments, statics};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 use trackdyn_core::real;
@@ -253,7 +251,6 @@ fn attempt(
 
     let search = Search { evidence, metric, base: &base, catalogue: &catalogue };
     let screened = search.screen(&search.nothing());
-    let statics = statics(&search);
     let found = search.best();
     let again = if is_first { sharper(evidence, &found.fit, metric) } else { None };
     if let Some(evidence) = again {
@@ -262,6 +259,7 @@ fn attempt(
     }
     progress(STAGES[3]);
 
+    let statics = statics(&search);
     let Judgement { best, missing, refused } = judged(&search, found, &statics, file, options);
     progress(STAGES[4]);
 
@@ -274,7 +272,7 @@ fn attempt(
     let left = search.screen(&best);
     let isolability = Isolability::new(&search, &best, &screened);
     let resemblance = Isolability::new(&search, &search.nothing(), &screened);
-    let exposures = exposures(&search, &best.fit, &missing, &screened, &statics);
+    let exposures = exposures(&search, &best.fit, &missing, &screened, &statics.only);
     let detectable = isolability.detectable();
     let corrected = corrected(file, &best, &missing);
     let held_out = held_out(&search, &best, &of_best, &missing, options);
@@ -293,7 +291,7 @@ fn attempt(
         refused,
         screened,
         left,
-        statics,
+        statics: statics.only,
         isolability,
         resemblance,
         exposures,
@@ -320,16 +318,15 @@ struct Judgement {
 fn judged(
     search: &Search,
     found: Found,
-    statics: &[usize],
+    statics: &Statics,
     file: &VehicleFile,
     options: &Options,
 ) -> Judgement {
     let Options { draws, seed, .. } = *options;
-    let physics = judge(search, &found, file, draws, seed);
+    let physics = judge(search, &found, statics, file, draws, seed);
     // What mostly moves constant ICRs is free in every hypothesis: it stays, claimed or not.
-    let stays = mostly_statics(search);
     let dropped = physics.iter().filter(|verdict| verdict.refused.is_some());
-    let dropped = dropped.filter(|verdict| !stays.contains(&verdict.effect));
+    let dropped = dropped.filter(|verdict| !statics.mostly.contains(&verdict.effect));
     let best = dropped.fold(found, |found, verdict| search.without(&found, verdict.effect));
     let instruments = judge_instruments(search, &best, draws, seed);
     let constants = judge_constants(search, &best, statics, file, draws, seed);

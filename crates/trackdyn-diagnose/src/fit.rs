@@ -56,8 +56,6 @@ pub struct Fit {
     pub objective: f64,
     /// The linear fit at the end.
     pub solution: Solution,
-    /// What the objective would fall by if the prediction were linear.
-    promised: f64,
 }
 
 impl Metric {
@@ -330,7 +328,8 @@ impl Fit {
             since += gain;
             let is_last = gain < SETTLED;
             // Derivatives that foretold the gain stand, as long as they are not those of a far point at the end.
-            let foretold = (gain - fit.promised).abs() < FORETOLD * fit.promised + SETTLED;
+            let promised = fit.solution.gain;
+            let foretold = (gain - promised).abs() < FORETOLD * promised + SETTLED;
             if foretold && (!is_last || since < NEAR) {
                 let columns = std::mem::take(&mut fit.columns);
                 fit = Self::with_columns(next, unknowns, columns, evidence, metric);
@@ -407,9 +406,6 @@ impl Fit {
                 None => break solution,
             }
         };
-        let penalty: f64 =
-            free.iter().map(|&k| (priors[k].mean / priors[k].deviation).powi(2)).sum();
-        let promised = (normal.squares() + penalty - solution.misfit).max(0.0);
         let solution = spread(&solution, &free, &priors);
         Self {
             hypothesis,
@@ -419,7 +415,6 @@ impl Fit {
             columns,
             objective,
             solution,
-            promised,
         }
     }
 

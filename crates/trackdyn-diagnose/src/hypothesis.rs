@@ -85,10 +85,7 @@ impl Hypothesis {
         match unknown {
             Unknown::Offset(k) => self.offset[k],
             Unknown::FrictionLevel => self.friction_level,
-            Unknown::Effect(effect, parameter) => self.effect(effect).map_or_else(
-                || neutral(&CATALOGUE[effect].parameters[parameter]),
-                |active| active.values()[parameter],
-            ),
+            Unknown::Effect(effect, parameter) => value(&self.effects, effect, parameter),
         }
     }
 
@@ -118,7 +115,7 @@ impl Hypothesis {
 
     /// The effect at a place of the catalogue, where it is there.
     pub fn effect(&self, effect: usize) -> Option<&ActiveEffect> {
-        self.effects.iter().find(|active| active.card().id == CATALOGUE[effect].id)
+        find(&self.effects, effect)
     }
 
     /// The same with an effect switched on, or with other values.
@@ -143,6 +140,19 @@ impl Hypothesis {
             self.effects.iter().filter(|active| active.card().id != id).cloned().collect();
         Self { effects, ..self.clone() }
     }
+}
+
+fn find(effects: &Effects, effect: usize) -> Option<&ActiveEffect> {
+    effects.iter().find(|active| active.card().id == CATALOGUE[effect].id)
+}
+
+/// Value of an effect's parameter, both by their places in the catalogue; that of no effect where the effect is not
+/// there.
+pub fn value(effects: &Effects, effect: usize, parameter: usize) -> f64 {
+    find(effects, effect).map_or_else(
+        || neutral(&CATALOGUE[effect].parameters[parameter]),
+        |active| active.values()[parameter],
+    )
 }
 
 /// A vehicle with both friction coefficients times e^`level`.

@@ -32,12 +32,12 @@ use trackdyn_physics::contact::quadrature::Resolution;
 use trackdyn_physics::effect::Stage;
 use trackdyn_physics::{ActiveEffect, Drive, Effects, Model, Sensor, Vehicle};
 use trackdyn_recording::TrackSample;
-use trackdyn_recording::hold::{held, readings};
+use trackdyn_recording::hold::pieces;
 
 /// Speeds beyond the largest recorded one that a hypothesis may reach by its gains.
 const HEADROOM: f64 = 1.1;
 
-/// Samples that one task predicts.
+/// Samples that one task predicts or solves.
 const TASK: usize = 64;
 
 /// The expensive part of a prediction: all that does not hang on sensors, gains and lags of the drive, and
@@ -216,7 +216,7 @@ impl Mechanics {
                 let departure = departure.map(|departure| seen_from(&departure, offset));
                 let tracks = &evidence.tracks()[sample.run];
                 let steady = &steady[sample.run];
-                let pose = moved(tracks, sample, sensor.delay, |reading| {
+                let pose = motion_over(tracks, sample, sensor.delay, |reading| {
                     let mut twist = steady[reading].twist(offset);
                     if let Some(departure) = &departure {
                         twist = plus(&twist, departure);
@@ -239,17 +239,16 @@ fn steady(surface: &Surface, drive: &Drive, tracks: &[Vec<TrackSample>]) -> Vec<
 }
 
 /// The motion over a sample, seen from its start, with the twist (REP-103) at each reading that it holds.
-fn moved(
+fn motion_over(
     tracks: &[TrackSample],
     sample: &Sample,
     delay: f64,
     twist: impl Fn(usize) -> Twist,
 ) -> Pose {
     let until = sample.start + sample.duration;
-    let readings = readings(tracks, sample.start, until, delay);
-    let pieces = held(tracks, sample.start, until, delay);
-    readings.zip(pieces).fold(Pose::default(), |pose, (reading, piece)| {
-        pose.compose(&Pose::exp(&twist(reading), piece.duration))
+    let pieces = pieces(tracks, sample.start, until, delay);
+    pieces.fold(Pose::default(), |pose, (reading, duration)| {
+        pose.compose(&Pose::exp(&twist(reading), duration))
     })
 }
 

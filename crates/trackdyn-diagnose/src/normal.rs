@@ -36,6 +36,8 @@ pub struct Solution {
     pub covariance: DMatrix<f64>,
     /// The minimum.
     pub misfit: f64,
+    /// By how much it lies below θ = 0.
+    pub gain: f64,
     /// −½ minimum − ½ ln det(1 + S J S): the logarithm of the evidence up to what all models share.
     pub ln_evidence: f64,
 }
@@ -150,11 +152,12 @@ impl Normal {
                 0.0,
             ),
         };
-        let misfit = self.squares() + penalty - gradient.dot(&estimate);
+        let gain = gradient.dot(&estimate);
+        let misfit = self.squares() + penalty - gain;
         // det(1 + S J S) = det(J + S⁻²) · Π s²
         let occam: f64 =
             ln_det + columns.iter().map(|&i| 2.0 * priors[i].deviation.ln()).sum::<f64>();
-        Solution { estimate, covariance, misfit, ln_evidence: -0.5 * (misfit + occam) }
+        Solution { estimate, covariance, misfit, gain, ln_evidence: -0.5 * (misfit + occam) }
     }
 
     /// Squared residuals of a block at given factors of some columns.

@@ -26,9 +26,6 @@ const SIZES: usize = 8;
 /// speeds most where they are small; below, the motion is that of the smallest in proportion.
 const RANGE: f64 = 100.0;
 
-/// 1/(2 ln R), R = [`RANGE`]: a squared speed's logarithm over that of the range.
-const PER_RANGE: f64 = 0.5 / (2.0 * std::f64::consts::LN_10);
-
 /// A table of stationary motions.
 #[derive(Clone, Debug)]
 pub struct Surface {
@@ -57,10 +54,7 @@ impl Surface {
                 let rho = largest * RANGE.powf(size - 1.0);
                 let speeds = PerSide::new(rho * phi.cos(), rho * phi.sin());
                 let start = before.and_then(|before| icrs(&before.nodes[index]));
-                let solution = match start {
-                    Some(icrs) => solver.starting_at(icrs).solve(speeds),
-                    None => solver.solve(speeds),
-                };
+                let solution = solver.starting_at(start).solve(speeds);
                 let usable = !matches!(solution.status, Status::NotConverged | Status::Lifts);
                 usable.then(|| normalised(speeds, &solution.twist))
             })
@@ -86,7 +80,7 @@ impl Surface {
     fn at(&self, speeds: PerSide<f64>) -> Vector3<f64> {
         // ρ = ρ_max R^(u − 1)
         let squared = (speeds.left * speeds.left + speeds.right * speeds.right) * self.per_squared;
-        let size = (1.0 + squared.ln() * PER_RANGE).clamp(0.0, 1.0);
+        let size = (1.0 + squared.ln() * (0.5 / RANGE.ln())).clamp(0.0, 1.0);
         let phi = speeds.right.atan2(speeds.left).rem_euclid(2.0 * PI) / FRAC_PI_4;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 8")]
         let sector = (phi as usize).min(SECTORS - 1);

@@ -4,7 +4,7 @@ mod constants;
 mod instruments;
 mod support;
 
-pub use constants::{judge_constants, mostly_statics, statics};
+pub use constants::{Statics, judge_constants, statics};
 pub use instruments::judge_instruments;
 pub use support::{Support, cross_validated};
 
@@ -45,9 +45,7 @@ impl Rules {
     pub const LEFT: f64 = 0.01;
     /// Part of the whole departure that the forms of the named laws may leave in one symmetry.
     pub const FORM_LEFT: f64 = 0.2;
-}
 
-impl Rules {
     /// χ² that may be left in one symmetry beside a hypothesis: a part of what its laws took away, and of the noise.
     pub fn tolerated(evidence: &Evidence, base: &Base, best: &Found) -> f64 {
         let whole = (base.fit.objective - best.fit.objective).max(0.0);
@@ -81,16 +79,16 @@ pub struct Verdict {
 pub fn judge(
     search: &Search,
     best: &Found,
+    statics: &Statics,
     file: &VehicleFile,
     draws: usize,
     seed: u64,
 ) -> Vec<Verdict> {
     let departure = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
     // What mostly moves constant ICRs is known to a part of all that moved them.
-    let mostly = mostly_statics(search);
-    let is_static = |effect: &usize| mostly.contains(effect);
+    let is_static = |effect: &usize| statics.mostly.contains(effect);
     let by_constants = if best.effects.iter().any(is_static) {
-        constants::departure(search, best, file)
+        constants::departure(search, best, statics, file)
     } else {
         0.0
     };

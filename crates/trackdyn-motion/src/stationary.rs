@@ -66,8 +66,8 @@ impl<'m> Stationary<'m> {
 
     /// The same solver with these ICRs as its first start, where a motion that is nearly the wanted one is
     /// known.
-    pub fn starting_at(&self, icrs: Icrs) -> Self {
-        Self { creeping: Some(icrs), ..self.clone() }
+    pub fn starting_at(&self, icrs: Option<Icrs>) -> Self {
+        Self { creeping: icrs.or(self.creeping), ..self.clone() }
     }
 
     /// The stationary motion at the track speeds that the encoders show, m/s.

@@ -38,13 +38,10 @@ pub fn friction_wrench<S: Scalar>(
     slip: &SlipField<S>,
 ) -> Wrench<S> {
     let is_near = |patch: &&Patch| closed_form::applies(patch, slip);
-    let near = patches.iter().filter(is_near).count();
-    if near == patches.len() {
-        return closed_form::friction_wrench(patches.iter(), friction, pressure, slip);
-    }
     let far = patches.iter().filter(|patch| !is_near(patch));
     let mut wrench = quadrature::far_field_wrench(far, friction, pressure, slip);
-    if near > 0 {
+    // The closed form needs an ICR: a field that does not rotate has none.
+    if patches.iter().any(|patch| is_near(&patch)) {
         let near = patches.iter().filter(is_near);
         wrench += closed_form::friction_wrench(near, friction, pressure, slip);
     }

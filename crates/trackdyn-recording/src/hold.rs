@@ -47,24 +47,34 @@ pub fn readings(tracks: &[TrackSample], start: f64, end: f64, tau: f64) -> Range
     first..until.max(first + 1)
 }
 
-/// The pieces of constant track speed between two times of the pose clock, in order; one for each of the
-/// [`readings`].
+/// Each of the [`readings`] between two times of the pose clock, in order: its index, and how long it holds, s.
 ///
 /// Callers that must not extrapolate compare with the stamps first.
+pub fn pieces(
+    tracks: &[TrackSample],
+    start: f64,
+    end: f64,
+    tau: f64,
+) -> impl Iterator<Item = (usize, f64)> + '_ {
+    let range = readings(tracks, start, end, tau);
+    let (start, end) = (start - tau, end - tau);
+    range.clone().map(move |index| {
+        let from = if index == range.start { start } else { tracks[index].t };
+        let until = if index + 1 == range.end { end } else { tracks[index + 1].t };
+        (index, until - from)
+    })
+}
+
+/// The [`pieces`] with their track speeds.
 pub fn held(
     tracks: &[TrackSample],
     start: f64,
     end: f64,
     tau: f64,
 ) -> impl Iterator<Item = Held> + '_ {
-    let range = readings(tracks, start, end, tau);
-    let (start, end) = (start - tau, end - tau);
-    range.clone().map(move |index| {
-        let sample = tracks[index];
-        let from = if index == range.start { start } else { sample.t };
-        let until = if index + 1 == range.end { end } else { tracks[index + 1].t };
-        let speeds = PerSide::new(sample.v_left, sample.v_right);
-        Held { duration: until - from, speeds }
+    pieces(tracks, start, end, tau).map(|(index, duration)| {
+        let TrackSample { v_left, v_right, .. } = tracks[index];
+        Held { duration, speeds: PerSide::new(v_left, v_right) }
     })
 }
 

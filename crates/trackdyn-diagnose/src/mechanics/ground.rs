@@ -1,6 +1,6 @@
 //! Ground that changes with place, heading or time.
 
-use super::{minus, single};
+use super::{TASK, minus, single};
 use crate::evidence::{Evidence, Sample};
 use crate::surface::Surface;
 use rayon::prelude::*;
@@ -8,9 +8,6 @@ use trackdyn_core::{PerSide, Pose, Side, Twist};
 use trackdyn_motion::{Stationary, Status};
 use trackdyn_physics::contact::quadrature::Resolution;
 use trackdyn_physics::{ActiveEffect, Circumstance, Drive, Model, Motion, Vehicle};
-
-/// Samples that one task solves.
-const TASK: usize = 64;
 
 /// Where the robot was during a sample.
 fn circumstance(sample: &Sample) -> Circumstance {
@@ -65,8 +62,7 @@ pub fn by_ground(
         .map(|sample| {
             let speeds = drive.driven(sample.speeds);
             let start = table.motion(speeds).icrs();
-            let there = start.map_or_else(|| level.clone(), |icrs| level.starting_at(icrs));
-            let there = there.solve(speeds);
+            let there = level.starting_at(start).solve(speeds);
             let start = there.icrs.or(start);
             let here = Stationary::from_start(with, &circumstance(sample), start).solve(speeds);
             let usable = |status: Status| status != Status::NotConverged;

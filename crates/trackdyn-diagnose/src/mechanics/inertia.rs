@@ -5,15 +5,16 @@
 //! comes from, it is linear in them: d(θ) = d(θ₀) + Σ (θ − θ₀) ∂d/∂θ, as far as [`REACH`].
 
 use super::belts::{lagging, smooth};
-use super::{minus, moved, plus};
+use super::{minus, motion_over, plus};
 use crate::evidence::{Evidence, Sample};
-use crate::hypothesis::{neutral, typical_size, with_friction, with_values};
+use crate::hypothesis::{typical_size, value, with_friction, with_values};
 use crate::surface::Surface;
 use rayon::prelude::*;
 use std::sync::Arc;
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
 use trackdyn_motion::Transient;
+use trackdyn_physics::effect::Parameter;
 use trackdyn_physics::{ActiveEffect, CATALOGUE, Drive, Effects, Model, Vehicle};
 use trackdyn_recording::TrackSample;
 
@@ -140,7 +141,11 @@ impl Slopes {
         for (k, effect) in at.inert.iter().enumerate() {
             for (place, parameter) in effect.card().parameters.iter().enumerate() {
                 let value = effect.values()[place];
+                // What is typically zero is near where it is the same.
                 let step = REACH * typical_size(parameter);
+                if step == 0.0 {
+                    continue;
+                }
                 let step = if value + step > parameter.range[1] { -step } else { step };
                 let mut values = effect.values().to_vec();
                 values[place] += step;
@@ -216,24 +221,19 @@ impl Inertia {
         let moved = (here.cog[0] - there.cog[0]).hypot(here.cog[1] - there.cog[1]);
         let ratio = |vehicle: &Vehicle| vehicle.friction.across / vehicle.friction.along;
         let grips = (ratio(here) / ratio(there)).ln().abs();
-        let effects = case.model.effects();
-        let others =
-            CATALOGUE.iter().filter(|card| inert.iter().all(|one| one.card().id != card.id));
-        let mut near = others.flat_map(|card| {
-            let values = |effects: &Effects| {
-                let effect = effects.iter().find(|effect| effect.card().id == card.id);
-                effect.map(|effect| effect.values().to_vec())
-            };
-            let (here, there) = (values(&self.effects), values(effects));
-            let parameters = card.parameters.iter().enumerate();
-            parameters.map(move |(k, parameter)| {
-                let value = |values: &Option<Vec<f64>>| {
-                    values.as_ref().map_or_else(|| neutral(parameter), |values| values[k])
-                };
-                (value(&here) - value(&there)).abs() <= ALIKE * typical_size(parameter)
-            })
+        let is_other =
+            |effect: &usize| !inert.iter().any(|one| one.card().id == CATALOGUE[*effect].id);
+        let mut others = (0..CATALOGUE.len()).filter(is_other);
+        let is_near = |(place, parameter): (usize, &Parameter), effect: usize| {
+            let [here, there] =
+                [&self.effects, case.model.effects()].map(|effects| value(effects, effect, place));
+            (here - there).abs() <= ALIKE * typical_size(parameter)
+        };
+        let near = others.all(|effect| {
+            let mut parameters = CATALOGUE[effect].parameters.iter().enumerate();
+            parameters.all(|parameter| is_near(parameter, effect))
         });
-        moved < CLOSE * here.gauge && grips < CLOSE && near.all(|near| near)
+        moved < CLOSE * here.gauge && grips < CLOSE && near
     }
 
     /// The motion in time less the stationary motion, as a twist over a sample.
@@ -242,7 +242,7 @@ impl Inertia {
         let path = &self.paths[sample.run];
         let moved = path.pose_at(from - delay).relative(&path.pose_at(until - delay));
         let steady = &self.steady[sample.run];
-        let steady = self::moved(&self.belts[sample.run], sample, delay, |reading| {
+        let steady = motion_over(&self.belts[sample.run], sample, delay, |reading| {
             ros_twist_from_paper(&steady[reading])
         });
         let twist = |pose: &Pose| paper_twist_from_ros(&pose.log(sample.duration));

@@ -15,44 +15,50 @@ const STATIC: f64 = 0.03;
 /// The same below which it mostly moves these.
 const MOSTLY: f64 = 0.1;
 
-/// Effects that only move the constant ICRs, in all their variants, ascending.
-pub fn statics(search: &Search) -> Vec<usize> {
-    statics_within(search, STATIC)
+/// Effects that move the constant ICRs in all their variants, by their places in the catalogue, ascending.
+#[derive(Clone, Debug)]
+pub struct Statics {
+    /// Those that move nothing else.
+    pub only: Vec<usize>,
+    /// Those that mostly do, the former among them.
+    pub mostly: Vec<usize>,
 }
 
-/// Effects that mostly move the constant ICRs, ascending.
-pub fn mostly_statics(search: &Search) -> Vec<usize> {
-    statics_within(search, MOSTLY)
-}
-
-/// Effects of whose signatures no more than a share is their own beyond constant ICRs.
-fn statics_within(search: &Search, share: f64) -> Vec<usize> {
+/// The effects of whose signatures next to nothing is their own beyond constant ICRs.
+pub fn statics(search: &Search) -> Statics {
     let fit = &search.base.fit;
     let entries: Vec<usize> = (0..search.catalogue.entries.len()).collect();
     let (normal, known, groups) = search.normal(fit, &entries);
     let offsets: Vec<usize> =
         (0..fit.unknowns.len()).filter(|&k| OFFSETS.contains(&fit.unknowns[k])).collect();
     let projected = normal.projected(&offsets, &known);
-    let is_static = |group: &[usize]| {
-        group.iter().all(|&column| {
-            let whole = normal.product(column, column);
-            whole > 0.0 && projected.product(column, column) <= share * whole
-        })
+    let within = |share: f64| {
+        let is_static = |group: &[usize]| {
+            group.iter().all(|&column| {
+                let whole = normal.product(column, column);
+                whole > 0.0 && projected.product(column, column) <= share * whole
+            })
+        };
+        let mut effects = BTreeMap::new();
+        for ((variant, _), group) in search.catalogue.entries.iter().zip(&groups) {
+            *effects.entry(variant.effect).or_insert(true) &= is_static(group);
+        }
+        effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
     };
-    let mut effects = BTreeMap::new();
-    for ((variant, _), group) in search.catalogue.entries.iter().zip(&groups) {
-        *effects.entry(variant.effect).or_insert(true) &= is_static(group);
-    }
-    effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
+    Statics { only: within(STATIC), mostly: within(MOSTLY) }
 }
 
 /// The best hypothesis with the vehicle as filed, no offset, and no effect that mostly stands for one; and what
 /// else is free in it.
-fn as_filed(search: &Search, best: &Found, file: &VehicleFile) -> (Hypothesis, Vec<Unknown>) {
+fn as_filed(
+    search: &Search,
+    best: &Found,
+    statics: &Statics,
+    file: &VehicleFile,
+) -> (Hypothesis, Vec<Unknown>) {
     let base = &search.base.fit.hypothesis;
-    let mostly = mostly_statics(search);
-    let added: Vec<usize> =
-        best.effects.iter().copied().filter(|effect| mostly.contains(effect)).collect();
+    let is_static = |effect: &usize| statics.mostly.contains(effect);
+    let added: Vec<usize> = best.effects.iter().copied().filter(is_static).collect();
     let without = added.iter().fold(best.fit.hypothesis.clone(), |hypothesis, &effect| {
         hypothesis.with_effect_of(base, effect)
     });
@@ -65,8 +71,13 @@ fn as_filed(search: &Search, best: &Found, file: &VehicleFile) -> (Hypothesis, V
 }
 
 /// √ of what the misfit falls by when constant ICRs may differ from those of the vehicle file.
-pub(super) fn departure(search: &Search, best: &Found, file: &VehicleFile) -> f64 {
-    let (filed, fixed) = as_filed(search, best, file);
+pub(super) fn departure(
+    search: &Search,
+    best: &Found,
+    statics: &Statics,
+    file: &VehicleFile,
+) -> f64 {
+    let (filed, fixed) = as_filed(search, best, statics, file);
     let before = Some(&best.fit.mechanics);
     let dropped = Fit::new(filed, &fixed, search.evidence, search.metric, before);
     (dropped.objective - best.fit.objective).max(0.0).sqrt()
@@ -90,12 +101,12 @@ fn as_good_as_filed(free: &Fit) -> Option<String> {
 pub fn judge_constants(
     search: &Search,
     best: &Found,
-    statics: &[usize],
+    statics: &Statics,
     file: &VehicleFile,
     draws: usize,
     seed: u64,
 ) -> Option<Verdict> {
-    let (filed, fixed) = as_filed(search, best, file);
+    let (filed, fixed) = as_filed(search, best, statics, file);
     let evidence = search.evidence;
     let before = Some(&best.fit.mechanics);
     let dropped = Fit::new(filed.clone(), &fixed, evidence, search.metric, before);
@@ -125,7 +136,7 @@ pub fn judge_constants(
         let fewer = OFFSETS.len().saturating_sub(unknowns_of(*effect).count());
         (fit.objective - free.objective) / 2.0 < Rules::SAME + 2.0 * real(fewer)
     };
-    let one_of: Vec<usize> = statics.iter().copied().filter(can).collect();
+    let one_of: Vec<usize> = statics.only.iter().copied().filter(can).collect();
     let effect = *one_of.first()?;
     Some(Verdict { effect, one_of, support, refused })
 }

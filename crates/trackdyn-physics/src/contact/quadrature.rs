@@ -27,10 +27,11 @@ impl Rule {
 }
 
 /// Distances of the ICR, in half diagonals of the patch, from which on n nodes each way suffice. Pressure and
-/// lever are linear along the track, so the error falls as (2 d)^(2−2n): 10⁻¹⁶ at these, but for the first,
-/// which is where the closed form ends.
+/// lever are linear along the track, so the error falls as (2 d)^(2−2n): 10⁻¹⁶ at these, but for the last,
+/// whose ICRs begin where the closed form ends.
 const FAR: [(f64, usize); 6] = [(5000.0, 3), (232.0, 4), (50.0, 5), (20.0, 6), (10.8, 7), (0.0, 8)];
 
+/// The rules of [`FAR`].
 static FAR_FIELD: LazyLock<[Rule; FAR.len()]> = LazyLock::new(|| FAR.map(|(_, n)| Rule::new(n, n)));
 
 /// Resolves a shear stress that builds up over a few percent of the track's length.

@@ -8,12 +8,14 @@
 //! - of inertia: the motion in time less the stationary one, over the sample.
 //!
 //! # Assumes
-//! The departures are found without the laws that change the shear stress: these need a quadrature per
-//! solve, and what they change in a departure is a product of two small things.
+//! The departures are found without the laws that change the shear stress, which need a quadrature per solve. What
+//! these change in that by ground is a product of two small things; what they change in that by inertia is linear in
+//! the acceleration.
 
 mod belts;
 mod ground;
 mod inertia;
+mod lag;
 
 use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::{Hypothesis, Unknown};
@@ -21,6 +23,7 @@ use crate::surface::{Steady, Surface};
 use belts::lagging;
 use ground::{by_ground, varies};
 use inertia::{Case, InertiaNear};
+use lag::by_shear;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -50,8 +53,10 @@ pub struct Mechanics {
     drive: Drive,
     /// What changing ground adds to the twist during each sample, paper's frame.
     ground: Option<Arc<Vec<Twist>>>,
-    /// What inertia adds.
+    /// What inertia adds without laws of the shear stress.
     inertia: Option<InertiaNear>,
+    /// What these laws change in that, at each reading.
+    by_shear: Option<Arc<Vec<Vec<Twist>>>>,
     failed: Option<String>,
 }
 
@@ -146,8 +151,15 @@ impl Mechanics {
             .with_resolution(Resolution::Coarse);
         let surface = Surface::new(&model, largest, before.map(|before| &before.surface));
         let steady = Arc::new(steady(&surface, &drive, evidence.tracks()));
-        let mut mechanics =
-            Self { surface, steady, drive, ground: None, inertia: None, failed: None };
+        let mut mechanics = Self {
+            surface,
+            steady,
+            drive,
+            ground: None,
+            inertia: None,
+            by_shear: None,
+            failed: None,
+        };
         let simple = Model::new(vehicle.clone(), without_shear(&constant));
         if !varying.is_empty() {
             let mut effects = without_shear(&constant);
@@ -162,6 +174,15 @@ impl Mechanics {
         let inert: Vec<ActiveEffect> = inert.cloned().collect();
         if inert.is_empty() || evidence.is_steady() {
             return mechanics;
+        }
+        if simple.effects() != model.effects() {
+            let [with, without] = [&model, &simple].map(|model| mechanics.surface.lags(model));
+            let belts = lagging(evidence.tracks(), drive.time_constant);
+            let twist = |steady: &Steady| steady.twist(&[0.0; 3]);
+            let runs = mechanics.steady.iter();
+            let steady: Vec<Vec<Twist>> = runs.map(|run| run.iter().map(twist).collect()).collect();
+            let departures = by_shear([&with, &without], &drive, &belts, &steady);
+            mechanics.by_shear = Some(Arc::new(departures));
         }
         let case = Case { vehicle, model: &simple, largest, drive: &drive, evidence };
         match inertia(inert, &case) {
@@ -216,10 +237,14 @@ impl Mechanics {
                 let departure = departure.map(|departure| seen_from(&departure, offset));
                 let tracks = &evidence.tracks()[sample.run];
                 let steady = &steady[sample.run];
+                let by_shear = self.by_shear.as_ref().map(|departures| &departures[sample.run]);
                 let pose = motion_over(tracks, sample, sensor.delay, |reading| {
                     let mut twist = steady[reading].twist(offset);
                     if let Some(departure) = &departure {
                         twist = plus(&twist, departure);
+                    }
+                    if let Some(by_shear) = by_shear {
+                        twist = plus(&twist, &seen_from(&by_shear[reading], offset));
                     }
                     ros_twist_from_paper(&sensor.reported(&twist))
                 });

@@ -22,6 +22,8 @@
 
 mod stage;
 
+pub(crate) use stage::grip;
+
 use crate::newton::Convergence;
 use stage::Stage;
 use trackdyn_core::frames::ros_twist_from_paper;

@@ -100,7 +100,7 @@ impl Stage<'_> {
 
 /// Share of its friction that a side with the root mean square slip σ (m/s) has.
 #[inline]
-fn grip<S: Scalar>(slip: S) -> S {
+pub fn grip<S: Scalar>(slip: S) -> S {
     // σ/√(σ² + ε²)
     slip / (slip * slip + CREEP * CREEP).sqrt()
 }

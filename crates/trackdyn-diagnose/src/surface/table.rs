@@ -1,0 +1,144 @@
+//! A smooth function of both belt speeds, tabulated.
+//!
+//! Within a sector (the signs of V_l, V_r, V_r − V_l and V_r + V_l) it is a smooth function of the direction φ and
+//! the size ρ of (V_l, V_r); between sectors it may jump. It is interpolated on Chebyshev nodes of each sector, which
+//! lie inside it, so that no node stands on an edge.
+
+use nalgebra::SMatrix;
+use std::f64::consts::{FRAC_PI_4, PI};
+use trackdyn_core::{PerSide, real};
+
+/// Sectors of directions.
+const SECTORS: usize = 8;
+
+/// Nodes in the direction, and in the size.
+const ANGLES: usize = 6;
+const SIZES: usize = 8;
+
+/// Ratio of the largest to the smallest tabulated speed. Nodes are even in its logarithm, for friction depends on
+/// speeds most where they are small; below, the value is that of the smallest.
+const RANGE: f64 = 100.0;
+
+/// The places of a table's nodes.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    /// ρ_max, the largest tabulated speed, m/s.
+    largest: f64,
+    angles: Nodes<ANGLES>,
+    sizes: Nodes<SIZES>,
+}
+
+/// Values of three rows at the nodes.
+#[derive(Clone, Debug)]
+pub struct Table<const C: usize> {
+    grid: Grid,
+    nodes: Vec<SMatrix<f64, 3, C>>,
+}
+
+impl Grid {
+    /// Number of nodes.
+    pub const NODES: usize = SECTORS * SIZES * ANGLES;
+
+    /// Nodes for belt speeds of size up to `largest`, m/s.
+    pub fn new(largest: f64) -> Self {
+        Self { largest, angles: Nodes::new(), sizes: Nodes::new() }
+    }
+
+    /// The belt speeds of a node, m/s.
+    pub fn speeds(&self, index: usize) -> PerSide<f64> {
+        let (sector, rest) = (index / (SIZES * ANGLES), index % (SIZES * ANGLES));
+        let (size, angle) = (self.sizes.at[rest / ANGLES], self.angles.at[rest % ANGLES]);
+        let phi = (real(sector) + angle) * FRAC_PI_4;
+        // ρ = ρ_max R^(u − 1)
+        let rho = self.largest * RANGE.powf(size - 1.0);
+        PerSide::new(rho * phi.cos(), rho * phi.sin())
+    }
+}
+
+impl<const C: usize> Table<C> {
+    /// The table of values at all nodes, in their order; where there is none, that of the nearest node of the same
+    /// sector, or zero.
+    pub fn new(grid: &Grid, values: &[Option<SMatrix<f64, 3, C>>]) -> Self {
+        Self { grid: grid.clone(), nodes: filled(values) }
+    }
+
+    /// The value at a node.
+    pub fn node(&self, index: usize) -> &SMatrix<f64, 3, C> {
+        &self.nodes[index]
+    }
+
+    /// The value at belt speeds.
+    pub fn at(&self, speeds: PerSide<f64>) -> SMatrix<f64, 3, C> {
+        let Grid { largest, angles, sizes } = &self.grid;
+        // ρ = ρ_max R^(u − 1)
+        let squared =
+            (speeds.left * speeds.left + speeds.right * speeds.right) / (largest * largest);
+        let size = (1.0 + squared.ln() * (0.5 / RANGE.ln())).clamp(0.0, 1.0);
+        let phi = speeds.right.atan2(speeds.left).rem_euclid(2.0 * PI) / FRAC_PI_4;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 8")]
+        let sector = (phi as usize).min(SECTORS - 1);
+        let along = angles.weights(phi - real(sector));
+        let outwards = sizes.weights(size);
+        let nodes = &self.nodes[sector * SIZES * ANGLES..][..SIZES * ANGLES];
+        let mut sum = SMatrix::zeros();
+        for (row, weight) in nodes.chunks_exact(ANGLES).zip(outwards) {
+            for (node, along) in row.iter().zip(along) {
+                sum += node * (along * weight);
+            }
+        }
+        sum
+    }
+}
+
+/// The nodes, with the nearest one of the same sector where one has no value.
+fn filled<const C: usize>(values: &[Option<SMatrix<f64, 3, C>>]) -> Vec<SMatrix<f64, 3, C>> {
+    let place = |index: usize| (index % (SIZES * ANGLES) / ANGLES, index % ANGLES);
+    let fill = |index: usize| {
+        let sector = index / (SIZES * ANGLES) * SIZES * ANGLES;
+        let (size, angle) = place(index);
+        let known =
+            (sector..sector + SIZES * ANGLES).filter_map(|other| Some((other, values[other]?)));
+        let nearest = known.min_by_key(|(other, _)| {
+            let (other_size, other_angle) = place(*other);
+            (other_size.abs_diff(size) + other_angle.abs_diff(angle), *other)
+        });
+        nearest.map_or_else(SMatrix::zeros, |(_, node)| node)
+    };
+    values.iter().enumerate().map(|(index, node)| node.unwrap_or_else(|| fill(index))).collect()
+}
+
+/// Chebyshev nodes of the first kind on [0, 1].
+#[derive(Clone, Debug)]
+struct Nodes<const N: usize> {
+    at: [f64; N],
+    /// 1/Π (x_k − x_j), over all other nodes j.
+    weight: [f64; N],
+}
+
+impl<const N: usize> Nodes<N> {
+    fn new() -> Self {
+        let angle = |k: usize| (2.0 * real(k) + 1.0) * PI / (2.0 * real(N));
+        let at: [f64; N] = std::array::from_fn(|k| 0.5 - 0.5 * angle(k).cos());
+        let weight = std::array::from_fn(|k| {
+            let others = (0..N).filter(|j| *j != k);
+            others.map(|j| (at[k] - at[j]).recip()).product()
+        });
+        Self { at, weight }
+    }
+
+    /// Values of the Lagrange polynomials, c_k Π (x − x_j) over all other nodes j.
+    fn weights(&self, x: f64) -> [f64; N] {
+        let mut weights = self.weight;
+        let mut product = 1.0;
+        for (weight, at) in weights.iter_mut().zip(&self.at) {
+            *weight *= product;
+            product *= x - at;
+        }
+        product = 1.0;
+        for (weight, at) in weights.iter_mut().zip(&self.at).rev() {
+            *weight *= product;
+            product *= x - at;
+        }
+        weights
+    }
+}

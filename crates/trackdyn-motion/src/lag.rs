@@ -1,0 +1,88 @@
+//! How far a motion stays behind the stationary one.
+//!
+//! # Law
+//! Near a stationary motion u_s the balance of forces (14)-(15) is linear in what the twist departs by, δ, and in
+//! the acceleration: F_u δ + F_a (u̇_s + δ̇) = 0, so Λ (u̇_s + δ̇) + δ = 0 with Λ = F_u⁻¹ F_a, a matrix of time
+//! constants. Friction with its full value at any slip has a short Λ, m |s|/(µ N); friction that grows with the slip
+//! speed has a long one.
+
+use crate::transient::grip;
+use nalgebra::Matrix3;
+use trackdyn_core::{Dual, PerSide, Side, Twist};
+use trackdyn_physics::{Ground, Model, Motion};
+
+/// The matrix Λ (s; by v_x, v_y in m/s and w in rad/s, paper's frame) at a stationary motion; none where no force
+/// stands against a change of the twist.
+///
+/// Belts that slip on their sprockets are taken at these speeds, m/s.
+pub fn lag(
+    model: &Model,
+    ground: &Ground,
+    belt_speed: PerSide<f64>,
+    twist: &Twist,
+) -> Option<Matrix3<f64>> {
+    let [v_x, v_y, w, a_x, a_y, a_w] =
+        Dual::<6>::variables([twist.v_x, twist.v_y - belt_speed.left, twist.w, 0.0, 0.0, 0.0]);
+    let departure = Twist { v_x, v_y, w };
+    let acceleration = Twist { v_x: a_x, v_y: a_y, w: a_w };
+    let motion = Motion::departing(belt_speed, departure, acceleration, model.extent());
+    let balance = model.balance(ground, &motion);
+    let mut sum = balance.load;
+    for side in Side::BOTH {
+        sum += balance.friction[side].scaled(grip(motion.slip[side].speed));
+    }
+    let rows = [sum.force_x, sum.force_y, sum.moment];
+    let by_twist = Matrix3::from_fn(|row, column| rows[row].gradient[column]);
+    let by_acceleration = Matrix3::from_fn(|row, column| rows[row].gradient[column + 3]);
+    by_twist.try_inverse().map(|inverse| inverse * by_acceleration)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Stationary, Transient};
+    use trackdyn_core::{Plant, Pose, Trajectory};
+    use trackdyn_physics::{ActiveEffect, Circumstance, Effects, VehicleFile};
+
+    /// A slow, steady acceleration: the motion in time must lag by Λ u̇, but for what is of second order in it.
+    #[test]
+    fn it_is_that_of_the_motion_in_time() {
+        const CHANGE: f64 = 0.02;
+        const STEP: f64 = 0.001;
+        const STEPS: u32 = 600;
+        for law in ["", "friction-creep:speed_m_per_s=0.1", "viscous-friction:growth_s_per_m=1"] {
+            let mut texts = vec!["yaw-inertia:strength=1,gyration_m=0.3"];
+            texts.extend((!law.is_empty()).then_some(law));
+            let effects: Effects =
+                texts.iter().map(|text| text.parse::<ActiveEffect>().expect("an effect")).collect();
+            let model = Model::new(VehicleFile::auriga_alpha().vehicle, effects);
+            let solver = Stationary::new(&model, &Circumstance::default());
+            let speeds = |t: f64| PerSide::new(0.2 + CHANGE * t, 0.5 + 3.0 * CHANGE * t);
+            let steady = |t: f64| solver.solve(speeds(t)).twist;
+            let start = steady(0.0);
+            let mut robot = Transient::at_rest(&model, 0.0, Pose::default()).with_twist(start);
+            let mut path = Trajectory::default();
+            for k in 0..STEPS {
+                let t = f64::from(k) * STEP;
+                robot.drive(speeds(t + STEP), t + STEP, &mut path).expect("it moves");
+            }
+            let (t, reached) =
+                (f64::from(STEPS) * STEP, path.moments().last().expect("moments").twist);
+            let reached = trackdyn_core::frames::paper_twist_from_ros(&reached);
+            let (now, later) = (steady(t), steady(t + STEP));
+            let rate = |f: fn(&Twist) -> f64| (f(&later) - f(&now)) / STEP;
+            let rates = nalgebra::Vector3::new(rate(|u| u.v_x), rate(|u| u.v_y), rate(|u| u.w));
+            let ground = model.ground(&Circumstance::default());
+            let lag = lag(&model, &ground, speeds(t), &now).expect("friction");
+            let expected = -(lag * rates);
+            let found = nalgebra::Vector3::new(
+                reached.v_x - now.v_x,
+                reached.v_y - now.v_y,
+                reached.w - now.w,
+            );
+            // Readings that hold for a step are half a step ahead of the ramp.
+            let error = (found - expected).norm() / expected.norm();
+            assert!(error < 0.05, "{law}: {found:?} for {expected:?}");
+        }
+    }
+}

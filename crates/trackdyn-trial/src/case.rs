@@ -30,6 +30,8 @@ const WITHOUT_INERTIA: f64 = 0.06;
 const NULLS_WITHOUT_INERTIA: f64 = 0.11;
 /// Effects of inertia, which owners know.
 const INERTIA: [&str; 2] = ["yaw-inertia", "centripetal"];
+/// Factor of friction by which its level is told from effects: owners know it roughly.
+const ROUGHER: f64 = 1.15;
 /// Sizes that are too large for the robot are taken smaller by this factor.
 const SMALLER: f64 = 0.6;
 /// Tries of smaller sizes.
@@ -176,7 +178,13 @@ impl Draw<'_> {
         );
         let seen = observations(&driven, &instruments.sensors)?;
         drop(driven);
+        let mut rougher = machine.clone();
+        rougher.vehicle.friction.across *= ROUGHER;
+        rougher.vehicle.friction.along *= ROUGHER;
+        let rougher = self.ground(&rougher, known, Fineness::Signature);
+        let rougher = rougher.observe(driving.training(), &instruments.sensors)?;
         let bench = Bench::new(seen, noise, instruments.presence(), machine.vehicle.gauge)?;
+        let bench = bench.with_nuisance(&rougher)?;
         let scene = Scene { machine, visited: &visited };
         let (runs, sensors) = (driving.training(), &instruments.sensors);
         let judge = Judge { bench: &bench, ground: &ground, runs, sensors };

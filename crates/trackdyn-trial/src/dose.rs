@@ -58,7 +58,8 @@ impl Dose {
             "viscous-friction" => by("growth_s_per_m", 0.5, 5.0),
             "stribeck-friction" => {
                 let speed = log_uniform(random, 0.05, 0.3);
-                dose(vec![("excess", By(0.25))], vec![("speed_m_per_s", speed)], 8.0)
+                // with more, the robot jumps from stick to slip instead of moving on
+                dose(vec![("excess", By(0.25))], vec![("speed_m_per_s", speed)], 3.0)
             }
             "friction-creep" => by("speed_m_per_s", 0.03, 0.3),
             "motion-resistance" => by("coefficient", 0.05, 0.3),

@@ -14,11 +14,15 @@ use trackdyn_field::Sensors;
 pub const DETECTABLE: f64 = 5.0;
 /// z from which on an effect can be told from every other one.
 pub const DISTINCT: f64 = 4.0;
-/// z at which sizes are found: far above what the phases of shoes make of any change, some 3. Smaller
-/// sizes are taken in proportion, as every law is linear where it is small.
-const CLEAR: f64 = 120.0;
-/// Deviation of z from [`CLEAR`], as a ratio, that is good enough.
-const CLOSE_ENOUGH: f64 = 0.4;
+/// Smallest z at which sizes are found: well above what the phases of shoes make of any change, some 3. Only smaller
+/// sizes are taken in proportion: from z = 15 to 120 laws of the slip speed are anything but linear.
+const CLEAR: f64 = 40.0;
+/// Deviation of z from the wanted one, as a ratio, that is taken in proportion.
+const CLOSE_ENOUGH: f64 = 0.15;
+/// Sizes that are tried on few runs.
+const SEARCHES: usize = 5;
+/// Powers of the strength with which z is taken to go.
+const POWERS: [f64; 2] = [0.5, 3.0];
 /// Smallest z per unit of strength by which a size can be set.
 const VISIBLE: f64 = 0.5;
 /// Runs on which effects are told from each other, and sizes are searched for.
@@ -75,20 +79,33 @@ impl Judge<'_> {
             let strength = otherwise.min(dose.largest());
             return self.at(dose, strength);
         }
-        let next = (strength * CLEAR / shown).min(dose.largest());
-        if (next / strength).ln().abs() > CLOSE_ENOUGH {
+        let clear = wanted.max(CLEAR);
+        let (mut power, mut bracket) = (1.0, [0.0, dose.largest()]);
+        for _ in 0..SEARCHES {
+            bracket[usize::from(shown > clear)] = strength;
+            let [low, high] = bracket;
+            let next = strength * (clear / shown).powf(1.0 / power);
+            // a law that sets in at once is met by halves
+            let next =
+                if low > 0.0 && !(low..high).contains(&next) { (low * high).sqrt() } else { next };
+            let next = next.min(dose.largest());
+            if (next / strength).ln().abs() < CLOSE_ENOUGH {
+                break;
+            }
             // a size beyond what the robot can do is met half-way
-            (strength, shown) = match z(next) {
+            let (there, found) = match z(next) {
                 Ok(found) => (next, found),
                 Err(_) => ((strength * next).sqrt(), z((strength * next).sqrt())?),
             };
-            let next = (strength * CLEAR / shown).min(dose.largest());
-            strength = if z(next).is_ok() { next } else { strength };
+            power = ((found / shown).ln() / (there / strength).ln()).clamp(POWERS[0], POWERS[1]);
+            (strength, shown) = (there, found);
         }
         let mut sized = self.at(dose, strength)?;
         let share = wanted / self.z(&sized.signature);
-        let share = share.max(sized.dose.smallest() / sized.strength);
-        if share < 1.0 {
+        let [least, most] = [sized.dose.smallest(), sized.dose.largest()];
+        let share = share.clamp(least / sized.strength, most / sized.strength);
+        let is_near = share.ln().abs() < 2.0 * CLOSE_ENOUGH;
+        if share < 1.0 || is_near {
             sized.strength *= share;
             sized.signature.iter_mut().for_each(|value| *value *= share);
         }

@@ -50,6 +50,16 @@ impl Bench {
         Ok(bench)
     }
 
+    /// The same with what another drive differs by as one more nuisance.
+    ///
+    /// # Errors
+    /// Where segments of both drives do not match.
+    pub(crate) fn with_nuisance(mut self, of: &Observations) -> Result<Self, String> {
+        let column = self.signature(of)?;
+        self.nuisances.push(column);
+        Ok(self)
+    }
+
     /// What nuisances span in the first `rows` rows of a signature.
     pub(crate) fn nuisances(&self, rows: usize) -> Subspace {
         let mut space = Subspace::default();

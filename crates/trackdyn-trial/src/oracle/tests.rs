@@ -187,6 +187,28 @@ fn z_grows_in_proportion_and_is_largest_without_alternatives() {
     });
 }
 
+/// Laws of the slip speed are not linear between what is seen at once and what is seen at all.
+#[test]
+fn a_size_shows_by_the_z_that_was_wanted() {
+    let stage = Stage::new(21);
+    stage.with(|judge, scene| {
+        let mut random = stream(2, 1, 0, Purpose::Concealed);
+        for id in ["stribeck-friction", "viscous-friction", "friction-creep"] {
+            for wanted in [20.0, 50.0] {
+                let dose = Dose::draw(id, scene, &mut random);
+                let sized = judge.sized(dose, wanted, 1.0).expect("a size");
+                let stated = judge.z(&sized.signature);
+                let at = judge.at(sized.dose, sized.strength).expect("it drives");
+                let shown = judge.z(&at.signature);
+                assert!(
+                    (shown / stated).ln().abs() < 2.0 * CLOSE_ENOUGH,
+                    "{id}: {shown} for {stated}"
+                );
+            }
+        }
+    });
+}
+
 #[test]
 fn nuisances_alone_leave_nothing() {
     let stage = Stage::new(23);

@@ -71,6 +71,16 @@ pub fn with_remaining_noise(evidence: &Evidence, fit: &Fit, metric: &Metric) -> 
     evidence
 }
 
+/// The noise in words: what each pose is off by, and what is added in a second.
+pub fn sentence(noise: &SegmentNoise) -> String {
+    let of = |[forward, left, yaw]: [f64; 3]| {
+        let [forward, left] = [forward, left].map(|variance| 1e3 * variance.sqrt());
+        let yaw = yaw.sqrt().to_degrees();
+        format!("{forward:.1} mm forward, {left:.1} mm left, {yaw:.2} deg")
+    };
+    format!("each pose {}; more in a second {}", of(noise.pose), of(noise.walk))
+}
+
 /// The evidence with the noise beside a hypothesis that explains more than contrasts can; none where this does
 /// not make it smaller.
 pub fn sharper(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Option<Evidence> {

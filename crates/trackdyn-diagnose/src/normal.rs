@@ -163,9 +163,16 @@ impl Normal {
     /// Squared residuals of a block at given factors of some columns.
     pub fn squares_at(&self, block: usize, columns: &[usize], factors: &DVector<f64>) -> f64 {
         let (products, last) = (&self.blocks[block], self.columns());
-        let mut squares = products[(last, last)];
+        let crossed: f64 =
+            columns.iter().zip(factors.iter()).map(|(&i, by)| by * products[(i, last)]).sum();
+        products[(last, last)] - 2.0 * crossed + self.change_at(block, columns, factors)
+    }
+
+    /// Squared change of a block's prediction by factors of some columns.
+    pub fn change_at(&self, block: usize, columns: &[usize], factors: &DVector<f64>) -> f64 {
+        let products = &self.blocks[block];
+        let mut squares = 0.0;
         for (a, &i) in columns.iter().enumerate() {
-            squares -= 2.0 * factors[a] * products[(i, last)];
             for (b, &j) in columns.iter().enumerate() {
                 squares += factors[a] * factors[b] * products[(i, j)];
             }

@@ -136,7 +136,7 @@ pub fn judge_constants(
         let fewer = OFFSETS.len().saturating_sub(unknowns_of(*effect).count());
         (fit.objective - free.objective) / 2.0 < Rules::SAME + 2.0 * real(fewer)
     };
-    let one_of: Vec<usize> = statics.only.iter().copied().filter(can).collect();
+    let one_of: Vec<usize> = statics.mostly.iter().copied().filter(can).collect();
     let effect = *one_of.first()?;
     Some(Verdict { effect, one_of, support, refused })
 }

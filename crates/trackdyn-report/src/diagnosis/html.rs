@@ -288,6 +288,10 @@ fn rules() -> Vec<String> {
 fn noise(subject: &Subject) -> String {
     let scale = subject.diagnosis.metric.scale;
     let taken = subject.evidence.description();
+    let taken = subject.diagnosis.evidence.noise().map_or_else(
+        || taken.to_owned(),
+        |noise| format!("{taken}: {}", trackdyn_diagnose::noise::sentence(noise)),
+    );
     if scale == [1.0; 3] {
         return format!(
             "{taken}. It was left as it is: what no effect explains is no larger than it."

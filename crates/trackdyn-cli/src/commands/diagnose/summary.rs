@@ -4,6 +4,7 @@ use std::fmt::Write;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::document::separate_by;
 use trackdyn_diagnose::locate::SURE;
+use trackdyn_diagnose::noise;
 use trackdyn_diagnose::place::words;
 use trackdyn_diagnose::proposal::Proposal;
 use trackdyn_diagnose::{Diagnosis, Evidence, Status};
@@ -20,6 +21,9 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
     let unit = if evidence.is_steady() { "points" } else { "segments" };
     // Writing to a String cannot fail.
     let _ = writeln!(text, "{name}: {samples} {unit}, {}", evidence.description());
+    if let Some(noise) = diagnosis.evidence.noise() {
+        let _ = writeln!(text, "noise    {}", noise::sentence(noise));
+    }
     let _ = writeln!(text, "\nstatus   {}", diagnosis.status.name());
     let _ = writeln!(
         text,

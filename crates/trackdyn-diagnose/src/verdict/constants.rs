@@ -7,6 +7,7 @@ use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of, with_
 use crate::search::{Found, Search};
 use std::collections::BTreeMap;
 use trackdyn_core::real;
+use trackdyn_physics::effect::Symmetry;
 use trackdyn_physics::{CATALOGUE, VehicleFile};
 
 /// Share of its own beyond constant ICRs below which an effect is of their class.
@@ -22,6 +23,9 @@ pub struct Statics {
     pub only: Vec<usize>,
     /// Those that mostly do, the former among them.
     pub mostly: Vec<usize>,
+    /// Those that constant ICRs may stand for: what moves nothing else, and all laws that by themselves break no
+    /// symmetry but that of the sides. Where inertia acts at the centre of gravity, more is seen of these.
+    class: Vec<usize>,
 }
 
 /// The effects of whose signatures next to nothing is their own beyond constant ICRs.
@@ -45,7 +49,13 @@ pub fn statics(search: &Search) -> Statics {
         }
         effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
     };
-    Statics { only: within(STATIC), mostly: within(MOSTLY) }
+    let only: Vec<usize> = within(STATIC);
+    let keeps = |effect: &usize| {
+        CATALOGUE[*effect].breaks.iter().all(|symmetry| *symmetry == Symmetry::Mirror)
+    };
+    let seen: Vec<usize> = within(f64::INFINITY);
+    let class = seen.into_iter().filter(|effect| only.contains(effect) || keeps(effect)).collect();
+    Statics { only, mostly: within(MOSTLY), class }
 }
 
 /// The best hypothesis with the vehicle as filed, no offset, and no effect that mostly stands for one; and what
@@ -136,7 +146,7 @@ pub fn judge_constants(
         let fewer = OFFSETS.len().saturating_sub(unknowns_of(*effect).count());
         (fit.objective - free.objective) / 2.0 < Rules::SAME + 2.0 * real(fewer)
     };
-    let one_of: Vec<usize> = statics.mostly.iter().copied().filter(can).collect();
+    let one_of: Vec<usize> = statics.class.iter().copied().filter(can).collect();
     let effect = *one_of.first()?;
     Some(Verdict { effect, one_of, support, refused })
 }

@@ -38,6 +38,9 @@ const TAILS: f64 = 5.0;
 /// Median of a χ² with three degrees of freedom.
 const MEDIAN: f64 = 2.365_973_884_375_338;
 
+/// Median of a χ² with one degree of freedom.
+const MEDIAN_OF_ONE: f64 = 0.454_936_423_119_572_3;
+
 /// |z|² of a sample that one in a million would reach by chance, and that of a pair which one in a hundred does.
 const FAR_OFF: f64 = 30.7;
 const TOGETHER: f64 = 11.3;
@@ -165,37 +168,19 @@ fn remaining(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Vec<Vector3<f64
 }
 
 /// The noise under which residuals are most likely.
+///
+/// A variance that is next to nothing has no slope in its logarithm: what starts there stays. So the search starts
+/// from what was measured, and from white noise alone.
 fn most_likely(
     evidence: &Evidence,
     metric: &Metric,
-    start: SegmentNoise,
+    measured: SegmentNoise,
     residual: &[Vector3<f64>],
 ) -> SegmentNoise {
     let likelihood = Likelihood { evidence, metric, residual };
-    let mut here = SVector::<f64, 6>::from_fn(|k, _| {
-        if k < 3 {
-            start.pose[k].ln()
-        } else {
-            start.walk[k - 3].max(0.03 * start.pose[k - 3]).ln()
-        }
-    });
-    let mut terms = likelihood.terms(&here);
-    let mut value: f64 = terms.iter().sum();
-    for _ in 0..STEPS {
-        let step = likelihood.step(&here, &terms);
-        let next = [1.0, 0.4, 0.1].into_iter().find_map(|share| {
-            let there = (here + step * share).map(|v| v.clamp(-80.0, 20.0));
-            let terms = likelihood.terms(&there);
-            let sum: f64 = terms.iter().sum();
-            (sum > value).then_some((there, terms, sum))
-        });
-        let Some((there, found, sum)) = next else { break };
-        let gain = sum - value;
-        (here, terms, value) = (there, found, sum);
-        if gain < SETTLED {
-            break;
-        }
-    }
+    let climbs = [measured, likelihood.white_alone()].map(|start| likelihood.climb(start));
+    let [first, second] = climbs;
+    let (here, _) = if second.1 > first.1 + SETTLED { second } else { first };
     let noise = noise_of(&here);
     let mut squares: Vec<f64> = likelihood.counted(&likelihood.white(&noise)).collect();
     squares.sort_by(f64::total_cmp);
@@ -211,6 +196,53 @@ struct Likelihood<'a> {
 }
 
 impl Likelihood<'_> {
+    /// White noise of the poses that would leave as much as there is: two of them meet in a segment.
+    fn white_alone(&self) -> SegmentNoise {
+        let counted = self.evidence.samples().iter().zip(self.residual);
+        let counted = counted.filter(|(sample, _)| self.metric.runs[sample.run]);
+        let mut squares: [Vec<f64>; 3] = Default::default();
+        for (_, residual) in counted {
+            for (squares, component) in squares.iter_mut().zip(residual.iter()) {
+                squares.push(component * component);
+            }
+        }
+        let pose = squares.map(|mut squares| {
+            squares.sort_by(f64::total_cmp);
+            let median = squares.get(squares.len() / 2).copied().unwrap_or_default();
+            (median / MEDIAN_OF_ONE / 2.0).max(f64::MIN_POSITIVE)
+        });
+        SegmentNoise { pose, walk: [0.0; 3] }
+    }
+
+    /// The logarithms of the variances of the maximum next to a start, and what is reached there.
+    fn climb(&self, start: SegmentNoise) -> (SVector<f64, 6>, f64) {
+        let mut here = SVector::<f64, 6>::from_fn(|k, _| {
+            if k < 3 {
+                start.pose[k].ln()
+            } else {
+                start.walk[k - 3].max(0.03 * start.pose[k - 3]).ln()
+            }
+        });
+        let mut terms = self.terms(&here);
+        let mut value: f64 = terms.iter().sum();
+        for _ in 0..STEPS {
+            let step = self.step(&here, &terms);
+            let next = [1.0, 0.4, 0.1].into_iter().find_map(|share| {
+                let there = (here + step * share).map(|v| v.clamp(-80.0, 20.0));
+                let terms = self.terms(&there);
+                let sum: f64 = terms.iter().sum();
+                (sum > value).then_some((there, terms, sum))
+            });
+            let Some((there, found, sum)) = next else { break };
+            let gain = sum - value;
+            (here, terms, value) = (there, found, sum);
+            if gain < SETTLED {
+                break;
+            }
+        }
+        (here, value)
+    }
+
     fn white(&self, noise: &SegmentNoise) -> (Evidence, Vec<Vector3<f64>>) {
         let evidence = self.evidence.with_noise(*noise);
         let mut white = self.residual.to_vec();
@@ -326,6 +358,17 @@ mod tests {
     fn found(evidence: &Evidence, residual: &[Vector3<f64>]) -> SegmentNoise {
         let wrong = SegmentNoise { pose: [4e-5, 1e-6, 1e-5], walk: [0.0, 1e-4, 1e-5] };
         most_likely(evidence, &metric(), wrong, residual)
+    }
+
+    #[test]
+    fn a_start_without_white_noise_is_left() {
+        let evidence = drive(&[]);
+        let residual = noisy(&evidence, 4);
+        let start = SegmentNoise { pose: [1e-12; 3], walk: [3e-5; 3] };
+        let noise = most_likely(&evidence, &metric(), start, &residual);
+        for k in 0..3 {
+            assert!((noise.pose[k] / TRUE.pose[k]).ln().abs() < 0.2, "{k}: {noise:?}");
+        }
     }
 
     #[test]

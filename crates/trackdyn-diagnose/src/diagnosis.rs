@@ -5,7 +5,8 @@ use crate::candidate::{candidates, signatures};
 use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::exposure::Exposure;
-use crate::fit::{Fit, Metric};
+use crate::fit::{Fit, Level, Metric};
+use crate::hypothesis::with_friction;
 use crate::isolability::Isolability;
 use crate::locate::cells::{Cell, cells};
 use crate::locate::{IcrColumns, Location, excess, locate};
@@ -403,10 +404,14 @@ pub fn icr_columns(evidence: &Evidence, fit: &Fit) -> IcrColumns {
     })
 }
 
-/// The vehicle that explains the evidence: the filed one, with what is claimed. Where the constant ICRs were
-/// wrong, friction ratio and centre of gravity stand for all that could move them.
+/// The vehicle that explains the evidence: the filed one, with what is claimed and the level of friction where it
+/// surely differs. Where the constant ICRs were wrong, friction ratio and centre of gravity stand for all that could
+/// move them.
 fn corrected(file: &VehicleFile, best: &Found, missing: &[Missing]) -> VehicleFile {
     let mut corrected = file.clone();
+    if let Some(level) = best.fit.friction_level().filter(Level::is_sure) {
+        corrected.vehicle = with_friction(&file.vehicle, level.value);
+    }
     for missing in missing {
         match missing.kind {
             Kind::Constant => {

@@ -308,6 +308,22 @@ impl Point {
     }
 }
 
+/// A level of friction that was found: the logarithm of the factor of both coefficients.
+#[derive(Clone, Copy, Debug)]
+pub struct Level {
+    /// Estimate.
+    pub value: f64,
+    /// Its standard deviation.
+    pub deviation: f64,
+}
+
+impl Level {
+    /// Whether it surely differs from that of the vehicle file: three standard deviations.
+    pub fn is_sure(&self) -> bool {
+        self.value.abs() > 3.0 * self.deviation
+    }
+}
+
 impl Fit {
     /// Fits the unknowns of a hypothesis, from its numbers on. `before` is the mechanics of a hypothesis that
     /// resembles it ([`Mechanics::beside`]).
@@ -354,6 +370,13 @@ impl Fit {
             let point = Point::new(self.stepped(share), &self.unknowns, evidence, metric, before);
             (point.objective < self.objective).then_some(point)
         })
+    }
+
+    /// The level of friction; none where it is not free.
+    pub fn friction_level(&self) -> Option<Level> {
+        let place = self.unknowns.iter().position(|one| *one == Unknown::FrictionLevel)?;
+        let deviation = self.solution.covariance[(place, place)].max(0.0).sqrt();
+        Some(Level { value: self.hypothesis.friction_level, deviation })
     }
 
     /// A hypothesis as it stands, with its derivatives.

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::document::separate_by;
+use trackdyn_diagnose::fit::Level;
 use trackdyn_diagnose::locate::SURE;
 use trackdyn_diagnose::noise;
 use trackdyn_diagnose::place::words;
@@ -40,6 +41,9 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
             let _ = writeln!(text, "           decides: {}", separate_by(missing));
         }
     }
+    if let Some(level) = diagnosis.best.fit.friction_level().filter(Level::is_sure) {
+        let _ = writeln!(text, "friction {}", friction(level));
+    }
     for verdict in &diagnosis.refused {
         let id = CATALOGUE[verdict.effect].id;
         let why = verdict.refused.as_deref().unwrap_or_default();
@@ -76,6 +80,17 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
         fit.before, fit.after, fit.noise_floor
     );
     text
+}
+
+/// By how much both coefficients of friction differ from what was supposed.
+fn friction(Level { value, deviation }: Level) -> String {
+    let percent = |value: f64| 100.0 * value.exp_m1();
+    format!(
+        "both coefficients times {:.2} [{:+.0} %, {:+.0} %]: steady turns do not tell, but mass slides that far",
+        value.exp(),
+        percent(value - 1.96 * deviation),
+        percent(value + 1.96 * deviation)
+    )
 }
 
 /// The law that is proposed where no effect explains what is left.

@@ -72,6 +72,7 @@ fn friction_that_hangs_on_the_heading_gets_a_form_that_does() {
 }
 
 #[test]
+#[ignore = "the longest search, a minute: cargo test --release -p trackdyn-cli --test cli -- --ignored grip"]
 fn grip_that_hangs_on_commands_gets_a_form_that_hangs_on_speed() {
     let place = Workplace::new();
     drive(&place, "--ground independent --mechanism steering-grip");

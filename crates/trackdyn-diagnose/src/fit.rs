@@ -294,7 +294,7 @@ impl Point {
         metric: &Metric,
         before: Option<&Mechanics>,
     ) -> Self {
-        let mechanics = Mechanics::beside(before, &hypothesis, evidence);
+        let mechanics = Mechanics::beside(before, &hypothesis, unknowns, evidence);
         let prediction = mechanics.predict(&Instruments::of(&hypothesis), evidence);
         let residual = metric.residual(evidence, &prediction);
         let known = priors(&hypothesis, unknowns, evidence);

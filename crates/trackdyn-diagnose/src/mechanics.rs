@@ -18,12 +18,12 @@ mod inertia;
 mod lag;
 
 use crate::evidence::{Evidence, Sample};
-use crate::hypothesis::Hypothesis;
+use crate::hypothesis::{Hypothesis, Unknown};
 use crate::surface::{Steady, Surface};
 use belts::lagging;
 use ground::{by_ground, varies};
-use inertia::{Case, Inertia};
-use lag::{difference, linear_answer};
+use inertia::{Case, InertiaNear};
+use lag::by_shear;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -53,10 +53,11 @@ pub struct Mechanics {
     drive: Drive,
     /// What changing ground adds to the twist during each sample, paper's frame.
     ground: Option<Arc<Vec<Twist>>>,
-    /// What inertia adds without laws of the shear stress, to a hypothesis that resembles this one.
-    inertia: Option<Arc<Inertia>>,
-    /// What these laws, and the difference to that hypothesis, change in it at each reading.
-    by_lag: Option<Arc<Vec<Vec<Twist>>>>,
+    /// What inertia adds without laws of the shear stress.
+    inertia: Option<InertiaNear>,
+    /// What these laws change in that, at each reading.
+    by_shear: Option<Arc<Vec<Vec<Twist>>>>,
+    failed: Option<String>,
 }
 
 /// Encoders and pose sensor of a hypothesis, and the offset of its ICRs: the cheap part.
@@ -93,27 +94,48 @@ pub fn feels_inertia(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
 impl Mechanics {
     /// The mechanics of a hypothesis for this evidence.
     pub fn new(hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
-        Self::found(None, hypothesis, evidence, |_, _| false)
+        Self::found(None, hypothesis, evidence, InertiaNear::here)
     }
 
-    /// The same where `before` is the mechanics of a hypothesis that resembles it.
-    pub fn beside(before: Option<&Self>, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
-        Self::found(before, hypothesis, evidence, |known, (case, inert)| {
-            known.resembles(case, inert)
+    /// The same where `before` is the mechanics of a hypothesis that resembles it, and some numbers are free: where
+    /// the effects of inertia are about the same, what these add is taken from there, for its change is a product
+    /// of two small things.
+    pub fn beside(
+        before: Option<&Self>,
+        hypothesis: &Hypothesis,
+        free: &[Unknown],
+        evidence: &Evidence,
+    ) -> Self {
+        let delay = Instruments::of(hypothesis).sensor.delay;
+        Self::found(before, hypothesis, evidence, |inert, case| {
+            let is_free = |effect: &ActiveEffect| {
+                free.iter()
+                    .any(|unknown| unknown.card().is_some_and(|card| card.id == effect.card().id))
+            };
+            let is_free = inert.iter().any(is_free) || free.contains(&Unknown::FrictionLevel);
+            let free_at = is_free.then_some(delay);
+            let known = before.and_then(|before| before.inertia.as_ref());
+            InertiaNear::beside(known, inert, case, free_at)
         })
     }
 
     /// The same for a hypothesis that differs by the step of a difference quotient: what inertia adds is taken
     /// from here wherever it can be, for any other error would be divided by the step.
     pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
-        Self::found(Some(self), hypothesis, evidence, |known, (_, inert)| known.is_of(inert))
+        Self::found(Some(self), hypothesis, evidence, |inert, case| {
+            let known = self
+                .inertia
+                .as_ref()
+                .and_then(|known| known.moved(&inert, case.model.vehicle(), f64::MAX));
+            known.map_or_else(|| InertiaNear::here(inert, case), Ok)
+        })
     }
 
     fn found(
         before: Option<&Self>,
         hypothesis: &Hypothesis,
         evidence: &Evidence,
-        serves: impl FnOnce(&Inertia, (&Case, &[ActiveEffect])) -> bool,
+        inertia: impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, String>,
     ) -> Self {
         let vehicle = &hypothesis.vehicle;
         let mechanical = hypothesis.effects.iter().filter(|effect| !is_instrument(vehicle, effect));
@@ -129,8 +151,15 @@ impl Mechanics {
             .with_resolution(Resolution::Coarse);
         let surface = Surface::new(&model, largest, before.map(|before| &before.surface));
         let steady = Arc::new(steady(&surface, &drive, evidence.tracks()));
-        let mut mechanics =
-            Self { surface, steady, drive, ground: None, inertia: None, by_lag: None };
+        let mut mechanics = Self {
+            surface,
+            steady,
+            drive,
+            ground: None,
+            inertia: None,
+            by_shear: None,
+            failed: None,
+        };
         let simple = Model::new(vehicle.clone(), without_shear(&constant));
         if !varying.is_empty() {
             let mut effects = without_shear(&constant);
@@ -146,13 +175,20 @@ impl Mechanics {
         if inert.is_empty() || evidence.is_steady() {
             return mechanics;
         }
-        let case = Case { model: &simple, largest, drive: &drive, evidence };
-        let known = before.and_then(|before| before.inertia.clone());
-        let known = known.filter(|known| serves(known, (&case, &inert)));
-        let inertia = known.unwrap_or_else(|| Arc::new(Inertia::new(inert, &case)));
-        let linear = linear_answer(&mechanics.surface, &model, &drive, evidence.tracks());
-        mechanics.by_lag = Some(Arc::new(difference(&linear, &inertia.linear)));
-        mechanics.inertia = Some(inertia);
+        if simple.effects() != model.effects() {
+            let [with, without] = [&model, &simple].map(|model| mechanics.surface.lags(model));
+            let belts = lagging(evidence.tracks(), drive.time_constant);
+            let twist = |steady: &Steady| steady.twist(&[0.0; 3]);
+            let runs = mechanics.steady.iter();
+            let steady: Vec<Vec<Twist>> = runs.map(|run| run.iter().map(twist).collect()).collect();
+            let departures = by_shear([&with, &without], &drive, &belts, &steady);
+            mechanics.by_shear = Some(Arc::new(departures));
+        }
+        let case = Case { vehicle, model: &simple, largest, drive: &drive, evidence };
+        match inertia(inert, &case) {
+            Ok(inertia) => mechanics.inertia = Some(inertia),
+            Err(reason) => mechanics.failed = Some(reason),
+        }
         mechanics
     }
 
@@ -160,6 +196,9 @@ impl Mechanics {
     /// good part of the speeds. None where it can.
     pub fn failure(&self) -> Option<String> {
         const MOST: f64 = 0.2;
+        if let Some(reason) = &self.failed {
+            return Some(reason.clone());
+        }
         let share = self.surface.unsolved();
         (share > MOST).then(|| {
             format!(
@@ -189,21 +228,23 @@ impl Mechanics {
             .map(|index| {
                 let sample = &samples[index];
                 let by_ground = self.ground.as_ref().map(|departures| departures[index]);
-                let by_inertia =
-                    self.inertia.as_ref().map(|inertia| inertia.departure(sample, sensor.delay));
+                let by_inertia = self
+                    .inertia
+                    .as_ref()
+                    .map(|inertia| inertia.departure(index, sample, sensor.delay));
                 let departure =
                     [by_ground, by_inertia].into_iter().flatten().reduce(|a, b| plus(&a, &b));
                 let departure = departure.map(|departure| seen_from(&departure, offset));
                 let tracks = &evidence.tracks()[sample.run];
                 let steady = &steady[sample.run];
-                let by_lag = self.by_lag.as_ref().map(|departures| &departures[sample.run]);
+                let by_shear = self.by_shear.as_ref().map(|departures| &departures[sample.run]);
                 let pose = motion_over(tracks, sample, sensor.delay, |reading| {
                     let mut twist = steady[reading].twist(offset);
                     if let Some(departure) = &departure {
                         twist = plus(&twist, departure);
                     }
-                    if let Some(by_lag) = by_lag {
-                        twist = plus(&twist, &seen_from(&by_lag[reading], offset));
+                    if let Some(by_shear) = by_shear {
+                        twist = plus(&twist, &seen_from(&by_shear[reading], offset));
                     }
                     ros_twist_from_paper(&sensor.reported(&twist))
                 });

@@ -178,8 +178,7 @@ fn most_likely(
     residual: &[Vector3<f64>],
 ) -> SegmentNoise {
     let likelihood = Likelihood { evidence, metric, residual };
-    let climbs = [measured, likelihood.white_alone()].map(|start| likelihood.climb(start));
-    let [first, second] = climbs;
+    let [first, second] = [measured, likelihood.white_alone()].map(|start| likelihood.climb(start));
     let (here, _) = if second.1 > first.1 + SETTLED { second } else { first };
     let noise = noise_of(&here);
     let mut squares: Vec<f64> = likelihood.counted(&likelihood.white(&noise)).collect();

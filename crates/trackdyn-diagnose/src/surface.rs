@@ -18,7 +18,6 @@ use trackdyn_physics::{Circumstance, Model};
 /// A table of stationary motions.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    grid: Grid,
     /// (v_x, v_y − V̄, w)/(V_r − V_l).
     beyond: Table<1>,
     unsolved: usize,
@@ -46,18 +45,19 @@ impl Surface {
             })
             .collect();
         let unsolved = solved.iter().filter(|node| node.is_none()).count();
-        Self { beyond: Table::new(&grid, &solved), grid, unsolved }
+        Self { beyond: Table::new(grid, &solved), unsolved }
     }
 
     /// How far the motions of a model stay behind these stationary ones.
     pub fn lags(&self, model: &Model) -> Lags {
+        let grid = self.beyond.grid();
         let ground = model.ground(&Circumstance::default());
         let at_node = |index: usize| -> Option<Matrix3<f64>> {
-            let speeds = self.grid.speeds(index);
+            let speeds = grid.speeds(index);
             lag(model, &ground, speeds, &self.motion(speeds).twist(&[0.0; 3]))
         };
         let lags: Vec<_> = (0..Grid::NODES).into_par_iter().map(at_node).collect();
-        Lags(Table::new(&self.grid, &lags))
+        Lags(Table::new(grid.clone(), &lags))
     }
 
     /// Share of the nodes without a motion: part of the contact lifts, or no balance was found.

@@ -6,9 +6,9 @@
 //! constants. Friction with its full value at any slip has a short Λ, m |s|/(µ N); friction that grows with the slip
 //! speed has a long one.
 
-use crate::transient::grip;
+use crate::transient::net_force;
 use nalgebra::Matrix3;
-use trackdyn_core::{Dual, PerSide, Side, Twist};
+use trackdyn_core::{Dual, PerSide, Twist};
 use trackdyn_physics::{Ground, Model, Motion};
 
 /// The matrix Λ (s; by v_x, v_y in m/s and w in rad/s, paper's frame) at a stationary motion; none where no force
@@ -26,11 +26,7 @@ pub fn lag(
     let departure = Twist { v_x, v_y, w };
     let acceleration = Twist { v_x: a_x, v_y: a_y, w: a_w };
     let motion = Motion::departing(belt_speed, departure, acceleration, model.extent());
-    let balance = model.balance(ground, &motion);
-    let mut sum = balance.load;
-    for side in Side::BOTH {
-        sum += balance.friction[side].scaled(grip(motion.slip[side].speed));
-    }
+    let sum = net_force(model, ground, &motion);
     let rows = [sum.force_x, sum.force_y, sum.moment];
     let by_twist = Matrix3::from_fn(|row, column| rows[row].gradient[column]);
     let by_acceleration = Matrix3::from_fn(|row, column| rows[row].gradient[column + 3]);

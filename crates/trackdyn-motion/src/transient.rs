@@ -22,7 +22,7 @@
 
 mod stage;
 
-pub(crate) use stage::grip;
+pub(crate) use stage::net_force;
 
 use crate::newton::Convergence;
 use stage::Stage;

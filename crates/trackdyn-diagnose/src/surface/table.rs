@@ -58,8 +58,13 @@ impl Grid {
 impl<const C: usize> Table<C> {
     /// The table of values at all nodes, in their order; where there is none, that of the nearest node of the same
     /// sector, or zero.
-    pub fn new(grid: &Grid, values: &[Option<SMatrix<f64, 3, C>>]) -> Self {
-        Self { grid: grid.clone(), nodes: filled(values) }
+    pub fn new(grid: Grid, values: &[Option<SMatrix<f64, 3, C>>]) -> Self {
+        Self { grid, nodes: filled(values) }
+    }
+
+    /// The places of its nodes.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
     }
 
     /// The value at a node.

@@ -3,7 +3,7 @@
 use super::CREEP;
 use crate::newton::{self, Convergence, Evaluation, Tolerance};
 use nalgebra::Vector3;
-use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
+use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist, Wrench};
 use trackdyn_physics::{Ground, Model, Motion};
 
 /// Residual over the weight: 10⁻⁹ of gravity is far below what moves a robot.
@@ -87,20 +87,27 @@ impl Stage<'_> {
     #[inline]
     fn residual<S: Scalar>(&self, z: [S; 3]) -> [S; 3] {
         let motion = self.motion(z);
-        let balance = self.model.balance(self.ground, &motion);
-        let mut sum = balance.load;
-        for side in Side::BOTH {
-            sum += balance.friction[side].scaled(grip(motion.slip[side].speed));
-        }
+        let sum = net_force(self.model, self.ground, &motion);
         let force = self.model.vehicle().weight().recip();
         let moment = force / self.model.vehicle().gauge;
         [sum.force_x * force, sum.force_y * force, sum.moment * moment]
     }
 }
 
+/// The sum of all forces on the body, which is zero where they balance.
+#[inline]
+pub fn net_force<S: Scalar>(model: &Model, ground: &Ground, motion: &Motion<S>) -> Wrench<S> {
+    let balance = model.balance(ground, motion);
+    let mut sum = balance.load;
+    for side in Side::BOTH {
+        sum += balance.friction[side].scaled(grip(motion.slip[side].speed));
+    }
+    sum
+}
+
 /// Share of its friction that a side with the root mean square slip σ (m/s) has.
 #[inline]
-pub fn grip<S: Scalar>(slip: S) -> S {
+fn grip<S: Scalar>(slip: S) -> S {
     // σ/√(σ² + ε²)
     slip / (slip * slip + CREEP * CREEP).sqrt()
 }

@@ -84,12 +84,12 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
 
 /// By how much both coefficients of friction differ from what was supposed.
 fn friction(Level { value, deviation }: Level) -> String {
-    let percent = |value: f64| 100.0 * value.exp_m1();
+    let factor = |deviations: f64| (value + deviations * deviation).exp();
     format!(
-        "both coefficients times {:.2} [{:+.0} %, {:+.0} %]: steady turns do not tell, but mass slides that far",
-        value.exp(),
-        percent(value - 1.96 * deviation),
-        percent(value + 1.96 * deviation)
+        "both coefficients times {:.2} [{:.2}, {:.2}]: steady turns do not tell, but mass slides that far",
+        factor(0.0),
+        factor(-1.96),
+        factor(1.96)
     )
 }
 

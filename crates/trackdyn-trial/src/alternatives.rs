@@ -12,6 +12,8 @@ use trackdyn_core::Pose;
 const FAR: f64 = 500.0;
 /// Distance of an anchor nearby, m.
 const NEAR: f64 = 5.0;
+/// Strengths of friction that creeps: its law is anything but linear in them.
+const CREEPS: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
 /// Places of a patch that are tried.
 const PATCHES: usize = 2;
 /// Radius of a patch, m.
@@ -49,20 +51,20 @@ fn choices(id: &'static str, scene: Scene, random: &mut ChaCha8Rng) -> Vec<Vec<(
     let weight = scene.machine.weight();
     let anchored = |distance: f64, quarter: f64| {
         let (sin, cos) = (quarter * FRAC_PI_2).sin_cos();
-        (Dose::tether(weight, [distance * cos, distance * sin]), 1.0)
+        Dose::tether(weight, [distance * cos, distance * sin])
     };
     match id {
-        "stribeck-friction" => with("speed_m_per_s", &[0.05, 0.2]),
-        "friction-creep" => vec![vec![(usual.clone(), 0.5)], vec![(usual, 2.0)]],
+        "stribeck-friction" => with("speed_m_per_s", &[0.03, 0.06, 0.12, 0.25, 0.5]),
+        "friction-creep" => CREEPS.map(|strength| vec![(usual.clone(), strength)]).to_vec(),
         "hitch-drag" => {
             let length = scene.machine.length();
             with("distance_m", &[0.5 * length, 1.5 * length])
         }
         // both directions of the world span all of them
-        "slope" => vec![vec![(Dose::slope(0.0), 1.0), (Dose::slope(90.0), 1.0)]],
+        "slope" => vec![of_all_sizes([Dose::slope(0.0), Dose::slope(90.0)])],
         "tether" => {
-            let near = [0.5, 1.5, 2.5, 3.5].map(|quarter| vec![anchored(NEAR, quarter)]);
-            let far = vec![anchored(FAR, 0.0), anchored(FAR, 1.0)];
+            let near = [0.5, 1.5, 2.5, 3.5].map(|quarter| vec![(anchored(NEAR, quarter), 1.0)]);
+            let far = of_all_sizes([0.0, 1.0].map(|quarter| anchored(FAR, quarter)));
             near.into_iter().chain([far]).collect()
         }
         "terrain-patch" => (0..PATCHES)
@@ -74,6 +76,11 @@ fn choices(id: &'static str, scene: Scene, random: &mut ChaCha8Rng) -> Vec<Vec<(
             .collect(),
         _ => vec![vec![(usual, 1.0)]],
     }
+}
+
+/// Two strengths of each: what goes with the size, and with its square.
+fn of_all_sizes(doses: [Dose; 2]) -> Vec<(Dose, f64)> {
+    doses.into_iter().flat_map(|dose| [(dose.clone(), 0.5), (dose, 1.5)]).collect()
 }
 
 /// Places of a drive at equal intervals, m.

@@ -16,8 +16,8 @@ pub(crate) struct Instruments {
     pub(crate) sensors: Sensors,
     /// Errors that are mechanisms of the catalogue: mount, scale, clock, drift.
     pub(crate) errors: Vec<ActiveMechanism>,
-    /// What the recording states.
-    pub(crate) stated: Option<StatedNoise>,
+    /// What the recording states: all do, for a line more would tell a recording from others.
+    pub(crate) stated: StatedNoise,
 }
 
 /// Instruments of most cases are slightly off: what of it is there beside a concealed effect.
@@ -55,7 +55,6 @@ impl Instruments {
         pose.white.yaw *= factor;
         pose.walk.position *= factor;
         pose.walk.yaw *= factor;
-        let is_stated = happens(random, 0.6);
         let mut errors = Vec::new();
         for (share, small) in OFTEN {
             // drawn whether used or not, so that what follows does not hang on it
@@ -90,8 +89,7 @@ impl Instruments {
             Some(other) => errors.extend(of_difficulty(other, gauge, random)),
             None => {}
         }
-        let is_stated = is_stated || difficulty == Some(Difficulty::NoiseStatement);
-        Self { sensors, errors, stated: is_stated.then_some(stated) }
+        Self { sensors, errors, stated }
     }
 
     /// The noise that the recording truly has, for segments of a robot that moves like this with a

@@ -6,9 +6,11 @@ use crate::driving::Drive;
 use crate::ground::Ground;
 use crate::signature::Bench;
 use crate::subspace::Subspace;
+use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use trackdyn_field::Sensors;
+use trackdyn_identify::Observations;
 
 /// z from which on an effect can be detected.
 pub const DETECTABLE: f64 = 5.0;
@@ -123,14 +125,22 @@ impl Judge<'_> {
         let ids: Vec<&str> = concealed.iter().map(|sized| sized.dose.id()).collect();
         let excluded: Vec<&str> = known.iter().chain(&ids).copied().collect();
         let others = alternatives(&excluded, scene, random);
-        let columns = self.columns(&others)?;
-        let rows = columns.iter().flatten().map(Vec::len).min().unwrap_or(self.bench.rows());
+        let still = self.still()?;
+        let shapes = concealed.iter().map(|sized| still.column(&sized.dose, sized.strength));
+        let shapes: Vec<Vec<f64>> = shapes.collect::<Result<_, _>>()?;
+        let columns = still.columns(&others)?;
+        let rows = shapes.iter().chain(columns.iter().flatten()).map(Vec::len).min();
+        let rows = rows.unwrap_or_default();
+        let whole: Vec<&[f64]> = concealed.iter().map(|one| &one.signature[..]).collect();
+        let few: Vec<&[f64]> = shapes.iter().map(|shape| &shape[..rows]).collect();
         let standings = concealed.iter().enumerate().map(|(index, sized)| {
-            let beside = concealed.iter().enumerate().filter(|(other, _)| *other != index);
-            let beside: Vec<_> = beside.map(|(_, other)| other.signature.as_slice()).collect();
-            let taken = |rows| self.taken(rows, &beside);
-            let z_det = taken(self.bench.rows()).outside(&sized.signature);
-            let (space, part) = (taken(rows), &sized.signature[..rows]);
+            let taken = |rows: usize, all: &[&[f64]]| {
+                let beside = all.iter().enumerate().filter(|(other, _)| *other != index);
+                self.taken(rows, &beside.map(|(_, other)| *other).collect::<Vec<_>>())
+            };
+            let z_det = taken(self.bench.rows(), &whole).outside(&sized.signature);
+            // what is compared was driven alike: without inertia, in the first runs
+            let (space, part) = (taken(rows, &few), few[index]);
             let whole = space.outside(part);
             let left = others.iter().zip(&columns).map(|(alternative, columns)| {
                 let mut space = space.clone();
@@ -164,16 +174,34 @@ impl Judge<'_> {
         self.bench.nuisances(signature.len()).outside(signature)
     }
 
-    /// Signatures of alternatives in the first runs, without inertia: cheap, and alike in shape.
-    fn columns(&self, others: &[Alternative]) -> Result<Vec<Vec<Vec<f64>>>, String> {
-        let few = &self.runs[..FEW_RUNS.min(self.runs.len())];
-        let still = Ground { active: Vec::new(), ..*self.ground };
-        let without = still.observe(few, self.sensors)?;
+    /// The first runs of the robot without the inertia that its owner knows.
+    fn still(&self) -> Result<Still<'_>, String> {
+        let runs = &self.runs[..FEW_RUNS.min(self.runs.len())];
+        let ground = Ground { active: Vec::new(), ..*self.ground };
+        let without = ground.observe(runs, self.sensors)?;
         let residuals = self.bench.residuals(&without)?;
-        let column = |(dose, strength): &(Dose, f64)| {
-            let with = still.and(dose.at(*strength)).observe(few, self.sensors)?;
-            self.bench.difference(&with, &without, &residuals)
-        };
+        Ok(Still { bench: self.bench, ground, runs, sensors: self.sensors, without, residuals })
+    }
+}
+
+/// The first runs without inertia: signatures there are cheap, and shaped as those with it.
+struct Still<'a> {
+    bench: &'a Bench,
+    ground: Ground<'a>,
+    runs: &'a [Drive],
+    sensors: &'a Sensors,
+    without: Observations,
+    residuals: Vec<Vector3<f64>>,
+}
+
+impl Still<'_> {
+    fn column(&self, dose: &Dose, strength: f64) -> Result<Vec<f64>, String> {
+        let with = self.ground.and(dose.at(strength)).observe(self.runs, self.sensors)?;
+        self.bench.difference(&with, &self.without, &self.residuals)
+    }
+
+    fn columns(&self, others: &[Alternative]) -> Result<Vec<Vec<Vec<f64>>>, String> {
+        let column = |(dose, strength): &(Dose, f64)| self.column(dose, *strength);
         let all = others.par_iter().map(|alternative| {
             alternative.members.par_iter().map(column).collect::<Result<Vec<_>, String>>()
         });

@@ -18,7 +18,7 @@ pub(crate) fn recorded(
     runs.iter_mut().for_each(round);
     let recording = Recording::new(name, "robot", runs, Source::computed(), Vec::new());
     let recording = recording.map_err(|error| error.to_string())?;
-    Ok(recording.with_stated_noise(instruments.stated.map(rounded)))
+    Ok(recording.with_stated_noise(Some(rounded(instruments.stated))))
 }
 
 /// Rounds all numbers of a run alike: how they are written says nothing.

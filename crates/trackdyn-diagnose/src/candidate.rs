@@ -4,6 +4,8 @@
 //! have no derivative where it vanishes. Where a law has shapes, directions or places beside its size, its
 //! signature is found for several of them, and the one that explains most stands for the effect.
 
+mod between;
+
 use crate::evidence::Evidence;
 use crate::fit::{Metric, area};
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
@@ -78,7 +80,7 @@ impl Variant {
                 let with = if is_instrument(vehicle, &whole) {
                     base.mechanics.predict(&instruments, beside.evidence)
                 } else {
-                    let mechanics = Mechanics::new(&with, beside.evidence);
+                    let mechanics = base.mechanics.anew(&with, beside.evidence);
                     if mechanics.failure().is_some() {
                         return None;
                     }
@@ -99,7 +101,7 @@ impl Variant {
 const MORE: f64 = 0.2;
 
 /// What signatures are taken beside.
-struct Beside<'a> {
+pub struct Beside<'a> {
     hypothesis: &'a Hypothesis,
     evidence: &'a Evidence,
     metric: &'a Metric,
@@ -172,40 +174,60 @@ pub fn variants(effect: usize, evidence: &Evidence) -> Vec<Variant> {
 fn choices(parameter: &Parameter, of: &[Parameter], evidence: &Evidence) -> Vec<f64> {
     let [low, high] = parameter.range;
     let inside = |value: f64| value.clamp(low, high);
+    let step = spacing(parameter, of, evidence);
     match parameter.role {
         Role::Size { .. } => vec![parameter.typical],
-        Role::Direction => (0..24).map(|k| inside(15.0 * f64::from(k))).collect(),
-        Role::Shape => [0.4, 1.0, 2.5].map(|factor| inside(factor * parameter.typical)).to_vec(),
+        Role::Direction => (0..24).map(|k| inside(step * f64::from(k))).collect(),
+        Role::Shape => {
+            [-1.0, 0.0, 1.0].map(|k: f64| inside(parameter.typical * (k * step).exp())).to_vec()
+        }
         Role::Place { .. } => {
-            let [middle, spread] = area(evidence, parameter.role);
-            // A place with an extent lies where the robot was; one without may lie far away.
-            let has_extent = of.iter().any(|other| matches!(other.role, Role::Shape));
+            let [middle, _] = area(evidence, parameter.role);
             let grid: &[f64] =
-                if has_extent { &[-0.75, -0.25, 0.25, 0.75] } else { &[-3.0, -1.0, 0.0, 1.0, 3.0] };
-            grid.iter().map(|place| inside(middle + place * spread)).collect()
+                if has_extent(of) { &[-1.5, -0.5, 0.5, 1.5] } else { &[-3.0, -1.0, 0.0, 1.0, 3.0] };
+            grid.iter().map(|place| inside(middle + place * step)).collect()
         }
     }
 }
 
-/// The signatures of variants beside a hypothesis, in parallel; those that cannot act are left out.
-pub fn signatures(
-    variants: &[Variant],
-    hypothesis: &Hypothesis,
-    evidence: &Evidence,
-    metric: &Metric,
-) -> Vec<(Variant, Vec<Signature>)> {
-    let vehicle = &hypothesis.vehicle;
-    let still = hypothesis.effects.iter().filter(|effect| !feels_inertia(vehicle, effect));
-    let still = Hypothesis { effects: still.cloned().collect(), ..hypothesis.clone() };
-    let beside = Beside {
-        hypothesis,
-        evidence,
-        metric,
-        moving: Prepared::new(hypothesis.clone(), evidence),
-        still: Prepared::new(still, evidence),
-    };
-    variants
-        .par_iter()
-        .filter_map(|variant| Some((variant.clone(), variant.signatures(&beside)?)))
-        .collect()
+/// Distance of values that are tried; of a shape, that of their logarithms.
+fn spacing(parameter: &Parameter, of: &[Parameter], evidence: &Evidence) -> f64 {
+    match parameter.role {
+        Role::Size { .. } => 0.0,
+        Role::Direction => 15.0,
+        Role::Shape => 2.5_f64.ln(),
+        Role::Place { .. } => {
+            let [_, spread] = area(evidence, parameter.role);
+            if has_extent(of) { spread / 2.0 } else { spread }
+        }
+    }
+}
+
+/// Whether a place has an extent: then it lies where the robot was; one without may lie far away.
+fn has_extent(of: &[Parameter]) -> bool {
+    of.iter().any(|other| matches!(other.role, Role::Shape))
+}
+
+impl<'a> Beside<'a> {
+    /// A hypothesis for this evidence.
+    pub fn new(hypothesis: &'a Hypothesis, evidence: &'a Evidence, metric: &'a Metric) -> Self {
+        let vehicle = &hypothesis.vehicle;
+        let still = hypothesis.effects.iter().filter(|effect| !feels_inertia(vehicle, effect));
+        let still = Hypothesis { effects: still.cloned().collect(), ..hypothesis.clone() };
+        Self {
+            hypothesis,
+            evidence,
+            metric,
+            moving: Prepared::new(hypothesis.clone(), evidence),
+            still: Prepared::new(still, evidence),
+        }
+    }
+
+    /// The signatures of variants, in parallel; those that cannot act are left out.
+    pub fn signatures(&self, variants: &[Variant]) -> Vec<(Variant, Vec<Signature>)> {
+        variants
+            .par_iter()
+            .filter_map(|variant| Some((variant.clone(), variant.signatures(self)?)))
+            .collect()
+    }
 }

@@ -1,7 +1,7 @@
 //! The diagnosis: all steps in order, and what comes out of them.
 
 use crate::base::{Base, Calibration};
-use crate::candidate::{candidates, signatures};
+use crate::candidate::{Beside, candidates};
 use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::exposure::Exposure;
@@ -247,7 +247,10 @@ fn attempt(
 
     let tried = candidates(&base.instruments, evidence);
     let hypothesis = &base.fit.hypothesis;
-    let catalogue = Catalogue { entries: signatures(&tried, hypothesis, evidence, metric) };
+    let beside = Beside::new(hypothesis, evidence, metric);
+    let mut catalogue = Catalogue { entries: beside.signatures(&tried) };
+    let between = Search { evidence, metric, base: &base, catalogue: &catalogue }.between(&beside);
+    catalogue.entries.extend(between);
     progress(STAGES[2]);
 
     let search = Search { evidence, metric, base: &base, catalogue: &catalogue };

@@ -21,6 +21,9 @@ const FAR: f64 = 3.4;
 /// Iterations of a fit.
 const ITERATIONS: usize = 6;
 
+/// How often in a fit what inertia adds is found anew.
+const FOUND_ANEW: usize = 2;
+
 /// A step that lowers the objective by less than this is the last one.
 const SETTLED: f64 = 0.2;
 
@@ -289,12 +292,11 @@ struct Point {
 impl Point {
     fn new(
         hypothesis: Hypothesis,
+        mechanics: Mechanics,
         unknowns: &[Unknown],
         evidence: &Evidence,
         metric: &Metric,
-        before: Option<&Mechanics>,
     ) -> Self {
-        let mechanics = Mechanics::beside(before, &hypothesis, unknowns, evidence);
         let prediction = mechanics.predict(&Instruments::of(&hypothesis), evidence);
         let residual = metric.residual(evidence, &prediction);
         let known = priors(&hypothesis, unknowns, evidence);
@@ -327,6 +329,9 @@ impl Level {
 impl Fit {
     /// Fits the unknowns of a hypothesis, from its numbers on. `before` is the mechanics of a hypothesis that
     /// resembles it ([`Mechanics::beside`]).
+    ///
+    /// What inertia adds stays that of one motion in time, with its derivatives, until the fit ends; where that is
+    /// far from where it was found, it is found there, and the fit goes on.
     pub fn new(
         start: Hypothesis,
         unknowns: &[Unknown],
@@ -334,8 +339,27 @@ impl Fit {
         metric: &Metric,
         before: Option<&Mechanics>,
     ) -> Self {
-        let point = Point::new(start, unknowns, evidence, metric, before);
-        let mut fit = Self::linearised(point, unknowns, evidence, metric);
+        let found = |hypothesis: Hypothesis, before: Option<&Mechanics>| {
+            let mechanics = Mechanics::beside(before, &hypothesis, unknowns, evidence);
+            Point::new(hypothesis, mechanics, unknowns, evidence, metric)
+        };
+        let start = found(start, before);
+        let mut fit =
+            Self::linearised(start, unknowns, evidence, metric).descended(evidence, metric);
+        for _ in 0..FOUND_ANEW {
+            let point = found(fit.hypothesis.clone(), Some(&fit.mechanics));
+            let stays = point.mechanics.has_inertia_of(&fit.mechanics);
+            if stays || point.mechanics.failure().is_some() {
+                break;
+            }
+            fit = Self::linearised(point, unknowns, evidence, metric).descended(evidence, metric);
+        }
+        fit
+    }
+
+    /// The end of the descent from here, with what inertia adds as it was found.
+    fn descended(self, evidence: &Evidence, metric: &Metric) -> Self {
+        let mut fit = self;
         // What the objective fell by since the derivatives were found.
         let mut since = 0.0;
         for _ in 0..ITERATIONS {
@@ -346,11 +370,12 @@ impl Fit {
             // Derivatives that foretold the gain stand, as long as they are not those of a far point at the end.
             let promised = fit.solution.gain;
             let foretold = (gain - promised).abs() < FORETOLD * promised + SETTLED;
+            let unknowns = std::mem::take(&mut fit.unknowns);
             if foretold && (!is_last || since < NEAR) {
                 let columns = std::mem::take(&mut fit.columns);
-                fit = Self::with_columns(next, unknowns, columns, evidence, metric);
+                fit = Self::with_columns(next, &unknowns, columns, evidence, metric);
             } else {
-                fit = Self::linearised(next, unknowns, evidence, metric);
+                fit = Self::linearised(next, &unknowns, evidence, metric);
                 since = 0.0;
             }
             if is_last {
@@ -366,8 +391,9 @@ impl Fit {
         /// Shares of a step before it is given up.
         const SHARES: [f64; 4] = [1.0, 0.4, 0.15, 0.05];
         SHARES.into_iter().find_map(|share| {
-            let before = Some(&self.mechanics);
-            let point = Point::new(self.stepped(share), &self.unknowns, evidence, metric, before);
+            let hypothesis = self.stepped(share);
+            let mechanics = self.mechanics.varied(&hypothesis, evidence);
+            let point = Point::new(hypothesis, mechanics, &self.unknowns, evidence, metric);
             (point.objective < self.objective).then_some(point)
         })
     }
@@ -387,7 +413,8 @@ impl Fit {
         metric: &Metric,
         before: Option<&Mechanics>,
     ) -> Self {
-        let point = Point::new(hypothesis, unknowns, evidence, metric, before);
+        let mechanics = Mechanics::beside(before, &hypothesis, unknowns, evidence);
+        let point = Point::new(hypothesis, mechanics, unknowns, evidence, metric);
         Self::linearised(point, unknowns, evidence, metric)
     }
 

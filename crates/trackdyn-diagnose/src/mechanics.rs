@@ -10,7 +10,8 @@
 //! # Assumes
 //! The departures are found without the laws that change the shear stress, which need a quadrature per solve. What
 //! these change in that by ground is a product of two small things; what they change in that by inertia is linear in
-//! the acceleration.
+//! the acceleration. So is what any law changes where no motion in time goes through: the ticks of a coarse counter may
+//! tip a high robot over that never was near to it.
 
 mod belts;
 mod ground;
@@ -23,7 +24,7 @@ use crate::surface::{Steady, Surface};
 use belts::lagging;
 use ground::{by_ground, varies};
 use inertia::{Case, InertiaNear};
-use lag::by_shear;
+use lag::by_lag;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -53,10 +54,10 @@ pub struct Mechanics {
     drive: Drive,
     /// What changing ground adds to the twist during each sample, paper's frame.
     ground: Option<Arc<Vec<Twist>>>,
-    /// What inertia adds without laws of the shear stress.
+    /// What inertia adds, of a model without laws of the shear stress.
     inertia: Option<InertiaNear>,
-    /// What these laws change in that, at each reading.
-    by_shear: Option<Arc<Vec<Vec<Twist>>>>,
+    /// What the hypothesis changes in that, at each reading.
+    by_lag: Option<Arc<Vec<Vec<Twist>>>>,
     failed: Option<String>,
 }
 
@@ -97,6 +98,12 @@ impl Mechanics {
         Self::found(None, hypothesis, evidence, InertiaNear::here)
     }
 
+    /// The mechanics of a hypothesis that differs from this one's, with a motion in time of its own where there is
+    /// one.
+    pub fn anew(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
+        Self::found(Some(self), hypothesis, evidence, InertiaNear::here)
+    }
+
     /// The same where `before` is the mechanics of a hypothesis that resembles it, and some numbers are free: where
     /// the effects of inertia are about the same, what these add is taken from there, for its change is a product
     /// of two small things.
@@ -119,15 +126,13 @@ impl Mechanics {
         })
     }
 
-    /// The same for a hypothesis that differs by the step of a difference quotient: what inertia adds is taken
-    /// from here wherever it can be, for any other error would be divided by the step.
+    /// The same for a hypothesis that differs by a step, be it that of a difference quotient: what inertia adds is
+    /// taken from here wherever it can be, for what it jumps by elsewhere would be divided by the step.
     pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
         Self::found(Some(self), hypothesis, evidence, |inert, case| {
-            let known = self
-                .inertia
-                .as_ref()
-                .and_then(|known| known.moved(&inert, case.model.vehicle(), f64::MAX));
-            known.map_or_else(|| InertiaNear::here(inert, case), Ok)
+            let Some(known) = &self.inertia else { return InertiaNear::here(inert, case) };
+            let moved = known.moved(&inert, case.model.vehicle(), f64::MAX);
+            moved.ok_or_else(|| "found for other effects".to_owned())
         })
     }
 
@@ -157,7 +162,7 @@ impl Mechanics {
             drive,
             ground: None,
             inertia: None,
-            by_shear: None,
+            by_lag: None,
             failed: None,
         };
         let simple = Model::new(vehicle.clone(), without_shear(&constant));
@@ -175,21 +180,42 @@ impl Mechanics {
         if inert.is_empty() || evidence.is_steady() {
             return mechanics;
         }
-        if simple.effects() != model.effects() {
-            let [with, without] = [&model, &simple].map(|model| mechanics.surface.lags(model));
+        let case = Case { vehicle, model: &simple, largest, drive: &drive, evidence };
+        // Where no motion in time goes through, that of a hypothesis that resembles this one is taken.
+        let known = before.and_then(|before| before.inertia.as_ref());
+        let reference = match (inertia(inert, &case), known) {
+            (Ok(found), _) => {
+                mechanics.inertia = Some(found);
+                simple
+            }
+            (Err(_), Some(known)) => {
+                mechanics.inertia = Some(known.unmoved());
+                known.model()
+            }
+            (Err(reason), None) => {
+                mechanics.failed = Some(reason);
+                return mechanics;
+            }
+        };
+        if reference.effects() != model.effects() {
+            let [with, without] = [&model, &reference].map(|model| mechanics.surface.lags(model));
             let belts = lagging(evidence.tracks(), drive.time_constant);
             let twist = |steady: &Steady| steady.twist(&[0.0; 3]);
             let runs = mechanics.steady.iter();
             let steady: Vec<Vec<Twist>> = runs.map(|run| run.iter().map(twist).collect()).collect();
-            let departures = by_shear([&with, &without], &drive, &belts, &steady);
-            mechanics.by_shear = Some(Arc::new(departures));
-        }
-        let case = Case { vehicle, model: &simple, largest, drive: &drive, evidence };
-        match inertia(inert, &case) {
-            Ok(inertia) => mechanics.inertia = Some(inertia),
-            Err(reason) => mechanics.failed = Some(reason),
+            let departures = by_lag([&with, &without], &drive, &belts, &steady);
+            mechanics.by_lag = Some(Arc::new(departures));
         }
         mechanics
+    }
+
+    /// Whether what inertia adds comes from the same motion in time.
+    pub fn has_inertia_of(&self, other: &Self) -> bool {
+        match (&self.inertia, &other.inertia) {
+            (Some(here), Some(there)) => here.is_from(there),
+            (None, None) => true,
+            _ => false,
+        }
     }
 
     /// Why the hypothesis cannot be: part of the contact lifts, or no motion balances the forces, over a
@@ -237,14 +263,14 @@ impl Mechanics {
                 let departure = departure.map(|departure| seen_from(&departure, offset));
                 let tracks = &evidence.tracks()[sample.run];
                 let steady = &steady[sample.run];
-                let by_shear = self.by_shear.as_ref().map(|departures| &departures[sample.run]);
+                let by_lag = self.by_lag.as_ref().map(|departures| &departures[sample.run]);
                 let pose = motion_over(tracks, sample, sensor.delay, |reading| {
                     let mut twist = steady[reading].twist(offset);
                     if let Some(departure) = &departure {
                         twist = plus(&twist, departure);
                     }
-                    if let Some(by_shear) = by_shear {
-                        twist = plus(&twist, &seen_from(&by_shear[reading], offset));
+                    if let Some(by_lag) = by_lag {
+                        twist = plus(&twist, &seen_from(&by_lag[reading], offset));
                     }
                     ros_twist_from_paper(&sensor.reported(&twist))
                 });

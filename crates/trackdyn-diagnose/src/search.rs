@@ -6,7 +6,7 @@
 //! for every other one: a search that only adds is fooled by effects that resemble each other.
 
 use crate::base::{Base, Calibration, with_vehicle};
-use crate::candidate::{Signature, Variant};
+use crate::candidate::{Beside, Signature, Variant};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, Metric, prior, priors};
 use crate::hypothesis::{Hypothesis, Unknown, active, unknowns_of};
@@ -21,6 +21,9 @@ const DOZEN: usize = 12;
 
 /// Proposals that are refitted with the whole simulator, of singles, pairs and exchanges.
 const REFITTED: [usize; 3] = [3, 2, 2];
+
+/// z from which on an effect is looked for between its variants.
+const SHOWS: f64 = 3.0;
 
 /// Logarithm of the evidence that an effect must add to be kept during the search.
 const WORTH: f64 = 3.0;
@@ -163,6 +166,21 @@ impl Search<'_> {
         }
         best.sort_by(|a, b| b.gain.total_cmp(&a.gain).then(a.effect.cmp(&b.effect)));
         best
+    }
+
+    /// The variants between those of the catalogue that gain most, of what shows beside the base at all.
+    pub fn between(&self, beside: &Beside) -> Vec<(Variant, Vec<Signature>)> {
+        let nothing = self.nothing();
+        let alone = |variant: &Variant, signatures: &[Signature]| -> f64 {
+            let catalogue = Catalogue { entries: vec![(variant.clone(), signatures.to_vec())] };
+            let search = Search { catalogue: &catalogue, ..*self };
+            search.screen(&nothing).first().map_or(f64::NEG_INFINITY, |one| one.gain)
+        };
+        let screened = self.screen(&nothing);
+        let shows = screened.iter().filter(|one| one.z > SHOWS && one.gain.is_finite());
+        shows
+            .filter_map(|one| beside.between(&self.catalogue.entries[one.entry].0, one.gain, alone))
+            .collect()
     }
 
     /// The pairs of the best dozen, best first: gain of ln evidence and both, with the sizes of a pair.

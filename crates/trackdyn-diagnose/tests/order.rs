@@ -1,7 +1,7 @@
 //! The order in which candidates stand says nothing.
 
 use trackdyn_diagnose::base::Base;
-use trackdyn_diagnose::candidate::{candidates, signatures};
+use trackdyn_diagnose::candidate::{Beside, candidates};
 use trackdyn_diagnose::evidence::Evidence;
 use trackdyn_diagnose::fit::{Fit, Metric};
 use trackdyn_diagnose::search::{Catalogue, Found, Search};
@@ -38,7 +38,7 @@ fn both_ways() -> [Found; 2] {
     let metric = Metric { scale: [1.0; 3], runs: vec![true; evidence.runs().len()] };
     let base = Base::new(&file, &evidence, &metric);
     let tried = candidates(&base.instruments, &evidence);
-    let mut entries = signatures(&tried, &base.fit.hypothesis, &evidence, &metric);
+    let mut entries = Beside::new(&base.fit.hypothesis, &evidence, &metric).signatures(&tried);
     [false, true].map(|is_reversed| {
         if is_reversed {
             entries.reverse();

@@ -33,12 +33,13 @@ fn claimed(library: &Library, residual: &[Vector3<f64>], seed: u64) -> Vec<usize
     let base: Vec<usize> = (0..library.base.len()).collect();
     let placebos = library.normal(&metric, &scaled, &library.placebos);
     let known = library.priors(PLACEBOS);
+    let beside = placebos.projected(&base, &known);
     let passed: Vec<usize> = (0..PLACEBOS)
         .filter(|placebo| {
             let columns: Vec<usize> = base.iter().copied().chain([base.len() + placebo]).collect();
             let (without, with) = (placebos.fit(&base, &known), placebos.fit(&columns, &known));
             let ln_bayes_factor = with.ln_evidence - without.ln_evidence;
-            let (gain, error) = cross_validated(&placebos, &known, &base, &columns);
+            let (gain, error) = cross_validated(&beside, &known, &[base.len() + placebo]);
             ln_bayes_factor >= Rules::LN_BAYES_FACTOR && gain >= Rules::GAIN * error
         })
         .collect();

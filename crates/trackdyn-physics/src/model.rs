@@ -131,7 +131,7 @@ impl Model {
 
     /// Stage `ground`: friction and gravity in these circumstances.
     pub fn ground(&self, circumstance: &Circumstance) -> Ground {
-        let mut ground = Ground::level(self.vehicle.friction, *circumstance);
+        let mut ground = Ground::level(&self.vehicle, &self.footprint, *circumstance);
         for effect in &self.effects {
             effect.ground(&mut ground);
         }

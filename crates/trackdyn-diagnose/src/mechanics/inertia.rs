@@ -116,6 +116,21 @@ impl InertiaNear {
         Some(Self { shift: Some(Arc::new(shift)), ..self.clone() })
     }
 
+    /// What it adds where it was found.
+    pub fn unmoved(&self) -> Self {
+        Self { shift: None, ..self.clone() }
+    }
+
+    /// The robot that it was found for.
+    pub fn model(&self) -> Model {
+        Model::new(self.at.vehicle.clone(), self.at.effects.clone())
+    }
+
+    /// Whether both come from one motion in time.
+    pub fn is_from(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.at, &other.at)
+    }
+
     /// What it adds to the twist (paper's frame) during a sample, of this index.
     pub fn departure(&self, index: usize, sample: &Sample, delay: f64) -> Twist {
         let departure = self.at.departure(sample, delay);

@@ -1,4 +1,4 @@
-//! What laws of the shear stress change in the answer to acceleration.
+//! What laws change in the answer to acceleration, where these are in no motion in time.
 //!
 //! # Law
 //! Λ (u̇_s + δ̇) + δ = 0 near the stationary motion u_s, see [`trackdyn_motion::lag`]: the departure δ with these laws
@@ -13,9 +13,9 @@ use trackdyn_core::{PerSide, Twist};
 use trackdyn_physics::Drive;
 use trackdyn_recording::TrackSample;
 
-/// What laws of the shear stress add to the twist (paper's frame) at each reading, from the lags with and without
+/// What laws add to the twist (paper's frame) at each reading, from the lags with and without
 /// them, the readings of belts that follow the encoders as `drive` says, and the stationary twists there.
-pub fn by_shear(
+pub fn by_lag(
     [with, without]: [&Lags; 2],
     drive: &Drive,
     belts: &[Vec<TrackSample>],

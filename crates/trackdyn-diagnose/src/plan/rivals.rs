@@ -2,7 +2,7 @@
 
 use super::question::Question;
 use crate::base::{Base, Calibration, OFFSETS};
-use crate::candidate::{signatures, variants};
+use crate::candidate::{Beside, variants};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, Metric};
 use crate::hypothesis::{Hypothesis, Unknown, active, unknowns_of};
@@ -73,7 +73,7 @@ impl Rival {
             .map(|effect| {
                 let hypothesis = &base.fit.hypothesis;
                 let tried = variants(effect, driving);
-                let entries = signatures(&tried, hypothesis, driving, &metric);
+                let entries = Beside::new(hypothesis, driving, &metric).signatures(&tried);
                 let catalogue = Catalogue { entries };
                 let search = Search {
                     evidence: driving,

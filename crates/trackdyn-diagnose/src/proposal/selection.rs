@@ -101,9 +101,8 @@ impl Library {
             .collect();
         let tests = test(&projected, &groups, options.draws, options.seed);
         let own = family.iter().position(|other| *other == term);
-        let columns = self.columns(terms);
-        let (held_out_gain, held_out_error) =
-            cross_validated(&self.normal, &self.priors, &base, &columns);
+        let columns = own.map_or(&[][..], |own| &groups[own]);
+        let (held_out_gain, held_out_error) = cross_validated(&projected, &self.priors, columns);
         Support {
             p: own.map_or(1.0, |own| tests[own].p),
             ln_bayes_factor: self.ln_evidence(terms) - self.ln_evidence(&others),

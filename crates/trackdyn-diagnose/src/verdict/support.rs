@@ -5,6 +5,7 @@ use crate::fit::Fit;
 use crate::normal::{Normal, Prior};
 use crate::search::{Found, Screened, Search};
 use crate::significance::test;
+use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -77,8 +78,8 @@ impl Support {
     ) -> Self {
         let (normal, known, groups) = search.normal(&without.fit, &[own.entry]);
         let base: Vec<usize> = (0..without.fit.columns.len()).collect();
-        let columns: Vec<usize> = base.iter().chain(&groups[0]).copied().collect();
-        let (held_out_gain, held_out_error) = cross_validated(&normal, &known, &base, &columns);
+        let projected = normal.projected(&base, &known);
+        let (held_out_gain, held_out_error) = cross_validated(&projected, &known, &groups[0]);
         let p = Self::chance(search, without, own.entry, draws, seed);
         Self { p, held_out_gain, held_out_error, ..Self::none() }
     }
@@ -118,8 +119,7 @@ impl Support {
         let base: Vec<usize> = (0..fit.columns.len()).filter(|k| !columns.contains(k)).collect();
         let projected = normal.projected(&base, &known);
         let p = test(&projected, &[columns.to_vec()], draws, seed)[0].p;
-        let all: Vec<usize> = base.iter().chain(columns).copied().collect();
-        let (held_out_gain, held_out_error) = cross_validated(&normal, &known, &base, &all);
+        let (held_out_gain, held_out_error) = cross_validated(&projected, &known, columns);
         Self { p, held_out_gain, held_out_error, stable: 1.0, ..Self::none() }
     }
 }
@@ -159,38 +159,29 @@ pub(super) fn named(
     shares
 }
 
-/// Gain of log-likelihood by more columns on blocks that were left out of their fit, and its standard error.
+/// Gain of log-likelihood by columns on blocks that were left out of their fit, and its standard error. What is free
+/// beside them has been projected out: where one block alone knows a number of that, leaving it out says nothing of
+/// the columns.
 ///
 /// # Law
 /// Where the fit of the other blocks expects the change s_b of a block's prediction, it expects a gain of |s_b|²/2
 /// there, and noise makes it vary by |s_b|. The standard error is the root of Σ (g_b − |s_b|²/2)², or of Σ |s_b|²
 /// where blocks differ less than by the noise. That an effect shows in some blocks more than in others is the
 /// driving, no error.
-pub fn cross_validated(
-    normal: &Normal,
-    known: &[Prior],
-    base: &[usize],
-    columns: &[usize],
-) -> (f64, f64) {
-    let count = normal.blocks();
+pub fn cross_validated(projected: &Normal, known: &[Prior], columns: &[usize]) -> (f64, f64) {
+    let count = projected.blocks();
     let (mut sum, mut spread, mut expected) = (0.0, 0.0, 0.0);
     for fold in 0..FOLDS {
         let range = fold * count / FOLDS..(fold + 1) * count / FOLDS;
-        let training = normal.without(&range);
-        let (less, more) = (training.fit(base, known), training.fit(columns, known));
-        let mut change = more.estimate.clone();
-        for (k, &column) in columns.iter().enumerate() {
-            let place = base.iter().position(|&other| other == column);
-            change[k] -= place.map_or(0.0, |place| less.estimate[place]);
-        }
+        let factors = projected.without(&range).fit(columns, known).estimate;
+        let nothing = DVector::zeros(columns.len());
         for block in range {
-            let gain = (normal.squares_at(block, base, &less.estimate)
-                - normal.squares_at(block, columns, &more.estimate))
-                / 2.0;
-            let squares = normal.change_at(block, columns, &change);
+            let squares = |factors| projected.squares_at(block, columns, factors);
+            let gain = (squares(&nothing) - squares(&factors)) / 2.0;
+            let change = projected.change_at(block, columns, &factors);
             sum += gain;
-            spread += (gain - squares / 2.0).powi(2);
-            expected += squares;
+            spread += (gain - change / 2.0).powi(2);
+            expected += change;
         }
     }
     (sum, spread.max(expected).sqrt())

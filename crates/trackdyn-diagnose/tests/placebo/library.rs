@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 use trackdyn_core::real;
 use trackdyn_diagnose::base::Base;
-use trackdyn_diagnose::candidate::{signatures, variants};
+use trackdyn_diagnose::candidate::{Beside, variants};
 use trackdyn_diagnose::diagnosis::icr_columns;
 use trackdyn_diagnose::evidence::{Evidence, Sample};
 use trackdyn_diagnose::fit::{Metric, priors};
@@ -61,7 +61,7 @@ impl Library {
             .filter(|effect| !instruments.contains(effect))
             .flat_map(|effect| variants(effect, &evidence))
             .collect();
-        let entries = signatures(&tried, &fit.hypothesis, &evidence, &metric);
+        let entries = Beside::new(&fit.hypothesis, &evidence, &metric).signatures(&tried);
         let (mut candidates, mut groups) = (Vec::new(), Vec::new());
         for (_, signatures) in entries {
             let first = candidates.len();

@@ -80,7 +80,7 @@ fn hooks_act_at_the_stages_of_the_card_and_nowhere_else() {
         let mut sensor = Sensor::default();
         effect.sense(&mut sensor);
 
-        let level = Ground::level(vehicle.friction, ELSEWHERE);
+        let level = Ground::level(&vehicle, &footprint, ELSEWHERE);
         let mut ground = level;
         effect.ground(&mut ground);
 

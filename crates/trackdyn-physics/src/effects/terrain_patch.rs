@@ -16,8 +16,8 @@ impl Effect for TerrainPatch {
     const CARD: Card = Card {
         id: "terrain-patch",
         title: "Other ground in one place",
-        law: "μ_x ← k μ_x where |p − p_0| < R",
-        assumes: "A disc; the robot is on it when its origin is. Its edge is not resolved.",
+        law: "μ_x ← (1 + (k − 1) s) μ_x, s the part of a side's length where |p − p_0| < R",
+        assumes: "A disc; each side has the mean friction of what lies under its middle line.",
         shows: "The ICRs jump at a place, the same each time the robot comes by.",
         breaks: &[Symmetry::Place],
         stages: &[Stage::Ground],
@@ -67,12 +67,56 @@ impl Effect for TerrainPatch {
     }
 
     fn ground(&self, ground: &mut Ground) {
-        let [x, y] = ground.circumstance.position;
-        if (x - self.centre[0]).hypot(y - self.centre[1]) < self.radius {
-            for side in Side::BOTH {
-                // μ_x ← k μ_x
-                ground.friction[side].across *= self.ratio;
-            }
+        for side in Side::BOTH {
+            let line = ground.lines[side].map(|end| ground.circumstance.to_world(end));
+            // μ_x ← (1 + (k − 1) s) μ_x
+            ground.friction[side].across *= 1.0 + (self.ratio - 1.0) * self.share(line);
+        }
+    }
+}
+
+impl TerrainPatch {
+    /// The part of a line between two places that lies on the disc.
+    fn share(&self, [from, to]: [[f64; 2]; 2]) -> f64 {
+        let along = [to[0] - from[0], to[1] - from[1]];
+        let away = [from[0] - self.centre[0], from[1] - self.centre[1]];
+        let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+        // |a + t d|² = R²:  d² t² + 2 (a·d) t + a² − R² = 0
+        let (square, half) = (dot(along, along), dot(along, away));
+        let discriminant = half * half - square * (dot(away, away) - self.radius * self.radius);
+        if discriminant <= 0.0 {
+            return 0.0;
+        }
+        let [enters, leaves] = [-1.0, 1.0].map(|sign| (sign * discriminant.sqrt() - half) / square);
+        (leaves.min(1.0) - enters.max(0.0)).max(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_share_of_a_line_is_what_points_along_it_say() {
+        const POINTS: u32 = 100_000;
+        let patch = TerrainPatch { centre: [1.0, -0.5], radius: 0.7, ratio: 1.3 };
+        for (from, to) in [
+            ([0.5, -0.5], [1.2, -0.4]),
+            ([0.0, -0.5], [1.0, -0.2]),
+            ([0.0, -1.0], [2.0, 0.1]),
+            ([1.1, 0.0], [1.1, 2.0]),
+            ([3.0, 0.0], [3.0, 1.0]),
+            ([0.0, 0.21], [2.0, 0.21]),
+        ] {
+            let inside = |k: &u32| {
+                let t = (f64::from(*k) + 0.5) / f64::from(POINTS);
+                let [x, y]: [f64; 2] = std::array::from_fn(|i| from[i] + t * (to[i] - from[i]));
+                (x - 1.0).hypot(y + 0.5) < 0.7
+            };
+            let count = (0..POINTS).filter(inside).count();
+            let expected = trackdyn_core::real(count) / f64::from(POINTS);
+            let share = patch.share([from, to]);
+            assert!((share - expected).abs() < 2e-5, "{from:?} to {to:?}: {share}, {expected}");
         }
     }
 }

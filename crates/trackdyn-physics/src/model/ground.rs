@@ -1,8 +1,10 @@
 //! What the world is where the robot stands.
 
 use crate::contact::Friction;
-use trackdyn_core::frames::paper_from_ros;
-use trackdyn_core::{PerSide, STANDARD_GRAVITY};
+use crate::model::Footprint;
+use crate::vehicle::Vehicle;
+use trackdyn_core::frames::{paper_from_ros, ros_from_paper};
+use trackdyn_core::{PerSide, STANDARD_GRAVITY, Side};
 
 /// Where the robot is and when, in the world's frame (REP-103).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,6 +23,14 @@ impl Circumstance {
         let (sin, cos) = self.heading.sin_cos();
         paper_from_ros([cos * x + sin * y, cos * y - sin * x])
     }
+
+    /// A place of the robot (paper's frame), in the world, m.
+    pub fn to_world(&self, place: [f64; 2]) -> [f64; 2] {
+        let (sin, cos) = self.heading.sin_cos();
+        let [ahead, left] = ros_from_paper(place);
+        let [x, y] = self.position;
+        [x + cos * ahead - sin * left, y + sin * ahead + cos * left]
+    }
 }
 
 /// The ground under the robot and the pull of gravity, in the paper's frame.
@@ -28,6 +38,8 @@ impl Circumstance {
 pub struct Ground {
     /// Where the robot is and when.
     pub circumstance: Circumstance,
+    /// Rear and front end of the middle line of each side's contact, m.
+    pub lines: PerSide<[[f64; 2]; 2]>,
     /// Friction coefficients under each side.
     pub friction: PerSide<Friction>,
     /// Gravity along the ground, (x, y) in m/s².
@@ -37,11 +49,13 @@ pub struct Ground {
 }
 
 impl Ground {
-    /// Level ground with the same friction everywhere.
-    pub fn level(friction: Friction, circumstance: Circumstance) -> Self {
+    /// Level ground with the same friction everywhere, under a vehicle with this contact on each side.
+    pub fn level(vehicle: &Vehicle, footprint: &Footprint, circumstance: Circumstance) -> Self {
+        let line = |side: Side| footprint.ends.map(|y| [side.sign() * vehicle.gauge / 2.0, y]);
         Self {
             circumstance,
-            friction: PerSide::new(friction, friction),
+            lines: PerSide::from_fn(line),
+            friction: PerSide::new(vehicle.friction, vehicle.friction),
             gravity_along: [0.0, 0.0],
             gravity_normal: STANDARD_GRAVITY,
         }

@@ -1,0 +1,67 @@
+//! Places, directions and shapes between those that are tried of every effect.
+
+use super::{Beside, Signature, Variant, spacing};
+use rayon::prelude::*;
+use trackdyn_physics::CATALOGUE;
+use trackdyn_physics::effect::Role;
+
+/// Rounds of a search.
+const ROUNDS: usize = 6;
+
+/// Part of half the distance between what is tried below which steps are too small to tell.
+const SMALLEST: f64 = 0.2;
+
+/// Gain of ln evidence for which a step is taken.
+const WORTH: f64 = 0.1;
+
+impl Variant {
+    /// The same with a step of what is no size: `share` of half the distance between values that are tried.
+    fn moved(&self, parameter: usize, share: f64, beside: &Beside) -> Self {
+        let card = &CATALOGUE[self.effect].parameters[parameter];
+        let by = share * spacing(card, CATALOGUE[self.effect].parameters, beside.evidence) / 2.0;
+        let mut moved = self.clone();
+        let value = &mut moved.values[parameter];
+        *value = if card.role == Role::Shape { *value * by.exp() } else { *value + by };
+        *value = value.clamp(card.range[0], card.range[1]);
+        moved
+    }
+}
+
+impl Beside<'_> {
+    /// The variant near one of this gain that gains most, with its signatures: steps to all sides of what is no size,
+    /// half as long where none is better. None where the variant itself is the best.
+    pub fn between(
+        &self,
+        start: &Variant,
+        gain: f64,
+        gain_of: impl Fn(&Variant, &[Signature]) -> f64 + Sync,
+    ) -> Option<(Variant, Vec<Signature>)> {
+        let sizes = start.sizes();
+        let others = (0..start.values.len()).filter(|parameter| !sizes.contains(parameter));
+        let others: Vec<usize> = others.collect();
+        let (mut best, mut most, mut share) = (None, gain, 1.0);
+        for _ in 0..ROUNDS {
+            let at = best.as_ref().map_or(start, |(variant, _)| variant);
+            let steps =
+                others.iter().flat_map(|&parameter| [(parameter, share), (parameter, -share)]);
+            let steps: Vec<(usize, f64)> = steps.collect();
+            let around = steps.into_par_iter().filter_map(|(parameter, share)| {
+                let variant = at.moved(parameter, share, self);
+                let signatures = variant.signatures(self)?;
+                let gain = gain_of(&variant, &signatures);
+                Some((gain, (variant, signatures)))
+            });
+            let around: Vec<_> = around.collect();
+            match around.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
+                Some((gain, variant)) if gain > most + WORTH => {
+                    (best, most) = (Some(variant), gain);
+                }
+                _ => share /= 2.0,
+            }
+            if share < SMALLEST {
+                break;
+            }
+        }
+        best
+    }
+}

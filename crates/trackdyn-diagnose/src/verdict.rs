@@ -55,7 +55,7 @@ impl Rules {
 }
 
 /// Effects that are named together at most because resampled recordings name now this one, now that.
-const UNSTABLE: usize = 2;
+const UNSTABLE: usize = 3;
 
 /// Rivals of an effect that are refitted.
 const RIVALS: usize = 3;

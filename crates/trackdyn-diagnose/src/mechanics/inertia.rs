@@ -21,11 +21,11 @@ use trackdyn_recording::TrackSample;
 /// Longest step of the motion in time, s: readings come more often.
 const STEP: f64 = 0.05;
 
-/// Part of its typical size by which a parameter may differ from where the motion in time was found. Beyond
-/// what is linear, that changes half a percent of what a typical size adds.
-const REACH: f64 = 0.2;
+/// Part of its typical size by which a parameter may differ from where the motion in time was found, and over which
+/// derivatives are taken: beyond what is linear, that changes less than a thousandth of what a typical size adds.
+const REACH: f64 = 0.05;
 
-/// The same for other effects, and for what the change is taken from: an error there is one of second order.
+/// The same for where its derivatives were found: an error there is one of second order.
 const ALIKE: f64 = 1.0;
 
 /// Part of the gauge, and of the friction ratio, by which the vehicle may differ.
@@ -242,7 +242,7 @@ impl Inertia {
         let is_near = |(place, parameter): (usize, &Parameter), effect: usize| {
             let [here, there] =
                 [&self.effects, case.model.effects()].map(|effects| value(effects, effect, place));
-            (here - there).abs() <= ALIKE * typical_size(parameter)
+            (here - there).abs() <= REACH * typical_size(parameter)
         };
         let near = others.all(|effect| {
             let mut parameters = CATALOGUE[effect].parameters.iter().enumerate();

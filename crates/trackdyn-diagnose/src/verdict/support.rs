@@ -165,12 +165,13 @@ pub(super) fn named(
 ///
 /// # Law
 /// Where the fit of the other blocks expects the change s_b of a block's prediction, it expects a gain of |s_b|²/2
-/// there, and noise makes it vary by |s_b|. The standard error is the root of Σ (g_b − |s_b|²/2)², or of Σ |s_b|²
-/// where blocks differ less than by the noise. That an effect shows in some blocks more than in others is the
-/// driving, no error.
+/// there, and noise makes it vary by |s_b|. With λ = Σ g_b/Σ |s_b|² the standard error is the root of
+/// Σ (g_b − λ |s_b|²)², or of Σ |s_b|² where blocks differ less than by the noise. That an effect shows in some blocks more than
+/// in others is the driving, and that it gains everywhere by another part of what was expected its form: both are no
+/// chance.
 pub fn cross_validated(projected: &Normal, known: &[Prior], columns: &[usize]) -> (f64, f64) {
     let count = projected.blocks();
-    let (mut sum, mut spread, mut expected) = (0.0, 0.0, 0.0);
+    let mut gains = Vec::with_capacity(count);
     for fold in 0..FOLDS {
         let range = fold * count / FOLDS..(fold + 1) * count / FOLDS;
         let factors = projected.without(&range).fit(columns, known).estimate;
@@ -178,11 +179,12 @@ pub fn cross_validated(projected: &Normal, known: &[Prior], columns: &[usize]) -
         for block in range {
             let squares = |factors| projected.squares_at(block, columns, factors);
             let gain = (squares(&nothing) - squares(&factors)) / 2.0;
-            let change = projected.change_at(block, columns, &factors);
-            sum += gain;
-            spread += (gain - change / 2.0).powi(2);
-            expected += change;
+            gains.push((gain, projected.change_at(block, columns, &factors)));
         }
     }
+    let sum: f64 = gains.iter().map(|(gain, _)| gain).sum();
+    let expected: f64 = gains.iter().map(|(_, change)| change).sum();
+    let share = if expected > 0.0 { sum / expected } else { 0.0 };
+    let spread: f64 = gains.iter().map(|(gain, change)| (gain - share * change).powi(2)).sum();
     (sum, spread.max(expected).sqrt())
 }

@@ -5,7 +5,7 @@ use crate::candidate::{Beside, candidates};
 use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::exposure::Exposure;
-use crate::fit::{Fit, Level, Metric};
+use crate::fit::{Fit, Metric};
 use crate::hypothesis::with_friction;
 use crate::isolability::Isolability;
 use crate::locate::cells::{Cell, cells};
@@ -14,7 +14,7 @@ use crate::mechanics::Instruments;
 use crate::noise::{sharper, with_remaining_noise};
 use crate::proposal::{Proposal, completed};
 use crate::search::{Catalogue, Found, Screened, Search};
-use crate::uncertainty::{Interval, intervals};
+use crate::uncertainty::{Interval, Level, Uncertainty};
 use crate::verdict::{Rules, Statics, Verdict, judge, judge_constants, judge_instruments, statics};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
@@ -166,6 +166,8 @@ pub struct Diagnosis {
     pub base: Base,
     /// The best hypothesis, refitted to what is claimed.
     pub best: Found,
+    /// The level of friction in it; none where it is not free.
+    pub friction_level: Option<Level>,
     /// The evidence with the noise that its residuals show.
     pub evidence: Evidence,
     /// The metric of all residuals here.
@@ -264,7 +266,8 @@ fn attempt(
     progress(STAGES[3]);
 
     let statics = statics(&search);
-    let Judgement { best, missing, refused } = judged(&search, found, &statics, file, options);
+    let Judgement { best, friction_level, missing, refused } =
+        judged(&search, found, &statics, file, options);
     progress(STAGES[4]);
 
     let of_best = icr_columns(evidence, &best.fit);
@@ -278,7 +281,7 @@ fn attempt(
     let resemblance = Isolability::new(&search, &search.nothing(), &screened);
     let exposures = exposures(&search, &best.fit, &missing, &screened, &statics.only);
     let detectable = isolability.detectable();
-    let corrected = corrected(file, &best, &missing);
+    let corrected = corrected(file, &best, friction_level.as_ref(), &missing);
     let held_out = held_out(&search, &best, &of_best, &missing, options);
     let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]
         .map(|(fit, icrs)| cells(evidence, metric, &fit.residual, icrs));
@@ -304,6 +307,7 @@ fn attempt(
         cells,
         base,
         best,
+        friction_level,
         metric: metric.clone(),
         evidence: evidence.clone(),
         corrected,
@@ -314,6 +318,7 @@ fn attempt(
 /// What is claimed, what is refused, and the hypothesis with the claims alone.
 struct Judgement {
     best: Found,
+    friction_level: Option<Level>,
     missing: Vec<Missing>,
     refused: Vec<Verdict>,
 }
@@ -334,7 +339,8 @@ fn judged(
     let best = dropped.fold(found, |found, verdict| search.without(&found, verdict.effect));
     let instruments = judge_instruments(search, &best, draws, seed);
     let constants = judge_constants(search, &best, statics, file, draws, seed);
-    let intervals = intervals(search, &best);
+    let uncertainty = Uncertainty::of(search, &best);
+    let intervals = uncertainty.intervals(&best.fit);
     let of = |effect: usize| -> Vec<Interval> {
         intervals.iter().filter(|interval| interval.unknown.is_of(effect)).copied().collect()
     };
@@ -350,7 +356,8 @@ fn judged(
             missing.push(Missing { kind, verdict, parameters });
         }
     }
-    Judgement { best, missing, refused }
+    let friction_level = uncertainty.friction_level(&best.fit);
+    Judgement { best, friction_level, missing, refused }
 }
 
 fn status(left_over: &[Symmetry], missing: &[Missing]) -> Status {
@@ -410,9 +417,14 @@ pub fn icr_columns(evidence: &Evidence, fit: &Fit) -> IcrColumns {
 /// The vehicle that explains the evidence: the filed one, with what is claimed and the level of friction where it
 /// surely differs. Where the constant ICRs were wrong, friction ratio and centre of gravity stand for all that could
 /// move them.
-fn corrected(file: &VehicleFile, best: &Found, missing: &[Missing]) -> VehicleFile {
+fn corrected(
+    file: &VehicleFile,
+    best: &Found,
+    friction_level: Option<&Level>,
+    missing: &[Missing],
+) -> VehicleFile {
     let mut corrected = file.clone();
-    if let Some(level) = best.fit.friction_level().filter(Level::is_sure) {
+    if let Some(level) = friction_level.filter(|level| level.is_sure()) {
         corrected.vehicle = with_friction(&file.vehicle, level.value);
     }
     for missing in missing {

@@ -310,28 +310,12 @@ impl Point {
     }
 }
 
-/// A level of friction that was found: the logarithm of the factor of both coefficients.
-#[derive(Clone, Copy, Debug)]
-pub struct Level {
-    /// Estimate.
-    pub value: f64,
-    /// Its standard deviation.
-    pub deviation: f64,
-}
-
-impl Level {
-    /// Whether it surely differs from that of the vehicle file: three standard deviations.
-    pub fn is_sure(&self) -> bool {
-        self.value.abs() > 3.0 * self.deviation
-    }
-}
-
 impl Fit {
     /// Fits the unknowns of a hypothesis, from its numbers on. `before` is the mechanics of a hypothesis that
     /// resembles it ([`Mechanics::beside`]).
     ///
-    /// What inertia adds stays that of one motion in time, with its derivatives, until the fit ends; where that is
-    /// far from where it was found, it is found there, and the fit goes on.
+    /// What inertia adds stays that of one motion in time, with its derivatives, as long as what it does not come from
+    /// resembles what it was found for. Where the fit ends it is found anew unless that is near, and the fit goes on.
     pub fn new(
         start: Hypothesis,
         unknowns: &[Unknown],
@@ -392,17 +376,10 @@ impl Fit {
         const SHARES: [f64; 4] = [1.0, 0.4, 0.15, 0.05];
         SHARES.into_iter().find_map(|share| {
             let hypothesis = self.stepped(share);
-            let mechanics = self.mechanics.varied(&hypothesis, evidence);
+            let mechanics = self.mechanics.on_the_way(&hypothesis, &self.unknowns, evidence);
             let point = Point::new(hypothesis, mechanics, &self.unknowns, evidence, metric);
             (point.objective < self.objective).then_some(point)
         })
-    }
-
-    /// The level of friction; none where it is not free.
-    pub fn friction_level(&self) -> Option<Level> {
-        let place = self.unknowns.iter().position(|one| *one == Unknown::FrictionLevel)?;
-        let deviation = self.solution.covariance[(place, place)].max(0.0).sqrt();
-        Some(Level { value: self.hypothesis.friction_level, deviation })
     }
 
     /// A hypothesis as it stands, with its derivatives.

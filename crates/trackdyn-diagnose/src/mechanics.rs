@@ -113,15 +113,29 @@ impl Mechanics {
         free: &[Unknown],
         evidence: &Evidence,
     ) -> Self {
-        let delay = Instruments::of(hypothesis).sensor.delay;
         Self::found(before, hypothesis, evidence, |inert, case| {
-            let is_free = |effect: &ActiveEffect| {
-                free.iter()
-                    .any(|unknown| unknown.card().is_some_and(|card| card.id == effect.card().id))
-            };
-            let is_free = inert.iter().any(is_free) || free.contains(&Unknown::FrictionLevel);
-            let free_at = is_free.then_some(delay);
             let known = before.and_then(|before| before.inertia.as_ref());
+            let free_at = delay_where_free(hypothesis, &inert, free);
+            InertiaNear::beside(known, inert, case, free_at)
+        })
+    }
+
+    /// The mechanics of a hypothesis on the way of a fit: what inertia adds is taken from here, however far what it comes
+    /// from has moved, as long as the rest resembles this one.
+    pub fn on_the_way(
+        &self,
+        hypothesis: &Hypothesis,
+        free: &[Unknown],
+        evidence: &Evidence,
+    ) -> Self {
+        Self::found(Some(self), hypothesis, evidence, |inert, case| {
+            let known = self.inertia.as_ref();
+            let alike = known.filter(|known| known.is_alike(case, &inert));
+            let moved = alike.and_then(|known| known.moved(&inert, case.model.vehicle(), f64::MAX));
+            if let Some(moved) = moved {
+                return Ok(moved);
+            }
+            let free_at = delay_where_free(hypothesis, &inert, free);
             InertiaNear::beside(known, inert, case, free_at)
         })
     }
@@ -278,6 +292,19 @@ impl Mechanics {
             })
             .collect()
     }
+}
+
+/// The delay of the poses, s, where values of the effects that inertia comes from are free, or the level of friction is.
+fn delay_where_free(
+    hypothesis: &Hypothesis,
+    inert: &[ActiveEffect],
+    free: &[Unknown],
+) -> Option<f64> {
+    let is_free = |effect: &ActiveEffect| {
+        free.iter().any(|unknown| unknown.card().is_some_and(|card| card.id == effect.card().id))
+    };
+    let any = inert.iter().any(is_free) || free.contains(&Unknown::FrictionLevel);
+    any.then(|| Instruments::of(hypothesis).sensor.delay)
 }
 
 /// The stationary motion at each reading of each run.

@@ -21,7 +21,7 @@ use crate::locate::{Location, excess, locate};
 use crate::mechanics::Instruments;
 use crate::normal::Prior;
 use crate::search::{Catalogue, Found, Search};
-use crate::uncertainty::{Interval, intervals};
+use crate::uncertainty::{Interval, Uncertainty};
 use crate::verdict::{Rules, Support};
 use selection::{Library, Selected};
 use trackdyn_core::real;
@@ -137,7 +137,7 @@ fn law(
     if !sound {
         return None;
     }
-    let intervals = intervals(&search, &found);
+    let intervals = Uncertainty::of(&search, &found).intervals(&found.fit);
     let of = |unknown: Unknown| intervals.iter().find(|one| one.unknown == unknown).copied();
     let terms = selected.into_iter().map(|selected| Proposed {
         coefficients: library.unknowns(selected.term).into_iter().filter_map(of).collect(),

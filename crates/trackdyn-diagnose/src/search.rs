@@ -28,6 +28,9 @@ const SHOWS: f64 = 3.0;
 /// Logarithm of the evidence that an effect must add to be kept during the search.
 const WORTH: f64 = 3.0;
 
+/// By how much a round must raise that: a fit from another start ends as far from the same minimum.
+const BETTER: f64 = 0.5;
+
 /// Part of that which the linear screen must promise.
 const NEARLY: f64 = 0.7;
 
@@ -366,7 +369,9 @@ impl Search<'_> {
                 .chain(refitted)
                 .max_by(|a, b| value(a).total_cmp(&value(b)).then(b.effects.cmp(&a.effects)));
             match next {
-                Some(next) if value(&next) > value(&best) + 1e-6 => best = self.reconsidered(next),
+                Some(next) if value(&next) > value(&best) + BETTER => {
+                    best = self.reconsidered(next);
+                }
                 _ => return best,
             }
         }

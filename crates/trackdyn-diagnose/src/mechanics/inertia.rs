@@ -22,10 +22,10 @@ use trackdyn_recording::TrackSample;
 const STEP: f64 = 0.05;
 
 /// Part of its typical size by which a parameter may differ from where the motion in time was found, and over which
-/// derivatives are taken: beyond what is linear, that changes less than a thousandth of what a typical size adds.
-const REACH: f64 = 0.05;
+/// derivatives are taken. Beyond what is linear, that changes half a percent of what a typical size adds.
+const REACH: f64 = 0.2;
 
-/// The same for where its derivatives were found: an error there is one of second order.
+/// The same on the way of a fit, and for where derivatives were found: an error there is one of second order.
 const ALIKE: f64 = 1.0;
 
 /// Part of the gauge, and of the friction ratio, by which the vehicle may differ.
@@ -80,7 +80,7 @@ impl InertiaNear {
         case: &Case,
         free_at: Option<f64>,
     ) -> Result<Self, String> {
-        let known = before.filter(|before| before.at.resembles(case, &inert));
+        let known = before.filter(|before| before.at.resembles(case, &inert, REACH));
         if let Some(near) = known.and_then(|known| known.moved(&inert, case.model.vehicle(), REACH))
         {
             return Ok(near);
@@ -93,6 +93,11 @@ impl InertiaNear {
         let known = known.filter(|known| are_near(&known.inert, inert, ALIKE));
         let slopes = known.or_else(|| Slopes::new(&here.at, case, delay).map(Arc::new));
         Ok(Self { slopes, ..here })
+    }
+
+    /// Whether all but the effects that it comes from is alike: not near enough to end a fit with, but on the way.
+    pub fn is_alike(&self, case: &Case, inert: &[ActiveEffect]) -> bool {
+        self.at.resembles(case, inert, ALIKE)
     }
 
     /// The same for other values of the effects that it comes from, up to `reach` of a typical size, and as much
@@ -230,8 +235,9 @@ impl Inertia {
         Ok(Self { inert, vehicle, effects, paths: paths?, belts, steady })
     }
 
-    /// Whether all but the effects that it comes from is about the same.
-    fn resembles(&self, case: &Case, inert: &[ActiveEffect]) -> bool {
+    /// Whether all but the effects that it comes from is about the same: other effects within `reach` of their typical
+    /// sizes.
+    fn resembles(&self, case: &Case, inert: &[ActiveEffect], reach: f64) -> bool {
         let (here, there) = (&self.vehicle, case.model.vehicle());
         let moved = (here.cog[0] - there.cog[0]).hypot(here.cog[1] - there.cog[1]);
         let ratio = |vehicle: &Vehicle| vehicle.friction.across / vehicle.friction.along;
@@ -242,7 +248,7 @@ impl Inertia {
         let is_near = |(place, parameter): (usize, &Parameter), effect: usize| {
             let [here, there] =
                 [&self.effects, case.model.effects()].map(|effects| value(effects, effect, place));
-            (here - there).abs() <= REACH * typical_size(parameter)
+            (here - there).abs() <= reach * typical_size(parameter)
         };
         let near = others.all(|effect| {
             let mut parameters = CATALOGUE[effect].parameters.iter().enumerate();

@@ -3,11 +3,11 @@
 use std::fmt::Write;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::document::separate_by;
-use trackdyn_diagnose::fit::Level;
 use trackdyn_diagnose::locate::SURE;
 use trackdyn_diagnose::noise;
 use trackdyn_diagnose::place::words;
 use trackdyn_diagnose::proposal::Proposal;
+use trackdyn_diagnose::uncertainty::Level;
 use trackdyn_diagnose::{Diagnosis, Evidence, Status};
 use trackdyn_physics::CATALOGUE;
 use trackdyn_physics::effect::Symmetry;
@@ -41,8 +41,8 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
             let _ = writeln!(text, "           decides: {}", separate_by(missing));
         }
     }
-    if let Some(level) = diagnosis.best.fit.friction_level().filter(Level::is_sure) {
-        let _ = writeln!(text, "friction {}", friction(level));
+    if let Some(level) = diagnosis.friction_level.as_ref().filter(|level| level.is_sure()) {
+        let _ = writeln!(text, "friction {}", friction(*level));
     }
     for verdict in &diagnosis.refused {
         let id = CATALOGUE[verdict.effect].id;

@@ -28,6 +28,9 @@ const SHOWS: f64 = 3.0;
 /// Logarithm of the evidence that an effect must add to be kept during the search.
 const WORTH: f64 = 3.0;
 
+/// Rounds of a search: three effects come in as many, two more exchange them.
+const ROUNDS: usize = 5;
+
 /// By how much a round must raise that: a fit from another start ends as far from the same minimum.
 const BETTER: f64 = 0.5;
 
@@ -321,7 +324,7 @@ impl Search<'_> {
     /// The best hypothesis.
     pub fn best(&self) -> Found {
         let mut best = self.nothing();
-        loop {
+        for _ in 0..ROUNDS {
             let mut proposals: Vec<(Found, Vec<Screened>)> = Vec::new();
             if best.effects.len() < MOST_EFFECTS {
                 let mut screened = self.screen(&best);
@@ -372,9 +375,10 @@ impl Search<'_> {
                 Some(next) if value(&next) > value(&best) + BETTER => {
                     best = self.reconsidered(next);
                 }
-                _ => return best,
+                _ => break,
             }
         }
+        best
     }
 }
 

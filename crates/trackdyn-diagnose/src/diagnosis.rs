@@ -281,7 +281,7 @@ fn attempt(
     let resemblance = Isolability::new(&search, &search.nothing(), &screened);
     let exposures = exposures(&search, &best.fit, &missing, &screened, &statics.only);
     let detectable = isolability.detectable();
-    let corrected = corrected(file, &best, friction_level.as_ref(), &missing);
+    let corrected = corrected(file, &best, friction_level, &missing);
     let held_out = held_out(&search, &best, &of_best, &missing, options);
     let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]
         .map(|(fit, icrs)| cells(evidence, metric, &fit.residual, icrs));
@@ -420,11 +420,11 @@ pub fn icr_columns(evidence: &Evidence, fit: &Fit) -> IcrColumns {
 fn corrected(
     file: &VehicleFile,
     best: &Found,
-    friction_level: Option<&Level>,
+    friction_level: Option<Level>,
     missing: &[Missing],
 ) -> VehicleFile {
     let mut corrected = file.clone();
-    if let Some(level) = friction_level.filter(|level| level.is_sure()) {
+    if let Some(level) = friction_level.filter(Level::is_sure) {
         corrected.vehicle = with_friction(&file.vehicle, level.value);
     }
     for missing in missing {

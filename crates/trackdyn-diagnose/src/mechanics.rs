@@ -23,7 +23,7 @@ use crate::hypothesis::{Hypothesis, Unknown};
 use crate::surface::{Steady, Surface};
 use belts::lagging;
 use ground::{by_ground, varies};
-use inertia::{Case, InertiaNear};
+use inertia::{Case, InertiaNear, Within};
 use lag::by_lag;
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -113,11 +113,7 @@ impl Mechanics {
         free: &[Unknown],
         evidence: &Evidence,
     ) -> Self {
-        Self::found(before, hypothesis, evidence, |inert, case| {
-            let known = before.and_then(|before| before.inertia.as_ref());
-            let free_at = delay_where_free(hypothesis, &inert, free);
-            InertiaNear::beside(known, inert, case, free_at)
-        })
+        Self::near(before, hypothesis, free, evidence, Within::REACH)
     }
 
     /// The mechanics of a hypothesis on the way of a fit: what inertia adds is taken from here, however far what it comes
@@ -128,15 +124,20 @@ impl Mechanics {
         free: &[Unknown],
         evidence: &Evidence,
     ) -> Self {
-        Self::found(Some(self), hypothesis, evidence, |inert, case| {
-            let known = self.inertia.as_ref();
-            let alike = known.filter(|known| known.is_alike(case, &inert));
-            let moved = alike.and_then(|known| known.moved(&inert, case.model.vehicle(), f64::MAX));
-            if let Some(moved) = moved {
-                return Ok(moved);
-            }
+        Self::near(Some(self), hypothesis, free, evidence, Within::THE_WAY)
+    }
+
+    fn near(
+        before: Option<&Self>,
+        hypothesis: &Hypothesis,
+        free: &[Unknown],
+        evidence: &Evidence,
+        within: Within,
+    ) -> Self {
+        Self::found(before, hypothesis, evidence, |inert, case| {
+            let known = before.and_then(|before| before.inertia.as_ref());
             let free_at = delay_where_free(hypothesis, &inert, free);
-            InertiaNear::beside(known, inert, case, free_at)
+            InertiaNear::beside(known, inert, case, free_at, within)
         })
     }
 
@@ -204,14 +205,14 @@ impl Mechanics {
             }
             (Err(_), Some(known)) => {
                 mechanics.inertia = Some(known.unmoved());
-                known.model()
+                known.model().clone()
             }
             (Err(reason), None) => {
                 mechanics.failed = Some(reason);
                 return mechanics;
             }
         };
-        if reference.effects() != model.effects() {
+        if reference.effects() != model.effects() || reference.vehicle() != model.vehicle() {
             let [with, without] = [&model, &reference].map(|model| mechanics.surface.lags(model));
             let belts = lagging(evidence.tracks(), drive.time_constant);
             let twist = |steady: &Steady| steady.twist(&[0.0; 3]);

@@ -131,16 +131,16 @@ impl Judge<'_> {
         let columns = still.columns(&others)?;
         let rows = shapes.iter().chain(columns.iter().flatten()).map(Vec::len).min();
         let rows = rows.unwrap_or_default();
-        let whole: Vec<&[f64]> = concealed.iter().map(|one| &one.signature[..]).collect();
-        let few: Vec<&[f64]> = shapes.iter().map(|shape| &shape[..rows]).collect();
+        let signatures: Vec<&[f64]> = concealed.iter().map(|one| &one.signature[..]).collect();
+        let shapes: Vec<&[f64]> = shapes.iter().map(|shape| &shape[..rows]).collect();
         let standings = concealed.iter().enumerate().map(|(index, sized)| {
             let taken = |rows: usize, all: &[&[f64]]| {
                 let beside = all.iter().enumerate().filter(|(other, _)| *other != index);
                 self.taken(rows, &beside.map(|(_, other)| *other).collect::<Vec<_>>())
             };
-            let z_det = taken(self.bench.rows(), &whole).outside(&sized.signature);
+            let z_det = taken(self.bench.rows(), &signatures).outside(&sized.signature);
             // what is compared was driven alike: without inertia, in the first runs
-            let (space, part) = (taken(rows, &few), few[index]);
+            let (space, part) = (taken(rows, &shapes), shapes[index]);
             let whole = space.outside(part);
             let left = others.iter().zip(&columns).map(|(alternative, columns)| {
                 let mut space = space.clone();

@@ -15,7 +15,7 @@ use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
 use trackdyn_motion::Transient;
 use trackdyn_physics::effect::Parameter;
-use trackdyn_physics::{ActiveEffect, CATALOGUE, Drive, Effects, Model, Vehicle};
+use trackdyn_physics::{ActiveEffect, CATALOGUE, Drive, Model, Vehicle};
 use trackdyn_recording::TrackSample;
 
 /// Longest step of the motion in time, s: readings come more often.
@@ -27,6 +27,22 @@ const REACH: f64 = 0.2;
 
 /// The same on the way of a fit, and for where derivatives were found: an error there is one of second order.
 const ALIKE: f64 = 1.0;
+
+/// How far a hypothesis may be from where the motion in time was found to be taken for near, in typical sizes.
+#[derive(Clone, Copy)]
+pub struct Within {
+    /// The effects that it comes from, and the logarithm of friction.
+    inert: f64,
+    /// Other effects.
+    others: f64,
+}
+
+impl Within {
+    /// Near enough to end a fit with.
+    pub const REACH: Self = Self { inert: REACH, others: REACH };
+    /// On the way of a fit: as far as slopes may lead.
+    pub const THE_WAY: Self = Self { inert: f64::MAX, others: ALIKE };
+}
 
 /// Part of the gauge, and of the friction ratio, by which the vehicle may differ.
 const CLOSE: f64 = 0.02;
@@ -79,10 +95,11 @@ impl InertiaNear {
         inert: Vec<ActiveEffect>,
         case: &Case,
         free_at: Option<f64>,
+        within: Within,
     ) -> Result<Self, String> {
-        let known = before.filter(|before| before.at.resembles(case, &inert, REACH));
-        if let Some(near) = known.and_then(|known| known.moved(&inert, case.model.vehicle(), REACH))
-        {
+        let known = before.filter(|before| before.at.resembles(case, &inert, within.others));
+        let vehicle = case.model.vehicle();
+        if let Some(near) = known.and_then(|known| known.moved(&inert, vehicle, within.inert)) {
             return Ok(near);
         }
         let here = Self::here(inert, case)?;
@@ -95,17 +112,12 @@ impl InertiaNear {
         Ok(Self { slopes, ..here })
     }
 
-    /// Whether all but the effects that it comes from is alike: not near enough to end a fit with, but on the way.
-    pub fn is_alike(&self, case: &Case, inert: &[ActiveEffect]) -> bool {
-        self.at.resembles(case, inert, ALIKE)
-    }
-
     /// The same for other values of the effects that it comes from, up to `reach` of a typical size, and as much
     /// more or less friction; none where these are not near, or slopes not known.
     pub fn moved(&self, inert: &[ActiveEffect], vehicle: &Vehicle, reach: f64) -> Option<Self> {
-        let level = (level(vehicle) / level(&self.at.vehicle)).ln();
+        let level = (level(vehicle) / level(self.at.model.vehicle())).ln();
         if self.at.inert == inert && level.abs() < SAME {
-            return Some(Self { shift: None, ..self.clone() });
+            return Some(self.unmoved());
         }
         let slopes = self.slopes.as_ref()?;
         if !are_near(&self.at.inert, inert, reach) || level.abs() > reach {
@@ -127,8 +139,8 @@ impl InertiaNear {
     }
 
     /// The robot that it was found for.
-    pub fn model(&self) -> Model {
-        Model::new(self.at.vehicle.clone(), self.at.effects.clone())
+    pub fn model(&self) -> &Model {
+        &self.at.model
     }
 
     /// Whether both come from one motion in time.
@@ -204,8 +216,7 @@ struct Inertia {
     /// The effects that it comes from.
     inert: Vec<ActiveEffect>,
     /// The robot.
-    vehicle: Vehicle,
-    effects: Effects,
+    model: Model,
     /// Motion in time of each run, by the clock of the encoders.
     paths: Vec<Trajectory>,
     /// Speeds of the belts behind it, m/s.
@@ -231,14 +242,13 @@ impl Inertia {
         let speeds = |reading: &TrackSample| PerSide::new(reading.v_left, reading.v_right);
         let twist = |reading: &TrackSample| surface.motion(speeds(reading)).twist(&[0.0; 3]);
         let steady = belts.iter().map(|run| run.iter().map(twist).collect()).collect();
-        let (vehicle, effects) = (model.vehicle().clone(), model.effects().clone());
-        Ok(Self { inert, vehicle, effects, paths: paths?, belts, steady })
+        Ok(Self { inert, model: model.clone(), paths: paths?, belts, steady })
     }
 
     /// Whether all but the effects that it comes from is about the same: other effects within `reach` of their typical
     /// sizes.
     fn resembles(&self, case: &Case, inert: &[ActiveEffect], reach: f64) -> bool {
-        let (here, there) = (&self.vehicle, case.model.vehicle());
+        let (here, there) = (self.model.vehicle(), case.model.vehicle());
         let moved = (here.cog[0] - there.cog[0]).hypot(here.cog[1] - there.cog[1]);
         let ratio = |vehicle: &Vehicle| vehicle.friction.across / vehicle.friction.along;
         let grips = (ratio(here) / ratio(there)).ln().abs();
@@ -247,7 +257,7 @@ impl Inertia {
         let mut others = (0..CATALOGUE.len()).filter(is_other);
         let is_near = |(place, parameter): (usize, &Parameter), effect: usize| {
             let [here, there] =
-                [&self.effects, case.model.effects()].map(|effects| value(effects, effect, place));
+                [&self.model, case.model].map(|model| value(model.effects(), effect, place));
             (here - there).abs() <= reach * typical_size(parameter)
         };
         let near = others.all(|effect| {

@@ -4,7 +4,7 @@ use crate::contact::Friction;
 use crate::model::Footprint;
 use crate::vehicle::Vehicle;
 use trackdyn_core::frames::{paper_from_ros, ros_from_paper};
-use trackdyn_core::{PerSide, STANDARD_GRAVITY, Side};
+use trackdyn_core::{PerSide, Pose, STANDARD_GRAVITY, Side};
 
 /// Where the robot is and when, in the world's frame (REP-103).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,10 +26,9 @@ impl Circumstance {
 
     /// A place of the robot (paper's frame), in the world, m.
     pub fn to_world(&self, place: [f64; 2]) -> [f64; 2] {
-        let (sin, cos) = self.heading.sin_cos();
-        let [ahead, left] = ros_from_paper(place);
-        let [x, y] = self.position;
-        [x + cos * ahead - sin * left, y + sin * ahead + cos * left]
+        let ([x, y], [ahead, left]) = (self.position, ros_from_paper(place));
+        let there = Pose::new(x, y, self.heading).compose(&Pose::new(ahead, left, 0.0));
+        [there.x, there.y]
     }
 }
 

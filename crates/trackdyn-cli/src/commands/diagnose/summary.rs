@@ -41,8 +41,8 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
             let _ = writeln!(text, "           decides: {}", separate_by(missing));
         }
     }
-    if let Some(level) = diagnosis.friction_level.as_ref().filter(|level| level.is_sure()) {
-        let _ = writeln!(text, "friction {}", friction(*level));
+    if let Some(level) = diagnosis.friction_level.filter(Level::is_sure) {
+        let _ = writeln!(text, "friction {}", friction(level));
     }
     for verdict in &diagnosis.refused {
         let id = CATALOGUE[verdict.effect].id;

@@ -6,10 +6,14 @@ use trackdyn_motion::Transient;
 use trackdyn_physics::{ActiveEffect, CATALOGUE, Effects, Model, VehicleFile};
 use trackdyn_proof::{ActiveMechanism, Robot, Setup};
 
-/// Least cosine between what both simulators make of an effect. Where the laws are the same it is 1.000;
-/// other forms of one mechanism go down to 0.9 (creep of shoes against creep of a belt), and Wong's hump,
-/// which softens after its peak where Janosi's law does not, to 0.6. A wrong sign is negative.
-const ALIKE: f64 = 0.5;
+/// Least cosine between what both simulators make of an effect. Where the laws are the same it is 1.000; a hull that leans
+/// with a delay has 0.99.
+const ALIKE: f64 = 0.95;
+
+/// The same where one mechanism has two forms: creep of shoes and creep of a belt, half of an excess that is lost
+/// sooner or later; and Wong's hump, which softens after its peak where Janosi's law does not. A wrong sign is negative.
+const OF_ANOTHER_FORM: [(&str, f64); 3] =
+    [("stribeck-friction", 0.85), ("friction-creep", 0.85), ("shear-displacement", 0.4)];
 
 /// Turns both ways, forward and backward, slow and fast, and straights, with gentle changes.
 fn schedule() -> Schedule {
@@ -43,7 +47,8 @@ fn schedule() -> Schedule {
 fn own(effects: &[ActiveEffect]) -> Trajectory {
     let vehicle = VehicleFile::auriga_alpha().vehicle;
     let model = Model::new(vehicle, effects.iter().cloned().collect::<Effects>());
-    let mut robot = Transient::at_rest(&model, 0.0, Pose::default());
+    // a hull on springs unloads an end without a word: to go on is next to that
+    let mut robot = Transient::at_rest(&model, 0.0, Pose::default()).with_pull();
     let path = robot.follow(&schedule()).unwrap_or_else(|stop| panic!("{effects:?}: {stop}"));
     model.sensor().reported_path(&path)
 }
@@ -72,26 +77,42 @@ fn change(with: &Trajectory, without: &Trajectory) -> Vec<f64> {
         .collect()
 }
 
-#[test]
-fn effects_do_the_same_in_both_simulators() {
-    let base = (own(&[]), independent(&[]));
+/// Effects that are not alike, added one by one to a robot that these act on already.
+fn unlike(beside: &[&str]) -> Vec<&'static str> {
+    let typical = |id: &str| ActiveEffect::new(id, &[]).expect("typical sizes");
+    let beside: Vec<ActiveEffect> = beside.iter().map(|id| typical(id)).collect();
+    let base = (own(&beside), independent(&beside));
     let floor = norm(&change(&base.0, &base.1));
     println!("base motions differ by {:.2} mm, mrad rms", rms(floor));
     println!("{:24}{:>10}{:>10}{:>8}{:>8}", "effect", "own", "other", "cosine", "ratio");
     let mut wrong = Vec::new();
-    for card in CATALOGUE.iter().filter(|card| !card.is_form()) {
-        let effect = ActiveEffect::new(card.id, &[]).expect("typical sizes");
-        let ours = change(&own(std::slice::from_ref(&effect)), &base.0);
-        let theirs = change(&independent(std::slice::from_ref(&effect)), &base.1);
+    let is_new = |id: &str| beside.iter().all(|effect| effect.card().id != id);
+    for card in CATALOGUE.iter().filter(|card| !card.is_form() && is_new(card.id)) {
+        let effects: Vec<ActiveEffect> = beside.iter().cloned().chain([typical(card.id)]).collect();
+        let ours = change(&own(&effects), &base.0);
+        let theirs = change(&independent(&effects), &base.1);
         let (size, other) = (norm(&ours), norm(&theirs));
         let dot: f64 = ours.iter().zip(&theirs).map(|(a, b)| a * b).sum();
         let (cosine, ratio) = (dot / (size * other), size / other);
         println!("{:24}{:10.2}{:10.2}{cosine:8.3}{ratio:8.2}", card.id, rms(size), rms(other));
-        if cosine < ALIKE || !(0.5..2.0).contains(&ratio) {
+        let form = OF_ANOTHER_FORM.iter().find(|(id, _)| *id == card.id);
+        let alike = form.map_or(ALIKE, |(_, alike)| *alike);
+        if cosine < alike || !(0.5..2.0).contains(&ratio) {
             wrong.push(card.id);
         }
     }
-    assert!(wrong.is_empty(), "{wrong:?}");
+    wrong
+}
+
+#[test]
+fn effects_do_the_same_in_both_simulators() {
+    assert_eq!(unlike(&[]), [""; 0]);
+}
+
+/// Forces that only speeding up knows, such as the load that a high centre of gravity throws back.
+#[test]
+fn effects_do_the_same_to_a_robot_with_mass() {
+    assert_eq!(unlike(&["yaw-inertia", "centripetal"]), [""; 0]);
 }
 
 fn norm(values: &[f64]) -> f64 {

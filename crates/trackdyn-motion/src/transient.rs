@@ -47,6 +47,8 @@ pub struct Transient<'m> {
     /// Whether some force stands against acceleration: a body without inertia jumps, and its
     /// acceleration means nothing.
     has_inertia: bool,
+    /// Whether it goes on where some of the contact would have to pull.
+    may_pull: bool,
     state: State,
 }
 
@@ -85,12 +87,24 @@ impl<'m> Transient<'m> {
             traction: still,
             lifts: false,
         };
-        Self { model, longest_step: Self::STEP, has_inertia: Self::feels_inertia(model), state }
+        Self {
+            model,
+            longest_step: Self::STEP,
+            has_inertia: Self::feels_inertia(model),
+            may_pull: false,
+            state,
+        }
     }
 
     /// The same with another longest step, s.
     pub fn with_step(self, longest_step: f64) -> Self {
         Self { longest_step, ..self }
+    }
+
+    /// The same, going on where part of the contact lifts, with a pressure that stays linear and pulls there. Where
+    /// the load shifts by 1 + ε times what keeps all of the contact down, forces are off by a part of ε².
+    pub fn with_pull(self) -> Self {
+        Self { may_pull: true, ..self }
     }
 
     /// The same with another twist (paper's frame).
@@ -224,7 +238,7 @@ impl Plant for Transient<'_> {
             self.step(speeds, end - self.state.t, 0)?;
             self.state.t = end;
             trajectory.push(self.moment());
-            if self.state.lifts {
+            if self.state.lifts && !self.may_pull {
                 let reason =
                     "part of the contact lifts off the ground, for the load shifts too far; \
                               gentler speeds, or a lower centre of gravity, keep it down"

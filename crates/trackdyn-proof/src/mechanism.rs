@@ -188,6 +188,8 @@ pub struct Step<'a> {
     pub dt: f64,
     /// Speeds that the mechanism's `drive` was given, m/s.
     pub fed: PerSide<f64>,
+    /// What stands against acceleration.
+    pub inertia: Inertia,
     /// Twist at its end, paper's frame.
     pub twist: Twist,
     /// Force of the ground along each track, forward positive, N.

@@ -195,6 +195,7 @@ impl Robot {
             scene: &scene,
             dt,
             fed: belt,
+            inertia: self.inertia,
             twist,
             traction: outcome.traction,
             heat: outcome.heat,

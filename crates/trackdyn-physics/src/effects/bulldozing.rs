@@ -5,6 +5,10 @@ use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::model::Site;
 use trackdyn_core::Scalar;
 
+/// Sine of the angle of the slip to the track within which the wall of soil changes sides. A force that jumped there could
+/// not balance one that is less than the jump: a robot that speeds up straight ahead would not move at all.
+const CHANGES_SIDES: f64 = 0.01;
+
 /// A resistance to lateral slip that knows its sign alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bulldozing {
@@ -15,7 +19,7 @@ impl Effect for Bulldozing {
     const CARD: Card = Card {
         id: "bulldozing",
         title: "Soil pushed aside by a slipping track",
-        law: "τ_x = −μ_b p sign(s_x), beside friction",
+        law: "τ_x = −μ_b p s_x/√(s_x² + (0.01 |s|)²), beside friction",
         assumes: "The wall of soil grows with the local load and stands up at once; its size does \
                   not depend on how fast it is pushed.",
         shows: "Like more friction across, but where the slip is mostly along the track it does \
@@ -44,8 +48,9 @@ impl Effect for Bulldozing {
     }
 
     fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
-        // τ_x = −μ_b p sign(s_x)
-        let sign = site.slip.unit_slip[0].value().signum();
-        stress.added[0] += site.normal_pressure() * (-self.coefficient * sign);
+        // τ_x = −μ_b p s_x/√(s_x² + (ε |s|)²)
+        let [across, _] = site.slip_direction();
+        let side = across / (across * across + CHANGES_SIDES * CHANGES_SIDES).sqrt();
+        stress.added[0] += site.normal_pressure() * side * -self.coefficient;
     }
 }

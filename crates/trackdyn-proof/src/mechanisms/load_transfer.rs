@@ -6,7 +6,7 @@ use crate::sheet::{Invariance, Origin, Parameter, Sheet};
 /// Time that the hull takes to lean, s.
 const LEAN_TIME: f64 = 0.06;
 
-/// The weight leans outwards in a turn, and downhill on a slope, with the hull's own delay.
+/// The weight leans outwards in a turn, back where the robot speeds up, and downhill on a slope, with the hull's own delay.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadTransfer {
     height: f64,
@@ -17,8 +17,8 @@ impl Described for LoadTransfer {
     const SHEET: Sheet = Sheet {
         id: "load-transfer",
         origin: Origin::Catalogue,
-        law: "q' = (h (g_along − a)/g_normal − q)/0.06 s, a = ω × v_cog; the load acts at the \
-              centre of gravity + q",
+        law: "q' = (h (g_along − a)/g_normal − q)/0.06 s, a = ω × v_cog + k dv_cog/dt, k the part of \
+              the mass that stands against changes of speed; the load acts at the centre of gravity + q",
         size: "in steady turns the same; the hull takes 0.06 s to lean, the period of a \
                suspension of 2.7 Hz over 2π",
         breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
@@ -43,12 +43,16 @@ impl Mechanism for LoadTransfer {
     }
 
     fn advance(&mut self, step: &Step) {
-        let gravity = step.scene.gravity;
-        let acceleration = step.twist.steady_acceleration_at(step.scene.vehicle.cog);
+        let Scene { vehicle, gravity, .. } = step.scene;
+        let [before, after] =
+            [step.scene.twist, step.twist].map(|twist| twist.velocity_at(vehicle.cog));
+        let turning = step.twist.steady_acceleration_at(vehicle.cog);
         let share = -(-step.dt / LEAN_TIME).exp_m1();
-        for ((lean, along), a) in self.lean.iter_mut().zip(gravity.along).zip(acceleration) {
+        for (k, lean) in self.lean.iter_mut().enumerate() {
+            // a = ω × v + k v'
+            let a = turning[k] + step.inertia.transient * (after[k] - before[k]) / step.dt;
             // q' = (h (g_along − a)/g_normal − q)/T
-            *lean += share * (self.height * (along - a) / gravity.normal - *lean);
+            *lean += share * (self.height * (gravity.along[k] - a) / gravity.normal - *lean);
         }
     }
 }

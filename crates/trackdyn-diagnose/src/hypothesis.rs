@@ -142,7 +142,8 @@ impl Hypothesis {
     }
 }
 
-fn find(effects: &Effects, effect: usize) -> Option<&ActiveEffect> {
+/// The effect at a place of the catalogue, where it is there.
+pub fn find(effects: &Effects, effect: usize) -> Option<&ActiveEffect> {
     effects.iter().find(|active| active.card().id == CATALOGUE[effect].id)
 }
 

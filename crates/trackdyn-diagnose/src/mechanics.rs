@@ -23,7 +23,7 @@ use crate::hypothesis::{Hypothesis, Unknown};
 use crate::surface::{Steady, Surface};
 use belts::lagging;
 use ground::{by_ground, varies};
-use inertia::{Case, InertiaNear, Within};
+use inertia::{Case, InertiaNear, Within, has_slope};
 use lag::by_lag;
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -136,8 +136,10 @@ impl Mechanics {
     ) -> Self {
         Self::found(before, hypothesis, evidence, |inert, case| {
             let known = before.and_then(|before| before.inertia.as_ref());
-            let free_at = delay_where_free(hypothesis, &inert, free);
-            InertiaNear::beside(known, inert, case, free_at, within)
+            let free = free.iter().copied().filter(|by| has_slope(*by, case.model));
+            let free: Vec<Unknown> = free.collect();
+            let delay = Instruments::of(hypothesis).sensor.delay;
+            InertiaNear::beside(known, inert, case, &free, delay, within)
         })
     }
 
@@ -146,7 +148,7 @@ impl Mechanics {
     pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
         Self::found(Some(self), hypothesis, evidence, |inert, case| {
             let Some(known) = &self.inertia else { return InertiaNear::here(inert, case) };
-            let moved = known.moved(&inert, case.model.vehicle(), f64::MAX);
+            let moved = known.moved(&inert, case, Within::A_STEP);
             moved.ok_or_else(|| "found for other effects".to_owned())
         })
     }
@@ -293,19 +295,6 @@ impl Mechanics {
             })
             .collect()
     }
-}
-
-/// The delay of the poses, s, where values of the effects that inertia comes from are free, or the level of friction is.
-fn delay_where_free(
-    hypothesis: &Hypothesis,
-    inert: &[ActiveEffect],
-    free: &[Unknown],
-) -> Option<f64> {
-    let is_free = |effect: &ActiveEffect| {
-        free.iter().any(|unknown| unknown.card().is_some_and(|card| card.id == effect.card().id))
-    };
-    let any = inert.iter().any(is_free) || free.contains(&Unknown::FrictionLevel);
-    any.then(|| Instruments::of(hypothesis).sensor.delay)
 }
 
 /// The stationary motion at each reading of each run.

@@ -1,21 +1,20 @@
 //! What inertia adds to the stationary motion.
 //!
 //! # Law
-//! The motion in time less the stationary motion, over each sample. Around the values θ₀ of the effects that it
-//! comes from, it is linear in them: d(θ) = d(θ₀) + Σ (θ − θ₀) ∂d/∂θ, as far as [`REACH`].
+//! The motion in time less the stationary motion, over each sample. Around the numbers θ₀ of the hypothesis that it was
+//! found for, it is linear in those that are free: d(θ) = d(θ₀) + Σ (θ − θ₀) ∂d/∂θ, as far as [`REACH`].
 
 use super::belts::{lagging, smooth};
 use super::{minus, motion_over, plus};
 use crate::evidence::{Evidence, Sample};
-use crate::hypothesis::{typical_size, value, with_friction, with_values};
+use crate::hypothesis::{Unknown, active, find, typical_size, value, with_friction};
 use crate::surface::Surface;
 use rayon::prelude::*;
 use std::sync::Arc;
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
 use trackdyn_motion::Transient;
-use trackdyn_physics::effect::Parameter;
-use trackdyn_physics::{ActiveEffect, CATALOGUE, Drive, Model, Vehicle};
+use trackdyn_physics::{ActiveEffect, CATALOGUE, Drive, Effects, Model, Vehicle};
 use trackdyn_recording::TrackSample;
 
 /// Longest step of the motion in time, s: readings come more often.
@@ -31,21 +30,23 @@ const ALIKE: f64 = 1.0;
 /// How far a hypothesis may be from where the motion in time was found to be taken for near, in typical sizes.
 #[derive(Clone, Copy)]
 pub struct Within {
-    /// The effects that it comes from, and the logarithm of friction.
-    inert: f64,
-    /// Other effects.
-    others: f64,
+    /// Numbers that a slope is known of.
+    known: f64,
+    /// Others.
+    unknown: f64,
 }
 
 impl Within {
     /// Near enough to end a fit with.
-    pub const REACH: Self = Self { inert: REACH, others: REACH };
+    pub const REACH: Self = Self { known: REACH, unknown: REACH };
     /// On the way of a fit: as far as slopes may lead.
-    pub const THE_WAY: Self = Self { inert: f64::MAX, others: ALIKE };
+    pub const THE_WAY: Self = Self { known: f64::MAX, unknown: ALIKE };
+    /// A step of a difference quotient, be it as large as it may.
+    pub const A_STEP: Self = Self { known: f64::MAX, unknown: f64::MAX };
 }
 
 /// Part of the gauge, and of the friction ratio, by which the vehicle may differ.
-const CLOSE: f64 = 0.02;
+const CLOSE: f64 = 0.003;
 
 /// Difference of the logarithm of friction that is rounding.
 const SAME: f64 = 1e-12;
@@ -66,71 +67,83 @@ pub struct Case<'a> {
 #[derive(Clone)]
 pub struct InertiaNear {
     at: Arc<Inertia>,
-    /// How it changes with the parameters of the effects that it comes from.
-    slopes: Option<Arc<Slopes>>,
+    /// How it changes with what is free.
+    slopes: Vec<Arc<Slope>>,
     /// What the change adds up to, per sample; none at the very place.
     shift: Option<Arc<Vec<Twist>>>,
 }
 
-/// How what inertia adds changes with the parameters of the effects that it comes from.
-struct Slopes {
-    /// The effects.
-    inert: Vec<ActiveEffect>,
-    /// Place of the effect, place of its parameter, and the change of each sample per unit of it.
-    by: Vec<(usize, usize, Vec<Twist>)>,
-    /// The same by the logarithm of friction.
-    by_level: Vec<Twist>,
+/// How what inertia adds changes with a number of the hypothesis.
+struct Slope {
+    by: Unknown,
+    /// Where it was found.
+    at: Arc<Inertia>,
+    /// The change of each sample per unit of the number.
+    change: Vec<Twist>,
 }
 
 impl InertiaNear {
     /// What these effects add, without knowing how that changes.
     pub fn here(inert: Vec<ActiveEffect>, case: &Case) -> Result<Self, String> {
-        Ok(Self { at: Arc::new(Inertia::new(inert, case)?), slopes: None, shift: None })
+        Ok(Self { at: Arc::new(Inertia::new(inert, case)?), slopes: Vec::new(), shift: None })
     }
 
     /// What it adds to a hypothesis that resembles the one it was found for. `inert` are the effects that it comes
-    /// from; where their values are free, how it changes with them is found too, at a delay of the poses, s.
+    /// from; how it changes with what is `free` is found too, at a delay of the poses, s.
     pub fn beside(
         before: Option<&Self>,
         inert: Vec<ActiveEffect>,
         case: &Case,
-        free_at: Option<f64>,
+        free: &[Unknown],
+        delay: f64,
         within: Within,
     ) -> Result<Self, String> {
-        let known = before.filter(|before| before.at.resembles(case, &inert, within.others));
-        let vehicle = case.model.vehicle();
-        if let Some(near) = known.and_then(|known| known.moved(&inert, vehicle, within.inert)) {
+        let knows = |near: &Self| free.iter().all(|by| near.slope(*by).is_some());
+        let known = before.filter(|before| knows(before));
+        if let Some(near) = known.and_then(|known| known.moved(&inert, case, within)) {
             return Ok(near);
         }
         let here = Self::here(inert, case)?;
-        let Some(delay) = free_at else { return Ok(here) };
+        let before = before.map_or(&[][..], |before| &before.slopes);
         // Slopes are asked for small steps only: those of a hypothesis that resembles this one do.
-        let inert = &here.at.inert;
-        let known = before.and_then(|before| before.slopes.clone());
-        let known = known.filter(|known| are_near(&known.inert, inert, ALIKE));
-        let slopes = known.or_else(|| Slopes::new(&here.at, case, delay).map(Arc::new));
-        Ok(Self { slopes, ..here })
+        let alike = |slope: &&Arc<Slope>| slope.at.is_alike(&here.at);
+        let slopes: Option<Vec<Arc<Slope>>> = free
+            .par_iter()
+            .map(|by| {
+                let mut known = before.iter().filter(alike);
+                let known = known.find(|slope| slope.by == *by).cloned();
+                known.or_else(|| Slope::new(*by, &here.at, case, delay).map(Arc::new))
+            })
+            .collect();
+        Ok(Self { slopes: slopes.unwrap_or_default(), ..here })
     }
 
-    /// The same for other values of the effects that it comes from, up to `reach` of a typical size, and as much
-    /// more or less friction; none where these are not near, or slopes not known.
-    pub fn moved(&self, inert: &[ActiveEffect], vehicle: &Vehicle, reach: f64) -> Option<Self> {
-        let level = (level(vehicle) / level(self.at.model.vehicle())).ln();
-        if self.at.inert == inert && level.abs() < SAME {
-            return Some(self.unmoved());
-        }
-        let slopes = self.slopes.as_ref()?;
-        if !are_near(&self.at.inert, inert, reach) || level.abs() > reach {
+    /// The same for a hypothesis that differs; none where it comes from other effects there, or differs by more than
+    /// what this is good for.
+    pub fn moved(&self, inert: &[ActiveEffect], case: &Case, within: Within) -> Option<Self> {
+        if !are_same(&self.at.inert, inert) || !self.at.is_close(case.vehicle) {
             return None;
         }
-        let mut shift: Vec<Twist> = slopes.by_level.iter().map(|by| scaled(by, level)).collect();
-        for (k, place, slope) in &slopes.by {
-            let by = inert[*k].values()[*place] - self.at.inert[*k].values()[*place];
-            for (sum, slope) in shift.iter_mut().zip(slope) {
-                *sum = plus(sum, &scaled(slope, by));
+        let mut shift: Option<Vec<Twist>> = None;
+        for (by, change) in self.at.changes(case.vehicle, case.model.effects()) {
+            let size = size(by);
+            match self.slope(by) {
+                Some(slope) if change.abs() <= within.known * size => {
+                    let still = || vec![Twist { v_x: 0.0, v_y: 0.0, w: 0.0 }; slope.change.len()];
+                    let sums = shift.get_or_insert_with(still);
+                    for (sum, slope) in sums.iter_mut().zip(&slope.change) {
+                        *sum = plus(sum, &scaled(slope, change));
+                    }
+                }
+                None if change.abs() <= within.unknown * size && !is_of(by, inert) => {}
+                _ => return None,
             }
         }
-        Some(Self { shift: Some(Arc::new(shift)), ..self.clone() })
+        Some(Self { shift: shift.map(Arc::new), ..self.clone() })
+    }
+
+    fn slope(&self, by: Unknown) -> Option<&Slope> {
+        self.slopes.iter().map(Arc::as_ref).find(|slope| slope.by == by)
     }
 
     /// What it adds where it was found.
@@ -155,51 +168,69 @@ impl InertiaNear {
     }
 }
 
-impl Slopes {
-    /// By differences of motions in time; none where there is no such motion.
-    fn new(at: &Inertia, case: &Case, delay: f64) -> Option<Self> {
+impl Slope {
+    /// By the difference of motions in time; none where there is no such motion.
+    fn new(by: Unknown, at: &Arc<Inertia>, case: &Case, delay: f64) -> Option<Self> {
         let departures = |inertia: &Inertia| -> Vec<Twist> {
             let samples = case.evidence.samples().par_iter();
             samples.map(|sample| inertia.departure(sample, delay)).collect()
         };
-        let before = departures(at);
-        let (vehicle, effects) = (case.vehicle, case.model.effects());
-        let slope = |model: &Model, step: f64| -> Option<Vec<Twist>> {
-            let after = departures(&Inertia::new(Vec::new(), &Case { model, ..*case }).ok()?);
-            let slope = after.iter().zip(&before);
-            Some(slope.map(|(there, here)| scaled(&minus(there, here), step.recip())).collect())
-        };
-        let mut by = Vec::new();
-        for (k, effect) in at.inert.iter().enumerate() {
-            for (place, parameter) in effect.card().parameters.iter().enumerate() {
-                let value = effect.values()[place];
-                // What is typically zero is near where it is the same.
-                let step = REACH * typical_size(parameter);
-                if step == 0.0 {
-                    continue;
-                }
-                let step = if value + step > parameter.range[1] { -step } else { step };
-                let mut values = effect.values().to_vec();
-                values[place] += step;
-                let mut effects = effects.clone();
-                effects.insert(with_values(effect, &values));
-                by.push((k, place, slope(&Model::new(vehicle.clone(), effects), step)?));
-            }
-        }
-        let rougher = Model::new(with_friction(vehicle, REACH), effects.clone());
-        Some(Self { inert: at.inert.clone(), by, by_level: slope(&rougher, REACH)? })
+        let (model, step) = stepped(by, case)?;
+        let there = Inertia::new(Vec::new(), &Case { model: &model, ..*case }).ok()?;
+        let (there, here) = (departures(&there), departures(at));
+        let change = there.iter().zip(&here);
+        let change = change.map(|(there, here)| scaled(&minus(there, here), step.recip()));
+        Some(Self { by, at: Arc::clone(at), change: change.collect() })
     }
 }
 
-/// Whether effects are the same, with values that differ by no more than this part of their typical sizes.
-fn are_near(known: &[ActiveEffect], effects: &[ActiveEffect], reach: f64) -> bool {
-    let near = |a: &ActiveEffect, b: &ActiveEffect| {
-        let values = a.values().iter().zip(b.values()).zip(a.card().parameters);
-        let mut values =
-            values.map(|((a, b), parameter)| (a - b).abs() <= reach * typical_size(parameter));
-        a.card().id == b.card().id && values.all(|near| near)
+/// The robot with a number changed by a step, and the step.
+fn stepped(by: Unknown, case: &Case) -> Option<(Model, f64)> {
+    let (vehicle, effects) = (case.vehicle, case.model.effects());
+    let step = REACH * size(by);
+    match by {
+        Unknown::Offset(_) => None,
+        Unknown::FrictionLevel => {
+            Some((Model::new(with_friction(vehicle, step), effects.clone()), step))
+        }
+        Unknown::Effect(effect, place) => {
+            let mut values = find(effects, effect)?.values().to_vec();
+            let [_, high] = CATALOGUE[effect].parameters[place].range;
+            let step = if values[place] + step > high { -step } else { step };
+            values[place] += step;
+            let mut effects = effects.clone();
+            effects.insert(active(effect, &values));
+            Some((Model::new(vehicle.clone(), effects), step))
+        }
+    }
+}
+
+/// Whether a motion in time may change with a number: what is typically zero is near where it is the same.
+pub fn has_slope(by: Unknown, model: &Model) -> bool {
+    match by {
+        Unknown::Offset(_) => false,
+        Unknown::FrictionLevel => true,
+        Unknown::Effect(effect, _) => find(model.effects(), effect).is_some() && size(by) > 0.0,
+    }
+}
+
+/// Typical size of a number; that of the logarithm of friction is one.
+fn size(by: Unknown) -> f64 {
+    by.parameter().map_or(1.0, typical_size)
+}
+
+/// Whether a number is one of these effects.
+fn is_of(by: Unknown, effects: &[ActiveEffect]) -> bool {
+    let card = by.card();
+    card.is_none_or(|card| effects.iter().any(|effect| effect.card().id == card.id))
+}
+
+/// Whether effects are the same, with whatever values.
+fn are_same(known: &[ActiveEffect], effects: &[ActiveEffect]) -> bool {
+    let ids = |effects: &[ActiveEffect]| -> Vec<&str> {
+        effects.iter().map(|effect| effect.card().id).collect()
     };
-    known.len() == effects.len() && known.iter().zip(effects).all(|(a, b)| near(a, b))
+    ids(known) == ids(effects)
 }
 
 /// Geometric mean of the friction coefficients.
@@ -215,6 +246,8 @@ fn scaled(twist: &Twist, by: f64) -> Twist {
 struct Inertia {
     /// The effects that it comes from.
     inert: Vec<ActiveEffect>,
+    /// The robot, without what effects make of it.
+    vehicle: Vehicle,
     /// The robot.
     model: Model,
     /// Motion in time of each run, by the clock of the encoders.
@@ -242,29 +275,40 @@ impl Inertia {
         let speeds = |reading: &TrackSample| PerSide::new(reading.v_left, reading.v_right);
         let twist = |reading: &TrackSample| surface.motion(speeds(reading)).twist(&[0.0; 3]);
         let steady = belts.iter().map(|run| run.iter().map(twist).collect()).collect();
-        Ok(Self { inert, model: model.clone(), paths: paths?, belts, steady })
+        let vehicle = case.vehicle.clone();
+        Ok(Self { inert, vehicle, model: model.clone(), paths: paths?, belts, steady })
     }
 
-    /// Whether all but the effects that it comes from is about the same: other effects within `reach` of their typical
-    /// sizes.
-    fn resembles(&self, case: &Case, inert: &[ActiveEffect], reach: f64) -> bool {
-        let (here, there) = (self.model.vehicle(), case.model.vehicle());
-        let moved = (here.cog[0] - there.cog[0]).hypot(here.cog[1] - there.cog[1]);
+    /// Whether the vehicle, without what effects make of it, has about this centre of gravity and friction ratio.
+    fn is_close(&self, vehicle: &Vehicle) -> bool {
+        let moved =
+            (self.vehicle.cog[0] - vehicle.cog[0]).hypot(self.vehicle.cog[1] - vehicle.cog[1]);
         let ratio = |vehicle: &Vehicle| vehicle.friction.across / vehicle.friction.along;
-        let grips = (ratio(here) / ratio(there)).ln().abs();
-        let is_other =
-            |effect: &usize| !inert.iter().any(|one| one.card().id == CATALOGUE[*effect].id);
-        let mut others = (0..CATALOGUE.len()).filter(is_other);
-        let is_near = |(place, parameter): (usize, &Parameter), effect: usize| {
+        let grips = (ratio(&self.vehicle) / ratio(vehicle)).ln().abs();
+        moved < CLOSE * self.vehicle.gauge && grips < CLOSE
+    }
+
+    /// The numbers that differ, with the difference from here to there.
+    fn changes(&self, vehicle: &Vehicle, effects: &Effects) -> Vec<(Unknown, f64)> {
+        let level = (level(vehicle) / level(&self.vehicle)).ln();
+        let level = if level.abs() < SAME { 0.0 } else { level };
+        let level = std::iter::once((Unknown::FrictionLevel, level));
+        let change = |effect: usize, place: usize| {
             let [here, there] =
-                [&self.model, case.model].map(|model| value(model.effects(), effect, place));
-            (here - there).abs() <= reach * typical_size(parameter)
+                [self.model.effects(), effects].map(|effects| value(effects, effect, place));
+            (Unknown::Effect(effect, place), there - here)
         };
-        let near = others.all(|effect| {
-            let mut parameters = CATALOGUE[effect].parameters.iter().enumerate();
-            parameters.all(|parameter| is_near(parameter, effect))
+        let of_effects = CATALOGUE.iter().enumerate().flat_map(|(effect, card)| {
+            (0..card.parameters.len()).map(move |place| change(effect, place))
         });
-        moved < CLOSE * here.gauge && grips < CLOSE && near
+        level.chain(of_effects).filter(|(_, change)| *change != 0.0).collect()
+    }
+
+    /// Whether slopes found for one robot do for the other.
+    fn is_alike(&self, other: &Self) -> bool {
+        let mut changes = self.changes(&other.vehicle, other.model.effects()).into_iter();
+        are_same(&self.inert, &other.inert)
+            && changes.all(|(by, change)| change.abs() <= ALIKE * size(by))
     }
 
     /// The motion in time less the stationary motion, as a twist over a sample.
@@ -291,8 +335,10 @@ fn path_in_time(
     let Some(first) = belts.first() else { return Ok(path) };
     let speeds = |sample: &TrackSample| PerSide::new(sample.v_left, sample.v_right);
     let start = surface.motion(speeds(first)).twist(&[0.0; 3]);
-    let mut robot =
-        Transient::at_rest(model, first.t, Pose::default()).with_step(STEP).with_twist(start);
+    let mut robot = Transient::at_rest(model, first.t, Pose::default())
+        .with_step(STEP)
+        .with_twist(start)
+        .with_pull();
     path.push(robot.moment());
     for pair in belts.windows(2) {
         robot

@@ -12,8 +12,8 @@ use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
 use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument};
 use nalgebra::Vector3;
 use rayon::prelude::*;
-use trackdyn_physics::CATALOGUE;
 use trackdyn_physics::effect::{Parameter, Role};
+use trackdyn_physics::{ActiveEffect, CATALOGUE};
 
 /// An effect with one choice of what is no size.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,53 +52,42 @@ impl Variant {
 
     /// The signatures of its sizes; none where the effect cannot act there.
     fn signatures(&self, beside: &Beside) -> Option<Vec<Signature>> {
-        let vehicle = &beside.hypothesis.vehicle;
-        let whole = active(self.effect, &self.values);
-        let base = if feels_inertia(vehicle, &whole) { &beside.moving } else { &beside.still };
+        self.sizes().into_iter().map(|size| self.signature(size, beside)).collect()
+    }
+
+    /// The signature of a size, at the first of its steps that the robot can take.
+    fn signature(&self, size: usize, beside: &Beside) -> Option<Signature> {
         let parameters = CATALOGUE[self.effect].parameters;
-        let present = beside.hypothesis.effect(self.effect);
-        self.sizes()
-            .into_iter()
-            .map(|size| {
-                let mut values =
-                    present.map_or_else(|| self.values.clone(), |effect| effect.values().to_vec());
-                let typical = self.values[size] - neutral(&parameters[size]);
-                let distance = if present.is_some() {
-                    // Known to be there: what more of it would change.
-                    let before = values[size];
-                    let [low, high] = parameters[size].range;
-                    values[size] = (before + MORE * typical).clamp(low, high);
-                    values[size] - before
-                } else {
-                    for other in self.sizes().into_iter().filter(|other| *other != size) {
-                        values[other] = neutral(&parameters[other]);
-                    }
-                    typical
-                };
-                let with = base.hypothesis.with_effect(active(self.effect, &values));
-                let instruments = Instruments::of(&with);
-                let with = if is_instrument(vehicle, &whole) {
-                    base.mechanics.predict(&instruments, beside.evidence)
-                } else {
-                    let mechanics = base.mechanics.anew(&with, beside.evidence);
-                    if mechanics.failure().is_some() {
-                        return None;
-                    }
-                    mechanics.predict(&instruments, beside.evidence)
-                };
-                let change = with
-                    .iter()
-                    .zip(&base.prediction)
-                    .map(|(with, without)| (with - without) / distance);
-                let column = beside.metric.white(beside.evidence, change.collect());
-                Some(Signature { unknown: Unknown::Effect(self.effect, size), column })
-            })
-            .collect()
+        let mut values = self.values.clone();
+        let mut steps = &STEPS[..];
+        if let Some(present) = beside.hypothesis.effect(self.effect) {
+            // Known to be there: what more of it would change.
+            values = present.values().to_vec();
+            steps = &STEPS[1..];
+        } else {
+            for size in self.sizes() {
+                values[size] = neutral(&parameters[size]);
+            }
+        }
+        let (before, [low, high]) = (values[size], parameters[size].range);
+        let typical = self.values[size] - neutral(&parameters[size]);
+        steps.iter().find_map(|step| {
+            values[size] = (before + step * typical).clamp(low, high);
+            let distance = values[size] - before;
+            if distance == 0.0 {
+                return None;
+            }
+            let change = beside.change(active(self.effect, &values))?;
+            let quotient = change.iter().map(|change| change / distance).collect();
+            let column = beside.metric.white(beside.evidence, quotient);
+            Some(Signature { unknown: Unknown::Effect(self.effect, size), column })
+        })
     }
 }
 
-/// More of an effect that is known to be there, as part of its typical size.
-const MORE: f64 = 0.2;
+/// Steps from what there is, as parts of a typical size. Whether the vehicle or an effect shifted the mass nobody knows: a
+/// typical step more may tip the robot over.
+const STEPS: [f64; 3] = [1.0, 0.2, -0.2];
 
 /// What signatures are taken beside.
 pub struct Beside<'a> {
@@ -221,6 +210,25 @@ impl<'a> Beside<'a> {
             moving: Prepared::new(hypothesis.clone(), evidence),
             still: Prepared::new(still, evidence),
         }
+    }
+
+    /// What an effect changes of the prediction; none where it cannot act.
+    fn change(&self, effect: ActiveEffect) -> Option<Vec<Vector3<f64>>> {
+        let vehicle = &self.hypothesis.vehicle;
+        let base = if feels_inertia(vehicle, &effect) { &self.moving } else { &self.still };
+        let is_instrument = is_instrument(vehicle, &effect);
+        let with = base.hypothesis.with_effect(effect);
+        let instruments = Instruments::of(&with);
+        let with = if is_instrument {
+            base.mechanics.predict(&instruments, self.evidence)
+        } else {
+            let mechanics = base.mechanics.anew(&with, self.evidence);
+            if mechanics.failure().is_some() {
+                return None;
+            }
+            mechanics.predict(&instruments, self.evidence)
+        };
+        Some(with.iter().zip(&base.prediction).map(|(with, without)| with - without).collect())
     }
 
     /// The signatures of variants, in parallel; those that cannot act are left out.

@@ -1,13 +1,15 @@
 //! A case: something concealed, and what the diagnosis says of it.
 
 use std::time::Instant;
+use trackdyn_core::PerSide;
 use trackdyn_diagnose::Diagnosis;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::neutral;
 use trackdyn_field::ScheduleKind;
 use trackdyn_field::sensors::{Preset, Sensors};
-use trackdyn_physics::CATALOGUE;
+use trackdyn_motion::{Stationary, Status};
 use trackdyn_physics::effect::{Card, Role};
+use trackdyn_physics::{ActiveEffect, CATALOGUE, Circumstance, Model, Vehicle};
 use trackdyn_proof::MECHANISMS;
 use trackdyn_tests::concealed::{Drive, diagnosed, members, owned, runs, sensors};
 
@@ -20,9 +22,13 @@ pub const NOTHING: &str = "nothing";
 /// What the class of constants is called among the answers.
 pub const CONSTANTS: &str = "constants";
 
-/// Sizes that stop the robot are taken smaller by this factor, so many times at most.
+/// Sizes that stop the robot, or with which one track holds and it goes straight on, are taken smaller by this factor, so many
+/// times at most.
 const SMALLER: f64 = 0.6;
 const SHRINKS: usize = 6;
+
+/// Speeds of a slow spin, m/s.
+const SPIN: PerSide<f64> = PerSide { left: -0.1, right: 0.1 };
 
 /// Directions are this far from the typical one, degrees: between those that the diagnosis tries.
 const BETWEEN: f64 = 20.0;
@@ -111,6 +117,14 @@ impl Setting {
         });
         parameters.collect()
     }
+
+    /// Whether the robot turns on the spot with these values.
+    fn turns(&self, vehicle: &Vehicle, values: &[(&'static str, f64)]) -> bool {
+        let effect = self.card.map(|card| ActiveEffect::new(card.id, values).expect("in range"));
+        let model = Model::new(vehicle.clone(), effect.into_iter().collect());
+        let spin = Stationary::new(&model, &Circumstance::default()).solve(SPIN);
+        spin.status == Status::Turning
+    }
 }
 
 /// A size that was found, against what it is.
@@ -153,6 +167,10 @@ impl Case {
             let concealed = format!("{}:{}", setting.id(), truth.join(","));
             let concealed: Vec<&str> =
                 setting.card.map(|_| concealed.as_str()).into_iter().collect();
+            if !setting.turns(&vehicle, &values) {
+                reason = "does not turn".to_owned();
+                continue;
+            }
             match Drive::new(&vehicle, &concealed, &schedules, 1) {
                 Ok(drive) => {
                     let recording = drive.recording(&sensors, 1);

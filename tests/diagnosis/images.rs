@@ -183,7 +183,6 @@ fn the_origin_of_time_says_nothing() {
 }
 
 #[test]
-#[ignore = "friction-drift counts from the origin of stamps: since 1970 it names terrain-patch"]
 fn a_drift_with_time_is_found_whatever_time_counts_from() {
     const CONCEALED: [&str; 1] = ["friction-drift:rate_1_per_s=0.004"];
     let recording = drive(&CONCEALED, 6, 3);

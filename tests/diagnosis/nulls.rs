@@ -147,7 +147,6 @@ fn hundreds_of_hard_nulls_name_nothing_that_is_not_there() {
 }
 
 #[test]
-#[ignore = "unexplained: the vehicle takes a lever arm over as a shifted mass, and transients remain"]
 fn a_lever_arm_leaves_nothing_unexplained() {
     let drive = Drive::new(&owned(&[]).vehicle, &[], &runs(ScheduleKind::Manual, 8, 1), 1);
     let sensors = Wrong::LeverArm.sensors(Preset::Laboratory);
@@ -157,7 +156,6 @@ fn a_lever_arm_leaves_nothing_unexplained() {
 }
 
 #[test]
-#[ignore = "a designed drive with coarse encoders that are off names sensor-yaw beside encoder-scale"]
 fn a_hard_null_with_coarse_sensors_names_nothing_that_is_not_there() {
     let drive = Drive::new(&owned(&[]).vehicle, &[], &runs(ScheduleKind::Designed, 8, 1), 1);
     let claims = wrong_claims(&drive.expect("it drives"), Wrong::EncoderScale, Preset::Field, 1);

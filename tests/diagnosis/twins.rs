@@ -171,7 +171,6 @@ fn in_time() -> Sensors {
 /// A lag of the drivetrain far below the time of a change of speed, and a clock that is late, differ by
 /// less than poses err in a short drive.
 #[test]
-#[ignore = "the clock is named alone, also where it is a lag: 2.0 standard deviations apart"]
 fn a_lag_and_a_late_clock_are_one_answer() {
     /// Delay of either, s.
     const LATE: f64 = 0.03;

@@ -8,9 +8,11 @@ use crate::diagnosis::{Diagnosis, Kind};
 use crate::uncertainty::Interval;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_motion::kinematics::Source;
 use trackdyn_physics::CATALOGUE;
+use trackdyn_physics::effect::{Card, Symmetry};
 
 const SCHEMA: &str = "trackdyn.diagnosis/1";
 
@@ -222,14 +224,38 @@ fn missing(missing: &crate::diagnosis::Missing) -> MissingTable {
 /// What would decide between the members of a class.
 pub fn separate_by(missing: &crate::diagnosis::Missing) -> String {
     match missing.kind {
-        Kind::Constant => "no manoeuvre does: weigh each track (centre of gravity), measure the mount of \
-                           the pose sensor, pull the robot along and across (friction), and give what was \
-                           measured in the vehicle file with its *_sd"
-            .to_owned(),
+        Kind::Constant => {
+            let members = missing.verdict.one_of.iter().map(|&effect| &CATALOGUE[effect]);
+            let mut text = String::new();
+            for (card, driving) in members.filter_map(|card| Some((card, told_by(card)?))) {
+                let _ = write!(text, "driving {driving} tells whether it is {}; ", card.id);
+            }
+            if !text.is_empty() {
+                text += "among the others ";
+            }
+            text + "no manoeuvre does: weigh each track (centre of gravity), measure the mount of the pose \
+                    sensor, pull the robot along and across (friction), and give what was measured in the \
+                    vehicle file with its *_sd"
+        }
         Kind::Physics | Kind::Instrument => {
             "the manoeuvres that `trackdyn plan` proposes for this diagnosis".to_owned()
         }
     }
+}
+
+/// The driving in which an effect is no constant of the ICRs; none where there is no such driving.
+fn told_by(card: &Card) -> Option<&'static str> {
+    card.breaks.iter().find_map(|symmetry| match symmetry {
+        Symmetry::SpeedScale => Some("slowly and fast"),
+        Symmetry::Reversal => Some("forward and backward"),
+        Symmetry::Manoeuvre => Some("arcs, spins and counter-rotation"),
+        Symmetry::Mirror => None,
+        Symmetry::Heading => Some("in several headings"),
+        Symmetry::Place => Some("in several places"),
+        Symmetry::Time => Some("again and again"),
+        Symmetry::Transient => Some("with changes of speed"),
+        Symmetry::Straight => Some("straight ahead"),
+    })
 }
 
 /// The number to nine significant digits: what is below is rounding.

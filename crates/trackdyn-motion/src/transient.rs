@@ -67,6 +67,8 @@ struct State {
     traction: PerSide<f64>,
     /// Whether some of the contact would have to pull.
     lifts: bool,
+    /// Whether that would not do either.
+    tips: bool,
 }
 
 impl<'m> Transient<'m> {
@@ -86,6 +88,7 @@ impl<'m> Transient<'m> {
             belt_speed: still,
             traction: still,
             lifts: false,
+            tips: false,
         };
         Self {
             model,
@@ -101,8 +104,9 @@ impl<'m> Transient<'m> {
         Self { longest_step, ..self }
     }
 
-    /// The same, going on where part of the contact lifts, with a pressure that stays linear and pulls there. Where
-    /// the load shifts by 1 + ε times what keeps all of the contact down, forces are off by a part of ε².
+    /// The same, going on where part of the contact lifts, with a pressure that stays linear and pulls there, until the
+    /// robot tips over. Where the load shifts by 1 + ε times what keeps all of the contact down, forces are off by a part
+    /// of ε².
     pub fn with_pull(self) -> Self {
         Self { may_pull: true, ..self }
     }
@@ -192,7 +196,8 @@ impl<'m> Transient<'m> {
         let traction =
             if drive.slip_per_traction == 0.0 { before.traction } else { stage.traction(&motion) };
         let lifts = self.model.lifts(&ground, &motion);
-        Some(State { twist: motion.twist, driven, belt_speed, traction, lifts, ..*before })
+        let tips = lifts && self.may_pull && self.model.tips(&ground, &motion);
+        Some(State { twist: motion.twist, driven, belt_speed, traction, lifts, tips, ..*before })
     }
 
     /// Whether the forces beside friction depend on the acceleration: else the robot is at its stationary
@@ -238,6 +243,9 @@ impl Plant for Transient<'_> {
             self.step(speeds, end - self.state.t, 0)?;
             self.state.t = end;
             trajectory.push(self.moment());
+            if self.state.tips {
+                return Err(Stopped { t: end, reason: "the robot tips over".to_owned() });
+            }
             if self.state.lifts && !self.may_pull {
                 let reason =
                     "part of the contact lifts off the ground, for the load shifts too far; \

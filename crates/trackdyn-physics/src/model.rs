@@ -174,6 +174,16 @@ impl Model {
         })
     }
 
+    /// Whether no pressure of the ground can bear the load at this motion: it would have to act outside the contact.
+    pub fn tips(&self, ground: &Ground, motion: &Motion) -> bool {
+        let (normal_load, pressure) = self.load(&self.situation(ground, motion));
+        let [rear, front] = self.footprint.ends;
+        Side::BOTH.iter().any(|&side| {
+            let centre = self.footprint.centre_of_pressure(normal_load[side], &pressure[side]);
+            normal_load[side] <= 0.0 || !(rear..=front).contains(&centre)
+        })
+    }
+
     fn situation<'a, S>(&'a self, ground: &'a Ground, motion: &'a Motion<S>) -> Situation<'a, S> {
         Situation { vehicle: &self.vehicle, ground, footprint: &self.footprint, motion }
     }

@@ -87,4 +87,10 @@ impl Footprint {
         let gradient = mean * (centre_of_pressure - self.centroid) / self.gyration_squared;
         Pressure { at_origin: mean - gradient * self.centroid, gradient }
     }
+
+    /// The centre of pressure (y, m) of a `normal_load` (N) that bears on the ground with this pressure.
+    pub fn centre_of_pressure(&self, normal_load: f64, pressure: &Pressure) -> f64 {
+        // y_p = ȳ + ρ² A p′/N
+        self.centroid + self.gyration_squared * self.area * pressure.gradient / normal_load
+    }
 }

@@ -58,6 +58,10 @@ pub struct Mechanics {
     inertia: Option<InertiaNear>,
     /// What the hypothesis changes in that, at each reading.
     by_lag: Option<Arc<Vec<Vec<Twist>>>>,
+    /// Its laws of the shear stress, which do so.
+    shear: Vec<ActiveEffect>,
+    /// Whether inertia is that of another robot, for no motion in time goes through with this one.
+    stands_in: bool,
     failed: Option<String>,
 }
 
@@ -95,13 +99,13 @@ pub fn feels_inertia(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
 impl Mechanics {
     /// The mechanics of a hypothesis for this evidence.
     pub fn new(hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
-        Self::found(None, hypothesis, evidence, InertiaNear::here)
+        Self::found(None, None, hypothesis, evidence, InertiaNear::here)
     }
 
     /// The mechanics of a hypothesis that differs from this one's, with a motion in time of its own where there is
     /// one.
     pub fn anew(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
-        Self::found(Some(self), hypothesis, evidence, InertiaNear::here)
+        Self::found(Some(self), None, hypothesis, evidence, InertiaNear::here)
     }
 
     /// The same where `before` is the mechanics of a hypothesis that resembles it, and some numbers are free: where
@@ -134,7 +138,7 @@ impl Mechanics {
         evidence: &Evidence,
         within: Within,
     ) -> Self {
-        Self::found(before, hypothesis, evidence, |inert, case| {
+        Self::found(before, None, hypothesis, evidence, |inert, case| {
             let known = before.and_then(|before| before.inertia.as_ref());
             let free = free.iter().copied().filter(|by| has_slope(*by, case.model));
             let free: Vec<Unknown> = free.collect();
@@ -145,16 +149,21 @@ impl Mechanics {
 
     /// The same for a hypothesis that differs by a step, be it that of a difference quotient: what inertia adds is
     /// taken from here wherever it can be, for what it jumps by elsewhere would be divided by the step.
+    ///
+    /// What laws of the shear stress change in that stays too, unless it is one of these that differs.
     pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
-        Self::found(Some(self), hypothesis, evidence, |inert, case| {
+        let inertia = |inert: Vec<ActiveEffect>, case: &Case| {
             let Some(known) = &self.inertia else { return InertiaNear::here(inert, case) };
-            let moved = known.moved(&inert, case, Within::A_STEP);
-            moved.ok_or_else(|| "found for other effects".to_owned())
-        })
+            let moved = known.moved(&inert, case, Within::A_STEP).filter(|_| !self.stands_in);
+            moved.ok_or_else(|| "found for another robot".to_owned())
+        };
+        Self::found(Some(self), Some(self), hypothesis, evidence, inertia)
     }
 
+    /// `kept` lends what laws of the shear stress change in inertia, where these are the same.
     fn found(
         before: Option<&Self>,
+        kept: Option<&Self>,
         hypothesis: &Hypothesis,
         evidence: &Evidence,
         inertia: impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, String>,
@@ -163,8 +172,8 @@ impl Mechanics {
         let mechanical = hypothesis.effects.iter().filter(|effect| !is_instrument(vehicle, effect));
         let (varying, constant): (Vec<_>, Vec<_>) =
             mechanical.cloned().partition(|effect| varies(vehicle, effect, evidence));
+        let shears = |effect: &ActiveEffect| effect.card().stages.contains(&Stage::Shear);
         let without_shear = |effects: &[ActiveEffect]| -> Effects {
-            let shears = |effect: &&ActiveEffect| effect.card().stages.contains(&Stage::Shear);
             effects.iter().filter(|effect| !shears(effect)).cloned().collect()
         };
         let drive = Instruments::of(hypothesis).drive;
@@ -180,6 +189,8 @@ impl Mechanics {
             ground: None,
             inertia: None,
             by_lag: None,
+            shear: constant.iter().filter(|effect| shears(effect)).cloned().collect(),
+            stands_in: false,
             failed: None,
         };
         let simple = Model::new(vehicle.clone(), without_shear(&constant));
@@ -207,6 +218,7 @@ impl Mechanics {
             }
             (Err(_), Some(known)) => {
                 mechanics.inertia = Some(known.unmoved());
+                mechanics.stands_in = true;
                 known.model().clone()
             }
             (Err(reason), None) => {
@@ -214,7 +226,10 @@ impl Mechanics {
                 return mechanics;
             }
         };
-        if reference.effects() != model.effects() || reference.vehicle() != model.vehicle() {
+        let kept = kept.filter(|kept| !mechanics.stands_in && kept.shear == mechanics.shear);
+        if let Some(kept) = kept {
+            mechanics.by_lag.clone_from(&kept.by_lag);
+        } else if reference.effects() != model.effects() || reference.vehicle() != model.vehicle() {
             let [with, without] = [&model, &reference].map(|model| mechanics.surface.lags(model));
             let belts = lagging(evidence.tracks(), drive.time_constant);
             let twist = |steady: &Steady| steady.twist(&[0.0; 3]);

@@ -83,7 +83,7 @@ impl Setting {
         for driving in [ScheduleKind::Manual, ScheduleKind::Designed] {
             all.push(Self { card: None, size: Size::Typical, driving });
         }
-        for card in CATALOGUE {
+        for card in CATALOGUE.iter().filter(|card| !card.is_form()) {
             for size in Size::ALL {
                 for driving in [ScheduleKind::Manual, ScheduleKind::Designed] {
                     all.push(Self { card: Some(card), size, driving });

@@ -28,7 +28,7 @@ pub struct Confusion {
 impl Confusion {
     /// That of a table.
     pub fn of(table: &Table) -> Self {
-        let ids_of = || CATALOGUE.iter().map(|card| card.id);
+        let ids_of = || CATALOGUE.iter().filter(|card| !card.is_form()).map(|card| card.id);
         let rows: Vec<&str> = std::iter::once(NOTHING).chain(ids_of()).collect();
         let ends = [NOTHING, CONSTANTS];
         let columns: Vec<&str> =

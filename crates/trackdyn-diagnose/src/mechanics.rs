@@ -193,6 +193,10 @@ impl Mechanics {
             stands_in: false,
             failed: None,
         };
+        // What cannot be needs no departures, which cost most where no forces balance.
+        if mechanics.failure().is_some() {
+            return mechanics;
+        }
         let simple = Model::new(vehicle.clone(), without_shear(&constant));
         if !varying.is_empty() {
             let mut effects = without_shear(&constant);

@@ -168,7 +168,7 @@ impl Case {
             let concealed: Vec<&str> =
                 setting.card.map(|_| concealed.as_str()).into_iter().collect();
             if !setting.turns(&vehicle, &values) {
-                reason = "does not turn".to_owned();
+                "does not turn".clone_into(&mut reason);
                 continue;
             }
             match Drive::new(&vehicle, &concealed, &schedules, 1) {

@@ -488,11 +488,9 @@ pub fn priors(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Evidence
 }
 
 fn at_bound(hypothesis: &Hypothesis, unknown: Unknown, step: f64) -> bool {
-    let Some(parameter) = unknown.parameter() else { return false };
     let value = hypothesis.get(unknown);
-    let [low, high] = parameter.range;
-    let near = 1e-9 * (high - low);
-    (value <= low + near && step < 0.0) || (value >= high - near && step > 0.0)
+    let [low, high] = unknown.range();
+    (value <= low && step < 0.0) || (value >= high && step > 0.0)
 }
 
 /// A solution of some unknowns as one of all: the others do not move, and nothing more is known of them.

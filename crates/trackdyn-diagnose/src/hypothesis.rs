@@ -17,6 +17,10 @@ pub struct Hypothesis {
     pub friction_level: f64,
 }
 
+/// Largest change of the level of friction, as logarithm: a coefficient that is guessed at all is guessed better than
+/// to a factor of four.
+const LEVEL: f64 = 1.4;
+
 /// A number of a hypothesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Unknown {
@@ -42,6 +46,15 @@ impl Unknown {
         match self {
             Self::Offset(_) | Self::FrictionLevel => None,
             Self::Effect(effect, parameter) => Some(&CATALOGUE[effect].parameters[parameter]),
+        }
+    }
+
+    /// What it may be.
+    pub fn range(self) -> [f64; 2] {
+        match (self, self.parameter()) {
+            (Self::FrictionLevel, _) => [-LEVEL, LEVEL],
+            (_, Some(parameter)) => parameter.range,
+            (_, None) => [f64::NEG_INFINITY, f64::INFINITY],
         }
     }
 
@@ -93,6 +106,8 @@ impl Hypothesis {
     /// comes with no size and the typical values of what is no size.
     pub fn with(&self, unknown: Unknown, value: f64) -> Self {
         let mut changed = self.clone();
+        let [low, high] = unknown.range();
+        let value = value.clamp(low, high);
         match unknown {
             Unknown::Offset(k) => changed.offset[k] = value,
             Unknown::FrictionLevel => {
@@ -105,8 +120,7 @@ impl Hypothesis {
                     Some(active) => active.values().to_vec(),
                     None => card.parameters.iter().map(neutral).collect(),
                 };
-                let [low, high] = card.parameters[parameter].range;
-                values[parameter] = value.clamp(low, high);
+                values[parameter] = value;
                 changed.effects.insert(active(effect, &values));
             }
         }
@@ -195,4 +209,22 @@ pub fn with_values(effect: &ActiveEffect, values: &[f64]) -> ActiveEffect {
         })
         .collect();
     ActiveEffect::new(card.id, &settings).expect("values within the ranges of the card")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A step of a fit may promise anything; forces of 10³⁰ N balance nowhere, and take long to say so.
+    #[test]
+    fn numbers_stay_within_what_they_may_be() {
+        let filed = Hypothesis::filed(&VehicleFile::auriga_alpha());
+        let grip = |hypothesis: &Hypothesis| hypothesis.vehicle.friction.along;
+        let raised = filed.with(Unknown::FrictionLevel, 70.0);
+        assert_eq!(raised.friction_level, LEVEL);
+        assert!((grip(&raised) / grip(&filed) - LEVEL.exp()).abs() < 1e-12);
+        let lowered = raised.with(Unknown::FrictionLevel, -70.0);
+        assert!((grip(&lowered) * grip(&raised) / grip(&filed).powi(2) - 1.0).abs() < 1e-12);
+        assert_eq!(filed.with(Unknown::Offset(1), -7.0).offset[1], -7.0);
+    }
 }

@@ -386,7 +386,7 @@ impl Search<'_> {
 fn is_physical(beside: &Hypothesis, variant: &Variant, sizes: &[f64]) -> bool {
     variant.sizes().iter().zip(sizes).all(|(&place, size)| {
         let unknown = Unknown::Effect(variant.effect, place);
-        let [low, high] = unknown.parameter().map_or([f64::MIN, f64::MAX], |p| p.range);
+        let [low, high] = unknown.range();
         let value = beside.get(unknown) + size;
         (low..=high).contains(&value)
     })

@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 use table::{Grid, Table};
 use trackdyn_core::{PerSide, Twist, real};
-use trackdyn_motion::{Icrs, Stationary, Status, lag};
+use trackdyn_motion::{Icrs, Near, Stationary, Status, lag};
 use trackdyn_physics::{Circumstance, Model};
 
 /// A table of stationary motions.
@@ -38,8 +38,8 @@ impl Surface {
             .into_par_iter()
             .map(|index| {
                 let speeds = grid.speeds(index);
-                let start = before.and_then(|before| icrs(before.beyond.node(index)));
-                let solution = solver.starting_at(start).solve(speeds);
+                let near = before.and_then(|before| near(before.beyond.node(index)));
+                let solution = solver.starting_at(near).solve(speeds);
                 let usable = !matches!(solution.status, Status::NotConverged | Status::Lifts);
                 usable.then(|| normalised(speeds, &solution.twist))
             })
@@ -92,9 +92,9 @@ pub struct Steady {
 }
 
 impl Steady {
-    /// The ICRs; none where one is infinitely far.
-    pub fn icrs(&self) -> Option<Icrs> {
-        icrs(&self.beyond)
+    /// Where the search for this motion starts; none where the robot drives straight.
+    pub fn near(&self) -> Option<Near> {
+        near(&self.beyond).filter(|_| self.difference != 0.0)
     }
 
     /// The twist (paper's frame), with the ICRs moved by `offset` (x_l, x_r, y), m.
@@ -111,11 +111,11 @@ pub fn normalised(speeds: PerSide<f64>, twist: &Twist) -> Vector3<f64> {
     Vector3::new(twist.v_x, twist.v_y - mean, twist.w) / (speeds.right - speeds.left)
 }
 
-/// The ICRs of a normalised twist; none where one is infinitely far.
-fn icrs(twist: &Vector3<f64>) -> Option<Icrs> {
+/// Where the search for a motion with this normalised twist starts.
+fn near(twist: &Vector3<f64>) -> Option<Near> {
     let (middle, half) = (-twist[1] / twist[2], 0.5 / twist[2]);
     let icrs = Icrs { x_left: middle - half, x_right: middle + half, y: twist[0] / twist[2] };
-    (twist[2] > 0.0 && half.is_finite()).then_some(icrs)
+    if half.is_finite() { (half > 0.0).then_some(Near::Turning(icrs)) } else { Some(Near::Held) }
 }
 
 /// A normalised twist after its ICRs were moved by (x_l, x_r, y), m.

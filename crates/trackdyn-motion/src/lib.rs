@@ -18,5 +18,5 @@ pub use icr::Icrs;
 pub use kinematics::Kinematics;
 pub use lag::lag;
 pub use map::{Grid, IcrMap};
-pub use stationary::{Solution, Stationary, Status};
+pub use stationary::{Near, Solution, Stationary, Status};
 pub use transient::Transient;

@@ -34,6 +34,15 @@ const SETTLED: f64 = 1e-13;
 /// Turns between belt speeds and traction after which the search is given up.
 const MOST_TURNS: usize = 100;
 
+/// A motion that is nearly the wanted one: where a search starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Near {
+    /// It turns, with these ICRs.
+    Turning(Icrs),
+    /// One track holds the robot.
+    Held,
+}
+
 /// Solver for the stationary motions of one model at one place, heading and time.
 #[derive(Clone, Debug)]
 pub struct Stationary<'m> {
@@ -41,8 +50,8 @@ pub struct Stationary<'m> {
     ground: Ground,
     /// Force and moment that count as 1 in the residual, N and N·m.
     scale: [f64; 2],
-    /// ICRs of a spin at creeping speed.
-    creeping: Option<Icrs>,
+    /// Where searches start first.
+    near: Option<Near>,
 }
 
 impl<'m> Stationary<'m> {
@@ -53,21 +62,20 @@ impl<'m> Stationary<'m> {
     pub fn new(model: &'m Model, circumstance: &Circumstance) -> Self {
         let mut solver = Self::from_start(model, circumstance, None);
         let spin = solver.solve_belts(PerSide::new(-CREEP, CREEP));
-        solver.creeping = spin.icrs.filter(|_| spin.status == Status::Turning);
+        solver.near = spin.near();
         solver
     }
 
-    /// The solver with these ICRs as its first start in place of the slow spin.
-    pub fn from_start(model: &'m Model, circumstance: &Circumstance, start: Option<Icrs>) -> Self {
+    /// The solver that starts from this motion in place of the slow spin.
+    pub fn from_start(model: &'m Model, circumstance: &Circumstance, near: Option<Near>) -> Self {
         let weight = model.vehicle().weight();
         let scale = [weight, weight * model.vehicle().gauge];
-        Self { model, ground: model.ground(circumstance), scale, creeping: start }
+        Self { model, ground: model.ground(circumstance), scale, near }
     }
 
-    /// The same solver with these ICRs as its first start, where a motion that is nearly the wanted one is
-    /// known.
-    pub fn starting_at(&self, icrs: Option<Icrs>) -> Self {
-        Self { creeping: icrs.or(self.creeping), ..self.clone() }
+    /// The same solver with this motion as its first start, where one is known.
+    pub fn starting_at(&self, near: Option<Near>) -> Self {
+        Self { near: near.or(self.near), ..self.clone() }
     }
 
     /// The stationary motion at the track speeds that the encoders show, m/s.
@@ -176,13 +184,6 @@ impl<'s> Problem<'s> {
         let model = self.solver.model;
         let (gauge, cog_y) = (model.vehicle().gauge, model.vehicle().cog[1]);
         let outwards = self.anchor.sign();
-        let creeping = self.solver.creeping.map(|icrs| {
-            let x = match self.anchor {
-                Side::Left => icrs.x_left,
-                Side::Right => icrs.x_right,
-            };
-            Vector3::new(x, icrs.y, 1.0 / (icrs.x_right - icrs.x_left))
-        });
         // Both tracks turn about points a quarter of the contact length outside their centre-lines.
         let [rear, front] = model.footprint().ends;
         let x = gauge / 2.0 + (front - rear) / 4.0;
@@ -190,7 +191,17 @@ impl<'s> Problem<'s> {
         // The anchor breaks loose under twice the other track's friction, whose lever is the gauge.
         let x = gauge / 2.0 + model.footprint().gyration_squared / gauge;
         let holding = Vector3::new(outwards * x, cog_y, -1.0 / gauge);
-        creeping.into_iter().chain([turning, holding])
+        let near = self.solver.near.map(|near| match near {
+            Near::Turning(icrs) => {
+                let x = match self.anchor {
+                    Side::Left => icrs.x_left,
+                    Side::Right => icrs.x_right,
+                };
+                Vector3::new(x, icrs.y, 1.0 / (icrs.x_right - icrs.x_left))
+            }
+            Near::Held => holding,
+        });
+        near.into_iter().chain([turning, holding])
     }
 
     fn solve(self, start: Vector3<f64>) -> Root<'s> {

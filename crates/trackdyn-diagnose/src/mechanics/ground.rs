@@ -61,10 +61,10 @@ pub fn by_ground(
     samples
         .map(|sample| {
             let speeds = drive.driven(sample.speeds);
-            let start = table.motion(speeds).icrs();
-            let there = level.starting_at(start).solve(speeds);
-            let start = there.icrs.or(start);
-            let here = Stationary::from_start(with, &circumstance(sample), start).solve(speeds);
+            let near = table.motion(speeds).near();
+            let there = level.starting_at(near).solve(speeds);
+            let near = there.near().or(near);
+            let here = Stationary::from_start(with, &circumstance(sample), near).solve(speeds);
             let usable = |status: Status| status != Status::NotConverged;
             if usable(here.status) && usable(there.status) {
                 minus(&here.twist, &there.twist)

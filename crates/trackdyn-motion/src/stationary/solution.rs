@@ -1,5 +1,6 @@
 //! What a solve returns.
 
+use super::Near;
 use crate::icr::Icrs;
 use trackdyn_core::{PerSide, Side, Twist};
 use trackdyn_physics::Sensor;
@@ -26,6 +27,15 @@ pub struct Solution {
 }
 
 impl Solution {
+    /// Where the search for a motion that is nearly this one starts; none where none was found.
+    pub fn near(&self) -> Option<Near> {
+        match self.status {
+            Status::Turning | Status::Straight => self.icrs.map(Near::Turning),
+            Status::Holds(_) => Some(Near::Held),
+            Status::Lifts | Status::NotConverged => None,
+        }
+    }
+
     /// The twist that a pose sensor reports of it, in the sensor's axes.
     pub fn reported_twist(&self, sensor: &Sensor) -> Twist {
         sensor.reported(&self.twist)

@@ -49,6 +49,8 @@ pub struct Fit {
     pub hypothesis: Hypothesis,
     /// What was free.
     pub unknowns: Vec<Unknown>,
+    /// Places of those that are not held at a bound.
+    pub free: Vec<usize>,
     /// Its mechanics.
     pub mechanics: Mechanics,
     /// Whitened and scaled residuals.
@@ -437,6 +439,7 @@ impl Fit {
         Self {
             hypothesis,
             unknowns: unknowns.to_vec(),
+            free,
             mechanics,
             residual,
             columns,

@@ -2,9 +2,11 @@
 
 use crate::fit::Fit;
 use crate::hypothesis::Unknown;
+use crate::normal::Normal;
 use crate::search::{Found, Search};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use trackdyn_core::real;
+use trackdyn_identify::least_squares::Interval as Student;
 
 /// A fitted parameter with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,64 +30,64 @@ const CLOCK: f64 = 1e-3;
 pub struct Level {
     /// Estimate.
     pub value: f64,
-    /// Its standard deviation.
-    pub deviation: f64,
+    /// Half of its 95 % interval.
+    pub half: f64,
 }
 
 impl Level {
-    /// Whether it surely differs from that of the vehicle file: three standard deviations.
+    /// Whether it surely differs from that of the vehicle file: by three standard deviations.
     pub fn is_sure(&self) -> bool {
-        self.value.abs() > 3.0 * self.deviation
+        self.value.abs() > 1.5 * self.half
     }
 }
 
-/// Standard deviations of what is free in a hypothesis.
+/// Half the 95 % intervals of what is free in a hypothesis.
 ///
-/// The variance is the larger one of two: by the noise, and by the scatter of the scores from block to block,
-/// which no noise model enters.
+/// The variance is the larger one of two: by the noise, and by how much the estimate changes where a block is left out,
+/// (B − 1)/B Σ (θ₋ᵦ − θ)², which no noise model enters.
+///
+/// # Sources
+/// The block jackknife: Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3).
 pub struct Uncertainty {
-    deviations: Vec<f64>,
-    /// Student's t at 97.5 %.
-    t: f64,
+    halves: Vec<f64>,
 }
 
 impl Uncertainty {
     /// Those of the best hypothesis.
     pub fn of(search: &Search, best: &Found) -> Self {
         let fit = &best.fit;
-        let (normal, _, _) = search.normal(fit, &[]);
-        let covariance = &fit.solution.covariance;
-        let count = fit.unknowns.len();
-        let step = &fit.solution.estimate;
-        let mut scatter = DMatrix::zeros(count, count);
-        let mut blocks = 0;
-        for block in 0..normal.blocks() {
-            let products = normal.block(block);
-            if products[(count, count)] == 0.0 {
-                continue;
-            }
-            blocks += 1;
-            let information = products.view((0, 0), (count, count));
-            let score = DVector::from_fn(count, |k, _| products[(k, count)]) - information * step;
-            scatter += &score * score.transpose();
+        let (normal, priors, _) = search.normal(fit, &[]);
+        let estimate = |normal: &Normal| normal.fit(&fit.free, &priors).estimate;
+        let whole = estimate(&normal);
+        let last = normal.columns();
+        let counts = |block: &usize| normal.block(*block)[(last, last)] != 0.0;
+        let blocks: Vec<usize> = (0..normal.blocks()).filter(counts).collect();
+        let mut squares = DVector::zeros(whole.len());
+        for &block in &blocks {
+            let change = estimate(&normal.without(&(block..block + 1))) - &whole;
+            squares += change.component_mul(&change);
         }
-        let blocks = real(blocks.max(2));
-        let robust = covariance * scatter * covariance * (blocks / (blocks - 1.0));
-        let deviation = |k| f64::max(covariance[(k, k)], robust[(k, k)]).max(0.0).sqrt();
-        // by its expansion for many blocks
-        let t = 1.959_964 + 2.372_3 / (blocks - 1.0);
-        Self { deviations: (0..count).map(deviation).collect(), t }
+        let count = real(blocks.len().max(2));
+        let mut variances = fit.solution.covariance.diagonal();
+        for (&k, squares) in fit.free.iter().zip(squares.iter()) {
+            variances[k] = variances[k].max(squares * (count - 1.0) / count);
+        }
+        let halves = variances.iter().map(|variance| {
+            let deviation = variance.max(0.0).sqrt();
+            Student::new(0.0, deviation, blocks.len(), 1).high
+        });
+        Self { halves: halves.collect() }
     }
 
     /// The parameters of the added effects and instruments with their 95 % intervals. No time is known better than to a
     /// millisecond.
     pub fn intervals(&self, fit: &Fit) -> Vec<Interval> {
-        let unknowns = fit.unknowns.iter().zip(&self.deviations);
+        let unknowns = fit.unknowns.iter().zip(&self.halves);
         unknowns
-            .filter_map(|(&unknown, deviation)| {
+            .filter_map(|(&unknown, half)| {
                 let parameter = unknown.parameter()?;
                 let model = if parameter.unit == "s" { CLOCK } else { 0.0 };
-                let half = (self.t * deviation).hypot(model);
+                let half = half.hypot(model);
                 let value = fit.hypothesis.get(unknown);
                 let [low, high] = parameter.range;
                 Some(Interval {
@@ -101,6 +103,6 @@ impl Uncertainty {
     /// The level of friction; none where it is not free.
     pub fn friction_level(&self, fit: &Fit) -> Option<Level> {
         let place = fit.unknowns.iter().position(|one| *one == Unknown::FrictionLevel)?;
-        Some(Level { value: fit.hypothesis.friction_level, deviation: self.deviations[place] })
+        Some(Level { value: fit.hypothesis.friction_level, half: self.halves[place] })
     }
 }

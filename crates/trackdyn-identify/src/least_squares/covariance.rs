@@ -53,7 +53,7 @@ impl Interval {
     }
 
     /// Student's interval with as many degrees of freedom as blocks exceed parameters.
-    pub(crate) fn new(value: f64, deviation: f64, blocks: usize, parameters: usize) -> Self {
+    pub fn new(value: f64, deviation: f64, blocks: usize, parameters: usize) -> Self {
         let freedom = real(blocks.saturating_sub(parameters).max(1));
         let quantile =
             StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |student| student.inverse_cdf(0.975));

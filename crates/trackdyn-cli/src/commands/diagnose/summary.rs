@@ -83,13 +83,10 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
 }
 
 /// By how much both coefficients of friction differ from what was supposed.
-fn friction(Level { value, deviation }: Level) -> String {
-    let factor = |deviations: f64| (value + deviations * deviation).exp();
+fn friction(Level { value, half }: Level) -> String {
+    let [factor, low, high] = [value, value - half, value + half].map(f64::exp);
     format!(
-        "both coefficients times {:.2} [{:.2}, {:.2}]: steady turns do not tell, but mass slides that far",
-        factor(0.0),
-        factor(-1.96),
-        factor(1.96)
+        "both coefficients times {factor:.2} [{low:.2}, {high:.2}]: steady turns do not tell, but mass slides that far"
     )
 }
 

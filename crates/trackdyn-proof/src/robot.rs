@@ -129,6 +129,14 @@ impl Robot {
         transient * self.vehicle.mass * (v_x * v_x + v_y * v_y + spin * spin) / 2.0
     }
 
+    /// Makes the next step such that speeds change by what the setup wants, after a change by `change` (m/s); by a
+    /// factor within these limits.
+    fn adapt(&mut self, change: f64, [least, most]: [f64; 2]) {
+        let factor = self.setup.speed_change / change.max(f64::MIN_POSITIVE);
+        self.step = (self.step * factor.clamp(least, most))
+            .clamp(self.setup.shortest_step, self.setup.longest_step);
+    }
+
     /// Takes a step of `dt`, or none and says why not; gives the change of speed, m/s.
     fn advance(&mut self, dt: f64) -> Result<f64, String> {
         let level = Gravity { along: [0.0, 0.0], normal: STANDARD_GRAVITY };
@@ -233,10 +241,10 @@ impl Plant for Robot {
         until: f64,
         trajectory: &mut Trajectory,
     ) -> Result<(), Stopped> {
-        if speeds != self.encoder {
-            self.encoder = speeds;
-            self.step = self.setup.shortest_step;
-        }
+        // a new command is a change of speed ahead
+        let jump = |side: Side| (speeds[side] - self.encoder[side]).abs();
+        self.adapt(jump(Side::Left).max(jump(Side::Right)), [0.0, 1.0]);
+        self.encoder = speeds;
         while self.t < until {
             let remaining = until - self.t;
             // the last two steps share what is left, so that none is a sliver
@@ -248,9 +256,7 @@ impl Plant for Robot {
                         self.t = until;
                     }
                     trajectory.push(self.moment());
-                    let growth = self.setup.speed_change / change.max(f64::MIN_POSITIVE);
-                    self.step = (self.step * growth.clamp(0.3, 1.6))
-                        .clamp(self.setup.shortest_step, self.setup.longest_step);
+                    self.adapt(change, [0.3, 1.6]);
                 }
                 Err(reason) => {
                     self.step = dt / 4.0;

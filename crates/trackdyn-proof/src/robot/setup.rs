@@ -12,7 +12,7 @@ pub struct Setup {
     pub shoes: u32,
     /// Deflection at which a shoe begins to slide, m.
     pub elastic_range: f64,
-    /// First step after a new command, s; numerical trouble may enforce shorter ones.
+    /// Shortest step, s, that of a start; numerical trouble may enforce shorter ones.
     pub shortest_step: f64,
     /// Step of a motion that hardly changes, s.
     pub longest_step: f64,

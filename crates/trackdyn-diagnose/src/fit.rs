@@ -227,23 +227,24 @@ pub fn area(evidence: &Evidence, role: Role) -> [f64; 2] {
     [f64::midpoint(low, high), (high - low) / 2.0]
 }
 
-/// Step of a difference quotient.
+/// Step of a difference quotient, away from an upper bound.
 fn step(hypothesis: &Hypothesis, unknown: Unknown) -> f64 {
-    match unknown {
+    let value = hypothesis.get(unknown);
+    let size = match unknown {
         Unknown::Offset(_) => 1e-3 * hypothesis.vehicle.gauge,
         Unknown::FrictionLevel => 0.05,
         Unknown::Effect(..) => {
             let parameter = unknown.parameter().expect("an effect's");
-            let value = hypothesis.get(unknown);
-            let size = match parameter.role {
+            match parameter.role {
                 Role::Size { .. } => 0.05 * typical_size(parameter),
                 Role::Place { .. } => 0.1,
                 Role::Direction => 2.0,
                 Role::Shape => 0.05 * value.abs().max(0.05 * parameter.typical),
-            };
-            if value + size > parameter.range[1] { -size } else { size }
+            }
         }
-    }
+    };
+    let [_, high] = unknown.range();
+    if value + size > high { -size } else { size }
 }
 
 /// The derivatives of the prediction by unknowns, as columns.
@@ -462,8 +463,11 @@ impl Fit {
         self.unknowns.iter().copied().filter(|unknown| !unknown.is_of(effect)).collect()
     }
 
-    /// Logarithm of the evidence, up to what all hypotheses share.
+    /// Logarithm of the evidence, up to what all hypotheses share; −∞ where the linear fit has no solution.
     pub fn ln_evidence(&self, evidence: &Evidence) -> f64 {
+        if !self.solution.ln_evidence.is_finite() {
+            return f64::NEG_INFINITY;
+        }
         // ½ (minimum − its quadratic part) is the same at the optimum; what is left is Occam's factor.
         let count = self.unknowns.len();
         let priors = priors(&self.hypothesis, &self.unknowns, evidence);
@@ -508,4 +512,26 @@ fn spread(solution: &Solution, free: &[usize], priors: &[Prior]) -> Solution {
         }
     }
     Solution { estimate, covariance, ..solution.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hypothesis::unknowns_of;
+    use trackdyn_physics::VehicleFile;
+
+    /// A quotient over no step at all would be no number.
+    #[test]
+    fn every_number_has_a_step_to_take_wherever_it_stands() {
+        let filed = Hypothesis::filed(&VehicleFile::auriga_alpha());
+        let effects = (0..CATALOGUE.len()).flat_map(unknowns_of);
+        for unknown in effects.chain([Unknown::Offset(0), Unknown::FrictionLevel]) {
+            let [low, high] = unknown.range();
+            for value in [low.max(-1e9), high.min(1e9), 0.0_f64.clamp(low, high)] {
+                let here = filed.with(unknown, value);
+                let there = here.with(unknown, here.get(unknown) + step(&here, unknown));
+                assert!(there.get(unknown) != here.get(unknown), "{unknown:?} at {value}");
+            }
+        }
+    }
 }

@@ -149,7 +149,7 @@ impl Normal {
             None => (
                 DVector::zeros(count),
                 DMatrix::from_diagonal_element(count, count, f64::INFINITY),
-                0.0,
+                f64::INFINITY,
             ),
         };
         let gain = gradient.dot(&estimate);

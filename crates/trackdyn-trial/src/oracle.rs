@@ -16,9 +16,10 @@ use trackdyn_identify::Observations;
 pub const DETECTABLE: f64 = 5.0;
 /// z from which on an effect can be told from every other one.
 pub const DISTINCT: f64 = 4.0;
-/// Smallest z at which sizes are found: well above what the phases of shoes make of any change, some 3. Only smaller
-/// sizes are taken in proportion: from z = 15 to 120 laws of the slip speed are anything but linear.
-const CLEAR: f64 = 40.0;
+/// Smallest z at which sizes are found: above what the phases of shoes make of any change, one or two. Only smaller
+/// sizes are taken in proportion: between z = 10 and 40 laws of the slip speed are anything but linear, and sheared soil
+/// changes the sign of what it shows.
+const CLEAR: f64 = 5.0;
 /// Deviation of z from the wanted one, as a ratio, that is taken in proportion.
 const CLOSE_ENOUGH: f64 = 0.15;
 /// Sizes that are tried on few runs.
@@ -27,7 +28,7 @@ const SEARCHES: usize = 5;
 const POWERS: [f64; 2] = [0.5, 3.0];
 /// Smallest z per unit of strength by which a size can be set.
 const VISIBLE: f64 = 0.5;
-/// Runs on which effects are told from each other, and sizes are searched for.
+/// Runs on which effects are told from each other, and sizes are searched for where they show there.
 const FEW_RUNS: usize = 4;
 
 /// The runs and sensors by which effects are judged.
@@ -66,21 +67,27 @@ impl Judge<'_> {
         Ok(Sized { dose, strength, signature })
     }
 
-    /// An effect at the wanted z, or at its largest strength where it does not reach it, or at `otherwise`
-    /// where it does not show at all.
+    /// An effect at about the wanted z, with what it really leaves; at its smallest or largest strength where that shows
+    /// more or less; or at `otherwise` where it does not show at all.
     pub(crate) fn sized(&self, dose: Dose, wanted: f64, otherwise: f64) -> Result<Sized, String> {
-        let few = &self.runs[..FEW_RUNS.min(self.runs.len())];
-        let more_runs = (crate::real(self.runs.len()) / crate::real(few.len())).sqrt();
-        let z = |strength: f64| {
-            let signature = self.signature(&dose, strength, few)?;
+        let mut runs = &self.runs[..FEW_RUNS.min(self.runs.len())];
+        let z = |runs: &[Drive], strength: f64| {
+            let more_runs = (crate::real(self.runs.len()) / crate::real(runs.len())).sqrt();
+            let signature = self.signature(&dose, strength, runs)?;
             Ok::<f64, String>(more_runs * self.z(&signature))
         };
         let mut strength = dose.largest().min(1.0);
-        let mut shown = z(strength)?;
+        let mut shown = z(runs, strength)?;
+        if shown < VISIBLE * strength {
+            // a place may lie off the ways of the first runs
+            runs = self.runs;
+            shown = z(runs, strength)?;
+        }
         if shown < VISIBLE * strength {
             let strength = otherwise.min(dose.largest());
             return self.at(dose, strength);
         }
+        let z = |strength: f64| z(runs, strength);
         let clear = wanted.max(CLEAR);
         let (mut power, mut bracket) = (1.0, [0.0, dose.largest()]);
         for _ in 0..SEARCHES {
@@ -90,7 +97,7 @@ impl Judge<'_> {
             // a law that sets in at once is met by halves
             let next =
                 if low > 0.0 && !(low..high).contains(&next) { (low * high).sqrt() } else { next };
-            let next = next.min(dose.largest());
+            let next = next.clamp(dose.smallest(), dose.largest());
             if (next / strength).ln().abs() < CLOSE_ENOUGH {
                 break;
             }
@@ -107,7 +114,7 @@ impl Judge<'_> {
         let [least, most] = [sized.dose.smallest(), sized.dose.largest()];
         let share = share.clamp(least / sized.strength, most / sized.strength);
         let is_near = share.ln().abs() < 2.0 * CLOSE_ENOUGH;
-        if share < 1.0 || is_near {
+        if wanted < CLEAR || is_near {
             sized.strength *= share;
             sized.signature.iter_mut().for_each(|value| *value *= share);
         }

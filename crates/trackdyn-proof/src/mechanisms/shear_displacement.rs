@@ -37,7 +37,7 @@ impl Described for ShearDisplacement {
         parameters: &[Parameter {
             key: "modulus_m",
             unit: "m",
-            range: [0.0001, 0.3],
+            range: [0.001, 0.3],
             typical: 0.02,
         }],
     };

@@ -183,31 +183,49 @@ fn z_grows_in_proportion_and_is_largest_without_alternatives() {
         let standing = judge.standings(&[sized], &[], scene, &mut random).expect("compared");
         let Standing { z_det, z_iso, nearest, .. } = &standing[0];
         assert!((z_det - 60.0).abs() < 1e-6, "{z_det}");
-        // a cable from afar pulls as a slope does; phases of shoes leave some 3
+        // a cable from afar pulls as a slope does; phases of shoes leave one or two
         assert!(*nearest == "tether" && *z_iso < 0.1 * z_det, "{nearest}: {z_iso} of {z_det}");
     });
 }
 
-/// Laws of the slip speed are not linear between what is seen at once and what is seen at all.
+/// What is stated is what the size really leaves, in length and in shape: laws of the slip speed are not linear, and what
+/// sheared soil shows changes its sign.
 #[test]
-fn a_size_shows_by_the_z_that_was_wanted() {
-    let stage = Stage::new(21);
-    stage.with(|judge, scene| {
-        let mut random = stream(2, 1, 0, Purpose::Concealed);
-        for id in ["stribeck-friction", "viscous-friction", "friction-creep"] {
-            for wanted in [20.0, 50.0] {
+fn a_size_shows_by_the_z_that_is_stated() {
+    let mut of_wanted = 0;
+    for seed in [21, 24] {
+        let stage = Stage::new(seed);
+        stage.with(|judge, scene| {
+            let mut random = stream(2, 1, 0, Purpose::Concealed);
+            for id in [
+                "stribeck-friction",
+                "viscous-friction",
+                "friction-creep",
+                "load-transfer",
+                "shear-displacement",
+                "belt-slip",
+                "hitch-drag",
+                "terrain-patch",
+                "splayed-belts",
+                "drive-backlash",
+            ] {
+                let wanted = 10.0;
                 let dose = Dose::draw(id, scene, &mut random);
                 let sized = judge.sized(dose, wanted, 1.0).expect("a size");
-                let stated = judge.z(&sized.signature);
                 let at = judge.at(sized.dose, sized.strength).expect("it drives");
-                let shown = judge.z(&at.signature);
-                assert!(
-                    (shown / stated).ln().abs() < 2.0 * CLOSE_ENOUGH,
-                    "{id}: {shown} for {stated}"
-                );
+                let [stated, shown] = [&sized.signature, &at.signature].map(|s| judge.z(s));
+                let sum: Vec<f64> =
+                    sized.signature.iter().zip(&at.signature).map(|(a, b)| a + b).collect();
+                let cosine = (judge.z(&sum).powi(2) - stated * stated - shown * shown)
+                    / (2.0 * stated * shown);
+                assert!((shown / stated).ln().abs() < CLOSE_ENOUGH, "{id}: {shown} for {stated}");
+                assert!(cosine > 0.95, "{id}: cosine {cosine}");
+                of_wanted += usize::from((stated / wanted).ln().abs() < 2.0 * CLOSE_ENOUGH);
             }
-        }
-    });
+        });
+    }
+    // the least soil can be shows more on sensitive robots, and some laws set in at once
+    assert!(of_wanted >= 16, "{of_wanted} of 20");
 }
 
 #[test]

@@ -7,7 +7,9 @@
 use super::IcrColumns;
 use crate::evidence::{Evidence, Sample};
 use nalgebra::Vector3;
+use trackdyn_core::{PerSide, Side};
 use trackdyn_physics::effect::Symmetry;
+use trackdyn_recording::hold::held;
 
 /// Ratio of the slower to the faster track, from −1 (spin) to 1 (straight), beyond which driving counts as
 /// straight or as spinning.
@@ -144,7 +146,47 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<V
     for of in [&middle, &half, y] {
         add(Symmetry::Transient, of, &hurry);
     }
+    // What a track does where it turns round: play in its drive, or soil that yields the other way.
+    let turned = turned(evidence);
+    for (channel, sign) in [(0, 1.0), (1, -1.0), (2, -1.0)] {
+        let column: Vec<Vector3<f64>> = along(channel)
+            .iter()
+            .zip(&turned)
+            .map(|(unit, turned)| unit * (turned.right + sign * turned.left))
+            .collect();
+        if column.iter().any(|value| value.norm() > 0.0) {
+            all.push((Symmetry::Transient, column));
+        }
+    }
     all
+}
+
+/// Part of the fastest speed from which on a track counts as running.
+const RUNNING: f64 = 0.02;
+
+/// How often each track turns round in each sample: to forward positive, to backward negative.
+fn turned(evidence: &Evidence) -> Vec<PerSide<f64>> {
+    let slowest = RUNNING * evidence.fastest();
+    let mut turned = Vec::with_capacity(evidence.samples().len());
+    let mut before = (0, PerSide::new(0.0, 0.0));
+    for sample in evidence.samples() {
+        if before.0 != sample.run {
+            before = (sample.run, PerSide::new(0.0, 0.0));
+        }
+        let until = sample.start + sample.duration;
+        let mut sum = PerSide::new(0.0, 0.0);
+        for held in held(&evidence.tracks()[sample.run], sample.start, until, evidence.tau()) {
+            for side in Side::BOTH.into_iter().filter(|side| held.speeds[*side].abs() > slowest) {
+                let now = held.speeds[side].signum();
+                if before.1[side] * now < 0.0 {
+                    sum[side] += now;
+                }
+                before.1[side] = now;
+            }
+        }
+        turned.push(sum);
+    }
+    turned
 }
 
 fn sign(value: f64) -> f64 {
@@ -158,4 +200,37 @@ fn scaled(samples: &[Sample], of: impl Fn(&Sample) -> f64) -> impl Fn(&Sample) -
         range.fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
     let (middle, half) = (f64::midpoint(low, high), ((high - low) / 2.0).max(f64::MIN_POSITIVE));
     move |sample| (of(sample) - middle) / half
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evidence::planned::{PlannedRun, READINGS};
+    use trackdyn_core::Pose;
+    use trackdyn_identify::weighting::SegmentNoise;
+    use trackdyn_recording::TrackSample;
+
+    #[test]
+    fn a_track_turns_round_where_it_goes_the_other_way_after_whatever_rest() {
+        // forward, rest, backward, noise of a standing encoder, forward; the other track runs on
+        let left = [0.5, 0.5, 0.0, -0.4, -0.001, 0.001, 0.6, 0.6];
+        let speeds = left.iter().flat_map(|speed| std::iter::repeat_n(*speed, READINGS));
+        let reading = |(k, speed): (u32, f64)| TrackSample {
+            t: 0.03 * f64::from(k),
+            v_left: speed,
+            v_right: 0.3,
+        };
+        let tracks: Vec<TrackSample> = (0..).zip(speeds.chain([0.6])).map(reading).collect();
+        let run = || PlannedRun { pose: Pose::default(), tracks: tracks.clone(), blocks: vec![0] };
+        let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3] };
+        let evidence = Evidence::planned(&[run(), run()], noise, 0.0, |evidence| {
+            vec![Vector3::zeros(); evidence.samples().len()]
+        });
+        let once = [0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0.0];
+        let found = turned(&evidence);
+        // a run knows nothing of the one before
+        let expected = [once, once].concat();
+        assert_eq!(found.iter().map(|turned| turned.left).collect::<Vec<_>>(), expected);
+        assert!(found.iter().all(|turned| turned.right == 0.0));
+    }
 }

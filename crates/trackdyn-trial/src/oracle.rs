@@ -20,7 +20,7 @@ pub const DISTINCT: f64 = 4.0;
 /// sizes are taken in proportion: between z = 10 and 40 laws of the slip speed are anything but linear, and sheared soil
 /// changes the sign of what it shows.
 const CLEAR: f64 = 5.0;
-/// Deviation of z from the wanted one, as a ratio, that is taken in proportion.
+/// Ratio by which z may differ from the wanted one: what is stated is what the size leaves, not what was wanted.
 const CLOSE_ENOUGH: f64 = 0.15;
 /// Sizes that are tried on few runs.
 const SEARCHES: usize = 5;
@@ -110,11 +110,9 @@ impl Judge<'_> {
             (strength, shown) = (there, found);
         }
         let mut sized = self.at(dose, strength)?;
-        let share = wanted / self.z(&sized.signature);
-        let [least, most] = [sized.dose.smallest(), sized.dose.largest()];
-        let share = share.clamp(least / sized.strength, most / sized.strength);
-        let is_near = share.ln().abs() < 2.0 * CLOSE_ENOUGH;
-        if wanted < CLEAR || is_near {
+        if wanted < CLEAR {
+            let least = sized.dose.smallest() / sized.strength;
+            let share = (wanted / self.z(&sized.signature)).max(least).min(1.0);
             sized.strength *= share;
             sized.signature.iter_mut().for_each(|value| *value *= share);
         }

@@ -177,12 +177,12 @@ fn z_grows_in_proportion_and_is_largest_without_alternatives() {
             // what a second order adds at a fifth of a usual size
             assert!((two / one - 2.0).abs() < 0.1, "{id}: {one} and {two}");
         }
-        // sizes are taken in proportion: the signature has the wanted length
+        // what shows is about what was wanted
         let dose = Dose::slope(15.0);
         let sized = judge.sized(dose, 60.0, 1.0).expect("a size");
         let standing = judge.standings(&[sized], &[], scene, &mut random).expect("compared");
         let Standing { z_det, z_iso, nearest, .. } = &standing[0];
-        assert!((z_det - 60.0).abs() < 1e-6, "{z_det}");
+        assert!((z_det / 60.0).ln().abs() < 2.0 * CLOSE_ENOUGH, "{z_det}");
         // a cable from afar pulls as a slope does; phases of shoes leave one or two
         assert!(*nearest == "tether" && *z_iso < 0.1 * z_det, "{nearest}: {z_iso} of {z_det}");
     });
@@ -192,24 +192,24 @@ fn z_grows_in_proportion_and_is_largest_without_alternatives() {
 /// sheared soil shows changes its sign.
 #[test]
 fn a_size_shows_by_the_z_that_is_stated() {
+    const SLIP_SPEED: [&str; 3] = ["stribeck-friction", "viscous-friction", "friction-creep"];
+    const OTHERS: [&str; 7] = [
+        "load-transfer",
+        "shear-displacement",
+        "belt-slip",
+        "hitch-drag",
+        "terrain-patch",
+        "splayed-belts",
+        "drive-backlash",
+    ];
     let mut of_wanted = 0;
     for seed in [21, 24] {
         let stage = Stage::new(seed);
         stage.with(|judge, scene| {
             let mut random = stream(2, 1, 0, Purpose::Concealed);
-            for id in [
-                "stribeck-friction",
-                "viscous-friction",
-                "friction-creep",
-                "load-transfer",
-                "shear-displacement",
-                "belt-slip",
-                "hitch-drag",
-                "terrain-patch",
-                "splayed-belts",
-                "drive-backlash",
-            ] {
-                let wanted = 10.0;
+            let weak = SLIP_SPEED.into_iter().chain(OTHERS).flat_map(|id| [(id, 3.0), (id, 10.0)]);
+            let strong = SLIP_SPEED.into_iter().flat_map(|id| [(id, 20.0), (id, 50.0)]);
+            for (id, wanted) in weak.chain(strong) {
                 let dose = Dose::draw(id, scene, &mut random);
                 let sized = judge.sized(dose, wanted, 1.0).expect("a size");
                 let at = judge.at(sized.dose, sized.strength).expect("it drives");
@@ -224,8 +224,8 @@ fn a_size_shows_by_the_z_that_is_stated() {
             }
         });
     }
-    // the least soil can be shows more on sensitive robots, and some laws set in at once
-    assert!(of_wanted >= 16, "{of_wanted} of 20");
+    // the least soil can be shows more on sensitive robots, and laws of the slip speed saturate on others: four of five
+    assert!(of_wanted >= 42, "{of_wanted} of 52");
 }
 
 #[test]

@@ -35,7 +35,7 @@ pub struct Level {
 }
 
 impl Level {
-    /// Whether it surely differs from that of the vehicle file: by three standard deviations.
+    /// Whether it surely differs from that of the vehicle file: by some three standard deviations.
     pub fn is_sure(&self) -> bool {
         self.value.abs() > 1.5 * self.half
     }

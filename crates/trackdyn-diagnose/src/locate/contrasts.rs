@@ -68,12 +68,15 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<V
     };
     let (middle, half) = (combine(1.0), combine(-1.0));
     let mut all = Vec::new();
-    let mut add = |symmetry: Symmetry, of: &[Vector3<f64>], by: &dyn Fn(&Sample) -> f64| {
+    let mut add_each = |symmetry: Symmetry, of: &[Vector3<f64>], by: &dyn Fn(usize) -> f64| {
         let column: Vec<Vector3<f64>> =
-            samples.iter().zip(of).map(|(sample, value)| value * by(sample)).collect();
+            of.iter().enumerate().map(|(index, value)| value * by(index)).collect();
         if column.iter().any(|value| value.norm() > 0.0) {
             all.push((symmetry, column));
         }
+    };
+    let mut add = |symmetry: Symmetry, of: &[Vector3<f64>], by: &dyn Fn(&Sample) -> f64| {
+        add_each(symmetry, of, &|index| by(&samples[index]));
     };
 
     let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
@@ -148,15 +151,9 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<V
     }
     // What a track does where it turns round: play in its drive, or soil that yields the other way.
     let turned = turned(evidence);
-    for (channel, sign) in [(0, 1.0), (1, -1.0), (2, -1.0)] {
-        let column: Vec<Vector3<f64>> = along(channel)
-            .iter()
-            .zip(&turned)
-            .map(|(unit, turned)| unit * (turned.right + sign * turned.left))
-            .collect();
-        if column.iter().any(|value| value.norm() > 0.0) {
-            all.push((Symmetry::Transient, column));
-        }
+    add_each(Symmetry::Transient, &along(0), &|k| turned[k].right + turned[k].left);
+    for channel in [1, 2] {
+        add_each(Symmetry::Transient, &along(channel), &|k| turned[k].right - turned[k].left);
     }
     all
 }

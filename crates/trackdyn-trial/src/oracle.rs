@@ -28,8 +28,11 @@ const SEARCHES: usize = 5;
 const POWERS: [f64; 2] = [0.5, 3.0];
 /// Smallest z per unit of strength by which a size can be set.
 const VISIBLE: f64 = 0.5;
-/// Runs on which effects are told from each other, and sizes are searched for where they show there.
+/// Runs on which sizes are searched for and effects are told from each other, where they show there.
 const FEW_RUNS: usize = 4;
+/// Part of what a few runs show of an effect that is alike in all of them, below which all runs are looked at: the others
+/// pass its place.
+const MISSED: f64 = 0.5;
 
 /// The runs and sensors by which effects are judged.
 pub(crate) struct Judge<'a> {
@@ -130,9 +133,19 @@ impl Judge<'_> {
         let ids: Vec<&str> = concealed.iter().map(|sized| sized.dose.id()).collect();
         let excluded: Vec<&str> = known.iter().chain(&ids).copied().collect();
         let others = alternatives(&excluded, scene, random);
-        let still = self.still()?;
-        let shapes = concealed.iter().map(|sized| still.column(&sized.dose, sized.strength));
-        let shapes: Vec<Vec<f64>> = shapes.collect::<Result<_, _>>()?;
+        let shapes_in = |still: &Still| -> Result<Vec<Vec<f64>>, String> {
+            concealed.iter().map(|sized| still.column(&sized.dose, sized.strength)).collect()
+        };
+        let mut still = self.still(FEW_RUNS)?;
+        let mut shapes = shapes_in(&still)?;
+        let part = (crate::real(still.runs.len()) / crate::real(self.runs.len())).sqrt();
+        let is_missed = |(sized, shape): (&Sized, &Vec<f64>)| {
+            self.z(shape) < MISSED * part * self.z(&sized.signature)
+        };
+        if concealed.iter().zip(&shapes).any(is_missed) {
+            still = self.still(self.runs.len())?;
+            shapes = shapes_in(&still)?;
+        }
         let columns = still.columns(&others)?;
         let rows = shapes.iter().chain(columns.iter().flatten()).map(Vec::len).min();
         let rows = rows.unwrap_or_default();
@@ -144,7 +157,7 @@ impl Judge<'_> {
                 self.taken(rows, &beside.map(|(_, other)| *other).collect::<Vec<_>>())
             };
             let z_det = taken(self.bench.rows(), &signatures).outside(&sized.signature);
-            // what is compared was driven alike: without inertia, in the first runs
+            // what is compared was driven alike: without inertia, in the same runs
             let (space, part) = (taken(rows, &shapes), shapes[index]);
             let whole = space.outside(part);
             let left = others.iter().zip(&columns).map(|(alternative, columns)| {
@@ -179,9 +192,9 @@ impl Judge<'_> {
         self.bench.nuisances(signature.len()).outside(signature)
     }
 
-    /// The first runs of the robot without the inertia that its owner knows.
-    fn still(&self) -> Result<Still<'_>, String> {
-        let runs = &self.runs[..FEW_RUNS.min(self.runs.len())];
+    /// So many first runs of the robot without the inertia that its owner knows.
+    fn still(&self, runs: usize) -> Result<Still<'_>, String> {
+        let runs = &self.runs[..runs.min(self.runs.len())];
         let ground = Ground { active: Vec::new(), ..*self.ground };
         let without = ground.observe(runs, self.sensors)?;
         let residuals = self.bench.residuals(&without)?;
@@ -189,7 +202,7 @@ impl Judge<'_> {
     }
 }
 
-/// The first runs without inertia: signatures there are cheap, and shaped as those with it.
+/// Some of the first runs without inertia: signatures there are cheap, and shaped as those with it.
 struct Still<'a> {
     bench: &'a Bench,
     ground: Ground<'a>,

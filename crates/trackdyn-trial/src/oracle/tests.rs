@@ -228,6 +228,32 @@ fn a_size_shows_by_the_z_that_is_stated() {
     assert!(of_wanted >= 42, "{of_wanted} of 52");
 }
 
+/// A place that the first runs never pass can be told from other effects all the same, by those that do.
+#[test]
+fn a_patch_stands_where_only_later_runs_pass_it() {
+    let stage = Stage::new(21);
+    let places = |runs: &[Driven]| -> Vec<[f64; 2]> {
+        let poses = runs.iter().flat_map(|run| run.body.moments().iter().step_by(20));
+        places(poses.map(|moment| &moment.pose))
+    };
+    let (first, later) = (places(&stage.driven[..FEW_RUNS]), places(&stage.driven[FEW_RUNS..]));
+    let away = |[x, y]: &[f64; 2]| -> f64 {
+        let distances = first.iter().map(|other| (other[0] - x).hypot(other[1] - y));
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    let place = later.iter().max_by(|a, b| away(a).total_cmp(&away(b))).expect("later runs");
+    let reach = stage.machine.length().hypot(stage.machine.vehicle.gauge) / 2.0;
+    let radius = away(place) - reach;
+    assert!(radius > 0.1, "the first runs pass everything: {radius} m");
+    stage.with(|judge, scene| {
+        let mut random = stream(1, 1, 0, Purpose::Concealed);
+        let sized = judge.sized(Dose::patch(*place, radius, 1.3), 20.0, 1.0).expect("a size");
+        let standing = judge.standings(&[sized], &[], scene, &mut random).expect("compared");
+        let Standing { z_det, z_iso, nearest, .. } = &standing[0];
+        assert!(*z_det > 10.0 && *z_iso > 0.2 * z_det, "{nearest}: {z_iso} of {z_det}");
+    });
+}
+
 #[test]
 fn nuisances_alone_leave_nothing() {
     let stage = Stage::new(23);

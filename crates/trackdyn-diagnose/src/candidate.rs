@@ -12,7 +12,7 @@ use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
 use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument};
 use nalgebra::Vector3;
 use rayon::prelude::*;
-use trackdyn_physics::effect::{Parameter, Role};
+use trackdyn_physics::effect::{Card, Parameter, Role, Stage};
 use trackdyn_physics::{ActiveEffect, CATALOGUE};
 
 /// An effect with one choice of what is no size.
@@ -136,7 +136,8 @@ pub fn candidates(instruments: &[usize], evidence: &Evidence) -> Vec<Variant> {
 /// The variants of an effect that are tried on this evidence: none of what knows places or directions where the
 /// evidence has none.
 pub fn variants(effect: usize, evidence: &Evidence) -> Vec<Variant> {
-    let parameters = CATALOGUE[effect].parameters;
+    let card = &CATALOGUE[effect];
+    let parameters = card.parameters;
     let of_the_world =
         |parameter: &Parameter| matches!(parameter.role, Role::Place { .. } | Role::Direction);
     if evidence.is_steady() && parameters.iter().any(of_the_world) {
@@ -144,7 +145,7 @@ pub fn variants(effect: usize, evidence: &Evidence) -> Vec<Variant> {
     }
     let mut all = vec![Vec::new()];
     for parameter in parameters {
-        let choices = choices(parameter, parameters, evidence);
+        let choices = choices(parameter, card, evidence);
         all = all
             .into_iter()
             .flat_map(|values: Vec<f64>| {
@@ -159,21 +160,35 @@ pub fn variants(effect: usize, evidence: &Evidence) -> Vec<Variant> {
     all.into_iter().map(|values| Variant { effect, values }).collect()
 }
 
+/// Parts of a typical size at which signatures of laws of the shear stress are taken: such a size may be the scale of a law,
+/// and what it shows then is not in proportion to it.
+const SHEAR_SIZES: [f64; 2] = [1.0, 0.05];
+
 /// Values of a parameter that are tried.
-fn choices(parameter: &Parameter, of: &[Parameter], evidence: &Evidence) -> Vec<f64> {
+fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
     let [low, high] = parameter.range;
     let inside = |value: f64| value.clamp(low, high);
-    let step = spacing(parameter, of, evidence);
+    let step = spacing(parameter, of.parameters, evidence);
     match parameter.role {
+        Role::Size { .. } if of.stages.contains(&Stage::Shear) => {
+            let distance = parameter.typical - neutral(parameter);
+            SHEAR_SIZES.map(|part| inside(neutral(parameter) + part * distance)).to_vec()
+        }
         Role::Size { .. } => vec![parameter.typical],
         Role::Direction => (0..24).map(|k| inside(step * f64::from(k))).collect(),
         Role::Shape => {
-            [-1.0, 0.0, 1.0].map(|k: f64| inside(parameter.typical * (k * step).exp())).to_vec()
+            let tried = [-1.0, 0.0, 1.0].map(|k: f64| inside(parameter.typical * (k * step).exp()));
+            let mut tried = tried.to_vec();
+            tried.dedup();
+            tried
         }
         Role::Place { .. } => {
             let [middle, _] = area(evidence, parameter.role);
-            let grid: &[f64] =
-                if has_extent(of) { &[-1.5, -0.5, 0.5, 1.5] } else { &[-3.0, -1.0, 0.0, 1.0, 3.0] };
+            let grid: &[f64] = if has_extent(of.parameters) {
+                &[-1.5, -0.5, 0.5, 1.5]
+            } else {
+                &[-3.0, -1.0, 0.0, 1.0, 3.0]
+            };
             grid.iter().map(|place| inside(middle + place * step)).collect()
         }
     }

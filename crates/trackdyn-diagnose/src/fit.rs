@@ -229,6 +229,10 @@ pub fn area(evidence: &Evidence, role: Role) -> [f64; 2] {
 
 /// Step of a difference quotient, away from an upper bound.
 fn step(hypothesis: &Hypothesis, unknown: Unknown) -> f64 {
+    /// Of a size: part of its distance from none, within these parts of a typical one.
+    const SCALE: f64 = 0.2;
+    const SMALLEST: f64 = 2.5e-3;
+    const LARGEST: f64 = 0.05;
     let value = hypothesis.get(unknown);
     let size = match unknown {
         Unknown::Offset(_) => 1e-3 * hypothesis.vehicle.gauge,
@@ -236,7 +240,12 @@ fn step(hypothesis: &Hypothesis, unknown: Unknown) -> f64 {
         Unknown::Effect(..) => {
             let parameter = unknown.parameter().expect("an effect's");
             match parameter.role {
-                Role::Size { .. } => 0.05 * typical_size(parameter),
+                Role::Size { .. } => {
+                    // a size may be the scale of a law: what a larger step changes is not its derivative
+                    let distance = (value - neutral(parameter)).abs();
+                    let typical = typical_size(parameter);
+                    (SCALE * distance).clamp(SMALLEST * typical, LARGEST * typical)
+                }
                 Role::Place { .. } => 0.1,
                 Role::Direction => 2.0,
                 Role::Shape => 0.05 * value.abs().max(0.05 * parameter.typical),

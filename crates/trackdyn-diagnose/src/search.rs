@@ -40,6 +40,10 @@ const NEARLY: f64 = 0.7;
 /// Part of the best linear gain that a candidate must reach to be refitted.
 const COMPARABLE: f64 = 0.8;
 
+/// Part of the gain that the screen promised below which a refit begins anew, and with which share of the sizes.
+const KEPT: f64 = 0.5;
+const NEARER: f64 = 0.3;
+
 /// Rounds in which the vehicle takes over the offset of the ICRs, and the offset, as part of the gauge, that
 /// may stay.
 const RECALIBRATIONS: usize = 2;
@@ -226,21 +230,35 @@ impl Search<'_> {
 
     /// Refits with more effects.
     pub fn refit(&self, beside: &Found, more: &[Screened]) -> Found {
+        let found = self.refit_from(beside, more, 1.0);
+        let promised = more.iter().map(|one| one.gain).fold(0.0, f64::max);
+        let kept = |found: &Found| found.ln_evidence - beside.ln_evidence;
+        // Of a law that is not in proportion the screen may promise a size that is far too large to come back from.
+        if promised < WORTH || kept(&found) > KEPT * promised {
+            return found;
+        }
+        let nearer = self.refit_from(beside, more, NEARER);
+        if kept(&nearer) > kept(&found) { nearer } else { found }
+    }
+
+    /// Refits with more effects, from a share of the sizes that the screen found on.
+    fn refit_from(&self, beside: &Found, more: &[Screened], share: f64) -> Found {
         let mut hypothesis = beside.fit.hypothesis.clone();
         let mut unknowns = beside.fit.unknowns.clone();
         let mut effects = beside.effects.clone();
         for one in more {
             let variant = &self.catalogue.entries[one.entry].0;
+            let sizes: Vec<f64> = one.sizes.iter().map(|size| share * size).collect();
             let present = hypothesis.effect(one.effect).map(|effect| effect.values().to_vec());
             let values = match present {
                 // Known to be there already: its size moves from where it is.
                 Some(mut values) => {
-                    for (&place, size) in variant.sizes().iter().zip(&one.sizes) {
+                    for (&place, size) in variant.sizes().iter().zip(&sizes) {
                         values[place] += size;
                     }
                     values
                 }
-                None => variant.with_sizes(&one.sizes).values,
+                None => variant.with_sizes(&sizes).values,
             };
             hypothesis = hypothesis.with_effect(active(one.effect, &values));
             unknowns.extend(unknowns_of(one.effect));

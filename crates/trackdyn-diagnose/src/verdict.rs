@@ -98,7 +98,7 @@ pub fn judge(
             let without = search.without(best, effect);
             let screened = search.screen(&without);
             let mut one_of = vec![effect];
-            let mut others = Vec::new();
+            let mut refitted = vec![(effect, best.clone())];
             let own = screened.iter().find(|one| one.effect == effect);
             let own_gain = own.map_or(0.0, |one| one.gain);
             let is_close = |one: &&Screened| one.effect != effect && is_rival(one, own_gain, best);
@@ -112,14 +112,13 @@ pub fn judge(
                 if behind < Rules::SAME || less < Rules::LN_BAYES_FACTOR || apart < Rules::ISOLATED
                 {
                     one_of.push(rival.effect);
-                } else {
-                    others.push((rival.effect, exchanged.ln_evidence));
                 }
+                refitted.push((rival.effect, exchanged));
             }
             let too_many = (close.len() > RIVALS && one_of.len() > RIVALS)
                 .then(|| format!("{} effects explain it as well", close.len()));
             // What other recordings of the same robot would name instead is one answer with it.
-            let named = support::named(search, &without, &screened, seed);
+            let named = support::named(search, &without, &screened, &refitted, seed);
             let share = |one_of: &[usize]| -> f64 {
                 one_of.iter().filter_map(|effect| named.get(effect)).sum()
             };
@@ -129,8 +128,9 @@ pub fn judge(
                 one_of.push(next);
             }
             let stable = share(&one_of);
-            let rivals = others.iter().filter(|(effect, _)| !one_of.contains(effect));
-            let strongest = rivals.fold(without.ln_evidence, |most, (_, one)| most.max(*one));
+            let rivals = refitted.iter().filter(|(effect, _)| !one_of.contains(effect));
+            let strongest =
+                rivals.fold(without.ln_evidence, |most, (_, one)| most.max(one.ln_evidence));
             one_of.sort_unstable();
             let z = (without.fit.objective - best.fit.objective).max(0.0).sqrt();
             let whole = if is_static(&effect) { departure.hypot(by_constants) } else { departure };

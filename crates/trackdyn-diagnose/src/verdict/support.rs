@@ -1,9 +1,11 @@
 //! What speaks for a claim.
 
 use super::Rules;
+use crate::candidate::{Signature, Variant, sizes};
 use crate::fit::Fit;
+use crate::hypothesis::Unknown;
 use crate::normal::{Normal, Prior};
-use crate::search::{Found, Screened, Search};
+use crate::search::{Catalogue, Found, Screened, Search};
 use crate::significance::test;
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
@@ -124,18 +126,38 @@ impl Support {
     }
 }
 
-/// The effects that the screen names beside a hypothesis, by the share of resampled recordings in which each is the
-/// best.
+/// The effects that are named beside a hypothesis, by the share of resampled recordings in which each is the best: by the
+/// screen, or, of the effects that were refitted, by the change that this found and the evidence that it has.
 pub(super) fn named(
     search: &Search,
     without: &Found,
     screened: &[Screened],
+    refitted: &[(usize, Found)],
     seed: u64,
 ) -> BTreeMap<usize, f64> {
-    let contenders: Vec<&Screened> = screened.iter().filter(|one| one.gain.is_finite()).collect();
-    let entries: Vec<usize> = contenders.iter().map(|one| one.entry).collect();
-    let (normal, known, groups) = search.normal(&without.fit, &entries);
+    let is_refitted = |effect: usize| refitted.iter().any(|(other, _)| *other == effect);
+    let contenders = screened.iter().filter(|one| one.gain.is_finite() && !is_refitted(one.effect));
+    let mut entries: Vec<(Variant, Vec<Signature>)> =
+        contenders.map(|one| search.catalogue.entries[one.entry].clone()).collect();
+    let screened = entries.len();
+    let secants = refitted.iter().filter_map(|(effect, found)| {
+        Some((secant(*effect, without, found)?, found.ln_evidence - without.ln_evidence))
+    });
+    let (secants, gains): (Vec<_>, Vec<f64>) = secants.unzip();
+    entries.extend(secants);
+    let catalogue = Catalogue { entries };
+    let all: Vec<usize> = (0..catalogue.entries.len()).collect();
+    let search = Search { catalogue: &catalogue, ..*search };
+    let (normal, known, groups) = search.normal(&without.fit, &all);
     let base: Vec<usize> = (0..without.fit.columns.len()).collect();
+    let gain = |normal: &Normal, k: usize| {
+        let columns: Vec<usize> = base.iter().chain(&groups[k]).copied().collect();
+        normal.fit(&columns, &known).ln_evidence
+    };
+    let before = normal.fit(&base, &known).ln_evidence;
+    let secants = gains.iter().zip(screened..);
+    let beyond = secants.map(|(truly, k)| truly - (gain(&normal, k) - before));
+    let beyond: Vec<f64> = std::iter::repeat_n(0.0, screened).chain(beyond).collect();
     let best_of = |draw: usize| -> Option<usize> {
         let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x5eed);
         random.set_stream(draw as u64);
@@ -144,12 +166,8 @@ pub(super) fn named(
             times[random.random_range(0..normal.blocks())] += 1.0;
         }
         let resampled = normal.counted(&times);
-        let gain = |k: &usize| {
-            let columns: Vec<usize> = base.iter().chain(&groups[*k]).copied().collect();
-            resampled.fit(&columns, &known).ln_evidence
-        };
-        let gains = (0..contenders.len()).map(|k| (k, gain(&k)));
-        gains.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| contenders[k].effect)
+        let gains = all.iter().map(|&k| (k, gain(&resampled, k) + beyond[k]));
+        gains.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| catalogue.entries[k].0.effect)
     };
     let best: Vec<Option<usize>> = (0..RESAMPLED).into_par_iter().map(best_of).collect();
     let mut shares = BTreeMap::new();
@@ -157,6 +175,17 @@ pub(super) fn named(
         *shares.entry(effect).or_insert(0.0) += 1.0 / real(RESAMPLED);
     }
     shares
+}
+
+/// What refitting with an effect changed of the prediction, along its first size that is there; none where none is.
+fn secant(effect: usize, without: &Found, with: &Found) -> Option<(Variant, Vec<Signature>)> {
+    let values = with.fit.hypothesis.effect(effect)?.values().to_vec();
+    let unknowns = sizes(effect).into_iter().map(|place| Unknown::Effect(effect, place));
+    let distance = |unknown| with.fit.hypothesis.get(unknown) - without.fit.hypothesis.get(unknown);
+    let unknown = unknowns.into_iter().find(|unknown| distance(*unknown) != 0.0)?;
+    let residuals = without.fit.residual.iter().zip(&with.fit.residual);
+    let column = residuals.map(|(before, after)| (before - after) / distance(unknown)).collect();
+    Some((Variant { effect, values }, vec![Signature { unknown, column }]))
 }
 
 /// Gain of log-likelihood by columns on blocks that were left out of their fit, and its standard error. What is free

@@ -4,16 +4,20 @@
 use trackdyn_core::{Command, PerSide, Plant, Pose, Schedule, Trajectory};
 use trackdyn_motion::Transient;
 use trackdyn_physics::{ActiveEffect, CATALOGUE, Effects, Model, VehicleFile};
-use trackdyn_proof::{ActiveMechanism, Robot, Setup};
+use trackdyn_proof::{ActiveMechanism, MECHANISMS, Robot, Setup};
 
 /// Least cosine between what both simulators make of an effect. Where the laws are the same it is 1.000; a hull that leans
 /// with a delay has 0.99.
 const ALIKE: f64 = 0.95;
 
-/// The same where one mechanism has two forms: creep of shoes and creep of a belt, half of an excess that is lost
-/// sooner or later; and Wong's hump, which softens after its peak where Janosi's law does not. A wrong sign is negative.
-const OF_ANOTHER_FORM: [(&str, f64); 3] =
-    [("stribeck-friction", 0.85), ("friction-creep", 0.85), ("shear-displacement", 0.4)];
+/// The same where one mechanism has two forms, each with the shape that comes nearest to the other simulator's: creep of
+/// shoes and creep of a belt, half of an excess that is lost sooner or later; an arc tangent; and Wong's hump on ground
+/// that remembers how far it was sheared where the robot now turns differently.
+const OF_ANOTHER_FORM: [(&str, &[(&str, f64)], f64); 3] = [
+    ("stribeck-friction", &[], 0.85),
+    ("friction-creep", &[("sharpness", 1.0)], ALIKE),
+    ("shear-displacement", &[("residual", 0.8)], 0.5),
+];
 
 /// Turns both ways, forward and backward, slow and fast, and straights, with gentle changes.
 fn schedule() -> Schedule {
@@ -56,7 +60,15 @@ fn own(effects: &[ActiveEffect]) -> Trajectory {
 fn independent(effects: &[ActiveEffect]) -> Trajectory {
     let mechanisms: Vec<ActiveMechanism> = effects
         .iter()
-        .map(|effect| effect.to_string().parse().expect("the same names and ranges"))
+        .map(|effect| {
+            let id = effect.card().id;
+            let sheet = MECHANISMS.iter().find(|sheet| sheet.id == id).expect("the same names");
+            // a shape of ours may be a constant of theirs
+            let stated = effect.stated().map(|(parameter, value)| (parameter.key, value));
+            let theirs = |key: &str| sheet.parameters.iter().any(|parameter| parameter.key == key);
+            let settings: Vec<_> = stated.filter(|(key, _)| theirs(key)).collect();
+            ActiveMechanism::new(id, &settings).expect("the same ranges")
+        })
         .collect();
     let vehicle = VehicleFile::auriga_alpha().vehicle;
     let mut robot = Robot::new(&vehicle, &mechanisms, &Setup::default()).expect("a robot");
@@ -79,7 +91,10 @@ fn change(with: &Trajectory, without: &Trajectory) -> Vec<f64> {
 
 /// Effects that are not alike, added one by one to a robot that these act on already.
 fn unlike(beside: &[&str]) -> Vec<&'static str> {
-    let typical = |id: &str| ActiveEffect::new(id, &[]).expect("typical sizes");
+    let typical = |id: &str| {
+        let form = OF_ANOTHER_FORM.iter().find(|(other, ..)| *other == id);
+        ActiveEffect::new(id, form.map_or(&[], |(_, shape, _)| *shape)).expect("typical sizes")
+    };
     let beside: Vec<ActiveEffect> = beside.iter().map(|id| typical(id)).collect();
     let base = (own(&beside), independent(&beside));
     let floor = norm(&change(&base.0, &base.1));
@@ -95,8 +110,8 @@ fn unlike(beside: &[&str]) -> Vec<&'static str> {
         let dot: f64 = ours.iter().zip(&theirs).map(|(a, b)| a * b).sum();
         let (cosine, ratio) = (dot / (size * other), size / other);
         println!("{:24}{:10.2}{:10.2}{cosine:8.3}{ratio:8.2}", card.id, rms(size), rms(other));
-        let form = OF_ANOTHER_FORM.iter().find(|(id, _)| *id == card.id);
-        let alike = form.map_or(ALIKE, |(_, alike)| *alike);
+        let form = OF_ANOTHER_FORM.iter().find(|(id, ..)| *id == card.id);
+        let alike = form.map_or(ALIKE, |(.., alike)| *alike);
         if cosine < alike || !(0.5..2.0).contains(&ratio) {
             wrong.push(card.id);
         }

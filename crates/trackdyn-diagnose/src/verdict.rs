@@ -138,7 +138,7 @@ pub fn judge(
                 ln_bayes_factor: best.ln_evidence - strongest,
                 z,
                 stable,
-                ..Support::of_effect(search, &without, own, draws, seed)
+                ..Support::of_effect(search, &without, best, own, draws, seed)
             });
             let unfit =
                 best.fit.unknowns.iter().find_map(|&unknown| at_limit(&best.fit, unknown, effect));

@@ -70,14 +70,22 @@ impl Support {
 
     /// The support of an effect of the catalogue, beside the best hypothesis without it.
     ///
-    /// Chance is asked of all variants of all effects as one family: the best was chosen from them.
+    /// Chance is asked of all variants of all effects as one family: the best was chosen from them. An effect with one size
+    /// stands in it by the change that refitting found, for the variant that the screen liked best.
     pub(super) fn of_effect(
         search: &Search,
         without: &Found,
+        best: &Found,
         own: &Screened,
         draws: usize,
         seed: u64,
     ) -> Self {
+        let found =
+            if sizes(own.effect).len() == 1 { secant(own.effect, without, best) } else { None };
+        let mut entries = search.catalogue.entries.clone();
+        entries[own.entry] = found.unwrap_or_else(|| entries[own.entry].clone());
+        let catalogue = Catalogue { entries };
+        let search = &Search { catalogue: &catalogue, ..*search };
         let (normal, known, groups) = search.normal(&without.fit, &[own.entry]);
         let base: Vec<usize> = (0..without.fit.columns.len()).collect();
         let projected = normal.projected(&base, &known);

@@ -316,16 +316,16 @@ impl Search<'_> {
         best
     }
 
-    /// The hypothesis without one of its added effects, refitted.
+    /// The hypothesis without one of its added effects, refitted from there: the base itself may have ended further off.
     pub fn without(&self, found: &Found, effect: usize) -> Found {
         let effects: Vec<usize> =
             found.effects.iter().copied().filter(|other| *other != effect).collect();
-        if effects.is_empty() {
-            return self.nothing();
-        }
+        let is_base = effects.is_empty();
         let hypothesis = found.fit.hypothesis.with_effect_of(&self.base.fit.hypothesis, effect);
         let unknowns = found.fit.unknowns_without(effect);
-        self.found(effects, hypothesis, &unknowns, &self.base.fit)
+        let without = self.found(effects, hypothesis, &unknowns, &self.base.fit);
+        let nothing = self.nothing();
+        if is_base && nothing.fit.objective <= without.fit.objective { nothing } else { without }
     }
 
     /// Whether the screen only makes an effect of the vehicle file a little larger or smaller: no law is known

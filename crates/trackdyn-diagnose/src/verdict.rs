@@ -85,8 +85,9 @@ pub fn judge(
     seed: u64,
 ) -> Vec<Verdict> {
     let departure = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
-    // What mostly moves constant ICRs is known to a part of all that moved them.
-    let is_static = |effect: &usize| statics.mostly.contains(effect);
+    // What mostly moves constant ICRs is known to a part of all that moved them. What a law beyond their class breaks none of
+    // them does.
+    let is_static = |effect: &usize| statics.could_be_constant(*effect);
     let by_constants = if best.effects.iter().any(is_static) {
         constants::departure(search, best, statics, file)
     } else {

@@ -28,6 +28,13 @@ pub struct Statics {
     class: Vec<usize>,
 }
 
+impl Statics {
+    /// Whether an effect mostly moves constant ICRs, and breaks no symmetry that they do not.
+    pub(super) fn could_be_constant(&self, effect: usize) -> bool {
+        self.mostly.contains(&effect) && self.class.contains(&effect)
+    }
+}
+
 /// The effects of whose signatures next to nothing is their own beyond constant ICRs.
 pub fn statics(search: &Search) -> Statics {
     let fit = &search.base.fit;

@@ -10,10 +10,13 @@ use trackdyn_proof::{ActiveMechanism, MECHANISMS, Robot, Setup};
 /// with a delay has 0.99.
 const ALIKE: f64 = 0.95;
 
+/// Parameters of an effect that are not typical.
+type Shape = &'static [(&'static str, f64)];
+
 /// The same where one mechanism has two forms, each with the shape that comes nearest to the other simulator's: creep of
 /// shoes and creep of a belt, half of an excess that is lost sooner or later; an arc tangent; and Wong's hump on ground
 /// that remembers how far it was sheared where the robot now turns differently.
-const OF_ANOTHER_FORM: [(&str, &[(&str, f64)], f64); 3] = [
+const OF_ANOTHER_FORM: [(&str, Shape, f64); 3] = [
     ("stribeck-friction", &[], 0.85),
     ("friction-creep", &[("sharpness", 1.0)], ALIKE),
     ("shear-displacement", &[("residual", 0.8)], 0.5),

@@ -129,7 +129,8 @@ fn moved(twist: Vector3<f64>, [left, right, y]: &[f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trackdyn_physics::{Effects, VehicleFile};
+    use trackdyn_physics::contact::Friction;
+    use trackdyn_physics::{Effects, RunningGear, VehicleFile};
 
     /// Effects of every kind that steady motion shows. The root mean square of the table's error must stay
     /// below what laboratory sensors resolve in a hundred segments, 0.5 mm/s at speeds of up to 1 m/s. A belt
@@ -173,6 +174,36 @@ mod tests {
             let error = (squares / count).sqrt();
             let bound = if model.drive().slip_per_traction > 0.0 { KINKED } else { CLOSE };
             assert!(count > 350.0 && error < bound, "{id}: {error:.1e} m/s");
+        }
+    }
+
+    /// A recording of some minutes tells a yaw rate to less than a thousandth: what inertia that grows with the square of the speed
+    /// does must not be off by more than a sixth of that, or the error of the table is taken for an effect.
+    #[test]
+    fn the_table_of_a_quick_robot_on_wheels_is_finer_than_its_sensors() {
+        let mut vehicle = VehicleFile::auriga_alpha().vehicle;
+        vehicle.gauge = 0.35;
+        vehicle.cog = [-0.005, -0.003];
+        vehicle.running_gear =
+            RunningGear::Wheels { contact_length: 0.067, width: 0.087, axles: vec![0.182, -0.182] };
+        vehicle.friction = Friction { across: 0.53, along: 0.58 };
+        for id in ["centripetal", "load-transfer"] {
+            let effects = std::iter::once(id.parse().expect("an effect")).collect();
+            let model = Model::new(vehicle.clone(), effects);
+            let surface = Surface::new(&model, 1.2, None);
+            let solver = Stationary::new(&model, &Circumstance::default());
+            let (mut squares, mut count) = (0.0, 0.0);
+            for k in 0..400_u32 {
+                let (a, b) = (f64::from(k) * 0.618_034, f64::from(k) * 0.414_214);
+                let speeds = PerSide::new(1.8 * a.fract() - 0.9, 1.8 * b.fract() - 0.9);
+                let twist = solver.solve(speeds).twist;
+                if twist.w.abs() > 0.2 {
+                    squares += (surface.motion(speeds).twist(&[0.0; 3]).w / twist.w - 1.0).powi(2);
+                    count += 1.0;
+                }
+            }
+            let error = (squares / count).sqrt();
+            assert!(count > 300.0 && error < 1.5e-4, "{id}: {error:.1e}");
         }
     }
 

@@ -11,13 +11,13 @@ use trackdyn_core::{PerSide, real};
 /// Sectors of directions.
 const SECTORS: usize = 8;
 
-/// Nodes in the direction, and in the size.
+/// Nodes in the direction, and in the size: what grows with the square of the speed is steep there.
 const ANGLES: usize = 6;
-const SIZES: usize = 8;
+const SIZES: usize = 10;
 
 /// Ratio of the largest to the smallest tabulated speed. Nodes are even in its logarithm, for friction depends on
 /// speeds most where they are small; below, the value is that of the smallest.
-const RANGE: f64 = 100.0;
+const RANGE: f64 = 30.0;
 
 /// The places of a table's nodes.
 #[derive(Clone, Debug)]

@@ -22,6 +22,12 @@ const OF_ANOTHER_FORM: [(&str, Shape, f64); 3] = [
     ("shear-displacement", &[("residual", 0.8)], 0.5),
 ];
 
+/// The shape in which an effect is compared, and the least cosine.
+fn form(id: &str) -> (Shape, f64) {
+    let form = OF_ANOTHER_FORM.iter().find(|(other, ..)| *other == id);
+    form.map_or((&[], ALIKE), |(_, shape, alike)| (*shape, *alike))
+}
+
 /// Turns both ways, forward and backward, slow and fast, and straights, with gentle changes.
 fn schedule() -> Schedule {
     const INTERVAL: f64 = 0.05;
@@ -94,10 +100,7 @@ fn change(with: &Trajectory, without: &Trajectory) -> Vec<f64> {
 
 /// Effects that are not alike, added one by one to a robot that these act on already.
 fn unlike(beside: &[&str]) -> Vec<&'static str> {
-    let typical = |id: &str| {
-        let form = OF_ANOTHER_FORM.iter().find(|(other, ..)| *other == id);
-        ActiveEffect::new(id, form.map_or(&[], |(_, shape, _)| *shape)).expect("typical sizes")
-    };
+    let typical = |id: &str| ActiveEffect::new(id, form(id).0).expect("typical sizes");
     let beside: Vec<ActiveEffect> = beside.iter().map(|id| typical(id)).collect();
     let base = (own(&beside), independent(&beside));
     let floor = norm(&change(&base.0, &base.1));
@@ -113,9 +116,7 @@ fn unlike(beside: &[&str]) -> Vec<&'static str> {
         let dot: f64 = ours.iter().zip(&theirs).map(|(a, b)| a * b).sum();
         let (cosine, ratio) = (dot / (size * other), size / other);
         println!("{:24}{:10.2}{:10.2}{cosine:8.3}{ratio:8.2}", card.id, rms(size), rms(other));
-        let form = OF_ANOTHER_FORM.iter().find(|(id, ..)| *id == card.id);
-        let alike = form.map_or(ALIKE, |(.., alike)| *alike);
-        if cosine < alike || !(0.5..2.0).contains(&ratio) {
+        if cosine < form(card.id).1 || !(0.5..2.0).contains(&ratio) {
             wrong.push(card.id);
         }
     }

@@ -1,12 +1,12 @@
 //! The diagnosis: all steps in order, and what comes out of them.
 
 use crate::base::{Base, Calibration};
-use crate::candidate::{Beside, candidates, sizes};
+use crate::candidate::{Beside, candidates};
 use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::exposure::Exposure;
 use crate::fit::{Fit, Metric};
-use crate::hypothesis::{Unknown, neutral, with_friction};
+use crate::hypothesis::with_friction;
 use crate::isolability::Isolability;
 use crate::locate::cells::{Cell, cells};
 use crate::locate::{IcrColumns, Location, excess, locate};
@@ -15,7 +15,9 @@ use crate::noise::{sharper, with_remaining_noise};
 use crate::proposal::{Proposal, completed};
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, Level, Uncertainty};
-use crate::verdict::{Rules, Statics, Verdict, judge, judge_constants, judge_instruments, statics};
+use crate::verdict::{
+    Rules, Statics, Verdict, judge, judge_constants, judge_instruments, refuse_unsure, statics,
+};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 use trackdyn_core::real;
@@ -341,11 +343,14 @@ fn judged(
     let refused: Vec<usize> =
         physics.iter().filter(|one| one.refused.is_some()).map(|one| one.effect).collect();
     let best = without(found, &refused);
-    let unsure = unsure(&mut physics, &Uncertainty::of(search, &best).intervals(&best.fit));
+    let mut uncertainty = Uncertainty::of(search, &best);
+    let unsure = refuse_unsure(&mut physics, &uncertainty.intervals(&best.fit));
     let best = without(best, &unsure);
+    if !unsure.is_empty() {
+        uncertainty = Uncertainty::of(search, &best);
+    }
     let instruments = judge_instruments(search, &best, draws, seed);
     let constants = judge_constants(search, &best, statics, file, draws, seed);
-    let uncertainty = Uncertainty::of(search, &best);
     let intervals = uncertainty.intervals(&best.fit);
     let of = |effect: usize| -> Vec<Interval> {
         intervals.iter().filter(|interval| interval.unknown.is_of(effect)).copied().collect()
@@ -364,29 +369,6 @@ fn judged(
     }
     let friction_level = uncertainty.friction_level(&best.fit);
     Judgement { best, friction_level, missing, refused }
-}
-
-/// Refuses the claims whose sizes may all be none by their own intervals; their effects.
-fn unsure(verdicts: &mut [Verdict], intervals: &[Interval]) -> Vec<usize> {
-    let claimed = verdicts.iter_mut().filter(|verdict| verdict.refused.is_none());
-    let unsure = claimed.filter_map(|verdict| {
-        let effect = verdict.effect;
-        let places = sizes(effect).into_iter().map(|place| Unknown::Effect(effect, place));
-        let sizes = places
-            .filter_map(|unknown| intervals.iter().find(|interval| interval.unknown == unknown));
-        let mut may_be_none = sizes.map(|interval| {
-            // of a limit that the law approaches, the range ends before it
-            let [low, high] = interval.unknown.range();
-            let none = interval.unknown.parameter().map_or(0.0, neutral).clamp(low, high);
-            (interval.low..=interval.high).contains(&none)
-        });
-        let refused = may_be_none.next()? && may_be_none.all(|may| may);
-        refused.then(|| {
-            verdict.refused = Some("the 95 % interval of its size holds none".to_owned());
-            effect
-        })
-    });
-    unsure.collect()
 }
 
 fn status(left_over: &[Symmetry], missing: &[Missing]) -> Status {
@@ -501,30 +483,4 @@ fn held_out(
     let noise_floor =
         (after * after - flexible.explicable.max(0.0) / (3.0 * count)).max(0.0).sqrt().min(after);
     HeldOut { before: rms(&before.residual), after, noise_floor, are_held_out }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::verdict::Support;
-    use trackdyn_physics::CATALOGUE;
-
-    #[test]
-    fn a_size_that_may_be_none_is_not_claimed() {
-        let of = |id: &str| CATALOGUE.iter().position(|card| card.id == id).expect("an effect");
-        let refused = |id: &str, [low, high]: [f64; 2]| {
-            let effect = of(id);
-            let unknown = Unknown::Effect(effect, sizes(effect)[0]);
-            let interval = Interval { unknown, value: f64::midpoint(low, high), low, high };
-            let support = Support::none();
-            let mut verdicts = [Verdict { effect, one_of: vec![effect], support, refused: None }];
-            unsure(&mut verdicts, &[interval]) == [effect] && verdicts[0].refused.is_some()
-        };
-        assert!(refused("yaw-inertia", [0.0, 0.03]));
-        assert!(!refused("yaw-inertia", [0.01, 0.03]));
-        assert!(refused("directional-lugs", [-0.01, 0.002]));
-        // the range of a modulus ends above none
-        assert!(refused("shear-displacement", [1e-5, 2e-3]));
-        assert!(!refused("shear-displacement", [1e-4, 2e-3]));
-    }
 }

@@ -111,11 +111,20 @@ impl Search<'_> {
 
     /// The normal equations of a fit with the signatures of these catalogue entries beside.
     pub fn normal(&self, fit: &Fit, entries: &[usize]) -> (Normal, Vec<Prior>, Vec<Vec<usize>>) {
+        let signatures = entries.iter().map(|&entry| &self.catalogue.entries[entry].1[..]);
+        self.normal_of(fit, &signatures.collect::<Vec<_>>())
+    }
+
+    /// The same with these signatures beside, those of an effect together.
+    pub fn normal_of(
+        &self,
+        fit: &Fit,
+        beside: &[&[Signature]],
+    ) -> (Normal, Vec<Prior>, Vec<Vec<usize>>) {
         let mut columns = fit.columns.clone();
         let mut known = priors(&fit.hypothesis, &fit.unknowns, self.evidence);
-        let mut groups = Vec::with_capacity(entries.len());
-        for &entry in entries {
-            let (_, signatures) = &self.catalogue.entries[entry];
+        let mut groups = Vec::with_capacity(beside.len());
+        for &signatures in beside {
             let first = columns.len();
             for signature in signatures {
                 columns.push(signature.column.clone());
@@ -324,8 +333,8 @@ impl Search<'_> {
         let hypothesis = found.fit.hypothesis.with_effect_of(&self.base.fit.hypothesis, effect);
         let unknowns = found.fit.unknowns_without(effect);
         let without = self.found(effects, hypothesis, &unknowns, &self.base.fit);
-        let nothing = self.nothing();
-        if is_base && nothing.fit.objective <= without.fit.objective { nothing } else { without }
+        let is_further = self.base.fit.objective <= without.fit.objective;
+        if is_base && is_further { self.nothing() } else { without }
     }
 
     /// Whether the screen only makes an effect of the vehicle file a little larger or smaller: no law is known

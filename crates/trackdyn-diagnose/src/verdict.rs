@@ -9,11 +9,13 @@ pub use instruments::judge_instruments;
 pub use support::{Support, cross_validated};
 
 use crate::base::Base;
+use crate::candidate::sizes;
 use crate::evidence::Evidence;
 use crate::fit::Fit;
-use crate::hypothesis::{Hypothesis, Unknown, typical};
+use crate::hypothesis::{Hypothesis, Unknown, neutral, typical};
 use crate::mechanics::is_instrument;
 use crate::search::{AS_FILED, Found, Screened, Search};
+use crate::uncertainty::Interval;
 use nalgebra::DVector;
 use trackdyn_core::real;
 use trackdyn_physics::VehicleFile;
@@ -99,7 +101,7 @@ pub fn judge(
             let without = search.without(best, effect);
             let screened = search.screen(&without);
             let mut one_of = vec![effect];
-            let mut refitted = vec![(effect, best.clone())];
+            let mut exchanges = Vec::new();
             let own = screened.iter().find(|one| one.effect == effect);
             let own_gain = own.map_or(0.0, |one| one.gain);
             let is_close = |one: &&Screened| one.effect != effect && is_rival(one, own_gain, best);
@@ -114,11 +116,14 @@ pub fn judge(
                 {
                     one_of.push(rival.effect);
                 }
-                refitted.push((rival.effect, exchanged));
+                exchanges.push((rival.effect, exchanged));
             }
             let too_many = (close.len() > RIVALS && one_of.len() > RIVALS)
                 .then(|| format!("{} effects explain it as well", close.len()));
             // What other recordings of the same robot would name instead is one answer with it.
+            let rivals = exchanges.iter().map(|(rival, exchanged)| (*rival, exchanged));
+            let refitted: Vec<(usize, &Found)> =
+                std::iter::once((effect, best)).chain(rivals).collect();
             let named = support::named(search, &without, &screened, &refitted, seed);
             let share = |one_of: &[usize]| -> f64 {
                 one_of.iter().filter_map(|effect| named.get(effect)).sum()
@@ -185,7 +190,7 @@ fn refusal(support: &Support, z: f64, whole: f64) -> Option<String> {
 fn nearly_as_filed(search: &Search, found: &Hypothesis, effect: usize) -> Option<String> {
     let filed = search.base.as_filed.hypothesis.effect(effect)?;
     let found = found.effect(effect)?;
-    let near = crate::candidate::sizes(effect).into_iter().all(|place| {
+    let near = sizes(effect).into_iter().all(|place| {
         let (filed, found) = (filed.values()[place], found.values()[place]);
         (found - filed).abs() <= AS_FILED * filed.abs()
     });
@@ -213,4 +218,52 @@ fn separation(search: &Search, without: &Found, own: &Screened, rival: &Screened
     let information = projected.information(&groups[0]);
     let sizes = DVector::from_vec(own.sizes.clone());
     sizes.dot(&(information * &sizes)).max(0.0).sqrt()
+}
+
+/// Refuses the claims whose sizes may all be none by their own intervals; their effects.
+pub fn refuse_unsure(verdicts: &mut [Verdict], intervals: &[Interval]) -> Vec<usize> {
+    let claimed = verdicts.iter_mut().filter(|verdict| verdict.refused.is_none());
+    let unsure = claimed.filter_map(|verdict| {
+        let effect = verdict.effect;
+        let places = sizes(effect).into_iter().map(|place| Unknown::Effect(effect, place));
+        let sizes = places
+            .filter_map(|unknown| intervals.iter().find(|interval| interval.unknown == unknown));
+        let mut may_be_none = sizes.map(|interval| {
+            // of a limit that the law approaches, the range ends before it
+            let [low, high] = interval.unknown.range();
+            let none = interval.unknown.parameter().map_or(0.0, neutral).clamp(low, high);
+            (interval.low..=interval.high).contains(&none)
+        });
+        let refused = may_be_none.next()? && may_be_none.all(|may| may);
+        refused.then(|| {
+            verdict.refused = Some("the 95 % interval of its size holds none".to_owned());
+            effect
+        })
+    });
+    unsure.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trackdyn_physics::CATALOGUE;
+
+    #[test]
+    fn a_size_that_may_be_none_is_not_claimed() {
+        let of = |id: &str| CATALOGUE.iter().position(|card| card.id == id).expect("an effect");
+        let refused = |id: &str, [low, high]: [f64; 2]| {
+            let effect = of(id);
+            let unknown = Unknown::Effect(effect, sizes(effect)[0]);
+            let interval = Interval { unknown, value: f64::midpoint(low, high), low, high };
+            let support = Support::none();
+            let mut verdicts = [Verdict { effect, one_of: vec![effect], support, refused: None }];
+            refuse_unsure(&mut verdicts, &[interval]) == [effect] && verdicts[0].refused.is_some()
+        };
+        assert!(refused("yaw-inertia", [0.0, 0.03]));
+        assert!(!refused("yaw-inertia", [0.01, 0.03]));
+        assert!(refused("directional-lugs", [-0.01, 0.002]));
+        // the range of a modulus ends above none
+        assert!(refused("shear-displacement", [1e-5, 2e-3]));
+        assert!(!refused("shear-displacement", [1e-4, 2e-3]));
+    }
 }

@@ -1,17 +1,18 @@
 //! What speaks for a claim.
 
 use super::Rules;
-use crate::candidate::{Signature, Variant, sizes};
+use crate::candidate::{Signature, sizes};
 use crate::fit::Fit;
 use crate::hypothesis::Unknown;
 use crate::normal::{Normal, Prior};
-use crate::search::{Catalogue, Found, Screened, Search};
+use crate::search::{Found, Screened, Search};
 use crate::significance::test;
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::slice;
 use trackdyn_core::real;
 
 /// Folds of the cross-validation and draws of resampled recordings.
@@ -80,31 +81,37 @@ impl Support {
         draws: usize,
         seed: u64,
     ) -> Self {
-        let found =
-            if sizes(own.effect).len() == 1 { secant(own.effect, without, best) } else { None };
-        let mut entries = search.catalogue.entries.clone();
-        entries[own.entry] = found.unwrap_or_else(|| entries[own.entry].clone());
-        let catalogue = Catalogue { entries };
-        let search = &Search { catalogue: &catalogue, ..*search };
-        let (normal, known, groups) = search.normal(&without.fit, &[own.entry]);
+        let found = secant(own.effect, without, best).filter(|_| sizes(own.effect).len() == 1);
+        let found = found.as_slice();
+        let own_signatures =
+            if found.is_empty() { &search.catalogue.entries[own.entry].1[..] } else { found };
+        let (normal, known, groups) = search.normal_of(&without.fit, &[own_signatures]);
         let base: Vec<usize> = (0..without.fit.columns.len()).collect();
         let projected = normal.projected(&base, &known);
         let (held_out_gain, held_out_error) = cross_validated(&projected, &known, &groups[0]);
-        let p = Self::chance(search, without, own.entry, draws, seed);
+        let p = Self::chance(search, without, own.entry, own_signatures, draws, seed);
         Self { p, held_out_gain, held_out_error, ..Self::none() }
     }
 
-    /// Family-wise probability of chance of a variant among all that were tried.
-    fn chance(search: &Search, without: &Found, entry: usize, draws: usize, seed: u64) -> f64 {
+    /// Family-wise probability of chance of a variant, with these signatures, among all that were tried.
+    fn chance(
+        search: &Search,
+        without: &Found,
+        entry: usize,
+        signatures: &[Signature],
+        draws: usize,
+        seed: u64,
+    ) -> f64 {
         let variants = search.catalogue.entries.iter().enumerate();
-        let entries: Vec<usize> = variants
+        let family: Vec<(usize, &[Signature])> = variants
             .filter(|(_, (variant, _))| !without.effects.contains(&variant.effect))
-            .map(|(entry, _)| entry)
+            .map(|(other, (_, tried))| (other, if other == entry { signatures } else { tried }))
             .collect();
-        let (normal, known, groups) = search.normal(&without.fit, &entries);
+        let all: Vec<&[Signature]> = family.iter().map(|(_, signatures)| *signatures).collect();
+        let (normal, known, groups) = search.normal_of(&without.fit, &all);
         let base: Vec<usize> = (0..without.fit.columns.len()).collect();
         let projected = normal.projected(&base, &known);
-        let place = entries.iter().position(|other| *other == entry);
+        let place = family.iter().position(|(other, _)| *other == entry);
         place.map_or(1.0, |place| test(&projected, &groups, draws, seed)[place].p)
     }
 
@@ -140,32 +147,38 @@ pub(super) fn named(
     search: &Search,
     without: &Found,
     screened: &[Screened],
-    refitted: &[(usize, Found)],
+    refitted: &[(usize, &Found)],
     seed: u64,
 ) -> BTreeMap<usize, f64> {
     let is_refitted = |effect: usize| refitted.iter().any(|(other, _)| *other == effect);
-    let contenders = screened.iter().filter(|one| one.gain.is_finite() && !is_refitted(one.effect));
-    let mut entries: Vec<(Variant, Vec<Signature>)> =
-        contenders.map(|one| search.catalogue.entries[one.entry].clone()).collect();
-    let screened = entries.len();
-    let secants = refitted.iter().filter_map(|(effect, found)| {
-        Some((secant(*effect, without, found)?, found.ln_evidence - without.ln_evidence))
-    });
-    let (secants, gains): (Vec<_>, Vec<f64>) = secants.unzip();
-    entries.extend(secants);
-    let catalogue = Catalogue { entries };
-    let all: Vec<usize> = (0..catalogue.entries.len()).collect();
-    let search = Search { catalogue: &catalogue, ..*search };
-    let (normal, known, groups) = search.normal(&without.fit, &all);
+    let screened = screened.iter().filter(|one| one.gain.is_finite() && !is_refitted(one.effect));
+    let screened =
+        screened.map(|one| (one.effect, &search.catalogue.entries[one.entry].1[..], None));
+    let secants: Vec<(usize, Signature, f64)> = refitted
+        .iter()
+        .filter_map(|(effect, found)| {
+            let gain = found.ln_evidence - without.ln_evidence;
+            Some((*effect, secant(*effect, without, found)?, gain))
+        })
+        .collect();
+    let secants = secants
+        .iter()
+        .map(|(effect, secant, gain)| (*effect, slice::from_ref(secant), Some(*gain)));
+    let contenders: Vec<(usize, &[Signature], Option<f64>)> = screened.chain(secants).collect();
+    let signatures: Vec<&[Signature]> = contenders.iter().map(|(_, one, _)| *one).collect();
+    let (normal, known, groups) = search.normal_of(&without.fit, &signatures);
     let base: Vec<usize> = (0..without.fit.columns.len()).collect();
-    let gain = |normal: &Normal, k: usize| {
-        let columns: Vec<usize> = base.iter().chain(&groups[k]).copied().collect();
+    let evidence_with = |normal: &Normal, group: &[usize]| {
+        let columns: Vec<usize> = base.iter().chain(group).copied().collect();
         normal.fit(&columns, &known).ln_evidence
     };
-    let before = normal.fit(&base, &known).ln_evidence;
-    let secants = gains.iter().zip(screened..);
-    let beyond = secants.map(|(truly, k)| truly - (gain(&normal, k) - before));
-    let beyond: Vec<f64> = std::iter::repeat_n(0.0, screened).chain(beyond).collect();
+    // What refitting gains beyond what its change does in a linear fit.
+    let before = evidence_with(&normal, &[]);
+    let contenders_beyond = contenders.iter().zip(&groups).map(|((effect, _, gain), group)| {
+        let beyond = gain.map_or(0.0, |gain| gain - (evidence_with(&normal, group) - before));
+        (*effect, group, beyond)
+    });
+    let contenders: Vec<(usize, &Vec<usize>, f64)> = contenders_beyond.collect();
     let best_of = |draw: usize| -> Option<usize> {
         let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x5eed);
         random.set_stream(draw as u64);
@@ -174,8 +187,10 @@ pub(super) fn named(
             times[random.random_range(0..normal.blocks())] += 1.0;
         }
         let resampled = normal.counted(&times);
-        let gains = all.iter().map(|&k| (k, gain(&resampled, k) + beyond[k]));
-        gains.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| catalogue.entries[k].0.effect)
+        let gains = contenders
+            .iter()
+            .map(|(effect, group, beyond)| (effect, evidence_with(&resampled, group) + beyond));
+        gains.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(effect, _)| *effect)
     };
     let best: Vec<Option<usize>> = (0..RESAMPLED).into_par_iter().map(best_of).collect();
     let mut shares = BTreeMap::new();
@@ -186,14 +201,13 @@ pub(super) fn named(
 }
 
 /// What refitting with an effect changed of the prediction, along its first size that is there; none where none is.
-fn secant(effect: usize, without: &Found, with: &Found) -> Option<(Variant, Vec<Signature>)> {
-    let values = with.fit.hypothesis.effect(effect)?.values().to_vec();
+fn secant(effect: usize, without: &Found, with: &Found) -> Option<Signature> {
     let unknowns = sizes(effect).into_iter().map(|place| Unknown::Effect(effect, place));
     let distance = |unknown| with.fit.hypothesis.get(unknown) - without.fit.hypothesis.get(unknown);
     let unknown = unknowns.into_iter().find(|unknown| distance(*unknown) != 0.0)?;
     let residuals = without.fit.residual.iter().zip(&with.fit.residual);
     let column = residuals.map(|(before, after)| (before - after) / distance(unknown)).collect();
-    Some((Variant { effect, values }, vec![Signature { unknown, column }]))
+    Some(Signature { unknown, column })
 }
 
 /// Gain of log-likelihood by columns on blocks that were left out of their fit, and its standard error. What is free

@@ -23,9 +23,9 @@ impl Effect for ShearDisplacement {
         law: "τ = −[μ] p (1 − exp(−j/K)) (1 + (1/r − 1)/cosh(j/4K)) s/|s|, j = |∫ s dt| since the \
               point entered the contact",
         assumes: "μ is what remains after long shearing; r = 1 is the law of Janosi and Hanamoto, \
-                  less is soil with a hump. A belt point enters at the edge towards which its track moves and travels to the \
-                  point at the belt's speed; the small turn of the hull meanwhile is left out. A \
-                  belt that stands still has sheared fully.",
+                  less is soil with a hump. A belt point enters at the edge towards which its \
+                  track moves and travels to the point at the belt's speed; the small turn of the \
+                  hull meanwhile is left out. A belt that stands still has sheared fully.",
         shows: "y moves against the direction of travel, more so the slower the slip builds up.",
         breaks: &[Symmetry::Reversal, Symmetry::Manoeuvre],
         stages: &[Stage::Shear],
@@ -34,7 +34,8 @@ impl Effect for ShearDisplacement {
                 key: "modulus_m",
                 symbol: "K",
                 unit: "m",
-                meaning: "shear deformation modulus: displacement at 63 % of full friction",
+                meaning: "shear deformation modulus: displacement at 63 % of full friction, \
+                          without a hump",
                 role: Role::Size { neutral: 0.0 },
                 range: [1e-5, 0.3],
                 typical: 0.02,

@@ -204,11 +204,14 @@ pub fn diagnose(
         return Err(Error::NoTurning);
     }
     let mut evidence = with_remaining_noise(evidence, &base.fit, &metric);
-    // Late stamps are noise that a lag of the drive would smooth: regular ones stand if they explain more.
-    let base = base.refitted(&evidence, &metric);
-    let regular = evidence.with_regular_stamps();
-    if base.refitted(&regular, &metric).fit.objective < base.fit.objective - STAMPED {
-        evidence = with_remaining_noise(&regular, &base.fit, &metric);
+    // Late stamps and ticks are noise that a lag of the drive would smooth: readings without them stand, unless they
+    // explain less.
+    for cleaned in [Evidence::with_regular_stamps, Evidence::with_speeds_between_ticks] {
+        let base = base.refitted(&evidence, &metric);
+        let cleaned = cleaned(&evidence);
+        if base.refitted(&cleaned, &metric).fit.objective < base.fit.objective + CLEANED {
+            evidence = with_remaining_noise(&cleaned, &base.fit, &metric);
+        }
     }
     loop {
         let base = base.refitted(&evidence, &metric);
@@ -225,8 +228,8 @@ pub fn diagnose(
     }
 }
 
-/// By how much regular stamps must lower twice the misfit.
-const STAMPED: f64 = 4.0;
+/// By how much readings without stamps that jitter, or without ticks, may raise twice the misfit by chance.
+const CLEANED: f64 = 4.0;
 
 /// Residuals may be this much larger than the noise before the noise is taken to be larger.
 const TOLERATED: f64 = 1.1;

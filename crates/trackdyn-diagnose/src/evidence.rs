@@ -6,13 +6,14 @@
 pub mod planned;
 mod points;
 mod series;
-mod stamps;
+mod ticks;
 
 use nalgebra::Vector3;
 use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_identify::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 use trackdyn_recording::TrackSample;
+use trackdyn_recording::regular::regular;
 
 /// One observed motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,8 +138,17 @@ impl Evidence {
 
     /// The same with readings at regular times: stamps of a clock that ticks evenly, and is read late by chance.
     pub fn with_regular_stamps(&self) -> Self {
-        let tracks = self.tracks.iter().map(|run| stamps::regular(run)).collect();
+        let mut tracks = self.tracks.clone();
+        for run in &mut tracks {
+            let stamps: Vec<f64> = run.iter().map(|reading| reading.t).collect();
+            run.iter_mut().zip(regular(&stamps)).for_each(|(reading, due)| reading.t = due);
+        }
         Self { tracks, ..self.clone() }
+    }
+
+    /// The same with even speeds between the ticks of the encoders.
+    pub fn with_speeds_between_ticks(&self) -> Self {
+        Self { tracks: ticks::smoothed(&self.tracks), ..self.clone() }
     }
 
     /// The same without some samples of a recording.

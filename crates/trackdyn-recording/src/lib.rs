@@ -8,6 +8,7 @@
 //! - [`clock`]: how late the poses are against the encoders.
 //! - [`blocks`]: parts that count as independent.
 //! - [`noise`]: how noisy poses and encoders are, from the recording itself.
+//! - [`regular`]: the times at which samples were due, of stamps that jitter.
 //! - [`robust`]: statistics by medians.
 //! - [`synthetic`]: recordings with known truth.
 //! - [`table`]: CSV tables, for other readers of columns of numbers.
@@ -23,6 +24,7 @@ pub mod hold;
 pub mod noise;
 pub mod operating_points;
 pub mod recording;
+pub mod regular;
 pub mod robust;
 pub mod rosbag;
 pub mod segment;

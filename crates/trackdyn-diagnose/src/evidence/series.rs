@@ -7,7 +7,7 @@ use trackdyn_core::{PerSide, Pose};
 use trackdyn_identify::observations::Observations;
 use trackdyn_identify::spin_test;
 use trackdyn_identify::weighting::SegmentNoise;
-use trackdyn_recording::noise::noise;
+use trackdyn_recording::noise::{Noise, noise};
 use trackdyn_recording::{Clock, Recording, SegmentOptions, TrackSample};
 
 /// How far a fitted clock offset may go beyond the one that the recording shows by itself, s.
@@ -26,8 +26,9 @@ impl Evidence {
     /// Too few segments, or no noise measured or stated.
     pub fn of_recording(recording: &Recording, gauge: f64) -> Result<Self, Error> {
         let clock = Clock::of(recording, None);
-        // Cut so that readings are there for every offset from none at all to beyond that of the clock.
         let tau = clock.tau();
+        let (recording, measured) = &quieter(recording, tau);
+        // Cut so that readings are there for every offset from none at all to beyond that of the clock.
         let options = SegmentOptions {
             tau: tau / 2.0,
             tau_margin: tau.abs() / 2.0 + TAU_MARGIN,
@@ -37,13 +38,12 @@ impl Evidence {
         if observations.len() < FEWEST {
             return Err(Error::TooFewSegments { found: observations.len(), needed: FEWEST });
         }
-        let measured = noise(recording, tau);
         let gap = spin_test(&observations, gauge).map_or(1.5 * gauge, |spin| spin.gap);
         let stated = recording.stated_noise().map(|stated| {
             let position = stated.position * stated.position;
             SegmentNoise { pose: [position, position, stated.yaw * stated.yaw], walk: [0.0; 3] }
         });
-        let noise = SegmentNoise::measured(&measured, gap).or(stated).ok_or(Error::NoNoise)?;
+        let noise = SegmentNoise::measured(measured, gap).or(stated).ok_or(Error::NoNoise)?;
         let blocks = observations.blocks();
         let tracks = recording.runs().iter().map(|run| run.tracks().to_vec());
         let mut tracks: Vec<Vec<TrackSample>> = tracks.collect();
@@ -87,5 +87,25 @@ impl Evidence {
             is_steady: false,
             description: format!("{}; noise from what no driving explains", blocks.description()),
         })
+    }
+}
+
+/// The recording and its noise, with poses at the times at which they were due if these are less noisy: what is
+/// stamped late by chance moves meanwhile.
+fn quieter(recording: &Recording, tau: f64) -> (Recording, Noise) {
+    let as_stamped = noise(recording, tau);
+    let due = recording.with_regular_poses();
+    let as_due = noise(&due, tau);
+    let level = |noise: &Noise| {
+        let poses = noise.moving.as_ref()?;
+        Some([poses.forward, poses.lateral, poses.yaw].map(|component| component.white.ln()))
+    };
+    let change = level(&as_stamped).zip(level(&as_due)).map(|(stamped, due)| {
+        stamped.iter().zip(due).map(|(stamped, due)| due - stamped).sum::<f64>()
+    });
+    if change.is_some_and(|change| change < 0.0) {
+        (due, as_due)
+    } else {
+        (recording.clone(), as_stamped)
     }
 }

@@ -24,6 +24,16 @@ fn noisy(seed: u64) -> Synthetic {
     }
 }
 
+/// Pseudo-random numbers, uniform from 0 to 1.
+fn uniforms() -> impl FnMut() -> f64 {
+    let mut state = 1_u64;
+    move || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from(u32::try_from(state >> 32).expect("32 bits")) / f64::from(u32::MAX)
+    }
+}
+
 /// Relative error that a median over some thousand overlapping triples stays within.
 #[track_caller]
 fn assert_within(found: f64, expected: f64, part: f64) {
@@ -65,18 +75,13 @@ fn a_random_walk_is_told_from_white_noise() {
     // steps of a seeded pseudo-normal walk: 10 mm per √s at 10 Hz
     let walk = 0.010_f64;
     let recording = noisy(7).recording().expect("long enough");
-    let mut state = 1_u64;
-    let mut uniform = || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        f64::from(u32::try_from(state >> 32).expect("32 bits")) / f64::from(u32::MAX) - 0.5
-    };
+    let mut uniform = uniforms();
     let runs = recording.runs().iter().cloned().map(|run| {
         let mut rows = run.into_rows();
         let mut sum = 0.0;
         for sample in &mut rows.poses.samples {
             // the sum of twelve uniforms has variance 1
-            let step: f64 = (0..12).map(|_| uniform()).sum();
+            let step: f64 = (0..12).map(|_| uniform() - 0.5).sum();
             sum += walk * 0.1_f64.sqrt() * step;
             sample.pose.x += sum;
             sample.pose.y += sum;
@@ -136,4 +141,24 @@ fn what_cannot_be_seen_is_absent() {
     let found = noise(&always_moving, 0.0);
     assert_eq!(found.standing, None);
     assert_eq!(found.encoders, PerSide::new(None, None), "constant speeds differ only at steps");
+}
+
+#[test]
+fn poses_that_are_stamped_late_by_chance_are_quiet_at_the_times_they_were_due() {
+    let even = noisy(3).recording().expect("long enough");
+    let mut uniform = uniforms();
+    let late = even.runs().iter().cloned().map(|run| {
+        let mut rows = run.into_rows();
+        // standard deviation 10 ms, a tenth of their interval
+        rows.poses.samples.iter_mut().for_each(|pose| pose.t += 0.035 * uniform());
+        rows
+    });
+    let late = Recording::new("late", "synthetic", late.collect(), Source::computed(), Vec::new());
+    let late = late.expect("long enough");
+    let yaw = |recording: &Recording| {
+        noise(recording, 0.2).moving.expect("six seconds of steady driving").yaw.white
+    };
+    let [even, due, late] = [yaw(&even), yaw(&late.with_regular_poses()), yaw(&late)];
+    assert!(late > 1.5 * even, "{late} rad of {even}");
+    assert!(due < 1.15 * even, "{due} rad of {even}");
 }

@@ -1,0 +1,231 @@
+//! Readings of encoders that count in coarse ticks.
+//!
+//! Travel is always known to a tick q, with an error of variance q²/12 about its mean; differences of travel are
+//! speeds that jump by q/T though the belt runs evenly, and a lag of the drive would smooth them. Between ticks the
+//! belt's acceleration is taken to change as little as they allow: travel S minimises
+//! Σ (S_k − S̃_k)² + λ Σ (Δ³S_k)² (Whittaker 1923), which delays nothing and leaves even accelerations as they are.
+//! λ is the one with the least expected error (Mallows' C_p), for the variance is known.
+
+use std::f64::consts::PI;
+use trackdyn_core::{PerSide, Side, real};
+use trackdyn_recording::TrackSample;
+use trackdyn_recording::regular::stretches;
+
+/// Order of the differences that are kept small.
+const ORDER: usize = 3;
+
+/// Weights of a third difference.
+const DIFFERENCE: [f64; ORDER + 1] = [-1.0, 3.0, -3.0, 1.0];
+
+/// λ is tried at powers of √10 from 10⁻² to 10⁵; the last one smooths over some forty readings.
+const TRIED: std::ops::RangeInclusive<i32> = -4..=10;
+
+/// The readings of all runs with even speeds between the ticks of their encoders.
+pub(super) fn smoothed(runs: &[Vec<TrackSample>]) -> Vec<Vec<TrackSample>> {
+    let step = PerSide::from_fn(|side| step(runs.iter().flatten().map(|track| speed(track, side))));
+    let smooth = |run: &Vec<TrackSample>| {
+        let stamps: Vec<f64> = run.iter().map(|reading| reading.t).collect();
+        let stretches = stretches(&stamps).into_iter();
+        stretches
+            .flat_map(|(stretch, interval)| between_ticks(&run[stretch], interval, step))
+            .collect()
+    };
+    runs.iter().map(smooth).collect()
+}
+
+/// Speeds nearer to each other than this, m/s, are the same but for rounding.
+const SAME: f64 = 1e-5;
+
+/// Smallest difference of two speeds that were shown, q/T, m/s; zero where all are the same.
+fn step(speeds: impl Iterator<Item = f64>) -> f64 {
+    let mut shown: Vec<f64> = speeds.collect();
+    shown.sort_by(f64::total_cmp);
+    let steps = shown.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > SAME);
+    steps.reduce(f64::min).unwrap_or(0.0)
+}
+
+fn speed(reading: &TrackSample, side: Side) -> f64 {
+    PerSide::new(reading.v_left, reading.v_right)[side]
+}
+
+/// A stretch of readings at even intervals (s), whose speeds come in `step`s (m/s), with even speeds.
+fn between_ticks(stretch: &[TrackSample], interval: f64, step: PerSide<f64>) -> Vec<TrackSample> {
+    let of = |side: Side| {
+        let travel = stretch.iter().scan(0.0, |travel, reading| {
+            *travel += speed(reading, side) * interval;
+            Some(*travel)
+        });
+        let travel: Vec<f64> = std::iter::once(0.0).chain(travel).collect();
+        likely(&travel, step[side] * interval)
+    };
+    let travel = PerSide::from_fn(of);
+    let speed = |side: Side, k: usize| (travel[side][k + 1] - travel[side][k]) / interval;
+    let even = stretch.iter().enumerate().map(|(k, reading)| TrackSample {
+        v_left: speed(Side::Left, k),
+        v_right: speed(Side::Right, k),
+        ..*reading
+    });
+    even.collect()
+}
+
+/// Travel with the least expected error, of travel that was counted in ticks, m.
+fn likely(counted: &[f64], tick: f64) -> Vec<f64> {
+    if counted.len() <= 2 * ORDER || tick <= 0.0 {
+        return counted.to_vec();
+    }
+    let variance = tick * tick / 12.0;
+    // C_p = Σ (S − S̃)²/n + 2 σ² tr(H)/n; without smoothing S = S̃ and H = 1
+    let mut best = (2.0 * variance, counted.to_vec());
+    for power in TRIED {
+        let lambda = 10_f64.powf(0.5 * f64::from(power));
+        let smooth = whittaker(counted, lambda);
+        let apart = smooth.iter().zip(counted).map(|(a, b)| (a - b) * (a - b));
+        let expected = apart.sum::<f64>() / real(counted.len()) + 2.0 * variance * freedom(lambda);
+        if expected < best.0 {
+            best = (expected, smooth);
+        }
+    }
+    best.1
+}
+
+/// tr(H)/n of many samples: the mean over all frequencies of what the filter lets through,
+/// 1/(1 + λ (2 − 2 cos ω)³).
+fn freedom(lambda: f64) -> f64 {
+    const FREQUENCIES: u32 = 512;
+    let passes = |k: u32| {
+        let omega = PI * (f64::from(k) + 0.5) / f64::from(FREQUENCIES);
+        (1.0 + lambda * (2.0 - 2.0 * omega.cos()).powi(3)).recip()
+    };
+    (0..FREQUENCIES).map(passes).sum::<f64>() / f64::from(FREQUENCIES)
+}
+
+/// Solves (1 + λ D'D) S = S̃, D the third differences, by LDL' of its band.
+fn whittaker(counted: &[f64], lambda: f64) -> Vec<f64> {
+    let count = counted.len();
+    // row k of the matrix: elements (k, k), (k, k − 1), ...
+    let mut band = vec![[0.0; ORDER + 1]; count];
+    for first in 0..count - ORDER {
+        for (a, weight) in DIFFERENCE.iter().enumerate() {
+            for (b, other) in DIFFERENCE[..=a].iter().enumerate() {
+                band[first + a][a - b] += lambda * weight * other;
+            }
+        }
+    }
+    for row in &mut band {
+        row[0] += 1.0;
+    }
+    let mut solution = counted.to_vec();
+    for k in 0..count {
+        // L_kj = (A_kj − Σ L_ki D_i L_ji)/D_j, D_k = A_kk − Σ L_ki² D_i
+        for back in (1..=ORDER.min(k)).rev() {
+            let j = k - back;
+            let deeper = (back + 1..=ORDER.min(k)).filter(|deep| deep - back <= ORDER);
+            let sum: f64 =
+                deeper.map(|deep| band[k][deep] * band[k - deep][0] * band[j][deep - back]).sum();
+            band[k][back] = (band[k][back] - sum) / band[j][0];
+        }
+        for back in 1..=ORDER.min(k) {
+            band[k][0] -= band[k][back] * band[k][back] * band[k - back][0];
+            solution[k] -= band[k][back] * solution[k - back];
+        }
+    }
+    for k in (0..count).rev() {
+        solution[k] /= band[k][0];
+        for ahead in 1..=ORDER.min(count - 1 - k) {
+            solution[k] -= band[k + ahead][ahead] * solution[k + ahead];
+        }
+    }
+    solution
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const INTERVAL: f64 = 0.05;
+
+    /// Travel at the readings of ramps between speeds, m.
+    fn travel(k: i32) -> f64 {
+        // v = 0.4 sin t³ᐟ² has changes of every rate up to 3 m/s²
+        let steps = 40;
+        let speed = |t: f64| 0.4 * t.powf(1.5).sin();
+        let dt = INTERVAL / f64::from(steps);
+        (0..k * steps).map(|step| dt * speed(dt * (f64::from(step) + 0.5))).sum()
+    }
+
+    /// Readings of travel that is counted in ticks.
+    fn counted(tick: f64) -> Vec<TrackSample> {
+        let shown = |k: i32| tick * (travel(k) / tick + 0.3).floor();
+        let reading = |k: i32| {
+            let speed = (shown(k + 1) - shown(k)) / INTERVAL;
+            TrackSample { t: INTERVAL * f64::from(k), v_left: speed, v_right: -speed }
+        };
+        (0..400).map(reading).collect()
+    }
+
+    /// Root mean square errors of speed (m/s) and of travel about its mean (m).
+    fn errors(run: &[TrackSample]) -> [f64; 2] {
+        let rms = |of: &[f64]| (of.iter().map(|e| e * e).sum::<f64>() / real(of.len())).sqrt();
+        let truth = |k: i32| travel(k + 1) - travel(k);
+        let speed: Vec<f64> =
+            (0..).zip(run).map(|(k, reading)| reading.v_left - truth(k) / INTERVAL).collect();
+        let way = speed.iter().scan(0.0, |way, error| {
+            *way += error * INTERVAL;
+            Some(*way)
+        });
+        let way: Vec<f64> = way.collect();
+        let mean = way.iter().sum::<f64>() / real(way.len());
+        [rms(&speed), rms(&way.iter().map(|error| error - mean).collect::<Vec<_>>())]
+    }
+
+    #[test]
+    fn speeds_and_travel_come_nearer_to_the_truth() {
+        for tick in [5e-4, 2e-3, 5e-3] {
+            let run = counted(tick);
+            let smooth = &smoothed(std::slice::from_ref(&run))[0];
+            let ([before, far], [after, near]) = (errors(&run), errors(smooth));
+            assert!(after < 0.7 * before, "{tick} m: {after} of {before} m/s");
+            assert!(near < 0.95 * far, "{tick} m: {near} of {far} m");
+            assert!(smooth.iter().zip(&run).all(|(a, b)| a.t == b.t && a.v_left == -a.v_right));
+        }
+    }
+
+    /// What a smoother does to even accelerations is what a lag does beside a clock.
+    #[test]
+    fn even_accelerations_stay_as_they_are() {
+        let ramp: Vec<f64> = (0..60).map(|k| 1e-4 * f64::from(k * k)).collect();
+        for (a, b) in ramp.iter().zip(whittaker(&ramp, 1e3)) {
+            assert!((a - b).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_freedom_left_is_the_trace_of_the_filter() {
+        let count = 120;
+        for lambda in [0.1, 10.0, 1e3] {
+            let diagonal = |k: usize| {
+                let mut unit = vec![0.0; count];
+                unit[k] = 1.0;
+                whittaker(&unit, lambda)[k]
+            };
+            let trace = (0..count).map(diagonal).sum::<f64>() / real(count);
+            // the ends are freer
+            let [far, near] = [freedom(lambda), freedom(lambda) + 0.03];
+            assert!((far..near).contains(&trace), "{lambda}: {trace}, {far}");
+        }
+    }
+
+    #[test]
+    fn readings_without_ticks_stay_and_gaps_part_them() {
+        let mut run = counted(1e-9);
+        for (a, b) in smoothed(std::slice::from_ref(&run))[0].iter().zip(&run) {
+            assert!((a.v_left - b.v_left).abs() < 1e-6);
+        }
+        run = counted(2e-3);
+        run.iter_mut().skip(200).for_each(|reading| reading.t += 1.0);
+        let whole = &smoothed(std::slice::from_ref(&run))[0];
+        let halves = smoothed(&[run[..200].to_vec(), run[200..].to_vec()]).concat();
+        assert_eq!(whole.len(), halves.len());
+        assert!(whole.iter().zip(&halves).all(|(a, b)| (a.v_left - b.v_left).abs() < 1e-9));
+    }
+}

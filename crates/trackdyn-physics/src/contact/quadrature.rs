@@ -24,6 +24,17 @@ impl Rule {
         };
         Self { across: nodes(across), along: nodes(along) }
     }
+
+    /// The rule with nodes along that crowd towards both ends of a panel, u → (3u − u³)/2: what builds up from where a
+    /// point enters the contact is steep there.
+    fn graded(across: usize, along: usize) -> Self {
+        let mut rule = Self::new(across, along);
+        for (node, weight) in &mut rule.along {
+            *weight *= 1.5 * (1.0 - *node * *node);
+            *node *= 1.5 - 0.5 * *node * *node;
+        }
+        rule
+    }
 }
 
 /// Distances of the ICR, in half diagonals of the patch, from which on n nodes each way suffice. Pressure and
@@ -34,11 +45,14 @@ const FAR: [(f64, usize); 6] = [(5000.0, 3), (232.0, 4), (50.0, 5), (20.0, 6), (
 /// The rules of [`FAR`].
 static FAR_FIELD: LazyLock<[Rule; FAR.len()]> = LazyLock::new(|| FAR.map(|(_, n)| Rule::new(n, n)));
 
-/// Resolves a shear stress that builds up over a few percent of the track's length.
-static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::new(8, 24));
+/// Resolves a shear stress that builds up over a percent of the track's length.
+static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(8, 24));
 
-/// Resolves it to a thousandth of what it changes, in a quarter of the time.
-static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::new(4, 12));
+/// Resolves it to a thousandth of what it changes where it builds up over a few percent, in a quarter of the time.
+static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(4, 12));
+
+/// The same for a patch that is hardly longer than wide.
+static COARSE_SHORT: LazyLock<Rule> = LazyLock::new(|| Rule::graded(6, 8));
 
 /// How finely laws of the shear stress are integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -83,12 +97,13 @@ pub fn departure_wrench<S: Scalar>(
     resolution: Resolution,
     mut law: impl FnMut(&Patch, &SlipSite<S>) -> ShearStress<S>,
 ) -> Wrench<S> {
-    let rule = match resolution {
-        Resolution::Fine => &FINE,
-        Resolution::Coarse => &COARSE,
-    };
     let mut wrench = Wrench::zero();
     for patch in patches {
+        let rule = match resolution {
+            Resolution::Fine => &FINE,
+            Resolution::Coarse if patch.length() < 2.0 * patch.width() => &COARSE_SHORT,
+            Resolution::Coarse => &COARSE,
+        };
         let panels = Panels::cut(patch, slip);
         wrench += integrate(rule, &panels, slip, |site| {
             let ShearStress { factor, added } = law(patch, &site);

@@ -21,8 +21,9 @@ const MAX_ITERATIONS: usize = 80;
 /// Share of the predicted decrease of the residual's norm that a step must bring.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 
-/// Smallest fraction of a Newton step that is tried.
-const SMALLEST_STEP: f64 = 1e-9;
+/// Smallest fraction of a Newton step that is tried: where less is needed, there is no root near, and another start is
+/// tried sooner.
+const SMALLEST_STEP: f64 = 1e-3;
 
 /// Residual and Jacobian at a point.
 pub struct Evaluation {

@@ -39,8 +39,8 @@ const MOST_TURNS: usize = 100;
 pub enum Near {
     /// It turns, with these ICRs.
     Turning(Icrs),
-    /// One track holds the robot.
-    Held,
+    /// The track of this side holds the robot.
+    Held(Side),
 }
 
 /// Solver for the stationary motions of one model at one place, heading and time.
@@ -103,7 +103,7 @@ impl<'m> Stationary<'m> {
                     solution.status = Status::NotConverged;
                     break;
                 }
-                solution = self.solve_belts(next);
+                solution = self.starting_at(solution.near()).solve_belts(next);
             }
             let driven = drive.driven(track_speed);
             solution.icrs = solution.icrs.and_then(|_| Icrs::of_motion(driven, &solution.twist));
@@ -143,7 +143,10 @@ impl<'m> Stationary<'m> {
     /// # Panics
     /// Never: at least four starts are tried.
     fn solve_belts(&self, belt_speed: PerSide<f64>) -> Solution {
-        let first = self.better_anchor();
+        let first = match self.near {
+            Some(Near::Held(side)) => side,
+            _ => self.better_anchor(),
+        };
         let problems =
             [first, first.other()].map(|anchor| Problem { solver: self, belt_speed, anchor });
         let ends =
@@ -199,7 +202,7 @@ impl<'s> Problem<'s> {
                 };
                 Vector3::new(x, icrs.y, 1.0 / (icrs.x_right - icrs.x_left))
             }
-            Near::Held => holding,
+            Near::Held(_) => holding,
         });
         near.into_iter().chain([turning, holding])
     }

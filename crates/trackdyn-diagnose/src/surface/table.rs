@@ -11,19 +11,49 @@ use trackdyn_core::{PerSide, real};
 /// Sectors of directions.
 const SECTORS: usize = 8;
 
-/// Nodes in the direction, and in the size: what grows with the square of the speed is steep there.
+/// Nodes in the direction, and in the size.
 const ANGLES: usize = 6;
 const SIZES: usize = 10;
 
-/// Ratio of the largest to the smallest tabulated speed. Nodes are even in its logarithm, for friction depends on
-/// speeds most where they are small; below, the value is that of the smallest.
+/// Ratio of the largest to the smallest tabulated speed where nodes are even in its logarithm; below, the value is that
+/// of the smallest.
 const RANGE: f64 = 30.0;
+
+/// How the nodes of the size lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spacing {
+    /// Even in ρ: what grows with the square of the speed is a polynomial.
+    Even,
+    /// Even in ln ρ: friction that depends on the slip speed does so most where it is small.
+    Logarithmic,
+}
+
+impl Spacing {
+    /// ρ/ρ_max at a place of [0, 1].
+    fn part(self, place: f64) -> f64 {
+        match self {
+            Self::Even => place,
+            // R^(u − 1)
+            Self::Logarithmic => RANGE.powf(place - 1.0),
+        }
+    }
+
+    /// The place in [0, 1] of (ρ/ρ_max)².
+    fn place(self, squared: f64) -> f64 {
+        let place = match self {
+            Self::Even => squared.sqrt(),
+            Self::Logarithmic => 1.0 + squared.ln() * (0.5 / RANGE.ln()),
+        };
+        place.clamp(0.0, 1.0)
+    }
+}
 
 /// The places of a table's nodes.
 #[derive(Clone, Debug)]
 pub struct Grid {
     /// ρ_max, the largest tabulated speed, m/s.
     largest: f64,
+    spacing: Spacing,
     angles: Nodes<ANGLES>,
     sizes: Nodes<SIZES>,
 }
@@ -40,8 +70,8 @@ impl Grid {
     pub const NODES: usize = SECTORS * SIZES * ANGLES;
 
     /// Nodes for belt speeds of size up to `largest`, m/s.
-    pub fn new(largest: f64) -> Self {
-        Self { largest, angles: Nodes::new(), sizes: Nodes::new() }
+    pub fn new(largest: f64, spacing: Spacing) -> Self {
+        Self { largest, spacing, angles: Nodes::new(), sizes: Nodes::new() }
     }
 
     /// The belt speeds of a node, m/s.
@@ -49,8 +79,7 @@ impl Grid {
         let (sector, rest) = (index / (SIZES * ANGLES), index % (SIZES * ANGLES));
         let (size, angle) = (self.sizes.at[rest / ANGLES], self.angles.at[rest % ANGLES]);
         let phi = (real(sector) + angle) * FRAC_PI_4;
-        // ρ = ρ_max R^(u − 1)
-        let rho = self.largest * RANGE.powf(size - 1.0);
+        let rho = self.largest * self.spacing.part(size);
         PerSide::new(rho * phi.cos(), rho * phi.sin())
     }
 }
@@ -67,18 +96,12 @@ impl<const C: usize> Table<C> {
         &self.grid
     }
 
-    /// The value at a node.
-    pub fn node(&self, index: usize) -> &SMatrix<f64, 3, C> {
-        &self.nodes[index]
-    }
-
     /// The value at belt speeds.
     pub fn at(&self, speeds: PerSide<f64>) -> SMatrix<f64, 3, C> {
-        let Grid { largest, angles, sizes } = &self.grid;
-        // ρ = ρ_max R^(u − 1)
+        let Grid { largest, spacing, angles, sizes } = &self.grid;
         let squared =
             (speeds.left * speeds.left + speeds.right * speeds.right) / (largest * largest);
-        let size = (1.0 + squared.ln() * (0.5 / RANGE.ln())).clamp(0.0, 1.0);
+        let size = spacing.place(squared);
         let phi = speeds.right.atan2(speeds.left).rem_euclid(2.0 * PI) / FRAC_PI_4;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 8")]
         let sector = (phi as usize).min(SECTORS - 1);

@@ -31,7 +31,7 @@ impl Solution {
     pub fn near(&self) -> Option<Near> {
         match self.status {
             Status::Turning | Status::Straight => self.icrs.map(Near::Turning),
-            Status::Holds(_) => Some(Near::Held),
+            Status::Holds(side) => Some(Near::Held(side)),
             Status::Lifts | Status::NotConverged => None,
         }
     }

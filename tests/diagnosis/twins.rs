@@ -4,7 +4,6 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use trackdyn_diagnose::Diagnosis;
 use trackdyn_diagnose::diagnosis::Kind;
-use trackdyn_diagnose::hypothesis::typical_size;
 use trackdyn_diagnose::verdict::Rules;
 use trackdyn_field::sensors::{Preset, Sensors};
 use trackdyn_field::{ScheduleKind, ScheduleOptions, ScheduledRun};
@@ -95,40 +94,24 @@ fn at_speed_the_truth_is_in_the_class_of_constants() {
 
 /// What a diagnosis names beyond what its evidence can tell apart.
 ///
-/// A single name is too much where it is not the truth, or where another effect is closer than the rules
-/// allow: by the signatures beside the base, as the report prints them.
+/// A single name is too much where it is not the truth, or where another answer is closer than the rules allow: one that
+/// is n standard errors away is expected to be less likely by n²/2.
 fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
     let found = diagnosis(concealed, &sensors(preset));
     let truth = id(concealed);
-    let mut wrong = Vec::new();
-    for missing in found.missing.iter().filter(|missing| missing.kind == Kind::Physics) {
+    let physics = found.missing.iter().filter(|missing| missing.kind == Kind::Physics);
+    let wrong = physics.filter_map(|missing| {
         let ids: Vec<&str> = missing.verdict.one_of.iter().map(|&e| CATALOGUE[e].id).collect();
+        let apart = (2.0 * missing.verdict.support.ln_bayes_factor).sqrt();
         if !ids.contains(&truth) {
-            wrong.push(format!("{concealed}: {ids:?}"));
-            continue;
+            Some(format!("{concealed}: {ids:?}"))
+        } else if ids.len() == 1 && apart < Rules::ISOLATED {
+            Some(format!("{concealed}: {truth} alone, another answer {apart:.1} away"))
+        } else {
+            None
         }
-        let [only] = missing.verdict.one_of[..] else { continue };
-        let of = &found.resemblance;
-        let Some(row) = of.effects.iter().position(|&effect| effect == only) else { continue };
-        // The separation is that of a typical size, and goes as the size.
-        let size = missing.parameters.iter().find_map(|interval| {
-            let parameter = interval.unknown.parameter()?;
-            let neutral = trackdyn_diagnose::hypothesis::neutral(parameter);
-            let is_size = trackdyn_diagnose::candidate::sizes(only)
-                .iter()
-                .any(|&k| CATALOGUE[only].parameters[k].key == parameter.key);
-            is_size.then(|| (interval.value - neutral).abs() / typical_size(parameter))
-        });
-        let size = size.unwrap_or(1.0);
-        for (column, &other) in of.effects.iter().enumerate().filter(|(_, other)| **other != only) {
-            let apart = size * of.separation[(row, column)];
-            if apart < Rules::ISOLATED {
-                let other = CATALOGUE[other].id;
-                wrong.push(format!("{concealed}: {truth} alone, {apart:.1} from {other}"));
-            }
-        }
-    }
-    wrong
+    });
+    wrong.collect()
 }
 
 /// Small sizes and far places, where a neighbour does as well.

@@ -16,7 +16,8 @@ use crate::hypothesis::{Hypothesis, Unknown, neutral, typical};
 use crate::mechanics::is_instrument;
 use crate::search::{AS_FILED, Found, Screened, Search};
 use crate::uncertainty::Interval;
-use nalgebra::DVector;
+use std::slice;
+use support::Change;
 use trackdyn_core::real;
 use trackdyn_physics::VehicleFile;
 use trackdyn_physics::effect::Role;
@@ -104,13 +105,15 @@ pub fn judge(
             let mut exchanges = Vec::new();
             let own = screened.iter().find(|one| one.effect == effect);
             let own_gain = own.map_or(0.0, |one| one.gain);
+            let changed = support::change(effect, &without, best);
             let is_close = |one: &&Screened| one.effect != effect && is_rival(one, own_gain, best);
             let close: Vec<&Screened> = screened.iter().filter(is_close).collect();
             for rival in close.iter().take(RIVALS).copied() {
                 let exchanged = search.refit(&without, std::slice::from_ref(rival));
                 let behind = (exchanged.fit.objective - best.fit.objective) / 2.0;
-                let apart =
-                    own.map_or(f64::INFINITY, |own| separation(search, &without, own, rival));
+                let apart = changed
+                    .as_ref()
+                    .map_or(f64::INFINITY, |changed| separation(search, &without, changed, rival));
                 let less = best.ln_evidence - exchanged.ln_evidence;
                 if behind < Rules::SAME || less < Rules::LN_BAYES_FACTOR || apart < Rules::ISOLATED
                 {
@@ -208,16 +211,16 @@ fn at_limit(fit: &Fit, unknown: Unknown, effect: usize) -> Option<String> {
         .then(|| format!("{} = {value} lies at the limit of what is physical", parameter.key))
 }
 
-/// Separation of two effects: the part of the first one's signature, at its size, that neither the second one
-/// nor what is free can stand for, in standard deviations.
-fn separation(search: &Search, without: &Found, own: &Screened, rival: &Screened) -> f64 {
-    let (normal, known, groups) = search.normal(&without.fit, &[own.entry, rival.entry]);
+/// Separation of an effect from a rival: the part of what refitting with it changed that neither the rival's signature nor
+/// what is free can stand for, in standard deviations.
+fn separation(search: &Search, without: &Found, changed: &Change, rival: &Screened) -> f64 {
+    let (_, rival) = &search.catalogue.entries[rival.entry];
+    let signature = slice::from_ref(&changed.signature);
+    let (normal, known, groups) = search.normal_of(&without.fit, &[signature, rival]);
     let base: Vec<usize> =
         (0..without.fit.columns.len()).chain(groups[1].iter().copied()).collect();
-    let projected = normal.projected(&base, &known);
-    let information = projected.information(&groups[0]);
-    let sizes = DVector::from_vec(own.sizes.clone());
-    sizes.dot(&(information * &sizes)).max(0.0).sqrt()
+    let information = normal.projected(&base, &known).information(&groups[0])[(0, 0)];
+    changed.size.abs() * information.max(0.0).sqrt()
 }
 
 /// Refuses the claims whose sizes may all be none by their own intervals; their effects.

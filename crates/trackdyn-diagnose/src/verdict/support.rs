@@ -81,10 +81,11 @@ impl Support {
         draws: usize,
         seed: u64,
     ) -> Self {
-        let found = secant(own.effect, without, best).filter(|_| sizes(own.effect).len() == 1);
-        let found = found.as_slice();
-        let own_signatures =
-            if found.is_empty() { &search.catalogue.entries[own.entry].1[..] } else { found };
+        let found = change(own.effect, without, best).filter(|_| sizes(own.effect).len() == 1);
+        let own_signatures = found.as_ref().map_or_else(
+            || &search.catalogue.entries[own.entry].1[..],
+            |found| slice::from_ref(&found.signature),
+        );
         let (normal, known, groups) = search.normal_of(&without.fit, &[own_signatures]);
         let base: Vec<usize> = (0..without.fit.columns.len()).collect();
         let projected = normal.projected(&base, &known);
@@ -154,17 +155,17 @@ pub(super) fn named(
     let screened = screened.iter().filter(|one| one.gain.is_finite() && !is_refitted(one.effect));
     let screened =
         screened.map(|one| (one.effect, &search.catalogue.entries[one.entry].1[..], None));
-    let secants: Vec<(usize, Signature, f64)> = refitted
+    let changes: Vec<(usize, Change, f64)> = refitted
         .iter()
         .filter_map(|(effect, found)| {
             let gain = found.ln_evidence - without.ln_evidence;
-            Some((*effect, secant(*effect, without, found)?, gain))
+            Some((*effect, change(*effect, without, found)?, gain))
         })
         .collect();
-    let secants = secants
+    let changes = changes
         .iter()
-        .map(|(effect, secant, gain)| (*effect, slice::from_ref(secant), Some(*gain)));
-    let contenders: Vec<(usize, &[Signature], Option<f64>)> = screened.chain(secants).collect();
+        .map(|(effect, change, gain)| (*effect, slice::from_ref(&change.signature), Some(*gain)));
+    let contenders: Vec<(usize, &[Signature], Option<f64>)> = screened.chain(changes).collect();
     let signatures: Vec<&[Signature]> = contenders.iter().map(|(_, one, _)| *one).collect();
     let (normal, known, groups) = search.normal_of(&without.fit, &signatures);
     let base: Vec<usize> = (0..without.fit.columns.len()).collect();
@@ -200,14 +201,23 @@ pub(super) fn named(
     shares
 }
 
-/// What refitting with an effect changed of the prediction, along its first size that is there; none where none is.
-fn secant(effect: usize, without: &Found, with: &Found) -> Option<Signature> {
+/// What refitting with an effect changed of the prediction.
+pub(super) struct Change {
+    /// The change per unit of the first size that is there.
+    pub signature: Signature,
+    /// How far that size is from where it was without the effect.
+    pub size: f64,
+}
+
+/// What refitting with an effect changed; none where none of its sizes is there.
+pub(super) fn change(effect: usize, without: &Found, with: &Found) -> Option<Change> {
     let unknowns = sizes(effect).into_iter().map(|place| Unknown::Effect(effect, place));
     let distance = |unknown| with.fit.hypothesis.get(unknown) - without.fit.hypothesis.get(unknown);
     let unknown = unknowns.into_iter().find(|unknown| distance(*unknown) != 0.0)?;
+    let size = distance(unknown);
     let residuals = without.fit.residual.iter().zip(&with.fit.residual);
-    let column = residuals.map(|(before, after)| (before - after) / distance(unknown)).collect();
-    Some(Signature { unknown, column })
+    let column = residuals.map(|(before, after)| (before - after) / size).collect();
+    Some(Change { signature: Signature { unknown, column }, size })
 }
 
 /// Gain of log-likelihood by columns on blocks that were left out of their fit, and its standard error. What is free

@@ -4,6 +4,7 @@
 //! that is in a real recording, so that what is asked is the difference that the alteration makes.
 
 use std::collections::BTreeSet;
+use std::sync::LazyLock;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
@@ -47,20 +48,25 @@ fn said(diagnosis: &Diagnosis) -> Vec<BTreeSet<&'static str>> {
     named(diagnosis).into_iter().map(|(_, members)| members).collect()
 }
 
+/// The Warthog on asphalt as it was recorded, and what is said of it; none where the recording is not at hand.
+static ASPHALT: LazyLock<Option<(Recording, Diagnosis)>> = LazyLock::new(|| {
+    let real = real_recording("warthog-asphalt-a")?;
+    let diagnosis = diagnosed(&real, &vehicle("warthog")).expect("turns");
+    Some((real, diagnosis))
+});
+
 /// Altered: stamps of the poses, 0.08 s later. Real: all else.
 #[test]
 fn poses_that_come_later_are_found() {
     const LATER: f64 = 0.08;
-    let Some(real) = real_recording("warthog-asphalt-a") else { return };
-    let file = vehicle("warthog");
-    let before = diagnosed(&real, &file).expect("turns");
-    let hidden = altered(&real, |run| {
+    let Some((real, before)) = &*ASPHALT else { return };
+    let hidden = altered(real, |run| {
         run.poses.samples.iter_mut().for_each(|pose| pose.t += LATER);
     });
-    let after = diagnosed(&hidden, &file).expect("turns");
+    let after = &diagnosed(&hidden, &vehicle("warthog")).expect("turns");
     // Wheels that follow late and poses that come late are one answer in windows of two seconds.
     let late = [("time-offset", "delay_s"), ("drivetrain-lag", "time_constant_s")];
-    let [before, after] = [before, after].map(|diagnosis| fitted(&diagnosis, &late));
+    let [before, after] = [before, after].map(|diagnosis| fitted(diagnosis, &late));
     let (found, deviation) = (after.0 - before.0, after.1.hypot(before.1));
     println!("{found:.3} ± {deviation:.3} s later");
     assert!((found - LATER).abs() < 2.6 * deviation && deviation < LATER / 2.0, "{found}");
@@ -70,15 +76,14 @@ fn poses_that_come_later_are_found() {
 #[test]
 fn a_larger_wheel_on_one_side_is_found() {
     const THINKS: f64 = 0.96;
-    let Some(real) = real_recording("warthog-asphalt-a") else { return };
-    let file = vehicle("warthog");
-    let hidden = altered(&real, |run| {
+    let Some((real, before)) = &*ASPHALT else { return };
+    let hidden = altered(real, |run| {
         run.tracks.samples.iter_mut().for_each(|reading| reading.v_left *= THINKS);
     });
-    let [before, after] = [&real, &hidden].map(|one| diagnosed(one, &file).expect("turns"));
+    let after = diagnosed(&hidden, &vehicle("warthog")).expect("turns");
     let gain = |diagnosis: &Diagnosis| fitted(diagnosis, &[("encoder-scale", "left")]).0;
-    let found = gain(&after) / gain(&before);
-    println!("{found:.4} times: {:?}, then {:?}", said(&before), said(&after));
+    let found = gain(&after) / gain(before);
+    println!("{found:.4} times: {:?}, then {:?}", said(before), said(&after));
     assert!((found * THINKS - 1.0).abs() < 0.005, "{found}");
     assert!(said(&after).iter().any(|one| one.contains("encoder-scale")));
 }
@@ -87,11 +92,8 @@ fn a_larger_wheel_on_one_side_is_found() {
 /// holds is no more than that something is missing.
 #[test]
 fn gravel_among_asphalt_is_not_found() {
-    let (Some(asphalt), Some(gravel)) =
-        (real_recording("warthog-asphalt-a"), real_recording("warthog-gravel"))
-    else {
-        return;
-    };
+    let Some((asphalt, _)) = &*ASPHALT else { return };
+    let Some(gravel) = real_recording("warthog-gravel") else { return };
     let file = vehicle("warthog");
     let pairs = asphalt.runs().iter().zip(gravel.runs()).enumerate();
     let mixed = pairs.map(|(k, (asphalt, gravel))| {

@@ -3,6 +3,10 @@
 use super::verdict::Judged;
 use crate::answer::Concealed;
 use crate::diagnosis::Fit;
+use statrs::distribution::{ContinuousCDF, Normal};
+
+/// ln Bayes factor that a claim needs.
+const LN_BAYES_FACTOR: f64 = 5.0;
 
 /// The middle of a quantity over cases.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +32,13 @@ impl Mean {
     }
 }
 
+/// How often noise lets an answer be told from another one that is z standard errors away, by the ln Bayes factor that a
+/// claim needs: whoever knows both exactly sees ln L₁/L₂ with mean z²/2 and standard deviation z.
+fn told_apart(z: f64) -> f64 {
+    let more = z / 2.0 - LN_BAYES_FACTOR / z;
+    if z > 0.0 { Normal::standard().cdf(more) } else { 0.0 }
+}
+
 /// All means of a trial.
 pub fn means(judged: &[Judged]) -> Vec<Mean> {
     let detectable = |case: &&Judged| {
@@ -42,7 +53,12 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
         let truth = case.only().filter(|truth| Concealed::is_detectable(truth))?;
         Some(crate::real(case.set_with(&truth.mechanism)?.len()))
     });
+    let isolable = judged.iter().filter_map(|case| case.only()).filter(|truth| truth.is_isolable());
     [
+        Mean::of(
+            "most to expect of exact isolation: chance that noise allows it",
+            isolable.map(|truth| told_apart(truth.z_iso)),
+        ),
         Mean::of("members of the reported set with the truth in it", sizes),
         Mean::of(
             "share of the held-out excess explained",
@@ -57,4 +73,18 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
     .into_iter()
     .flatten()
     .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_near_is_told_apart_by_luck() {
+        assert_eq!(told_apart(0.0), 0.0);
+        // Φ(0) and Φ(3/4), by tables
+        assert!((told_apart(10.0_f64.sqrt()) - 0.5).abs() < 1e-9);
+        assert!((told_apart(4.0) - 0.77337).abs() < 1e-5);
+        assert!(told_apart(10.0) > 0.9999);
+    }
 }

@@ -55,10 +55,6 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
     });
     let isolable = judged.iter().filter_map(|case| case.only()).filter(|truth| truth.is_isolable());
     [
-        Mean::of(
-            "most to expect of exact isolation: chance that noise allows it",
-            isolable.map(|truth| told_apart(truth.z_iso)),
-        ),
         Mean::of("members of the reported set with the truth in it", sizes),
         Mean::of(
             "share of the held-out excess explained",
@@ -69,6 +65,10 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
             over_floor(|fit| fit.held_out_before),
         ),
         Mean::of("held-out rms over the noise floor, after", over_floor(|fit| fit.held_out_after)),
+        Mean::of(
+            "most to expect of exact isolation: chance that noise allows it",
+            isolable.map(|truth| told_apart(truth.z_iso)),
+        ),
     ]
     .into_iter()
     .flatten()

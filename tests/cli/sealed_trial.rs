@@ -56,14 +56,11 @@ fn lines(csv: &str) -> Vec<Line> {
     csv.lines().skip(1).map(line).collect()
 }
 
-/// Time that a case may take, s. Two laws that need a nested search each may take longer.
-const LIMIT: &str = "150";
-
 /// Diagnoses all cases, half of them by a process beside another.
 fn diagnose(place: &Workplace) {
     let shard = |shard: &str| {
         Command::new(env!("CARGO_BIN_EXE_trackdyn"))
-            .args(["trial", "run", "cases", "--limit", LIMIT, "--shard", shard])
+            .args(["trial", "run", "cases", "--shard", shard])
             .current_dir(place.path())
             .env("RAYON_NUM_THREADS", "1")
             .stdout(Stdio::null())
@@ -71,7 +68,7 @@ fn diagnose(place: &Workplace) {
             .expect("the program starts")
     };
     for mut process in [shard("1/2"), shard("2/2")] {
-        process.wait().expect("it ends");
+        assert!(process.wait().expect("it ends").success());
     }
 }
 
@@ -138,8 +135,7 @@ fn a_small_sealed_trial() {
         }
     }
     let statuses = ["explained", "nothing-missing", "ambiguous", "unexplained"];
-    let answered = cases.iter().filter(|case| statuses.contains(&case.status.as_str())).count();
-    assert!(answered + 1 >= CASES, "{answered} answered in time");
+    assert!(cases.iter().all(|case| statuses.contains(&case.status.as_str())), "none failed");
 
     // what stands out far is named
     let clear = cases.iter().filter(|case| case.stratum == "single");

@@ -1,9 +1,13 @@
 //! Effects that explain a recording alike are one answer.
 
+use nalgebra::DVector;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use trackdyn_diagnose::Diagnosis;
+use trackdyn_diagnose::candidate::{Beside, Variant, candidates};
 use trackdyn_diagnose::diagnosis::Kind;
+use trackdyn_diagnose::hypothesis::neutral;
+use trackdyn_diagnose::search::{Catalogue, Search};
 use trackdyn_diagnose::verdict::Rules;
 use trackdyn_field::sensors::{Preset, Sensors};
 use trackdyn_field::{ScheduleKind, ScheduleOptions, ScheduledRun};
@@ -94,24 +98,53 @@ fn at_speed_the_truth_is_in_the_class_of_constants() {
 
 /// What a diagnosis names beyond what its evidence can tell apart.
 ///
-/// A single name is too much where it is not the truth, or where another answer is closer than the rules allow: one that
-/// is n standard errors away is expected to be less likely by n²/2.
+/// A single name is too much where it is not the truth, or where another effect is closer than the rules
+/// allow: by the signatures beside the base, its own at the size that was found.
 fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
     let found = diagnosis(concealed, &sensors(preset));
     let truth = id(concealed);
-    let physics = found.missing.iter().filter(|missing| missing.kind == Kind::Physics);
-    let wrong = physics.filter_map(|missing| {
+    let mut wrong = Vec::new();
+    for missing in found.missing.iter().filter(|missing| missing.kind == Kind::Physics) {
         let ids: Vec<&str> = missing.verdict.one_of.iter().map(|&e| CATALOGUE[e].id).collect();
-        let apart = (2.0 * missing.verdict.support.ln_bayes_factor).sqrt();
         if !ids.contains(&truth) {
-            Some(format!("{concealed}: {ids:?}"))
-        } else if ids.len() == 1 && apart < Rules::ISOLATED {
-            Some(format!("{concealed}: {truth} alone, another answer {apart:.1} away"))
-        } else {
-            None
+            wrong.push(format!("{concealed}: {ids:?}"));
+            continue;
         }
-    });
-    wrong.collect()
+        let [only] = missing.verdict.one_of[..] else { continue };
+        for (other, apart) in separations(&found, only) {
+            if apart < Rules::ISOLATED {
+                let other = CATALOGUE[other].id;
+                wrong.push(format!("{concealed}: {truth} alone, {apart:.1} from {other}"));
+            }
+        }
+    }
+    wrong
+}
+
+/// Every variant of every other candidate, with the part of an effect's signature, at the size that was found, that
+/// neither it nor the base can stand for, in standard deviations.
+fn separations(found: &Diagnosis, effect: usize) -> Vec<(usize, f64)> {
+    let Diagnosis { base, evidence, metric, best, .. } = found;
+    let active = best.fit.hypothesis.effect(effect).expect("what is named is there");
+    let own = Variant { effect, values: active.values().to_vec() };
+    let parameters = CATALOGUE[effect].parameters;
+    let sizes = own.sizes().into_iter().map(|k| own.values[k] - neutral(&parameters[k]));
+    let sizes = DVector::from_iterator(own.sizes().len(), sizes);
+    let others = candidates(&base.instruments, evidence);
+    let others = others.into_iter().filter(|other| other.effect != effect);
+    let tried: Vec<Variant> = std::iter::once(own).chain(others).collect();
+    let entries = Beside::new(&base.fit.hypothesis, evidence, metric).signatures(&tried);
+    let catalogue = Catalogue { entries };
+    let search = Search { evidence, metric, base, catalogue: &catalogue };
+    let apart = |rival: usize| {
+        let (normal, known, groups) = search.normal(&base.fit, &[0, rival]);
+        let free = (0..base.fit.columns.len()).chain(groups[1].iter().copied());
+        let projected = normal.projected(&free.collect::<Vec<_>>(), &known);
+        let square = sizes.dot(&(projected.information(&groups[0]) * &sizes));
+        (catalogue.entries[rival].0.effect, square.max(0.0).sqrt())
+    };
+    assert_eq!(catalogue.entries[0].0.effect, effect, "its signature is there");
+    (1..catalogue.entries.len()).map(apart).collect()
 }
 
 /// Small sizes and far places, where a neighbour does as well.

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_identify::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 use trackdyn_recording::TrackSample;
-use trackdyn_recording::regular::regular;
+use trackdyn_recording::regular::regularise;
 
 /// One observed motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,8 +140,7 @@ impl Evidence {
     pub fn with_regular_stamps(&self) -> Self {
         let mut tracks = self.tracks.clone();
         for run in &mut tracks {
-            let stamps: Vec<f64> = run.iter().map(|reading| reading.t).collect();
-            run.iter_mut().zip(regular(&stamps)).for_each(|(reading, due)| reading.t = due);
+            regularise(run, |reading| &mut reading.t);
         }
         Self { tracks, ..self.clone() }
     }

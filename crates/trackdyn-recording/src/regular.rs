@@ -12,7 +12,7 @@ const FEWEST: usize = 4;
 
 /// The times at which samples were due, by a straight line through the stamps (s) of their neighbours; in the order of
 /// the stamps, as many as they.
-pub fn regular(stamps: &[f64]) -> Vec<f64> {
+fn regular(stamps: &[f64]) -> Vec<f64> {
     let mut found = Vec::with_capacity(stamps.len());
     for (stretch, _) in stretches(stamps) {
         for k in stretch.clone() {
@@ -22,6 +22,14 @@ pub fn regular(stamps: &[f64]) -> Vec<f64> {
         }
     }
     found
+}
+
+/// Puts samples at the times at which they were due. `stamp` is where a sample keeps its time, s.
+pub fn regularise<S>(samples: &mut [S], stamp: impl Fn(&mut S) -> &mut f64) {
+    let stamps: Vec<f64> = samples.iter_mut().map(|sample| *stamp(sample)).collect();
+    for (sample, due) in samples.iter_mut().zip(regular(&stamps)) {
+        *stamp(sample) = due;
+    }
 }
 
 /// The samples between gaps, by their indices, and the usual interval, s. Where the interval changes by half or more,
@@ -62,10 +70,7 @@ impl Recording {
     pub fn with_regular_poses(&self) -> Self {
         let regular = |run: &Run| {
             let mut rows: UncheckedRun = run.clone().into_rows();
-            let stamps: Vec<f64> = rows.poses.samples.iter().map(|pose| pose.t).collect();
-            for (pose, due) in rows.poses.samples.iter_mut().zip(regular(&stamps)) {
-                pose.t = due;
-            }
+            regularise(&mut rows.poses.samples, |pose| &mut pose.t);
             Run::new(rows, &mut Vec::new())
         };
         self.with_runs(self.runs().iter().map(regular).collect())

@@ -3,6 +3,7 @@
 use super::{Evidence, Sample, Whitening};
 use crate::error::Error;
 use nalgebra::Vector3;
+use std::borrow::Cow;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_identify::observations::Observations;
 use trackdyn_identify::spin_test;
@@ -27,7 +28,8 @@ impl Evidence {
     pub fn of_recording(recording: &Recording, gauge: f64) -> Result<Self, Error> {
         let clock = Clock::of(recording, None);
         let tau = clock.tau();
-        let (recording, measured) = &quieter(recording, tau);
+        let (recording, measured) = quieter(recording, tau);
+        let recording = &*recording;
         // Cut so that readings are there for every offset from none at all to beyond that of the clock.
         let options = SegmentOptions {
             tau: tau / 2.0,
@@ -43,7 +45,7 @@ impl Evidence {
             let position = stated.position * stated.position;
             SegmentNoise { pose: [position, position, stated.yaw * stated.yaw], walk: [0.0; 3] }
         });
-        let noise = SegmentNoise::measured(measured, gap).or(stated).ok_or(Error::NoNoise)?;
+        let noise = SegmentNoise::measured(&measured, gap).or(stated).ok_or(Error::NoNoise)?;
         let blocks = observations.blocks();
         let tracks = recording.runs().iter().map(|run| run.tracks().to_vec());
         let mut tracks: Vec<Vec<TrackSample>> = tracks.collect();
@@ -92,20 +94,17 @@ impl Evidence {
 
 /// The recording and its noise, with poses at the times at which they were due if these are less noisy: what is
 /// stamped late by chance moves meanwhile.
-fn quieter(recording: &Recording, tau: f64) -> (Recording, Noise) {
+fn quieter(recording: &Recording, tau: f64) -> (Cow<'_, Recording>, Noise) {
     let as_stamped = noise(recording, tau);
     let due = recording.with_regular_poses();
     let as_due = noise(&due, tau);
-    let level = |noise: &Noise| {
+    // logarithm of the product of the white noise's standard deviations
+    let level = |noise: &Noise| -> Option<f64> {
         let poses = noise.moving.as_ref()?;
-        Some([poses.forward, poses.lateral, poses.yaw].map(|component| component.white.ln()))
+        Some([poses.forward, poses.lateral, poses.yaw].map(|axis| axis.white.ln()).iter().sum())
     };
-    let change = level(&as_stamped).zip(level(&as_due)).map(|(stamped, due)| {
-        stamped.iter().zip(due).map(|(stamped, due)| due - stamped).sum::<f64>()
-    });
-    if change.is_some_and(|change| change < 0.0) {
-        (due, as_due)
-    } else {
-        (recording.clone(), as_stamped)
+    match (level(&as_stamped), level(&as_due)) {
+        (Some(stamped), Some(level)) if level < stamped => (Cow::Owned(due), as_due),
+        _ => (Cow::Borrowed(recording), as_stamped),
     }
 }

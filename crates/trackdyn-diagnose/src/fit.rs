@@ -293,16 +293,30 @@ fn is_outside(hypothesis: &Hypothesis, unknown: Unknown) -> bool {
 }
 
 /// A hypothesis with its residuals.
-struct Point {
+pub struct Point {
     hypothesis: Hypothesis,
     mechanics: Mechanics,
     prediction: Vec<Vector3<f64>>,
     residual: Vec<Vector3<f64>>,
-    objective: f64,
+    /// Twice the objective.
+    pub objective: f64,
 }
 
 impl Point {
-    fn new(
+    /// The point of a hypothesis some of whose numbers are free. `before` is the mechanics of a hypothesis that resembles
+    /// it ([`Mechanics::beside`]).
+    pub fn new(
+        hypothesis: Hypothesis,
+        unknowns: &[Unknown],
+        evidence: &Evidence,
+        metric: &Metric,
+        before: Option<&Mechanics>,
+    ) -> Self {
+        let mechanics = Mechanics::beside(before, &hypothesis, unknowns, evidence);
+        Self::with_mechanics(hypothesis, mechanics, unknowns, evidence, metric)
+    }
+
+    fn with_mechanics(
         hypothesis: Hypothesis,
         mechanics: Mechanics,
         unknowns: &[Unknown],
@@ -325,9 +339,6 @@ impl Point {
 impl Fit {
     /// Fits the unknowns of a hypothesis, from its numbers on. `before` is the mechanics of a hypothesis that
     /// resembles it ([`Mechanics::beside`]).
-    ///
-    /// What inertia adds stays that of one motion in time, with its derivatives, as long as what it does not come from
-    /// resembles what it was found for. Where the fit ends it is found anew unless that is near, and the fit goes on.
     pub fn new(
         start: Hypothesis,
         unknowns: &[Unknown],
@@ -335,20 +346,32 @@ impl Fit {
         metric: &Metric,
         before: Option<&Mechanics>,
     ) -> Self {
-        let found = |hypothesis: Hypothesis, before: Option<&Mechanics>| {
-            let mechanics = Mechanics::beside(before, &hypothesis, unknowns, evidence);
-            Point::new(hypothesis, mechanics, unknowns, evidence, metric)
+        let start = Point::new(start, unknowns, evidence, metric, before);
+        Self::from_point(start, unknowns, evidence, metric)
+    }
+
+    /// Fits the unknowns of a hypothesis from this point on.
+    ///
+    /// What inertia adds stays that of one motion in time, with its derivatives, as long as what it does not come from
+    /// resembles what it was found for. Where the fit ends it is found anew unless that is near, and the fit goes on.
+    pub fn from_point(
+        start: Point,
+        unknowns: &[Unknown],
+        evidence: &Evidence,
+        metric: &Metric,
+    ) -> Self {
+        let descended = |point: Point| {
+            Self::linearised(point, unknowns, evidence, metric).descended(evidence, metric)
         };
-        let start = found(start, before);
-        let mut fit =
-            Self::linearised(start, unknowns, evidence, metric).descended(evidence, metric);
+        let mut fit = descended(start);
         for _ in 0..FOUND_ANEW {
-            let point = found(fit.hypothesis.clone(), Some(&fit.mechanics));
+            let before = Some(&fit.mechanics);
+            let point = Point::new(fit.hypothesis.clone(), unknowns, evidence, metric, before);
             let stays = point.mechanics.has_inertia_of(&fit.mechanics);
             if stays || point.mechanics.failure().is_some() {
                 break;
             }
-            fit = Self::linearised(point, unknowns, evidence, metric).descended(evidence, metric);
+            fit = descended(point);
         }
         fit
     }
@@ -389,7 +412,8 @@ impl Fit {
         SHARES.into_iter().find_map(|share| {
             let hypothesis = self.stepped(share);
             let mechanics = self.mechanics.on_the_way(&hypothesis, &self.unknowns, evidence);
-            let point = Point::new(hypothesis, mechanics, &self.unknowns, evidence, metric);
+            let unknowns = &self.unknowns;
+            let point = Point::with_mechanics(hypothesis, mechanics, unknowns, evidence, metric);
             (point.objective < self.objective).then_some(point)
         })
     }
@@ -402,8 +426,7 @@ impl Fit {
         metric: &Metric,
         before: Option<&Mechanics>,
     ) -> Self {
-        let mechanics = Mechanics::beside(before, &hypothesis, unknowns, evidence);
-        let point = Point::new(hypothesis, mechanics, unknowns, evidence, metric);
+        let point = Point::new(hypothesis, unknowns, evidence, metric, before);
         Self::linearised(point, unknowns, evidence, metric)
     }
 

@@ -8,7 +8,7 @@
 use crate::base::{Base, Calibration, with_vehicle};
 use crate::candidate::{Beside, Signature, Variant};
 use crate::evidence::Evidence;
-use crate::fit::{Fit, Metric, prior, priors};
+use crate::fit::{Fit, Metric, Point, prior, priors};
 use crate::hypothesis::{Hypothesis, Unknown, active, unknowns_of};
 use crate::normal::{Normal, Prior};
 use rayon::prelude::*;
@@ -239,22 +239,41 @@ impl Search<'_> {
 
     /// Refits with more effects.
     pub fn refit(&self, beside: &Found, more: &[Screened]) -> Found {
-        let found = self.refit_from(beside, more, 1.0);
+        let mut effects = beside.effects.clone();
+        let mut unknowns = beside.fit.unknowns.clone();
+        for one in more {
+            effects.push(one.effect);
+            unknowns.extend(unknowns_of(one.effect));
+        }
+        effects.sort_unstable();
+        let (evidence, metric) = (self.evidence, self.metric);
+        let start = |share: f64| {
+            let hypothesis = self.with(beside, more, share);
+            Point::new(hypothesis, &unknowns, evidence, metric, Some(&beside.fit.mechanics))
+        };
+        let fitted = |start: Point| {
+            let fit = Fit::from_point(start, &unknowns, evidence, metric);
+            self.recalibrated(effects.clone(), fit)
+        };
+        // Of a law that is not in proportion the screen may promise a size that is far too large to come back from: one
+        // that explains less than none at all, or keeps little of what it promised.
+        let far = start(1.0);
+        if far.objective >= beside.fit.objective {
+            return fitted(start(NEARER));
+        }
+        let found = fitted(far);
         let promised = more.iter().map(|one| one.gain).fold(0.0, f64::max);
         let kept = |found: &Found| found.ln_evidence - beside.ln_evidence;
-        // Of a law that is not in proportion the screen may promise a size that is far too large to come back from.
         if promised < WORTH || kept(&found) > KEPT * promised {
             return found;
         }
-        let nearer = self.refit_from(beside, more, NEARER);
+        let nearer = fitted(start(NEARER));
         if kept(&nearer) > kept(&found) { nearer } else { found }
     }
 
-    /// Refits with more effects, from a share of the sizes that the screen found on.
-    fn refit_from(&self, beside: &Found, more: &[Screened], share: f64) -> Found {
+    /// The hypothesis with more effects, of a share of the sizes that the screen found.
+    fn with(&self, beside: &Found, more: &[Screened], share: f64) -> Hypothesis {
         let mut hypothesis = beside.fit.hypothesis.clone();
-        let mut unknowns = beside.fit.unknowns.clone();
-        let mut effects = beside.effects.clone();
         for one in more {
             let variant = &self.catalogue.entries[one.entry].0;
             let sizes: Vec<f64> = one.sizes.iter().map(|size| share * size).collect();
@@ -270,25 +289,13 @@ impl Search<'_> {
                 None => variant.with_sizes(&sizes).values,
             };
             hypothesis = hypothesis.with_effect(active(one.effect, &values));
-            unknowns.extend(unknowns_of(one.effect));
-            effects.push(one.effect);
         }
-        effects.sort_unstable();
-        self.found(effects, hypothesis, &unknowns, &beside.fit)
+        hypothesis
     }
 
-    /// The best numbers of a hypothesis that adds these effects.
-    fn found(
-        &self,
-        effects: Vec<usize>,
-        hypothesis: Hypothesis,
-        unknowns: &[Unknown],
-        before: &Fit,
-    ) -> Found {
-        let before = Some(&before.mechanics);
-        let mut fit = Fit::new(hypothesis, unknowns, self.evidence, self.metric, before);
-        // What an effect adds to the constant ICRs had gone into the vehicle's friction and centre of gravity
-        // before: the vehicle gives it back.
+    /// A fit of a hypothesis that adds these effects, after the vehicle took back what is its own: what an effect adds to
+    /// the constant ICRs had gone into the vehicle's friction and centre of gravity before.
+    fn recalibrated(&self, effects: Vec<usize>, mut fit: Fit) -> Found {
         for _ in 0..RECALIBRATIONS {
             let calibration = self.base.calibration;
             let moved: [f64; 3] = std::array::from_fn(|k| {
@@ -298,7 +305,7 @@ impl Search<'_> {
                 break;
             }
             let Some(again) = calibration.calibrated(&fit.hypothesis) else { break };
-            let before = Some(&fit.mechanics);
+            let (unknowns, before) = (&fit.unknowns, Some(&fit.mechanics));
             let again = Fit::new(again, unknowns, self.evidence, self.metric, before);
             if again.objective >= fit.objective {
                 break;
@@ -332,7 +339,9 @@ impl Search<'_> {
         let is_base = effects.is_empty();
         let hypothesis = found.fit.hypothesis.with_effect_of(&self.base.fit.hypothesis, effect);
         let unknowns = found.fit.unknowns_without(effect);
-        let without = self.found(effects, hypothesis, &unknowns, &self.base.fit);
+        let before = Some(&self.base.fit.mechanics);
+        let fit = Fit::new(hypothesis, &unknowns, self.evidence, self.metric, before);
+        let without = self.recalibrated(effects, fit);
         let is_further = self.base.fit.objective <= without.fit.objective;
         if is_base && is_further { self.nothing() } else { without }
     }

@@ -12,7 +12,7 @@ use trackdyn_core::{Dual, PerSide, Twist};
 use trackdyn_physics::{Ground, Model, Motion};
 
 /// The matrix Λ (s; by v_x, v_y in m/s and w in rad/s, paper's frame) at a stationary motion; none where no force
-/// stands against a change of the twist.
+/// stands against a change of the twist. A robot that a sticking track holds does not depart: Λ = 0.
 ///
 /// Belts that slip on their sprockets are taken at these speeds, m/s.
 pub fn lag(
@@ -21,6 +21,9 @@ pub fn lag(
     belt_speed: PerSide<f64>,
     twist: &Twist,
 ) -> Option<Matrix3<f64>> {
+    if is_held(model, belt_speed, twist) {
+        return Some(Matrix3::zeros());
+    }
     let [v_x, v_y, w, a_x, a_y, a_w] =
         Dual::<6>::variables([twist.v_x, twist.v_y - belt_speed.left, twist.w, 0.0, 0.0, 0.0]);
     let departure = Twist { v_x, v_y, w };
@@ -31,6 +34,19 @@ pub fn lag(
     let by_twist = Matrix3::from_fn(|row, column| rows[row].gradient[column]);
     let by_acceleration = Matrix3::from_fn(|row, column| rows[row].gradient[column + 3]);
     by_twist.try_inverse().map(|inverse| inverse * by_acceleration)
+}
+
+/// Whether one track sticks while the other slips.
+fn is_held(model: &Model, belt_speed: PerSide<f64>, twist: &Twist) -> bool {
+    /// Slip over the difference of the belt speeds that is none but for rounding.
+    const ROUNDING: f64 = 1e-9;
+    let rounding = ROUNDING * (belt_speed.right - belt_speed.left).abs();
+    let slips = |speed: f64| {
+        let turn = model.vehicle().gauge * twist.w.abs();
+        let slip = twist.v_x.abs() + (twist.v_y - speed).abs() + turn;
+        slip > rounding
+    };
+    belt_speed.left != belt_speed.right && !(slips(belt_speed.left) && slips(belt_speed.right))
 }
 
 #[cfg(test)]
@@ -80,5 +96,37 @@ mod tests {
             let error = (found - expected).norm() / expected.norm();
             assert!(error < 0.05, "{law}: {found:?} for {expected:?}");
         }
+    }
+
+    /// Where friction at rest is much larger than that of a track that slips, one track holds the robot: a small turn of it
+    /// has died away long before a lag of some milliseconds would matter.
+    #[test]
+    fn a_robot_that_is_held_does_not_depart() {
+        let law = "stribeck-friction:excess=1.9,speed_m_per_s=0.2";
+        let effects: Effects = ["yaw-inertia:strength=1,gyration_m=0.3", law]
+            .iter()
+            .map(|text| text.parse::<ActiveEffect>().expect("an effect"))
+            .collect();
+        let model = Model::new(VehicleFile::auriga_alpha().vehicle, effects);
+        let solver = Stationary::new(&model, &Circumstance::default());
+        let ground = model.ground(&Circumstance::default());
+        let lag_at = |speeds: PerSide<f64>| {
+            let twist = solver.solve(speeds).twist;
+            (twist, lag(&model, &ground, speeds, &twist).expect("friction"))
+        };
+        let (turns, lags) = lag_at(PerSide::new(0.3, 0.6));
+        assert!(turns.w > 0.1 && lags.norm() > 1e-3);
+
+        let speeds = PerSide::new(0.0, 0.6);
+        let (held, none) = lag_at(speeds);
+        assert!(held.w == 0.0 && none == Matrix3::zeros(), "{held:?}: {none}");
+        let departed = Twist { w: 1e-4, ..held };
+        let mut robot = Transient::at_rest(&model, 0.0, Pose::default()).with_twist(departed);
+        let mut path = Trajectory::default();
+        for step in 1..=20_u32 {
+            robot.drive(speeds, 1e-3 * f64::from(step), &mut path).expect("it moves");
+        }
+        let end = path.moments().last().expect("moments").twist;
+        assert!(end.w.abs() < 1e-5, "{end:?}");
     }
 }

@@ -161,3 +161,19 @@ fn a_hard_null_with_coarse_sensors_names_nothing_that_is_not_there() {
     let claims = wrong_claims(&drive.expect("it drives"), Wrong::EncoderScale, Preset::Field, 1);
     assert!(claims.is_empty(), "{claims:#?}");
 }
+
+/// Nobody weighs a radius of gyration: that a law of the vehicle file does a little more or less than it says is no other
+/// physics, however surely a long recording shows it.
+#[test]
+fn a_known_law_of_a_slightly_other_size_names_nothing_else() {
+    let vehicle = owned(&[]).vehicle;
+    let really = ["yaw-inertia:strength=0.95", "centripetal:strength=1.05"];
+    for kind in [ScheduleKind::Manual, ScheduleKind::Designed] {
+        let drive = Drive::new(&vehicle, &really, &runs(kind, 8, 2), 2).expect("it drives");
+        let recording = drive.recording(&sensors(Preset::Laboratory), 2);
+        let found = diagnosed(&recording, &owned(&[])).expect("enough driving");
+        let physics = found.missing.iter().filter(|missing| missing.kind == Kind::Physics);
+        let physics: Vec<_> = physics.map(members).collect();
+        assert!(physics.is_empty(), "{}: {physics:?}", kind.name());
+    }
+}

@@ -9,7 +9,7 @@ pub use instruments::judge_instruments;
 pub use support::{Support, cross_validated};
 
 use crate::base::Base;
-use crate::candidate::sizes;
+use crate::candidate::{Signature, Variant, sizes};
 use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, neutral, typical};
@@ -19,8 +19,8 @@ use crate::uncertainty::Interval;
 use std::slice;
 use support::Change;
 use trackdyn_core::real;
-use trackdyn_physics::VehicleFile;
 use trackdyn_physics::effect::Role;
+use trackdyn_physics::{CATALOGUE, VehicleFile};
 
 /// What a claim must reach.
 pub struct Rules;
@@ -111,9 +111,10 @@ pub fn judge(
             for rival in close.iter().take(RIVALS).copied() {
                 let exchanged = search.refit(&without, std::slice::from_ref(rival));
                 let behind = (exchanged.fit.objective - best.fit.objective) / 2.0;
-                let apart = changed
-                    .as_ref()
-                    .map_or(f64::INFINITY, |changed| separation(search, &without, changed, rival));
+                let apart = changed.as_ref().map_or(f64::INFINITY, |changed| {
+                    let (_, rival) = &search.catalogue.entries[rival.entry];
+                    separation(search, &without, changed, &[rival], |_| None)
+                });
                 let less = best.ln_evidence - exchanged.ln_evidence;
                 if behind < Rules::SAME || less < Rules::LN_BAYES_FACTOR || apart < Rules::ISOLATED
                 {
@@ -154,7 +155,8 @@ pub fn judge(
             let refused = refusal(&support, z, whole)
                 .or(unfit)
                 .or(too_many)
-                .or_else(|| nearly_as_filed(search, &best.fit.hypothesis, effect));
+                .or_else(|| nearly_as_filed(search, &best.fit.hypothesis, effect))
+                .or_else(|| within_filed(search, &without, changed.as_ref()?));
             Verdict { effect, one_of, support, refused }
         })
         .collect()
@@ -211,16 +213,52 @@ fn at_limit(fit: &Fit, unknown: Unknown, effect: usize) -> Option<String> {
         .then(|| format!("{} = {value} lies at the limit of what is physical", parameter.key))
 }
 
-/// Separation of an effect from a rival: the part of what refitting with it changed that neither the rival's signature nor
-/// what is free can stand for, in standard deviations.
-fn separation(search: &Search, without: &Found, changed: &Change, rival: &Screened) -> f64 {
-    let (_, rival) = &search.catalogue.entries[rival.entry];
-    let signature = slice::from_ref(&changed.signature);
-    let (normal, known, groups) = search.normal_of(&without.fit, &[signature, rival]);
-    let base: Vec<usize> =
-        (0..without.fit.columns.len()).chain(groups[1].iter().copied()).collect();
-    let information = normal.projected(&base, &known).information(&groups[0])[(0, 0)];
+/// Separation of an effect from rivals: the part of what refitting with it changed that neither the rivals' signatures nor
+/// what is free can stand for, in standard deviations. Sizes of rivals of which something is `known` have this standard
+/// deviation.
+fn separation(
+    search: &Search,
+    without: &Found,
+    changed: &Change,
+    rivals: &[&[Signature]],
+    known: impl Fn(Unknown) -> Option<f64>,
+) -> f64 {
+    let signatures = [&[slice::from_ref(&changed.signature)], rivals].concat();
+    let (normal, mut priors, groups) = search.normal_of(&without.fit, &signatures);
+    let mut free: Vec<usize> = (0..without.fit.columns.len()).collect();
+    for (&column, signature) in groups[1..].iter().flatten().zip(rivals.iter().copied().flatten()) {
+        free.push(column);
+        if let Some(deviation) = known(signature.unknown) {
+            priors[column].deviation = deviation;
+        }
+    }
+    let information = normal.projected(&free, &priors).information(&groups[0])[(0, 0)];
     changed.size.abs() * information.max(0.0).sqrt()
+}
+
+/// Why what an effect changes is no more than what laws of the vehicle file may leave; none where it is more.
+///
+/// Such a law is known to a part of what it does: its radius of gyration is hardly ever measured.
+fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<String> {
+    let filed = &search.base.as_filed.hypothesis;
+    let mut laws: Vec<&(Variant, Vec<Signature>)> = search
+        .catalogue
+        .entries
+        .iter()
+        .filter(|(law, _)| filed.effect(law.effect).is_some())
+        .filter(|(law, _)| !changed.signature.unknown.is_of(law.effect))
+        .collect();
+    laws.dedup_by_key(|(law, _)| law.effect);
+    let signatures: Vec<&[Signature]> = laws.iter().map(|(_, law)| &law[..]).collect();
+    let known = |unknown: Unknown| {
+        let none = unknown.parameter().map_or(0.0, neutral);
+        Some(Rules::FORM * (filed.get(unknown) - none).abs()).filter(|size| *size > 0.0)
+    };
+    let apart = separation(search, without, changed, &signatures, known);
+    (!laws.is_empty() && apart < Rules::ISOLATED).then(|| {
+        let names: Vec<&str> = laws.iter().map(|(law, _)| CATALOGUE[law.effect].id).collect();
+        format!("no more than what {} of a slightly other size may leave", names.join(" and "))
+    })
 }
 
 /// Refuses the claims whose sizes may all be none by their own intervals; their effects.
@@ -249,7 +287,6 @@ pub fn refuse_unsure(verdicts: &mut [Verdict], intervals: &[Interval]) -> Vec<us
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trackdyn_physics::CATALOGUE;
 
     #[test]
     fn a_size_that_may_be_none_is_not_claimed() {

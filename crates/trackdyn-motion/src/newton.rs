@@ -53,6 +53,44 @@ pub struct Convergence {
     pub iterations: usize,
     /// Whether the point is a root to rounding.
     pub is_root: bool,
+    /// Inverse of the Jacobian near the point, where it was asked for and has one.
+    pub inverse: Option<Matrix3<f64>>,
+}
+
+/// What a step without derivatives must leave of the residual at most.
+const LEFT: f64 = 0.3;
+
+/// Iterates from a `start` near a root without derivatives, by Broyden's method; none where that does not lead there.
+///
+/// `inverse` is that of a Jacobian not far from here. Each step corrects it by what the residual changed along the step:
+/// B ← B + (s − B y) sᵀB/(sᵀB y).
+#[inline]
+pub fn from_near(
+    start: Vector3<f64>,
+    inverse: Matrix3<f64>,
+    tolerance: Tolerance,
+    residual: impl Fn(Vector3<f64>) -> Vector3<f64>,
+) -> Option<Convergence> {
+    let (mut point, mut inverse) = (start, inverse);
+    let mut value = residual(point);
+    let mut norm = value.norm();
+    let mut iterations = 0;
+    while norm > tolerance.converged {
+        let step = -(inverse * value);
+        point += step;
+        let next = residual(point);
+        let next_norm = next.norm();
+        iterations += 1;
+        if !(next_norm < LEFT * norm) {
+            return None;
+        }
+        let mapped = inverse * (next - value);
+        let along = step.transpose() * inverse;
+        inverse += (step - mapped) * along / step.dot(&mapped);
+        (value, norm) = (next, next_norm);
+    }
+    let inverse = Some(inverse).filter(|inverse| inverse.iter().all(|value| value.is_finite()));
+    Some(Convergence { point, residual: norm, iterations, is_root: true, inverse })
 }
 
 /// Iterates from `start`. `evaluate` gives residual and Jacobian, `residual` the residual alone; no step
@@ -69,20 +107,23 @@ pub fn solve(
     let mut at = evaluate(point);
     let mut norm = at.residual.norm();
     let mut iterations = 0;
-    let ended = |point, norm: f64, iterations| Convergence {
+    let mut inverse = None;
+    let ended = |point, norm: f64, iterations, inverse| Convergence {
         point,
         residual: norm,
         iterations,
         is_root: norm <= tolerance.rounding,
+        inverse,
     };
     while norm > tolerance.converged && iterations < MAX_ITERATIONS {
-        let Some(inverse) = at.jacobian.try_inverse() else { break };
-        let step = -(inverse * at.residual);
+        let Some(here) = at.jacobian.try_inverse() else { break };
+        inverse = Some(here);
+        let step = -(here * at.residual);
         if norm < NEARLY {
             let last = point + step;
             let last_norm = residual(last).norm();
             if last_norm <= tolerance.converged {
-                return ended(last, last_norm, iterations + 1);
+                return ended(last, last_norm, iterations + 1, inverse);
             }
         }
         let mut fraction = (longest_step / step.xy().norm()).min(1.0);
@@ -102,7 +143,7 @@ pub fn solve(
         (point, at, norm) = (trial, next, next_norm);
         iterations += 1;
     }
-    ended(point, norm, iterations)
+    ended(point, norm, iterations, inverse)
 }
 
 /// The first end that is a root, else the one with the least residual; later ones are not sought.
@@ -146,6 +187,22 @@ mod tests {
         let found = solve(Vector3::zeros(), 10.0, EXACT, &f, |z| f(z).residual);
         assert!(found.is_root && found.iterations <= 8);
         assert!((found.point - root).norm() < 1e-12);
+    }
+
+    #[test]
+    fn finds_a_near_root_without_derivatives_and_leaves_a_far_one() {
+        let root = Vector3::new(1.0, -2.0, 0.5);
+        let f = |z| quadratic(root)(z).residual;
+        let begin = |distance: f64| {
+            let start = root + Vector3::repeat(distance);
+            // the Jacobian of another place
+            from_near(start, Matrix3::identity() * 0.9, EXACT, f)
+        };
+        let found = begin(0.1).expect("it is near");
+        assert!(found.is_root && (found.point - root).norm() < 1e-12, "{found:?}");
+        assert!(begin(10.0).is_none());
+        let away = from_near(root + Vector3::repeat(0.1), -Matrix3::identity(), EXACT, f);
+        assert!(away.is_none());
     }
 
     #[test]

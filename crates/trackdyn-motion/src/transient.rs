@@ -25,6 +25,7 @@ mod stage;
 pub(crate) use stage::net_force;
 
 use crate::newton::Convergence;
+use nalgebra::Matrix3;
 use stage::Stage;
 use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{Moment, PerSide, Plant, Pose, Stopped, Trajectory, Twist};
@@ -69,6 +70,8 @@ struct State {
     lifts: bool,
     /// Whether that would not do either.
     tips: bool,
+    /// Inverse of the Jacobian of the last balance, from which the search for the next one starts.
+    inverse: Option<Matrix3<f64>>,
 }
 
 impl<'m> Transient<'m> {
@@ -89,6 +92,7 @@ impl<'m> Transient<'m> {
             traction: still,
             lifts: false,
             tips: false,
+            inverse: None,
         };
         Self {
             model,
@@ -187,7 +191,8 @@ impl<'m> Transient<'m> {
         });
         let per_second = if self.has_inertia { duration.recip() } else { 0.0 };
         let stage = Stage { model: self.model, ground: &ground, belt_speed, base, per_second };
-        let Convergence { point, is_root, .. } = stage.solve(&guess, &before.belt_speed);
+        let Convergence { point, is_root, inverse, .. } =
+            stage.solve(&guess, &before.belt_speed, before.inverse);
         if !is_root {
             return None;
         }
@@ -197,7 +202,8 @@ impl<'m> Transient<'m> {
             if drive.slip_per_traction == 0.0 { before.traction } else { stage.traction(&motion) };
         let lifts = self.model.lifts(&ground, &motion);
         let tips = lifts && self.may_pull && self.model.tips(&ground, &motion);
-        Some(State { twist: motion.twist, driven, belt_speed, traction, lifts, tips, ..*before })
+        let twist = motion.twist;
+        Some(State { twist, driven, belt_speed, traction, lifts, tips, inverse, ..*before })
     }
 
     /// Whether the forces beside friction depend on the acceleration: else the robot is at its stationary

@@ -2,7 +2,7 @@
 
 use super::CREEP;
 use crate::newton::{self, Convergence, Evaluation, Tolerance};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist, Wrench};
 use trackdyn_physics::{Ground, Model, Motion};
 
@@ -24,11 +24,23 @@ pub struct Stage<'a> {
 impl Stage<'_> {
     /// Finds the departure from straight driving at the left belt's speed that balances the forces.
     ///
-    /// Starts from `guess`, a twist that went with the belt speeds `before`; then from tracks that stick.
-    pub fn solve(&self, guess: &Twist, before: &PerSide<f64>) -> Convergence {
+    /// Starts from `guess`, a twist that went with the belt speeds `before`; then from tracks that stick. `inverse` is
+    /// that of the Jacobian there, where it is known.
+    pub fn solve(
+        &self,
+        guess: &Twist,
+        before: &PerSide<f64>,
+        inverse: Option<Matrix3<f64>>,
+    ) -> Convergence {
         let left = self.belt_speed.left;
         let stays = Vector3::new(guess.v_x, guess.v_y - left, guess.w);
         let follows = Vector3::new(guess.v_x, guess.v_y - before.left, guess.w);
+        let residual = |z: Vector3<f64>| Vector3::from(self.residual([z[0], z[1], z[2]]));
+        let near =
+            inverse.and_then(|inverse| newton::from_near(follows, inverse, TOLERANCE, residual));
+        if let Some(near) = near {
+            return near;
+        }
         // Stick in the direction in which the robot slid before; of a robot that did not, held back.
         let slid = follows.norm();
         let sticks = if slid > 0.0 {
@@ -44,7 +56,7 @@ impl Stage<'_> {
                 f64::INFINITY,
                 TOLERANCE,
                 |z| Evaluation::of_dual(self.residual(Dual::variables(z.into()))),
-                |z| Vector3::from(self.residual([z[0], z[1], z[2]])),
+                residual,
             )
         });
         newton::first_root(ends, |end| end).expect("several starts were tried")

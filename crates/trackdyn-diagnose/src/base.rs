@@ -4,12 +4,14 @@
 //! encoders and pose sensor make of the motion: gains, clock, mount.
 
 use crate::evidence::Evidence;
-use crate::fit::{Fit, Metric, prior};
+use crate::fit::Fit;
 use crate::hypothesis::{
     Hypothesis, Unknown, active, neutral, typical, unknowns_of, with_friction,
 };
 use crate::mechanics::{Mechanics, is_instrument};
+use crate::metric::Metric;
 use crate::normal::{Columns, Normal, Prior};
+use crate::prior::prior;
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::PerSide;
 use trackdyn_motion::{Icrs, Stationary};
@@ -60,7 +62,7 @@ impl Base {
         if known < BETTER * guessed {
             nuisances = tried;
         }
-        let plain = Fit::new(start, &nuisances, evidence, metric, Some(&as_filed.mechanics));
+        let plain = Fit::new(start, &nuisances, evidence, metric, Some(&fit.mechanics));
         // The vehicle takes over what it can of the constant ICRs; a second fit tells what is left.
         let (mut fit, mut calibration) = (plain.clone(), Calibration::None);
         for tried in Calibration::ALL {

@@ -7,11 +7,13 @@
 mod between;
 
 use crate::evidence::Evidence;
-use crate::fit::{Metric, area};
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
 use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument};
+use crate::metric::Metric;
+use crate::prior::area;
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use trackdyn_physics::effect::{Card, Parameter, Role, Stage};
 use trackdyn_physics::{ActiveEffect, CATALOGUE};
 
@@ -227,6 +229,11 @@ impl<'a> Beside<'a> {
         }
     }
 
+    /// Whether the effect is there already.
+    pub fn knows(&self, variant: &Variant) -> bool {
+        self.hypothesis.effect(variant.effect).is_some()
+    }
+
     /// What an effect changes of the prediction; none where it cannot act.
     fn change(&self, effect: ActiveEffect) -> Option<Vec<Vector3<f64>>> {
         let vehicle = &self.hypothesis.vehicle;
@@ -246,10 +253,14 @@ impl<'a> Beside<'a> {
         Some(with.iter().zip(&base.prediction).map(|(with, without)| with - without).collect())
     }
 
-    /// The signatures of variants, in parallel; those that cannot act are left out.
+    /// The signatures of variants, in parallel; those that cannot act are left out. Of an effect that is known to be
+    /// there the first one stands for all: what is no size is what it is.
     pub fn signatures(&self, variants: &[Variant]) -> Vec<(Variant, Vec<Signature>)> {
-        variants
-            .par_iter()
+        let mut known = BTreeSet::new();
+        let is_own = |variant: &&Variant| !self.knows(variant) || known.insert(variant.effect);
+        let tried: Vec<&Variant> = variants.iter().filter(is_own).collect();
+        tried
+            .into_par_iter()
             .filter_map(|variant| Some((variant.clone(), variant.signatures(self)?)))
             .collect()
     }

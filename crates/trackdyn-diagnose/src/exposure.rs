@@ -4,8 +4,9 @@
 //! then lies on a line of slope one if the effect is there at its size, and about zero if it is not.
 
 use crate::evidence::Evidence;
-use crate::fit::{Fit, Metric};
+use crate::fit::Fit;
 use crate::mechanics::{Instruments, Mechanics};
+use crate::metric::Metric;
 use crate::normal::{Columns, Normal, Prior};
 use crate::search::{Screened, Search};
 use nalgebra::Vector3;

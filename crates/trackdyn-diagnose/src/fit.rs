@@ -5,18 +5,14 @@
 //! and m, s what is known of each unknown beforehand.
 
 use crate::evidence::Evidence;
-use crate::hypothesis::{Hypothesis, Unknown, active, neutral, typical, typical_size};
+use crate::hypothesis::{Hypothesis, Unknown, neutral, typical, typical_size};
 use crate::mechanics::{Instruments, Mechanics, is_instrument};
-use crate::normal::{Columns, Normal, Prior, Solution};
+use crate::metric::Metric;
+use crate::normal::{Prior, Solution};
+use crate::prior::priors;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
-use trackdyn_physics::contact::Friction;
 use trackdyn_physics::effect::Role;
-use trackdyn_physics::{CATALOGUE, Circumstance, Model, Vehicle};
-use trackdyn_recording::robust::NORMAL_FROM_MAD;
-
-/// Length of a whitened residual from which on it counts linearly: 1 % of normal residuals are longer.
-const FAR: f64 = 3.4;
 
 /// Iterations of a fit.
 const ITERATIONS: usize = 6;
@@ -32,15 +28,6 @@ const FORETOLD: f64 = 0.1;
 
 /// Fall of the objective since the derivatives were found up to which they describe the minimum.
 const NEAR: f64 = 10.0;
-
-/// How residuals are measured: what part of the evidence counts, and in which scale.
-#[derive(Clone, Debug)]
-pub struct Metric {
-    /// By what the whitened residuals of each channel are larger than the noise says.
-    pub scale: [f64; 3],
-    /// Whether each run counts.
-    pub runs: Vec<bool>,
-}
 
 /// A hypothesis at its best.
 #[derive(Clone)]
@@ -61,170 +48,6 @@ pub struct Fit {
     pub objective: f64,
     /// The linear fit at the end.
     pub solution: Solution,
-}
-
-impl Metric {
-    /// The residual column of a prediction.
-    pub fn residual(&self, evidence: &Evidence, prediction: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
-        let samples = evidence.samples().iter().zip(prediction);
-        self.white(evidence, samples.map(|(sample, motion)| sample.motion - motion).collect())
-    }
-
-    /// A column, whitened and scaled.
-    pub fn white(&self, evidence: &Evidence, mut column: Vec<Vector3<f64>>) -> Vec<Vector3<f64>> {
-        evidence.whiten(&mut column);
-        let inverse = Vector3::from(self.scale.map(f64::recip));
-        for value in &mut column {
-            value.component_mul_assign(&inverse);
-        }
-        column
-    }
-
-    /// The weight of each sample: one near, less far out, none where its run does not count.
-    pub fn weights(&self, evidence: &Evidence, residual: &[Vector3<f64>]) -> Vec<f64> {
-        let samples = evidence.samples().iter().zip(residual);
-        samples
-            .map(|(sample, z)| {
-                if !self.runs[sample.run] {
-                    return 0.0;
-                }
-                let length = z.norm();
-                if length > FAR { FAR / length } else { 1.0 }
-            })
-            .collect()
-    }
-
-    /// The normal equations of whitened residuals and columns, by the evidence's blocks.
-    pub fn normal(
-        &self,
-        evidence: &Evidence,
-        residual: &[Vector3<f64>],
-        columns: &[Vec<Vector3<f64>>],
-    ) -> Normal {
-        let blocks: Vec<usize> = evidence.samples().iter().map(|sample| sample.block).collect();
-        Normal::new(&Columns {
-            residual,
-            columns,
-            weights: &self.weights(evidence, residual),
-            blocks: &blocks,
-            count: evidence.blocks(),
-        })
-    }
-
-    /// By what the residuals of each channel are larger than this metric takes them to be, from their
-    /// medians: one where nothing is left but noise.
-    pub fn residual_scale(&self, evidence: &Evidence, residual: &[Vector3<f64>]) -> [f64; 3] {
-        std::array::from_fn(|channel| {
-            let samples = evidence.samples().iter().zip(residual).enumerate();
-            let mut sizes: Vec<f64> = samples
-                .filter(|(index, (sample, _))| {
-                    self.runs[sample.run] && evidence.is_measured(*index, channel)
-                })
-                .map(|(_, (_, z))| z[channel].abs() * self.scale[channel])
-                .collect();
-            sizes.sort_by(f64::total_cmp);
-            sizes.get(sizes.len() / 2).map_or(1.0, |median| NORMAL_FROM_MAD * median)
-        })
-    }
-
-    /// Twice the robust loss.
-    pub fn loss(&self, evidence: &Evidence, residual: &[Vector3<f64>]) -> f64 {
-        let samples = evidence.samples().iter().zip(residual);
-        samples
-            .filter(|(sample, _)| self.runs[sample.run])
-            .map(|(_, z)| {
-                let length = z.norm();
-                if length > FAR { FAR * (2.0 * length - FAR) } else { length * length }
-            })
-            .sum()
-    }
-}
-
-/// What is known of an unknown beforehand, as standard deviation around no effect.
-///
-/// # Panics
-/// Never: an unknown of an effect has a parameter.
-pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> Prior {
-    /// Sizes of several times the typical one are seldom.
-    const SEVERAL: f64 = 3.0;
-    match unknown {
-        Unknown::Offset(_) => Prior { mean: 0.0, deviation: 0.5 * hypothesis.vehicle.gauge },
-        Unknown::FrictionLevel => {
-            Prior { mean: 0.0, deviation: friction_known(&hypothesis.vehicle) }
-        }
-        Unknown::Effect(..) => {
-            let parameter = unknown.parameter().expect("an effect's");
-            if let Some(deviation) = measured(&hypothesis.vehicle, unknown) {
-                return Prior { mean: neutral(parameter), deviation };
-            }
-            match parameter.role {
-                Role::Size { .. } => {
-                    Prior { mean: neutral(parameter), deviation: SEVERAL * typical_size(parameter) }
-                }
-                Role::Place { .. } => {
-                    let [middle, spread] = area(evidence, parameter.role);
-                    Prior { mean: middle, deviation: 3.0 * spread.max(1.0) }
-                }
-                Role::Direction => Prior { mean: 0.0, deviation: 360.0 },
-                Role::Shape => Prior { mean: parameter.typical, deviation: parameter.typical },
-            }
-        }
-    }
-}
-
-/// Standard deviation of the logarithm of friction, as its owner knows it.
-fn friction_known(vehicle: &Vehicle) -> f64 {
-    /// A coefficient that was not measured is known to a third.
-    const GUESSED: f64 = 0.3;
-    let friction = &vehicle.uncertainty.friction;
-    match (friction.across, friction.along) {
-        (Some(across), Some(along)) => {
-            (across / vehicle.friction.across).hypot(along / vehicle.friction.along) / 2.0
-        }
-        _ => GUESSED,
-    }
-}
-
-/// How far an effect's size may be from none because the owner measured what it changes: the vehicle's centre
-/// of gravity, or its friction ratio. None where it changes something else, or nothing is known.
-pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
-    /// What is known exactly is known to this part of a typical size.
-    const EXACT: f64 = 1e-4;
-    let Unknown::Effect(effect, place) = unknown else { return None };
-    let parameters = CATALOGUE[effect].parameters;
-    let size = typical_size(&parameters[place]);
-    let values: Vec<f64> = (0..parameters.len())
-        .map(|k| if k == place { parameters[k].typical } else { neutral(&parameters[k]) })
-        .collect();
-    let effects = std::iter::once(active(effect, &values)).collect();
-    let model = Model::new(vehicle.clone(), effects);
-    let floor = |deviation: f64| deviation.max(EXACT * size);
-    let moved = [0, 1].map(|axis| (model.vehicle().cog[axis] - vehicle.cog[axis]).abs());
-    if moved != [0.0, 0.0] {
-        let deviations = vehicle.uncertainty.cog?;
-        let axis = usize::from(moved[0] <= moved[1]);
-        return Some(floor(size * deviations[axis] / moved[axis]));
-    }
-    let friction = model.ground(&Circumstance::default()).friction;
-    let ratio = |of: &Friction| of.across / of.along;
-    let change = (ratio(&friction.left) / ratio(&vehicle.friction)).ln().abs();
-    let alike = friction.left == friction.right;
-    if alike && change > 0.0 {
-        let known = &vehicle.uncertainty.friction;
-        let relative =
-            (known.across? / vehicle.friction.across).hypot(known.along? / vehicle.friction.along);
-        return Some(floor(size * relative / change));
-    }
-    None
-}
-
-/// Middle and spread of the recorded places along an axis of the world, m.
-pub fn area(evidence: &Evidence, role: Role) -> [f64; 2] {
-    let Role::Place { axis } = role else { return [0.0, 1.0] };
-    let coordinates = evidence.samples().iter().map(|sample| [sample.pose.x, sample.pose.y][axis]);
-    let (low, high) = coordinates
-        .fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
-    [f64::midpoint(low, high), (high - low) / 2.0]
 }
 
 /// Step of a difference quotient, away from an upper bound.
@@ -515,17 +338,6 @@ impl Fit {
     }
 }
 
-/// Priors of steps from where a hypothesis stands.
-pub fn priors(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Evidence) -> Vec<Prior> {
-    unknowns
-        .iter()
-        .map(|&unknown| {
-            let known = prior(hypothesis, unknown, evidence);
-            Prior { mean: known.mean - hypothesis.get(unknown), ..known }
-        })
-        .collect()
-}
-
 fn at_bound(hypothesis: &Hypothesis, unknown: Unknown, step: f64) -> bool {
     let value = hypothesis.get(unknown);
     let [low, high] = unknown.range();
@@ -550,7 +362,7 @@ fn spread(solution: &Solution, free: &[usize], priors: &[Prior]) -> Solution {
 mod tests {
     use super::*;
     use crate::hypothesis::unknowns_of;
-    use trackdyn_physics::VehicleFile;
+    use trackdyn_physics::{CATALOGUE, VehicleFile};
 
     /// A quotient over no step at all would be no number.
     #[test]

@@ -2,6 +2,7 @@
 //!
 //! - [`evidence`]: what was seen, drives and tables of steady motion alike, and what its residuals weigh.
 //! - [`hypothesis`]: a vehicle with effects; [`mechanics`], [`surface`]: what it predicts of the evidence.
+//! - [`metric`], [`prior`]: what residuals weigh, and what is known of its unknowns beforehand.
 //! - [`fit`], [`normal`]: its unknowns at their best, and normal equations by blocks.
 //! - [`base`]: what is free in every hypothesis: constant ICRs, encoders and pose sensor.
 //! - [`locate`], [`significance`], [`place`]: where evidence departs from it, without a model of why.
@@ -25,10 +26,12 @@ pub mod hypothesis;
 pub mod isolability;
 pub mod locate;
 pub mod mechanics;
+pub mod metric;
 pub mod noise;
 pub mod normal;
 pub mod place;
 pub mod plan;
+pub mod prior;
 pub mod proposal;
 pub mod search;
 pub mod significance;

@@ -12,7 +12,7 @@ mod contrasts;
 pub use contrasts::{Manoeuvre, contrasts};
 
 use crate::evidence::Evidence;
-use crate::fit::Metric;
+use crate::metric::Metric;
 use crate::normal::Prior;
 use crate::significance::{Test, test};
 use nalgebra::Vector3;

@@ -25,8 +25,9 @@
 
 use crate::diagnosis::icr_columns;
 use crate::evidence::Evidence;
-use crate::fit::{Fit, Metric};
+use crate::fit::Fit;
 use crate::locate::contrasts;
+use crate::metric::Metric;
 use crate::normal::Prior;
 use nalgebra::{Cholesky, SMatrix, SVector, Vector3};
 use trackdyn_core::Pose;

@@ -2,8 +2,8 @@
 
 use crate::base::Base;
 use crate::evidence::{Evidence, Sample};
-use crate::fit::Metric;
 use crate::locate::{Location, Manoeuvre};
+use crate::metric::Metric;
 use trackdyn_core::real;
 use trackdyn_physics::effect::Symmetry;
 

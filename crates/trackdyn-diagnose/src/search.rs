@@ -8,9 +8,11 @@
 use crate::base::{Base, Calibration, with_vehicle};
 use crate::candidate::{Beside, Signature, Variant};
 use crate::evidence::Evidence;
-use crate::fit::{Fit, Metric, Point, prior, priors};
+use crate::fit::{Fit, Point};
 use crate::hypothesis::{Hypothesis, Unknown, active, unknowns_of};
+use crate::metric::Metric;
 use crate::normal::{Normal, Prior};
+use crate::prior::{prior, priors};
 use rayon::prelude::*;
 
 /// Effects that one hypothesis may add.
@@ -198,7 +200,9 @@ impl Search<'_> {
         let screened = self.screen(&nothing);
         let shows = screened.iter().filter(|one| one.z > SHOWS && one.gain.is_finite());
         shows
-            .filter_map(|one| beside.between(&self.catalogue.entries[one.entry].0, one.gain, alone))
+            .map(|one| (&self.catalogue.entries[one.entry].0, one.gain))
+            .filter(|(variant, _)| !beside.knows(variant))
+            .filter_map(|(variant, gain)| beside.between(variant, gain, alone))
             .collect()
     }
 

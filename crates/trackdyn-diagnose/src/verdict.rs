@@ -12,7 +12,7 @@ use crate::base::Base;
 use crate::candidate::{Signature, Variant, sizes};
 use crate::evidence::Evidence;
 use crate::fit::Fit;
-use crate::hypothesis::{Hypothesis, Unknown, neutral, typical};
+use crate::hypothesis::{Unknown, neutral, typical};
 use crate::mechanics::is_instrument;
 use crate::search::{AS_FILED, Found, Screened, Search};
 use crate::uncertainty::Interval;
@@ -155,7 +155,10 @@ pub fn judge(
             let refused = refusal(&support, z, whole)
                 .or(unfit)
                 .or(too_many)
-                .or_else(|| nearly_as_filed(search, &best.fit.hypothesis, effect))
+                .or_else(|| {
+                    let mut members = refitted.iter().filter(|(effect, _)| one_of.contains(effect));
+                    members.find_map(|(effect, one)| nearly_as_filed(search, &one.fit, *effect))
+                })
                 .or_else(|| within_filed(search, &without, changed.as_ref()?));
             Verdict { effect, one_of, support, refused }
         })
@@ -192,14 +195,15 @@ fn refusal(support: &Support, z: f64, whole: f64) -> Option<String> {
 }
 
 /// An effect that the vehicle file knows, at nearly the sizes that it gives: no law is known better.
-fn nearly_as_filed(search: &Search, found: &Hypothesis, effect: usize) -> Option<String> {
+fn nearly_as_filed(search: &Search, found: &Fit, effect: usize) -> Option<String> {
     let filed = search.base.as_filed.hypothesis.effect(effect)?;
-    let found = found.effect(effect)?;
+    let found = found.hypothesis.effect(effect)?;
     let near = sizes(effect).into_iter().all(|place| {
         let (filed, found) = (filed.values()[place], found.values()[place]);
         (found - filed).abs() <= AS_FILED * filed.abs()
     });
-    near.then(|| "the vehicle file knows it, at nearly this size".to_owned())
+    let id = CATALOGUE[effect].id;
+    near.then(|| format!("the vehicle file knows {id}, which explains it at nearly the filed size"))
 }
 
 /// A size of the effect that ended at the limit of its physical range.

@@ -3,7 +3,8 @@
 use trackdyn_diagnose::base::Base;
 use trackdyn_diagnose::candidate::{Beside, candidates};
 use trackdyn_diagnose::evidence::Evidence;
-use trackdyn_diagnose::fit::{Fit, Metric};
+use trackdyn_diagnose::fit::Fit;
+use trackdyn_diagnose::metric::Metric;
 use trackdyn_diagnose::search::{Catalogue, Found, Search};
 
 use trackdyn_physics::{Effects, VehicleFile};

@@ -15,7 +15,7 @@ use library::{Library, PLACEBOS};
 use nalgebra::Vector3;
 use noise::Noise;
 use rayon::prelude::*;
-use trackdyn_diagnose::fit::Metric;
+use trackdyn_diagnose::metric::Metric;
 use trackdyn_diagnose::significance::test;
 use trackdyn_diagnose::verdict::{Rules, cross_validated};
 

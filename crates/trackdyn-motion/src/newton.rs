@@ -75,13 +75,16 @@ pub fn from_near(
     let mut value = residual(point);
     let mut norm = value.norm();
     let mut iterations = 0;
+    if norm.is_nan() {
+        return None;
+    }
     while norm > tolerance.converged {
         let step = -(inverse * value);
         point += step;
         let next = residual(point);
         let next_norm = next.norm();
         iterations += 1;
-        if !(next_norm < LEFT * norm) {
+        if next_norm.is_nan() || next_norm > LEFT * norm {
             return None;
         }
         let mapped = inverse * (next - value);
@@ -200,7 +203,7 @@ mod tests {
         };
         let found = begin(0.1).expect("it is near");
         assert!(found.is_root && (found.point - root).norm() < 1e-12, "{found:?}");
-        assert!(begin(10.0).is_none());
+        assert!(begin(10.0).is_none() && begin(f64::NAN).is_none());
         let away = from_near(root + Vector3::repeat(0.1), -Matrix3::identity(), EXACT, f);
         assert!(away.is_none());
     }

@@ -37,6 +37,9 @@ pub const CREEP: f64 = 1e-6;
 /// Coefficient γ = 1 − 1/√2 of the method: it makes the second stage the end of the step.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
+/// Halvings of a step for its error at most.
+const MOST_REFINED: u32 = 2;
+
 /// Halvings of a step after which it is given up.
 const MOST_HALVINGS: u32 = 10;
 
@@ -45,6 +48,8 @@ const MOST_HALVINGS: u32 = 10;
 pub struct Transient<'m> {
     model: &'m Model,
     longest_step: f64,
+    /// Estimated error of the twist, m/s, from which on a step is halved.
+    tolerance: f64,
     /// Whether some force stands against acceleration: a body without inertia jumps, and its
     /// acceleration means nothing.
     has_inertia: bool,
@@ -97,6 +102,7 @@ impl<'m> Transient<'m> {
         Self {
             model,
             longest_step: Self::STEP,
+            tolerance: f64::INFINITY,
             has_inertia: Self::feels_inertia(model),
             may_pull: false,
             state,
@@ -106,6 +112,12 @@ impl<'m> Transient<'m> {
     /// The same with another longest step, s.
     pub fn with_step(self, longest_step: f64) -> Self {
         Self { longest_step, ..self }
+    }
+
+    /// The same with steps halved where the error of the twist, of the yaw rate that of the tracks, is estimated as larger
+    /// than `tolerance`, m/s.
+    pub fn with_tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance, ..self }
     }
 
     /// The same, going on where part of the contact lifts, with a pressure that stays linear and pulls there, until the
@@ -122,9 +134,11 @@ impl<'m> Transient<'m> {
     }
 
     /// One step of length `h` at the speeds `shown` by the encoders, in halves where it does not
-    /// converge.
+    /// converge, or its error is larger than asked for.
     fn step(&mut self, shown: PerSide<f64>, h: f64, halvings: u32) -> Result<(), Stopped> {
-        if let Some(state) = self.advanced(shown, h) {
+        if let Some((state, error)) = self.advanced(shown, h)
+            && (error <= self.tolerance || halvings >= MOST_REFINED)
+        {
             self.state = state;
             return Ok(());
         }
@@ -136,8 +150,9 @@ impl<'m> Transient<'m> {
         self.step(shown, h / 2.0, halvings + 1)
     }
 
-    /// The state a step later; none where Newton's iteration does not converge.
-    fn advanced(&self, shown: PerSide<f64>, h: f64) -> Option<State> {
+    /// The state a step later and the estimated error of its twist, m/s; none where Newton's iteration does not
+    /// converge.
+    fn advanced(&self, shown: PerSide<f64>, h: f64) -> Option<(State, f64)> {
         let start = self.state;
         // Stage 1 at t + γ h from u, stage 2 at t + h from u + (1 − γ) h u̇₁.
         let first = self.stage(&start, shown, GAMMA * h, GAMMA * h, start.twist, start.twist)?;
@@ -156,7 +171,12 @@ impl<'m> Transient<'m> {
             w: mean(first.twist.w, second.twist.w),
         };
         let pose = start.pose.compose(&Pose::exp(&ros_twist_from_paper(&twist), h));
-        Some(State { t: start.t + h, pose, ..second })
+        // Beside the method of order 1, u + h u̇₁.
+        let off = |a: f64, b: f64, c: f64| c - (a + (b - a) / GAMMA);
+        let (u, u_1, u_2) = (start.twist, first.twist, second.twist);
+        let turn = off(u.w, u_1.w, u_2.w) * self.model.vehicle().gauge / 2.0;
+        let error = off(u.v_x, u_1.v_x, u_2.v_x).hypot(off(u.v_y, u_1.v_y, u_2.v_y)).hypot(turn);
+        Some((State { t: start.t + h, pose, ..second }, error))
     }
 
     /// Solves the balance `after` seconds from the start of the step, with the acceleration

@@ -18,9 +18,10 @@ use crate::Error;
 use crate::sheet;
 use nalgebra::Vector3;
 use trackdyn_diagnose::diagnosis::{Diagnosis, Kind, icr_columns};
-use trackdyn_diagnose::fit::{Fit, Metric};
+use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::locate::Location;
 use trackdyn_diagnose::locate::cells::Cell;
+use trackdyn_diagnose::metric::Metric;
 use trackdyn_diagnose::{DiagnosisFile, Evidence};
 use trackdyn_physics::VehicleFile;
 

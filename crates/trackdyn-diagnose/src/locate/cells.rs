@@ -3,7 +3,7 @@
 use super::IcrColumns;
 use super::contrasts::Manoeuvre;
 use crate::evidence::{Evidence, Sample};
-use crate::fit::Metric;
+use crate::metric::Metric;
 use crate::normal::{Columns, Normal, Prior};
 use nalgebra::Vector3;
 use trackdyn_core::real;

@@ -6,9 +6,11 @@
 
 use super::rivals::Rival;
 use crate::evidence::Evidence;
-use crate::fit::{Metric, columns, prior};
+use crate::fit::columns;
 use crate::mechanics::Instruments;
+use crate::metric::Metric;
 use crate::normal::{Columns, Normal};
+use crate::prior::prior;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
 

@@ -2,8 +2,9 @@
 
 use super::{Rules, Support, Verdict, refusal};
 use crate::base::OFFSETS;
-use crate::fit::{Fit, measured};
+use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of, with_friction};
+use crate::prior::measured;
 use crate::search::{Found, Search};
 use std::collections::BTreeMap;
 use trackdyn_core::real;

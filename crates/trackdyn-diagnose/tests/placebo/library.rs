@@ -10,9 +10,10 @@ use trackdyn_diagnose::base::Base;
 use trackdyn_diagnose::candidate::{Beside, variants};
 use trackdyn_diagnose::diagnosis::icr_columns;
 use trackdyn_diagnose::evidence::{Evidence, Sample};
-use trackdyn_diagnose::fit::{Metric, priors};
 use trackdyn_diagnose::locate::IcrColumns;
+use trackdyn_diagnose::metric::Metric;
 use trackdyn_diagnose::normal::{Normal, Prior};
+use trackdyn_diagnose::prior::priors;
 use trackdyn_physics::{CATALOGUE, VehicleFile};
 use trackdyn_recording::synthetic::{Synthetic, random_steps};
 

@@ -12,8 +12,8 @@ use crate::panel::{LABEL_SIZE, Panel, TICK_SIZE, TITLE_SIZE};
 use crate::text::{Horizontal, Style, Vertical};
 use nalgebra::Vector3;
 use trackdyn_core::real;
-use trackdyn_diagnose::fit::Metric;
 use trackdyn_diagnose::locate::excess;
+use trackdyn_diagnose::metric::Metric;
 
 const HEIGHT: i32 = 1000;
 const TOP: i32 = sheet::TOP + 130;

@@ -1,0 +1,106 @@
+//! What is known of each number before the evidence.
+
+use crate::evidence::Evidence;
+use crate::hypothesis::{Hypothesis, Unknown, active, neutral, typical_size};
+use crate::normal::Prior;
+use trackdyn_physics::contact::Friction;
+use trackdyn_physics::effect::Role;
+use trackdyn_physics::{CATALOGUE, Circumstance, Model, Vehicle};
+
+/// What is known of an unknown beforehand, as standard deviation around no effect.
+///
+/// # Panics
+/// Never: an unknown of an effect has a parameter.
+pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> Prior {
+    /// Sizes of several times the typical one are seldom.
+    const SEVERAL: f64 = 3.0;
+    match unknown {
+        Unknown::Offset(_) => Prior { mean: 0.0, deviation: 0.5 * hypothesis.vehicle.gauge },
+        Unknown::FrictionLevel => {
+            Prior { mean: 0.0, deviation: friction_known(&hypothesis.vehicle) }
+        }
+        Unknown::Effect(..) => {
+            let parameter = unknown.parameter().expect("an effect's");
+            if let Some(deviation) = measured(&hypothesis.vehicle, unknown) {
+                return Prior { mean: neutral(parameter), deviation };
+            }
+            match parameter.role {
+                Role::Size { .. } => {
+                    Prior { mean: neutral(parameter), deviation: SEVERAL * typical_size(parameter) }
+                }
+                Role::Place { .. } => {
+                    let [middle, spread] = area(evidence, parameter.role);
+                    Prior { mean: middle, deviation: 3.0 * spread.max(1.0) }
+                }
+                Role::Direction => Prior { mean: 0.0, deviation: 360.0 },
+                Role::Shape => Prior { mean: parameter.typical, deviation: parameter.typical },
+            }
+        }
+    }
+}
+
+/// Standard deviation of the logarithm of friction, as its owner knows it.
+fn friction_known(vehicle: &Vehicle) -> f64 {
+    /// A coefficient that was not measured is known to a third.
+    const GUESSED: f64 = 0.3;
+    let friction = &vehicle.uncertainty.friction;
+    match (friction.across, friction.along) {
+        (Some(across), Some(along)) => {
+            (across / vehicle.friction.across).hypot(along / vehicle.friction.along) / 2.0
+        }
+        _ => GUESSED,
+    }
+}
+
+/// How far an effect's size may be from none because the owner measured what it changes: the vehicle's centre
+/// of gravity, or its friction ratio. None where it changes something else, or nothing is known.
+pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
+    /// What is known exactly is known to this part of a typical size.
+    const EXACT: f64 = 1e-4;
+    let Unknown::Effect(effect, place) = unknown else { return None };
+    let parameters = CATALOGUE[effect].parameters;
+    let size = typical_size(&parameters[place]);
+    let values: Vec<f64> = (0..parameters.len())
+        .map(|k| if k == place { parameters[k].typical } else { neutral(&parameters[k]) })
+        .collect();
+    let effects = std::iter::once(active(effect, &values)).collect();
+    let model = Model::new(vehicle.clone(), effects);
+    let floor = |deviation: f64| deviation.max(EXACT * size);
+    let moved = [0, 1].map(|axis| (model.vehicle().cog[axis] - vehicle.cog[axis]).abs());
+    if moved != [0.0, 0.0] {
+        let deviations = vehicle.uncertainty.cog?;
+        let axis = usize::from(moved[0] <= moved[1]);
+        return Some(floor(size * deviations[axis] / moved[axis]));
+    }
+    let friction = model.ground(&Circumstance::default()).friction;
+    let ratio = |of: &Friction| of.across / of.along;
+    let change = (ratio(&friction.left) / ratio(&vehicle.friction)).ln().abs();
+    let alike = friction.left == friction.right;
+    if alike && change > 0.0 {
+        let known = &vehicle.uncertainty.friction;
+        let relative =
+            (known.across? / vehicle.friction.across).hypot(known.along? / vehicle.friction.along);
+        return Some(floor(size * relative / change));
+    }
+    None
+}
+
+/// Middle and spread of the recorded places along an axis of the world, m.
+pub fn area(evidence: &Evidence, role: Role) -> [f64; 2] {
+    let Role::Place { axis } = role else { return [0.0, 1.0] };
+    let coordinates = evidence.samples().iter().map(|sample| [sample.pose.x, sample.pose.y][axis]);
+    let (low, high) = coordinates
+        .fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
+    [f64::midpoint(low, high), (high - low) / 2.0]
+}
+
+/// Priors of steps from where a hypothesis stands.
+pub fn priors(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Evidence) -> Vec<Prior> {
+    unknowns
+        .iter()
+        .map(|&unknown| {
+            let known = prior(hypothesis, unknown, evidence);
+            Prior { mean: known.mean - hypothesis.get(unknown), ..known }
+        })
+        .collect()
+}

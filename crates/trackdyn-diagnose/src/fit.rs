@@ -18,7 +18,10 @@ use trackdyn_physics::effect::Role;
 const ITERATIONS: usize = 6;
 
 /// How often in a fit what inertia adds is found anew.
-const FOUND_ANEW: usize = 2;
+const FOUND_ANEW: usize = 3;
+
+/// Shares of a step before it is given up.
+const SHARES: [f64; 4] = [1.0, 0.4, 0.15, 0.05];
 
 /// A step that lowers the objective by less than this is the last one.
 const SETTLED: f64 = 0.2;
@@ -176,27 +179,38 @@ impl Fit {
     /// Fits the unknowns of a hypothesis from this point on.
     ///
     /// What inertia adds stays that of one motion in time, with its derivatives, as long as what it does not come from
-    /// resembles what it was found for. Where the fit ends it is found anew unless that is near, and the fit goes on.
+    /// resembles what it was found for. Where the fit ends it is found anew unless that is near, and the fit goes on from
+    /// there, or from a share of the way if these derivatives led astray.
     pub fn from_point(
         start: Point,
         unknowns: &[Unknown],
         evidence: &Evidence,
         metric: &Metric,
     ) -> Self {
-        let descended = |point: Point| {
-            Self::linearised(point, unknowns, evidence, metric).descended(evidence, metric)
-        };
-        let mut fit = descended(start);
+        let mut fit = Self::linearised(start, unknowns, evidence, metric);
         for _ in 0..FOUND_ANEW {
-            let before = Some(&fit.mechanics);
-            let point = Point::new(fit.hypothesis.clone(), unknowns, evidence, metric, before);
-            let stays = point.mechanics.has_inertia_of(&fit.mechanics);
-            if stays || point.mechanics.failure().is_some() {
-                break;
+            let end = fit.clone().descended(evidence, metric);
+            let anew = |hypothesis: Hypothesis| {
+                Point::new(hypothesis, unknowns, evidence, metric, Some(&end.mechanics))
+            };
+            let whole = anew(end.hypothesis.clone());
+            if whole.mechanics.has_inertia_of(&end.mechanics) {
+                return end;
             }
-            fit = descended(point);
+            let parts = SHARES[1..].iter().map(|&share| anew(fit.towards(&end, share)));
+            let better = |point: &Point| point.objective < fit.objective;
+            let Some(point) = std::iter::once(whole).chain(parts).find(better) else { break };
+            fit = Self::linearised(point, unknowns, evidence, metric);
         }
         fit
+    }
+
+    /// The hypothesis a share of the way to the end of a descent from here.
+    fn towards(&self, end: &Self, share: f64) -> Hypothesis {
+        self.unknowns.iter().fold(self.hypothesis.clone(), |moved, &unknown| {
+            let (from, to) = (self.hypothesis.get(unknown), end.hypothesis.get(unknown));
+            moved.with(unknown, from + share * (to - from))
+        })
     }
 
     /// The end of the descent from here, with what inertia adds as it was found.
@@ -230,8 +244,6 @@ impl Fit {
     /// The point of a share of the step that lowers the objective; none where no share does, or where the
     /// whole step promises next to nothing.
     fn next(&self, evidence: &Evidence, metric: &Metric) -> Option<Point> {
-        /// Shares of a step before it is given up.
-        const SHARES: [f64; 4] = [1.0, 0.4, 0.15, 0.05];
         SHARES.into_iter().find_map(|share| {
             let hypothesis = self.stepped(share);
             let mechanics = self.mechanics.on_the_way(&hypothesis, &self.unknowns, evidence);

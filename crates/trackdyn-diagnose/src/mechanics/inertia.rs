@@ -28,7 +28,7 @@ const TOLERANCE: f64 = 5e-3;
 /// derivatives are taken. Beyond what is linear, that changes half a percent of what a typical size adds.
 const REACH: f64 = 0.2;
 
-/// The same on the way of a fit, and for where derivatives were found: an error there is one of second order.
+/// The same on the way of a fit.
 const ALIKE: f64 = 1.0;
 
 /// How far a hypothesis may be from where the motion in time was found to be taken for near, in typical sizes.
@@ -112,7 +112,7 @@ impl InertiaNear {
             None => Self::here(inert, case)?,
         };
         let before = before.map_or(&[][..], |before| &before.slopes);
-        // Slopes are asked for small steps only: those of a hypothesis that resembles this one do.
+        // Slopes of a robot that is not quite this one lead astray: moments of inertia go with the square of a radius.
         let alike = |slope: &&Arc<Slope>| slope.at.is_alike(&here.at);
         let slopes: Option<Vec<Arc<Slope>>> = free
             .par_iter()
@@ -327,7 +327,7 @@ impl Inertia {
     fn is_alike(&self, other: &Self) -> bool {
         let mut changes = self.changes(&other.vehicle, other.model.effects()).into_iter();
         are_same(&self.inert, &other.inert)
-            && changes.all(|(by, change)| change.abs() <= ALIKE * size(by))
+            && changes.all(|(by, change)| change.abs() <= REACH * size(by))
     }
 
     /// The motion in time less the stationary motion, as a twist over a sample.

@@ -245,14 +245,13 @@ fn separation(
 /// Such a law is known to a part of what it does: its radius of gyration is hardly ever measured.
 fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<String> {
     let filed = &search.base.as_filed.hypothesis;
-    let mut laws: Vec<&(Variant, Vec<Signature>)> = search
+    let laws: Vec<&(Variant, Vec<Signature>)> = search
         .catalogue
         .entries
         .iter()
         .filter(|(law, _)| filed.effect(law.effect).is_some())
         .filter(|(law, _)| !changed.signature.unknown.is_of(law.effect))
         .collect();
-    laws.dedup_by_key(|(law, _)| law.effect);
     let signatures: Vec<&[Signature]> = laws.iter().map(|(_, law)| &law[..]).collect();
     let known = |unknown: Unknown| {
         let none = unknown.parameter().map_or(0.0, neutral);

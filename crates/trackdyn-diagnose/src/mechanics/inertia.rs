@@ -108,7 +108,7 @@ impl InertiaNear {
             return Ok(near);
         }
         let here = match before.filter(|before| before.at.is_for(&inert, case)) {
-            Some(before) => Self { at: Arc::clone(&before.at), slopes: Vec::new(), shift: None },
+            Some(before) => before.unmoved(),
             None => Self::here(inert, case)?,
         };
         let before = before.map_or(&[][..], |before| &before.slopes);

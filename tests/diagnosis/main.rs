@@ -1,6 +1,7 @@
 //! A diagnosis says no more than the evidence bears.
 
 mod images;
+mod intervals;
 mod measured;
 mod nulls;
 mod one_sided;

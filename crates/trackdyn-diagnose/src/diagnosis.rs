@@ -346,16 +346,17 @@ fn judged(
     };
     let refused: Vec<usize> =
         physics.iter().filter(|one| one.refused.is_some()).map(|one| one.effect).collect();
-    let best = without(found, &refused);
-    let mut uncertainty = Uncertainty::of(search, &best);
-    let unsure = refuse_unsure(&mut physics, &uncertainty.intervals(&best.fit));
-    let best = without(best, &unsure);
+    let mut best = without(found, &refused);
+    let mut intervals = Uncertainty::of(search, &best).intervals(&claimed(&physics));
+    let unsure = refuse_unsure(&mut physics, &intervals);
     if !unsure.is_empty() {
-        uncertainty = Uncertainty::of(search, &best);
+        best = without(best, &unsure);
+        intervals = Uncertainty::of(search, &best).intervals(&claimed(&physics));
     }
     let instruments = judge_instruments(search, &best, draws, seed);
     let constants = judge_constants(search, &best, statics, file, draws, seed);
-    let intervals = uncertainty.intervals(&best.fit);
+    let uncertainty = Uncertainty::of(search, &best);
+    intervals.extend(uncertainty.intervals(&claimed(&instruments)));
     let of = |effect: usize| -> Vec<Interval> {
         intervals.iter().filter(|interval| interval.unknown.is_of(effect)).copied().collect()
     };
@@ -371,8 +372,13 @@ fn judged(
             missing.push(Missing { kind, verdict, parameters });
         }
     }
-    let friction_level = uncertainty.friction_level(&best.fit);
+    let friction_level = uncertainty.friction_level();
     Judgement { best, friction_level, missing, refused }
+}
+
+/// The effects that are not refused.
+fn claimed(verdicts: &[Verdict]) -> Vec<usize> {
+    verdicts.iter().filter(|one| one.refused.is_none()).map(|one| one.effect).collect()
 }
 
 fn status(left_over: &[Symmetry], missing: &[Missing]) -> Status {

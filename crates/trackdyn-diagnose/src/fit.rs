@@ -151,15 +151,19 @@ impl Point {
     ) -> Self {
         let prediction = mechanics.predict(&Instruments::of(&hypothesis), evidence);
         let residual = metric.residual(evidence, &prediction);
-        let known = priors(&hypothesis, unknowns, evidence);
-        let penalty: f64 = known.iter().map(|prior| (prior.mean / prior.deviation).powi(2)).sum();
         let objective = if mechanics.failure().is_some() {
             f64::INFINITY
         } else {
-            metric.loss(evidence, &residual) + penalty
+            metric.loss(evidence, &residual) + penalty(&hypothesis, unknowns, evidence)
         };
         Self { hypothesis, mechanics, prediction, residual, objective }
     }
+}
+
+/// What these numbers cost by being where they were not expected.
+fn penalty(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Evidence) -> f64 {
+    let known = priors(hypothesis, unknowns, evidence);
+    known.iter().map(|prior| (prior.mean / prior.deviation).powi(2)).sum()
 }
 
 impl Fit {
@@ -251,6 +255,28 @@ impl Fit {
             let point = Point::with_mechanics(hypothesis, mechanics, unknowns, evidence, metric);
             (point.objective < self.objective).then_some(point)
         })
+    }
+
+    /// Twice the objective where the number at this place of the unknowns is held at a value and the others are refitted,
+    /// from where the linear fit takes them. What inertia adds stays that of one motion in time, with its derivatives.
+    pub fn profile(&self, place: usize, value: f64, evidence: &Evidence, metric: &Metric) -> f64 {
+        let held = self.unknowns[place];
+        let covariance = &self.solution.covariance;
+        let moved = (value - self.hypothesis.get(held)) / covariance[(place, place)];
+        let towards = |hypothesis: Hypothesis, k: usize| {
+            let unknown = self.unknowns[k];
+            let there = hypothesis.get(unknown) + moved * covariance[(k, place)];
+            hypothesis.with(unknown, there)
+        };
+        let others = || (0..self.unknowns.len()).filter(|&k| k != place);
+        let hypothesis = others().fold(self.hypothesis.with(held, value), towards);
+        let unknowns: Vec<Unknown> = others().map(|k| self.unknowns[k]).collect();
+        let columns = others().map(|k| self.columns[k].clone()).collect();
+        let mechanics = self.mechanics.on_the_way(&hypothesis, &unknowns, evidence);
+        let point = Point::with_mechanics(hypothesis, mechanics, &unknowns, evidence, metric);
+        let start = Self::with_columns(point, &unknowns, columns, evidence, metric);
+        let Self { hypothesis, objective, .. } = start.descended(evidence, metric);
+        objective + penalty(&hypothesis, &[held], evidence)
     }
 
     /// A hypothesis as it stands, with its derivatives.

@@ -139,7 +139,7 @@ fn law(
     if !sound {
         return None;
     }
-    let intervals = Uncertainty::of(&search, &found).intervals(&found.fit);
+    let intervals = Uncertainty::of(&search, &found).intervals(&[effect]);
     let of = |unknown: Unknown| intervals.iter().find(|one| one.unknown == unknown).copied();
     let terms = selected.into_iter().map(|selected| Proposed {
         coefficients: library.unknowns(selected.term).into_iter().filter_map(of).collect(),

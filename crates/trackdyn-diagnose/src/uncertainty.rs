@@ -5,6 +5,7 @@ use crate::hypothesis::Unknown;
 use crate::normal::Normal;
 use crate::search::{Found, Search};
 use nalgebra::DVector;
+use rayon::prelude::*;
 use trackdyn_core::real;
 use trackdyn_identify::least_squares::Interval as Student;
 
@@ -41,20 +42,35 @@ impl Level {
     }
 }
 
-/// Half the 95 % intervals of what is free in a hypothesis.
+/// The 95 % intervals of what is free in a hypothesis.
 ///
 /// The variance is the larger one of two: by the noise, and by how much the estimate changes where a block is left out,
-/// (B − 1)/B Σ (θ₋ᵦ − θ)², which no noise model enters.
+/// (B − 1)/B Σ (θ₋ᵦ − θ)², which no noise model enters. An interval ends where the profile likelihood, all other numbers
+/// refitted, has fallen by as much as it would at Student's quantile of that variance, were it a parabola.
 ///
 /// # Sources
-/// The block jackknife: Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3).
-pub struct Uncertainty {
+/// The block jackknife: Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3). Profile likelihood: Venzon, Moolgavkar,
+/// Applied Statistics 37(1), 1988; with another variance than the noise's: McCullagh, Nelder, Generalized Linear Models,
+/// 2nd ed. 1989, chapter 9.
+pub struct Uncertainty<'a> {
+    search: &'a Search<'a>,
+    fit: &'a Fit,
+    /// Half the intervals, were the likelihood a parabola.
     halves: Vec<f64>,
 }
 
-impl Uncertainty {
+/// How often an end of an interval is looked for.
+const LOOKS: usize = 4;
+
+/// Part of the width to which it is found.
+const EXACT: f64 = 0.03;
+
+/// Factor by which a look may lie farther out than the one before.
+const FARTHER: f64 = 2.0;
+
+impl<'a> Uncertainty<'a> {
     /// Those of the best hypothesis.
-    pub fn of(search: &Search, best: &Found) -> Self {
+    pub fn of(search: &'a Search, best: &'a Found) -> Self {
         let fit = &best.fit;
         let (normal, priors, _) = search.normal(fit, &[]);
         let estimate = |normal: &Normal| normal.fit(&fit.free, &priors).estimate;
@@ -76,33 +92,75 @@ impl Uncertainty {
             let deviation = variance.max(0.0).sqrt();
             Student::new(0.0, deviation, blocks.len(), 1).high
         });
-        Self { halves: halves.collect() }
+        Self { search, fit, halves: halves.collect() }
     }
 
-    /// The parameters of the added effects and instruments with their 95 % intervals. No time is known better than to a
-    /// millisecond.
-    pub fn intervals(&self, fit: &Fit) -> Vec<Interval> {
-        let unknowns = fit.unknowns.iter().zip(&self.halves);
-        unknowns
-            .filter_map(|(&unknown, half)| {
-                let parameter = unknown.parameter()?;
-                let model = if parameter.unit == "s" { CLOCK } else { 0.0 };
-                let half = half.hypot(model);
-                let value = fit.hypothesis.get(unknown);
-                let [low, high] = parameter.range;
-                Some(Interval {
-                    unknown,
-                    value,
-                    low: (value - half).max(low),
-                    high: (value + half).min(high),
-                })
-            })
-            .collect()
+    /// The parameters of these effects with their 95 % intervals.
+    pub fn intervals(&self, effects: &[usize]) -> Vec<Interval> {
+        let is_asked = |unknown: &Unknown| effects.iter().any(|&effect| unknown.is_of(effect));
+        let places = (0..self.halves.len()).filter(|&place| is_asked(&self.fit.unknowns[place]));
+        let places: Vec<usize> = places.collect();
+        places.par_iter().filter_map(|&place| self.interval(place)).collect()
+    }
+
+    fn interval(&self, place: usize) -> Option<Interval> {
+        let unknown = self.fit.unknowns[place];
+        let parameter = unknown.parameter()?;
+        let model = if parameter.unit == "s" { CLOCK } else { 0.0 };
+        let value = self.fit.hypothesis.get(unknown);
+        let [low, high] = parameter.range;
+        let half = self.halves[place];
+        let (below, above) = rayon::join(|| self.end(place, -half), || self.end(place, half));
+        Some(Interval {
+            unknown,
+            value,
+            low: (value - below.hypot(model)).max(low),
+            high: (value + above.hypot(model)).min(high),
+        })
+    }
+
+    /// How far the interval of a number reaches, by where it would end if the likelihood were a parabola. It does not go
+    /// beyond what the number may be.
+    ///
+    /// √(rise of twice the objective) is in proportion to the distance for a parabola, and nearly so for what is no parabola.
+    fn end(&self, place: usize, parabola: f64) -> f64 {
+        let Self { search: Search { evidence, metric, .. }, fit, .. } = self;
+        if !fit.free.contains(&place) {
+            return parabola.abs();
+        }
+        let unknown = fit.unknowns[place];
+        let value = fit.hypothesis.get(unknown);
+        let [low, high] = unknown.range();
+        let variance = fit.solution.covariance[(place, place)];
+        let asked = parabola.abs() / variance.sqrt();
+        let room = if parabola < 0.0 { value - low } else { high - value };
+        // Distances that are too short and too far, with the roots of the rise there.
+        let (mut near, mut far) = ([0.0, 0.0], None);
+        let mut distance = parabola.abs();
+        for _ in 0..LOOKS {
+            let looked = distance.min(room);
+            let there = value + looked.copysign(parabola);
+            let risen = fit.profile(place, there, evidence, metric) - fit.objective;
+            let root = risen.max(0.0).sqrt();
+            if (root / asked - 1.0).abs() < EXACT || (looked == room && root < asked) {
+                return looked;
+            }
+            *(if root < asked { &mut near } else { far.get_or_insert([0.0; 2]) }) = [looked, root];
+            distance = match far {
+                Some(far) if far[1].is_finite() => {
+                    near[0] + (far[0] - near[0]) * (asked - near[1]) / (far[1] - near[1])
+                }
+                Some(far) => f64::midpoint(near[0], far[0]),
+                None => looked * (asked / root).min(FARTHER),
+            };
+        }
+        distance.min(room)
     }
 
     /// The level of friction; none where it is not free.
-    pub fn friction_level(&self, fit: &Fit) -> Option<Level> {
-        let place = fit.unknowns.iter().position(|one| *one == Unknown::FrictionLevel)?;
-        Some(Level { value: fit.hypothesis.friction_level, half: self.halves[place] })
+    pub fn friction_level(&self) -> Option<Level> {
+        let unknowns = &self.fit.unknowns;
+        let place = unknowns.iter().position(|one| *one == Unknown::FrictionLevel)?;
+        Some(Level { value: self.fit.hypothesis.friction_level, half: self.halves[place] })
     }
 }

@@ -1,0 +1,53 @@
+//! Intervals end where the likelihood says.
+
+use trackdyn_diagnose::fit::Fit;
+use trackdyn_diagnose::hypothesis::Unknown;
+use trackdyn_diagnose::prior::prior;
+use trackdyn_diagnose::uncertainty::Interval;
+use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
+use trackdyn_field::ScheduleKind;
+use trackdyn_field::sensors::Preset;
+use trackdyn_tests::concealed::{Drive, members, owned, runs, sensors};
+
+/// Other ground in one place: neither its place nor its radius acts in proportion.
+const PATCH: &str = "terrain-patch:x_m=0.4,y_m=0.3,radius_m=1.5,ratio=1.3";
+
+/// By how much twice the misfit, all else fitted anew, has risen where a number is held at a value.
+fn risen(diagnosis: &Diagnosis, held: Unknown, value: f64) -> f64 {
+    let Diagnosis { evidence, metric, best, .. } = diagnosis;
+    let others = best.fit.unknowns.iter().copied().filter(|unknown| *unknown != held);
+    let others: Vec<Unknown> = others.collect();
+    let start = best.fit.hypothesis.with(held, value);
+    let fit = Fit::new(start, &others, evidence, metric, None);
+    let known = prior(&fit.hypothesis, held, evidence);
+    let cost = |value: f64| ((value - known.mean) / known.deviation).powi(2);
+    fit.objective + cost(value) - best.fit.objective
+}
+
+/// Fits from nothing but the numbers themselves, without the slopes and starts that the search for the ends takes over.
+#[test]
+fn both_ends_are_equally_unlikely_with_all_else_fitted_anew() {
+    /// 95 % of one number, at the least: where noise is what it is taken for and runs are many.
+    const NORMAL: f64 = 3.84;
+    /// Ends are found to 3 % of the width, which twice the misfit goes with the square of; fits end 0.2 above the minimum.
+    const TO: f64 = 0.2;
+    let vehicle = owned(&[PATCH]).vehicle;
+    let schedule = runs(ScheduleKind::Manual, 6, 5);
+    let drive = Drive::new(&vehicle, &[PATCH], &schedule, 5).expect("it drives");
+    let recording = drive.recording(&sensors(Preset::Laboratory), 5);
+    let evidence = Evidence::of_recording(&recording, vehicle.gauge).expect("enough");
+    let diagnosis = diagnose(&evidence, &owned(&[PATCH]), &Options::default(), &|_| ());
+    let diagnosis = diagnosis.expect("a diagnosis");
+    let patch = diagnosis.missing.iter().find(|one| members(one).contains("terrain-patch"));
+    let patch = patch.expect("a patch that shows");
+    let mut most_lopsided: f64 = 0.0;
+    for &Interval { unknown, value, low, high } in &patch.parameters {
+        let [below, above] = [low, high].map(|end| risen(&diagnosis, unknown, end));
+        let key = unknown.parameter().expect("of an effect").key;
+        println!("{key} = {value} [{low}, {high}]: {below} and {above}");
+        assert!(below.min(above) > (1.0 - TO) * NORMAL, "{key}: {below} and {above}");
+        assert!((below / above).ln().abs() < TO, "{key}: {below} and {above}");
+        most_lopsided = most_lopsided.max(((high - value) / (value - low)).ln().abs());
+    }
+    assert!(most_lopsided > 0.1, "a parabola would have done: {most_lopsided}");
+}

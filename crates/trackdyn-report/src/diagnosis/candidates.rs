@@ -34,7 +34,8 @@ pub(super) enum Outcome {
 /// An effect of the catalogue.
 pub(super) struct Candidate {
     pub effect: usize,
-    /// Gain of ln evidence; none where it was not, or could not be, asked.
+    /// Gain of ln evidence, of a claimed one against the best model without it, of others each by itself; none where it
+    /// was not, or could not be, asked.
     pub gain: Option<f64>,
     /// √ of what the misfit falls by.
     pub z: Option<f64>,
@@ -53,26 +54,20 @@ pub(super) fn candidates(subject: &Subject) -> Vec<Candidate> {
         .iter()
         .map(|one| {
             let (outcome, reason) = judged(subject, one);
+            // What a claimed effect explains beside the others it may hardly explain alone.
+            let claim = claim(subject, one.effect).map(|missing| &missing.verdict.support);
+            let gain = claim.map_or(one.gain, |support| support.ln_bayes_factor);
             Candidate {
                 effect: one.effect,
-                gain: Some(one.gain).filter(|gain| gain.is_finite()),
-                z: Some(one.z),
-                sizes: sizes(subject, one),
+                gain: Some(gain).filter(|gain| gain.is_finite()),
+                z: Some(claim.map_or(one.z, |support| support.z)),
+                sizes: claim.map_or_else(|| sizes(subject, one), |_| fitted(subject, one.effect)),
                 outcome,
                 reason,
             }
         })
         .collect();
     for &effect in &diagnosis.base.instruments {
-        let fitted: Vec<String> = CATALOGUE[effect]
-            .parameters
-            .iter()
-            .enumerate()
-            .map(|(place, parameter)| {
-                let value = diagnosis.best.fit.hypothesis.get(Unknown::Effect(effect, place));
-                format!("{} {}{}", parameter.key, significant(value, 4), unit(parameter.unit))
-            })
-            .collect();
         let missing = claim(subject, effect);
         let refused = diagnosis.refused.iter().find(|verdict| verdict.effect == effect);
         let verdict = missing.map(|missing| &missing.verdict).or(refused);
@@ -87,7 +82,7 @@ pub(super) fn candidates(subject: &Subject) -> Vec<Candidate> {
             effect,
             gain: verdict.map(|verdict| verdict.support.ln_bayes_factor),
             z: verdict.map(|verdict| verdict.support.z),
-            sizes: fitted.join(", "),
+            sizes: fitted(subject, effect),
             outcome: if missing.is_some() { Outcome::Claimed } else { Outcome::Lost },
             reason,
         });
@@ -191,6 +186,16 @@ fn values<'a>(subject: &'a Subject, one: &'a Screened) -> impl Iterator<Item = (
 fn sizes(subject: &Subject, one: &Screened) -> String {
     let texts = values(subject, one).map(|(place, value)| {
         let parameter = &CATALOGUE[one.effect].parameters[place];
+        format!("{} {}{}", parameter.key, significant(value, 4), unit(parameter.unit))
+    });
+    texts.collect::<Vec<_>>().join(", ")
+}
+
+/// All numbers of an effect as they were fitted.
+fn fitted(subject: &Subject, effect: usize) -> String {
+    let hypothesis = &subject.diagnosis.best.fit.hypothesis;
+    let texts = CATALOGUE[effect].parameters.iter().enumerate().map(|(place, parameter)| {
+        let value = hypothesis.get(Unknown::Effect(effect, place));
         format!("{} {}{}", parameter.key, significant(value, 4), unit(parameter.unit))
     });
     texts.collect::<Vec<_>>().join(", ")

@@ -22,7 +22,8 @@ pub(super) fn draw(subject: &Subject, candidates: &[Candidate]) -> Result<Vec<u8
     let count = candidates.len().max(1);
     let height = TOP + rows(count) * ROW + 140 + sheet::FOOT;
     let explanation = "Gain of ln evidence: how much more probable the recording becomes with the effect, as \
-                       a logarithm, its added freedom paid for. 3 is worth keeping, 5 may be claimed.";
+                       a logarithm, its added freedom paid for. What is claimed is compared with the best model \
+                       without it, the others each by itself. 3 is worth keeping, 5 may be claimed.";
     let title = "What speaks for each effect, and why it lost";
     let mut canvas = sheet::sheet(height, title, explanation, subject.caption)?;
     let entries = [

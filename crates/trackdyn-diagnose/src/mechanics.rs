@@ -293,7 +293,7 @@ impl Mechanics {
                 let by_inertia = self
                     .inertia
                     .as_ref()
-                    .map(|inertia| inertia.departure(index, sample, sensor.delay));
+                    .map(|inertia| inertia.departure(index, sample, drive, sensor.delay));
                 let departure =
                     [by_ground, by_inertia].into_iter().flatten().reduce(|a, b| plus(&a, &b));
                 let departure = departure.map(|departure| seen_from(&departure, offset));

@@ -1,11 +1,14 @@
 //! Intervals of fitted parameters.
 
+use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::hypothesis::Unknown;
 use crate::normal::Normal;
 use crate::search::{Found, Search};
 use nalgebra::DVector;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::ops::Range;
 use trackdyn_core::real;
 use trackdyn_identify::least_squares::Interval as Student;
 
@@ -44,9 +47,9 @@ impl Level {
 
 /// The 95 % intervals of what is free in a hypothesis.
 ///
-/// The variance is the larger one of two: by the noise, and by how much the estimate changes where a block is left out,
-/// (B − 1)/B Σ (θ₋ᵦ − θ)², which no noise model enters. An interval ends where the profile likelihood, all other numbers
-/// refitted, has fallen by as much as it would at Student's quantile of that variance, were it a parabola.
+/// The widest one of three counts: by the noise, and by how much the estimate changes where a block, or a whole run, is left
+/// out, (B − 1)/B Σ (θ₋ᵦ − θ)², which no noise model enters. An interval ends where the profile likelihood, all other
+/// numbers refitted, has fallen by as much as it would at Student's quantile of that variance, were it a parabola.
 ///
 /// # Sources
 /// The block jackknife: Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3). Profile likelihood: Venzon, Moolgavkar,
@@ -59,6 +62,9 @@ pub struct Uncertainty<'a> {
     halves: Vec<f64>,
 }
 
+/// Fewest groups of which leaving each out says how uncertain an estimate is.
+const ENOUGH: usize = 6;
+
 /// How often an end of an interval is looked for.
 const LOOKS: usize = 4;
 
@@ -68,6 +74,18 @@ const EXACT: f64 = 0.03;
 /// Factor by which a look may lie farther out than the one before.
 const FARTHER: f64 = 2.0;
 
+/// What may be independent of each other, as ranges of blocks: blocks, and runs.
+fn groupings(evidence: &Evidence, counts: impl Fn(usize) -> bool) -> [Vec<Range<usize>>; 2] {
+    let blocks = (0..evidence.blocks()).filter(|&block| counts(block));
+    let blocks: Vec<Range<usize>> = blocks.map(|block| block..block + 1).collect();
+    let mut runs: BTreeMap<usize, Range<usize>> = BTreeMap::new();
+    for sample in evidence.samples().iter().filter(|sample| counts(sample.block)) {
+        let run = runs.entry(sample.run).or_insert(sample.block..sample.block + 1);
+        *run = run.start.min(sample.block)..run.end.max(sample.block + 1);
+    }
+    [blocks, runs.into_values().collect()]
+}
+
 impl<'a> Uncertainty<'a> {
     /// Those of the best hypothesis.
     pub fn of(search: &'a Search, best: &'a Found) -> Self {
@@ -76,23 +94,26 @@ impl<'a> Uncertainty<'a> {
         let estimate = |normal: &Normal| normal.fit(&fit.free, &priors).estimate;
         let whole = estimate(&normal);
         let last = normal.columns();
-        let counts = |block: &usize| normal.block(*block)[(last, last)] != 0.0;
-        let blocks: Vec<usize> = (0..normal.blocks()).filter(counts).collect();
-        let mut squares = DVector::zeros(whole.len());
-        for &block in &blocks {
-            let change = estimate(&normal.without(&(block..block + 1))) - &whole;
-            squares += change.component_mul(&change);
+        let counts = |block: usize| normal.block(block)[(last, last)] != 0.0;
+        let half = |variance: f64, groups: usize| {
+            Student::new(0.0, variance.max(0.0).sqrt(), groups, 1).high
+        };
+        let groupings = groupings(search.evidence, counts);
+        let noise = fit.solution.covariance.diagonal();
+        let mut halves: Vec<f64> =
+            noise.iter().map(|variance| half(*variance, groupings[0].len())).collect();
+        for groups in groupings.iter().filter(|groups| groups.len() >= ENOUGH) {
+            let mut squares = DVector::zeros(whole.len());
+            for group in groups {
+                let change = estimate(&normal.without(group)) - &whole;
+                squares += change.component_mul(&change);
+            }
+            let share = 1.0 - real(groups.len()).recip();
+            for (&k, squares) in fit.free.iter().zip(squares.iter()) {
+                halves[k] = halves[k].max(half(share * squares, groups.len()));
+            }
         }
-        let count = real(blocks.len().max(2));
-        let mut variances = fit.solution.covariance.diagonal();
-        for (&k, squares) in fit.free.iter().zip(squares.iter()) {
-            variances[k] = variances[k].max(squares * (count - 1.0) / count);
-        }
-        let halves = variances.iter().map(|variance| {
-            let deviation = variance.max(0.0).sqrt();
-            Student::new(0.0, deviation, blocks.len(), 1).high
-        });
-        Self { search, fit, halves: halves.collect() }
+        Self { search, fit, halves }
     }
 
     /// The parameters of these effects with their 95 % intervals.

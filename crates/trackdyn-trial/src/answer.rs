@@ -1,6 +1,6 @@
 //! What was concealed: the answers of a trial.
 
-use crate::plan::{Difficulty, Stratum};
+use crate::plan::{Difficulty, STATIC_CLASS, Stratum};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use trackdyn_proof::{ActiveMechanism, Origin};
@@ -126,9 +126,11 @@ impl Concealed {
         self.z_det >= crate::oracle::DETECTABLE
     }
 
-    /// Whether the recording can tell it from everything else in the catalogue.
+    /// Whether the recording can tell it from everything else in the catalogue. A member of the static class never is:
+    /// what its z_iso was compared with are the effects outside that class.
     pub fn is_isolable(&self) -> bool {
-        self.is_detectable() && self.z_iso >= crate::oracle::DISTINCT
+        let is_static = STATIC_CLASS.contains(&self.mechanism.as_str());
+        self.is_detectable() && self.z_iso >= crate::oracle::DISTINCT && !is_static
     }
 }
 

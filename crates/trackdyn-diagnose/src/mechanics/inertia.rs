@@ -31,6 +31,10 @@ const REACH: f64 = 0.2;
 /// The same on the way of a fit.
 const ALIKE: f64 = 1.0;
 
+/// Seconds by which belts may lag more, or less, than where the motion in time was found. That long it is late with them,
+/// and else the same.
+const AS_LATE: f64 = 0.02;
+
 /// How far a hypothesis may be from where the motion in time was found to be taken for near, in typical sizes.
 #[derive(Clone, Copy)]
 pub struct Within {
@@ -38,15 +42,17 @@ pub struct Within {
     known: f64,
     /// Others.
     unknown: f64,
+    /// Lag of the belts, s.
+    late: f64,
 }
 
 impl Within {
     /// Near enough to end a fit with.
-    pub const REACH: Self = Self { known: REACH, unknown: REACH };
+    pub const REACH: Self = Self { known: REACH, unknown: REACH, late: AS_LATE };
     /// On the way of a fit: as far as slopes may lead.
-    pub const THE_WAY: Self = Self { known: f64::MAX, unknown: ALIKE };
+    pub const THE_WAY: Self = Self { known: f64::MAX, unknown: ALIKE, late: f64::MAX };
     /// A step of a difference quotient, be it as large as it may.
-    pub const A_STEP: Self = Self { known: f64::MAX, unknown: f64::MAX };
+    pub const A_STEP: Self = Self { known: f64::MAX, unknown: f64::MAX, late: f64::MAX };
 }
 
 /// Part of the gauge, and of the friction ratio, by which the vehicle may differ.
@@ -128,7 +134,9 @@ impl InertiaNear {
     /// The same for a hypothesis that differs; none where it comes from other effects there, or differs by more than
     /// what this is good for.
     pub fn moved(&self, inert: &[ActiveEffect], case: &Case, within: Within) -> Option<Self> {
-        if !are_same(&self.at.inert, inert) || !self.at.is_close(case.vehicle) {
+        let late = self.at.later(case.drive).abs();
+        if !are_same(&self.at.inert, inert) || !self.at.is_close(case.vehicle) || late > within.late
+        {
             return None;
         }
         let mut shift: Option<Vec<Twist>> = None;
@@ -168,9 +176,10 @@ impl InertiaNear {
         Arc::ptr_eq(&self.at, &other.at)
     }
 
-    /// What it adds to the twist (paper's frame) during a sample, of this index.
-    pub fn departure(&self, index: usize, sample: &Sample, delay: f64) -> Twist {
-        let departure = self.at.departure(sample, delay);
+    /// What it adds to the twist (paper's frame) during a sample, of this index, with belts that lag as this drive's do
+    /// and poses that are late, s.
+    pub fn departure(&self, index: usize, sample: &Sample, drive: &Drive, delay: f64) -> Twist {
+        let departure = self.at.departure(sample, delay + self.at.later(drive));
         self.shift.as_ref().map_or(departure, |shift| plus(&departure, &shift[index]))
     }
 }
@@ -298,6 +307,11 @@ impl Inertia {
             && self.drive == **drive
     }
 
+    /// By how much belts lag more with this drive, s: what changes slowly is late by the time constant.
+    fn later(&self, drive: &Drive) -> f64 {
+        drive.time_constant - self.drive.time_constant
+    }
+
     /// Whether the vehicle, without what effects make of it, has about this centre of gravity and friction ratio.
     fn is_close(&self, vehicle: &Vehicle) -> bool {
         let moved =
@@ -327,6 +341,7 @@ impl Inertia {
     fn is_alike(&self, other: &Self) -> bool {
         let mut changes = self.changes(&other.vehicle, other.model.effects()).into_iter();
         are_same(&self.inert, &other.inert)
+            && self.later(&other.drive).abs() <= AS_LATE
             && changes.all(|(by, change)| change.abs() <= REACH * size(by))
     }
 

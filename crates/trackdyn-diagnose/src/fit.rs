@@ -211,9 +211,18 @@ impl Fit {
 
     /// The hypothesis a share of the way to the end of a descent from here.
     fn towards(&self, end: &Self, share: f64) -> Hypothesis {
-        self.unknowns.iter().fold(self.hypothesis.clone(), |moved, &unknown| {
-            let (from, to) = (self.hypothesis.get(unknown), end.hypothesis.get(unknown));
-            moved.with(unknown, from + share * (to - from))
+        self.shifted(|k| {
+            let unknown = self.unknowns[k];
+            share * (end.hypothesis.get(unknown) - self.hypothesis.get(unknown))
+        })
+    }
+
+    /// The hypothesis with each of the unknowns shifted, by its place.
+    fn shifted(&self, by: impl Fn(usize) -> f64) -> Hypothesis {
+        let places = self.unknowns.iter().enumerate();
+        places.fold(self.hypothesis.clone(), |moved, (k, &unknown)| {
+            let value = moved.get(unknown) + by(k);
+            moved.with(unknown, value)
         })
     }
 
@@ -263,13 +272,8 @@ impl Fit {
         let held = self.unknowns[place];
         let covariance = &self.solution.covariance;
         let moved = (value - self.hypothesis.get(held)) / covariance[(place, place)];
-        let towards = |hypothesis: Hypothesis, k: usize| {
-            let unknown = self.unknowns[k];
-            let there = hypothesis.get(unknown) + moved * covariance[(k, place)];
-            hypothesis.with(unknown, there)
-        };
+        let hypothesis = self.shifted(|k| moved * covariance[(k, place)]).with(held, value);
         let others = || (0..self.unknowns.len()).filter(|&k| k != place);
-        let hypothesis = others().fold(self.hypothesis.with(held, value), towards);
         let unknowns: Vec<Unknown> = others().map(|k| self.unknowns[k]).collect();
         let columns = others().map(|k| self.columns[k].clone()).collect();
         let mechanics = self.mechanics.on_the_way(&hypothesis, &unknowns, evidence);
@@ -344,11 +348,7 @@ impl Fit {
 
     /// The hypothesis a share of the step further.
     fn stepped(&self, share: f64) -> Hypothesis {
-        let steps = self.unknowns.iter().zip(self.solution.estimate.iter());
-        steps.fold(self.hypothesis.clone(), |moved, (&unknown, step)| {
-            let value = moved.get(unknown) + share * step;
-            moved.with(unknown, value)
-        })
+        self.shifted(|k| share * self.solution.estimate[k])
     }
 
     /// What was free, without the parameters of an effect.

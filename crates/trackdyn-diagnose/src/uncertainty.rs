@@ -166,7 +166,11 @@ impl<'a> Uncertainty<'a> {
             if (root / asked - 1.0).abs() < EXACT || (looked == room && root < asked) {
                 return looked;
             }
-            *(if root < asked { &mut near } else { far.get_or_insert([0.0; 2]) }) = [looked, root];
+            if root < asked {
+                near = [looked, root];
+            } else {
+                far = Some([looked, root]);
+            }
             distance = match far {
                 Some(far) if far[1].is_finite() => {
                     near[0] + (far[0] - near[0]) * (asked - near[1]) / (far[1] - near[1])

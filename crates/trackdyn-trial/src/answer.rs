@@ -126,11 +126,15 @@ impl Concealed {
         self.z_det >= crate::oracle::DETECTABLE
     }
 
+    /// Whether it is a member of the static class: nothing that a recording shows beside constant ICRs.
+    pub fn is_static(&self) -> bool {
+        STATIC_CLASS.contains(&self.mechanism.as_str())
+    }
+
     /// Whether the recording can tell it from everything else in the catalogue. A member of the static class never is:
     /// what its z_iso was compared with are the effects outside that class.
     pub fn is_isolable(&self) -> bool {
-        let is_static = STATIC_CLASS.contains(&self.mechanism.as_str());
-        self.is_detectable() && self.z_iso >= crate::oracle::DISTINCT && !is_static
+        self.is_detectable() && self.z_iso >= crate::oracle::DISTINCT && !self.is_static()
     }
 }
 

@@ -8,7 +8,7 @@ use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::search::Screened;
 use trackdyn_physics::CATALOGUE;
-use trackdyn_physics::effect::Role;
+use trackdyn_physics::effect::{Parameter, Role};
 
 /// Gain of ln evidence below which nothing is kept.
 const WORTH: f64 = 3.0;
@@ -186,9 +186,14 @@ fn values<'a>(subject: &'a Subject, one: &'a Screened) -> impl Iterator<Item = (
 fn sizes(subject: &Subject, one: &Screened) -> String {
     let texts = values(subject, one).map(|(place, value)| {
         let parameter = &CATALOGUE[one.effect].parameters[place];
-        format!("{} {}{}", parameter.key, significant(value, 4), unit(parameter.unit))
+        shown(parameter, value, 4)
     });
     texts.collect::<Vec<_>>().join(", ")
+}
+
+/// A parameter with a value of so many digits, and its unit.
+fn shown(parameter: &Parameter, value: f64, digits: i32) -> String {
+    format!("{} {}{}", parameter.key, significant(value, digits), unit(parameter.unit))
 }
 
 /// All numbers of an effect as they were fitted.
@@ -196,7 +201,7 @@ fn fitted(subject: &Subject, effect: usize) -> String {
     let hypothesis = &subject.diagnosis.best.fit.hypothesis;
     let texts = CATALOGUE[effect].parameters.iter().enumerate().map(|(place, parameter)| {
         let value = hypothesis.get(Unknown::Effect(effect, place));
-        format!("{} {}{}", parameter.key, significant(value, 4), unit(parameter.unit))
+        shown(parameter, value, 4)
     });
     texts.collect::<Vec<_>>().join(", ")
 }
@@ -205,7 +210,7 @@ fn unphysical(subject: &Subject, one: &Screened) -> String {
     let outside = values(subject, one).find_map(|(place, value)| {
         let parameter = &CATALOGUE[one.effect].parameters[place];
         let [low, high] = parameter.range;
-        let shown = format!("{} {}{}", parameter.key, significant(value, 2), unit(parameter.unit));
+        let shown = shown(parameter, value, 2);
         let Role::Size { neutral: none } = parameter.role else { return None };
         if (low..=high).contains(&value) {
             None

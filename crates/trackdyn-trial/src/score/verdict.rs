@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, Concealed};
 use crate::diagnosis::{Diagnosis, Missing};
-use crate::plan::{STATIC_CLASS, Stratum};
+use crate::plan::Stratum;
 
 /// What came back of a case.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,7 +97,7 @@ impl Judged {
     /// Whether the vehicle or the static class alone is concerned: nothing that a recording shows beside
     /// constant ICRs.
     pub fn is_static(&self) -> bool {
-        self.only().is_some_and(|only| STATIC_CLASS.contains(&only.mechanism.as_str()))
+        self.only().is_some_and(Concealed::is_static)
     }
 
     /// Whether its stratum is one of these.

@@ -1,5 +1,6 @@
 //! A diagnosis says no more than the evidence bears.
 
+mod answers;
 mod belts;
 mod images;
 mod intervals;

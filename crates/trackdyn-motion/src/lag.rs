@@ -6,7 +6,7 @@
 //! constants. Friction with its full value at any slip has a short Λ, m |s|/(µ N); friction that grows with the slip
 //! speed has a long one.
 
-use crate::transient::net_force;
+use crate::transient::{CREEP, net_force};
 use nalgebra::Matrix3;
 use trackdyn_core::{Dual, PerSide, Twist};
 use trackdyn_physics::{Ground, Model, Motion};
@@ -29,7 +29,7 @@ pub fn lag(
     let departure = Twist { v_x, v_y, w };
     let acceleration = Twist { v_x: a_x, v_y: a_y, w: a_w };
     let motion = Motion::departing(belt_speed, departure, acceleration, model.extent());
-    let sum = net_force(model, ground, &motion);
+    let sum = net_force(model, ground, &motion, CREEP);
     let rows = [sum.force_x, sum.force_y, sum.moment];
     let by_twist = Matrix3::from_fn(|row, column| rows[row].gradient[column]);
     let by_acceleration = Matrix3::from_fn(|row, column| rows[row].gradient[column + 3]);

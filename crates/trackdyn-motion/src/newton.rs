@@ -58,7 +58,7 @@ pub struct Convergence {
 }
 
 /// What a step without derivatives must leave of the residual at most.
-const LEFT: f64 = 0.3;
+const LEFT: f64 = 0.6;
 
 /// Iterates from a `start` near a root without derivatives, by Broyden's method; none where that does not lead there.
 ///

@@ -9,8 +9,8 @@
 //! Coulomb friction has no value where a whole track sticks. There, and only there, it is regularised:
 //! the friction wrench of a side is multiplied by σ/√(σ² + ε²), σ the root mean square of its slip
 //! velocity. A wrench of the exact law opposes the slip, so a fraction of it does, and energy never grows
-//! out of nothing. With ε = [`CREEP`] a track that slips at 1 cm/s has friction exact to 5·10⁻⁹, and a
-//! parked robot creeps less than 0.1 mm in a minute up to 80 % of what friction bears.
+//! out of nothing. With ε = [`CREEP`], unless another one is asked for, a track that slips at 1 cm/s has friction
+//! exact to 5·10⁻⁹, and a parked robot creeps less than 0.1 mm in a minute up to 80 % of what friction bears.
 //!
 //! # Method
 //! The two-stage singly diagonal implicit Runge-Kutta method of order 2 (Alexander 1977), which damps
@@ -50,6 +50,8 @@ pub struct Transient<'m> {
     longest_step: f64,
     /// Estimated error of the twist, m/s, from which on a step is halved.
     tolerance: f64,
+    /// Slip velocity below which a track sticks, m/s.
+    creep: f64,
     /// Whether some force stands against acceleration: a body without inertia jumps, and its
     /// acceleration means nothing.
     has_inertia: bool,
@@ -103,6 +105,7 @@ impl<'m> Transient<'m> {
             model,
             longest_step: Self::STEP,
             tolerance: f64::INFINITY,
+            creep: CREEP,
             has_inertia: Self::feels_inertia(model),
             may_pull: false,
             state,
@@ -118,6 +121,11 @@ impl<'m> Transient<'m> {
     /// than `tolerance`, m/s.
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
+    }
+
+    /// The same with tracks that stick below another slip velocity than [`CREEP`], m/s: larger ones are solved sooner.
+    pub fn with_creep(self, creep: f64) -> Self {
+        Self { creep, ..self }
     }
 
     /// The same, going on where part of the contact lifts, with a pressure that stays linear and pulls there, until the
@@ -210,7 +218,8 @@ impl<'m> Transient<'m> {
             time: self.state.t + after,
         });
         let per_second = if self.has_inertia { duration.recip() } else { 0.0 };
-        let stage = Stage { model: self.model, ground: &ground, belt_speed, base, per_second };
+        let Self { model, creep, .. } = *self;
+        let stage = Stage { model, ground: &ground, belt_speed, base, per_second, creep };
         let Convergence { point, is_root, inverse, .. } =
             stage.solve(&guess, &before.belt_speed, before.inverse);
         if !is_root {

@@ -24,6 +24,10 @@ const STEP: f64 = 0.05;
 /// this bound it is what steps of 5 ms make it, to 0.5 %.
 const TOLERANCE: f64 = 5e-3;
 
+/// Slip velocity below which a track sticks, m/s: of no account to sensors, and solved sooner than what keeps a parked robot
+/// in its place for a minute.
+const CREEP: f64 = 1e-4;
+
 /// Part of its typical size by which a parameter may differ from where the motion in time was found, and over which
 /// derivatives are taken. Beyond what is linear, that changes half a percent of what a typical size adds.
 const REACH: f64 = 0.2;
@@ -372,6 +376,7 @@ fn path_in_time(
     let mut robot = Transient::at_rest(model, first.t, Pose::default())
         .with_step(STEP)
         .with_tolerance(TOLERANCE)
+        .with_creep(CREEP)
         .with_twist(start)
         .with_pull();
     path.push(robot.moment());

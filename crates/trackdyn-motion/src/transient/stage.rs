@@ -1,6 +1,5 @@
 //! One stage of a step: the balance of forces at the end of a short time.
 
-use super::CREEP;
 use crate::newton::{self, Convergence, Evaluation, Tolerance};
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist, Wrench};
@@ -19,6 +18,8 @@ pub struct Stage<'a> {
     pub base: Twist,
     /// One over the time from there, 1/s; zero where there is no inertia.
     pub per_second: f64,
+    /// Slip velocity ε below which a track sticks, m/s.
+    pub creep: f64,
 }
 
 impl Stage<'_> {
@@ -44,9 +45,9 @@ impl Stage<'_> {
         // Stick in the direction in which the robot slid before; of a robot that did not, held back.
         let slid = follows.norm();
         let sticks = if slid > 0.0 {
-            follows * (CREEP / slid.max(CREEP))
+            follows * (self.creep / slid.max(self.creep))
         } else {
-            Vector3::new(0.0, -CREEP * left.signum(), 0.0)
+            Vector3::new(0.0, -self.creep * left.signum(), 0.0)
         };
         let right = Vector3::new(0.0, self.belt_speed.right - left, 0.0);
         let starts = [follows, stays, sticks, self.turning(), right + sticks];
@@ -90,7 +91,7 @@ impl Stage<'_> {
     pub fn traction(&self, motion: &Motion) -> PerSide<f64> {
         let balance = self.model.balance(self.ground, motion);
         PerSide::from_fn(|side| {
-            grip(motion.slip[side].speed) * balance.friction[side].force_y
+            grip(motion.slip[side].speed, self.creep) * balance.friction[side].force_y
                 / balance.normal_load[side]
         })
     }
@@ -99,27 +100,32 @@ impl Stage<'_> {
     #[inline]
     fn residual<S: Scalar>(&self, z: [S; 3]) -> [S; 3] {
         let motion = self.motion(z);
-        let sum = net_force(self.model, self.ground, &motion);
+        let sum = net_force(self.model, self.ground, &motion, self.creep);
         let force = self.model.vehicle().weight().recip();
         let moment = force / self.model.vehicle().gauge;
         [sum.force_x * force, sum.force_y * force, sum.moment * moment]
     }
 }
 
-/// The sum of all forces on the body, which is zero where they balance.
+/// The sum of all forces on the body, which is zero where they balance; tracks stick below the slip velocity `creep`, m/s.
 #[inline]
-pub fn net_force<S: Scalar>(model: &Model, ground: &Ground, motion: &Motion<S>) -> Wrench<S> {
+pub fn net_force<S: Scalar>(
+    model: &Model,
+    ground: &Ground,
+    motion: &Motion<S>,
+    creep: f64,
+) -> Wrench<S> {
     let balance = model.balance(ground, motion);
     let mut sum = balance.load;
     for side in Side::BOTH {
-        sum += balance.friction[side].scaled(grip(motion.slip[side].speed));
+        sum += balance.friction[side].scaled(grip(motion.slip[side].speed, creep));
     }
     sum
 }
 
 /// Share of its friction that a side with the root mean square slip σ (m/s) has.
 #[inline]
-fn grip<S: Scalar>(slip: S) -> S {
+fn grip<S: Scalar>(slip: S, creep: f64) -> S {
     // σ/√(σ² + ε²)
-    slip / (slip * slip + CREEP * CREEP).sqrt()
+    slip / (slip * slip + creep * creep).sqrt()
 }

@@ -1,0 +1,90 @@
+//! Laws of the shear stress change how a robot answers to acceleration.
+
+use nalgebra::Vector3;
+use trackdyn_core::{PerSide, Plant, Pose, Trajectory};
+use trackdyn_diagnose::Evidence;
+use trackdyn_diagnose::hypothesis::Hypothesis;
+use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
+use trackdyn_field::ScheduleKind;
+use trackdyn_field::sensors::Preset;
+use trackdyn_motion::Transient;
+use trackdyn_physics::{ActiveEffect, Model};
+use trackdyn_tests::concealed::{Drive, INERTIA, owned, runs, sensors};
+
+/// The departure by inertia is found without these laws, and what they change in it from the lag of the stationary motion: that is
+/// most of what a motion in time with them gives, which takes a hundred times as long.
+#[test]
+fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
+    let file = owned(&[]);
+    let schedule = runs(ScheduleKind::Manual, 2, 7);
+    let drive = Drive::new(&file.vehicle, &[], &schedule, 7).expect("it drives");
+    let recording = drive.recording(&sensors(Preset::Laboratory), 7);
+    let evidence = Evidence::of_recording(&recording, file.vehicle.gauge).expect("enough");
+    let predicted = |hypothesis: &Hypothesis| {
+        let mechanics = Mechanics::new(hypothesis, &evidence);
+        mechanics.predict(&Instruments::of(hypothesis), &evidence)
+    };
+    let plain = Hypothesis::filed(&file);
+    for law in [
+        "stribeck-friction:excess=0.35,speed_m_per_s=0.08",
+        "stribeck-friction:excess=0.35,speed_m_per_s=0.2",
+        "viscous-friction:growth_s_per_m=1.0",
+        "friction-creep:speed_m_per_s=0.05",
+    ] {
+        let law: ActiveEffect = law.parse().expect("an effect");
+        let [with, without] = [plain.with_effect(law.clone()), plain.clone()].map(|hypothesis| {
+            let still = predicted(&without_inertia(&hypothesis));
+            let exact = in_time(&hypothesis, &evidence);
+            [exact, predicted(&hypothesis)].map(|moving| minus(&moving, &still))
+        });
+        let [exact, found] = [0, 1].map(|k| minus(&with[k], &without[k]));
+        let (changed, off) = (rms(&exact), rms(&minus(&found, &exact)));
+        println!("{law} changes {changed:.2e} rad a segment, off by {off:.2e}");
+        assert!(off * off < 0.5 * changed * changed, "{law}: {off} of {changed}");
+    }
+}
+
+fn without_inertia(hypothesis: &Hypothesis) -> Hypothesis {
+    let effects = hypothesis.effects.iter().filter(|one| !INERTIA.contains(&one.card().id));
+    Hypothesis { effects: effects.cloned().collect(), ..hypothesis.clone() }
+}
+
+/// The motion in time of all that the hypothesis holds, over each sample.
+fn in_time(hypothesis: &Hypothesis, evidence: &Evidence) -> Vec<Vector3<f64>> {
+    let model = Model::new(hypothesis.vehicle.clone(), hypothesis.effects.clone());
+    let paths: Vec<Trajectory> = evidence
+        .tracks()
+        .iter()
+        .map(|run| {
+            let mut path = Trajectory::default();
+            let mut robot = Transient::at_rest(&model, run[0].t, Pose::default())
+                .with_step(0.03)
+                .with_tolerance(5e-3);
+            path.push(robot.moment());
+            for pair in run.windows(2) {
+                let speeds = PerSide::new(pair[0].v_left, pair[0].v_right);
+                robot.drive(speeds, pair[1].t, &mut path).expect("it moves");
+            }
+            path
+        })
+        .collect();
+    let samples = evidence.samples().iter();
+    samples
+        .map(|sample| {
+            let path = &paths[sample.run];
+            let moved =
+                path.pose_at(sample.start).relative(&path.pose_at(sample.start + sample.duration));
+            Vector3::new(moved.x, moved.y, moved.yaw)
+        })
+        .collect()
+}
+
+fn minus(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+/// Root mean square of the yaw, rad.
+fn rms(of: &[Vector3<f64>]) -> f64 {
+    let squares: f64 = of.iter().map(|value| value[2].powi(2)).sum();
+    (squares / trackdyn_core::real(of.len())).sqrt()
+}

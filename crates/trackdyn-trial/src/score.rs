@@ -11,6 +11,7 @@ pub mod means;
 mod metadata;
 mod power;
 pub mod rates;
+mod reach;
 pub mod resolution;
 mod tables;
 mod verdict;
@@ -19,6 +20,7 @@ pub use confusion::Confusion;
 pub use means::Mean;
 pub use power::PowerBin;
 pub use rates::Rate;
+pub use reach::Reach;
 pub use resolution::{Outcome, Revisited};
 pub use tables::{
     cases_csv, comparison, confusion_csv, distinct, markdown, power_csv, rates_csv,
@@ -41,6 +43,8 @@ pub struct Score {
     pub means: Vec<Mean>,
     /// What is found against what could be found.
     pub power: Vec<PowerBin>,
+    /// What rules could reach at best.
+    pub reach: Vec<Reach>,
     /// What was taken for what.
     pub confusion: Confusion,
 }
@@ -57,6 +61,7 @@ impl Score {
             coverage: coverage::coverage(&judged),
             means: means::means(&judged),
             power: power::power(&judged),
+            reach: reach::reach(&judged),
             confusion: Confusion::of(&judged),
             absent: absent.len(),
             judged,

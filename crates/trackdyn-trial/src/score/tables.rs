@@ -34,6 +34,7 @@ pub fn markdown(score: &Score) -> String {
             bin.cases
         );
     }
+    reach_table(&mut text, score);
     text.push_str("\n## What was taken for what\n\n");
     let columns = score.confusion.columns();
     let _ = writeln!(text, "| concealed | {} |", columns.join(" | "));
@@ -46,6 +47,21 @@ pub fn markdown(score: &Score) -> String {
         let _ = writeln!(text, "| {row} | {} |", cells.collect::<Vec<_>>().join(" | "));
     }
     text
+}
+
+/// What a rule would name alone that sees separations with an error of one standard deviation.
+fn reach_table(text: &mut String, score: &Score) {
+    if score.reach.is_empty() {
+        return;
+    }
+    text.push_str("\n## What a rule could reach\n\n");
+    text.push_str("Expected of a rule that sees how far an effect is from the next other one with an error of one standard\n");
+    text.push_str("deviation, as the best one does, and names it alone from t on.\n\n");
+    text.push_str("| t | isolable singles named | others named alone |\n|---|---|---|\n");
+    for reach in &score.reach {
+        let [isolable, others] = [reach.isolable, reach.others].map(|share| 100.0 * share);
+        let _ = writeln!(text, "| {:.1} | {isolable:.1} % | {others:.1} % |", reach.threshold);
+    }
 }
 
 /// The rates of several programs beside each other, as a page.

@@ -160,3 +160,17 @@ fn sets_that_move_constants_only_are_not_driven_for() {
     assert_eq!(resolution::open_sets(&of(SLOPE_OR_TETHER)), [["slope", "tether"]]);
     assert!(resolution::open_sets(&of(SLOPE)).is_empty());
 }
+
+#[test]
+fn a_rule_names_what_it_should_not_along_with_what_it_should() {
+    let single = |id: &str, z_iso| case(Stratum::Single, vec![concealed(id, 9.0, z_iso)], NOTHING);
+    let cases = vec![single("slope", 5.0), single("slope", 3.0), single("cog-shift", 50.0)];
+    let score = Score::of(cases);
+    let at_four = score.reach.iter().find(|reach| (reach.threshold - 4.0).abs() < 1e-9);
+    let reach = at_four.expect("a rule of four standard deviations");
+    // Φ(1), and of two others Φ(−1) and none
+    assert!((reach.isolable - 0.841_345).abs() < 1e-6, "{reach:?}");
+    assert!((reach.others - 0.158_655 / 2.0).abs() < 1e-6, "{reach:?}");
+    assert!(tables::markdown(&score).contains("| 4.0 | 84.1 % | 7.9 % |"));
+    assert!(Score::of(vec![single("slope", 5.0)]).reach.is_empty());
+}

@@ -98,22 +98,20 @@ impl Setting {
         self.card.map_or(NOTHING, |card| card.id)
     }
 
-    /// Key and value of the parameters, sizes at this part of the setting's.
+    /// Key and value of the parameters that the ground knows, sizes at this part of the setting's.
     fn values(&self, part: f64) -> Vec<(&'static str, f64)> {
         let Some(card) = self.card else { return Vec::new() };
         let sheet = MECHANISMS.iter().find(|sheet| sheet.id == card.id);
-        let parameters = card.parameters.iter().map(|parameter| {
+        let parameters = card.parameters.iter().filter_map(|parameter| {
+            let known = sheet?.parameters.iter().find(|other| other.key == parameter.key)?;
             let none = neutral(parameter);
             let value = match parameter.role {
                 Role::Size { .. } => none + part * self.size.factor() * (parameter.typical - none),
                 Role::Direction => parameter.typical + BETWEEN,
                 _ => parameter.typical,
             };
-            let ranges = sheet
-                .and_then(|sheet| sheet.parameters.iter().find(|other| other.key == parameter.key));
-            let [low, high] = ranges.map_or(parameter.range, |other| other.range);
-            let low = low.max(parameter.range[0]);
-            (parameter.key, value.clamp(low, high.min(parameter.range[1])))
+            let low = known.range[0].max(parameter.range[0]);
+            Some((parameter.key, value.clamp(low, known.range[1].min(parameter.range[1]))))
         });
         parameters.collect()
     }

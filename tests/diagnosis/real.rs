@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 use trackdyn_diagnose::diagnosis::Kind;
+use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
 use trackdyn_recording::recording::UncheckedRun;
@@ -29,9 +30,8 @@ fn changed(run: &Run, change: impl Fn(&mut UncheckedRun)) -> UncheckedRun {
     rows
 }
 
-/// What a diagnosis fitted as the sum of these parameters, claimed or not, and its standard deviation.
-fn fitted(diagnosis: &Diagnosis, parameters: &[(&str, &str)]) -> (f64, f64) {
-    let fit = &diagnosis.best.fit;
+/// What was fitted as the sum of these parameters, claimed or not, and its standard deviation.
+fn fitted(fit: &Fit, parameters: &[(&str, &str)]) -> (f64, f64) {
     let is_asked = |unknown: &Unknown| {
         let parts = unknown.card().zip(unknown.parameter());
         parts.is_some_and(|(card, parameter)| parameters.contains(&(card.id, parameter.key)))
@@ -64,9 +64,11 @@ fn poses_that_come_later_are_found() {
         run.poses.samples.iter_mut().for_each(|pose| pose.t += LATER);
     });
     let after = &diagnosed(&hidden, &vehicle("warthog")).expect("turns");
-    // Wheels that follow late and poses that come late are one answer in windows of two seconds.
+    // In windows of two seconds wheels that follow late, poses that come late and a body that is slow to turn look alike: which of them
+    // is named differs between both diagnoses. What is there beside constants and instruments does not.
     let late = [("time-offset", "delay_s"), ("drivetrain-lag", "time_constant_s")];
-    let [before, after] = [before, after].map(|diagnosis| fitted(diagnosis, &late));
+    println!("{:?}, then {:?}", said(before), said(after));
+    let [before, after] = [before, after].map(|diagnosis| fitted(&diagnosis.base.fit, &late));
     let (found, deviation) = (after.0 - before.0, after.1.hypot(before.1));
     println!("{found:.3} ± {deviation:.3} s later");
     assert!((found - LATER).abs() < 2.6 * deviation && deviation < LATER / 2.0, "{found}");
@@ -81,7 +83,7 @@ fn a_larger_wheel_on_one_side_is_found() {
         run.tracks.samples.iter_mut().for_each(|reading| reading.v_left *= THINKS);
     });
     let after = diagnosed(&hidden, &vehicle("warthog")).expect("turns");
-    let gain = |diagnosis: &Diagnosis| fitted(diagnosis, &[("encoder-scale", "left")]).0;
+    let gain = |diagnosis: &Diagnosis| fitted(&diagnosis.best.fit, &[("encoder-scale", "left")]).0;
     let found = gain(&after) / gain(before);
     println!("{found:.4} times: {:?}, then {:?}", said(before), said(&after));
     assert!((found * THINKS - 1.0).abs() < 0.005, "{found}");

@@ -1,8 +1,7 @@
 //! A diagnosis says no more than the evidence bears.
 
-mod answers;
-mod belts;
 mod images;
+mod inertia;
 mod intervals;
 mod measured;
 mod nulls;

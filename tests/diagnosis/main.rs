@@ -8,3 +8,4 @@ mod nulls;
 mod one_sided;
 mod real;
 mod twins;
+mod unknown;

@@ -9,7 +9,7 @@ use crate::fit::Fit;
 use crate::hypothesis::with_friction;
 use crate::isolability::Isolability;
 use crate::locate::cells::{Cell, cells};
-use crate::locate::{IcrColumns, Location, excess, locate};
+use crate::locate::{IcrColumns, Location, excess, locate, locate_in_waves};
 use crate::mechanics::Instruments;
 use crate::metric::Metric;
 use crate::noise::{sharper, with_remaining_noise};
@@ -246,11 +246,9 @@ fn attempt(
 ) -> Diagnosis {
     let Options { draws, seed, .. } = *options;
     let of_base = icr_columns(evidence, &base.fit);
-    let place = |fit: &Fit, icrs: &IcrColumns| {
-        locate(evidence, metric, &fit.residual, &fit.columns, icrs, draws, seed)
-    };
-    let filed = place(&base.as_filed, &icr_columns(evidence, &base.as_filed));
-    let located = place(&base.fit, &of_base);
+    let of_filed = icr_columns(evidence, &base.as_filed);
+    let filed = locate(evidence, metric, &base.as_filed, &of_filed, draws, seed);
+    let located = locate(evidence, metric, &base.fit, &of_base, draws, seed);
     progress(STAGES[1]);
 
     let tried = candidates(&base.instruments, evidence);
@@ -277,11 +275,11 @@ fn attempt(
     progress(STAGES[4]);
 
     let of_best = icr_columns(evidence, &best.fit);
-    let after = place(&best.fit, &of_best);
+    let after = locate_in_waves(evidence, metric, &best.fit, &of_best, draws, seed);
     let left_over = after.left_over(Rules::tolerated(evidence, &base, &best));
     let status = status(&left_over, &missing);
-    let broken: BTreeSet<Symmetry> = located.broken().into_iter().chain(filed.broken()).collect();
-    let broken: Vec<Symmetry> = broken.into_iter().collect();
+    let broken = [located.broken(), filed.broken(), left_over].concat();
+    let broken: Vec<Symmetry> = BTreeSet::from_iter(broken).into_iter().collect();
     let left = search.screen(&best);
     let isolability = Isolability::new(&search, &best, &screened);
     let resemblance = Isolability::new(&search, &search.nothing(), &screened);
@@ -291,7 +289,7 @@ fn attempt(
     let held_out = held_out(&search, &best, &of_best, &missing, options);
     let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]
         .map(|(fit, icrs)| cells(evidence, metric, &fit.residual, icrs));
-    let place = crate::place::sentence(evidence, metric, &base, &located, &broken);
+    let place = crate::place::sentence(evidence, metric, &base, [&located, &after], &broken);
     progress(STAGES[5]);
     Diagnosis {
         status,
@@ -487,7 +485,7 @@ fn held_out(
     let rms = |residual: &[Vector3<f64>]| excess(evidence, &metric, residual);
     let fit = &best.fit;
     let after = rms(&fit.residual);
-    let flexible = locate(evidence, &metric, &fit.residual, &fit.columns, icrs, 1, options.seed);
+    let flexible = locate(evidence, &metric, fit, icrs, 1, options.seed);
     let samples = evidence.samples().iter();
     let count = real(samples.filter(|sample| metric.runs[sample.run]).count().max(1));
     let noise_floor =

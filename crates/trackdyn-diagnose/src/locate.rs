@@ -8,16 +8,21 @@
 
 pub mod cells;
 mod contrasts;
+mod past;
+mod waves;
 
-pub use contrasts::{Manoeuvre, contrasts};
+pub use contrasts::{Contrasts, Manoeuvre, contrasts};
+pub use waves::Wave;
 
 use crate::evidence::Evidence;
+use crate::fit::Fit;
 use crate::metric::Metric;
 use crate::normal::Prior;
 use crate::significance::{Test, test};
 use nalgebra::Vector3;
 use trackdyn_core::real;
 use trackdyn_physics::effect::Symmetry;
+use waves::strongest_wave;
 
 /// Derivatives of a prediction by x_l, x_r and y, not whitened.
 pub type IcrColumns = [Vec<Vector3<f64>>; 3];
@@ -27,7 +32,7 @@ pub type IcrColumns = [Vec<Vector3<f64>>; 3];
 pub struct SymmetryTest {
     /// The symmetry.
     pub symmetry: Symmetry,
-    /// Its test, as part of the family of all symmetries.
+    /// The strongest test of its contrasts, as part of the family of all symmetries.
     pub test: Test,
 }
 
@@ -40,6 +45,8 @@ pub struct Location {
     pub channels: [f64; 3],
     /// The test of every symmetry that this evidence can test.
     pub tests: Vec<SymmetryTest>,
+    /// The strongest wave of the ground, where it breaks the symmetry of places more than anything plainer does.
+    pub wave: Option<Wave>,
     /// What the contrasts of all symmetries together explain, as χ² beyond their number.
     pub explicable: f64,
 }
@@ -68,45 +75,82 @@ impl Location {
     }
 }
 
-/// What the residual of a fit shows.
-///
-/// `residual` and `fitted` (the derivatives by all that was fitted) are whitened; `icrs` are the derivatives
-/// of the prediction by x_l, x_r and y, not whitened.
-pub fn locate(
+/// What the residual of a fit shows, in waves of the ground as well: these are the strictest test of places.
+pub fn locate_in_waves(
     evidence: &Evidence,
     metric: &Metric,
-    residual: &[Vector3<f64>],
-    fitted: &[Vec<Vector3<f64>>],
+    fit: &Fit,
     icrs: &IcrColumns,
     draws: usize,
     seed: u64,
 ) -> Location {
-    let contrasts = contrasts(evidence, icrs);
-    let mut columns = fitted.to_vec();
-    let mut groups: Vec<(Symmetry, Vec<usize>)> = Vec::new();
-    for (symmetry, column) in contrasts {
-        let index = columns.len();
-        columns.push(metric.white(evidence, column));
-        match groups.iter_mut().find(|(other, _)| *other == symmetry) {
-            Some((_, group)) => group.push(index),
-            None => groups.push((symmetry, vec![index])),
-        }
+    let mut location = locate(evidence, metric, fit, icrs, draws, seed);
+    let strongest = |beside: &[Vec<Vector3<f64>>]| {
+        let wave = strongest_wave(evidence, metric, &fit.residual, beside, icrs, (draws, seed));
+        wave.filter(|wave| wave.test.p < SIGNIFICANT)
+    };
+    // What plainer contrasts show is in some waves as well, and in the best of so many by chance.
+    let wave = strongest(&fit.columns).and_then(|_| {
+        let plainer = contrasts(evidence, icrs).into_iter().flat_map(|contrasts| contrasts.columns);
+        let plainer = plainer.map(|column| metric.white(evidence, column));
+        strongest(&fit.columns.iter().cloned().chain(plainer).collect::<Vec<_>>())
+    });
+    let place = location.tests.iter_mut().find(|test| test.symmetry == Symmetry::Place);
+    let stronger = wave.zip(place).filter(|(wave, place)| wave.test.is_stronger(&place.test));
+    if let Some((wave, place)) = stronger {
+        place.test = wave.test;
+        location.wave = Some(wave);
+    }
+    location
+}
+
+/// What the residual of a fit shows.
+///
+/// `icrs` are the derivatives of the prediction by x_l, x_r and y, not whitened.
+pub fn locate(
+    evidence: &Evidence,
+    metric: &Metric,
+    fit: &Fit,
+    icrs: &IcrColumns,
+    draws: usize,
+    seed: u64,
+) -> Location {
+    let Fit { residual, columns: fitted, .. } = fit;
+    let mut columns = fitted.clone();
+    let mut groups: Vec<(Contrasts, Vec<usize>)> = Vec::new();
+    for mut contrasts in contrasts(evidence, icrs) {
+        let first = columns.len();
+        let of = std::mem::take(&mut contrasts.columns).into_iter();
+        columns.extend(of.map(|column| metric.white(evidence, column)));
+        groups.push((contrasts, (first..columns.len()).collect()));
     }
     let normal = metric.normal(evidence, residual, &columns);
     let base: Vec<usize> = (0..fitted.len()).collect();
     let flat = vec![Prior { mean: 0.0, deviation: 1e9 }; columns.len()];
-    let projected = normal.projected(&base, &flat);
+    let mut projected = normal.projected(&base, &flat);
+    for (contrasts, own) in &groups {
+        let is_plain = |(other, _): &&(Contrasts, Vec<usize>)| {
+            other.beside.is_empty() && contrasts.beside.contains(&other.symmetry)
+        };
+        let beside = groups.iter().filter(is_plain).flat_map(|(_, columns)| columns.clone());
+        projected = projected.cleared(own, &beside.collect::<Vec<_>>());
+    }
     let indices: Vec<Vec<usize>> = groups.iter().map(|(_, group)| group.clone()).collect();
     let tests = test(&projected, &indices, draws, seed);
     let all = test(&projected, &[indices.concat()], 1, seed);
+    let mut strongest: Vec<SymmetryTest> = Vec::new();
+    for ((Contrasts { symmetry, .. }, _), test) in groups.into_iter().zip(tests) {
+        match strongest.iter_mut().find(|other| other.symmetry == symmetry) {
+            Some(other) if test.is_stronger(&other.test) => other.test = test,
+            Some(_) => {}
+            None => strongest.push(SymmetryTest { symmetry, test }),
+        }
+    }
     Location {
         excess_over_noise: excess(evidence, metric, residual),
         channels: shares(evidence, metric, residual),
-        tests: groups
-            .iter()
-            .zip(tests)
-            .map(|((symmetry, _), test)| SymmetryTest { symmetry: *symmetry, test })
-            .collect(),
+        tests: strongest,
+        wave: None,
         explicable: all.first().map_or(0.0, |all| all.statistic - real(all.degrees)),
     }
 }

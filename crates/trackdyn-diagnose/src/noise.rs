@@ -151,9 +151,9 @@ fn remaining(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Vec<Vector3<f64
         evidence,
         metric,
     );
-    let icrs = icr_columns(evidence, fit);
-    let contrasts = contrasts(evidence, &icrs);
-    columns.extend(contrasts.into_iter().map(|(_, column)| metric.white(evidence, column)));
+    let contrasts = contrasts(evidence, &icr_columns(evidence, fit));
+    let contrasts = contrasts.into_iter().flat_map(|contrasts| contrasts.columns);
+    columns.extend(contrasts.map(|column| metric.white(evidence, column)));
     let normal = metric.normal(evidence, &residual, &columns);
     let all: Vec<usize> = (0..columns.len()).collect();
     let flat = vec![Prior { mean: 0.0, deviation: 1e6 }; columns.len()];

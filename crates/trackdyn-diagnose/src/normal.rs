@@ -183,18 +183,25 @@ impl Normal {
     /// Removes from columns and residual what `base` columns explain (with their priors), block by block
     /// with the factors of the whole.
     pub fn projected(&self, base: &[usize], priors: &[Prior]) -> Self {
+        let precisions: Vec<f64> = base.iter().map(|&i| priors[i].deviation.powi(-2)).collect();
+        let others: Vec<usize> = (0..=self.columns()).filter(|j| !base.contains(j)).collect();
+        self.without_what(base, &precisions, &others)
+    }
+
+    /// Removes from these columns, and not from the residual, what `others` explain.
+    pub fn cleared(&self, columns: &[usize], others: &[usize]) -> Self {
+        self.without_what(others, &vec![0.0; others.len()], columns)
+    }
+
+    fn without_what(&self, base: &[usize], precisions: &[f64], of: &[usize]) -> Self {
         let size = self.total.nrows();
         let count = base.len();
         let mut matrix = DMatrix::zeros(count, count);
-        let mut right = DMatrix::zeros(count, size);
         for (a, &i) in base.iter().enumerate() {
             for (b, &j) in base.iter().enumerate() {
                 matrix[(a, b)] = self.total[(i, j)];
             }
-            matrix[(a, a)] += priors[i].deviation.powi(-2);
-            for j in 0..size {
-                right[(a, j)] = self.total[(i, j)];
-            }
+            matrix[(a, a)] += precisions[a];
         }
         let scale = DVector::from_fn(count, |k, _| 1.0 / matrix[(k, k)].sqrt());
         let mut scaled =
@@ -204,15 +211,14 @@ impl Normal {
             scaled[(k, k)] += RIDGE;
         }
         let Some(cholesky) = scaled.cholesky() else { return self.clone() };
-        let right = DMatrix::from_fn(count, size, |a, j| right[(a, j)] * scale[a]);
+        let right =
+            DMatrix::from_fn(count, of.len(), |a, j| self.total[(base[a], of[j])] * scale[a]);
         let solved = cholesky.solve(&right);
         // T = 1 − P with P the factors of the base columns in every other column
         let mut transform = DMatrix::identity(size, size);
         for (a, &i) in base.iter().enumerate() {
-            for j in 0..size {
-                if !base.contains(&j) {
-                    transform[(i, j)] -= solved[(a, j)] * scale[a];
-                }
+            for (b, &j) in of.iter().enumerate() {
+                transform[(i, j)] -= solved[(a, b)] * scale[a];
             }
         }
         let blocks: Vec<DMatrix<f64>> =

@@ -2,7 +2,7 @@
 
 use crate::base::Base;
 use crate::evidence::{Evidence, Sample};
-use crate::locate::{Location, Manoeuvre};
+use crate::locate::{Location, Manoeuvre, Wave};
 use crate::metric::Metric;
 use trackdyn_core::real;
 use trackdyn_physics::effect::Symmetry;
@@ -11,8 +11,8 @@ use trackdyn_physics::effect::Symmetry;
 pub const CHANNELS: [&str; 3] = ["longitudinal", "lateral", "yaw"];
 
 /// What a broken symmetry says, in words.
-pub fn words(symmetry: Symmetry) -> &'static str {
-    match symmetry {
+pub fn words(symmetry: Symmetry, location: &Location) -> String {
+    let words = match symmetry {
         Symmetry::SpeedScale => "the ICRs move with speed",
         Symmetry::Reversal => "the ICRs differ between one direction and the reverse",
         Symmetry::Manoeuvre => "the ICRs differ between arcs, counter-rotation and spins",
@@ -24,15 +24,22 @@ pub fn words(symmetry: Symmetry) -> &'static str {
         Symmetry::Straight => {
             "straight driving is not straight, or not as fast as the encoders say"
         }
+    };
+    match location.wave.filter(|_| symmetry == Symmetry::Place) {
+        Some(Wave { length, direction, .. }) => {
+            let direction = direction.to_degrees();
+            format!("{words}, in waves {length:.2} m long that run at {direction:.0} deg")
+        }
+        None => words.to_owned(),
     }
 }
 
-/// The sentence of a diagnosis.
+/// The sentence of a diagnosis, from what was located before and after it.
 pub fn sentence(
     evidence: &Evidence,
     metric: &Metric,
     base: &Base,
-    located: &Location,
+    [located, after]: [&Location; 2],
     broken: &[Symmetry],
 ) -> String {
     if broken.is_empty() {
@@ -48,7 +55,7 @@ pub fn sentence(
     if let Some((manoeuvre, speed)) = worst(evidence, metric, base) {
         parts.push(format!("it is largest in {} at {speed:.2} m/s", manoeuvre.name()));
     }
-    let symmetries: Vec<&str> = broken.iter().map(|symmetry| words(*symmetry)).collect();
+    let symmetries: Vec<String> = broken.iter().map(|symmetry| words(*symmetry, after)).collect();
     parts.push(symmetries.join(", "));
     parts.join("; ")
 }

@@ -40,21 +40,34 @@ pub struct Test {
     pub p: f64,
 }
 
+impl Test {
+    /// Whether it is further from chance than another one.
+    pub fn is_stronger(&self, other: &Self) -> bool {
+        let beyond = |test: &Self| test.statistic - real(test.degrees);
+        self.p < other.p || (self.p == other.p && beyond(self) > beyond(other))
+    }
+}
+
 /// Largest part of its own length at which a column counts as explained by others.
 const DEPENDENT: f64 = 1e-9;
 
 /// Tests groups of columns of which the base was projected out, all as one family.
 pub fn test(projected: &Normal, groups: &[Vec<usize>], draws: usize, seed: u64) -> Vec<Test> {
     let groups: Vec<Group> = groups.iter().map(|columns| Group::new(projected, columns)).collect();
+    test_family(&groups, draws, seed)
+}
+
+/// Tests groups as one family.
+pub fn test_family(groups: &[Group], draws: usize, seed: u64) -> Vec<Test> {
+    let blocks = groups.iter().map(|group| group.remainders.ncols()).max().unwrap_or_default();
     let observed: Vec<f64> = groups.iter().map(Group::observed).collect();
     let largest: Vec<f64> = (0..draws)
         .into_par_iter()
         .map(|draw| {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
             random.set_stream(draw as u64);
-            let signs: Vec<f64> = (0..projected.blocks())
-                .map(|_| if random.random::<bool>() { 1.0 } else { -1.0 })
-                .collect();
+            let signs =
+                DVector::from_fn(blocks, |_, _| if random.random::<bool>() { 1.0 } else { -1.0 });
             let statistics = groups.iter().map(|group| group.normal_score(group.statistic(&signs)));
             statistics.fold(f64::NEG_INFINITY, f64::max)
         })
@@ -72,12 +85,12 @@ pub fn test(projected: &Normal, groups: &[Vec<usize>], draws: usize, seed: u64) 
         .collect()
 }
 
-/// Scores of a group, in axes in which they are independent and of unit size.
-struct Group {
+/// Scores of a group of columns, in axes in which they are independent and of unit size.
+pub struct Group {
     /// Sum over the blocks.
     score: DVector<f64>,
-    /// What each block's score leaves beside it.
-    remainders: Vec<DVector<f64>>,
+    /// What each block's score leaves beside it, a column per block.
+    remainders: DMatrix<f64>,
     /// c ≥ 1.
     dispersion: f64,
     degrees: usize,
@@ -87,43 +100,50 @@ struct Group {
 const KNOWN_BEFORE: f64 = 0.1;
 
 impl Group {
-    fn new(projected: &Normal, columns: &[usize]) -> Self {
-        let information = projected.information(columns);
-        let length: Vec<f64> = (0..columns.len()).map(|k| information[(k, k)].sqrt()).collect();
-        let scaled = DMatrix::from_fn(columns.len(), columns.len(), |a, b| {
+    /// Columns of which the base was projected out.
+    pub fn new(projected: &Normal, columns: &[usize]) -> Self {
+        let last = projected.columns();
+        let blocks = (0..projected.blocks()).map(|block| {
+            let products = projected.block(block);
+            let score = DVector::from_fn(columns.len(), |c, _| products[(columns[c], last)]);
+            let information = DMatrix::from_fn(columns.len(), columns.len(), |a, b| {
+                products[(columns[a], columns[b])]
+            });
+            (score, information)
+        });
+        Self::of(&blocks.collect::<Vec<_>>())
+    }
+
+    /// Of each block, the products of the columns with the residual, and among each other.
+    pub fn of(blocks: &[(DVector<f64>, DMatrix<f64>)]) -> Self {
+        let count = blocks.first().map_or(0, |(score, _)| score.len());
+        let information =
+            blocks.iter().fold(DMatrix::zeros(count, count), |sum, (_, one)| sum + one);
+        let length: Vec<f64> = (0..count).map(|k| information[(k, k)].sqrt()).collect();
+        let scaled = DMatrix::from_fn(count, count, |a, b| {
             let product = length[a] * length[b];
             if product > 0.0 { information[(a, b)] / product } else { 0.0 }
         });
         let eigen = scaled.symmetric_eigen();
         let largest = eigen.eigenvalues.max();
-        let kept: Vec<usize> = (0..columns.len())
+        let kept: Vec<usize> = (0..count)
             .filter(|&k| eigen.eigenvalues[k] > 1e-6 * largest && largest > DEPENDENT)
             .collect();
         // Axes of unit size, as combinations of the columns.
-        let axes = DMatrix::from_fn(columns.len(), kept.len(), |c, k| {
+        let axes = DMatrix::from_fn(count, kept.len(), |c, k| {
             let scale = length[c].max(f64::MIN_POSITIVE) * eigen.eigenvalues[kept[k]].sqrt();
             eigen.eigenvectors[(c, kept[k])] / scale
         });
-        let last = projected.columns();
-        let score_of = |block: usize| {
-            let products = projected.block(block);
-            axes.tr_mul(&DVector::from_fn(columns.len(), |c, _| products[(columns[c], last)]))
-        };
-        let scores: Vec<DVector<f64>> = (0..projected.blocks()).map(score_of).collect();
+        let scores: Vec<DVector<f64>> =
+            blocks.iter().map(|(score, _)| axes.tr_mul(score)).collect();
         let score = scores.iter().fold(DVector::zeros(kept.len()), |sum, score| sum + score);
-        let remainders: Vec<DVector<f64>> = scores
-            .iter()
-            .enumerate()
-            .map(|(block, own)| {
-                let products = projected.block(block);
-                let information = DMatrix::from_fn(columns.len(), columns.len(), |a, b| {
-                    products[(columns[a], columns[b])]
-                });
-                left_beside(own, &(axes.tr_mul(&information) * &axes), &score)
-            })
-            .collect();
+        let mut remainders = DMatrix::zeros(kept.len(), blocks.len());
+        for (block, (own, (_, information))) in scores.iter().zip(blocks).enumerate() {
+            let left = left_beside(own, &(axes.tr_mul(information) * &axes), &score);
+            remainders.set_column(block, &left);
+        }
         // c = Σ |ũ_b|²/k
-        let squares: f64 = remainders.iter().map(DVector::norm_squared).sum();
+        let squares = remainders.norm_squared();
         let dispersion = (squares / real(kept.len().max(1))).max(1.0);
         Self { score, remainders, dispersion, degrees: kept.len() }
     }
@@ -132,12 +152,8 @@ impl Group {
         self.score.norm_squared()
     }
 
-    fn statistic(&self, signs: &[f64]) -> f64 {
-        let mut sum = DVector::zeros(self.degrees);
-        for (remainder, sign) in self.remainders.iter().zip(signs) {
-            sum.axpy(*sign, remainder, 1.0);
-        }
-        sum.norm_squared()
+    fn statistic(&self, signs: &DVector<f64>) -> f64 {
+        (&self.remainders * signs).norm_squared()
     }
 
     /// A χ² of this dispersion as nearly a standard normal number, whatever its degrees of freedom.
@@ -160,16 +176,11 @@ fn left_beside(
     information: &DMatrix<f64>,
     whole: &DVector<f64>,
 ) -> DVector<f64> {
-    if own.is_empty() {
-        return own.clone();
-    }
-    let eigen = information.clone().symmetric_eigen();
-    let by_others = eigen.eigenvectors.tr_mul(&(whole - own));
-    let share = eigen.eigenvalues.map(|known| {
-        let known = known.clamp(0.0, 1.0);
-        known / (1.0 - known + KNOWN_BEFORE)
-    });
-    own - eigen.eigenvectors * by_others.component_mul(&share)
+    let count = own.len();
+    let known = DMatrix::from_diagonal_element(count, count, 1.0 + KNOWN_BEFORE) - information;
+    // positive definite: no block knows more than all of them
+    let size = known.cholesky().map(|known| known.solve(&(whole - own)));
+    size.map_or_else(|| own.clone(), |size| own - information * size)
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! V_l + V_r and d that of V_r − V_l: c is odd under R, d under R and M, c d under M. Of the ICRs, the
 //! middle a = (x_l + x_r)/2 is odd under M, half their distance h and y are even.
 
-use super::IcrColumns;
+use super::{IcrColumns, past};
 use crate::evidence::{Evidence, Sample};
 use nalgebra::Vector3;
 use trackdyn_core::{PerSide, Side};
@@ -57,22 +57,41 @@ impl Manoeuvre {
     }
 }
 
-/// Columns that break a symmetry, not whitened; none of what the evidence has no spread in.
-///
-/// `icrs` are the derivatives of the prediction by x_l, x_r and y.
-pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<Vector3<f64>>)> {
-    let samples = evidence.samples();
-    let [left, right, y] = icrs;
+/// Departures that break one symmetry in one way.
+#[derive(Clone, Debug)]
+pub struct Contrasts {
+    /// The symmetry.
+    pub symmetry: Symmetry,
+    /// Symmetries whose plain contrasts, those beside nothing, do not count as departures of this kind.
+    pub beside: &'static [Symmetry],
+    /// The departures, not whitened.
+    pub columns: Vec<Vec<Vector3<f64>>>,
+}
+
+/// Derivatives of the prediction by a = (x_l + x_r)/2, h = (x_r − x_l)/2 and y, each ICR as far as it moves.
+pub fn middle_half_y([left, right, y]: &IcrColumns) -> [Vec<Vector3<f64>>; 3] {
     let combine = |sign: f64| -> Vec<Vector3<f64>> {
         left.iter().zip(right).map(|(left, right)| right + left * sign).collect()
     };
-    let (middle, half) = (combine(1.0), combine(-1.0));
-    let mut all = Vec::new();
+    [combine(1.0), combine(-1.0), y.clone()]
+}
+
+/// Columns that break a symmetry, not whitened; none of what the evidence has no spread in.
+///
+/// `icrs` are the derivatives of the prediction by x_l, x_r and y.
+pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Contrasts> {
+    let samples = evidence.samples();
+    let [middle, half, y] = &middle_half_y(icrs);
+    let mut all: Vec<Contrasts> = Vec::new();
     let mut add_each = |symmetry: Symmetry, of: &[Vector3<f64>], by: &dyn Fn(usize) -> f64| {
         let column: Vec<Vector3<f64>> =
             of.iter().enumerate().map(|(index, value)| value * by(index)).collect();
-        if column.iter().any(|value| value.norm() > 0.0) {
-            all.push((symmetry, column));
+        if column.iter().all(|value| value.norm() == 0.0) {
+            return;
+        }
+        match all.iter_mut().find(|one| one.symmetry == symmetry) {
+            Some(contrasts) => contrasts.columns.push(column),
+            None => all.push(Contrasts { symmetry, beside: &[], columns: vec![column] }),
         }
     };
     let mut add = |symmetry: Symmetry, of: &[Vector3<f64>], by: &dyn Fn(&Sample) -> f64| {
@@ -87,7 +106,7 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<V
         if Manoeuvre::of(sample) == manoeuvre { 1.0 } else { 0.0 }
     };
 
-    for of in [&middle, &half, y] {
+    for of in [middle, half, y] {
         add(Symmetry::SpeedScale, of, &|s| speed(s) - 0.5);
         add(Symmetry::SpeedScale, of, &|s| (speed(s) - 0.5).powi(2));
         add(Symmetry::Reversal, of, &direction);
@@ -95,11 +114,11 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<V
         add(Symmetry::Manoeuvre, of, &|s| is(s, Manoeuvre::Arc));
         add(Symmetry::Manoeuvre, of, &|s| is(s, Manoeuvre::CounterRotation));
     }
-    for of in [&half, y] {
+    for of in [half, y] {
         add(Symmetry::Mirror, of, &|s| direction(s) * turn(s));
         add(Symmetry::Mirror, of, &turn);
     }
-    add(Symmetry::Mirror, &middle, &direction);
+    add(Symmetry::Mirror, middle, &direction);
     let straight = |s: &Sample| is(s, Manoeuvre::Straight) * s.duration;
     for channel in 0..3 {
         let unit =
@@ -113,7 +132,7 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<V
         return all;
     }
 
-    for of in [&middle, &half, y] {
+    for of in [middle, half, y] {
         for by in [f64::cos, f64::sin] {
             add(Symmetry::Heading, of, &|s| by(s.pose.yaw));
             add(Symmetry::Heading, of, &|s| by(s.pose.yaw) * turn(s));
@@ -122,7 +141,7 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<V
     }
     let (x_at, y_at) =
         (scaled(samples, |s: &Sample| s.pose.x), scaled(samples, |s: &Sample| s.pose.y));
-    for of in [&middle, &half, y] {
+    for of in [middle, half, y] {
         add(Symmetry::Place, of, &x_at);
         add(Symmetry::Place, of, &y_at);
         add(Symmetry::Place, of, &|s| x_at(s) * y_at(s));
@@ -130,7 +149,7 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<V
         add(Symmetry::Place, of, &|s| y_at(s).powi(2) - 0.3);
     }
     let time = scaled(samples, |s: &Sample| s.start);
-    for of in [&middle, &half, y] {
+    for of in [middle, half, y] {
         add(Symmetry::Time, of, &time);
         add(Symmetry::Time, of, &|s| time(s).powi(2) - 0.3);
     }
@@ -146,7 +165,7 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<V
     let hurry = |s: &Sample| {
         (s.acceleration.left.abs() + s.acceleration.right.abs()) * s.duration / fastest
     };
-    for of in [&middle, &half, y] {
+    for of in [middle, half, y] {
         add(Symmetry::Transient, of, &hurry);
     }
     // What a track does where it turns round: play in its drive, or soil that yields the other way.
@@ -155,6 +174,7 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<(Symmetry, Vec<V
     for channel in [1, 2] {
         add_each(Symmetry::Transient, &along(channel), &|k| turned[k].right - turned[k].left);
     }
+    all.extend(past::contrasts(evidence, [middle, half, y]));
     all
 }
 
@@ -200,29 +220,35 @@ fn scaled(samples: &[Sample], of: impl Fn(&Sample) -> f64) -> impl Fn(&Sample) -
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::evidence::planned::{PlannedRun, READINGS};
     use trackdyn_core::Pose;
     use trackdyn_identify::weighting::SegmentNoise;
     use trackdyn_recording::TrackSample;
 
-    #[test]
-    fn a_track_turns_round_where_it_goes_the_other_way_after_whatever_rest() {
-        // forward, rest, backward, noise of a standing encoder, forward; the other track runs on
-        let left = [0.5, 0.5, 0.0, -0.4, -0.001, 0.001, 0.6, 0.6];
+    /// Two runs through the same speeds of the left track, one per sample, the right one at 0.3 m/s.
+    pub(in crate::locate) fn two_runs(left: &[f64]) -> Evidence {
+        let last = left.last().copied().expect("a speed");
         let speeds = left.iter().flat_map(|speed| std::iter::repeat_n(*speed, READINGS));
         let reading = |(k, speed): (u32, f64)| TrackSample {
             t: 0.03 * f64::from(k),
             v_left: speed,
             v_right: 0.3,
         };
-        let tracks: Vec<TrackSample> = (0..).zip(speeds.chain([0.6])).map(reading).collect();
+        let tracks: Vec<TrackSample> = (0..).zip(speeds.chain([last])).map(reading).collect();
         let run = || PlannedRun { pose: Pose::default(), tracks: tracks.clone(), blocks: vec![0] };
         let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3] };
-        let evidence = Evidence::planned(&[run(), run()], noise, 0.0, |evidence| {
+        Evidence::planned(&[run(), run()], noise, 0.0, |evidence| {
             vec![Vector3::zeros(); evidence.samples().len()]
-        });
+        })
+    }
+
+    #[test]
+    fn a_track_turns_round_where_it_goes_the_other_way_after_whatever_rest() {
+        // forward, rest, backward, noise of a standing encoder, forward; the other track runs on
+        let left = [0.5, 0.5, 0.0, -0.4, -0.001, 0.001, 0.6, 0.6];
+        let evidence = two_runs(&left);
         let once = [0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0.0];
         let found = turned(&evidence);
         // a run knows nothing of the one before

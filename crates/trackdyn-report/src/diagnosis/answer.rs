@@ -61,10 +61,17 @@ pub(super) fn parts(subject: &Subject) -> Vec<[String; 2]> {
 
 /// What the claims do not explain.
 fn left(subject: &Subject) -> String {
-    let broken = subject.diagnosis.after.broken();
-    let names: Vec<&str> = broken.into_iter().map(|one| symmetry(one)[0]).collect();
+    let after = &subject.diagnosis.after;
+    let names: Vec<&str> = after.broken().into_iter().map(|one| symmetry(one)[0]).collect();
+    let wave = after.wave.map_or(String::new(), |wave| {
+        format!(
+            " The ground is wavy: the ICRs come and go every {} m in the direction of {} degrees.",
+            number(wave.length, 2),
+            number(wave.direction.to_degrees(), 0)
+        )
+    });
     format!(
-        "That is part of it, not all: what is left still breaks symmetries of driving ({}).",
+        "That is part of it, not all: what is left still breaks symmetries of driving ({}).{wave}",
         names.join(", ")
     )
 }

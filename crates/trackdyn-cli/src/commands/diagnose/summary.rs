@@ -56,7 +56,7 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
                 let test = &one.test;
                 format!(
                     "{} (chi2 {:.0} of {} columns, p = {:.4})",
-                    words(one.symmetry),
+                    words(one.symmetry, &diagnosis.after),
                     test.statistic,
                     test.degrees,
                     test.p

@@ -1,0 +1,191 @@
+//! Departures that come and go with the place: waves of the ground.
+//!
+//! # Law
+//! Whatever the ground does that depends on the place alone is a sum of waves. To first order a field φ of its friction moves
+//! the distance of the ICRs by its level, and their middle and y by its slope across and along the body:
+//!
+//! δh ∝ φ,  δa ∝ ∂φ/∂left,  δy ∝ ∂φ/∂forward,  φ = A cos k·p + B sin k·p
+//!
+//! so that a wave k has six departures. Waves are as many as the area that was driven on resolves, the longest first.
+
+use super::IcrColumns;
+use super::contrasts::middle_half_y;
+use crate::evidence::{Evidence, Sample};
+use crate::metric::Metric;
+use crate::significance::{Group, Test, test_family};
+use nalgebra::{DMatrix, DVector, Vector2, Vector3};
+use rayon::prelude::*;
+use std::f64::consts::{PI, TAU};
+use std::ops::Range;
+use trackdyn_core::real;
+
+/// A wave of the ground, and its test as part of the family of all waves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wave {
+    /// Its length, m.
+    pub length: f64,
+    /// Direction across its crests in the frame of the poses, rad, from −π/2 to π/2.
+    pub direction: f64,
+    /// Its test.
+    pub test: Test,
+}
+
+/// Shortest wave that is looked for, m: the contact of a robot averages over less.
+const SHORTEST: f64 = 0.5;
+
+/// Waves that are looked for at most.
+const MOST: usize = 1500;
+
+/// Wave numbers per length of the area: half-way between two of them a wave keeps three quarters of its size.
+const FINENESS: f64 = 1.3;
+
+/// The strongest wave in a residual beside what else may explain it; none in tables of steady motions.
+///
+/// `residual` and the columns `beside` are whitened, `icrs` are not.
+pub fn strongest_wave(
+    evidence: &Evidence,
+    metric: &Metric,
+    residual: &[Vector3<f64>],
+    beside: &[Vec<Vector3<f64>>],
+    icrs: &IcrColumns,
+    (draws, seed): (usize, u64),
+) -> Option<Wave> {
+    if evidence.is_steady() {
+        return None;
+    }
+    let numbers = numbers(evidence);
+    let weighted = Weighted::new(evidence, metric, residual, beside);
+    let departures = middle_half_y(icrs);
+    let groups: Vec<Group> = numbers
+        .par_iter()
+        .map(|number| {
+            let columns = columns(evidence, &departures, *number);
+            weighted.group(&columns.map(|column| metric.white(evidence, column)))
+        })
+        .collect();
+    let tests = test_family(&groups, draws, seed);
+    let waves = numbers.into_iter().zip(tests).map(|(number, test)| Wave {
+        length: TAU / number.norm(),
+        direction: (number.y / number.x).atan(),
+        test,
+    });
+    waves.reduce(|best, wave| if wave.test.is_stronger(&best.test) { wave } else { best })
+}
+
+/// Wave numbers k, rad/m, of one direction each, the longest waves first.
+fn numbers(evidence: &Evidence) -> Vec<Vector2<f64>> {
+    let extent = |of: &dyn Fn(&Sample) -> f64| {
+        let values = evidence.samples().iter().map(of);
+        let (low, high) = values.fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(v), b.max(v)));
+        (high - low).max(2.0 * SHORTEST)
+    };
+    let step = Vector2::new(extent(&|s| s.pose.x), extent(&|s| s.pose.y))
+        .map(|extent| TAU / (FINENESS * extent));
+    // half of an ellipse has as many: π/2 K²/(Δk_x Δk_y)
+    let largest = (2.0 * real(MOST) * step.x * step.y / PI).sqrt();
+    let largest = largest.min(TAU / SHORTEST);
+    let multiples =
+        |step: f64| (0..).map(move |k: u32| step * f64::from(k)).take_while(move |k| *k <= largest);
+    // k and −k are one wave
+    let other = |[x, y]: [f64; 2]| (x > 0.0 && y > 0.0).then_some([x, -y]);
+    let mut numbers: Vec<Vector2<f64>> = multiples(step.x)
+        .flat_map(|x| multiples(step.y).map(move |y| [x, y]))
+        .flat_map(|number| std::iter::once(number).chain(other(number)))
+        .map(Vector2::from)
+        .filter(|number| number.norm() > 0.0 && number.norm() <= largest)
+        .collect();
+    numbers.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+    numbers
+}
+
+/// The departures of a wave, not whitened.
+fn columns(
+    evidence: &Evidence,
+    [middle, half, y]: &[Vec<Vector3<f64>>; 3],
+    number: Vector2<f64>,
+) -> [Vec<Vector3<f64>>; 6] {
+    let mut columns = std::array::from_fn(|_| Vec::with_capacity(half.len()));
+    let across_crests = number.normalize();
+    for (k, sample) in evidence.samples().iter().enumerate() {
+        let pose = &sample.pose;
+        let (phase_sin, phase_cos) = (number.x * pose.x + number.y * pose.y).sin_cos();
+        let (sin, cos) = pose.yaw.sin_cos();
+        let left = across_crests.y * cos - across_crests.x * sin;
+        let forward = across_crests.x * cos + across_crests.y * sin;
+        let by = [half[k], middle[k] * left, y[k] * forward];
+        for (place, departure) in by.into_iter().enumerate() {
+            columns[2 * place].push(departure * phase_cos);
+            columns[2 * place + 1].push(departure * phase_sin);
+        }
+    }
+    columns
+}
+
+/// A residual from which what may explain it is projected out, with the weights of the samples.
+struct Weighted {
+    roots: Vec<f64>,
+    blocks: Vec<Range<usize>>,
+    /// Orthonormal columns of what may explain it.
+    beside: DMatrix<f64>,
+    residual: DVector<f64>,
+}
+
+impl Weighted {
+    fn new(
+        evidence: &Evidence,
+        metric: &Metric,
+        residual: &[Vector3<f64>],
+        beside: &[Vec<Vector3<f64>>],
+    ) -> Self {
+        let weights = metric.weights(evidence, residual);
+        let roots: Vec<f64> = weights.into_iter().map(f64::sqrt).collect();
+        let flat = |column: &[Vector3<f64>]| {
+            let values = column.iter().zip(&roots).flat_map(|(value, root)| {
+                let value = value * *root;
+                [value.x, value.y, value.z]
+            });
+            DVector::from_iterator(3 * column.len(), values)
+        };
+        let mut basis: Vec<DVector<f64>> = Vec::new();
+        for column in beside {
+            let mut column = flat(column);
+            let length = column.norm();
+            // twice is enough for orthogonality to rounding
+            for _ in 0..2 {
+                for one in &basis {
+                    column.axpy(-one.dot(&column), one, 1.0);
+                }
+            }
+            if column.norm() > 1e-6 * length {
+                basis.push(column.normalize());
+            }
+        }
+        let mut residual = flat(residual);
+        for one in &basis {
+            residual.axpy(-one.dot(&residual), one, 1.0);
+        }
+        let beside = DMatrix::from_columns(&basis);
+        let mut blocks = vec![Range { start: usize::MAX, end: 0 }; evidence.blocks()];
+        for (k, sample) in evidence.samples().iter().enumerate() {
+            let block: &mut Range<usize> = &mut blocks[sample.block];
+            *block = block.start.min(3 * k)..3 * k + 3;
+        }
+        Self { roots, blocks, beside, residual }
+    }
+
+    fn group(&self, columns: &[Vec<Vector3<f64>>; 6]) -> Group {
+        let mut matrix = DMatrix::zeros(self.residual.len(), columns.len());
+        for (c, column) in columns.iter().enumerate() {
+            for (k, (value, root)) in column.iter().zip(&self.roots).enumerate() {
+                matrix.fixed_view_mut::<3, 1>(3 * k, c).copy_from(&(value * *root));
+            }
+        }
+        matrix -= &self.beside * self.beside.tr_mul(&matrix);
+        let blocks = self.blocks.iter().map(|rows| {
+            let (first, count) = (rows.start.min(rows.end), rows.len());
+            let of = matrix.rows(first, count);
+            (of.tr_mul(&self.residual.rows(first, count)), of.tr_mul(&of))
+        });
+        Group::of(&blocks.collect::<Vec<_>>())
+    }
+}

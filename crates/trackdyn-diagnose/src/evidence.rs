@@ -70,6 +70,8 @@ impl Whitening {
         let seen = samples.iter().enumerate().map(|(index, sample)| Seen {
             motion: sample.motion.into(),
             duration: sample.duration,
+            run: sample.run,
+            is_lost: lost[index],
             follows: sample.follows && !(index > 0 && lost[index - 1]),
         });
         let whitener = Arc::new(Whitener::of_motions(&Weighting::Noise(noise), seen));

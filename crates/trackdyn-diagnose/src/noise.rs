@@ -4,9 +4,9 @@
 //! To the base belong constant ICRs, encoders and pose sensor; beside them stand the contrasts of
 //! [`locate`](crate::locate), which let the ICRs go with speed, direction, manoeuvre, side, heading, place, time
 //! and change of speed, whatever the reason. The residual r of all these is noise: white noise R of each pose,
-//! which neighbouring segments share, and a random walk q within each segment ([`SegmentNoise`]). The
-//! six variances are those under which r is most likely, with a heavy-tailed likelihood, so that outliers do not
-//! count:
+//! which neighbouring segments share, a random walk q within each segment, and a heading of the sensor that wanders, by
+//! which all later segments of a run are seen turned ([`SegmentNoise`]). The seven variances are those under which
+//! r is most likely, with a heavy-tailed likelihood, so that outliers do not count:
 //!
 //! maximise Σ ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν),  z = L⁻¹ r, L the Cholesky factor of their covariance.
 //!
@@ -53,6 +53,12 @@ const ROUNDS: usize = 2;
 const STEPS: usize = 20;
 const SETTLED: f64 = 0.05;
 
+/// Variances of a noise: of poses, of their walk, of the heading's.
+const COUNT: usize = 7;
+
+/// Their logarithms.
+type Variances = SVector<f64, COUNT>;
+
 /// A variance changes by no more than this factor in a step, e-fold.
 const LARGEST_STEP: f64 = 1.5;
 
@@ -77,12 +83,14 @@ pub fn with_remaining_noise(evidence: &Evidence, fit: &Fit, metric: &Metric) -> 
 
 /// The noise in words: what each pose is off by, and what is added in a second.
 pub fn sentence(noise: &SegmentNoise) -> String {
+    let [forward, left, yaw] = noise.walk;
+    let walk = [forward, left, yaw + noise.heading];
     let of = |[forward, left, yaw]: [f64; 3]| {
         let [forward, left] = [forward, left].map(|variance| 1e3 * variance.sqrt());
         let yaw = yaw.sqrt().to_degrees();
         format!("{forward:.1} mm forward, {left:.1} mm left, {yaw:.2} deg")
     };
-    format!("each pose {}; more in a second {}", of(noise.pose), of(noise.walk))
+    format!("each pose {}; more in a second {}", of(noise.pose), of(walk))
 }
 
 /// The evidence with the noise beside a hypothesis that explains more than contrasts can; none where this does
@@ -93,7 +101,10 @@ pub fn sharper(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Option<Eviden
     let after = again.noise()?;
     // What a variance adds to a sample decides: a walk of nearly nothing may be half of that.
     let duration = evidence.samples().first()?.duration;
-    let added = |noise: &SegmentNoise, k: usize| noise.pose[k] + noise.walk[k] * duration * SLOW;
+    let added = |noise: &SegmentNoise, k: usize| {
+        let heading = if k == 2 { noise.heading } else { 0.0 };
+        noise.pose[k] + (noise.walk[k] + heading) * duration * SLOW
+    };
     (0..3).any(|k| added(before, k) > SHARPER * added(after, k)).then_some(again)
 }
 
@@ -125,7 +136,7 @@ fn outlying(evidence: &Evidence, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
         let reach = observed.x.hypot(observed.y).powi(2);
         // the poses at both ends, the walk between them, and what the first one's yaw makes of the way
         let variance = |k: usize| {
-            let turned = if k < 2 { noise.pose[2] * reach } else { 0.0 };
+            let turned = if k < 2 { noise.pose[2] * reach } else { noise.heading * duration };
             2.0 * noise.pose[k] + noise.walk[k] * duration + turned
         };
         let together = off.x.powi(2) / variance(0)
@@ -185,7 +196,11 @@ fn most_likely(
     let mut squares: Vec<f64> = likelihood.counted(&likelihood.white(&noise)).collect();
     squares.sort_by(f64::total_cmp);
     let level = squares.get(squares.len() / 2).map_or(1.0, |median| median / MEDIAN);
-    SegmentNoise { pose: noise.pose.map(|v| v * level), walk: noise.walk.map(|v| v * level) }
+    SegmentNoise {
+        pose: noise.pose.map(|v| v * level),
+        walk: noise.walk.map(|v| v * level),
+        heading: noise.heading * level,
+    }
 }
 
 /// Residuals whose noise is looked for.
@@ -211,17 +226,16 @@ impl Likelihood<'_> {
             let median = squares.get(squares.len() / 2).copied().unwrap_or_default();
             (median / MEDIAN_OF_ONE / 2.0).max(f64::MIN_POSITIVE)
         });
-        SegmentNoise { pose, walk: [0.0; 3] }
+        SegmentNoise { pose, walk: [0.0; 3], heading: 0.0 }
     }
 
     /// The logarithms of the variances of the maximum next to a start, and what is reached there.
-    fn climb(&self, start: SegmentNoise) -> (SVector<f64, 6>, f64) {
-        let mut here = SVector::<f64, 6>::from_fn(|k, _| {
-            if k < 3 {
-                start.pose[k].ln()
-            } else {
-                start.walk[k - 3].max(0.03 * start.pose[k - 3]).ln()
-            }
+    fn climb(&self, start: SegmentNoise) -> (Variances, f64) {
+        let walk = |k: usize| start.walk[k].max(0.03 * start.pose[k]);
+        let mut here = Variances::from_fn(|k, _| match k {
+            0..3 => start.pose[k].ln(),
+            3..6 => walk(k - 3).ln(),
+            _ => start.heading.max(0.5 * walk(2)).ln(),
         });
         let mut terms = self.terms(&here);
         let mut value: f64 = terms.iter().sum();
@@ -262,7 +276,7 @@ impl Likelihood<'_> {
     }
 
     /// The logarithm of the likelihood of each segment.
-    fn terms(&self, variances: &SVector<f64, 6>) -> Vec<f64> {
+    fn terms(&self, variances: &Variances) -> Vec<f64> {
         let (evidence, white) = self.white(&noise_of(variances));
         let samples = evidence.samples().iter().zip(&white).zip(evidence.ln_determinants());
         samples
@@ -278,17 +292,17 @@ impl Likelihood<'_> {
     }
 
     /// The step of Berndt and others: (Σ g gᵀ)⁻¹ Σ g, g the derivatives of each term.
-    fn step(&self, here: &SVector<f64, 6>, terms: &[f64]) -> SVector<f64, 6> {
+    fn step(&self, here: &Variances, terms: &[f64]) -> Variances {
         const STEP: f64 = 1e-3;
-        let there: [Vec<f64>; 6] = std::array::from_fn(|k| {
+        let there: [Vec<f64>; COUNT] = std::array::from_fn(|k| {
             let mut moved = *here;
             moved[k] += STEP;
             self.terms(&moved)
         });
-        let mut information = SMatrix::<f64, 6, 6>::identity() * 1e-3;
-        let mut gradient = SVector::<f64, 6>::zeros();
+        let mut information = SMatrix::<f64, COUNT, COUNT>::identity() * 1e-3;
+        let mut gradient = Variances::zeros();
         for (index, term) in terms.iter().enumerate() {
-            let g = SVector::<f64, 6>::from_fn(|k, _| (there[k][index] - term) / STEP);
+            let g = Variances::from_fn(|k, _| (there[k][index] - term) / STEP);
             gradient += g;
             information += g * g.transpose();
         }
@@ -297,10 +311,10 @@ impl Likelihood<'_> {
     }
 }
 
-fn noise_of(variances: &SVector<f64, 6>) -> SegmentNoise {
+fn noise_of(variances: &Variances) -> SegmentNoise {
     let pose = std::array::from_fn(|k| variances[k].exp());
     let walk = std::array::from_fn(|k| variances[3 + k].exp().max(NO_WALK * pose[k]));
-    SegmentNoise { pose, walk }
+    SegmentNoise { pose, walk, heading: variances[6].exp() }
 }
 
 #[cfg(test)]
@@ -312,7 +326,7 @@ mod tests {
     use trackdyn_recording::TrackSample;
 
     const TRUE: SegmentNoise =
-        SegmentNoise { pose: [9e-6, 4e-6, 4e-6], walk: [1e-6, 4e-6, 2.5e-7] };
+        SegmentNoise { pose: [9e-6, 4e-6, 4e-6], walk: [1e-6, 4e-6, 2.5e-7], heading: 2.5e-7 };
 
     /// A winding drive of 1500 segments, and what was seen beside its motion.
     fn drive(errors: &[Vector3<f64>]) -> Evidence {
@@ -356,7 +370,8 @@ mod tests {
     }
 
     fn found(evidence: &Evidence, residual: &[Vector3<f64>]) -> SegmentNoise {
-        let wrong = SegmentNoise { pose: [4e-5, 1e-6, 1e-5], walk: [0.0, 1e-4, 1e-5] };
+        let wrong =
+            SegmentNoise { pose: [4e-5, 1e-6, 1e-5], walk: [0.0, 1e-4, 1e-5], heading: 0.0 };
         most_likely(evidence, &metric(), wrong, residual)
     }
 
@@ -364,7 +379,7 @@ mod tests {
     fn a_start_without_white_noise_is_left() {
         let evidence = drive(&[]);
         let residual = noisy(&evidence, 4);
-        let start = SegmentNoise { pose: [1e-12; 3], walk: [3e-5; 3] };
+        let start = SegmentNoise { pose: [1e-12; 3], walk: [3e-5; 3], heading: 0.0 };
         let noise = most_likely(&evidence, &metric(), start, &residual);
         for k in 0..3 {
             assert!((noise.pose[k] / TRUE.pose[k]).ln().abs() < 0.2, "{k}: {noise:?}");
@@ -384,7 +399,7 @@ mod tests {
     }
 
     #[test]
-    fn white_noise_and_walk_are_found_from_a_wrong_start() {
+    fn white_noise_walk_and_heading_are_found_from_a_wrong_start() {
         let evidence = drive(&[]);
         for seed in 1..6 {
             let noise = found(&evidence, &noisy(&evidence, seed));
@@ -400,6 +415,8 @@ mod tests {
             for (k, deviation) in [0.16, 0.16, 0.27].into_iter().enumerate() {
                 close(noise.walk[k], TRUE.walk[k], deviation);
             }
+            // as strong as the walk in yaw, and seen there as well as to the side
+            close(noise.heading, TRUE.heading, 0.27);
         }
     }
 

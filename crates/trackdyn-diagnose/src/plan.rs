@@ -63,7 +63,7 @@ impl Options {
     /// The noise: white noise of each pose, and as much again per √s by which poses and encoders wander.
     fn noise(&self) -> SegmentNoise {
         let variances = [self.noise_xy.powi(2), self.noise_xy.powi(2), self.noise_yaw.powi(2)];
-        SegmentNoise { pose: variances, walk: variances }
+        SegmentNoise { pose: variances, walk: variances, heading: 0.0 }
     }
 }
 

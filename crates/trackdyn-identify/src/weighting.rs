@@ -1,7 +1,7 @@
 //! How much a residual counts.
 
 use crate::observations::{Observation, Observations};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix3x4, Matrix4, RowVector3, Vector3};
 use trackdyn_core::Side;
 use trackdyn_recording::noise::Noise;
 
@@ -26,6 +26,9 @@ pub struct SegmentNoise {
     pub pose: [f64; 3],
     /// Variance per second that a segment adds, in the same units per s.
     pub walk: [f64; 3],
+    /// Variance per second by which the sensor's heading wanders beside the way that it reports, rad²/s: all later
+    /// segments are seen turned by it.
+    pub heading: f64,
 }
 
 impl SegmentNoise {
@@ -43,7 +46,8 @@ impl SegmentNoise {
         let encoders = [both / 4.0, 0.0, both / gap.powi(2)];
         let mut walk = components.map(|component| component.walk.powi(2));
         walk.iter_mut().zip(encoders).for_each(|(walk, encoder)| *walk += encoder);
-        Some(Self { pose: components.map(|component| component.white.powi(2)), walk })
+        let pose = components.map(|component| component.white.powi(2));
+        Some(Self { pose, walk, heading: 0.0 })
     }
 }
 
@@ -54,111 +58,170 @@ pub struct Seen {
     pub motion: [f64; 3],
     /// Its length, s.
     pub duration: f64,
+    /// Index of its run.
+    pub run: usize,
     /// Whether its first pose is the last one of the segment before it.
     pub follows: bool,
+    /// Whether it tells nothing.
+    pub is_lost: bool,
 }
 
 impl Seen {
     fn of(segment: &Observation) -> Self {
-        let Observation { motion, duration, follows, .. } = *segment;
-        Self { motion, duration, follows }
+        let Observation { motion, duration, run, follows, .. } = *segment;
+        Self { motion, duration, run, follows, is_lost: false }
     }
 }
 
 /// Residuals and their derivatives, three rows per segment, made white: unit variance, no correlation.
 pub struct Whitener {
-    /// Per segment: the inverse of the diagonal block of the Cholesky factor, and the block that takes
-    /// away what the segment before tells.
-    blocks: Vec<(Matrix3<f64>, Matrix3<f64>)>,
+    blocks: Vec<Block>,
+}
+
+/// How a segment's residual r is made white: z = L⁻¹ (r − K z_before − c e), then e grows by k·z.
+#[derive(Clone)]
+struct Block {
+    /// L⁻¹; zero where the segment is lost.
+    inverse: Matrix3<f64>,
+    /// K: what the segment before tells of the pose between them.
+    gain: Matrix3<f64>,
+    /// c: what an error e of the heading does to the residual.
+    turned: Vector3<f64>,
+    /// k: what the residual tells of that error.
+    tells: RowVector3<f64>,
+    /// Whether nothing is known of that error yet but that it is none.
+    begins: bool,
+}
+
+/// What is known of the pose between two segments and of the heading there: the covariance of the pose's noise, along the
+/// body's axes, and of the error e of the heading.
+#[derive(Clone, Copy)]
+struct Known {
+    covariance: Matrix4<f64>,
+    /// What a white residual tells of the pose.
+    tells: Matrix3<f64>,
 }
 
 impl Whitener {
     /// The whitener for these observations.
-    ///
-    /// The covariance of the residuals is block-tridiagonal: a pose that two segments share enters the
-    /// first as its end and the second as its start. Its Cholesky factor is block-bidiagonal and is
-    /// found in one pass.
     pub fn new(weighting: &Weighting, observations: &Observations) -> Self {
         Self::of_motions(weighting, observations.segments().iter().map(Seen::of))
     }
 
     /// The whitener for motions that were not observed but are expected.
+    ///
+    /// A pose that two segments share enters the first as its end and the second as its start, and an error of the heading
+    /// all segments after it: a Kalman filter of both finds what of a residual is new.
     pub fn of_motions(weighting: &Weighting, motions: impl Iterator<Item = Seen>) -> Self {
-        let mut blocks: Vec<(Matrix3<f64>, Matrix3<f64>)> = Vec::new();
-        let mut before: Option<Seen> = None;
-        for segment in motions {
-            let (own, shared) = match weighting {
-                Weighting::Distance { lever } => {
-                    let diagonal = Vector3::new(1.0, 1.0, lever.powi(-2));
-                    (Matrix3::from_diagonal(&diagonal), Matrix3::zeros())
-                }
-                Weighting::Noise(noise) => {
-                    let previous = before.filter(|_| segment.follows);
-                    (
-                        noise.own(&segment),
-                        previous.map_or(Matrix3::zeros(), |b| noise.shared(&b, &segment)),
-                    )
-                }
-            };
-            // S = C − K Kᵀ with K = shared · L⁻ᵀ of the segment before
-            let gain =
-                blocks.last().map_or(Matrix3::zeros(), |(inverse, _)| shared * inverse.transpose());
-            let remaining = own - gain * gain.transpose();
-            let factor = remaining.cholesky().map_or(Matrix3::identity(), |cholesky| cholesky.l());
-            let inverse = factor.try_inverse().unwrap_or(Matrix3::identity());
-            blocks.push((inverse, gain));
-            before = Some(segment);
-        }
-        Self { blocks }
+        let noise = match weighting {
+            Weighting::Distance { lever } => {
+                let diagonal = Vector3::new(1.0, 1.0, *lever);
+                let block = Block {
+                    inverse: Matrix3::from_diagonal(&diagonal),
+                    gain: Matrix3::zeros(),
+                    turned: Vector3::zeros(),
+                    tells: RowVector3::zeros(),
+                    begins: true,
+                };
+                return Self { blocks: motions.map(|_| block.clone()).collect() };
+            }
+            Weighting::Noise(noise) => noise,
+        };
+        let mut before: Option<(Seen, Known)> = None;
+        let blocks = motions.map(|segment| {
+            let previous = before.filter(|(before, _)| before.run == segment.run);
+            let (block, known) = noise.block(&segment, previous.map(|(_, known)| known));
+            before = Some((segment, known));
+            block
+        });
+        Self { blocks: blocks.collect() }
     }
 
-    /// Logarithm of the determinant of what whitens each segment, given those before it.
+    /// Logarithm of the determinant of what whitens each segment, given those before it; −∞ of one that is lost.
     pub fn ln_determinants(&self) -> impl Iterator<Item = f64> + '_ {
-        self.blocks.iter().map(|(inverse, _)| inverse.determinant().ln())
+        self.blocks.iter().map(|block| block.inverse.determinant().ln())
     }
 
     /// Gives a white column the noise's correlations, in place: the inverse of [`Whitener::whiten`].
     pub fn colour(&self, column: &mut [Vector3<f64>]) {
-        let mut before = Vector3::zeros();
-        for (value, (inverse, gain)) in column.iter_mut().zip(&self.blocks) {
-            // r = L z + K z_before
+        let (mut before, mut heading) = (Vector3::zeros(), 0.0);
+        for (value, block) in column.iter_mut().zip(&self.blocks) {
+            heading = if block.begins { 0.0 } else { heading };
+            // r = L z + K z_before + c e
             let white = *value;
-            let factor = inverse.try_inverse().unwrap_or(Matrix3::identity());
-            *value = factor * white + gain * before;
+            let factor = block.inverse.try_inverse().unwrap_or(Matrix3::identity());
+            *value = factor * white + block.gain * before + block.turned * heading;
+            heading += block.tells.tr_dot(&white);
             before = white;
         }
     }
 
     /// Whitens a column of three rows per segment, in place.
     pub fn whiten(&self, column: &mut [Vector3<f64>]) {
-        let mut before = Vector3::zeros();
-        for (value, (inverse, gain)) in column.iter_mut().zip(&self.blocks) {
-            // z = L⁻¹ (r − K z_before)
-            *value = inverse * (*value - gain * before);
+        let (mut before, mut heading) = (Vector3::zeros(), 0.0);
+        for (value, block) in column.iter_mut().zip(&self.blocks) {
+            heading = if block.begins { 0.0 } else { heading };
+            // z = L⁻¹ (r − K z_before − c e)
+            *value = block.inverse * (*value - block.gain * before - block.turned * heading);
+            heading += block.tells.tr_dot(value);
             before = *value;
         }
     }
 }
 
 impl SegmentNoise {
-    /// Covariance of the residual of a segment.
-    fn own(&self, segment: &Seen) -> Matrix3<f64> {
+    /// What makes a segment white beside what is known from its run, and what is known after it.
+    fn block(&self, segment: &Seen, before: Option<Known>) -> (Block, Known) {
         let pose = Matrix3::from_diagonal(&Vector3::from(self.pose));
+        let heading = before.map_or(0.0, |known| known.covariance[(3, 3)]);
+        let wanders = self.heading * segment.duration;
+        // P, the covariance of the first pose and of the heading there
+        let mut known = Matrix4::from_diagonal_element(heading);
+        known.fixed_view_mut::<3, 3>(0, 0).copy_from(&pose);
+        let shared = before.filter(|_| segment.follows);
+        if let Some(shared) = shared {
+            known = shared.covariance;
+        }
         let start = Self::by_start(segment);
+        let [forward, left, _] = segment.motion;
+        let turned = Vector3::new(left, -forward, 0.0);
+        // H = (B c)
+        let mut by_known = Matrix3x4::zeros();
+        by_known.fixed_view_mut::<3, 3>(0, 0).copy_from(&start);
+        by_known.set_column(3, &turned);
+        // The noise of the end pose lies along the body's axes there: E R Eᵀ.
         let turn = rotation(-segment.motion[2]);
-        let walk = Vector3::from(self.walk) * segment.duration;
-        // The end pose's noise lies along the body's axes there.
-        start * pose * start.transpose()
-            + turn.transpose() * pose * turn
-            + Matrix3::from_diagonal(&walk)
-    }
-
-    /// Covariance of the residual of a segment with that of the one before.
-    fn shared(&self, before: &Seen, segment: &Seen) -> Matrix3<f64> {
-        let pose = Matrix3::from_diagonal(&Vector3::from(self.pose));
-        // The noise of the shared pose, along the body's axes there, is the start of this one and the
-        // end of that one.
-        Self::by_start(segment) * pose * rotation(-before.motion[2])
+        let mut walk = Vector3::from(self.walk) * segment.duration;
+        walk[2] += wanders;
+        let own = turn.transpose() * pose * turn + Matrix3::from_diagonal(&walk);
+        // S = H P Hᵀ + E R Eᵀ + q T = L Lᵀ
+        let innovation = by_known * known * by_known.transpose() + own;
+        let factor = innovation.cholesky().map_or(Matrix3::identity(), |cholesky| cholesky.l());
+        let inverse = factor.try_inverse().unwrap_or(Matrix3::identity());
+        // The covariance G of the end pose and of the heading there with the residual, G L⁻ᵀ of it made white.
+        let mut with = known.row(3) * by_known.transpose();
+        with[2] += wanders;
+        let [of_pose, of_heading] = if segment.is_lost {
+            [Matrix3::zeros(), Matrix3::zeros()]
+        } else {
+            let with = Matrix3::from_rows(&[with, RowVector3::zeros(), RowVector3::zeros()]);
+            [pose * turn, with].map(|with| with * inverse.transpose())
+        };
+        let tells: RowVector3<f64> = of_heading.row(0).into_owned();
+        let mut after = Matrix4::zeros();
+        after.fixed_view_mut::<3, 3>(0, 0).copy_from(&(pose - of_pose * of_pose.transpose()));
+        let between = -of_pose * tells.transpose();
+        after.fixed_view_mut::<3, 1>(0, 3).copy_from(&between);
+        after.fixed_view_mut::<1, 3>(3, 0).copy_from(&between.transpose());
+        after[(3, 3)] = heading + wanders - tells.norm_squared();
+        let block = Block {
+            inverse: if segment.is_lost { Matrix3::zeros() } else { inverse },
+            gain: shared.map_or(Matrix3::zeros(), |shared| start * shared.tells),
+            turned,
+            tells,
+            begins: before.is_none(),
+        };
+        (block, Known { covariance: after, tells: of_pose })
     }
 
     /// What noise of the first pose, along its axes, does to the observed motion: it is subtracted, and
@@ -173,4 +236,105 @@ impl SegmentNoise {
 fn rotation(angle: f64) -> Matrix3<f64> {
     let (sin, cos) = angle.sin_cos();
     Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::DMatrix;
+
+    const NOISE: SegmentNoise =
+        SegmentNoise { pose: [9e-6, 4e-6, 3e-6], walk: [1e-6, 4e-6, 2.5e-7], heading: 4e-6 };
+
+    /// Two runs of winding driving, the first with a gap and with a segment that is lost.
+    fn segments() -> Vec<Seen> {
+        let segment = |k: usize| {
+            let turn = 0.3 + 0.1 * f64::from(u32::try_from(k).expect("small"));
+            Seen {
+                motion: [0.2 * turn.cos(), 0.05 * turn.sin(), 0.6 * turn.sin()],
+                duration: 0.3,
+                run: k / 8,
+                follows: !matches!(k, 0 | 3 | 6 | 8),
+                is_lost: k == 5,
+            }
+        };
+        (0..14).map(segment).collect()
+    }
+
+    /// The covariance of all residuals, from what each independent error does to each of them.
+    fn covariance(segments: &[Seen]) -> DMatrix<f64> {
+        let rows = 3 * segments.len();
+        let mut sum = DMatrix::zeros(rows, rows);
+        let mut add = |variance: f64, of: &dyn Fn(usize) -> Vector3<f64>| {
+            let column: Vec<f64> =
+                (0..segments.len()).flat_map(|k| <[f64; 3]>::from(of(k))).collect();
+            let column = DMatrix::from_vec(rows, 1, column);
+            sum += &column * column.transpose() * variance;
+        };
+        let unit = |axis: usize| Vector3::from_fn(|k, _| if k == axis { 1.0 } else { 0.0 });
+        for (k, segment) in segments.iter().enumerate() {
+            let start = SegmentNoise::by_start(segment);
+            for axis in 0..3 {
+                add(NOISE.walk[axis] * segment.duration, &|at| {
+                    if at == k { unit(axis) } else { Vector3::zeros() }
+                });
+                // the pose at the end, which may be the start of the next one
+                add(NOISE.pose[axis], &|at| match at {
+                    _ if at == k => rotation(segment.motion[2]) * unit(axis),
+                    _ if at == k + 1 && segments[at].follows => {
+                        SegmentNoise::by_start(&segments[at]) * unit(axis)
+                    }
+                    _ => Vector3::zeros(),
+                });
+                if !segment.follows {
+                    add(NOISE.pose[axis], &|at| {
+                        if at == k { start * unit(axis) } else { Vector3::zeros() }
+                    });
+                }
+            }
+            // the heading, which stays wrong until the end of the run
+            add(NOISE.heading * segment.duration, &|at| {
+                let [forward, left, _] = segments[at].motion;
+                match at {
+                    _ if at == k => unit(2),
+                    _ if at > k && segments[at].run == segment.run => {
+                        Vector3::new(left, -forward, 0.0)
+                    }
+                    _ => Vector3::zeros(),
+                }
+            });
+        }
+        sum
+    }
+
+    #[test]
+    fn all_errors_of_poses_and_headings_come_out_white() {
+        let segments = segments();
+        let whitener = Whitener::of_motions(&Weighting::Noise(NOISE), segments.iter().copied());
+        let factor = covariance(&segments).cholesky().expect("positive definite").l();
+        let mut white = factor.clone();
+        for mut column in white.column_iter_mut() {
+            let mut values: Vec<Vector3<f64>> =
+                (0..segments.len()).map(|k| column.fixed_rows::<3>(3 * k).into_owned()).collect();
+            whitener.whiten(&mut values);
+            for (k, value) in values.iter().enumerate() {
+                column.fixed_rows_mut::<3>(3 * k).copy_from(value);
+            }
+        }
+        // W C Wᵀ = 1, but for what is lost
+        let found = &white * white.transpose();
+        for a in 0..found.nrows() {
+            for b in 0..found.ncols() {
+                let is_lost = segments[a / 3].is_lost || segments[b / 3].is_lost;
+                let expected = if a == b && !is_lost { 1.0 } else { 0.0 };
+                assert!((found[(a, b)] - expected).abs() < 1e-10, "{a} {b}: {}", found[(a, b)]);
+            }
+        }
+        let determinant: f64 = whitener.ln_determinants().filter(|ln| ln.is_finite()).sum();
+        let known: Vec<usize> = (0..found.nrows()).filter(|a| !segments[a / 3].is_lost).collect();
+        let covariance = covariance(&segments).select_rows(&known).select_columns(&known);
+        let expected =
+            -covariance.cholesky().expect("positive definite").l().diagonal().map(f64::ln).sum();
+        assert!((determinant - expected).abs() < 1e-8, "{determinant} {expected}");
+    }
 }

@@ -111,7 +111,8 @@ impl Instruments {
                 position,
                 yaw + rate * jitter + 2.0 * tick / gap.powi(2),
             ],
-            walk: [walk, walk, pose.walk.yaw.powi(2)],
+            walk: [walk, walk, 0.0],
+            heading: pose.walk.yaw.powi(2),
         }
     }
 

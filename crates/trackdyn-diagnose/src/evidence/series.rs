@@ -43,7 +43,8 @@ impl Evidence {
         let gap = spin_test(&observations, gauge).map_or(1.5 * gauge, |spin| spin.gap);
         let stated = recording.stated_noise().map(|stated| {
             let position = stated.position * stated.position;
-            SegmentNoise { pose: [position, position, stated.yaw * stated.yaw], walk: [0.0; 3] }
+            let pose = [position, position, stated.yaw * stated.yaw];
+            SegmentNoise { pose, walk: [0.0; 3], heading: 0.0 }
         });
         let noise = SegmentNoise::measured(&measured, gap).or(stated).ok_or(Error::NoNoise)?;
         let blocks = observations.blocks();

@@ -238,7 +238,7 @@ pub(super) mod tests {
         };
         let tracks: Vec<TrackSample> = (0..).zip(speeds.chain([last])).map(reading).collect();
         let run = || PlannedRun { pose: Pose::default(), tracks: tracks.clone(), blocks: vec![0] };
-        let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3] };
+        let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3], heading: 0.0 };
         Evidence::planned(&[run(), run()], noise, 0.0, |evidence| {
             vec![Vector3::zeros(); evidence.samples().len()]
         })

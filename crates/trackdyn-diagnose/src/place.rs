@@ -20,7 +20,7 @@ pub fn words(symmetry: Symmetry, location: &Location) -> String {
         Symmetry::Heading => "the ICRs move with the heading",
         Symmetry::Place => "the ICRs move with the place",
         Symmetry::Time => "the ICRs move with time",
-        Symmetry::Transient => "changes of speed show",
+        Symmetry::Transient => "changes of speed or the past show",
         Symmetry::Straight => {
             "straight driving is not straight, or not as fast as the encoders say"
         }

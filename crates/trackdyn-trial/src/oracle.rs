@@ -16,9 +16,9 @@ use trackdyn_identify::Observations;
 pub const DETECTABLE: f64 = 5.0;
 /// z from which on an effect can be told from every other one.
 pub const DISTINCT: f64 = 4.0;
-/// Smallest z at which sizes are found: above what the phases of shoes make of any change, one or two. Only smaller
-/// sizes are taken in proportion: between z = 10 and 40 laws of the slip speed are anything but linear, and sheared soil
-/// changes the sign of what it shows.
+/// Smallest z at which sizes are found: above what the phases of shoes make of any change, one or two. Only strengths of
+/// smaller sizes are taken in proportion: between z = 10 and 40 laws of the slip speed are anything but linear, and sheared
+/// soil changes the sign of what it shows.
 const CLEAR: f64 = 5.0;
 /// Ratio by which z may differ from the wanted one: what is stated is what the size leaves, not what was wanted.
 const CLOSE_ENOUGH: f64 = 0.15;
@@ -112,14 +112,13 @@ impl Judge<'_> {
             power = ((found / shown).ln() / (there / strength).ln()).clamp(POWERS[0], POWERS[1]);
             (strength, shown) = (there, found);
         }
-        let mut sized = self.at(dose, strength)?;
-        if wanted < CLEAR {
-            let least = sized.dose.smallest() / sized.strength;
-            let share = (wanted / self.z(&sized.signature)).max(least).min(1.0);
-            sized.strength *= share;
-            sized.signature.iter_mut().for_each(|value| *value *= share);
+        let sized = self.at(dose, strength)?;
+        if wanted >= CLEAR {
+            return Ok(sized);
         }
-        Ok(sized)
+        let share = wanted / self.z(&sized.signature);
+        let least = sized.dose.smallest() / strength;
+        self.at(sized.dose, strength * share.max(least).min(1.0))
     }
 
     /// How effects stand, each with those beside it that are concealed too taken for known.

@@ -74,9 +74,12 @@ pub fn strongest_wave(
 
 /// Wave numbers k, rad/m, of one direction each, the longest waves first.
 fn numbers(evidence: &Evidence) -> Vec<Vector2<f64>> {
+    // one pose in a hundred at either end may be far off
     let extent = |of: &dyn Fn(&Sample) -> f64| {
-        let values = evidence.samples().iter().map(of);
-        let (low, high) = values.fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(v), b.max(v)));
+        let mut values: Vec<f64> = evidence.samples().iter().map(of).collect();
+        values.sort_by(f64::total_cmp);
+        let aside = values.len() / 100;
+        let [low, high] = [values[aside], values[values.len() - 1 - aside]];
         (high - low).max(2.0 * SHORTEST)
     };
     let step = Vector2::new(extent(&|s| s.pose.x), extent(&|s| s.pose.y))

@@ -17,7 +17,9 @@ pub(super) fn symmetry(symmetry: Symmetry) -> [&'static str; 2] {
         Symmetry::Heading => ["heading", "heading one way against another"],
         Symmetry::Place => ["place", "here against there"],
         Symmetry::Time => ["time", "early against late"],
-        Symmetry::Transient => ["changes of speed", "speeding up or slowing down against steady"],
+        Symmetry::Transient => {
+            ["changes of speed", "speeding up, slowing down or the past against steady"]
+        }
         Symmetry::Straight => ["straight driving", "equal tracks: straight ahead, at their speed?"],
     }
 }

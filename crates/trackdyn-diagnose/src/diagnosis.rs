@@ -9,7 +9,7 @@ use crate::fit::Fit;
 use crate::hypothesis::with_friction;
 use crate::isolability::Isolability;
 use crate::locate::cells::{Cell, cells};
-use crate::locate::{IcrColumns, Location, excess, locate, locate_in_waves};
+use crate::locate::{IcrColumns, Location, Residual, excess};
 use crate::mechanics::Instruments;
 use crate::metric::Metric;
 use crate::noise::{sharper, with_remaining_noise};
@@ -247,8 +247,10 @@ fn attempt(
     let Options { draws, seed, .. } = *options;
     let of_base = icr_columns(evidence, &base.fit);
     let of_filed = icr_columns(evidence, &base.as_filed);
-    let filed = locate(evidence, metric, &base.as_filed, &of_filed, draws, seed);
-    let located = locate(evidence, metric, &base.fit, &of_base, draws, seed);
+    let as_filed = Residual { evidence, metric, fit: &base.as_filed, icrs: &of_filed };
+    let filed = as_filed.locate(draws, seed);
+    let of_fit = Residual { evidence, metric, fit: &base.fit, icrs: &of_base };
+    let located = of_fit.locate(draws, seed);
     progress(STAGES[1]);
 
     let tried = candidates(&base.instruments, evidence);
@@ -275,7 +277,8 @@ fn attempt(
     progress(STAGES[4]);
 
     let of_best = icr_columns(evidence, &best.fit);
-    let after = locate_in_waves(evidence, metric, &best.fit, &of_best, draws, seed);
+    let of_corrected = Residual { evidence, metric, fit: &best.fit, icrs: &of_best };
+    let after = of_corrected.locate_in_waves(draws, seed);
     let left_over = after.left_over(Rules::tolerated(evidence, &base, &best));
     let status = status(&left_over, &missing);
     let broken = [located.broken(), filed.broken(), left_over].concat();
@@ -485,7 +488,7 @@ fn held_out(
     let rms = |residual: &[Vector3<f64>]| excess(evidence, &metric, residual);
     let fit = &best.fit;
     let after = rms(&fit.residual);
-    let flexible = locate(evidence, &metric, fit, icrs, 1, options.seed);
+    let flexible = Residual { evidence, metric: &metric, fit, icrs }.locate(1, options.seed);
     let samples = evidence.samples().iter();
     let count = real(samples.filter(|sample| metric.runs[sample.run]).count().max(1));
     let noise_floor =

@@ -75,83 +75,86 @@ impl Location {
     }
 }
 
-/// What the residual of a fit shows, in waves of the ground as well: these are the strictest test of places.
-pub fn locate_in_waves(
-    evidence: &Evidence,
-    metric: &Metric,
-    fit: &Fit,
-    icrs: &IcrColumns,
-    draws: usize,
-    seed: u64,
-) -> Location {
-    let mut location = locate(evidence, metric, fit, icrs, draws, seed);
-    let strongest = |beside: &[Vec<Vector3<f64>>]| {
-        let wave = strongest_wave(evidence, metric, &fit.residual, beside, icrs, (draws, seed));
-        wave.filter(|wave| wave.test.p < SIGNIFICANT)
-    };
-    // What plainer contrasts show is in some waves as well, and in the best of so many by chance.
-    let wave = strongest(&fit.columns).and_then(|_| {
-        let plainer = contrasts(evidence, icrs).into_iter().flat_map(|contrasts| contrasts.columns);
-        let plainer = plainer.map(|column| metric.white(evidence, column));
-        strongest(&fit.columns.iter().cloned().chain(plainer).collect::<Vec<_>>())
-    });
-    let place = location.tests.iter_mut().find(|test| test.symmetry == Symmetry::Place);
-    let stronger = wave.zip(place).filter(|(wave, place)| wave.test.is_stronger(&place.test));
-    if let Some((wave, place)) = stronger {
-        place.test = wave.test;
-        location.wave = Some(wave);
-    }
-    location
+/// What a fit leaves, to be located.
+#[derive(Clone, Copy)]
+pub struct Residual<'a> {
+    /// The evidence.
+    pub evidence: &'a Evidence,
+    /// How residuals are measured.
+    pub metric: &'a Metric,
+    /// The fit.
+    pub fit: &'a Fit,
+    /// Derivatives of its prediction by x_l, x_r and y, not whitened.
+    pub icrs: &'a IcrColumns,
 }
 
-/// What the residual of a fit shows.
-///
-/// `icrs` are the derivatives of the prediction by x_l, x_r and y, not whitened.
-pub fn locate(
-    evidence: &Evidence,
-    metric: &Metric,
-    fit: &Fit,
-    icrs: &IcrColumns,
-    draws: usize,
-    seed: u64,
-) -> Location {
-    let Fit { residual, columns: fitted, .. } = fit;
-    let mut columns = fitted.clone();
-    let mut groups: Vec<(Contrasts, Vec<usize>)> = Vec::new();
-    for mut contrasts in contrasts(evidence, icrs) {
-        let first = columns.len();
-        let of = std::mem::take(&mut contrasts.columns).into_iter();
-        columns.extend(of.map(|column| metric.white(evidence, column)));
-        groups.push((contrasts, (first..columns.len()).collect()));
-    }
-    let normal = metric.normal(evidence, residual, &columns);
-    let base: Vec<usize> = (0..fitted.len()).collect();
-    let flat = vec![Prior { mean: 0.0, deviation: 1e9 }; columns.len()];
-    let mut projected = normal.projected(&base, &flat);
-    for (contrasts, own) in &groups {
-        let is_plain = |(other, _): &&(Contrasts, Vec<usize>)| {
-            other.beside.is_empty() && contrasts.beside.contains(&other.symmetry)
-        };
-        let beside = groups.iter().filter(is_plain).flat_map(|(_, columns)| columns.clone());
-        projected = projected.cleared(own, &beside.collect::<Vec<_>>());
-    }
-    let indices: Vec<Vec<usize>> = groups.iter().map(|(_, group)| group.clone()).collect();
-    let tests = test(&projected, &indices, draws, seed);
-    let all = test(&projected, &[indices.concat()], 1, seed);
-    let mut strongest: Vec<SymmetryTest> = Vec::new();
-    for ((Contrasts { symmetry, .. }, _), test) in groups.into_iter().zip(tests) {
-        match strongest.iter_mut().find(|other| other.symmetry == symmetry) {
-            Some(other) if test.is_stronger(&other.test) => other.test = test,
-            Some(_) => {}
-            None => strongest.push(SymmetryTest { symmetry, test }),
+impl Residual<'_> {
+    /// What it shows.
+    pub fn locate(&self, draws: usize, seed: u64) -> Location {
+        let Self { evidence, metric, fit, icrs } = *self;
+        let Fit { residual, columns: fitted, .. } = fit;
+        let mut columns = fitted.clone();
+        let mut groups: Vec<(Contrasts, Vec<usize>)> = Vec::new();
+        for mut contrasts in contrasts(evidence, icrs) {
+            let first = columns.len();
+            let of = std::mem::take(&mut contrasts.columns).into_iter();
+            columns.extend(of.map(|column| metric.white(evidence, column)));
+            groups.push((contrasts, (first..columns.len()).collect()));
+        }
+        let normal = metric.normal(evidence, residual, &columns);
+        let base: Vec<usize> = (0..fitted.len()).collect();
+        let flat = vec![Prior { mean: 0.0, deviation: 1e9 }; columns.len()];
+        let mut projected = normal.projected(&base, &flat);
+        for (contrasts, own) in groups.iter().filter(|(contrasts, _)| !contrasts.beside.is_empty())
+        {
+            let is_plain = |(other, _): &&(Contrasts, Vec<usize>)| {
+                other.beside.is_empty() && contrasts.beside.contains(&other.symmetry)
+            };
+            let beside = groups.iter().filter(is_plain).flat_map(|(_, columns)| columns.clone());
+            projected = projected.cleared(own, &beside.collect::<Vec<_>>());
+        }
+        let indices: Vec<Vec<usize>> = groups.iter().map(|(_, group)| group.clone()).collect();
+        let tests = test(&projected, &indices, draws, seed);
+        let all = test(&projected, &[indices.concat()], 1, seed);
+        let mut strongest: Vec<SymmetryTest> = Vec::new();
+        for ((Contrasts { symmetry, .. }, _), test) in groups.into_iter().zip(tests) {
+            match strongest.iter_mut().find(|other| other.symmetry == symmetry) {
+                Some(other) if test.is_stronger(&other.test) => other.test = test,
+                Some(_) => {}
+                None => strongest.push(SymmetryTest { symmetry, test }),
+            }
+        }
+        Location {
+            excess_over_noise: excess(evidence, metric, residual),
+            channels: shares(evidence, metric, residual),
+            tests: strongest,
+            wave: None,
+            explicable: all.first().map_or(0.0, |all| all.statistic - real(all.degrees)),
         }
     }
-    Location {
-        excess_over_noise: excess(evidence, metric, residual),
-        channels: shares(evidence, metric, residual),
-        tests: strongest,
-        wave: None,
-        explicable: all.first().map_or(0.0, |all| all.statistic - real(all.degrees)),
+
+    /// What it shows in waves of the ground as well: these are the strictest test of places.
+    pub fn locate_in_waves(&self, draws: usize, seed: u64) -> Location {
+        let mut location = self.locate(draws, seed);
+        let Self { evidence, metric, fit, icrs } = *self;
+        let strongest = |beside: &[Vec<Vector3<f64>>]| {
+            let wave = strongest_wave(evidence, metric, &fit.residual, beside, icrs, (draws, seed));
+            wave.filter(|wave| wave.test.p < SIGNIFICANT)
+        };
+        // What plainer contrasts show is in some waves as well, and in the best of so many by chance.
+        let wave = strongest(&fit.columns).and_then(|_| {
+            let plainer =
+                contrasts(evidence, icrs).into_iter().flat_map(|contrasts| contrasts.columns);
+            let plainer = plainer.map(|column| metric.white(evidence, column));
+            strongest(&fit.columns.iter().cloned().chain(plainer).collect::<Vec<_>>())
+        });
+        let place = location.tests.iter_mut().find(|test| test.symmetry == Symmetry::Place);
+        let stronger = wave.zip(place).filter(|(wave, place)| wave.test.is_stronger(&place.test));
+        if let Some((wave, place)) = stronger {
+            place.test = wave.test;
+            location.wave = Some(wave);
+        }
+        location
     }
 }
 

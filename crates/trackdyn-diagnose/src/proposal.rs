@@ -17,7 +17,7 @@ use crate::diagnosis::{Diagnosis, HeldOut, Kind, Missing, Options, Status, icr_c
 use crate::evidence::Evidence;
 use crate::fit::{Fit, columns};
 use crate::hypothesis::Unknown;
-use crate::locate::{Location, excess, locate_in_waves};
+use crate::locate::{Location, Residual, excess};
 use crate::mechanics::Instruments;
 use crate::metric::Metric;
 use crate::normal::Prior;
@@ -126,8 +126,8 @@ fn law(
     let found = refitted(effect, &selected, &library, &search, best);
     let held_out = judged(diagnosis, evidence, &found);
     let icrs = icr_columns(evidence, &found.fit);
-    let Options { draws, seed, .. } = *options;
-    let after = locate_in_waves(evidence, metric, &found.fit, &icrs, draws, seed);
+    let residual = Residual { evidence, metric, fit: &found.fit, icrs: &icrs };
+    let after = residual.locate_in_waves(options.draws, options.seed);
     let still = after.left_over(form);
     // A law that leaves most of it, breaks what was whole, or fails where nothing was fitted, is none.
     let remains = remainder(&after, &left_over) / remainder(&diagnosis.after, &left_over);

@@ -188,10 +188,10 @@ fn z_grows_in_proportion_and_is_largest_without_alternatives() {
     });
 }
 
-/// Laws of the slip speed are not linear, what sheared soil shows changes its sign, and phases of shoes show of any size: what is
-/// stated is what the size leaves, and that is about what was wanted.
+/// What is stated is what the size really leaves, in length and in shape: laws of the slip speed are not linear, what
+/// sheared soil shows changes its sign, and phases of shoes show of any size.
 #[test]
-fn sizes_show_about_as_strongly_as_they_are_wanted() {
+fn a_size_shows_by_the_z_that_is_stated() {
     const SLIP_SPEED: [&str; 3] = ["stribeck-friction", "viscous-friction", "friction-creep"];
     const OTHERS: [&str; 7] = [
         "load-transfer",
@@ -212,7 +212,14 @@ fn sizes_show_about_as_strongly_as_they_are_wanted() {
             for (id, wanted) in weak.chain(strong) {
                 let dose = Dose::draw(id, scene, &mut random);
                 let sized = judge.sized(dose, wanted, 1.0).expect("a size");
-                let stated = judge.z(&sized.signature);
+                let at = judge.at(sized.dose, sized.strength).expect("it drives");
+                let [stated, shown] = [&sized.signature, &at.signature].map(|s| judge.z(s));
+                let sum: Vec<f64> =
+                    sized.signature.iter().zip(&at.signature).map(|(a, b)| a + b).collect();
+                let cosine = (judge.z(&sum).powi(2) - stated * stated - shown * shown)
+                    / (2.0 * stated * shown);
+                assert!((shown / stated).ln().abs() < CLOSE_ENOUGH, "{id}: {shown} for {stated}");
+                assert!(cosine > 0.95, "{id}: cosine {cosine}");
                 of_wanted += usize::from((stated / wanted).ln().abs() < 2.0 * CLOSE_ENOUGH);
             }
         });

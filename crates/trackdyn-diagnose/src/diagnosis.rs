@@ -12,7 +12,7 @@ use crate::locate::cells::{Cell, cells};
 use crate::locate::{IcrColumns, Location, Residual, excess};
 use crate::mechanics::Instruments;
 use crate::metric::Metric;
-use crate::noise::{sharper, with_remaining_noise};
+use crate::noise::{sharper, with_remaining_noise, without_outliers};
 use crate::proposal::{Proposal, completed};
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, Level, Uncertainty};
@@ -107,6 +107,11 @@ pub struct HeldOut {
 }
 
 impl HeldOut {
+    /// Whether held-out runs contradict what is claimed: the corrected model does no better there.
+    pub fn contradict(&self) -> bool {
+        self.are_held_out && self.after >= self.before
+    }
+
     /// Share of the excess over the noise floor that the corrected model explains; none where there is no
     /// excess.
     pub fn excess_explained(&self) -> Option<f64> {
@@ -114,6 +119,17 @@ impl HeldOut {
         (excess > 1e-3 * self.noise_floor.powi(2))
             .then(|| (self.before.powi(2) - self.after.powi(2)) / excess)
     }
+}
+
+/// What is left of runs that nothing was fitted or chosen on.
+#[derive(Clone)]
+pub struct Unseen {
+    /// What they show.
+    pub evidence: Evidence,
+    /// Whitened residuals before.
+    pub before: Vec<Vector3<f64>>,
+    /// After.
+    pub after: Vec<Vector3<f64>>,
 }
 
 /// The smallest size of an effect that this evidence could have shown.
@@ -163,6 +179,8 @@ pub struct Diagnosis {
     pub detectable: Vec<Detectable>,
     /// Errors before and after.
     pub held_out: HeldOut,
+    /// What is left of held-out runs; none where none were.
+    pub unseen: Option<Unseen>,
     /// ICRs in cells of driving, before and after.
     pub cells: [Vec<Cell>; 2],
     /// The base: as filed with constants, and with instruments.
@@ -171,7 +189,7 @@ pub struct Diagnosis {
     pub best: Found,
     /// The level of friction in it; none where it is not free.
     pub friction_level: Option<Level>,
-    /// The evidence with the noise that its residuals show.
+    /// The evidence of the fit, with the noise that its residuals show.
     pub evidence: Evidence,
     /// The metric of all residuals here.
     pub metric: Metric,
@@ -194,35 +212,45 @@ pub fn diagnose(
     options: &Options,
     progress: &dyn Fn(&'static str),
 ) -> Result<Diagnosis, Error> {
-    let runs: Vec<bool> =
-        (0..evidence.runs().len()).map(|run| !options.held_out.contains(&run)).collect();
-    let mut metric = Metric { scale: [1.0; 3], runs };
-    let base = Base::new(file, evidence, &metric);
+    let held_out: Vec<bool> =
+        (0..evidence.runs().len()).map(|run| options.held_out.contains(&run)).collect();
+    let seen: Vec<bool> = held_out.iter().map(|held_out| !held_out).collect();
+    let (mut unseen, mut evidence) = (evidence.of_runs(&held_out), evidence.of_runs(&seen));
+    let mut metric = Metric::default();
+    let base = Base::new(file, &evidence, &metric);
     if let Some(reason) = base.as_filed.mechanics.failure() {
         return Err(Error::NoMotion(reason));
     }
     if !turns(&base.as_filed) {
         return Err(Error::NoTurning);
     }
-    let mut evidence = with_remaining_noise(evidence, &base.fit, &metric);
+    evidence = with_remaining_noise(&evidence, &base.fit, &metric);
     // Late stamps and ticks are noise that a lag of the drive would smooth: readings without them stand, unless they
     // explain less.
-    for cleaned in [Evidence::with_regular_stamps, Evidence::with_speeds_between_ticks] {
+    let steps = evidence.steps();
+    let between_ticks = |evidence: &Evidence| evidence.with_speeds_between_ticks(steps);
+    let cleanings: [&dyn Fn(&Evidence) -> Evidence; 2] =
+        [&Evidence::with_regular_stamps, &between_ticks];
+    for cleaned in cleanings {
         let base = base.refitted(&evidence, &metric);
-        let cleaned = cleaned(&evidence);
-        if base.refitted(&cleaned, &metric).fit.objective < base.fit.objective + CLEANED {
-            evidence = with_remaining_noise(&cleaned, &base.fit, &metric);
+        let tried = cleaned(&evidence);
+        if base.refitted(&tried, &metric).fit.objective < base.fit.objective + CLEANED {
+            evidence = with_remaining_noise(&tried, &base.fit, &metric);
+            unseen = cleaned(&unseen);
         }
     }
     loop {
         let base = base.refitted(&evidence, &metric);
         progress(STAGES[0]);
-        let attempt = attempt(&evidence, file, options, &metric, base, true, progress);
+        let mut attempt = attempt(&evidence, file, options, &metric, base, true, progress);
         evidence = attempt.evidence.clone();
         let scale = metric.residual_scale(&evidence, &attempt.best.fit.residual);
         // Residuals larger than the noise that no effect explains make every other claim less sure.
         let grows = scale.iter().any(|scale| *scale > TOLERATED);
         if !grows || metric.scale != [1.0; 3] {
+            if !options.held_out.is_empty() {
+                attempt.judge_on(&unseen, options);
+            }
             return Ok(completed(attempt, options));
         }
         metric.scale = scale.map(|scale| scale.max(1.0));
@@ -289,10 +317,10 @@ fn attempt(
     let exposures = exposures(&search, &best.fit, &missing, &screened, &statics.only);
     let detectable = isolability.detectable();
     let corrected = corrected(file, &best, friction_level, &missing);
-    let held_out = held_out(&search, &best, &of_best, &missing, options);
     let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]
         .map(|(fit, icrs)| cells(evidence, metric, &fit.residual, icrs));
-    let place = crate::place::sentence(evidence, metric, &base, [&located, &after], &broken);
+    let place = crate::place::sentence(evidence, &base, [&located, &after], &broken);
+    let held_out = errors(evidence, metric, [before(&base, &missing), &best.fit], options);
     progress(STAGES[5]);
     Diagnosis {
         status,
@@ -311,11 +339,12 @@ fn attempt(
         exposures,
         detectable,
         held_out,
+        unseen: None,
         cells,
         base,
         best,
         friction_level,
-        metric: metric.clone(),
+        metric: *metric,
         evidence: evidence.clone(),
         corrected,
         proposed: None,
@@ -469,29 +498,47 @@ fn corrected(
     corrected
 }
 
-fn held_out(
-    search: &Search,
-    best: &Found,
-    icrs: &IcrColumns,
-    missing: &[Missing],
+/// The errors on evidence, with the fits to it.
+fn errors(
+    evidence: &Evidence,
+    metric: &Metric,
+    [before, after]: [&Fit; 2],
     options: &Options,
 ) -> HeldOut {
-    let Search { evidence, base, .. } = *search;
-    let are_held_out = !options.held_out.is_empty();
-    let mut metric = search.metric.clone();
-    if are_held_out {
-        metric.runs = metric.runs.iter().map(|counts| !counts).collect();
-    }
-    // An instrument that was claimed is part of what was missing.
+    let [before, error] = [before, after].map(|fit| excess(evidence, &fit.residual));
+    let icrs = icr_columns(evidence, after);
+    let residual = Residual { evidence, metric, fit: after, icrs: &icrs };
+    let flexible = residual.locate(1, options.seed);
+    let count = real(evidence.samples().len().max(1));
+    let floor = error * error - flexible.explicable.max(0.0) / (3.0 * count);
+    let noise_floor = floor.max(0.0).sqrt().min(error);
+    HeldOut { before, after: error, noise_floor, are_held_out: false }
+}
+
+/// What was there before: an instrument that is claimed is part of what was missing.
+fn before<'a>(base: &'a Base, missing: &[Missing]) -> &'a Fit {
     let instruments = missing.iter().any(|missing| missing.kind == Kind::Instrument);
-    let before = if instruments { &base.as_filed } else { &base.fit };
-    let rms = |residual: &[Vector3<f64>]| excess(evidence, &metric, residual);
-    let fit = &best.fit;
-    let after = rms(&fit.residual);
-    let flexible = Residual { evidence, metric: &metric, fit, icrs }.locate(1, options.seed);
-    let samples = evidence.samples().iter();
-    let count = real(samples.filter(|sample| metric.runs[sample.run]).count().max(1));
-    let noise_floor =
-        (after * after - flexible.explicable.max(0.0) / (3.0 * count)).max(0.0).sqrt().min(after);
-    HeldOut { before: rms(&before.residual), after, noise_floor, are_held_out }
+    if instruments { &base.as_filed } else { &base.fit }
+}
+
+impl Diagnosis {
+    /// The fit of what was there before: of the vehicle as filed where encoders or pose sensor are to blame for
+    /// something, else with these at their best.
+    pub fn fit_before(&self) -> &Fit {
+        before(&self.base, &self.missing)
+    }
+
+    /// Judges it by runs that nothing was fitted or chosen on.
+    fn judge_on(&mut self, evidence: &Evidence, options: &Options) {
+        let metric = &self.metric;
+        let noise = self.evidence.noise();
+        let evidence = noise.map_or_else(|| evidence.clone(), |noise| evidence.with_noise(*noise));
+        let best = &self.best.fit;
+        let evidence = without_outliers(&evidence, &best.on(&evidence, metric), metric);
+        let [before, after] = [self.fit_before(), best].map(|fit| fit.on(&evidence, metric));
+        let errors = errors(&evidence, metric, [&before, &after], options);
+        self.held_out = HeldOut { are_held_out: true, ..errors };
+        let (before, after) = (before.residual, after.residual);
+        self.unseen = Some(Unseen { evidence, before, after });
+    }
 }

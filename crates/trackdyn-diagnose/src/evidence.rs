@@ -9,6 +9,7 @@ mod series;
 mod ticks;
 
 use nalgebra::Vector3;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_identify::weighting::{Seen, SegmentNoise, Weighting, Whitener};
@@ -85,7 +86,7 @@ impl Evidence {
         &self.samples
     }
 
-    /// Readings of the tracks of each run.
+    /// Readings of the tracks of each run; none of a run without samples.
     pub fn tracks(&self) -> &[Vec<TrackSample>] {
         &self.tracks
     }
@@ -147,9 +148,14 @@ impl Evidence {
         Self { tracks, ..self.clone() }
     }
 
-    /// The same with even speeds between the ticks of the encoders.
-    pub fn with_speeds_between_ticks(&self) -> Self {
-        Self { tracks: ticks::smoothed(&self.tracks), ..self.clone() }
+    /// Steps in which the encoders' speeds come for the ticks that they count, m/s.
+    pub fn steps(&self) -> PerSide<f64> {
+        ticks::steps(&self.tracks)
+    }
+
+    /// The same with even speeds between the ticks of encoders whose speeds come in such steps, m/s.
+    pub fn with_speeds_between_ticks(&self, steps: PerSide<f64>) -> Self {
+        Self { tracks: ticks::smoothed(&self.tracks, steps), ..self.clone() }
     }
 
     /// The same without some samples of a recording.
@@ -160,6 +166,30 @@ impl Evidence {
             lost[sample] = true;
         }
         Self { whitening: Whitening::without(*noise, &self.samples, lost.into()), ..self.clone() }
+    }
+
+    /// What these runs show, by whether each of all is one of them.
+    pub fn of_runs(&self, runs: &[bool]) -> Self {
+        fn kept<T: Clone>(all: &[T], kept: &[usize]) -> Vec<T> {
+            kept.iter().map(|&index| all[index].clone()).collect()
+        }
+        let indices: Vec<usize> =
+            (0..self.samples.len()).filter(|&index| runs[self.samples[index].run]).collect();
+        let mut samples = kept(&self.samples, &indices);
+        let blocks: BTreeSet<usize> = samples.iter().map(|sample| sample.block).collect();
+        let numbers: BTreeMap<usize, usize> = blocks.into_iter().zip(0..).collect();
+        for sample in &mut samples {
+            sample.block = numbers[&sample.block];
+        }
+        let whitening = match &self.whitening {
+            Whitening::Segments { noise, lost, .. } => {
+                Whitening::without(*noise, &samples, kept(lost, &indices).into())
+            }
+            Whitening::Points(inverse) => Whitening::Points(kept(inverse, &indices)),
+        };
+        let tracks = self.tracks.iter().zip(runs);
+        let tracks = tracks.map(|(run, kept)| if *kept { run.clone() } else { Vec::new() });
+        Self { tracks: tracks.collect(), whitening, blocks: numbers.len(), samples, ..self.clone() }
     }
 
     /// Makes a column of residuals or of their derivatives white, in place: unit variance, no correlation.

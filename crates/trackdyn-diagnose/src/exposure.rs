@@ -3,7 +3,6 @@
 //! Whatever else is free is taken out of both, as in an added-variable plot: what is left of the departure
 //! then lies on a line of slope one if the effect is there at its size, and about zero if it is not.
 
-use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::mechanics::{Instruments, Mechanics};
 use crate::metric::Metric;
@@ -36,7 +35,7 @@ impl Exposure {
             .filter(|(unknown, _)| !unknown.is_of(effect))
             .map(|(_, column)| column.clone())
             .collect();
-        Self { effect, predicted, observed }.beside(evidence, metric, &others, &fit.residual)
+        Self { effect, predicted, observed }.beside(&others, &fit.residual)
     }
 
     /// Of a candidate beside the base.
@@ -49,23 +48,13 @@ impl Exposure {
                 *sum += value * *size;
             }
         }
-        Self { effect: one.effect, predicted, observed: fit.residual.clone() }.beside(
-            search.evidence,
-            search.metric,
-            &fit.columns,
-            &fit.residual,
-        )
+        Self { effect: one.effect, predicted, observed: fit.residual.clone() }
+            .beside(&fit.columns, &fit.residual)
     }
 
     /// With what these columns explain taken out.
-    fn beside(
-        self,
-        evidence: &Evidence,
-        metric: &Metric,
-        columns: &[Vec<Vector3<f64>>],
-        residual: &[Vector3<f64>],
-    ) -> Self {
-        let weights = metric.weights(evidence, residual);
+    fn beside(self, columns: &[Vec<Vector3<f64>>], residual: &[Vector3<f64>]) -> Self {
+        let weights = Metric::weights(residual);
         let blocks = vec![0; weights.len()];
         let all: Vec<usize> = (0..columns.len()).collect();
         let flat = vec![Prior { mean: 0.0, deviation: 1e9 }; columns.len()];

@@ -154,7 +154,7 @@ impl Point {
         let objective = if mechanics.failure().is_some() {
             f64::INFINITY
         } else {
-            metric.loss(evidence, &residual) + penalty(&hypothesis, unknowns, evidence)
+            Metric::loss(&residual) + penalty(&hypothesis, unknowns, evidence)
         };
         Self { hypothesis, mechanics, prediction, residual, objective }
     }
@@ -293,6 +293,11 @@ impl Fit {
     ) -> Self {
         let point = Point::new(hypothesis, unknowns, evidence, metric, before);
         Self::linearised(point, unknowns, evidence, metric)
+    }
+
+    /// The same hypothesis on other evidence, with its derivatives.
+    pub fn on(&self, evidence: &Evidence, metric: &Metric) -> Self {
+        Self::at(self.hypothesis.clone(), &self.unknowns, evidence, metric, None)
     }
 
     fn linearised(

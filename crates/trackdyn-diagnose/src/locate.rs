@@ -14,7 +14,7 @@ mod waves;
 pub use contrasts::{Contrasts, Manoeuvre, contrasts};
 pub use waves::Wave;
 
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, Sample};
 use crate::fit::Fit;
 use crate::metric::Metric;
 use crate::normal::Prior;
@@ -125,8 +125,8 @@ impl Residual<'_> {
             }
         }
         Location {
-            excess_over_noise: excess(evidence, metric, residual),
-            channels: shares(evidence, metric, residual),
+            excess_over_noise: excess(evidence, residual),
+            channels: shares(evidence, residual),
             tests: strongest,
             wave: None,
             explicable: all.first().map_or(0.0, |all| all.statistic - real(all.degrees)),
@@ -159,12 +159,21 @@ impl Residual<'_> {
 }
 
 /// Root mean square of the whitened residual over what was measured.
-pub fn excess(evidence: &Evidence, metric: &Metric, residual: &[Vector3<f64>]) -> f64 {
-    let weights = metric.weights(evidence, residual);
+pub fn excess(evidence: &Evidence, residual: &[Vector3<f64>]) -> f64 {
+    excess_of(evidence, residual, |_, _| true)
+}
+
+/// The same over those samples and channels that count.
+pub fn excess_of(
+    evidence: &Evidence,
+    residual: &[Vector3<f64>],
+    counts: impl Fn(&Sample, usize) -> bool,
+) -> f64 {
+    let weights = Metric::weights(residual);
     let (mut sum, mut count) = (0.0, 0.0);
-    for (index, z) in residual.iter().enumerate() {
+    for (index, (z, sample)) in residual.iter().zip(evidence.samples()).enumerate() {
         for channel in 0..3 {
-            if weights[index] > 0.0 && evidence.is_measured(index, channel) {
+            if evidence.is_measured(index, channel) && counts(sample, channel) {
                 sum += weights[index] * z[channel] * z[channel];
                 count += 1.0;
             }
@@ -173,11 +182,10 @@ pub fn excess(evidence: &Evidence, metric: &Metric, residual: &[Vector3<f64>]) -
     (sum / f64::max(count, 1.0)).sqrt()
 }
 
-fn shares(evidence: &Evidence, metric: &Metric, residual: &[Vector3<f64>]) -> [f64; 3] {
-    let weights = metric.weights(evidence, residual);
+fn shares(evidence: &Evidence, residual: &[Vector3<f64>]) -> [f64; 3] {
+    let weights = Metric::weights(residual);
     let beyond: [f64; 3] = std::array::from_fn(|channel| {
-        let measured = (0..residual.len())
-            .filter(|&index| weights[index] > 0.0 && evidence.is_measured(index, channel));
+        let measured = (0..residual.len()).filter(|&index| evidence.is_measured(index, channel));
         let sum: f64 =
             measured.map(|index| weights[index] * residual[index][channel].powi(2) - 1.0).sum();
         sum.max(0.0)

@@ -8,13 +8,18 @@ use trackdyn_recording::robust::NORMAL_FROM_MAD;
 /// Length of a whitened residual from which on it counts linearly: 1 % of normal residuals are longer.
 const FAR: f64 = 3.4;
 
-/// How residuals are measured: what part of the evidence counts, and in which scale.
-#[derive(Clone, Debug)]
+/// How residuals are measured.
+#[derive(Clone, Copy, Debug)]
 pub struct Metric {
     /// By what the whitened residuals of each channel are larger than the noise says.
     pub scale: [f64; 3],
-    /// Whether each run counts.
-    pub runs: Vec<bool>,
+}
+
+impl Default for Metric {
+    /// That of the noise as it is.
+    fn default() -> Self {
+        Self { scale: [1.0; 3] }
+    }
 }
 
 impl Metric {
@@ -34,18 +39,10 @@ impl Metric {
         column
     }
 
-    /// The weight of each sample: one near, less far out, none where its run does not count.
-    pub fn weights(&self, evidence: &Evidence, residual: &[Vector3<f64>]) -> Vec<f64> {
-        let samples = evidence.samples().iter().zip(residual);
-        samples
-            .map(|(sample, z)| {
-                if !self.runs[sample.run] {
-                    return 0.0;
-                }
-                let length = z.norm();
-                if length > FAR { FAR / length } else { 1.0 }
-            })
-            .collect()
+    /// The weight of each sample: one near, less far out.
+    pub fn weights(residual: &[Vector3<f64>]) -> Vec<f64> {
+        let lengths = residual.iter().map(Vector3::norm);
+        lengths.map(|length| if length > FAR { FAR / length } else { 1.0 }).collect()
     }
 
     /// The normal equations of whitened residuals and columns, by the evidence's blocks.
@@ -59,7 +56,7 @@ impl Metric {
         Normal::new(&Columns {
             residual,
             columns,
-            weights: &self.weights(evidence, residual),
+            weights: &Self::weights(residual),
             blocks: &blocks,
             count: evidence.blocks(),
         })
@@ -69,27 +66,20 @@ impl Metric {
     /// medians: one where nothing is left but noise.
     pub fn residual_scale(&self, evidence: &Evidence, residual: &[Vector3<f64>]) -> [f64; 3] {
         std::array::from_fn(|channel| {
-            let samples = evidence.samples().iter().zip(residual).enumerate();
-            let mut sizes: Vec<f64> = samples
-                .filter(|(index, (sample, _))| {
-                    self.runs[sample.run] && evidence.is_measured(*index, channel)
-                })
-                .map(|(_, (_, z))| z[channel].abs() * self.scale[channel])
-                .collect();
+            let measured = residual.iter().enumerate();
+            let measured = measured.filter(|(index, _)| evidence.is_measured(*index, channel));
+            let mut sizes: Vec<f64> =
+                measured.map(|(_, z)| z[channel].abs() * self.scale[channel]).collect();
             sizes.sort_by(f64::total_cmp);
             sizes.get(sizes.len() / 2).map_or(1.0, |median| NORMAL_FROM_MAD * median)
         })
     }
 
     /// Twice the robust loss.
-    pub fn loss(&self, evidence: &Evidence, residual: &[Vector3<f64>]) -> f64 {
-        let samples = evidence.samples().iter().zip(residual);
-        samples
-            .filter(|(sample, _)| self.runs[sample.run])
-            .map(|(_, z)| {
-                let length = z.norm();
-                if length > FAR { FAR * (2.0 * length - FAR) } else { length * length }
-            })
+    pub fn loss(residual: &[Vector3<f64>]) -> f64 {
+        let lengths = residual.iter().map(Vector3::norm);
+        lengths
+            .map(|length| if length > FAR { FAR * (2.0 * length - FAR) } else { length * length })
             .sum()
     }
 }

@@ -74,11 +74,25 @@ pub fn with_remaining_noise(evidence: &Evidence, fit: &Fit, metric: &Metric) -> 
     for _ in 0..ROUNDS {
         let Some(&noise) = evidence.noise() else { break };
         let left = remaining(&evidence, fit, metric);
-        let noise = most_likely(&evidence, metric, noise, &left);
+        let noise = most_likely(&evidence, noise, &left);
         evidence = evidence.with_noise(noise);
         evidence = evidence.without(&outlying(&evidence, &noise, &left));
     }
     evidence
+}
+
+/// The evidence without the samples at whose poses the sensor erred, beside a fit, in the noise that it has.
+pub fn without_outliers(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Evidence {
+    let mut evidence = evidence.clone();
+    let Some(&noise) = evidence.noise() else { return evidence };
+    // Each round judges what outliers of the one before stood beside.
+    loop {
+        let lost = outlying(&evidence, &noise, &remaining(&evidence, fit, metric));
+        if lost.is_empty() {
+            return evidence;
+        }
+        evidence = evidence.without(&lost);
+    }
 }
 
 /// The noise in words: what each pose is off by, and what is added in a second.
@@ -185,15 +199,16 @@ fn remaining(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Vec<Vector3<f64
 /// from what was measured, and from white noise alone.
 fn most_likely(
     evidence: &Evidence,
-    metric: &Metric,
     measured: SegmentNoise,
     residual: &[Vector3<f64>],
 ) -> SegmentNoise {
-    let likelihood = Likelihood { evidence, metric, residual };
+    let likelihood = Likelihood { evidence, residual };
     let [first, second] = [measured, likelihood.white_alone()].map(|start| likelihood.climb(start));
     let (here, _) = if second.1 > first.1 + SETTLED { second } else { first };
     let noise = noise_of(&here);
-    let mut squares: Vec<f64> = likelihood.counted(&likelihood.white(&noise)).collect();
+    let (_, white) = likelihood.white(&noise);
+    let squares = white.iter().map(Vector3::norm_squared);
+    let mut squares: Vec<f64> = squares.filter(|square| *square > 0.0).collect();
     squares.sort_by(f64::total_cmp);
     let level = squares.get(squares.len() / 2).map_or(1.0, |median| median / MEDIAN);
     SegmentNoise {
@@ -206,17 +221,14 @@ fn most_likely(
 /// Residuals whose noise is looked for.
 struct Likelihood<'a> {
     evidence: &'a Evidence,
-    metric: &'a Metric,
     residual: &'a [Vector3<f64>],
 }
 
 impl Likelihood<'_> {
     /// White noise of the poses that would leave as much as there is: two of them meet in a segment.
     fn white_alone(&self) -> SegmentNoise {
-        let counted = self.evidence.samples().iter().zip(self.residual);
-        let counted = counted.filter(|(sample, _)| self.metric.runs[sample.run]);
         let mut squares: [Vec<f64>; 3] = Default::default();
-        for (_, residual) in counted {
+        for residual in self.residual {
             for (squares, component) in squares.iter_mut().zip(residual.iter()) {
                 squares.push(component * component);
             }
@@ -264,29 +276,17 @@ impl Likelihood<'_> {
         (evidence, white)
     }
 
-    fn counted<'b>(
-        &'b self,
-        (_, white): &'b (Evidence, Vec<Vector3<f64>>),
-    ) -> impl Iterator<Item = f64> + 'b {
-        let samples = self.evidence.samples().iter().zip(white);
-        samples
-            .filter(|(sample, _)| self.metric.runs[sample.run])
-            .map(|(_, z)| z.norm_squared())
-            .filter(|square| *square > 0.0)
-    }
-
     /// The logarithm of the likelihood of each segment.
     fn terms(&self, variances: &Variances) -> Vec<f64> {
         let (evidence, white) = self.white(&noise_of(variances));
-        let samples = evidence.samples().iter().zip(&white).zip(evidence.ln_determinants());
+        let samples = white.iter().zip(evidence.ln_determinants());
         samples
-            .map(|((sample, z), ln_determinant)| {
-                if self.metric.runs[sample.run] && *z != Vector3::zeros() {
-                    // ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν)
-                    ln_determinant - 0.5 * (TAILS + 3.0) * (z.norm_squared() / TAILS).ln_1p()
-                } else {
-                    0.0
+            .map(|(z, ln_determinant)| {
+                if *z == Vector3::zeros() {
+                    return 0.0;
                 }
+                // ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν)
+                ln_determinant - 0.5 * (TAILS + 3.0) * (z.norm_squared() / TAILS).ln_1p()
             })
             .collect()
     }
@@ -365,14 +365,10 @@ mod tests {
         residual
     }
 
-    fn metric() -> Metric {
-        Metric { scale: [1.0; 3], runs: vec![true] }
-    }
-
     fn found(evidence: &Evidence, residual: &[Vector3<f64>]) -> SegmentNoise {
         let wrong =
             SegmentNoise { pose: [4e-5, 1e-6, 1e-5], walk: [0.0, 1e-4, 1e-5], heading: 0.0 };
-        most_likely(evidence, &metric(), wrong, residual)
+        most_likely(evidence, wrong, residual)
     }
 
     #[test]
@@ -380,7 +376,7 @@ mod tests {
         let evidence = drive(&[]);
         let residual = noisy(&evidence, 4);
         let start = SegmentNoise { pose: [1e-12; 3], walk: [3e-5; 3], heading: 0.0 };
-        let noise = most_likely(&evidence, &metric(), start, &residual);
+        let noise = most_likely(&evidence, start, &residual);
         for k in 0..3 {
             assert!((noise.pose[k] / TRUE.pose[k]).ln().abs() < 0.2, "{k}: {noise:?}");
         }

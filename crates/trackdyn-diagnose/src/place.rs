@@ -37,7 +37,6 @@ pub fn words(symmetry: Symmetry, location: &Location) -> String {
 /// The sentence of a diagnosis, from what was located before and after it.
 pub fn sentence(
     evidence: &Evidence,
-    metric: &Metric,
     base: &Base,
     [located, after]: [&Location; 2],
     broken: &[Symmetry],
@@ -52,7 +51,7 @@ pub fn sentence(
         let share = 100.0 * located.channels[channel];
         parts.push(format!("{share:.0} % of the excess is {}", CHANNELS[channel]));
     }
-    if let Some((manoeuvre, speed)) = worst(evidence, metric, base) {
+    if let Some((manoeuvre, speed)) = worst(evidence, base) {
         parts.push(format!("it is largest in {} at {speed:.2} m/s", manoeuvre.name()));
     }
     let symmetries: Vec<String> = broken.iter().map(|symmetry| words(*symmetry, after)).collect();
@@ -61,9 +60,9 @@ pub fn sentence(
 }
 
 /// The manoeuvre, and the mean track speed of it, with the largest residuals.
-fn worst(evidence: &Evidence, metric: &Metric, base: &Base) -> Option<(Manoeuvre, f64)> {
+fn worst(evidence: &Evidence, base: &Base) -> Option<(Manoeuvre, f64)> {
     let residual = &base.fit.residual;
-    let weights = metric.weights(evidence, residual);
+    let weights = Metric::weights(residual);
     let fast = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs());
     let fastest = evidence.fastest();
     let mut best: Option<(f64, Manoeuvre, f64)> = None;
@@ -76,7 +75,7 @@ fn worst(evidence: &Evidence, metric: &Metric, base: &Base) -> Option<(Manoeuvre
                 .filter(|&k| {
                     let sample = &evidence.samples()[k];
                     let inside = fast(sample) > low && fast(sample) <= high;
-                    weights[k] > 0.0 && inside && Manoeuvre::of(sample) == manoeuvre
+                    inside && Manoeuvre::of(sample) == manoeuvre
                 })
                 .collect();
             if chosen.len() < 20 {

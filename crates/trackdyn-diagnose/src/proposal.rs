@@ -13,13 +13,12 @@ pub mod symmetry;
 pub mod words;
 
 use crate::base::Calibration;
-use crate::diagnosis::{Diagnosis, HeldOut, Kind, Missing, Options, Status, icr_columns};
+use crate::diagnosis::{Diagnosis, HeldOut, Kind, Missing, Options, Status, Unseen, icr_columns};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, columns};
 use crate::hypothesis::Unknown;
 use crate::locate::{Location, Residual, excess};
 use crate::mechanics::Instruments;
-use crate::metric::Metric;
 use crate::normal::Prior;
 use crate::prior::prior;
 use crate::search::{Catalogue, Found, Search};
@@ -124,10 +123,10 @@ fn law(
         return None;
     }
     let found = refitted(effect, &selected, &library, &search, best);
-    let held_out = judged(diagnosis, evidence, &found);
     let icrs = icr_columns(evidence, &found.fit);
     let residual = Residual { evidence, metric, fit: &found.fit, icrs: &icrs };
     let after = residual.locate_in_waves(options.draws, options.seed);
+    let held_out = judged(diagnosis, &found.fit);
     let still = after.left_over(form);
     // A law that leaves most of it, breaks what was whole, or fails where nothing was fitted, is none.
     let remains = remainder(&after, &left_over) / remainder(&diagnosis.after, &left_over);
@@ -216,11 +215,14 @@ fn refitted(
 }
 
 /// The errors without the law and with it, on the runs that judge the diagnosis.
-fn judged(diagnosis: &Diagnosis, evidence: &Evidence, found: &Found) -> HeldOut {
+fn judged(diagnosis: &Diagnosis, fit: &Fit) -> HeldOut {
     let HeldOut { after: before, noise_floor, are_held_out, .. } = diagnosis.held_out;
-    let runs = diagnosis.metric.runs.iter().map(|counts| counts != &are_held_out).collect();
-    let metric = Metric { scale: diagnosis.metric.scale, runs };
-    let after = excess(evidence, &metric, &found.fit.residual);
+    let after = match &diagnosis.unseen {
+        Some(Unseen { evidence, .. }) => {
+            excess(evidence, &fit.on(evidence, &diagnosis.metric).residual)
+        }
+        None => excess(&diagnosis.evidence, &fit.residual),
+    };
     HeldOut { before, after, noise_floor, are_held_out }
 }
 

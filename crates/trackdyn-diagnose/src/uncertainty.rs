@@ -83,7 +83,10 @@ fn groupings(evidence: &Evidence, counts: impl Fn(usize) -> bool) -> [Vec<Range<
         let run = runs.entry(sample.run).or_insert(sample.block..sample.block + 1);
         *run = run.start.min(sample.block)..run.end.max(sample.block + 1);
     }
-    [blocks, runs.into_values().collect()]
+    // Points of a table are runs of their own, several to a block: what is left out with one is left out with all.
+    let mut runs: Vec<Range<usize>> = runs.into_values().collect();
+    runs.dedup();
+    [blocks, runs]
 }
 
 impl<'a> Uncertainty<'a> {
@@ -187,5 +190,31 @@ impl<'a> Uncertainty<'a> {
         let unknowns = &self.fit.unknowns;
         let place = unknowns.iter().position(|one| *one == Unknown::FrictionLevel)?;
         Some(Level { value: self.fit.hypothesis.friction_level, half: self.halves[place] })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trackdyn_recording::OperatingPoint;
+
+    #[test]
+    fn points_of_a_table_are_left_out_by_blocks() {
+        let point = |k: i32| {
+            let (v_left, v_right) = (0.1 * f64::from(k / 12), 0.1 * f64::from(k % 12));
+            let off = 0.001 * f64::from((7 * k).rem_euclid(11));
+            OperatingPoint {
+                v_left,
+                v_right,
+                v_forward: Some(f64::midpoint(v_left, v_right) + off),
+                v_lateral: None,
+                yaw_rate: Some(v_right - v_left - off),
+            }
+        };
+        let table: Vec<OperatingPoint> = (0..144).map(point).collect();
+        let evidence = Evidence::of_points(&table).expect("evidence");
+        let [blocks, runs] = groupings(&evidence, |_| true);
+        assert_eq!(blocks.len(), evidence.blocks());
+        assert_eq!(runs, blocks);
     }
 }

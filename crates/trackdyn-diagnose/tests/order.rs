@@ -36,7 +36,7 @@ fn owned() -> VehicleFile {
 fn both_ways() -> [Found; 2] {
     let file = owned();
     let evidence = Evidence::of_recording(&recording(), file.vehicle.gauge).expect("enough");
-    let metric = Metric { scale: [1.0; 3], runs: vec![true; evidence.runs().len()] };
+    let metric = Metric::default();
     let base = Base::new(&file, &evidence, &metric);
     let tried = candidates(&base.instruments, &evidence);
     let mut entries = Beside::new(&base.fit.hypothesis, &evidence, &metric).signatures(&tried);

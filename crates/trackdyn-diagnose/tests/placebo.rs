@@ -66,7 +66,7 @@ fn claimed(library: &Library, residual: &[Vector3<f64>], seed: u64) -> Vec<usize
 impl Library {
     /// The metric that a diagnosis would take: larger where residuals are larger than the noise.
     fn metric(&self, residual: &[Vector3<f64>]) -> Metric {
-        let mut metric = self.metric.clone();
+        let mut metric = self.metric;
         let scale = metric.residual_scale(&self.evidence, residual);
         if scale.iter().any(|scale| *scale > TOLERATED) {
             metric.scale = scale.map(|scale| scale.max(1.0));

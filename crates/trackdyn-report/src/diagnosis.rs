@@ -17,11 +17,10 @@ mod words;
 use crate::Error;
 use crate::sheet;
 use nalgebra::Vector3;
-use trackdyn_diagnose::diagnosis::{Diagnosis, Kind, icr_columns};
+use trackdyn_diagnose::diagnosis::{Diagnosis, Kind, Unseen, icr_columns};
 use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::locate::Location;
 use trackdyn_diagnose::locate::cells::Cell;
-use trackdyn_diagnose::metric::Metric;
 use trackdyn_diagnose::{DiagnosisFile, Evidence};
 use trackdyn_physics::VehicleFile;
 
@@ -32,8 +31,6 @@ pub use html::diagnosis_html;
 pub struct Subject<'a> {
     /// The diagnosis.
     pub diagnosis: &'a Diagnosis,
-    /// What it was made from.
-    pub evidence: &'a Evidence,
     /// The vehicle as filed.
     pub vehicle: &'a VehicleFile,
     /// The diagnosis as written to its file.
@@ -56,6 +53,14 @@ pub struct Figure {
     pub png: Vec<u8>,
 }
 
+/// Evidence with whitened residuals before and after.
+#[derive(Clone, Copy)]
+struct View<'a> {
+    evidence: &'a Evidence,
+    residuals: [&'a [Vector3<f64>]; 2],
+    is_held_out: bool,
+}
+
 impl<'a> Subject<'a> {
     /// Whether nothing but perhaps wrong constants is claimed.
     fn claims_nothing(&self) -> bool {
@@ -68,14 +73,14 @@ impl<'a> Subject<'a> {
         self.diagnosis.missing.iter().any(|missing| missing.kind == Kind::Instrument)
     }
 
-    /// The fit before.
-    fn fit_before(&self) -> &'a Fit {
-        let base = &self.diagnosis.base;
-        if self.blames_instruments() { &base.as_filed } else { &base.fit }
+    /// What it was made from.
+    fn evidence(&self) -> &'a Evidence {
+        &self.diagnosis.evidence
     }
 
-    fn residual_before(&self) -> &'a [Vector3<f64>] {
-        &self.fit_before().residual
+    /// The fit before.
+    fn fit_before(&self) -> &'a Fit {
+        self.diagnosis.fit_before()
     }
 
     /// The tests of symmetries before.
@@ -91,19 +96,27 @@ impl<'a> Subject<'a> {
             return [before.clone(), after.clone()];
         }
         let fit = self.fit_before();
-        let icrs = icr_columns(self.evidence, fit);
+        let icrs = icr_columns(self.evidence(), fit);
         let metric = &self.diagnosis.metric;
         let filed =
-            trackdyn_diagnose::locate::cells::cells(self.evidence, metric, &fit.residual, &icrs);
+            trackdyn_diagnose::locate::cells::cells(self.evidence(), metric, &fit.residual, &icrs);
         [filed, after.clone()]
     }
 
-    /// The metric of the runs that judge: the held-out ones where there are any.
-    fn judging(&self) -> Metric {
-        let metric = &self.diagnosis.metric;
-        let held_out = self.diagnosis.held_out.are_held_out;
-        let runs = metric.runs.iter().map(|counts| counts != &held_out).collect();
-        Metric { scale: metric.scale, runs }
+    /// What was left, of the fit and of the held-out runs.
+    fn views(&self) -> Vec<View<'a>> {
+        let diagnosis = self.diagnosis;
+        let residuals = [self.fit_before(), &diagnosis.best.fit].map(|fit| fit.residual.as_slice());
+        let mut views = vec![View { evidence: self.evidence(), residuals, is_held_out: false }];
+        if let Some(Unseen { evidence, before, after }) = &diagnosis.unseen {
+            views.push(View { evidence, residuals: [before, after], is_held_out: true });
+        }
+        views
+    }
+
+    /// What was left of the runs that judge: the held-out ones where there are any.
+    fn judging(&self) -> View<'a> {
+        self.views().pop().expect("that of the fit at least")
     }
 }
 

@@ -65,7 +65,7 @@ pub fn run(options: &Options) -> Outcome {
     };
     let diagnosis = diagnose(&subject.evidence, &vehicle, &settings, &|_| progress.advance(1))?;
     progress.finish();
-    print!("{}", summary::text(&diagnosis, &diagnosis.evidence, &subject.name));
+    print!("{}", summary::text(&diagnosis, &subject.evidence, &subject.name));
     write(&diagnosis, &subject, &vehicle, options)?;
     Ok(Exit::Done)
 }

@@ -20,9 +20,13 @@ const DIFFERENCE: [f64; ORDER + 1] = [-1.0, 3.0, -3.0, 1.0];
 /// λ is tried at powers of √10 from 10⁻² to 10⁵; the last one smooths over some forty readings.
 const TRIED: std::ops::RangeInclusive<i32> = -4..=10;
 
-/// The readings of all runs with even speeds between the ticks of their encoders.
-pub(super) fn smoothed(runs: &[Vec<TrackSample>]) -> Vec<Vec<TrackSample>> {
-    let step = PerSide::from_fn(|side| step(runs.iter().flatten().map(|track| speed(track, side))));
+/// Smallest difference of two speeds that encoders showed, q/T, m/s; zero where all are the same.
+pub(super) fn steps(runs: &[Vec<TrackSample>]) -> PerSide<f64> {
+    PerSide::from_fn(|side| step(runs.iter().flatten().map(|track| speed(track, side))))
+}
+
+/// The readings of all runs with even speeds between the ticks of their encoders, which come in such steps (m/s).
+pub(super) fn smoothed(runs: &[Vec<TrackSample>], step: PerSide<f64>) -> Vec<Vec<TrackSample>> {
     let smooth = |run: &Vec<TrackSample>| {
         let stamps: Vec<f64> = run.iter().map(|reading| reading.t).collect();
         let stretches = stretches(&stamps).into_iter();
@@ -36,7 +40,7 @@ pub(super) fn smoothed(runs: &[Vec<TrackSample>]) -> Vec<Vec<TrackSample>> {
 /// Speeds nearer to each other than this, m/s, are the same but for rounding.
 const SAME: f64 = 1e-5;
 
-/// Smallest difference of two speeds that were shown, q/T, m/s; zero where all are the same.
+/// The same of the speeds of one track.
 fn step(speeds: impl Iterator<Item = f64>) -> f64 {
     let mut shown: Vec<f64> = speeds.collect();
     shown.sort_by(f64::total_cmp);
@@ -178,11 +182,15 @@ mod tests {
         [rms(&speed), rms(&way.iter().map(|error| error - mean).collect::<Vec<_>>())]
     }
 
+    fn even(runs: &[Vec<TrackSample>]) -> Vec<Vec<TrackSample>> {
+        smoothed(runs, steps(runs))
+    }
+
     #[test]
     fn speeds_and_travel_come_nearer_to_the_truth() {
         for tick in [5e-4, 2e-3, 5e-3] {
             let run = counted(tick);
-            let smooth = &smoothed(std::slice::from_ref(&run))[0];
+            let smooth = &even(std::slice::from_ref(&run))[0];
             let ([before, far], [after, near]) = (errors(&run), errors(smooth));
             assert!(after < 0.7 * before, "{tick} m: {after} of {before} m/s");
             assert!(near < 0.95 * far, "{tick} m: {near} of {far} m");
@@ -218,13 +226,13 @@ mod tests {
     #[test]
     fn readings_without_ticks_stay_and_gaps_part_them() {
         let mut run = counted(1e-9);
-        for (a, b) in smoothed(std::slice::from_ref(&run))[0].iter().zip(&run) {
+        for (a, b) in even(std::slice::from_ref(&run))[0].iter().zip(&run) {
             assert!((a.v_left - b.v_left).abs() < 1e-6);
         }
         run = counted(2e-3);
         run.iter_mut().skip(200).for_each(|reading| reading.t += 1.0);
-        let whole = &smoothed(std::slice::from_ref(&run))[0];
-        let halves = smoothed(&[run[..200].to_vec(), run[200..].to_vec()]).concat();
+        let whole = &even(std::slice::from_ref(&run))[0];
+        let halves = even(&[run[..200].to_vec(), run[200..].to_vec()]).concat();
         assert_eq!(whole.len(), halves.len());
         assert!(whole.iter().zip(&halves).all(|(a, b)| (a.v_left - b.v_left).abs() < 1e-9));
     }

@@ -45,7 +45,7 @@ pub fn cells(
     let bounds = [speeds[speeds.len() / 3], speeds[2 * speeds.len() / 3]];
     let columns: Vec<Vec<Vector3<f64>>> =
         icrs.iter().map(|column| metric.white(evidence, column.clone())).collect();
-    let weights = metric.weights(evidence, residual);
+    let weights = Metric::weights(residual);
     let mut cells = Vec::new();
     for manoeuvre in [Manoeuvre::Arc, Manoeuvre::CounterRotation, Manoeuvre::Spin] {
         for speed in 0..3 {
@@ -59,9 +59,8 @@ pub fn cells(
                     };
                     Manoeuvre::of(sample) == manoeuvre && third == speed && ahead == forward
                 };
-                let chosen: Vec<usize> = (0..samples.len())
-                    .filter(|&k| weights[k] > 0.0 && inside(&samples[k]))
-                    .collect();
+                let chosen: Vec<usize> =
+                    (0..samples.len()).filter(|&k| inside(&samples[k])).collect();
                 if chosen.len() < FEWEST {
                     continue;
                 }

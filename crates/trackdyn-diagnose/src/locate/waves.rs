@@ -54,7 +54,7 @@ pub fn strongest_wave(
         return None;
     }
     let numbers = numbers(evidence);
-    let weighted = Weighted::new(evidence, metric, residual, beside);
+    let weighted = Weighted::new(evidence, residual, beside);
     let departures = middle_half_y(icrs);
     let groups: Vec<Group> = numbers
         .par_iter()
@@ -134,13 +134,8 @@ struct Weighted {
 }
 
 impl Weighted {
-    fn new(
-        evidence: &Evidence,
-        metric: &Metric,
-        residual: &[Vector3<f64>],
-        beside: &[Vec<Vector3<f64>>],
-    ) -> Self {
-        let weights = metric.weights(evidence, residual);
+    fn new(evidence: &Evidence, residual: &[Vector3<f64>], beside: &[Vec<Vector3<f64>>]) -> Self {
+        let weights = Metric::weights(residual);
         let roots: Vec<f64> = weights.into_iter().map(f64::sqrt).collect();
         let flat = |column: &[Vector3<f64>]| {
             let values = column.iter().zip(&roots).flat_map(|(value, root)| {

@@ -95,10 +95,10 @@ impl Rival {
 fn whole(without: &Hypothesis, driving: &Evidence) -> Metric {
     /// Length of the longest residual.
     const LONGEST: f64 = 3.0;
-    let fine = Metric { scale: [1.0; 3], runs: vec![true; driving.runs().len()] };
+    let fine = Metric::default();
     let mechanics = Mechanics::new(without, driving);
     let moves = mechanics.predict(&Instruments::of(without), driving);
     let residual = fine.residual(driving, &moves);
     let longest = residual.iter().map(Vector3::norm).fold(0.0, f64::max);
-    Metric { scale: [(longest / LONGEST).max(1.0); 3], ..fine }
+    Metric { scale: [(longest / LONGEST).max(1.0); 3] }
 }

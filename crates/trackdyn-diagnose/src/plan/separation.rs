@@ -60,7 +60,7 @@ struct Predicted {
 
 /// The products of differences and derivatives of each pair, block by block.
 pub fn products(pairs: &[[usize; 2]], rivals: &[Rival], evidence: &Evidence) -> Vec<Normal> {
-    let metric = Metric { scale: [1.0; 3], runs: vec![true; evidence.runs().len()] };
+    let metric = Metric::default();
     let is_second = |k: usize| pairs.iter().any(|pair| pair[1] == k);
     let seen: Vec<Predicted> = rivals
         .par_iter()

@@ -56,7 +56,7 @@ impl Library {
         let recording = synthetic.recording().expect("long enough");
         let file = VehicleFile::auriga_alpha();
         let evidence = Evidence::of_recording(&recording, file.vehicle.gauge).expect("enough");
-        let metric = Metric { scale: [1.0; 3], runs: vec![true; evidence.runs().len()] };
+        let metric = Metric::default();
         let Base { fit, instruments, .. } = Base::new(&file, &evidence, &metric);
         let tried: Vec<_> = (0..CATALOGUE.len())
             .filter(|effect| !instruments.contains(effect))

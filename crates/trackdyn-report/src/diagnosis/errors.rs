@@ -1,8 +1,8 @@
 //! Errors before and after against the floor of the noise.
 
-use super::Subject;
 use super::sheet::{self, AFTER, BEFORE, Mark, px};
 use super::words::CHANNELS;
+use super::{Subject, View};
 use crate::Error;
 use crate::canvas::{Area, Canvas};
 use crate::colour::{FRAME, GREY, GRID, INK, Rgb};
@@ -10,10 +10,9 @@ use crate::look;
 use crate::panel::ticks::{Ticks, number};
 use crate::panel::{LABEL_SIZE, Panel, TICK_SIZE, TITLE_SIZE};
 use crate::text::{Horizontal, Style, Vertical};
-use nalgebra::Vector3;
 use trackdyn_core::real;
-use trackdyn_diagnose::locate::excess;
-use trackdyn_diagnose::metric::Metric;
+use trackdyn_diagnose::evidence::Sample;
+use trackdyn_diagnose::locate::excess_of;
 
 const HEIGHT: i32 = 1000;
 const TOP: i32 = sheet::TOP + 130;
@@ -53,7 +52,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     ];
     sheet::legend(&mut canvas, [158, sheet::TOP + 20], &entries);
     let which = if fit.are_held_out { "held-out" } else { "all" };
-    let what = if subject.evidence.is_steady() { "points" } else { "runs" };
+    let what = if subject.evidence().is_steady() { "points" } else { "runs" };
     let place = |text: &str, bars: Vec<(Rgb, f64)>| (text.to_owned(), bars);
     let whole = Bars {
         title: format!("{which} {what}"),
@@ -63,22 +62,22 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
             place("floor", vec![(FLOOR, fit.noise_floor)]),
         ],
     };
-    let residuals = [subject.residual_before(), &subject.diagnosis.best.fit.residual];
+    let View { evidence, residuals, .. } = subject.judging();
     let channels = Bars {
         title: "by channel".to_owned(),
         places: (0..3)
             .map(|channel| {
-                let evidence = subject.evidence;
                 if !(0..evidence.samples().len()).any(|index| evidence.is_measured(index, channel))
                 {
                     return (format!("{}: not measured", CHANNELS[channel]), Vec::new());
                 }
-                let [a, b] = residuals.map(|residual| rms(subject, residual, channel));
+                let of = |_: &Sample, one| one == channel;
+                let [a, b] = residuals.map(|residual| excess_of(evidence, residual, of));
                 place(CHANNELS[channel], vec![(before, a), (after, b)])
             })
             .collect(),
     };
-    let runs = runs(subject, residuals, [before, after]);
+    let runs = runs(subject, [before, after]);
     let areas = if runs.places.is_empty() { WIDE.as_slice() } else { NARROW.as_slice() };
     for (area, bars) in areas.iter().zip([whole, channels, runs]) {
         group(&mut canvas, *area, &bars, fit.noise_floor);
@@ -95,35 +94,23 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     canvas.to_small_png()
 }
 
-/// Root mean square of a channel on the runs that judge.
-fn rms(subject: &Subject, residual: &[Vector3<f64>], channel: usize) -> f64 {
-    let judging = subject.judging();
-    let weights = judging.weights(subject.evidence, residual);
-    let (mut sum, mut count) = (0.0, 0.0);
-    for (index, z) in residual.iter().enumerate() {
-        if weights[index] > 0.0 && subject.evidence.is_measured(index, channel) {
-            sum += weights[index] * z[channel].powi(2);
-            count += 1.0;
-        }
-    }
-    (sum / f64::max(count, 1.0)).sqrt()
-}
-
 /// Before and after of every run; none where there are too many.
-fn runs(subject: &Subject, residuals: [&[Vector3<f64>]; 2], colours: [Rgb; 2]) -> Bars {
-    let metric = &subject.diagnosis.metric;
-    let count = metric.runs.len();
+fn runs(subject: &Subject, colours: [Rgb; 2]) -> Bars {
+    let names = subject.evidence().runs();
     let mut bars = Bars { title: "run by run (* held out)".to_owned(), places: Vec::new() };
-    if subject.evidence.is_steady() || count > MOST_RUNS {
+    if subject.evidence().is_steady() || names.len() > MOST_RUNS {
         return bars;
     }
-    for run in 0..count {
-        let runs = (0..count).map(|other| other == run).collect();
-        let alone = Metric { scale: metric.scale, runs };
-        let values = residuals.map(|residual| excess(subject.evidence, &alone, residual));
-        let star = if metric.runs[run] { "" } else { "*" };
-        let name = format!("{}{star}", subject.evidence.runs()[run]);
-        bars.places.push((name, colours.into_iter().zip(values).collect()));
+    for (run, name) in names.iter().enumerate() {
+        for View { evidence, residuals, is_held_out } in subject.views() {
+            let of = |sample: &Sample, _| sample.run == run;
+            if !evidence.samples().iter().any(|sample| sample.run == run) {
+                continue;
+            }
+            let values = residuals.map(|residual| excess_of(evidence, residual, of));
+            let star = if is_held_out { "*" } else { "" };
+            bars.places.push((format!("{name}{star}"), colours.into_iter().zip(values).collect()));
+        }
     }
     bars
 }

@@ -9,6 +9,7 @@ use crate::panel::ticks::number;
 use minijinja::Environment;
 use minijinja::value::Serde;
 use serde::Serialize;
+use std::collections::BTreeSet;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::document::separate_by;
 use trackdyn_diagnose::verdict::Rules;
@@ -111,7 +112,7 @@ pub fn diagnosis_html(subject: &Subject, figures: &[Figure]) -> Result<String, E
 }
 
 fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Page<'a> {
-    let (diagnosis, evidence) = (subject.diagnosis, subject.evidence);
+    let (diagnosis, evidence) = (subject.diagnosis, subject.evidence());
     let [status, tone] = answer::status(subject);
     let refused = diagnosis.refused.iter().map(|verdict| Row {
         name: ids(&verdict.one_of, " or "),
@@ -124,13 +125,13 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Page<'a> {
         base64: base64(&figure.png),
     });
     let unit = if evidence.is_steady() { "points of steady motion" } else { "segments of driving" };
-    let held_out = if diagnosis.held_out.are_held_out {
-        let held_out = diagnosis.metric.runs.iter().filter(|counts| !**counts).count();
+    let samples: usize = subject.views().iter().map(|view| view.evidence.samples().len()).sum();
+    let held_out = diagnosis.unseen.as_ref().map_or("none were held out".to_owned(), |unseen| {
+        let samples = unseen.evidence.samples().iter();
+        let held_out = samples.map(|sample| sample.run).collect::<BTreeSet<usize>>().len();
         let what = if evidence.is_steady() { "points" } else { "runs" };
-        format!("{held_out} of {} {what} were held out", diagnosis.metric.runs.len())
-    } else {
-        "none were held out".to_owned()
-    };
+        format!("{held_out} of {} {what} were held out", evidence.runs().len())
+    });
     Page {
         name: subject.name,
         vehicle: &subject.vehicle.vehicle.name,
@@ -145,7 +146,7 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Page<'a> {
         candidates: rows(subject),
         limits: limits(subject),
         rules: rules(),
-        evidence: format!("{} {unit}; {held_out}", evidence.samples().len()),
+        evidence: format!("{samples} {unit}; {held_out}"),
         noise: noise(subject),
         source: subject.file.source.as_ref(),
         caption: subject.caption,
@@ -287,7 +288,7 @@ fn rules() -> Vec<String> {
 
 fn noise(subject: &Subject) -> String {
     let scale = subject.diagnosis.metric.scale;
-    let taken = subject.evidence.description();
+    let taken = subject.evidence().description();
     let taken = subject.diagnosis.evidence.noise().map_or_else(
         || taken.to_owned(),
         |noise| format!("{taken}: {}", trackdyn_diagnose::noise::sentence(noise)),

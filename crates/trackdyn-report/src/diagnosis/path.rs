@@ -1,7 +1,7 @@
 //! One run replayed: dead reckoning with the model as filed and as corrected.
 
-use super::Subject;
 use super::sheet::{self, AFTER, BEFORE, Mark};
+use super::{Subject, View};
 use crate::Error;
 use crate::canvas::{Area, Canvas};
 use crate::colour::{INK, WHITE};
@@ -10,6 +10,7 @@ use crate::panel::ticks::number;
 use crate::panel::{Labels, Panel};
 use nalgebra::Vector3;
 use trackdyn_core::Pose;
+use trackdyn_diagnose::Evidence;
 use trackdyn_diagnose::hypothesis::Hypothesis;
 use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
 use trackdyn_physics::VehicleFile;
@@ -61,17 +62,16 @@ pub(super) fn draw(subject: &Subject) -> Result<Option<Vec<u8>>, Error> {
 
 /// The longest of the held-out runs, or of all where none was held out.
 fn replay(subject: &Subject) -> Option<Replay> {
-    let (evidence, diagnosis) = (subject.evidence, subject.diagnosis);
+    let View { evidence, is_held_out, .. } = subject.judging();
     if evidence.is_steady() {
         return None;
     }
     let samples = evidence.samples();
-    let judging = subject.judging();
     let time = |run: usize| -> f64 {
         samples.iter().filter(|sample| sample.run == run).map(|sample| sample.duration).sum()
     };
-    let runs = (0..judging.runs.len()).filter(|&run| judging.runs[run]);
-    let run = runs.max_by(|&a, &b| time(a).total_cmp(&time(b)).then(b.cmp(&a)))?;
+    let run =
+        (0..evidence.runs().len()).max_by(|&a, &b| time(a).total_cmp(&time(b)).then(b.cmp(&a)))?;
     let first = samples.iter().position(|sample| sample.run == run)?;
     let start = samples[first].start;
     let count = samples[first..]
@@ -79,27 +79,26 @@ fn replay(subject: &Subject) -> Option<Replay> {
         .take_while(|sample| sample.run == run && sample.start - start <= LONGEST)
         .count();
     let chosen = first..first + count;
-    let observed = poses(subject, chosen.clone(), |index| samples[index].motion);
-    let replayed = [subject.vehicle, &diagnosis.corrected].map(|file| {
-        let motions = motions(subject, file);
-        chained(subject, chosen.clone(), &observed, &motions)
+    let observed = poses(evidence, chosen.clone(), |index| samples[index].motion);
+    let replayed = [subject.vehicle, &subject.diagnosis.corrected].map(|file| {
+        let motions = motions(evidence, file);
+        chained(evidence, chosen.clone(), &observed, &motions)
     });
     let times = chosen.clone().map(|index| samples[index].start - start);
     let last = samples[first + count - 1];
     let times = times.chain([last.start + last.duration - start]).collect();
-    let is_held_out = diagnosis.held_out.are_held_out;
     Some(Replay { run: evidence.runs()[run], is_held_out, times, observed, replayed })
 }
 
 /// The motion of every sample with a vehicle file, moved by the recording's clock where the file says nothing
 /// of it.
-fn motions(subject: &Subject, file: &VehicleFile) -> Vec<Vector3<f64>> {
+fn motions(evidence: &Evidence, file: &VehicleFile) -> Vec<Vector3<f64>> {
     let hypothesis = Hypothesis::filed(file);
     let mut instruments = Instruments::of(&hypothesis);
     if instruments.sensor.delay == 0.0 {
-        instruments.sensor.delay = subject.evidence.tau();
+        instruments.sensor.delay = evidence.tau();
     }
-    Mechanics::new(&hypothesis, subject.evidence).predict(&instruments, subject.evidence)
+    Mechanics::new(&hypothesis, evidence).predict(&instruments, evidence)
 }
 
 fn pose(motion: &Vector3<f64>) -> Pose {
@@ -108,11 +107,11 @@ fn pose(motion: &Vector3<f64>) -> Pose {
 
 /// Observed poses at the beginning of each sample and at the end of the last.
 fn poses(
-    subject: &Subject,
+    evidence: &Evidence,
     chosen: std::ops::Range<usize>,
     motion: impl Fn(usize) -> Vector3<f64>,
 ) -> Vec<Pose> {
-    let samples = subject.evidence.samples();
+    let samples = evidence.samples();
     let mut poses: Vec<Pose> = chosen.clone().map(|index| samples[index].pose).collect();
     if let (Some(last), Some(pose_then)) = (chosen.last(), poses.last().copied()) {
         poses.push(pose_then.compose(&pose(&motion(last))));
@@ -122,13 +121,13 @@ fn poses(
 
 /// Predicted motions in a row. Where samples leave a gap, the observed motion bridges it.
 fn chained(
-    subject: &Subject,
+    evidence: &Evidence,
     chosen: std::ops::Range<usize>,
     observed: &[Pose],
     motions: &[Vector3<f64>],
 ) -> Vec<Pose> {
     const GAP: f64 = 1e-6;
-    let samples = subject.evidence.samples();
+    let samples = evidence.samples();
     let Some(mut at) = observed.first().copied() else { return Vec::new() };
     let mut path = vec![at];
     for index in chosen.clone() {

@@ -1,15 +1,14 @@
 //! Residuals over the plane of both track speeds.
 
-use super::Subject;
 use super::sheet::{self, quantile};
 use super::words::CHANNELS;
+use super::{Subject, View};
 use crate::Error;
 use crate::canvas::{Area, Canvas};
 use crate::colour::{BLUE_RED, BLUES, ColourMap, FRAME, GREY, GRID};
 use crate::icr_map::colour_bar;
 use crate::panel::{Labels, Panel, TICK_SIZE};
 use crate::text::{Horizontal, Style, Vertical};
-use nalgebra::Vector3;
 use trackdyn_core::real;
 
 const HEIGHT: i32 = 1420;
@@ -37,30 +36,30 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
                        above and below.";
     let title = "Where observation and model differ";
     let mut canvas = sheet::sheet(HEIGHT, title, explanation, subject.caption)?;
-    let fastest = subject
-        .evidence
-        .samples()
+    let views = subject.views();
+    let fastest = views
         .iter()
+        .flat_map(|view| view.evidence.samples())
         .map(|sample| sample.speeds.left.abs().max(sample.speeds.right.abs()))
         .fold(0.0, f64::max);
-    let room = if subject.evidence.is_steady() { 1.08 } else { 1.03 };
+    let room = if subject.evidence().is_steady() { 1.08 } else { 1.03 };
     let extent = if fastest > 0.0 { room * fastest } else { 1.0 };
-    let residuals = [subject.residual_before(), &subject.diagnosis.best.fit.residual];
-    let means = residuals.map(|residual| {
+    let means = [0, 1].map(|when| {
         [0, 1, 2].map(|channel| {
-            spots(subject, extent, |index| {
-                subject.evidence.is_measured(index, channel).then(|| residual[index][channel])
+            spots(&views, extent, |view, index| {
+                let measured = view.evidence.is_measured(index, channel);
+                measured.then(|| view.residuals[when][index][channel])
             })
         })
     });
-    let sizes = residuals.map(|residual| {
-        let mut spots = spots(subject, extent, |index| square(subject, residual, index));
+    let sizes = [0, 1].map(|when| {
+        let mut spots = spots(&views, extent, |view, index| square(view, when, index));
         for spot in &mut spots {
             spot.value = spot.value.sqrt();
         }
         spots
     });
-    let shape = if subject.evidence.is_steady() { Shape::Points } else { Shape::Cells };
+    let shape = if subject.evidence().is_steady() { Shape::Points } else { Shape::Cells };
     let limit = |values: &mut dyn Iterator<Item = f64>, least: f64| {
         quantile(values, 0.98).unwrap_or(0.0).max(least)
     };
@@ -85,10 +84,11 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     canvas.to_small_png()
 }
 
-/// Mean square of what was measured of a sample.
-fn square(subject: &Subject, residual: &[Vector3<f64>], index: usize) -> Option<f64> {
-    let measured = (0..3).filter(|&channel| subject.evidence.is_measured(index, channel));
-    let squares: Vec<f64> = measured.map(|channel| residual[index][channel].powi(2)).collect();
+/// Mean square of what was measured of a sample, before (0) or after (1).
+fn square(view: &View, when: usize, index: usize) -> Option<f64> {
+    let measured = (0..3).filter(|&channel| view.evidence.is_measured(index, channel));
+    let squares: Vec<f64> =
+        measured.map(|channel| view.residuals[when][index][channel].powi(2)).collect();
     (!squares.is_empty()).then(|| squares.iter().sum::<f64>() / real(squares.len()))
 }
 
@@ -102,12 +102,16 @@ enum Shape {
 }
 
 /// Means over cells of the plane; of a table of steady motions each point for itself.
-fn spots(subject: &Subject, extent: f64, of: impl Fn(usize) -> Option<f64>) -> Vec<Spot> {
-    let values = subject.evidence.samples().iter().enumerate().filter_map(|(index, sample)| {
-        let value = of(index).filter(|value| value.is_finite())?;
+fn spots(views: &[View], extent: f64, of: impl Fn(&View, usize) -> Option<f64>) -> Vec<Spot> {
+    let is_steady = views.iter().all(|view| view.evidence.is_steady());
+    let samples = views.iter().flat_map(|view| {
+        view.evidence.samples().iter().enumerate().map(move |(index, sample)| (view, index, sample))
+    });
+    let values = samples.filter_map(|(view, index, sample)| {
+        let value = of(view, index).filter(|value| value.is_finite())?;
         Some(Spot { at: [sample.speeds.left, sample.speeds.right], value })
     });
-    if subject.evidence.is_steady() {
+    if is_steady {
         return values.collect();
     }
     let mut sums = vec![(0.0, 0.0); CELLS * CELLS];

@@ -128,10 +128,8 @@ fn effect(
 
 /// Predicted change and observed departure of the samples that count in the fit.
 fn points(subject: &Subject, exposure: &Exposure, channel: usize) -> Vec<[f64; 2]> {
-    let diagnosis = subject.diagnosis;
-    let weights = diagnosis.metric.weights(subject.evidence, &diagnosis.best.fit.residual);
     (0..exposure.predicted.len())
-        .filter(|&index| weights[index] > 0.0 && subject.evidence.is_measured(index, channel))
+        .filter(|&index| subject.evidence().is_measured(index, channel))
         .map(|index| [exposure.predicted[index][channel], exposure.observed[index][channel]])
         .filter(|point| point.iter().all(|value| value.is_finite()))
         .collect()

@@ -17,23 +17,22 @@ const MARGIN: usize = 16;
 const NAME: &str = "<script>alert('&\"1\"')</script> a & b";
 
 struct Case {
-    evidence: Evidence,
     vehicle: VehicleFile,
     diagnosis: Diagnosis,
     file: DiagnosisFile,
 }
 
 impl Case {
-    fn new(evidence: Evidence, vehicle: VehicleFile, held_out: Vec<usize>) -> Self {
+    fn new(evidence: &Evidence, vehicle: VehicleFile, held_out: Vec<usize>) -> Self {
         let options = Options { held_out, draws: 100, seed: 1 };
-        let diagnosis = diagnose(&evidence, &vehicle, &options, &|_| {}).expect("a diagnosis");
+        let diagnosis = diagnose(evidence, &vehicle, &options, &|_| {}).expect("a diagnosis");
         let source = Source {
             command: "trackdyn diagnose <a&b>".to_owned(),
             version: "0".to_owned(),
             ..Source::default()
         };
         let file = DiagnosisFile::new(&diagnosis, &source);
-        Self { evidence, vehicle, diagnosis, file }
+        Self { vehicle, diagnosis, file }
     }
 
     /// Runs of a robot with the constant ICRs of the vehicle's own slow spin: nothing is missing.
@@ -57,7 +56,7 @@ impl Case {
         };
         let recording = synthetic.recording().expect("a recording");
         let evidence = Evidence::of_recording(&recording, vehicle.vehicle.gauge).expect("evidence");
-        Self::new(evidence, vehicle, vec![3])
+        Self::new(&evidence, vehicle, vec![3])
     }
 
     /// A table of steady motions with centripetal force, without lateral speeds.
@@ -82,14 +81,13 @@ impl Case {
             }
         }
         let evidence = Evidence::of_points(&points).expect("evidence");
-        Self::new(evidence, vehicle, Vec::new())
+        Self::new(&evidence, vehicle, Vec::new())
     }
 
     fn report(&self) -> (Vec<Figure>, String) {
         let caption = format!("made from {NAME}, {}", "long ".repeat(100));
         let subject = Subject {
             diagnosis: &self.diagnosis,
-            evidence: &self.evidence,
             vehicle: &self.vehicle,
             file: &self.file,
             name: NAME,

@@ -25,7 +25,6 @@ pub fn write(
     );
     let subject = trackdyn_report::Subject {
         diagnosis,
-        evidence: &diagnosis.evidence,
         vehicle,
         file,
         name: &subject.name,

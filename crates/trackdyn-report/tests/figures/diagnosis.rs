@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use trackdyn_core::PerSide;
+use trackdyn_diagnose::diagnosis::HeldOut;
 use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, Options, diagnose};
 use trackdyn_motion::Stationary;
 use trackdyn_motion::kinematics::Source;
@@ -180,4 +181,16 @@ fn a_recording_without_missing_physics_has_a_report() {
 #[test]
 fn steady_points_have_a_report_without_paths() {
     check(&Case::steady_points(), &FIGURES[..7]);
+}
+
+#[test]
+fn a_claim_that_held_out_runs_contradict_is_not_for_driving() {
+    let mut case = Case::steady_points();
+    assert!(!case.diagnosis.missing.is_empty());
+    for (after, warned) in [(1.1, false), (1.2, true), (1.3, true)] {
+        case.diagnosis.held_out =
+            HeldOut { before: 1.2, after, noise_floor: 1.0, are_held_out: true };
+        let (_, html) = case.report();
+        assert_eq!(html.contains("What is claimed does not help there"), warned, "{after}");
+    }
 }

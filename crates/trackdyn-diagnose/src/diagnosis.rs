@@ -3,7 +3,7 @@
 use crate::base::{Base, Calibration};
 use crate::candidate::{Beside, candidates};
 use crate::error::Error;
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, FEWEST};
 use crate::exposure::Exposure;
 use crate::fit::Fit;
 use crate::hypothesis::with_friction;
@@ -216,6 +216,10 @@ pub fn diagnose(
         (0..evidence.runs().len()).map(|run| options.held_out.contains(&run)).collect();
     let seen: Vec<bool> = held_out.iter().map(|held_out| !held_out).collect();
     let (mut unseen, mut evidence) = (evidence.of_runs(&held_out), evidence.of_runs(&seen));
+    let found = evidence.samples().len();
+    if found < FEWEST && !evidence.is_steady() {
+        return Err(Error::TooFewSegments { found, needed: FEWEST });
+    }
     let mut metric = Metric::default();
     let base = Base::new(file, &evidence, &metric);
     if let Some(reason) = base.as_filed.mechanics.failure() {

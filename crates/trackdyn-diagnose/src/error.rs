@@ -6,11 +6,11 @@
 pub enum Error {
     /// Too little driving.
     #[error(
-        "{found} segments: expected at least {needed}, that is, some {:.0} s of driving with poses and \
-         track speeds", 0.3 * real(*.needed)
+        "{found} segments to learn from: expected at least {needed}, that is, some {:.0} s of driving with poses and \
+         track speeds, in runs that are not held out", 0.3 * real(*.needed)
     )]
     TooFewSegments {
-        /// Segments of the recording.
+        /// Segments of the runs that are not held out.
         found: usize,
         /// Segments that are needed.
         needed: usize,

@@ -8,6 +8,8 @@ mod points;
 mod series;
 mod ticks;
 
+pub use series::FEWEST;
+
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

@@ -15,7 +15,7 @@ use trackdyn_recording::{Clock, Recording, SegmentOptions, TrackSample};
 const TAU_MARGIN: f64 = 0.15;
 
 /// Fewer segments than this are no evidence.
-const FEWEST: usize = 60;
+pub const FEWEST: usize = 60;
 
 impl Evidence {
     /// The segments of a recording, with the noise that the recording shows without any model. It is where

@@ -107,11 +107,6 @@ pub struct HeldOut {
 }
 
 impl HeldOut {
-    /// Whether held-out runs contradict what is claimed: the corrected model does no better there.
-    pub fn contradict(&self) -> bool {
-        self.are_held_out && self.after >= self.before
-    }
-
     /// Share of the excess over the noise floor that the corrected model explains; none where there is no
     /// excess.
     pub fn excess_explained(&self) -> Option<f64> {
@@ -519,13 +514,28 @@ fn errors(
     HeldOut { before, after: error, noise_floor, are_held_out: false }
 }
 
+/// Whether encoders or pose sensor are to blame for something.
+fn blame_instruments(missing: &[Missing]) -> bool {
+    missing.iter().any(|missing| missing.kind == Kind::Instrument)
+}
+
 /// What was there before: an instrument that is claimed is part of what was missing.
 fn before<'a>(base: &'a Base, missing: &[Missing]) -> &'a Fit {
-    let instruments = missing.iter().any(|missing| missing.kind == Kind::Instrument);
-    if instruments { &base.as_filed } else { &base.fit }
+    if blame_instruments(missing) { &base.as_filed } else { &base.fit }
 }
 
 impl Diagnosis {
+    /// Whether encoders or pose sensor are to blame for something: they are then not part of what was before.
+    pub fn blames_instruments(&self) -> bool {
+        blame_instruments(&self.missing)
+    }
+
+    /// Whether held-out runs contradict what is claimed: the corrected model does no better there.
+    pub fn is_contradicted(&self) -> bool {
+        let HeldOut { before, after, are_held_out, .. } = self.held_out;
+        are_held_out && after >= before && !self.missing.is_empty()
+    }
+
     /// The fit of what was there before: of the vehicle as filed where encoders or pose sensor are to blame for
     /// something, else with these at their best.
     pub fn fit_before(&self) -> &Fit {

@@ -67,12 +67,6 @@ impl<'a> Subject<'a> {
         self.diagnosis.missing.iter().all(|missing| missing.kind == Kind::Constant)
     }
 
-    /// Whether encoders or pose sensor are to blame for something: they are then not part of what was
-    /// before.
-    fn blames_instruments(&self) -> bool {
-        self.diagnosis.missing.iter().any(|missing| missing.kind == Kind::Instrument)
-    }
-
     /// What it was made from.
     fn evidence(&self) -> &'a Evidence {
         &self.diagnosis.evidence
@@ -86,13 +80,13 @@ impl<'a> Subject<'a> {
     /// The tests of symmetries before.
     fn before(&self) -> &'a Location {
         let diagnosis = self.diagnosis;
-        if self.blames_instruments() { &diagnosis.filed } else { &diagnosis.before }
+        if self.diagnosis.blames_instruments() { &diagnosis.filed } else { &diagnosis.before }
     }
 
     /// Cells of driving before and after.
     fn cells(&self) -> [Vec<Cell>; 2] {
         let [before, after] = &self.diagnosis.cells;
-        if !self.blames_instruments() {
+        if !self.diagnosis.blames_instruments() {
             return [before.clone(), after.clone()];
         }
         let fit = self.fit_before();

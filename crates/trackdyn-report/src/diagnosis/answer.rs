@@ -173,7 +173,7 @@ fn errors(subject: &Subject) -> String {
             format!("{} % of the excess over that floor is explained", number(100.0 * share, 1))
         },
     );
-    let transfers = if fit.contradict() && !subject.diagnosis.missing.is_empty() {
+    let transfers = if subject.diagnosis.is_contradicted() {
         " What is claimed does not help there: it may be true of the other runs alone, and the vehicle as filed is \
          the one to drive on with."
     } else {

@@ -79,7 +79,7 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
         "fit      on {on}: {:.3} before, {:.3} after, noise floor {:.3} ({share})",
         fit.before, fit.after, fit.noise_floor
     );
-    if fit.contradict() && !diagnosis.missing.is_empty() {
+    if diagnosis.is_contradicted() {
         let _ = writeln!(
             text,
             "         what is missing does not help there: it may be true of the other runs alone; drive on with the \

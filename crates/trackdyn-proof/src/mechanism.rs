@@ -39,6 +39,14 @@ pub trait Mechanism: std::fmt::Debug + Send + Sync {
     /// Force of the ground on a shoe beside friction, N, paper's frame.
     fn traction(&self, _contact: &Contact, _force: &mut [f64; 2]) {}
 
+    /// Friction and traction of many shoes: one call, in which those of a mechanism are inlined.
+    fn act(&self, contacts: &[Contact], mu: &mut [[f64; 2]], force: &mut [[f64; 2]]) {
+        for ((contact, mu), force) in contacts.iter().zip(mu).zip(force) {
+            self.friction(contact, mu);
+            self.traction(contact, force);
+        }
+    }
+
     /// Force and moment on the hull at a trial twist, N and N m, paper's frame.
     fn push(&self, _scene: &Scene, _twist: &Twist, _wrench: &mut Wrench) {}
 
@@ -164,7 +172,8 @@ pub struct Contact<'a> {
 impl Contact<'_> {
     /// Slip speed, m/s.
     pub fn slip_speed(&self) -> f64 {
-        self.slip[0].hypot(self.slip[1])
+        let [x, y] = self.slip;
+        (x * x + y * y).sqrt()
     }
 
     /// Place in the world (REP-103), m.

@@ -187,14 +187,10 @@ impl Robot {
                 stiffness
             });
         }
-        let balance = Balance {
-            scene: &scene,
-            mechanisms: &self.mechanisms,
-            inertia: self.inertia,
-            elastic_range: self.setup.elastic_range,
-            dt,
-        };
-        let twist = self.newton.solve(&balance, &self.trial)?;
+        let Setup { elastic_range, .. } = self.setup;
+        let mut balance =
+            Balance::new(&scene, &self.mechanisms, self.inertia, elastic_range, dt, &self.trial);
+        let twist = self.newton.solve(&mut balance)?;
         let outcome = balance.settle(&mut self.trial, &twist);
         for side in Side::BOTH {
             self.trial.roll(side, belt[side] * dt / 2.0);

@@ -9,7 +9,7 @@ const ONSET: f64 = 2e-3;
 /// Force along the track that holds a shoe back, N.
 pub(super) fn resistance(coefficient: f64, contact: &Contact) -> f64 {
     let speed = contact.scene.belt[contact.side];
-    -coefficient * contact.load * speed / speed.hypot(ONSET)
+    -coefficient * contact.load * speed / (speed * speed + ONSET * ONSET).sqrt()
 }
 
 /// Each shoe pays for the ground it presses in.

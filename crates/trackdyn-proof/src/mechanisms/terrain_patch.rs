@@ -5,6 +5,11 @@ use crate::sheet::{Invariance, Origin, Parameter, Sheet};
 
 use std::f64::consts::PI;
 
+/// Half the root of three.
+const SIN_60: f64 = 0.866_025_403_784_438_6;
+/// Normals of the hexagon's sides: at 0, 60 and 120 degrees.
+const NORMALS: [[f64; 2]; 3] = [[1.0, 0.0], [0.5, SIN_60], [-0.5, SIN_60]];
+
 /// A hexagon, each shoe on its own side of the border.
 #[derive(Clone, Copy, Debug)]
 pub struct TerrainPatch {
@@ -39,10 +44,7 @@ impl Mechanism for TerrainPatch {
     fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
         let [x, y] = contact.world();
         let (x, y) = (x - self.centre[0], y - self.centre[1]);
-        let inside = [0.0_f64, 60.0, 120.0].iter().all(|normal| {
-            let (sin, cos) = normal.to_radians().sin_cos();
-            (cos * x + sin * y).abs() < self.apothem
-        });
+        let inside = NORMALS.iter().all(|[cos, sin]| (cos * x + sin * y).abs() < self.apothem);
         if inside {
             scale_ratio(mu, self.factor);
         }

@@ -1,16 +1,37 @@
 //! Forces on the robot at a trial of a step's end.
 
-use crate::gear::{Gear, Shoe};
+use crate::gear::Gear;
 use crate::mechanism::{Contact, Inertia, Mechanism, Scene};
 use trackdyn_core::{PerSide, Side, Twist, Wrench};
 
 /// Newton's law over one step, by the implicit Euler rule.
 pub(super) struct Balance<'a> {
-    pub(super) scene: &'a Scene<'a>,
-    pub(super) mechanisms: &'a [Box<dyn Mechanism>],
-    pub(super) inertia: Inertia,
-    pub(super) elastic_range: f64,
-    pub(super) dt: f64,
+    scene: &'a Scene<'a>,
+    mechanisms: &'a [Box<dyn Mechanism>],
+    inertia: Inertia,
+    elastic_range: f64,
+    dt: f64,
+    shoes: PerSide<Shoes<'a>>,
+}
+
+/// The shoes of a side at the trial that was looked at last.
+struct Shoes<'a> {
+    contacts: Vec<Contact<'a>>,
+    /// Deflection and way slid at the step's start.
+    start: Vec<State>,
+    /// The same at its end.
+    end: Vec<State>,
+    /// Friction coefficients.
+    mu: Vec<[f64; 2]>,
+    /// Forces, N.
+    force: Vec<[f64; 2]>,
+}
+
+/// What a shoe carries from step to step.
+#[derive(Clone, Copy)]
+struct State {
+    bristle: [f64; 2],
+    slid: f64,
 }
 
 /// What a step leaves behind beside the motion.
@@ -21,41 +42,79 @@ pub(super) struct Outcome {
     pub(super) heat: PerSide<f64>,
 }
 
-/// Force on a shoe and its state at the end of the step.
-struct Reaction {
-    force: [f64; 2],
-    slip: [f64; 2],
-    bristle: [f64; 2],
-    slid: f64,
-}
+impl<'a> Balance<'a> {
+    /// The balance of a step of `dt` seconds of a gear that bears its load.
+    pub(super) fn new(
+        scene: &'a Scene<'a>,
+        mechanisms: &'a [Box<dyn Mechanism>],
+        inertia: Inertia,
+        elastic_range: f64,
+        dt: f64,
+        gear: &Gear,
+    ) -> Self {
+        let shoes = PerSide::from_fn(|side| {
+            let contacts: Vec<_> = gear
+                .shoes(side)
+                .map(|(shoe, extent)| Contact {
+                    scene,
+                    side,
+                    position: shoe.position,
+                    extent,
+                    slip: [0.0, 0.0],
+                    deflection: [0.0, 0.0],
+                    slid: shoe.slid,
+                    load: shoe.load,
+                    area: shoe.area,
+                })
+                .collect();
+            let start: Vec<_> = gear
+                .shoes(side)
+                .map(|(shoe, _)| State { bristle: shoe.bristle, slid: shoe.slid })
+                .collect();
+            let count = start.len();
+            Shoes {
+                contacts,
+                end: start.clone(),
+                start,
+                mu: vec![[0.0, 0.0]; count],
+                force: vec![[0.0, 0.0]; count],
+            }
+        });
+        Self { scene, mechanisms, inertia, elastic_range, dt, shoes }
+    }
 
-impl Balance<'_> {
+    /// The state at the step's start.
+    pub(super) fn scene(&self) -> &'a Scene<'a> {
+        self.scene
+    }
+
     /// What Newton's law leaves over at a twist, about the origin; zero at the step's end.
-    pub(super) fn residual(&self, gear: &Gear, twist: &Twist) -> Wrench {
+    pub(super) fn residual(&mut self, twist: &Twist) -> Wrench {
         let mut sum = self.body(twist);
         for side in Side::BOTH {
-            let belt = self.belt_velocity(side);
-            for (shoe, extent) in gear.shoes(side) {
-                let reaction = self.react(shoe, extent, side, belt, twist);
-                sum.add_force(reaction.force, shoe.position);
+            self.react(side, twist);
+            let Shoes { contacts, force, .. } = &self.shoes[side];
+            for (contact, force) in contacts.iter().zip(force) {
+                sum.add_force(*force, contact.position);
             }
         }
         sum
     }
 
     /// Brings the shoes to the step's end.
-    pub(super) fn settle(&self, gear: &mut Gear, twist: &Twist) -> Outcome {
+    pub(super) fn settle(&mut self, gear: &mut Gear, twist: &Twist) -> Outcome {
         let zero = PerSide::new(0.0, 0.0);
         let mut outcome = Outcome { traction: zero, heat: zero };
         for side in Side::BOTH {
-            let belt = self.belt_velocity(side);
-            for (shoe, extent) in gear.shoes_mut(side) {
-                let Reaction { force, slip, bristle, slid } =
-                    self.react(shoe, extent, side, belt, twist);
+            self.react(side, twist);
+            let Shoes { contacts, end, force, .. } = &self.shoes[side];
+            for (Contact { slip, .. }, force) in contacts.iter().zip(force) {
                 outcome.traction[side] += force[1];
                 outcome.heat[side] -= force[0] * slip[0] + force[1] * slip[1];
-                shoe.bristle = bristle;
-                shoe.slid = slid;
+            }
+            for ((shoe, _), State { bristle, slid }) in gear.shoes_mut(side).zip(end) {
+                shoe.bristle = *bristle;
+                shoe.slid = *slid;
             }
         }
         outcome
@@ -100,49 +159,35 @@ impl Balance<'_> {
     /// A bristle z of elastic range z₀: `z' = s` while |z| < z₀, and z stays on |z| = z₀ while it slides;
     /// `F = −[μ] N z/z₀`. Sliding steadily this is `−[μ] N s/|s|`. The end of a step is found by radial
     /// return, which is stable whatever the step.
-    #[inline]
-    fn react(
-        &self,
-        shoe: &Shoe,
-        extent: [f64; 2],
-        side: Side,
-        belt: [f64; 2],
-        twist: &Twist,
-    ) -> Reaction {
-        let hull = twist.velocity_at(shoe.position);
-        let slip = [hull[0] - belt[0], hull[1] - belt[1]];
-        let mut bristle =
-            [shoe.bristle[0] + slip[0] * self.dt, shoe.bristle[1] + slip[1] * self.dt];
-        let stretch = (bristle[0] * bristle[0] + bristle[1] * bristle[1]).sqrt();
-        let mut slid = shoe.slid;
-        if stretch > self.elastic_range {
-            bristle = bristle.map(|z| z * self.elastic_range / stretch);
-            slid += stretch - self.elastic_range;
-        }
-        let deflection = bristle.map(|z| z / self.elastic_range);
+    fn react(&mut self, side: Side, twist: &Twist) {
+        let belt = self.belt_velocity(side);
         let friction = self.scene.vehicle.friction;
-        let mut mu = [friction.across, friction.along];
-        let mut force = [0.0, 0.0];
-        if !self.mechanisms.is_empty() {
-            let contact = Contact {
-                scene: self.scene,
-                side,
-                position: shoe.position,
-                extent,
-                slip,
-                deflection,
-                slid: f64::midpoint(shoe.slid, slid),
-                load: shoe.load,
-                area: shoe.area,
-            };
-            for mechanism in self.mechanisms {
-                mechanism.friction(&contact, &mut mu);
-                mechanism.traction(&contact, &mut force);
+        let Shoes { contacts, start, end, mu, force } = &mut self.shoes[side];
+        for ((contact, start), end) in contacts.iter_mut().zip(start).zip(end) {
+            let hull = twist.velocity_at(contact.position);
+            let slip = [hull[0] - belt[0], hull[1] - belt[1]];
+            let State { mut bristle, mut slid } = *start;
+            bristle = [bristle[0] + slip[0] * self.dt, bristle[1] + slip[1] * self.dt];
+            let stretch = (bristle[0] * bristle[0] + bristle[1] * bristle[1]).sqrt();
+            if stretch > self.elastic_range {
+                let share = self.elastic_range / stretch;
+                bristle = bristle.map(|z| z * share);
+                slid += stretch - self.elastic_range;
             }
+            contact.slip = slip;
+            contact.deflection = bristle.map(|z| z / self.elastic_range);
+            contact.slid = f64::midpoint(start.slid, slid);
+            *end = State { bristle, slid };
         }
-        // F = −[μ] N z/z₀
-        force[0] -= mu[0] * shoe.load * deflection[0];
-        force[1] -= mu[1] * shoe.load * deflection[1];
-        Reaction { force, slip, bristle, slid }
+        mu.fill([friction.across, friction.along]);
+        force.fill([0.0, 0.0]);
+        for mechanism in self.mechanisms {
+            mechanism.act(contacts, mu, force);
+        }
+        for ((Contact { load, deflection, .. }, mu), force) in contacts.iter().zip(mu).zip(force) {
+            // F = −[μ] N z/z₀
+            force[0] -= mu[0] * load * deflection[0];
+            force[1] -= mu[1] * load * deflection[1];
+        }
     }
 }

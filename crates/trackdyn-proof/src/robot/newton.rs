@@ -1,7 +1,6 @@
 //! The twist at which a step ends.
 
 use super::balance::Balance;
-use crate::gear::Gear;
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Twist, Wrench};
 
@@ -15,6 +14,14 @@ const REACH: f64 = 1e-7;
 
 const ITERATIONS: usize = 60;
 
+/// Halvings of a step that does not bring the residual down.
+const HALVINGS: u32 = 6;
+
+/// Contraction of the residual that is as good as none.
+const STALLED: f64 = 0.9;
+/// Iterations without contraction after which a shorter step is better than more of them.
+const STALLS: usize = 4;
+
 /// Newton's method with difference quotients, whose Jacobian is kept from step to step and corrected by
 /// Broyden's rule for as long as it serves.
 #[derive(Clone, Debug, Default)]
@@ -23,24 +30,23 @@ pub(super) struct Newton {
 }
 
 /// The balance over the scaled unknowns (v_x, v_y, ω L), in parts of the weight.
-struct Scaled<'a> {
-    balance: &'a Balance<'a>,
-    gear: &'a Gear,
+struct Scaled<'a, 'b> {
+    balance: &'a mut Balance<'b>,
     length: f64,
     weight: f64,
 }
 
-impl Scaled<'_> {
+impl Scaled<'_, '_> {
     fn twist(&self, q: &Vector3<f64>) -> Twist {
         Twist { v_x: q.x, v_y: q.y, w: q.z / self.length }
     }
 
-    fn residual(&self, q: &Vector3<f64>) -> Vector3<f64> {
-        let Wrench { force_x, force_y, moment } = self.balance.residual(self.gear, &self.twist(q));
+    fn residual(&mut self, q: &Vector3<f64>) -> Vector3<f64> {
+        let Wrench { force_x, force_y, moment } = self.balance.residual(&self.twist(q));
         Vector3::new(force_x, force_y, moment / self.length) / self.weight
     }
 
-    fn jacobian(&self, q: &Vector3<f64>, residual: &Vector3<f64>) -> Matrix3<f64> {
+    fn jacobian(&mut self, q: &Vector3<f64>, residual: &Vector3<f64>) -> Matrix3<f64> {
         Matrix3::from_columns(&[0, 1, 2].map(|k| {
             let mut ahead = *q;
             ahead[k] += REACH;
@@ -51,13 +57,14 @@ impl Scaled<'_> {
 
 impl Newton {
     /// The twist, or why there is none.
-    pub(super) fn solve(&mut self, balance: &Balance, gear: &Gear) -> Result<Twist, String> {
-        let length = balance.scene.vehicle.gauge;
-        let weight = balance.scene.total_weight();
-        let scaled = Scaled { balance, gear, length, weight };
-        let Twist { v_x, v_y, w } = balance.scene.twist;
+    pub(super) fn solve(&mut self, balance: &mut Balance) -> Result<Twist, String> {
+        let scene = balance.scene();
+        let (length, weight) = (scene.vehicle.gauge, scene.total_weight());
+        let Twist { v_x, v_y, w } = scene.twist;
+        let mut scaled = Scaled { balance, length, weight };
         let mut q = Vector3::new(v_x, v_y, w * length);
         let mut residual = scaled.residual(&q);
+        let mut stalls = 0;
         for _ in 0..ITERATIONS {
             if residual.norm() < TOLERANCE {
                 return Ok(scaled.twist(&q));
@@ -71,7 +78,7 @@ impl Newton {
                 }
                 continue;
             };
-            let Some((share, next)) = shorten(&scaled, &q, &step, &residual, fresh) else {
+            let Some((share, next)) = shorten(&mut scaled, &q, &step, &residual, fresh) else {
                 self.jacobian = None;
                 if fresh {
                     break;
@@ -79,6 +86,11 @@ impl Newton {
                 continue;
             };
             let contraction = next.norm() / residual.norm();
+            // where shoes stop, friction that creeps has a kink: a shorter step is the way past it
+            stalls = if contraction > STALLED { stalls + 1 } else { 0 };
+            if stalls == STALLS {
+                break;
+            }
             let taken = step * share;
             // J += (Δr − J Δq) Δqᵀ/|Δq|²
             let correction = (next - residual - jacobian * taken) * taken.transpose();
@@ -98,14 +110,14 @@ impl Newton {
 /// The share of a step that brings the residual down, and the residual there. A Jacobian that is not
 /// fresh gets one chance.
 fn shorten(
-    scaled: &Scaled,
+    scaled: &mut Scaled,
     q: &Vector3<f64>,
     step: &Vector3<f64>,
     residual: &Vector3<f64>,
     fresh: bool,
 ) -> Option<(f64, Vector3<f64>)> {
     let mut share = 1.0;
-    for _ in 0..if fresh { 14 } else { 1 } {
+    for _ in 0..if fresh { HALVINGS } else { 1 } {
         let next = scaled.residual(&(q + step * share));
         if next.norm() < (1.0 - 1e-4 * share) * residual.norm() {
             return Some((share, next));

@@ -19,15 +19,17 @@ pub fn coverage(judged: &[Judged]) -> Vec<Rate> {
 /// Effect by effect whether the 95 % interval holds the true size, over all parameters that mean the same in
 /// the catalogue.
 pub(super) fn outcomes(judged: &[Judged]) -> Vec<(&str, bool)> {
-    let mut outcomes = Vec::new();
-    for case in judged {
-        let claims = case.diagnosis().map_or(&[][..], |diagnosis| &diagnosis.missing);
-        for claim in claims.iter().filter(|claim| claim.members().len() == 1) {
-            let holds = covered(case, claim).into_iter();
-            outcomes.extend(holds.map(|holds| (claim.effect.as_str(), holds)));
-        }
-    }
-    outcomes
+    judged.iter().flat_map(of_case).collect()
+}
+
+/// The same of one case.
+pub(super) fn of_case(case: &Judged) -> Vec<(&str, bool)> {
+    let claims = case.diagnosis().map_or(&[][..], |diagnosis| &diagnosis.missing);
+    let alone = claims.iter().filter(|claim| claim.members().len() == 1);
+    let outcomes = alone.flat_map(|claim| {
+        covered(case, claim).into_iter().map(|holds| (claim.effect.as_str(), holds))
+    });
+    outcomes.collect()
 }
 
 fn covered(case: &Judged, claim: &Missing) -> Vec<bool> {

@@ -1,10 +1,12 @@
 //! Scores as tables: Markdown to read, CSV to work with.
 
 use super::Score;
+use super::coverage;
 use super::interval::clopper_pearson;
 use super::power::PowerBin;
 use super::rates::Rate;
 use super::resolution::{self, Outcome, Revisited};
+use crate::diagnosis::Fit;
 use std::fmt::Write;
 
 /// The scores as a page.
@@ -164,7 +166,8 @@ pub fn confusion_csv(score: &Score) -> String {
 /// One row per case: what was there and what was said.
 pub fn cases_csv(score: &Score) -> String {
     let mut text = String::from(
-        "case,stratum,concealed,z_det,z_iso,nearest,status,named,broken,false_claim\n",
+        "case,stratum,concealed,z_det,z_iso,nearest,status,named,broken,false_claim,intervals_hold,intervals,\
+         excess_explained,held_out_before,held_out_after,noise_floor\n",
     );
     for case in &score.judged {
         let answer = &case.answer;
@@ -179,16 +182,30 @@ pub fn cases_csv(score: &Score) -> String {
                 (diagnosis.status.name(), named, diagnosis.located.broken.join(""))
             }
         };
+        let intervals = coverage::of_case(case);
+        let hold = intervals.iter().filter(|(_, holds)| *holds).count();
+        let fit = case.diagnosis().map(|diagnosis| &diagnosis.fit);
+        let figure = |of: fn(&Fit) -> Option<f64>| {
+            fit.and_then(of).map_or_else(String::new, |value| format!("{value:.4}"))
+        };
+        let figures = [
+            figure(|fit| fit.excess_explained),
+            figure(|fit| fit.held_out_before),
+            figure(|fit| fit.held_out_after),
+            figure(|fit| fit.noise_floor),
+        ];
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{},{status},{named},{broken},{}",
+            "{},{},{},{},{},{},{status},{named},{broken},{},{hold},{},{}",
             answer.id,
             answer.stratum.name(),
             list(&|c| c.mechanism.clone()),
             list(&|c| c.z_det.to_string()),
             list(&|c| c.z_iso.to_string()),
             list(&|c| c.nearest.clone()),
-            case.claims_falsely()
+            case.claims_falsely(),
+            intervals.len(),
+            figures.join(",")
         );
     }
     text

@@ -124,7 +124,19 @@ fn what_was_not_run_does_not_count_and_what_failed_is_counted() {
     assert_eq!(rate(&score.judged, "exact isolation"), (0, 1));
     assert_eq!(rate(&score.judged, "process failed"), (1, 1));
     assert!(markdown(&score).contains("| slope | 1 |"));
-    assert!(cases_csv(&score).contains("case-0001,single,slope,20,9,,failed,,,false"));
+    assert!(cases_csv(&score).contains("case-0001,single,slope,20,9,,failed,,,false,0,0,,,,\n"));
+}
+
+#[test]
+fn the_line_of_a_case_is_enough_to_count_it_again() {
+    let fit = "[fit]\nexcess_explained = 0.987654\nheld_out_before = 2\nheld_out_after = 1.02\n\
+               noise_floor = 1.01\n";
+    let line =
+        cases_csv(&Score::of(vec![case(Stratum::PlainNull, Vec::new(), &format!("{SCALE}{fit}"))]));
+    let line = line.lines().nth(1);
+    let expected =
+        "case-0001,plain-null,,,,,explained,encoder-scale,,false,1,1,0.9877,2.0000,1.0200,1.0100";
+    assert_eq!(line, Some(expected));
 }
 
 #[test]

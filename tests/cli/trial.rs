@@ -229,6 +229,42 @@ fn several_programs_are_scored_side_by_side() {
     assert!(run.stdout.contains("| process failed | 2 of 2 |"), "{}", run.stdout);
 }
 
+#[cfg(unix)]
+#[test]
+fn several_trials_count_as_one() {
+    let place = Workplace::new();
+    for (seed, time, out) in [(3, 10, "first"), (4, 10, "second"), (5, 11, "longer")] {
+        let make = format!("trial make --cases 2 --seed {seed} --duration {time} --out {out}");
+        assert_eq!(place.run(&make).status, 0);
+    }
+    let silent = tool(&place, "echo 'status = \"nothing-missing\"' > $7/diagnosis.toml");
+    for trial in ["first", "second"] {
+        assert_eq!(place.run(&format!("trial run {trial} --program {silent}")).status, 0);
+    }
+    let run = place.run("trial score first second --name tool --out both");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("| false claim: nulls | 0 of 4 |"), "{}", run.stdout);
+    let cases = text(&place, "both/cases.csv");
+    // answers and cases are told apart by the hash that was committed to
+    let (_, hash) = made(&place, "second");
+    let hash = hash.split('"').nth(1).map(|hash| hash[..8].to_owned()).expect("a hash");
+    assert!(place.path().join(format!("both/answers-{hash}.toml")).exists());
+    assert!(cases.contains(&format!("\n{hash}/case-0002,")), "{cases}");
+    assert_eq!(cases.lines().count(), 1 + 4);
+
+    for (asked, words) in [
+        ("first second --name tool", "--out DIR"),
+        ("first second --key first.key --out x", "2 trials, 1 times --key"),
+        ("first first --out x", "trial = first: expected each trial once"),
+        ("first longer --out x", "trial = longer: expected trials with runs of one length"),
+        ("first second --key second.key --key first.key --out x", "SHA-256"),
+    ] {
+        let run = place.run(&format!("trial score {asked}"));
+        assert!(run.status == 1 && run.stderr.contains(words), "{}", run.stderr);
+    }
+    assert!(!place.path().join("x").exists());
+}
+
 #[test]
 fn what_a_diagnosis_leaves_open_is_driven_for() {
     let place = Workplace::new();

@@ -10,6 +10,7 @@
 //! - [`seal`]: the answers under a key, and the commitment to them.
 //! - [`entry`]: the programs that are put to it.
 //! - [`diagnosis`], [`score`]: what came back, and what it is worth.
+//! - [`opened`]: trials whose answers are open, scored by themselves or together.
 //! - [`revisit`]: a case once more, driven by another schedule.
 //! - [`folder`]: the folder of a trial, in which nothing but the recordings tells cases apart.
 //!
@@ -28,6 +29,7 @@ pub mod folder;
 mod ground;
 mod instruments;
 mod machine;
+pub mod opened;
 pub mod oracle;
 pub mod order;
 pub mod plan;
@@ -45,6 +47,7 @@ pub use diagnosis::Diagnosis;
 pub use draft::Draft;
 pub use entry::Entry;
 pub use error::Error;
+pub use opened::Opened;
 pub use order::Order;
 pub use plan::{PlannedCase, Stratum, plan};
 pub use score::Score;

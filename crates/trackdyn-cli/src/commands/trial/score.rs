@@ -5,48 +5,46 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use clap::Args;
 use std::path::{Path, PathBuf};
-use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
-use trackdyn_trial::seal::Key;
-use trackdyn_trial::{Entry, Score, folder, score, seal};
+use trackdyn_core::output::{prepare_folder, write_file};
+use trackdyn_trial::{Entry, Opened, Score, score};
 
 /// Options of `trackdyn trial score`.
 #[derive(Args)]
 pub struct Options {
-    /// Folder of the trial
-    trial: PathBuf,
-    /// File with the key to the answers [default: beside DIR, NAME.key]
-    #[arg(long, value_name = "FILE")]
-    key: Option<PathBuf>,
+    /// Folder of the trial; several trials count as one
+    #[arg(required = true, value_name = "TRIAL")]
+    trials: Vec<PathBuf>,
+    /// File with the key to the answers; of several trials one each, in their order [default: beside DIR, NAME.key]
+    #[arg(long = "key", value_name = "FILE")]
+    keys: Vec<PathBuf>,
     /// Name of the program whose diagnoses are scored; several times for several programs beside each other
     /// [default: trackdyn]
     #[arg(long = "name", value_name = "NAME")]
     names: Vec<Entry>,
-    /// Folder for tables and figures [default: DIR/score, DIR/score.NAME of other programs]
+    /// Folder for tables and figures [default: DIR/score, DIR/score.NAME of other programs; none of several trials]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
 
 /// Scores the diagnoses that are there.
 pub fn run(options: &Options) -> Outcome {
-    let key = Key::read(&key_file(options.key.as_deref(), &options.trial)?)?;
-    let answers = folder::open_answers(&options.trial, &key)?;
+    let keys = key_files(options)?;
+    let opened = Opened::open(options.trials.iter().map(PathBuf::as_path).zip(keys))?;
     let mut entries = options.names.clone();
     if entries.is_empty() {
         entries.push(Entry::default());
     }
-    let of = |entry| Ok(Score::of(folder::judge(&options.trial, &answers, entry)?));
+    let out = match (&options.out, options.trials.as_slice()) {
+        (Some(out), _) => out.clone(),
+        (None, [trial]) => trial.join(usual_folder(&entries)),
+        (None, _) => return Err("several trials: expected --out DIR for their scores".into()),
+    };
+    let of = |entry| Ok(Score::of(opened.judge(entry)?));
     let scores: Vec<Score> =
         entries.iter().map(of).collect::<Result<_, trackdyn_trial::Error>>()?;
     let named: Vec<(&str, &Score)> = entries.iter().map(Entry::name).zip(&scores).collect();
-    let out = options.out.clone().unwrap_or_else(|| options.trial.join(usual_folder(&entries)));
     prepare_folder(&out)?;
-    let text = seal::text(&answers);
-    let caption = format!(
-        "trackdyn {}, trial of {} cases, SHA-256 of the answers {}…",
-        env!("CARGO_PKG_VERSION"),
-        answers.cases.len(),
-        fingerprint(text.as_bytes())
-    );
+    let caption = format!("trackdyn {}, {opened}", env!("CARGO_PKG_VERSION"));
     let page = match named.as_slice() {
         [(_, score)] => score::markdown(score),
         _ => score::comparison(&named),
@@ -57,7 +55,9 @@ pub fn run(options: &Options) -> Outcome {
     }
     figures::write(&out, &named, &caption)?;
     write_file(&out.join("score.md"), page.as_bytes())?;
-    write_file(&out.join("answers.toml"), text.as_bytes())?;
+    for (name, text) in opened.texts() {
+        write_file(&out.join(name), text.as_bytes())?;
+    }
     print!("{page}");
     eprintln!(
         "the commitment holds; wrote tables, figures and the opened answers to {}",
@@ -65,6 +65,19 @@ pub fn run(options: &Options) -> Outcome {
     );
     let is_empty = scores.iter().all(|score| score.judged.is_empty());
     Ok(if is_empty { Exit::NoResult } else { Exit::Done })
+}
+
+/// The key of each trial.
+fn key_files(options: &Options) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
+    let (trials, keys) = (&options.trials, &options.keys);
+    if !keys.is_empty() && keys.len() != trials.len() {
+        let (trials, keys) = (trials.len(), keys.len());
+        return Err(
+            format!("{trials} trials, {keys} times --key: expected one of each trial").into()
+        );
+    }
+    let of = |(place, trial)| key_file(keys.get(place).map(PathBuf::as_path), trial);
+    trials.iter().map(PathBuf::as_path).enumerate().map(of).collect()
 }
 
 /// Writes the tables of a program, and what it took for what.

@@ -5,6 +5,7 @@
 //! signature is found for several of them, and the one that explains most stands for the effect.
 
 mod between;
+mod places;
 
 use crate::evidence::Evidence;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
@@ -159,7 +160,8 @@ pub fn variants(effect: usize, evidence: &Evidence) -> Vec<Variant> {
             })
             .collect();
     }
-    all.into_iter().map(|values| Variant { effect, values }).collect()
+    let all = all.into_iter().flat_map(|values| places::of_extent(parameters, values, evidence));
+    all.map(|values| Variant { effect, values }).collect()
 }
 
 /// Parts of a typical size at which signatures of laws of the shear stress are taken: such a size may be the scale of a law,
@@ -170,7 +172,7 @@ const SHEAR_SIZES: [f64; 2] = [1.0, 0.05];
 fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
     let [low, high] = parameter.range;
     let inside = |value: f64| value.clamp(low, high);
-    let step = spacing(parameter, of.parameters, evidence);
+    let step = spacing(parameter, None, evidence);
     match parameter.role {
         Role::Size { .. } if of.stages.contains(&Stage::Shear) => {
             let distance = parameter.typical - neutral(parameter);
@@ -184,34 +186,22 @@ fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
             tried.dedup();
             tried
         }
+        Role::Place { .. } if places::have_extent(of.parameters) => vec![parameter.typical],
         Role::Place { .. } => {
             let [middle, _] = area(evidence, parameter.role);
-            let grid: &[f64] = if has_extent(of.parameters) {
-                &[-1.5, -0.5, 0.5, 1.5]
-            } else {
-                &[-3.0, -1.0, 0.0, 1.0, 3.0]
-            };
-            grid.iter().map(|place| inside(middle + place * step)).collect()
+            [-3.0, -1.0, 0.0, 1.0, 3.0].map(|place: f64| inside(middle + place * step)).to_vec()
         }
     }
 }
 
-/// Distance of values that are tried; of a shape, that of their logarithms.
-fn spacing(parameter: &Parameter, of: &[Parameter], evidence: &Evidence) -> f64 {
+/// Distance of values that are tried, of a place with this extent, if it has one; of a shape, that of their logarithms.
+fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f64 {
     match parameter.role {
         Role::Size { .. } => 0.0,
         Role::Direction => 15.0,
         Role::Shape => 2.5_f64.ln(),
-        Role::Place { .. } => {
-            let [_, spread] = area(evidence, parameter.role);
-            if has_extent(of) { spread / 2.0 } else { spread }
-        }
+        Role::Place { .. } => extent.unwrap_or_else(|| area(evidence, parameter.role)[1]),
     }
-}
-
-/// Whether a place has an extent: then it lies where the robot was; one without may lie far away.
-fn has_extent(of: &[Parameter]) -> bool {
-    of.iter().any(|other| matches!(other.role, Role::Shape))
 }
 
 impl<'a> Beside<'a> {

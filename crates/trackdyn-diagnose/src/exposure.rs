@@ -6,7 +6,7 @@
 use crate::fit::Fit;
 use crate::mechanics::{Instruments, Mechanics};
 use crate::metric::Metric;
-use crate::normal::{Columns, Normal, Prior};
+use crate::normal::{Columns, Normal};
 use crate::search::{Screened, Search};
 use nalgebra::Vector3;
 
@@ -56,8 +56,6 @@ impl Exposure {
     fn beside(self, columns: &[Vec<Vector3<f64>>], residual: &[Vector3<f64>]) -> Self {
         let weights = Metric::weights(residual);
         let blocks = vec![0; weights.len()];
-        let all: Vec<usize> = (0..columns.len()).collect();
-        let flat = vec![Prior { mean: 0.0, deviation: 1e9 }; columns.len()];
         let rest = |of: Vec<Vector3<f64>>| -> Vec<Vector3<f64>> {
             let normal = Normal::new(&Columns {
                 residual: &of,
@@ -66,10 +64,11 @@ impl Exposure {
                 blocks: &blocks,
                 count: 1,
             });
-            let factors = normal.fit(&all, &flat).estimate;
+            let independent = normal.independent();
+            let Some((factors, _)) = normal.least_squares(&independent) else { return of };
             let mut rest = of;
-            for (column, factor) in columns.iter().zip(factors.iter()) {
-                for (rest, value) in rest.iter_mut().zip(column) {
+            for (&column, factor) in independent.iter().zip(factors.iter()) {
+                for (rest, value) in rest.iter_mut().zip(&columns[column]) {
                     *rest -= value * *factor;
                 }
             }

@@ -82,7 +82,7 @@ fn step(hypothesis: &Hypothesis, unknown: Unknown) -> f64 {
     if value + size > high { -size } else { size }
 }
 
-/// The derivatives of the prediction by unknowns, as columns.
+/// The derivatives of the prediction by unknowns, as whitened columns.
 pub fn columns(
     hypothesis: &Hypothesis,
     mechanics: &Mechanics,
@@ -90,6 +90,18 @@ pub fn columns(
     unknowns: &[Unknown],
     evidence: &Evidence,
     metric: &Metric,
+) -> Vec<Vec<Vector3<f64>>> {
+    let columns = derivatives(hypothesis, mechanics, prediction, unknowns, evidence).into_iter();
+    columns.map(|column| metric.white(evidence, column)).collect()
+}
+
+/// The derivatives of the prediction by unknowns, not whitened.
+pub fn derivatives(
+    hypothesis: &Hypothesis,
+    mechanics: &Mechanics,
+    prediction: &[Vector3<f64>],
+    unknowns: &[Unknown],
+    evidence: &Evidence,
 ) -> Vec<Vec<Vector3<f64>>> {
     unknowns
         .par_iter()
@@ -103,8 +115,7 @@ pub fn columns(
             } else {
                 mechanics.varied(&moved, evidence).predict(&instruments, evidence)
             };
-            let quotient = prediction_there.iter().zip(prediction).map(|(b, a)| (b - a) / step);
-            metric.white(evidence, quotient.collect())
+            prediction_there.iter().zip(prediction).map(|(b, a)| (b - a) / step).collect()
         })
         .collect()
 }
@@ -227,26 +238,36 @@ impl Fit {
     }
 
     /// The end of the descent from here, with what inertia adds as it was found.
+    ///
+    /// Derivatives stand as long as they foretell what a step gains. Where those of another point do not, they are found
+    /// anew, be it that their step led nowhere: the end is where derivatives of the point itself promise next to nothing, or
+    /// lead nowhere.
     fn descended(self, evidence: &Evidence, metric: &Metric) -> Self {
         let mut fit = self;
         // What the objective fell by since the derivatives were found.
         let mut since = 0.0;
         for _ in 0..ITERATIONS {
-            let Some(next) = fit.next(evidence, metric) else { break };
-            let gain = fit.objective - next.objective;
-            since += gain;
-            let is_last = gain < SETTLED;
-            // Derivatives that foretold the gain stand, as long as they are not those of a far point at the end.
+            let next = fit.next(evidence, metric);
+            let gain = next.as_ref().map_or(0.0, |next| fit.objective - next.objective);
             let promised = fit.solution.gain;
             let foretold = (gain - promised).abs() < FORETOLD * promised + SETTLED;
-            let unknowns = std::mem::take(&mut fit.unknowns);
-            if foretold && (!is_last || since < NEAR) {
-                let columns = std::mem::take(&mut fit.columns);
-                fit = Self::with_columns(next, &unknowns, columns, evidence, metric);
-            } else {
-                fit = Self::linearised(next, &unknowns, evidence, metric);
-                since = 0.0;
+            let is_last = gain < SETTLED && (foretold || since == 0.0);
+            if is_last && next.is_none() {
+                break;
             }
+            since += gain;
+            // Derivatives that foretold the gain stand, as long as they are not those of a far point at the end.
+            let stand = foretold && (!is_last || since < NEAR);
+            let Self { hypothesis, mechanics, unknowns, columns, .. } = fit;
+            let point = next.unwrap_or_else(|| {
+                Point::with_mechanics(hypothesis, mechanics, &unknowns, evidence, metric)
+            });
+            fit = if stand {
+                Self::with_columns(point, &unknowns, columns, evidence, metric)
+            } else {
+                since = 0.0;
+                Self::linearised(point, &unknowns, evidence, metric)
+            };
             if is_last {
                 break;
             }

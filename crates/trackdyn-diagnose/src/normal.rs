@@ -54,6 +54,9 @@ pub struct Prior {
 /// Part of its own square by which a column may differ from others and still be taken for them.
 const RIDGE: f64 = 1e-10;
 
+/// Part of its own square that a column must have beyond others not to be a combination of them.
+const DEPENDENT: f64 = 1e-8;
+
 impl Normal {
     /// The products of these columns.
     pub fn new(of: &Columns) -> Self {
@@ -227,6 +230,43 @@ impl Normal {
         Self { blocks, total }
     }
 
+    /// The columns that are no combination of those before them.
+    pub fn independent(&self) -> Vec<usize> {
+        let mut kept: Vec<usize> = Vec::new();
+        // Rows of the Cholesky factor of what is kept.
+        let mut rows: Vec<Vec<f64>> = Vec::new();
+        for column in 0..self.columns() {
+            let mut row: Vec<f64> = Vec::with_capacity(kept.len() + 1);
+            for (&other, of_other) in kept.iter().zip(&rows) {
+                let known: f64 = row.iter().zip(of_other).map(|(a, b)| a * b).sum();
+                row.push((self.product(column, other) - known) / of_other[row.len()]);
+            }
+            let square = self.product(column, column);
+            let own = square - row.iter().map(|part| part * part).sum::<f64>();
+            if own > DEPENDENT * square {
+                row.push(own.sqrt());
+                rows.push(row);
+                kept.push(column);
+            }
+        }
+        kept
+    }
+
+    /// The factors of independent columns that leave least of the residual, and ln det of the columns' products; none
+    /// where the columns are not independent.
+    pub fn least_squares(&self, columns: &[usize]) -> Option<(DVector<f64>, f64)> {
+        let information = self.information(columns);
+        let scale = information.diagonal().map(|square| square.sqrt().recip());
+        let diagonal = DMatrix::from_diagonal(&scale);
+        let cholesky = (&diagonal * information * &diagonal).cholesky()?;
+        let last = self.columns();
+        let right = DVector::from_fn(columns.len(), |a, _| self.product(columns[a], last));
+        let factors = cholesky.solve(&right.component_mul(&scale)).component_mul(&scale);
+        let factor = cholesky.l_dirty();
+        let ln_det = (0..columns.len()).map(|k| 2.0 * (factor[(k, k)] / scale[k]).ln()).sum();
+        Some((factors, ln_det))
+    }
+
     /// Product of a column with the residual, block by block: its score.
     pub fn scores(&self, column: usize) -> Vec<f64> {
         let last = self.columns();
@@ -246,4 +286,43 @@ impl Normal {
 
 fn sum(blocks: &[DMatrix<f64>], size: usize) -> DMatrix<f64> {
     blocks.iter().fold(DMatrix::zeros(size, size), |sum, block| sum + block)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three columns, of which the last is the sum of the others, and one of nothing.
+    #[test]
+    fn what_columns_explain_hangs_on_the_independent_ones_alone() {
+        const SAMPLES: usize = 40;
+        let value = |sample: usize, k: usize| trackdyn_core::real((7 * sample + 3 * k) % 11);
+        let column = |k: usize| -> Vec<Vector3<f64>> {
+            (0..SAMPLES).map(|sample| Vector3::from_fn(|c, _| value(sample, 3 * k + c))).collect()
+        };
+        let [first, second, other] = [0, 1, 2].map(column);
+        let both: Vec<_> = first.iter().zip(&second).map(|(a, b)| a + b).collect();
+        let residual: Vec<_> = both.iter().zip(&other).map(|(a, b)| 2.0 * a + 0.1 * b).collect();
+        let columns = vec![first, second, both, vec![Vector3::zeros(); SAMPLES]];
+        let normal = Normal::new(&Columns {
+            residual: &residual,
+            columns: &columns,
+            weights: &[1.0; SAMPLES],
+            blocks: &[0; SAMPLES],
+            count: 1,
+        });
+        let independent = normal.independent();
+        assert_eq!(independent, [0, 1]);
+        let (factors, ln_det) = normal.least_squares(&independent).expect("independent");
+        let [a, b, c] = [(0, 0), (0, 1), (1, 1)].map(|(i, j)| normal.product(i, j));
+        assert!((ln_det - (a * c - b * b).ln()).abs() < 1e-9, "{ln_det}");
+        let left = |sample: usize| {
+            residual[sample] - columns[0][sample] * factors[0] - columns[1][sample] * factors[1]
+        };
+        for column in &columns {
+            let product: f64 = (0..SAMPLES).map(|sample| left(sample).dot(&column[sample])).sum();
+            assert!(product.abs() < 1e-6, "{product}");
+        }
+        assert!(normal.least_squares(&[0, 1, 2]).is_none_or(|(_, ln_det)| ln_det < 0.0));
+    }
 }

@@ -260,19 +260,21 @@ impl Search<'_> {
             self.recalibrated(effects.clone(), fit)
         };
         // Of a law that is not in proportion the screen may promise a size that is far too large to come back from: one
-        // that explains less than none at all, or keeps little of what it promised.
-        let far = start(1.0);
-        if far.objective >= beside.fit.objective {
-            return fitted(start(NEARER));
-        }
-        let found = fitted(far);
+        // that explains less than none at all, or keeps little of what it promised. Each may lie behind a crest.
         let promised = more.iter().map(|one| one.gain).fold(0.0, f64::max);
         let kept = |found: &Found| found.ln_evidence - beside.ln_evidence;
+        let mut far = Some(start(1.0));
+        let is_less = |far: &mut Point| far.objective < beside.fit.objective;
+        let found = fitted(far.take_if(is_less).unwrap_or_else(|| start(NEARER)));
         if promised < WORTH || kept(&found) > KEPT * promised {
             return found;
         }
-        let nearer = fitted(start(NEARER));
-        if kept(&nearer) > kept(&found) { nearer } else { found }
+        let second = far.unwrap_or_else(|| start(NEARER));
+        if second.objective.is_infinite() {
+            return found;
+        }
+        let other = fitted(second);
+        if kept(&other) > kept(&found) { other } else { found }
     }
 
     /// The hypothesis with more effects, of a share of the sizes that the screen found.

@@ -16,6 +16,7 @@ use crate::hypothesis::{Unknown, neutral, typical};
 use crate::mechanics::is_instrument;
 use crate::search::{AS_FILED, Found, Screened, Search};
 use crate::uncertainty::Interval;
+use std::cell::LazyCell;
 use std::slice;
 use support::Change;
 use trackdyn_core::real;
@@ -60,7 +61,7 @@ impl Rules {
 /// Effects that are named together at most because resampled recordings name now this one, now that.
 const UNSTABLE: usize = 3;
 
-/// Rivals of an effect that are refitted.
+/// Rivals of an effect that are refitted, and as many more that may be among those that move constant ICRs.
 const RIVALS: usize = 3;
 
 /// Something that was left out, or why it is not claimed.
@@ -90,12 +91,8 @@ pub fn judge(
     let departure = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
     // What mostly moves constant ICRs is known to a part of all that moved them. What a law beyond their class breaks none of
     // them does.
-    let is_static = |effect: &usize| statics.could_be_constant(*effect);
-    let by_constants = if best.effects.iter().any(is_static) {
-        constants::departure(search, best, statics, file)
-    } else {
-        0.0
-    };
+    let could_be_constant = |effect: &usize| statics.could_be_constant(*effect);
+    let by_constants = LazyCell::new(|| constants::departure(search, best, statics, file));
     best.effects
         .iter()
         .map(|&effect| {
@@ -108,7 +105,12 @@ pub fn judge(
             let changed = support::change(effect, &without, best);
             let is_close = |one: &&Screened| one.effect != effect && is_rival(one, own_gain, best);
             let close: Vec<&Screened> = screened.iter().filter(is_close).collect();
-            for rival in close.iter().take(RIVALS).copied() {
+            // Where constant ICRs moved far the linear screen is blind to what else such a law does.
+            let could_be = |(place, one): &(usize, &&Screened)| {
+                *place < RIVALS || could_be_constant(&one.effect)
+            };
+            let rivals = close.iter().enumerate().filter(could_be).take(2 * RIVALS);
+            for (_, rival) in rivals {
                 let exchanged = search.refit(&without, std::slice::from_ref(rival));
                 let behind = (exchanged.fit.objective - best.fit.objective) / 2.0;
                 let apart = changed.as_ref().map_or(f64::INFINITY, |changed| {
@@ -143,7 +145,11 @@ pub fn judge(
                 rivals.fold(without.ln_evidence, |most, (_, one)| most.max(one.ln_evidence));
             one_of.sort_unstable();
             let z = (without.fit.objective - best.fit.objective).max(0.0).sqrt();
-            let whole = if is_static(&effect) { departure.hypot(by_constants) } else { departure };
+            let whole = if one_of.iter().any(could_be_constant) {
+                departure.hypot(*by_constants)
+            } else {
+                departure
+            };
             let support = own.map_or(Support::none(), |own| Support {
                 ln_bayes_factor: best.ln_evidence - strongest,
                 z,

@@ -1,5 +1,6 @@
 //! Places, directions and shapes between those that are tried of every effect.
 
+use super::places::extent;
 use super::{Beside, Signature, Variant, spacing};
 use rayon::prelude::*;
 use trackdyn_physics::CATALOGUE;
@@ -17,8 +18,10 @@ const WORTH: f64 = 0.1;
 impl Variant {
     /// The same with a step of what is no size: `share` of half the distance between values that are tried.
     fn moved(&self, parameter: usize, share: f64, beside: &Beside) -> Self {
-        let card = &CATALOGUE[self.effect].parameters[parameter];
-        let by = share * spacing(card, CATALOGUE[self.effect].parameters, beside.evidence) / 2.0;
+        let parameters = CATALOGUE[self.effect].parameters;
+        let card = &parameters[parameter];
+        let extent = extent(parameters, &self.values);
+        let by = share * spacing(card, extent, beside.evidence) / 2.0;
         let mut moved = self.clone();
         let value = &mut moved.values[parameter];
         *value = if card.role == Role::Shape { *value * by.exp() } else { *value + by };

@@ -4,7 +4,7 @@ use super::{TASK, minus, single};
 use crate::evidence::{Evidence, Sample};
 use crate::surface::Surface;
 use rayon::prelude::*;
-use trackdyn_core::{PerSide, Pose, Side, Twist};
+use trackdyn_core::{PerSide, Pose, Side, Twist, Wrench};
 use trackdyn_motion::{Stationary, Status};
 use trackdyn_physics::contact::quadrature::Resolution;
 use trackdyn_physics::{ActiveEffect, Circumstance, Drive, Model, Motion, Vehicle};
@@ -28,23 +28,21 @@ pub fn varies(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> 
         return false;
     }
     let model = single(vehicle, effect).with_resolution(Resolution::Coarse);
-    let speeds = PerSide::new(-0.2, 0.5);
-    let forces = |at: &Circumstance| {
-        let motion = Motion::anchored(
-            speeds,
-            Side::Left,
-            [-vehicle.gauge, 0.1 * vehicle.gauge],
-            0.5 / vehicle.gauge,
-        );
-        let balance = model.balance(&model.ground(at), &motion);
-        (balance.friction.left, balance.friction.right, balance.load)
-    };
+    let forces = |at: &Circumstance| probed(&model, at, PerSide::new(-0.2, 0.5));
     let samples = evidence.samples();
     let mut probes = samples.iter().step_by((samples.len() / PROBES).max(1));
     let Some(first) = probes.next().map(|sample| forces(&circumstance(sample))) else {
         return false;
     };
     probes.any(|sample| forces(&circumstance(sample)) != first)
+}
+
+/// Forces in a turn at these belt speeds: by the friction of each side, and all others.
+fn probed(model: &Model, at: &Circumstance, speeds: PerSide<f64>) -> [Wrench; 3] {
+    let gauge = model.vehicle().gauge;
+    let motion = Motion::anchored(speeds, Side::Left, [-gauge, 0.1 * gauge], 0.5 / gauge);
+    let balance = model.balance(&model.ground(at), &motion);
+    [balance.friction.left, balance.friction.right, balance.load]
 }
 
 /// The stationary motion where each sample was, less the one without the effects that know places, headings or
@@ -60,16 +58,21 @@ pub fn by_ground(
     let samples = evidence.samples().par_iter().with_min_len(TASK);
     samples
         .map(|sample| {
-            let speeds = drive.driven(sample.speeds);
+            let (speeds, at) = (drive.driven(sample.speeds), circumstance(sample));
+            let nothing = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
+            // beside a patch forces are those of level ground
+            if probed(with, &at, speeds) == probed(without, &Circumstance::default(), speeds) {
+                return nothing;
+            }
             let near = table.motion(speeds).near();
             let there = level.starting_at(near).solve(speeds);
             let near = there.near().or(near);
-            let here = Stationary::from_start(with, &circumstance(sample), near).solve(speeds);
+            let here = Stationary::from_start(with, &at, near).solve(speeds);
             let usable = |status: Status| status != Status::NotConverged;
             if usable(here.status) && usable(there.status) {
                 minus(&here.twist, &there.twist)
             } else {
-                Twist { v_x: 0.0, v_y: 0.0, w: 0.0 }
+                nothing
             }
         })
         .collect()

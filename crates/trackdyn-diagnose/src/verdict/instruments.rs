@@ -2,12 +2,20 @@
 
 use super::{RIVALS, Rules, Support, Verdict, is_rival, refusal};
 use crate::fit::Fit;
+use crate::hypothesis::{Hypothesis, Unknown};
+use crate::mechanics::is_instrument;
 use crate::search::{Found, Search};
+use std::cell::LazyCell;
 
 /// Judges the effects of encoders and pose sensor that are free in every hypothesis.
 pub fn judge_instruments(search: &Search, best: &Found, draws: usize, seed: u64) -> Vec<Verdict> {
     let filed = &search.base.as_filed.hypothesis;
     let mut verdicts = Vec::new();
+    // What the form of any law leaves, be it known or named, may look like a sensor.
+    let laws = LazyCell::new(|| {
+        let without = without_laws(search, best);
+        (without.objective - best.fit.objective).max(0.0).sqrt()
+    });
     for &effect in &search.base.instruments {
         let dropped = without_instrument(search, best, effect);
         let ln_bayes_factor = best.ln_evidence - dropped.ln_evidence;
@@ -40,7 +48,7 @@ pub fn judge_instruments(search: &Search, best: &Found, draws: usize, seed: u64)
             z,
             ..Support::of_columns(search, fit, &columns, &parts, draws, seed)
         };
-        let refused = refusal(&support, z, 0.0);
+        let refused = refusal(&support, z, *laws);
         verdicts.push(Verdict { effect, one_of, support, refused });
     }
     verdicts
@@ -53,4 +61,18 @@ fn without_instrument(search: &Search, best: &Found, effect: usize) -> Found {
     let before = Some(&best.fit.mechanics);
     let fit = Fit::new(hypothesis, &unknowns, search.evidence, search.metric, before);
     Found { effects: best.effects.clone(), ln_evidence: fit.ln_evidence(search.evidence), fit }
+}
+
+/// The best hypothesis without any law of forces.
+fn without_laws(search: &Search, best: &Found) -> Fit {
+    let Fit { hypothesis, unknowns, .. } = &best.fit;
+    let vehicle = &hypothesis.vehicle;
+    let effects = hypothesis.effects.iter().filter(|effect| is_instrument(vehicle, effect));
+    let hypothesis = Hypothesis { effects: effects.cloned().collect(), ..hypothesis.clone() };
+    let is_left = |unknown: &Unknown| match unknown {
+        Unknown::Effect(effect, _) => hypothesis.effect(*effect).is_some(),
+        Unknown::Offset(_) | Unknown::FrictionLevel => true,
+    };
+    let unknowns: Vec<Unknown> = unknowns.iter().copied().filter(is_left).collect();
+    Fit::new(hypothesis, &unknowns, search.evidence, search.metric, Some(&best.fit.mechanics))
 }

@@ -15,8 +15,7 @@ use std::collections::BTreeMap;
 use std::slice;
 use trackdyn_core::real;
 
-/// Folds of the cross-validation and draws of resampled recordings.
-const FOLDS: usize = 12;
+/// Draws of resampled recordings.
 const RESAMPLED: usize = 200;
 
 /// What speaks for a claim.
@@ -220,7 +219,7 @@ pub(super) fn change(effect: usize, without: &Found, with: &Found) -> Option<Cha
     Some(Change { signature: Signature { unknown, column }, size })
 }
 
-/// Gain of log-likelihood by columns on blocks that were left out of their fit, and its standard error. What is free
+/// Gain of log-likelihood by columns on each block, left out of their fit, and its standard error. What is free
 /// beside them has been projected out: where one block alone knows a number of that, leaving it out says nothing of
 /// the columns.
 ///
@@ -231,18 +230,14 @@ pub(super) fn change(effect: usize, without: &Found, with: &Found) -> Option<Cha
 /// in others is the driving, and that it gains everywhere by another part of what was expected its form: both are no
 /// chance.
 pub fn cross_validated(projected: &Normal, known: &[Prior], columns: &[usize]) -> (f64, f64) {
-    let count = projected.blocks();
-    let mut gains = Vec::with_capacity(count);
-    for fold in 0..FOLDS {
-        let range = fold * count / FOLDS..(fold + 1) * count / FOLDS;
-        let factors = projected.without(&range).fit(columns, known).estimate;
-        let nothing = DVector::zeros(columns.len());
-        for block in range {
-            let squares = |factors| projected.squares_at(block, columns, factors);
-            let gain = (squares(&nothing) - squares(&factors)) / 2.0;
-            gains.push((gain, projected.change_at(block, columns, &factors)));
-        }
-    }
+    let nothing = DVector::zeros(columns.len());
+    let gains = (0..projected.blocks()).map(|block| {
+        let factors = projected.without(&(block..block + 1)).fit(columns, known).estimate;
+        let squares = |factors| projected.squares_at(block, columns, factors);
+        let gain = (squares(&nothing) - squares(&factors)) / 2.0;
+        (gain, projected.change_at(block, columns, &factors))
+    });
+    let gains: Vec<(f64, f64)> = gains.collect();
     let sum: f64 = gains.iter().map(|(gain, _)| gain).sum();
     let expected: f64 = gains.iter().map(|(_, change)| change).sum();
     let share = if expected > 0.0 { sum / expected } else { 0.0 };

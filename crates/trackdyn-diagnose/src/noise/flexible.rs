@@ -1,0 +1,103 @@
+//! What driving could explain of a residual, and what fitting it takes of the noise.
+
+use super::{COUNT, Variances, noise_of, variances_of};
+use crate::diagnosis::icr_columns;
+use crate::evidence::Evidence;
+use crate::fit::{Fit, derivatives};
+use crate::locate::contrasts;
+use crate::mechanics::Instruments;
+use crate::metric::Metric;
+use crate::normal::{Columns, Normal};
+use nalgebra::Vector3;
+use rayon::prelude::*;
+use trackdyn_identify::weighting::SegmentNoise;
+
+/// The residual of a fit, and all that driving could explain of it. Nothing is white.
+pub(super) struct Flexible {
+    pub(super) residual: Vec<Vector3<f64>>,
+    pub(super) columns: Vec<Vec<Vector3<f64>>>,
+    /// Columns of the fit itself, which come first.
+    pub(super) own: usize,
+}
+
+/// What is left of a residual, not white, and the columns that were fitted.
+pub(super) struct Left {
+    pub(super) residual: Vec<Vector3<f64>>,
+    pub(super) columns: Vec<usize>,
+}
+
+impl Flexible {
+    pub(super) fn new(evidence: &Evidence, fit: &Fit) -> Self {
+        let Fit { hypothesis, mechanics, unknowns, .. } = fit;
+        let prediction = mechanics.predict(&Instruments::of(hypothesis), evidence);
+        let mut columns = derivatives(hypothesis, mechanics, &prediction, unknowns, evidence);
+        let contrasts = contrasts(evidence, &icr_columns(evidence, fit)).into_iter();
+        columns.extend(contrasts.flat_map(|contrasts| contrasts.columns));
+        let samples = evidence.samples().iter().zip(&prediction);
+        let residual = samples.map(|(sample, motion)| sample.motion - motion).collect();
+        Self { residual, columns, own: unknowns.len() }
+    }
+
+    /// What is left when all columns are fitted in the evidence's noise, or the fit's own where a recording is so short
+    /// that all would leave less than half.
+    pub(super) fn left(&self, evidence: &Evidence, metric: &Metric) -> Left {
+        let white = |column: &Vec<Vector3<f64>>| metric.white(evidence, column.clone());
+        let mut residual = white(&self.residual);
+        let columns: Vec<_> = self.columns.iter().map(white).collect();
+        let normal = metric.normal(evidence, &residual, &columns);
+        let mut fitted = normal.independent();
+        if 2 * fitted.len() > 3 * residual.len() {
+            fitted.retain(|&column| column < self.own);
+        }
+        if let Some((factors, _)) = normal.least_squares(&fitted) {
+            for (&column, by) in fitted.iter().zip(factors.iter()) {
+                for (left, value) in residual.iter_mut().zip(&columns[column]) {
+                    *left -= value * *by;
+                }
+            }
+        }
+        evidence.colour(&mut residual);
+        Left { residual, columns: fitted }
+    }
+
+    /// Of how many residuals these columns, fitted, took the part that each variance has in them: −d ln det(Xᵀ V⁻¹ X)/d ln v.
+    pub(super) fn taken(
+        &self,
+        evidence: &Evidence,
+        noise: &SegmentNoise,
+        fitted: &[usize],
+    ) -> Variances {
+        const STEP: f64 = 0.05;
+        let count = evidence.samples().len();
+        let ln_det = |noise: SegmentNoise| -> Option<f64> {
+            let evidence = evidence.with_noise(noise);
+            let white = fitted.iter().map(|&column| {
+                let mut column = self.columns[column].clone();
+                evidence.whiten(&mut column);
+                column
+            });
+            let normal = Normal::new(&Columns {
+                residual: &vec![Vector3::zeros(); count],
+                columns: &white.collect::<Vec<_>>(),
+                weights: &vec![1.0; count],
+                blocks: &vec![0; count],
+                count: 1,
+            });
+            let all: Vec<usize> = (0..fitted.len()).collect();
+            Some(normal.least_squares(&all)?.1)
+        };
+        let here = variances_of(noise);
+        let stepped = (0..=COUNT).into_par_iter().map(|k| {
+            let mut there = here;
+            if k < COUNT {
+                there[k] += STEP;
+            }
+            ln_det(noise_of(&there))
+        });
+        let stepped: Vec<Option<f64>> = stepped.collect();
+        Variances::from_fn(|k, _| match (stepped[COUNT], stepped[k]) {
+            (Some(here), Some(there)) => ((here - there) / STEP).max(0.0),
+            _ => 0.0,
+        })
+    }
+}

@@ -164,6 +164,7 @@ fn bad_input_is_refused_and_leaves_nothing() {
         (format!("diagnose nowhere --vehicle {VEHICLE}"), "nowhere"),
         ("diagnose drive --vehicle nothing.toml".to_owned(), "nothing.toml"),
         (format!("diagnose drive --vehicle {VEHICLE} --held-out 99"), "run 99"),
+        (format!("diagnose drive --vehicle {VEHICLE} --held-out 7-3"), "--held-out 7-3: expected"),
         (format!("diagnose drive --vehicle {VEHICLE} --held-out 0-1"), "at least one run to fit"),
         (format!("diagnose points.csv --vehicle {VEHICLE}"), "expected at least 30"),
     ] {

@@ -255,6 +255,7 @@ fn several_trials_count_as_one() {
     for (asked, words) in [
         ("first second --name tool", "--out DIR"),
         ("first second --key first.key --out x", "2 trials, 1 times --key"),
+        ("nowhere --out x", "nowhere/answers.sealed: "),
         ("first first --out x", "trial = first: expected each trial once"),
         ("first longer --out x", "trial = longer: expected trials with runs of one length"),
         ("first second --key second.key --key first.key --out x", "SHA-256"),

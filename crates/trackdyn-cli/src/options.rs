@@ -66,7 +66,7 @@ impl ModelOptions {
 #[derive(Args)]
 pub struct RecordingOptions {
     /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory of the
-    /// TUM benchmark (.tum, .txt) with --tracks; for identify also a table of steady operating points
+    /// TUM benchmark (.tum, .txt) with --tracks; for identify and diagnose also a table of steady operating points
     /// (.csv)
     pub recording: PathBuf,
     /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)

@@ -9,8 +9,7 @@ use crate::fit::Fit;
 use crate::hypothesis::with_friction;
 use crate::isolability::Isolability;
 use crate::locate::cells::{Cell, cells};
-use crate::locate::{IcrColumns, Location, Residual, excess};
-use crate::mechanics::Instruments;
+use crate::locate::{Location, Residual, excess, icr_columns};
 use crate::metric::Metric;
 use crate::noise::{sharper, with_remaining_noise, without_outliers};
 use crate::proposal::{Proposal, completed};
@@ -233,8 +232,9 @@ pub fn diagnose(
     for cleaned in cleanings {
         let base = base.refitted(&evidence, &metric);
         let tried = cleaned(&evidence);
-        if base.refitted(&tried, &metric).fit.objective < base.fit.objective + CLEANED {
-            evidence = with_remaining_noise(&tried, &base.fit, &metric);
+        let again = base.refitted(&tried, &metric);
+        if again.fit.objective < base.fit.objective + CLEANED {
+            evidence = with_remaining_noise(&tried, &again.fit, &metric);
             unseen = cleaned(&unseen);
         }
     }
@@ -449,19 +449,6 @@ fn turns(fit: &Fit) -> bool {
     let covariance = &fit.solution.covariance;
     let gap = covariance[(0, 0)] + covariance[(1, 1)] - 2.0 * covariance[(0, 1)];
     gap.sqrt() < 0.2 * gauge
-}
-
-/// Derivatives of the prediction by x_l, x_r and y, not whitened.
-pub fn icr_columns(evidence: &Evidence, fit: &Fit) -> IcrColumns {
-    let instruments = Instruments::of(&fit.hypothesis);
-    let step = 1e-3 * fit.hypothesis.vehicle.gauge;
-    let here = fit.mechanics.predict(&instruments, evidence);
-    std::array::from_fn(|k| {
-        let mut moved = instruments;
-        moved.offset[k] += step;
-        let there = fit.mechanics.predict(&moved, evidence);
-        there.iter().zip(&here).map(|(there, here)| (there - here) / step).collect()
-    })
 }
 
 /// The vehicle that explains the evidence: the filed one, with what is claimed and the level of friction where it

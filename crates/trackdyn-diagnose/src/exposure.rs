@@ -64,14 +64,8 @@ impl Exposure {
                 blocks: &blocks,
                 count: 1,
             });
-            let independent = normal.independent();
-            let Some((factors, _)) = normal.least_squares(&independent) else { return of };
             let mut rest = of;
-            for (&column, factor) in independent.iter().zip(factors.iter()) {
-                for (rest, value) in rest.iter_mut().zip(&columns[column]) {
-                    *rest -= value * *factor;
-                }
-            }
+            normal.take(&normal.independent(), columns, &mut rest);
             rest
         };
         Self { predicted: rest(self.predicted), observed: rest(self.observed), ..self }

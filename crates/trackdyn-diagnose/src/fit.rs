@@ -26,6 +26,9 @@ const SHARES: [f64; 4] = [1.0, 0.4, 0.15, 0.05];
 /// A step that lowers the objective by less than this is the last one.
 const SETTLED: f64 = 0.2;
 
+/// A step that promises to lower it by less than this is not tried.
+const NOTHING: f64 = 0.01;
+
 /// Part of the gain that a step promises by which the true one may differ for its derivatives to stand.
 const FORETOLD: f64 = 0.1;
 
@@ -242,42 +245,55 @@ impl Fit {
     /// Derivatives stand as long as they foretell what a step gains. Where those of another point do not, they are found
     /// anew, be it that their step led nowhere: the end is where derivatives of the point itself promise next to nothing, or
     /// lead nowhere.
-    fn descended(self, evidence: &Evidence, metric: &Metric) -> Self {
+    ///
+    /// With it comes what the objective fell by since the derivatives were found; `are_own` says that those to begin with are of
+    /// this point.
+    fn descent(self, are_own: bool, evidence: &Evidence, metric: &Metric) -> (Self, f64) {
         let mut fit = self;
-        // What the objective fell by since the derivatives were found.
-        let mut since = 0.0;
+        let (mut are_own, mut since) = (are_own, 0.0);
         for _ in 0..ITERATIONS {
             let next = fit.next(evidence, metric);
             let gain = next.as_ref().map_or(0.0, |next| fit.objective - next.objective);
             let promised = fit.solution.gain;
             let foretold = (gain - promised).abs() < FORETOLD * promised + SETTLED;
-            let is_last = gain < SETTLED && (foretold || since == 0.0);
+            let is_last = gain < SETTLED && (foretold || are_own);
             if is_last && next.is_none() {
                 break;
             }
-            since += gain;
-            // Derivatives that foretold the gain stand, as long as they are not those of a far point at the end.
-            let stand = foretold && (!is_last || since < NEAR);
             let Self { hypothesis, mechanics, unknowns, columns, .. } = fit;
             let point = next.unwrap_or_else(|| {
                 Point::with_mechanics(hypothesis, mechanics, &unknowns, evidence, metric)
             });
-            fit = if stand {
+            (are_own, since) = if foretold { (false, since + gain) } else { (true, 0.0) };
+            fit = if foretold {
                 Self::with_columns(point, &unknowns, columns, evidence, metric)
             } else {
-                since = 0.0;
                 Self::linearised(point, &unknowns, evidence, metric)
             };
             if is_last {
                 break;
             }
         }
-        fit
+        (fit, since)
+    }
+
+    /// The end of the descent from here, with derivatives that describe it.
+    fn descended(self, evidence: &Evidence, metric: &Metric) -> Self {
+        let (end, since) = self.descent(true, evidence, metric);
+        if since < NEAR {
+            return end;
+        }
+        let Self { hypothesis, mechanics, unknowns, .. } = end;
+        let point = Point::with_mechanics(hypothesis, mechanics, &unknowns, evidence, metric);
+        Self::linearised(point, &unknowns, evidence, metric)
     }
 
     /// The point of a share of the step that lowers the objective; none where no share does, or where the
     /// whole step promises next to nothing.
     fn next(&self, evidence: &Evidence, metric: &Metric) -> Option<Point> {
+        if self.solution.gain < NOTHING {
+            return None;
+        }
         SHARES.into_iter().find_map(|share| {
             let hypothesis = self.stepped(share);
             let mechanics = self.mechanics.on_the_way(&hypothesis, &self.unknowns, evidence);
@@ -300,7 +316,7 @@ impl Fit {
         let mechanics = self.mechanics.on_the_way(&hypothesis, &unknowns, evidence);
         let point = Point::with_mechanics(hypothesis, mechanics, &unknowns, evidence, metric);
         let start = Self::with_columns(point, &unknowns, columns, evidence, metric);
-        let Self { hypothesis, objective, .. } = start.descended(evidence, metric);
+        let (Self { hypothesis, objective, .. }, _) = start.descent(false, evidence, metric);
         objective + penalty(&hypothesis, &[held], evidence)
     }
 

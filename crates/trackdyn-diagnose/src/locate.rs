@@ -16,6 +16,7 @@ pub use waves::Wave;
 
 use crate::evidence::{Evidence, Sample};
 use crate::fit::Fit;
+use crate::mechanics::Instruments;
 use crate::metric::Metric;
 use crate::normal::Prior;
 use crate::significance::{Test, test};
@@ -26,6 +27,19 @@ use waves::strongest_wave;
 
 /// Derivatives of a prediction by x_l, x_r and y, not whitened.
 pub type IcrColumns = [Vec<Vector3<f64>>; 3];
+
+/// Derivatives of the prediction by x_l, x_r and y, not whitened.
+pub fn icr_columns(evidence: &Evidence, fit: &Fit) -> IcrColumns {
+    let instruments = Instruments::of(&fit.hypothesis);
+    let step = 1e-3 * fit.hypothesis.vehicle.gauge;
+    let here = fit.mechanics.predict(&instruments, evidence);
+    std::array::from_fn(|k| {
+        let mut moved = instruments;
+        moved.offset[k] += step;
+        let there = fit.mechanics.predict(&moved, evidence);
+        there.iter().zip(&here).map(|(there, here)| (there - here) / step).collect()
+    })
+}
 
 /// A test of one symmetry.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -74,17 +74,37 @@ const SHARPER: f64 = 1.3;
 
 /// The evidence with the noise that the residuals beside a fit show. Tables of steady points keep theirs.
 pub fn with_remaining_noise(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Evidence {
-    let mut evidence = evidence.clone();
-    let flexible = Flexible::new(&evidence, fit);
+    let Some(&measured) = evidence.noise() else { return evidence.clone() };
+    remaining(evidence, measured, &Flexible::new(evidence, fit), metric)
+}
+
+/// The evidence with the noise that is left beside what is flexible, from what was measured on.
+fn remaining(
+    evidence: &Evidence,
+    measured: SegmentNoise,
+    flexible: &Flexible,
+    metric: &Metric,
+) -> Evidence {
+    let mut noise = noise_of(&start(&measured));
+    let mut evidence = evidence.with_noise(noise);
     for _ in 0..ROUNDS {
-        let Some(&noise) = evidence.noise() else { break };
         let left = flexible.left(&evidence, metric);
         let taken = flexible.taken(&evidence, &noise, &left.columns);
-        let noise = most_likely(&evidence, noise, &left.residual, &taken);
+        noise = most_likely(&evidence, noise, &left.residual, &taken);
         evidence = evidence.with_noise(noise);
         evidence = evidence.without(&outlying(&evidence, &noise, &left.residual));
     }
     evidence
+}
+
+/// Where a search begins, as logarithms: a variance of next to nothing has no slope, neither in its likelihood nor in what
+/// was taken of it, so that a walk begins at a part of the white noise at least.
+fn start(measured: &SegmentNoise) -> Variances {
+    let SegmentNoise { pose, mut walk, heading } = *measured;
+    for (walk, pose) in walk.iter_mut().zip(pose) {
+        *walk = walk.max(0.03 * pose);
+    }
+    variances_of(&SegmentNoise { pose, walk, heading: heading.max(0.5 * walk[2]) })
 }
 
 /// The evidence without the samples at whose poses the sensor erred, beside a fit, in the noise that it has.
@@ -181,7 +201,8 @@ fn most_likely(
     taken: &Variances,
 ) -> SegmentNoise {
     let likelihood = Likelihood { evidence, residual, taken };
-    let [first, second] = [measured, likelihood.white_alone()].map(|start| likelihood.climb(start));
+    let [first, second] =
+        [measured, likelihood.white_alone()].map(|noise| likelihood.climb(start(&noise)));
     let (here, _) = if second.1 > first.1 + SETTLED { second } else { first };
     let noise = noise_of(&here);
     let (_, white) = likelihood.white(&noise);
@@ -225,13 +246,8 @@ impl Likelihood<'_> {
     }
 
     /// The logarithms of the variances of the maximum next to a start, and what is reached there.
-    fn climb(&self, start: SegmentNoise) -> (Variances, f64) {
-        let walk = |k: usize| start.walk[k].max(0.03 * start.pose[k]);
-        let mut here = Variances::from_fn(|k, _| match k {
-            0..3 => start.pose[k].ln(),
-            3..6 => walk(k - 3).ln(),
-            _ => start.heading.max(0.5 * walk(2)).ln(),
-        });
+    fn climb(&self, start: Variances) -> (Variances, f64) {
+        let mut here = start;
         let sum = |terms: &[f64], here: &Variances| {
             terms.iter().sum::<f64>() + 0.5 * self.taken.dot(here)
         };
@@ -428,15 +444,19 @@ mod tests {
             samples.iter().map(along).collect()
         };
         let columns: Vec<_> = (0..COLUMNS).map(column).collect();
+        // Poses that seem to have no noise forward, and nothing that walks: as what is measured without a model may say.
+        let measured = SegmentNoise { pose: [0.0, 4e-6, 4e-6], walk: [0.0; 3], heading: 0.0 };
+        let metric = Metric::default();
         let mut logarithms = [[0.0; COUNT]; 2];
         for seed in 0..SEEDS {
             let residual = noisy(&evidence, seed.into());
             let flexible = Flexible { residual, columns: columns.clone(), own: COLUMNS };
-            let left = flexible.left(&evidence, &Metric::default());
+            let left = flexible.left(&evidence, &metric);
             let taken = flexible.taken(&evidence, &TRUE, &left.columns);
             assert!((taken.sum() - real(COLUMNS)).abs() < 0.1 * real(COLUMNS), "{taken}");
-            for (sums, taken) in logarithms.iter_mut().zip([Variances::zeros(), taken]) {
-                let found = most_likely(&evidence, TRUE, &left.residual, &taken);
+            let unaware = most_likely(&evidence, TRUE, &left.residual, &Variances::zeros());
+            let aware = *remaining(&evidence, measured, &flexible, &metric).noise().expect("one");
+            for (sums, found) in logarithms.iter_mut().zip([unaware, aware]) {
                 let off = variances_of(&found) - variances_of(&TRUE);
                 for (sum, off) in sums.iter_mut().zip(off.iter()) {
                     *sum += off / f64::from(SEEDS);

@@ -252,8 +252,24 @@ impl Normal {
         kept
     }
 
-    /// The factors of independent columns that leave least of the residual, and ln det of the columns' products; none
-    /// where the columns are not independent.
+    /// Takes out of a residual what these columns, by their places, explain of it. They must be
+    /// [`independent`](Self::independent).
+    pub fn take(
+        &self,
+        places: &[usize],
+        columns: &[Vec<Vector3<f64>>],
+        residual: &mut [Vector3<f64>],
+    ) {
+        let Some((factors, _)) = self.least_squares(places) else { return };
+        for (&place, by) in places.iter().zip(factors.iter()) {
+            for (left, value) in residual.iter_mut().zip(&columns[place]) {
+                *left -= value * *by;
+            }
+        }
+    }
+
+    /// The factors of columns that leave least of the residual, and ln det of the columns' products. The columns must be
+    /// [`independent`](Self::independent); none where rounding shows that they are not.
     pub fn least_squares(&self, columns: &[usize]) -> Option<(DVector<f64>, f64)> {
         let information = self.information(columns);
         let scale = information.diagonal().map(|square| square.sqrt().recip());
@@ -316,13 +332,12 @@ mod tests {
         let (factors, ln_det) = normal.least_squares(&independent).expect("independent");
         let [a, b, c] = [(0, 0), (0, 1), (1, 1)].map(|(i, j)| normal.product(i, j));
         assert!((ln_det - (a * c - b * b).ln()).abs() < 1e-9, "{ln_det}");
-        let left = |sample: usize| {
-            residual[sample] - columns[0][sample] * factors[0] - columns[1][sample] * factors[1]
-        };
+        assert_eq!(factors.len(), 2);
+        let mut left = residual.clone();
+        normal.take(&independent, &columns, &mut left);
         for column in &columns {
-            let product: f64 = (0..SAMPLES).map(|sample| left(sample).dot(&column[sample])).sum();
+            let product: f64 = left.iter().zip(column).map(|(left, value)| left.dot(value)).sum();
             assert!(product.abs() < 1e-6, "{product}");
         }
-        assert!(normal.least_squares(&[0, 1, 2]).is_none_or(|(_, ln_det)| ln_det < 0.0));
     }
 }

@@ -13,11 +13,11 @@ pub mod symmetry;
 pub mod words;
 
 use crate::base::Calibration;
-use crate::diagnosis::{Diagnosis, HeldOut, Kind, Missing, Options, Status, Unseen, icr_columns};
+use crate::diagnosis::{Diagnosis, HeldOut, Kind, Missing, Options, Status, Unseen};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, columns};
 use crate::hypothesis::Unknown;
-use crate::locate::{Location, Residual, excess};
+use crate::locate::{Location, Residual, excess, icr_columns};
 use crate::mechanics::Instruments;
 use crate::normal::Prior;
 use crate::prior::prior;

@@ -229,11 +229,11 @@ impl Search<'_> {
                 let physical = is_physical(hypothesis, variant(dozen[a]), &first)
                     && is_physical(hypothesis, variant(dozen[b]), &second);
                 if physical {
-                    let with = |one: &Screened, sizes: Vec<f64>| Screened { sizes, ..one.clone() };
-                    pairs.push((
-                        fit.ln_evidence - without.ln_evidence,
-                        [with(dozen[a], first), with(dozen[b], second)],
-                    ));
+                    // what each gains is what both gain: neither may show by itself
+                    let gain = fit.ln_evidence - without.ln_evidence;
+                    let with =
+                        |one: &Screened, sizes: Vec<f64>| Screened { gain, sizes, ..one.clone() };
+                    pairs.push((gain, [with(dozen[a], first), with(dozen[b], second)]));
                 }
             }
         }

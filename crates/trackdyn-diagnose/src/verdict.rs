@@ -124,7 +124,8 @@ pub fn judge(
                 }
                 exchanges.push((rival.effect, exchanged));
             }
-            let too_many = (close.len() > RIVALS && one_of.len() > RIVALS)
+            // Where all that were asked explain it as well, those that were not may.
+            let too_many = (exchanges.len() < close.len() && one_of.len() > exchanges.len())
                 .then(|| format!("{} effects explain it as well", close.len()));
             // What other recordings of the same robot would name instead is one answer with it.
             let rivals = exchanges.iter().map(|(rival, exchanged)| (*rival, exchanged));

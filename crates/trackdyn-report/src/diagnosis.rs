@@ -17,10 +17,10 @@ mod words;
 use crate::Error;
 use crate::sheet;
 use nalgebra::Vector3;
-use trackdyn_diagnose::diagnosis::{Diagnosis, Kind, Unseen, icr_columns};
+use trackdyn_diagnose::diagnosis::{Diagnosis, Kind, Unseen};
 use trackdyn_diagnose::fit::Fit;
-use trackdyn_diagnose::locate::Location;
 use trackdyn_diagnose::locate::cells::Cell;
+use trackdyn_diagnose::locate::{Location, icr_columns};
 use trackdyn_diagnose::{DiagnosisFile, Evidence};
 use trackdyn_physics::VehicleFile;
 

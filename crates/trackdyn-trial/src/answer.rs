@@ -2,7 +2,7 @@
 
 use crate::plan::{Difficulty, STATIC_CLASS, Stratum};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use trackdyn_proof::{ActiveMechanism, Origin};
 
 /// Schema of the answers.
@@ -135,6 +135,13 @@ impl Concealed {
     /// what its z_iso was compared with are the effects outside that class.
     pub fn is_isolable(&self) -> bool {
         self.is_detectable() && self.z_iso >= crate::oracle::DISTINCT && !self.is_static()
+    }
+
+    /// Members of the smallest set that the recording allows: it, and all that cannot be told from it.
+    pub fn smallest_set(&self) -> usize {
+        let class = self.class.iter().map(String::as_str).chain([self.mechanism.as_str()]);
+        let statics = if self.is_static() { &STATIC_CLASS[..] } else { &[] };
+        class.chain(statics.iter().copied()).collect::<BTreeSet<_>>().len()
     }
 }
 

@@ -94,15 +94,15 @@ pub fn write_answers(trial: &Path, answers: &Answers, key: &Key) -> Result<Commi
     Ok(commitment)
 }
 
-/// Opens the answers of a trial.
+/// Opens the answers of a trial with the key in a file.
 ///
 /// # Errors
-/// Those of [`seal::open`]; [`Error::File`], [`Error::Document`].
-pub fn open_answers(trial: &Path, key: &Key) -> Result<Answers, Error> {
+/// Those of [`seal::open`] and [`Key::read`]; [`Error::File`], [`Error::Document`].
+pub fn open_answers(trial: &Path, key: &Path) -> Result<Answers, Error> {
     let path = trial.join(SEALED);
     let sealed = fs::read(&path).map_err(Error::file(path))?;
     let commitment: Commitment = Document::read(&trial.join(COMMITMENT))?.parse()?;
-    seal::open(&sealed, key, &commitment)
+    seal::open(&sealed, &Key::read(key)?, &commitment)
 }
 
 /// The cases of a trial, in the order of their names.

@@ -5,7 +5,7 @@ use crate::entry::Entry;
 use crate::error::Error;
 use crate::folder;
 use crate::score::Judged;
-use crate::seal::{self, Key};
+use crate::seal;
 use std::path::{Path, PathBuf};
 use trackdyn_core::output::fingerprint;
 
@@ -27,12 +27,12 @@ impl Opened {
     /// Opens trials, each a folder with the file of its key.
     ///
     /// # Errors
-    /// Those of [`folder::open_answers`] and [`Key::read`]; [`Error::Option`] where a trial comes twice, or where runs
+    /// Those of [`folder::open_answers`]; [`Error::Option`] where a trial comes twice, or where runs
     /// have another length than in the first.
     pub fn open<'a>(trials: impl IntoIterator<Item = (&'a Path, PathBuf)>) -> Result<Self, Error> {
         let mut opened = Self { trials: Vec::new() };
         for (folder, key) in trials {
-            let answers = folder::open_answers(folder, &Key::read(&key)?)?;
+            let answers = folder::open_answers(folder, &key)?;
             let text = seal::text(&answers);
             opened.add(Trial { folder: folder.to_owned(), answers, text })?;
         }

@@ -133,7 +133,8 @@ fn subject(
         None => every_fourth(runs, false),
         Some("none") => Vec::new(),
         Some(list) => {
-            let list: RunList = list.parse().map_err(|error| format!("--held-out: {error}"))?;
+            let list: RunList =
+                list.parse().map_err(|error| format!("--held-out {list}: {error}"))?;
             recording.indices_of(&list)?
         }
     };

@@ -31,7 +31,7 @@ pub struct Options {
     /// Leave out segments before which the tracks have not run steadily for so many seconds
     #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
     settle: Option<f64>,
-    /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw, lever-arm
+    /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     fit: Vec<Nuisance>,
     /// Individuals of the genetic algorithm

@@ -44,7 +44,7 @@ pub struct Options {
     #[arg(long)]
     quasi_static: bool,
     /// Which simulator moves the robot: the project's own, or the independent one of proofs, which shares
-    /// no law with it
+    /// no code with it
     #[arg(long, value_enum, default_value_t = Ground::Own)]
     ground: Ground,
     /// Independent ground: a mechanism outside the catalogue of effects; repeatable

@@ -88,7 +88,10 @@ impl Evidence {
             runs: recording.runs().iter().map(trackdyn_recording::Run::id).collect(),
             tau,
             is_steady: false,
-            description: format!("{}; noise from what no driving explains", blocks.description()),
+            description: format!(
+                "{}; noise measured on what driving cannot explain",
+                blocks.description()
+            ),
         })
     }
 }

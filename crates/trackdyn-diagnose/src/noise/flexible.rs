@@ -1,10 +1,9 @@
 //! What driving could explain of a residual, and what fitting it takes of the noise.
 
 use super::{COUNT, Variances, noise_of, variances_of};
-use crate::diagnosis::icr_columns;
 use crate::evidence::Evidence;
 use crate::fit::{Fit, derivatives};
-use crate::locate::contrasts;
+use crate::locate::{IcrColumns, contrasts, icr_columns};
 use crate::mechanics::Instruments;
 use crate::metric::Metric;
 use crate::normal::{Columns, Normal};
@@ -20,6 +19,23 @@ pub(super) struct Flexible {
     pub(super) own: usize,
 }
 
+/// What friction that falls or rises with the speed of slip may do: ICRs that move with the speed of turning. Contrasts, which
+/// are tested, keep to a few columns; here there may be many.
+fn turning(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Vec<Vector3<f64>>> {
+    /// Parts of the fastest turn in which friction settles: slip is of the order of the turn.
+    const SETTLES: [f64; 2] = [0.06, 0.2];
+    let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
+    let [quickly, slowly] = SETTLES.map(|scale| move |u: f64| (-u / scale).exp());
+    let laws: [&dyn Fn(f64) -> f64; 4] = [&|u| u, &|u| u * u, &quickly, &slowly];
+    let turns: Vec<f64> = (evidence.samples().iter())
+        .map(|sample| (sample.speeds.right - sample.speeds.left).abs() / (2.0 * fastest))
+        .collect();
+    let column = |icr: &[Vector3<f64>], law: &dyn Fn(f64) -> f64| {
+        icr.iter().zip(&turns).map(|(icr, &turn)| icr * law(turn)).collect()
+    };
+    icrs.iter().flat_map(|icr| laws.map(|law| column(icr, law))).collect()
+}
+
 /// What is left of a residual, not white, and the columns that were fitted.
 pub(super) struct Left {
     pub(super) residual: Vec<Vector3<f64>>,
@@ -31,8 +47,10 @@ impl Flexible {
         let Fit { hypothesis, mechanics, unknowns, .. } = fit;
         let prediction = mechanics.predict(&Instruments::of(hypothesis), evidence);
         let mut columns = derivatives(hypothesis, mechanics, &prediction, unknowns, evidence);
-        let contrasts = contrasts(evidence, &icr_columns(evidence, fit)).into_iter();
+        let icrs = icr_columns(evidence, fit);
+        let contrasts = contrasts(evidence, &icrs).into_iter();
         columns.extend(contrasts.flat_map(|contrasts| contrasts.columns));
+        columns.extend(turning(evidence, &icrs));
         let samples = evidence.samples().iter().zip(&prediction);
         let residual = samples.map(|(sample, motion)| sample.motion - motion).collect();
         Self { residual, columns, own: unknowns.len() }
@@ -49,13 +67,7 @@ impl Flexible {
         if 2 * fitted.len() > 3 * residual.len() {
             fitted.retain(|&column| column < self.own);
         }
-        if let Some((factors, _)) = normal.least_squares(&fitted) {
-            for (&column, by) in fitted.iter().zip(factors.iter()) {
-                for (left, value) in residual.iter_mut().zip(&columns[column]) {
-                    *left -= value * *by;
-                }
-            }
-        }
+        normal.take(&fitted, &columns, &mut residual);
         evidence.colour(&mut residual);
         Left { residual, columns: fitted }
     }

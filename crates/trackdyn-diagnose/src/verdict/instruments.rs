@@ -2,7 +2,7 @@
 
 use super::{RIVALS, Rules, Support, Verdict, is_rival, refusal};
 use crate::fit::Fit;
-use crate::hypothesis::{Hypothesis, Unknown};
+use crate::hypothesis::{Hypothesis, Unknown, typical};
 use crate::mechanics::is_instrument;
 use crate::search::{Found, Search};
 use std::cell::LazyCell;
@@ -13,8 +13,9 @@ pub fn judge_instruments(search: &Search, best: &Found, draws: usize, seed: u64)
     let mut verdicts = Vec::new();
     // What the form of any law leaves, be it known or named, may look like a sensor.
     let laws = LazyCell::new(|| {
-        let without = without_laws(search, best);
-        (without.objective - best.fit.objective).max(0.0).sqrt()
+        let more = without_laws(search, best).objective - best.fit.objective;
+        // A robot that these laws hold on the ground cannot be asked how it moves without them.
+        if more.is_finite() { more.max(0.0).sqrt() } else { 0.0 }
     });
     for &effect in &search.base.instruments {
         let dropped = without_instrument(search, best, effect);
@@ -70,7 +71,7 @@ fn without_laws(search: &Search, best: &Found) -> Fit {
     let effects = hypothesis.effects.iter().filter(|effect| is_instrument(vehicle, effect));
     let hypothesis = Hypothesis { effects: effects.cloned().collect(), ..hypothesis.clone() };
     let is_left = |unknown: &Unknown| match unknown {
-        Unknown::Effect(effect, _) => hypothesis.effect(*effect).is_some(),
+        Unknown::Effect(effect, _) => is_instrument(vehicle, &typical(*effect)),
         Unknown::Offset(_) | Unknown::FrictionLevel => true,
     };
     let unknowns: Vec<Unknown> = unknowns.iter().copied().filter(is_left).collect();

@@ -53,9 +53,15 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
         let truth = case.only().filter(|truth| Concealed::is_detectable(truth))?;
         Some(crate::real(case.set_with(&truth.mechanism)?.len()))
     });
-    let isolable = judged.iter().filter_map(|case| case.only()).filter(|truth| truth.is_isolable());
+    let singles = || judged.iter().filter_map(|case| case.only());
+    let isolable = singles().filter(|truth| truth.is_isolable());
+    let smallest = singles().filter(|truth| truth.is_detectable());
     [
         Mean::of("members of the reported set with the truth in it", sizes),
+        Mean::of(
+            "fewest to expect: members of the smallest set that the recording allows",
+            smallest.map(|truth| crate::real(truth.smallest_set())),
+        ),
         Mean::of(
             "share of the held-out excess explained",
             fits().filter_map(|fit| fit.excess_explained),

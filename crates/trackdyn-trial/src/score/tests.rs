@@ -47,6 +47,16 @@ fn case(stratum: Stratum, concealed: Vec<Concealed>, diagnosis: &str) -> Judged 
     }
 }
 
+#[test]
+fn what_cannot_be_told_apart_makes_the_smallest_set() {
+    let alone = concealed("slope", 20.0, 9.0);
+    let near =
+        Concealed { class: vec!["tether".to_owned(), "cohesion".to_owned()], ..alone.clone() };
+    let of_class = Concealed { class: near.class.clone(), ..concealed("cohesion", 20.0, 9.0) };
+    // the seven of constants, of which one is in its class as well, and a tether
+    assert_eq!([alone, near, of_class].map(|truth| truth.smallest_set()), [1, 3, 8]);
+}
+
 /// (successes, cases) of the rate whose name begins like this.
 fn rate(cases: &[Judged], name: &str) -> (usize, usize) {
     let rates = rates::rates(cases);

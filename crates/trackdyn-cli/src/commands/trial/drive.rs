@@ -18,7 +18,6 @@ use trackdyn_trial::driving::HELD_OUT;
 use trackdyn_trial::revisit::revisit;
 use trackdyn_trial::score::resolution::{open_sets, rates};
 use trackdyn_trial::score::{Judged, Outcome, Revisited, rates_csv, resolution_markdown};
-use trackdyn_trial::seal::Key;
 use trackdyn_trial::{Answers, Diagnosis, Entry, diagnosis, folder};
 
 /// The recording of the new driving, and the plan for it.
@@ -58,7 +57,7 @@ struct Visit<'a> {
 
 /// Drives on where diagnoses are ambiguous, and scores what comes of it.
 pub fn run(options: &Options) -> Exited {
-    let key = Key::read(&key_file(options.key.as_deref(), &options.trial)?)?;
+    let key = key_file(options.key.as_deref(), &options.trial)?;
     let answers = folder::open_answers(&options.trial, &key)?;
     let judged = folder::judge(&options.trial, &answers, &Entry::default())?;
     let open: Vec<&Judged> = judged.iter().filter(|case| !open_sets(case).is_empty()).collect();

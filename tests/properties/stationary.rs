@@ -5,11 +5,32 @@ use rand_chacha::ChaCha8Rng;
 use trackdyn_core::{PerSide, STANDARD_GRAVITY, Side};
 use trackdyn_motion::{Stationary, Status};
 use trackdyn_physics::contact::{SlipField, friction_wrench};
-use trackdyn_physics::{Circumstance, Effects, Model};
+use trackdyn_physics::{ActiveEffect, Circumstance, Effects, Model, VehicleFile};
 use trackdyn_tests::{random_vehicle, uniform};
 
 /// Residual over weight that a solution may have.
 const TOLERANCE: f64 = 1e-10;
+
+/// No track holds a robot that slides down: friction as a whole bears μ cos β of the weight, and the slope pulls with sin β.
+#[test]
+fn a_slope_steeper_than_friction_holds_nobody() {
+    let vehicle = VehicleFile::auriga_alpha().vehicle;
+    let steepest = vehicle.friction.along.atan().to_degrees();
+    for (above, speeds) in [0.3, 1.0, 2.0, 4.0, 8.0]
+        .into_iter()
+        .flat_map(|above| [[0.5, 0.6], [0.6, 0.5], [0.5, 0.5]].map(|speeds| (above, speeds)))
+    {
+        let [left, right] = speeds;
+        let angle = steepest + above;
+        // a heading of zero is the world's x: straight uphill
+        let slope = ActiveEffect::new("slope", &[("angle_deg", angle), ("uphill_deg", 0.0)]);
+        let model = Model::new(vehicle.clone(), Effects::from_iter(slope));
+        let solver = Stationary::new(&model, &Circumstance::default());
+        let status = solver.solve(PerSide::new(left, right)).status;
+        let is_held = matches!(status, Status::Holds(_) | Status::Straight);
+        assert!(!is_held, "{angle} deg, {speeds:?}: {status:?}");
+    }
+}
 
 /// Solves `count` random vehicles, up to the tipping limit, at random speeds; every eighth pair is a
 /// straight drive, a spin, one track stopped or nearly straight.

@@ -230,14 +230,15 @@ impl<'s> Problem<'s> {
     #[inline]
     fn residual<S: Scalar>(&self, z: [S; 3]) -> [S; 3] {
         let balance = self.solver.model.balance(&self.solver.ground, &self.motion(z));
-        let mut slipping = balance.friction[self.anchor.other()];
+        // What the track that is held has to bear: a root at a multiple of it above one proves that it bears once as much.
+        let mut borne = balance.load;
+        borne += balance.friction[self.anchor.other()];
         if z[2].value() <= 0.0 {
             let excess = -z[2] * self.solver.model.vehicle().gauge + 1.0;
-            slipping = slipping.scaled(excess);
+            borne = borne.scaled(excess);
         }
-        let mut sum = balance.load;
-        sum += balance.friction[self.anchor];
-        sum += slipping;
+        let mut sum = balance.friction[self.anchor];
+        sum += borne;
         let [force, moment] = self.solver.scale;
         [sum.force_x * force.recip(), sum.force_y * force.recip(), sum.moment * moment.recip()]
     }

@@ -122,4 +122,16 @@ fn the_independent_ground_moves_the_robot_alike() {
     let run = place
         .run("simulate --schedule plan.csv --ground independent --mechanism washboard --out board");
     assert_eq!(run.status, 0, "{}", run.stderr);
+    // a constant of its law is a parameter of the catalogue's
+    let on = |effect: &str| {
+        place.run(&format!(
+            "simulate --schedule plan.csv --ground independent --effect {effect} --out law"
+        ))
+    };
+    for effect in ["friction-creep", "shear-displacement"] {
+        let run = on(effect);
+        assert_eq!(run.status, 0, "{effect}: {}", run.stderr);
+    }
+    let run = on("friction-creep:sharpness=0.31");
+    assert!(run.status == 1 && run.stderr.contains("sharpness = 0.31"), "{}", run.stderr);
 }

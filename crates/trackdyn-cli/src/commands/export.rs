@@ -124,7 +124,8 @@ struct FrameOptions {
     /// Root link of the robot's URDF
     #[arg(long, value_name = "FRAME", default_value = "base_link")]
     base_frame: Name,
-    /// Centre of the contact area of both tracks in the base frame, in m: forward, left (ROS axes)
+    /// Origin of the ICRs in the base frame, in m: forward, left (ROS axes). Of a map it is the centre of the contact area of
+    /// both tracks; of a recording the frame of its poses
     #[arg(long, value_name = "X,Y", value_parser = pair, default_value = "0,0",
           allow_hyphen_values = true)]
     contact_centre: [f64; 2],

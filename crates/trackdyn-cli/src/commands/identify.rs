@@ -11,7 +11,7 @@ use crate::exit::Exit;
 use crate::options::{DrivingOptions, command_line, finite, read_vehicle};
 use crate::progress::Progress;
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use trackdyn_core::output::{prepare_folder, write_file};
 use trackdyn_identify::genetic::GeneticOptions;
 use trackdyn_identify::identification::{self, Fit};
@@ -101,13 +101,23 @@ pub fn run(options: &Options) -> Outcome {
     let path = options.out.join("identification.toml");
     write_file(&path, document.as_bytes())?;
     eprintln!("wrote {}", path.display());
+    let files = found.fits.iter().map(|fit| file(fit, gauge, &source));
+    keep(&options.out, files)
+}
+
+/// Writes the files of the fits that are determined. That of an earlier fit goes where this one is not: it would be taken for
+/// this one's.
+fn keep(out: &Path, files: impl IntoIterator<Item = Option<KinematicsFile>>) -> Outcome {
     let mut written = 0;
-    for (fit, name) in found.fits.iter().zip(document::FILES) {
-        if let Some(file) = file(fit, gauge, &source) {
-            let path = options.out.join(name);
+    for (file, name) in files.into_iter().zip(document::FILES) {
+        let path = out.join(name);
+        if let Some(file) = file {
             write_file(&path, file.to_toml().as_bytes())?;
             eprintln!("wrote {}", path.display());
             written += 1;
+        } else if path.exists() {
+            std::fs::remove_file(&path).map_err(|cause| format!("{}: {cause}", path.display()))?;
+            eprintln!("removed {}, of an earlier fit: this one is not determined", path.display());
         }
     }
     Ok(if written > 0 { Exit::Done } else { Exit::NoResult })

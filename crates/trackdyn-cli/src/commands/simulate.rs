@@ -83,6 +83,7 @@ pub fn run(options: &Options) -> Outcome {
     }
     let sensors = sensors(&options.sensors)?;
     let schedules = schedules::load(&options.schedule, &schedule_options(options))?;
+    refuse_other(&options.out)?;
     prepare_folder(&options.out)?;
 
     let model = model(&file);
@@ -114,6 +115,18 @@ pub fn run(options: &Options) -> Outcome {
     print!("{}", document::summary(&file, &sensors, &recording, &runs));
     eprintln!("wrote the recording, truth.csv and simulation.toml to {}", options.out.display());
     Ok(Exit::Done)
+}
+
+/// A recording that was not simulated is nobody's to replace.
+fn refuse_other(out: &Path) -> Result<(), String> {
+    let is_there = |name: &str| out.join(name).exists();
+    if is_there("recording.toml") && !is_there("simulation.toml") {
+        return Err(format!(
+            "--out {}: holds a recording that was not simulated: expected another folder",
+            out.display()
+        ));
+    }
+    Ok(())
 }
 
 /// One run, driven and seen.

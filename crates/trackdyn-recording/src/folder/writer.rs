@@ -4,28 +4,34 @@ use super::{MANIFEST, Manifest};
 use crate::Error;
 use crate::recording::{Cells, Recording, Run, Sample, Series};
 use std::fmt::Write;
+use std::io::ErrorKind;
 use std::path::Path;
 use trackdyn_core::output;
 
 /// Writes a recording folder; numbers are printed so that reading gives the same bits.
 ///
-/// `recording.toml` is written last: a folder without it is not a recording. Files that are there
-/// already are replaced, and an `imu.csv` is removed where the recording has none.
+/// `recording.toml` is written last, and an old one removed first: a folder without it is not a recording. Files that are there
+/// already are replaced, and those of an IMU removed where the recording has none.
 ///
 /// # Errors
-/// [`Error::Output`], [`Error::Unreadable`] when an old `imu.csv` cannot be removed.
+/// [`Error::Output`], [`Error::Unreadable`] when an old file cannot be removed.
 pub fn write(recording: &Recording, folder: &Path) -> Result<(), Error> {
     output::prepare_folder(folder)?;
     let runs = recording.runs();
     let file = |name: &str| folder.join(name);
+    let remove = |name: &str| match std::fs::remove_file(file(name)) {
+        Err(cause) if cause.kind() != ErrorKind::NotFound => {
+            Err(Error::Unreadable { path: file(name), cause })
+        }
+        _ => Ok(()),
+    };
+    for old in [MANIFEST, "imu.csv", "imu.parquet"] {
+        remove(old)?;
+    }
     output::write_file(&file("tracks.csv"), table(runs, Run::track_series).as_bytes())?;
     output::write_file(&file("poses.csv"), table(runs, Run::pose_series).as_bytes())?;
-    let imu = file("imu.csv");
     if runs.iter().any(|run| !run.imu().is_empty()) {
-        output::write_file(&imu, table(runs, Run::imu_series).as_bytes())?;
-    } else if imu.exists() {
-        std::fs::remove_file(&imu)
-            .map_err(|cause| Error::Unreadable { path: imu.clone(), cause })?;
+        output::write_file(&file("imu.csv"), table(runs, Run::imu_series).as_bytes())?;
     }
     let manifest = Manifest {
         name: recording.name().to_owned(),

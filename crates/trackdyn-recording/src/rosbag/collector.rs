@@ -92,6 +92,7 @@ impl<'a> Collector<'a> {
             _ => sources.poses(self.poses, &mut warnings)?,
         };
         let imu = sources.imu(self.imu, &mut warnings)?;
+        warnings.extend(self.joints.guessed());
         speeds::run(path, self.options, self.joints.met(), readings, poses, imu, warnings)
     }
 

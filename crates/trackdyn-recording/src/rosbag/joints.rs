@@ -2,6 +2,7 @@
 
 use super::cdr::{Cdr, CdrError};
 use super::options::{JointSignal, RosbagOptions};
+use crate::recording::Warning;
 use trackdyn_core::{PerSide, Side};
 
 /// Mean of a side's joints in one message.
@@ -63,12 +64,15 @@ pub(super) struct Joints {
     signal: JointSignal,
     /// Joints whose positions were read, in the order in which they turned up.
     met: Vec<String>,
+    /// Joints that were taken for those of a side by their names, where none were named.
+    taken: PerSide<Vec<String>>,
 }
 
 impl Joints {
     pub(super) fn new(options: &RosbagOptions) -> Self {
         let names = PerSide::new(options.left_joints.clone(), options.right_joints.clone());
-        Self { names, signal: options.joint_signal, met: Vec::new() }
+        let taken = PerSide::new(Vec::new(), Vec::new());
+        Self { names, signal: options.joint_signal, met: Vec::new(), taken }
     }
 
     /// +1 or −1 for a joint of this side, `None` for any other.
@@ -104,6 +108,26 @@ impl Joints {
         self.names[side].len().max(1)
     }
 
+    /// Whether the joints of both sides have numbers.
+    fn are_finite(&self, mut names: Cdr, mut values: Cdr, count: usize) -> Result<bool, CdrError> {
+        for _ in 0..count {
+            let (name, value) = (names.text()?, values.f64()?);
+            let is_taken = Side::BOTH.into_iter().any(|side| self.sign(side, name).is_some());
+            if is_taken && !value.is_finite() {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// What was taken for the joints of a side by its name alone.
+    pub(super) fn guessed(&self) -> Vec<Warning> {
+        let sides = [(Side::Left, "left joints"), (Side::Right, "right joints")];
+        let guessed = sides.into_iter().filter(|(side, _)| !self.taken[*side].is_empty());
+        let warning = |(side, what)| Warning::Chosen { what, taken: self.taken[side].join(", ") };
+        guessed.map(warning).collect()
+    }
+
     /// The reading of a `sensor_msgs/JointState` after its header: `string[] name, float64[]
     /// position, velocity, effort`.
     pub(super) fn reading(&mut self, cdr: &mut Cdr) -> Result<Reading, JointProblem> {
@@ -114,7 +138,10 @@ impl Joints {
         }
         let (positions, position_count) = cdr.f64_sequence()?;
         let (velocities, velocity_count) = cdr.f64_sequence()?;
-        let has_velocity = count > 0 && velocity_count == count;
+        // a driver that has no velocities may send numbers that are none
+        let has_velocity = count > 0
+            && velocity_count == count
+            && self.are_finite(names_at.clone(), velocities.clone(), count)?;
         let has_position = count > 0 && position_count == count;
         let is_position = match self.signal {
             JointSignal::Any => !has_velocity && has_position,
@@ -134,6 +161,11 @@ impl Joints {
                 if let Some(sign) = self.sign(side, name) {
                     sums[side] += sign * value;
                     found[side] += 1;
+                    if self.names[side].is_empty()
+                        && !self.taken[side].iter().any(|one| one == name)
+                    {
+                        self.taken[side].push(name.to_owned());
+                    }
                     if is_position {
                         let joint = self.place(name);
                         angles.push(JointAngle { joint, side, share: sign, angle: value });

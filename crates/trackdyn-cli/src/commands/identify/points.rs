@@ -2,12 +2,11 @@
 
 use super::Options;
 use crate::commands::Outcome;
-use crate::exit::Exit;
 use crate::options::command_line;
 use std::fmt::Write;
 use std::path::Path;
 use trackdyn_core::document::Document;
-use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
+use trackdyn_core::output::{fingerprint, prepare_folder};
 use trackdyn_identify::least_squares::Loss;
 use trackdyn_identify::steady::{SteadyEstimate, lagging};
 use trackdyn_identify::{Error, Free, Parameters, fit_points};
@@ -59,11 +58,8 @@ pub fn run(path: &Path, vehicle: &VehicleFile, options: &Options) -> Outcome {
     print!("{text}");
 
     let fingerprint = fingerprint(Document::read(path)?.text().as_bytes());
-    let mut written = 0;
-    for ((free, fit), name) in fits.iter().zip(["kinematics.toml", "kinematics_alpha.toml"]) {
-        let Some(fit) = fit.as_ref().ok().filter(|fit| fit.doubts(gauge).is_empty()) else {
-            continue;
-        };
+    let files = fits.iter().map(|(free, fit)| {
+        let fit = fit.as_ref().ok().filter(|fit| fit.doubts(gauge).is_empty())?;
         let source = Source {
             command: command_line(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -75,13 +71,9 @@ pub fn run(path: &Path, vehicle: &VehicleFile, options: &Options) -> Outcome {
         let rows = fit.covariance.row_iter().map(|row| row.iter().copied().collect()).collect();
         let kinematics = fit.parameters.kinematics();
         let with_alphas = *free == Free::IcrsAndAlphas;
-        let file = KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source);
-        let path = options.out.join(name);
-        write_file(&path, file.to_toml().as_bytes())?;
-        eprintln!("wrote {}", path.display());
-        written += 1;
-    }
-    Ok(if written > 0 { Exit::Done } else { Exit::NoResult })
+        Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source))
+    });
+    super::keep(&options.out, files)
 }
 
 fn fit(text: &mut String, free: Free, fit: &Result<SteadyEstimate, Error>, gauge: f64) {

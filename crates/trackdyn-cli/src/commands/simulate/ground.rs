@@ -3,8 +3,8 @@
 use super::Options;
 use trackdyn_core::{Plant, Pose, Schedule, Trajectory};
 use trackdyn_motion::Transient;
-use trackdyn_physics::{Model, VehicleFile};
-use trackdyn_proof::{ActiveMechanism, Robot, Setup};
+use trackdyn_physics::{ActiveEffect, Model, VehicleFile};
+use trackdyn_proof::{ActiveMechanism, MECHANISMS, Robot, Setup};
 
 /// The motion of the hull, and the path that the pose sensor takes it to be.
 type Motion = (Trajectory, Trajectory);
@@ -31,11 +31,7 @@ pub fn independent(
 ) -> Result<Motion, String> {
     let mut mechanisms = options.mechanisms.clone();
     for effect in &file.effects {
-        let card = effect.card();
-        let keys = card.parameters.iter().map(|parameter| parameter.key);
-        let settings: Vec<_> = keys.zip(effect.values().iter().copied()).collect();
-        let mechanism = ActiveMechanism::new(card.id, &settings);
-        mechanisms.push(mechanism.map_err(|error| error.to_string())?);
+        mechanisms.push(mechanism_of(effect)?);
     }
     let [start_time, _] = schedule.span();
     let setup = Setup {
@@ -50,4 +46,27 @@ pub fn independent(
     let path = robot.follow(schedule).map_err(|stopped| stopped.to_string())?;
     let reported = robot.report(&path);
     Ok((path, reported))
+}
+
+/// The mechanism of an effect's name. Its law has constants where the effect's has parameters: these are then to be left as
+/// they are.
+fn mechanism_of(effect: &ActiveEffect) -> Result<ActiveMechanism, String> {
+    let card = effect.card();
+    let sheet = MECHANISMS.iter().find(|sheet| sheet.id == card.id);
+    let has = |key: &str| {
+        sheet.is_none_or(|sheet| sheet.parameters.iter().any(|parameter| parameter.key == key))
+    };
+    let mut settings = Vec::new();
+    for (parameter, &value) in card.parameters.iter().zip(effect.values()) {
+        if has(parameter.key) {
+            settings.push((parameter.key, value));
+        } else if value != parameter.typical {
+            return Err(format!(
+                "--effect {}:{} = {value}: expected it left out on the independent ground, whose law has no such \
+                 parameter",
+                card.id, parameter.key
+            ));
+        }
+    }
+    ActiveMechanism::new(card.id, &settings).map_err(|error| error.to_string())
 }

@@ -51,6 +51,9 @@ pub struct Answer {
     pub known: Vec<String>,
     /// Fingerprint of the recording.
     pub recording: String,
+    /// Fingerprint of the files that a diagnosis gets, byte for byte; older answers have none.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub files: String,
     /// The vehicle as it is, before effects: the text of its file.
     pub vehicle: String,
     /// What is concealed.

@@ -32,10 +32,6 @@ const NULLS_WITHOUT_INERTIA: f64 = 0.11;
 const INERTIA: [&str; 2] = ["yaw-inertia", "centripetal"];
 /// Factor of friction by which its level is told from effects: owners know it roughly.
 const ROUGHER: f64 = 1.15;
-/// Sizes that are too large for the robot are taken smaller by this factor.
-const SMALLER: f64 = 0.6;
-/// Tries of smaller sizes.
-const SHRINKS: usize = 4;
 
 /// A case with its answer.
 #[derive(Clone, Debug)]
@@ -97,8 +93,8 @@ impl Draw<'_> {
             machine.vehicle.gauge,
             &mut self.random(Purpose::Instruments),
         );
-        let mut concealed = self.concealed(&machine, &known, &driving, &instruments)?;
-        let recording = self.recorded(&machine, &known, &driving, &instruments, &mut concealed)?;
+        let concealed = self.concealed(&machine, &known, &driving, &instruments)?;
+        let recording = self.recorded(&machine, &known, &driving, &instruments, &concealed)?;
         let vehicle = self.owned(&machine, &known)?;
         let sensors = &instruments.sensors;
         let answer = Answer {
@@ -112,6 +108,7 @@ impl Draw<'_> {
             pose_white_rad: sensors.pose.white.yaw,
             known: known.iter().map(ToString::to_string).collect(),
             recording: recording.fingerprint().to_owned(),
+            files: String::new(),
             vehicle: VehicleFile {
                 vehicle: machine.vehicle.clone(),
                 effects: trackdyn_physics::Effects::none(),
@@ -146,7 +143,10 @@ impl Draw<'_> {
     }
 
     fn owned(&self, machine: &Machine, known: &[ActiveMechanism]) -> Result<VehicleFile, String> {
-        let vehicle = machine.as_owned(&mut self.random(Purpose::Owner));
+        let vehicle = match self.planned.stratum {
+            Stratum::PlainNull => machine.vehicle.clone(),
+            _ => machine.as_owned(&mut self.random(Purpose::Owner)),
+        };
         vehicle.check().map_err(|error| error.to_string())?;
         let effects = known.iter().map(|known| {
             let keys = known.sheet().parameters.iter().map(|parameter| parameter.key);
@@ -251,41 +251,21 @@ impl Draw<'_> {
         Ground { vehicle: &machine.vehicle, active: active.to_vec(), fineness, seed }
     }
 
-    /// What the sensors report of all runs. Where the robot cannot go on, concealed effects are taken
-    /// smaller, and what could be found of them with them.
+    /// What the sensors report of all runs.
     fn recorded(
         &self,
         machine: &Machine,
         known: &[ActiveMechanism],
         driving: &Driving,
         instruments: &Instruments,
-        concealed: &mut [(Sized, Concealed)],
+        concealed: &[(Sized, Concealed)],
     ) -> Result<Recording, String> {
-        let mut reason = String::new();
-        for _ in 0..SHRINKS {
-            let hidden = concealed.iter().map(|(sized, _)| sized.dose.at(sized.strength));
-            let errors = instruments.errors.iter().cloned();
-            let active: Vec<_> = known.iter().cloned().chain(hidden).chain(errors).collect();
-            let ground = self.ground(machine, &active, Fineness::Recording);
-            match ground.drive(&driving.runs) {
-                Ok(driven) => {
-                    let noise = self.random(Purpose::Noise).random();
-                    return recorded(self.id, &driven, instruments, noise);
-                }
-                Err(why) => reason = why,
-            }
-            if concealed.is_empty() {
-                break;
-            }
-            for (sized, answer) in concealed.iter_mut() {
-                sized.strength *= SMALLER;
-                let active = sized.dose.at(sized.strength);
-                answer.parameters = parameters(&active);
-                answer.z_det = two_digits(answer.z_det * SMALLER);
-                answer.z_iso = two_digits(answer.z_iso * SMALLER);
-            }
-        }
-        Err(reason)
+        let hidden = concealed.iter().map(|(sized, _)| sized.dose.at(sized.strength));
+        let errors = instruments.errors.iter().cloned();
+        let active: Vec<_> = known.iter().cloned().chain(hidden).chain(errors).collect();
+        let ground = self.ground(machine, &active, Fineness::Recording);
+        let driven = ground.drive(&driving.runs)?;
+        recorded(self.id, &driven, instruments, self.random(Purpose::Noise).random())
     }
 }
 

@@ -97,6 +97,9 @@ pub struct Fit {
     /// Of the base model.
     #[serde(default)]
     pub held_out_before: Option<f64>,
+    /// With nothing but constants and instruments fitted.
+    #[serde(default)]
+    pub held_out_instruments: Option<f64>,
     /// With what is named.
     #[serde(default)]
     pub held_out_after: Option<f64>,

@@ -81,10 +81,11 @@ impl Draft {
     /// # Panics
     /// Never: an answer is TOML.
     pub fn keep(&self, case: &Case) -> Result<(), Error> {
-        let answer = toml::to_string(&case.answer).expect("numbers, texts and tables are TOML");
         folder::place(&self.folder, &case.answer.id, |home| {
             folder::write_case(home, case)?;
-            Ok(write_file(&home.join(ANSWER), answer.as_bytes())?)
+            let answer = Answer { files: folder::fingerprint_of(home)?, ..case.answer.clone() };
+            let text = toml::to_string(&answer).expect("numbers, texts and tables are TOML");
+            Ok(write_file(&home.join(ANSWER), text.as_bytes())?)
         })
     }
 

@@ -61,6 +61,18 @@ pub enum Error {
         /// What it was.
         sealed: String,
     },
+    /// Files that are not those the answers belong to.
+    #[error(
+        "{case}: recording and vehicle file have the fingerprint {found}, and the sealed answer {sealed}"
+    )]
+    OtherFiles {
+        /// The case.
+        case: String,
+        /// What it is now.
+        found: String,
+        /// What it was.
+        sealed: String,
+    },
     /// A trial that is there already.
     #[error(
         "{} is there already: a trial is made once: expected a new --out and a new --key",

@@ -21,7 +21,7 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use trackdyn_core::document::Document;
-use trackdyn_core::output::write_file;
+use trackdyn_core::output::{fingerprint, write_file};
 use trackdyn_physics::{Vehicle, VehicleFile};
 use trackdyn_recording::folder;
 
@@ -134,6 +134,13 @@ pub fn judge(trial: &Path, answers: &Answers, entry: &Entry) -> Result<Vec<Judge
 
 fn judge_case(trial: &Path, answer: &Answer, entry: &Entry) -> Result<Judged, Error> {
     let home = trial.join(&answer.id);
+    if !answer.files.is_empty() {
+        let found = fingerprint_of(&home)?;
+        if found != answer.files {
+            let (case, sealed) = (answer.id.clone(), answer.files.clone());
+            return Err(Error::OtherFiles { case, found, sealed });
+        }
+    }
     let recording = folder::read(&home.join(RECORDING))?;
     if recording.fingerprint() != answer.recording {
         return Err(Error::OtherRecording {
@@ -167,6 +174,18 @@ fn files(home: &Path) -> [PathBuf; 4] {
     let [manifest, tracks, poses] =
         ["recording.toml", "tracks.csv", "poses.csv"].map(|name| recording.join(name));
     [manifest, tracks, poses, home.join(VEHICLE)]
+}
+
+/// Fingerprint of the files that a diagnosis gets of a case.
+///
+/// # Errors
+/// [`Error::File`].
+pub(crate) fn fingerprint_of(home: &Path) -> Result<String, Error> {
+    let mut bytes = Vec::new();
+    for path in files(home) {
+        bytes.extend(fs::read(&path).map_err(Error::file(path))?);
+    }
+    Ok(fingerprint(&bytes))
 }
 
 /// Sizes (bytes) and stamps (s of Unix time) of the files of a case.

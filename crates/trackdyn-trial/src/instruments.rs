@@ -55,6 +55,12 @@ impl Instruments {
         pose.white.yaw *= factor;
         pose.walk.position *= factor;
         pose.walk.yaw *= factor;
+        // what is written down of a walk, and what the oracle whitens by, has no memory
+        pose.walk.memory = None;
+        if is_plain {
+            sensors.pose.delay -= sensors.clock_offset();
+        }
+        let pose = &mut sensors.pose;
         let mut errors = Vec::new();
         for (share, small) in OFTEN {
             // drawn whether used or not, so that what follows does not hang on it

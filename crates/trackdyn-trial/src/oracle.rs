@@ -22,6 +22,8 @@ pub const DISTINCT: f64 = 4.0;
 const CLEAR: f64 = 5.0;
 /// Ratio by which z may differ from the wanted one: what is stated is what the size leaves, not what was wanted.
 const CLOSE_ENOUGH: f64 = 0.15;
+/// Logarithm of that ratio from which on a size that few runs gave is looked for on all of them.
+const FAR_OFF: f64 = 0.5;
 /// Sizes that are tried on few runs.
 const SEARCHES: usize = 5;
 /// Powers of the strength with which z is taken to go.
@@ -73,25 +75,48 @@ impl Judge<'_> {
     /// An effect at about the wanted z, with what it really leaves; at its smallest or largest strength where that shows
     /// more or less; or at `otherwise` where it does not show at all.
     pub(crate) fn sized(&self, dose: Dose, wanted: f64, otherwise: f64) -> Result<Sized, String> {
-        let mut runs = &self.runs[..FEW_RUNS.min(self.runs.len())];
-        let z = |runs: &[Drive], strength: f64| {
-            let more_runs = (crate::real(self.runs.len()) / crate::real(runs.len())).sqrt();
-            let signature = self.signature(&dose, strength, runs)?;
-            Ok::<f64, String>(more_runs * self.z(&signature))
-        };
-        let mut strength = dose.largest().min(1.0);
-        let mut shown = z(runs, strength)?;
-        if shown < VISIBLE * strength {
-            // a place may lie off the ways of the first runs
-            runs = self.runs;
-            shown = z(runs, strength)?;
+        let few = FEW_RUNS.min(self.runs.len());
+        let clear = wanted.max(CLEAR);
+        let off = |sized: &Sized| (self.z(&sized.signature) / clear).ln().abs();
+        let mut best: Option<Sized> = None;
+        // a place may lie off the ways of the first runs, or be grazed by them and crossed by the others
+        for runs in [few, self.runs.len()] {
+            if best.as_ref().is_some_and(|best| off(best) < FAR_OFF) {
+                break;
+            }
+            let Some(strength) = self.strength(&dose, clear, &self.runs[..runs])? else { continue };
+            let sized = self.at(dose.clone(), strength)?;
+            if best.as_ref().is_none_or(|best| off(&sized) < off(best)) {
+                best = Some(sized);
+            }
         }
-        if shown < VISIBLE * strength {
+        let Some(sized) = best else {
             let strength = otherwise.min(dose.largest());
             return self.at(dose, strength);
+        };
+        let shown = self.z(&sized.signature);
+        if shown < VISIBLE {
+            return Err(format!("{} shows nothing at the size for z = {clear:.1}", dose.id()));
         }
-        let z = |strength: f64| z(runs, strength);
-        let clear = wanted.max(CLEAR);
+        if wanted >= CLEAR {
+            return Ok(sized);
+        }
+        let share = wanted / shown;
+        let least = dose.smallest() / sized.strength;
+        self.at(dose, sized.strength * share.max(least).min(1.0))
+    }
+
+    /// The strength at which an effect shows with about this z, by what some runs show of it; none where it does not show.
+    fn strength(&self, dose: &Dose, clear: f64, runs: &[Drive]) -> Result<Option<f64>, String> {
+        let more_runs = (crate::real(self.runs.len()) / crate::real(runs.len())).sqrt();
+        let z = |strength: f64| -> Result<f64, String> {
+            Ok(more_runs * self.z(&self.signature(dose, strength, runs)?))
+        };
+        let mut strength = dose.largest().min(1.0);
+        let mut shown = z(strength)?;
+        if shown < VISIBLE * strength {
+            return Ok(None);
+        }
         let (mut power, mut bracket) = (1.0, [0.0, dose.largest()]);
         for _ in 0..SEARCHES {
             bracket[usize::from(shown > clear)] = strength;
@@ -112,13 +137,7 @@ impl Judge<'_> {
             power = ((found / shown).ln() / (there / strength).ln()).clamp(POWERS[0], POWERS[1]);
             (strength, shown) = (there, found);
         }
-        let sized = self.at(dose, strength)?;
-        if wanted >= CLEAR {
-            return Ok(sized);
-        }
-        let share = wanted / self.z(&sized.signature);
-        let least = sized.dose.smallest() / strength;
-        self.at(sized.dose, strength * share.max(least).min(1.0))
+        Ok(Some(strength))
     }
 
     /// How effects stand, each with those beside it that are concealed too taken for known.

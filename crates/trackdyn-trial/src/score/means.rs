@@ -39,6 +39,15 @@ fn told_apart(z: f64) -> f64 {
     if z > 0.0 { Normal::standard().cdf(more) } else { 0.0 }
 }
 
+/// Share of what constants and instruments leave above the floor that is explained; none where they leave less than a hundredth of
+/// the floor, in squares.
+fn beyond_instruments(fit: &Fit) -> Option<f64> {
+    let [before, after, floor] =
+        [fit.held_out_instruments?, fit.held_out_after?, fit.noise_floor?].map(|rms| rms * rms);
+    let excess = before - floor;
+    (excess > 0.01 * floor).then(|| (before - after) / excess)
+}
+
 /// All means of a trial.
 pub fn means(judged: &[Judged]) -> Vec<Mean> {
     let detectable = |case: &&Judged| {
@@ -48,6 +57,14 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
     let fits = || judged.iter().filter(detectable).filter_map(|case| Some(&case.diagnosis()?.fit));
     let over_floor = |of: fn(&Fit) -> Option<f64>| {
         fits().filter_map(move |fit| Some(of(fit)? / fit.noise_floor?))
+    };
+    // Both figures are the program's own; how they come out where it found nothing says what they are worth.
+    let missed = || {
+        let missed = judged.iter().filter(|case| {
+            let truth = case.only().filter(|truth| truth.is_detectable());
+            truth.is_some_and(|truth| case.set_with(&truth.mechanism).is_none())
+        });
+        missed.filter_map(|case| Some(&case.diagnosis()?.fit))
     };
     let sizes = judged.iter().filter_map(|case| {
         let truth = case.only().filter(|truth| Concealed::is_detectable(truth))?;
@@ -71,6 +88,18 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
             over_floor(|fit| fit.held_out_before),
         ),
         Mean::of("held-out rms over the noise floor, after", over_floor(|fit| fit.held_out_after)),
+        Mean::of(
+            "share of the held-out excess explained beyond constants and instruments",
+            fits().filter_map(beyond_instruments),
+        ),
+        Mean::of(
+            "share of the held-out excess explained, where the truth is in no set",
+            missed().filter_map(|fit| fit.excess_explained),
+        ),
+        Mean::of(
+            "held-out rms over the noise floor, after, where the truth is in no set",
+            missed().filter_map(|fit| Some(fit.held_out_after? / fit.noise_floor?)),
+        ),
         Mean::of(
             "most to expect of exact isolation: chance that noise allows it",
             isolable.map(|truth| told_apart(truth.z_iso)),

@@ -166,8 +166,8 @@ pub fn confusion_csv(score: &Score) -> String {
 /// One row per case: what was there and what was said.
 pub fn cases_csv(score: &Score) -> String {
     let mut text = String::from(
-        "case,stratum,concealed,z_det,z_iso,nearest,status,named,broken,false_claim,intervals_hold,intervals,\
-         excess_explained,held_out_before,held_out_after,noise_floor\n",
+        "case,stratum,concealed,z_det,z_iso,nearest,status,named,broken,false_claim,absent_law,intervals_hold,intervals,\
+         excess_explained,held_out_before,held_out_instruments,held_out_after,noise_floor\n",
     );
     for case in &score.judged {
         let answer = &case.answer;
@@ -191,12 +191,13 @@ pub fn cases_csv(score: &Score) -> String {
         let figures = [
             figure(|fit| fit.excess_explained),
             figure(|fit| fit.held_out_before),
+            figure(|fit| fit.held_out_instruments),
             figure(|fit| fit.held_out_after),
             figure(|fit| fit.noise_floor),
         ];
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{},{status},{named},{broken},{},{hold},{},{}",
+            "{},{},{},{},{},{},{status},{named},{broken},{},{},{hold},{},{}",
             answer.id,
             answer.stratum.name(),
             list(&|c| c.mechanism.clone()),
@@ -204,6 +205,7 @@ pub fn cases_csv(score: &Score) -> String {
             list(&|c| c.z_iso.to_string()),
             list(&|c| c.nearest.clone()),
             case.claims_falsely(),
+            case.names_absent_law(),
             intervals.len(),
             figures.join(",")
         );

@@ -33,6 +33,7 @@ fn case(stratum: Stratum, concealed: Vec<Concealed>, diagnosis: &str) -> Judged 
             pose_white_rad: 0.0,
             known: Vec::new(),
             recording: String::new(),
+            files: String::new(),
             vehicle: String::new(),
             concealed,
             clock_offset_s: 0.0,
@@ -78,6 +79,12 @@ fn only_what_is_not_there_is_a_false_claim() {
     let cases = [null(NOTHING), null(SCALE), null(SLOPE), null(SLOPE_OR_TETHER)];
     // an encoder that is truly off is no false claim; a set of which nothing is true is one
     assert_eq!(rate(&cases, "false claim: nulls"), (2, 4));
+    assert_eq!(rate(&cases, "nothing missing: nulls"), (1, 4));
+    // a law beside an encoder that is truly off is excused as a claim, and counted as absent
+    let beside = "status = 'ambiguous'\n[[missing]]\neffect = 'slope'\none_of = ['slope', 'encoder-scale']\n";
+    let cases = [null(NOTHING), null(SCALE), null(beside)];
+    assert_eq!(rate(&cases, "false claim: nulls"), (0, 3));
+    assert_eq!(rate(&cases, "an absent law is named"), (1, 3));
 }
 
 #[test]
@@ -88,6 +95,11 @@ fn isolation_is_exact_and_sets_are_no_isolation() {
     let cases =
         [single(NOTHING), single(SLOPE), single(SLOPE_OR_TETHER), single(&both), single(&beside)];
     assert_eq!(rate(&cases, "exact isolation"), (2, 5));
+    let lag =
+        "[[missing]]\neffect = 'encoder-scale'\none_of = ['drivetrain-lag', 'encoder-scale']\n";
+    let with_lag = [single(SLOPE), single(&format!("{SLOPE}{lag}"))];
+    assert_eq!(rate(&with_lag, "exact isolation: isolable"), (2, 2));
+    assert_eq!(rate(&with_lag, "exact isolation, and no absent law"), (1, 2));
     assert_eq!(rate(&cases, "truth in the reported set"), (4, 5));
     assert_eq!(rate(&cases, "over-claim"), (0, 0));
     let sizes = means::means(&cases);
@@ -115,12 +127,20 @@ fn pairs_intervals_and_laws_outside() {
     assert_eq!(rate(&[both.clone(), one], "both named"), (1, 2));
     let null = case(Stratum::PlainNull, Vec::new(), SCALE);
     assert_eq!(rate(&[both, null], "95 %"), (2, 2));
-    let outside = |text| case(Stratum::Outside, vec![concealed("steering-grip", 20.0, 9.0)], text);
+    let outside =
+        |text: &str| case(Stratum::Outside, vec![concealed("steering-grip", 20.0, 9.0)], text);
     let flagged = outside("status = 'unexplained'\n[located]\nbroken = ['P']\n");
     let cases = [flagged, outside(SLOPE)];
     assert_eq!(rate(&cases, "outside the catalogue, unlike"), (1, 2));
     assert_eq!(rate(&cases, "outside the catalogue: broken symmetries are all"), (1, 2));
     assert_eq!(rate(&cases, "outside the catalogue: one effect"), (1, 2));
+    assert_eq!(rate(&cases, "false claim: outside"), (1, 2));
+    // encoders that are off break the mirror as well; a place nothing here does
+    let broken = |letters: &str| {
+        outside(&format!("status = 'unexplained'\n[located]\nbroken = {letters}\n"))
+    };
+    let cases = ["['M', 'P']", "['P', 'X']", "['M']"].map(broken);
+    assert_eq!(rate(&cases, "outside the catalogue: broken symmetries are its own"), (1, 3));
 }
 
 #[test]
@@ -134,7 +154,9 @@ fn what_was_not_run_does_not_count_and_what_failed_is_counted() {
     assert_eq!(rate(&score.judged, "exact isolation"), (0, 1));
     assert_eq!(rate(&score.judged, "process failed"), (1, 1));
     assert!(markdown(&score).contains("| slope | 1 |"));
-    assert!(cases_csv(&score).contains("case-0001,single,slope,20,9,,failed,,,false,0,0,,,,\n"));
+    assert!(
+        cases_csv(&score).contains("case-0001,single,slope,20,9,,failed,,,false,false,0,0,,,,,\n")
+    );
 }
 
 #[test]
@@ -144,8 +166,7 @@ fn the_line_of_a_case_is_enough_to_count_it_again() {
     let line =
         cases_csv(&Score::of(vec![case(Stratum::PlainNull, Vec::new(), &format!("{SCALE}{fit}"))]));
     let line = line.lines().nth(1);
-    let expected =
-        "case-0001,plain-null,,,,,explained,encoder-scale,,false,1,1,0.9877,2.0000,1.0200,1.0100";
+    let expected = "case-0001,plain-null,,,,,explained,encoder-scale,,false,false,1,1,0.9877,2.0000,,1.0200,1.0100";
     assert_eq!(line, Some(expected));
 }
 

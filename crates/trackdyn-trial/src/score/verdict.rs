@@ -2,7 +2,8 @@
 
 use crate::answer::{Answer, Concealed};
 use crate::diagnosis::{Diagnosis, Missing};
-use crate::plan::Stratum;
+use crate::plan::{INSTRUMENTS, STATIC_CLASS, Stratum};
+use trackdyn_proof::MECHANISMS;
 
 /// What came back of a case.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,6 +62,33 @@ impl Judged {
     /// Whether something is named of which nothing is true.
     pub fn claims_falsely(&self) -> bool {
         self.claims().iter().any(|claim| !claim.members().iter().any(|m| self.is_true(m)))
+    }
+
+    /// Whether a law of forces or of the drive is named that is not there, be it in a set with what is true.
+    pub fn names_absent_law(&self) -> bool {
+        self.claims().iter().any(|claim| self.has_absent_law(claim))
+    }
+
+    fn has_absent_law(&self, claim: &Missing) -> bool {
+        let is_law = |id: &str| !STATIC_CLASS.contains(&id) && !INSTRUMENTS.contains(&id);
+        claim.members().iter().any(|member| is_law(member) && !self.is_true(member))
+    }
+
+    /// Whether an effect is named and nothing beside it, nor any absent law in a set with an error of an instrument or of
+    /// the vehicle file.
+    pub fn names_strictly(&self, effect: &str) -> bool {
+        self.names_exactly(&[effect]) && !self.names_absent_law()
+    }
+
+    /// Letters of the symmetries that all that is truly there breaks: what is concealed, and known errors.
+    pub fn truly_broken(&self) -> Vec<String> {
+        let errors = self.answer.shown_errors();
+        let errors = errors.iter().map(|error| error.mechanism.as_str());
+        let known = errors.chain(self.owner_errors.iter().copied());
+        let sheets = known.filter_map(|id| MECHANISMS.iter().find(|sheet| sheet.id == id));
+        let letters =
+            sheets.flat_map(|sheet| sheet.breaks).map(|broken| broken.letter().to_string());
+        self.answer.concealed.iter().flat_map(|c| c.breaks.clone()).chain(letters).collect()
     }
 
     /// What is named, without what is only an error of instruments or of the vehicle file.

@@ -159,6 +159,19 @@ fn the_order_of_runs_and_the_number_of_threads_change_nothing() {
 fn bad_input_is_refused_and_leaves_nothing() {
     let place = Workplace::new();
     drive(&place, "--runs 2");
+    // the same poses in coordinates of a map
+    std::fs::create_dir(place.path().join("far")).expect("a folder");
+    for name in ["recording.toml", "tracks.csv", "poses.csv"] {
+        let text = String::from_utf8(place.read(&format!("drive/{name}"))).expect("text");
+        let far = |line: &str| match line.split(',').collect::<Vec<_>>().as_slice() {
+            [run, t, x, y, yaw] if x.parse::<f64>().is_ok() => {
+                format!("{run},{t},{},{y},{yaw}", 5e5 + x.parse::<f64>().expect("a number"))
+            }
+            _ => line.to_owned(),
+        };
+        let lines: Vec<String> = text.lines().map(far).collect();
+        place.write(&format!("far/{name}"), &(lines.join("\n") + "\n"));
+    }
     place.write("points.csv", "v_left,v_right,v_forward,v_lateral,yaw_rate\n0.1,0.2,0.15,,0.2\n");
     for (arguments, message) in [
         (format!("diagnose nowhere --vehicle {VEHICLE}"), "nowhere"),
@@ -167,6 +180,7 @@ fn bad_input_is_refused_and_leaves_nothing() {
         (format!("diagnose drive --vehicle {VEHICLE} --held-out 7-3"), "--held-out 7-3: expected"),
         (format!("diagnose drive --vehicle {VEHICLE} --held-out 0-1"), "at least one run to fit"),
         (format!("diagnose points.csv --vehicle {VEHICLE}"), "expected at least 30"),
+        (format!("diagnose far --vehicle {VEHICLE}"), "expected at most 5000 m"),
     ] {
         let before = place.files();
         let run = place.run(&format!("{arguments} --out found"));

@@ -15,7 +15,9 @@ use crate::prior::prior;
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::PerSide;
 use trackdyn_motion::{Icrs, Stationary};
-use trackdyn_physics::{CATALOGUE, Circumstance, Effects, Model, Vehicle, VehicleFile};
+use trackdyn_physics::{
+    ActiveEffect, CATALOGUE, Circumstance, Effects, Model, Vehicle, VehicleFile,
+};
 
 /// Part of an instrument's signature that must be its own for it to be free beside the others.
 const OWN: f64 = 0.02;
@@ -227,9 +229,42 @@ impl Calibration {
     }
 }
 
+/// Gives a vehicle file the friction and the centre of gravity of a vehicle with the constant ICRs of a hypothesis, with
+/// friction at a level of its own; those of the hypothesis where no vehicle has them.
+///
+/// `unclaimed` effects of it are not in the file, or as filed: what they moved the vehicle takes over as well.
+pub fn correct_constants(
+    file: &mut VehicleFile,
+    hypothesis: &Hypothesis,
+    unclaimed: &[usize],
+    level: f64,
+) {
+    let shift = |effects: Vec<ActiveEffect>| {
+        let (vehicle, effects) = (&hypothesis.vehicle, effects.into_iter().collect());
+        spin_with(vehicle, effects)
+    };
+    let found = unclaimed.iter().filter_map(|&effect| hypothesis.effect(effect));
+    let filed = file
+        .effects
+        .iter()
+        .filter(|filed| unclaimed.iter().any(|&effect| CATALOGUE[effect].id == filed.card().id));
+    let [with, without] = [found.cloned().collect(), filed.cloned().collect()].map(shift);
+    let moved = with.zip(without).map_or(Vector3::zeros(), |(with, without)| with - without);
+    let offset = Vector3::from(hypothesis.offset) + moved;
+    let taken = Hypothesis { offset: offset.into(), ..hypothesis.clone() };
+    let calibrated = Calibration::Vehicle.calibrated(&taken).unwrap_or(taken);
+    let vehicle = with_friction(&calibrated.vehicle, level - hypothesis.friction_level);
+    file.vehicle.friction = vehicle.friction;
+    file.vehicle.cog = vehicle.cog;
+}
+
 /// The constant ICRs of a vehicle, m: those of a slow spin without effects.
 fn spin(vehicle: &Vehicle) -> Option<Vector3<f64>> {
-    let model = Model::new(vehicle.clone(), Effects::none());
+    spin_with(vehicle, Effects::none())
+}
+
+fn spin_with(vehicle: &Vehicle, effects: Effects) -> Option<Vector3<f64>> {
+    let model = Model::new(vehicle.clone(), effects);
     let solution = Stationary::new(&model, &Circumstance::default()).solve(PerSide::new(-0.1, 0.1));
     solution.icrs.map(Icrs::to_array).map(Vector3::from)
 }
@@ -239,4 +274,30 @@ pub fn with_vehicle(hypothesis: &Hypothesis, vehicle: &Vehicle) -> Option<Hypoth
     let offset = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset) - spin(vehicle)?;
     let vehicle = with_friction(vehicle, hypothesis.friction_level);
     Some(Hypothesis { vehicle, offset: offset.into(), ..hypothesis.clone() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An effect that is not claimed leaves its constant ICRs, and the offset, to the vehicle; friction keeps its own level.
+    #[test]
+    fn the_vehicle_takes_over_what_is_not_claimed() {
+        const LEVEL: f64 = 0.1;
+        let mut file = VehicleFile::auriga_alpha();
+        let gradient = CATALOGUE.iter().position(|card| card.id == "friction-gradient");
+        let gradient = gradient.expect("an effect");
+        let effect = active(gradient, &[0.3]);
+        let filed = Hypothesis::filed(&file).with(Unknown::FrictionLevel, 0.4);
+        let hypothesis =
+            Hypothesis { offset: [0.01, -0.005, 0.02], ..filed.with_effect(effect.clone()) };
+        let with = spin_with(&file.vehicle, [effect].into_iter().collect()).expect("a spin");
+        let wanted = with + Vector3::from(hypothesis.offset);
+        let product = |vehicle: &Vehicle| vehicle.friction.across * vehicle.friction.along;
+        let before = product(&file.vehicle);
+        correct_constants(&mut file, &hypothesis, &[gradient], LEVEL);
+        let off = spin(&file.vehicle).expect("a spin") - wanted;
+        assert!(off.norm() < 1e-6, "{off}");
+        assert!((product(&file.vehicle) / before - (2.0 * LEVEL).exp()).abs() < 1e-9);
+    }
 }

@@ -1,6 +1,6 @@
 //! The diagnosis: all steps in order, and what comes out of them.
 
-use crate::base::{Base, Calibration};
+use crate::base::{Base, correct_constants};
 use crate::candidate::{Beside, candidates};
 use crate::error::Error;
 use crate::evidence::{Evidence, FEWEST};
@@ -16,7 +16,8 @@ use crate::proposal::{Proposal, completed};
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, Level, Uncertainty};
 use crate::verdict::{
-    Rules, Statics, Verdict, judge, judge_constants, judge_instruments, refuse_unsure, statics,
+    Rules, Statics, Verdict, judge, judge_constants, judge_instruments, refuse_unsupported,
+    refuse_unsure, statics,
 };
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
@@ -97,6 +98,8 @@ pub struct Missing {
 pub struct HeldOut {
     /// Root mean square of the whitened residual before.
     pub before: f64,
+    /// With nothing but constant ICRs, encoders and pose sensor fitted.
+    pub instruments: f64,
     /// After.
     pub after: f64,
     /// What is left when everything that moves ICRs or instruments, model or not, is fitted away.
@@ -319,7 +322,8 @@ fn attempt(
     let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]
         .map(|(fit, icrs)| cells(evidence, metric, &fit.residual, icrs));
     let place = crate::place::sentence(evidence, &base, [&located, &after], &broken);
-    let held_out = errors(evidence, metric, [before(&base, &missing), &best.fit], options);
+    let held_out =
+        errors(evidence, metric, [before(&base, &missing), &base.fit, &best.fit], options);
     progress(STAGES[5]);
     Diagnosis {
         status,
@@ -373,17 +377,26 @@ fn judged(
         let dropped = dropped.iter().filter(|effect| !statics.mostly.contains(effect));
         dropped.fold(best, |best, &effect| search.without(&best, effect))
     };
-    let refused: Vec<usize> =
+    let mut best = found;
+    let mut refused: Vec<usize> =
         physics.iter().filter(|one| one.refused.is_some()).map(|one| one.effect).collect();
-    let mut best = without(found, &refused);
-    let mut intervals = Uncertainty::of(search, &best).intervals(&claimed(&physics));
-    let unsure = refuse_unsure(&mut physics, &intervals);
-    if !unsure.is_empty() {
-        best = without(best, &unsure);
-        intervals = Uncertainty::of(search, &best).intervals(&claimed(&physics));
-    }
+    // A claim was judged beside all others: where one of them is refused, what is left of it is asked again.
+    let mut intervals = loop {
+        best = without(best, &refused);
+        let beside_less = !refused.is_empty();
+        refused =
+            if beside_less { refuse_unsupported(search, &best, &mut physics) } else { Vec::new() };
+        if refused.is_empty() {
+            let intervals = Uncertainty::of(search, &best).intervals(&claimed(&physics));
+            refused = refuse_unsure(&mut physics, &intervals);
+            if refused.is_empty() {
+                break intervals;
+            }
+        }
+    };
     let instruments = judge_instruments(search, &best, draws, seed);
-    let constants = judge_constants(search, &best, statics, file, draws, seed);
+    let own = claimed(&physics);
+    let constants = judge_constants(search, &best, statics, file, &own, draws, seed);
     let uncertainty = Uncertainty::of(search, &best);
     intervals.extend(uncertainty.intervals(&claimed(&instruments)));
     let of = |effect: usize| -> Vec<Interval> {
@@ -461,44 +474,56 @@ fn corrected(
     missing: &[Missing],
 ) -> VehicleFile {
     let mut corrected = file.clone();
-    if let Some(level) = friction_level.filter(Level::is_sure) {
-        corrected.vehicle = with_friction(&file.vehicle, level.value);
-    }
+    let level = sure(friction_level);
+    corrected.vehicle = with_friction(&file.vehicle, level);
+    correct(&mut corrected, best, missing, level);
+    corrected
+}
+
+/// The level of friction where it surely differs from the filed one.
+fn sure(friction_level: Option<Level>) -> f64 {
+    friction_level.filter(Level::is_sure).map_or(0.0, |level| level.value)
+}
+
+/// Puts what is claimed into a vehicle file, as a hypothesis has it, with friction at a level.
+fn correct(corrected: &mut VehicleFile, found: &Found, missing: &[Missing], level: f64) {
+    let hypothesis = &found.fit.hypothesis;
+    let is_claimed = |effect: &usize| {
+        let mut physics = missing.iter().filter(|missing| missing.kind == Kind::Physics);
+        physics.any(|missing| missing.verdict.effect == *effect)
+    };
     for missing in missing {
         match missing.kind {
             Kind::Constant => {
-                let hypothesis = &best.fit.hypothesis;
-                let vehicle = Calibration::Vehicle
-                    .calibrated(hypothesis)
-                    .map_or_else(|| hypothesis.vehicle.clone(), |calibrated| calibrated.vehicle);
-                corrected.vehicle.friction = vehicle.friction;
-                corrected.vehicle.cog = vehicle.cog;
+                let unclaimed: Vec<usize> =
+                    found.effects.iter().copied().filter(|effect| !is_claimed(effect)).collect();
+                correct_constants(corrected, hypothesis, &unclaimed, level);
             }
             Kind::Physics | Kind::Instrument => {
-                if let Some(effect) = best.fit.hypothesis.effect(missing.verdict.effect) {
+                if let Some(effect) = hypothesis.effect(missing.verdict.effect) {
                     corrected.effects.insert(effect.clone());
                 }
             }
         }
     }
-    corrected
 }
 
 /// The errors on evidence, with the fits to it.
 fn errors(
     evidence: &Evidence,
     metric: &Metric,
-    [before, after]: [&Fit; 2],
+    [before, instruments, after]: [&Fit; 3],
     options: &Options,
 ) -> HeldOut {
-    let [before, error] = [before, after].map(|fit| excess(evidence, &fit.residual));
+    let [before, instruments, error] =
+        [before, instruments, after].map(|fit| excess(evidence, &fit.residual));
     let icrs = icr_columns(evidence, after);
     let residual = Residual { evidence, metric, fit: after, icrs: &icrs };
     let flexible = residual.locate(1, options.seed);
-    let count = real(evidence.samples().len().max(1));
-    let floor = error * error - flexible.explicable.max(0.0) / (3.0 * count);
+    let count = real(evidence.measured().max(1));
+    let floor = error * error - flexible.explicable.max(0.0) / count;
     let noise_floor = floor.max(0.0).sqrt().min(error);
-    HeldOut { before, after: error, noise_floor, are_held_out: false }
+    HeldOut { before, instruments, after: error, noise_floor, are_held_out: false }
 }
 
 /// Whether encoders or pose sensor are to blame for something.
@@ -512,6 +537,11 @@ fn before<'a>(base: &'a Base, missing: &[Missing]) -> &'a Fit {
 }
 
 impl Diagnosis {
+    /// Puts all claims into the corrected vehicle as another hypothesis has them.
+    pub(crate) fn correct_by(&mut self, found: &Found) {
+        correct(&mut self.corrected, found, &self.missing, sure(self.friction_level));
+    }
+
     /// Whether encoders or pose sensor are to blame for something: they are then not part of what was before.
     pub fn blames_instruments(&self) -> bool {
         blame_instruments(&self.missing)
@@ -536,8 +566,9 @@ impl Diagnosis {
         let evidence = noise.map_or_else(|| evidence.clone(), |noise| evidence.with_noise(*noise));
         let best = &self.best.fit;
         let evidence = without_outliers(&evidence, &best.on(&evidence, metric), metric);
-        let [before, after] = [self.fit_before(), best].map(|fit| fit.on(&evidence, metric));
-        let errors = errors(&evidence, metric, [&before, &after], options);
+        let [before, instruments, after] =
+            [self.fit_before(), &self.base.fit, best].map(|fit| fit.on(&evidence, metric));
+        let errors = errors(&evidence, metric, [&before, &instruments, &after], options);
         self.held_out = HeldOut { are_held_out: true, ..errors };
         let (before, after) = (before.residual, after.residual);
         self.unseen = Some(Unseen { evidence, before, after });

@@ -115,6 +115,9 @@ pub struct SupportTable {
 pub struct FitTable {
     /// Before.
     pub held_out_before: f64,
+    /// With nothing but constant ICRs, encoders and pose sensor fitted; older files have none.
+    #[serde(default)]
+    pub held_out_instruments: f64,
     /// After.
     pub held_out_after: f64,
     /// What no model can go below.
@@ -158,6 +161,7 @@ impl DiagnosisFile {
             proposal: diagnosis.proposed.as_ref().map(proposed::law),
             fit: FitTable {
                 held_out_before: rounded(held_out.before),
+                held_out_instruments: rounded(held_out.instruments),
                 held_out_after: rounded(held_out.after),
                 noise_floor: rounded(held_out.noise_floor),
                 excess_explained: rounded(held_out.excess_explained().unwrap_or(1.0)),

@@ -36,6 +36,17 @@ pub enum Error {
          rotation show in turns only"
     )]
     NoTurning,
+    /// Poses far from where places are looked for.
+    #[error(
+        "poses lie up to {:.0} m from the origin of their frame: expected at most {:.0} m, for that is where places of \
+         the ground are looked for: subtract constants from x and y", .found, .largest
+    )]
+    FarFromOrigin {
+        /// Largest distance along an axis, m.
+        found: f64,
+        /// Largest that will do, m.
+        largest: f64,
+    },
     /// A vehicle that cannot move as recorded.
     #[error("the vehicle does not move as recorded: {0}")]
     NoMotion(String),

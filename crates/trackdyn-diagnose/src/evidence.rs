@@ -234,6 +234,13 @@ impl Evidence {
         }
     }
 
+    /// Numbers that were measured: of each sample up to three.
+    pub fn measured(&self) -> usize {
+        let is_measured =
+            |sample| (0..3).filter(|&channel| self.is_measured(sample, channel)).count();
+        (0..self.samples.len()).map(is_measured).sum()
+    }
+
     /// Whether a channel of a sample was measured.
     pub fn is_measured(&self, sample: usize, channel: usize) -> bool {
         match &self.whitening {

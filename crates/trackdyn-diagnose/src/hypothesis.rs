@@ -78,6 +78,11 @@ pub fn neutral(parameter: &Parameter) -> f64 {
     }
 }
 
+/// Distance of an effect's parameter from none.
+pub fn beyond_none(effect: &ActiveEffect, place: usize) -> f64 {
+    effect.values()[place] - neutral(&effect.card().parameters[place])
+}
+
 /// Distance of the typical size from none, in the parameter's unit.
 pub fn typical_size(parameter: &Parameter) -> f64 {
     match parameter.role {

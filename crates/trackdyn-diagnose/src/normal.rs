@@ -57,6 +57,9 @@ const RIDGE: f64 = 1e-10;
 /// Part of its own square that a column must have beyond others not to be a combination of them.
 const DEPENDENT: f64 = 1e-8;
 
+/// The same that is left of a column where others explain all of it but rounding.
+const EXPLAINED: f64 = 1e-10;
+
 impl Normal {
     /// The products of these columns.
     pub fn new(of: &Columns) -> Self {
@@ -183,6 +186,26 @@ impl Normal {
         squares
     }
 
+    /// Square of what is left of a column beside `others`, whose factors are known to their priors, with what these
+    /// cost: min over θ of |c − C θ|² + Σ (θ/s)².
+    pub fn beside(&self, column: usize, others: &[usize], priors: &[Prior]) -> f64 {
+        let square = self.product(column, column);
+        let precision = DVector::from_fn(others.len(), |k, _| priors[others[k]].deviation.powi(-2));
+        let mut matrix = self.information(others);
+        matrix.set_diagonal(&(matrix.diagonal() + precision));
+        let scale =
+            matrix.diagonal().map(|square| if square > 0.0 { square.sqrt().recip() } else { 0.0 });
+        let diagonal = DMatrix::from_diagonal(&scale);
+        let mut scaled = &diagonal * matrix * &diagonal;
+        for k in 0..others.len() {
+            scaled[(k, k)] += RIDGE;
+        }
+        let Some(cholesky) = scaled.cholesky() else { return square };
+        let right =
+            DVector::from_fn(others.len(), |k, _| scale[k] * self.product(others[k], column));
+        (square - right.dot(&cholesky.solve(&right))).max(0.0)
+    }
+
     /// Removes from columns and residual what `base` columns explain (with their priors), block by block
     /// with the factors of the whole.
     pub fn projected(&self, base: &[usize], priors: &[Prior]) -> Self {
@@ -206,7 +229,10 @@ impl Normal {
             }
             matrix[(a, a)] += precisions[a];
         }
-        let scale = DVector::from_fn(count, |k, _| 1.0 / matrix[(k, k)].sqrt());
+        let scale = DVector::from_fn(count, |k, _| match matrix[(k, k)] {
+            square if square > 0.0 => 1.0 / square.sqrt(),
+            _ => 0.0,
+        });
         let mut scaled =
             DMatrix::from_fn(count, count, |a, b| matrix[(a, b)] * scale[a] * scale[b]);
         // Columns that stand for each other are projected out as one.
@@ -224,8 +250,18 @@ impl Normal {
                 transform[(i, j)] -= solved[(a, b)] * scale[a];
             }
         }
-        let blocks: Vec<DMatrix<f64>> =
+        let mut blocks: Vec<DMatrix<f64>> =
             self.blocks.iter().map(|block| transform.tr_mul(block) * &transform).collect();
+        let total = sum(&blocks, size);
+        // What is explained but for rounding is nothing: it has no sign, and no inverse.
+        let is_gone =
+            |&&k: &&usize| k < size - 1 && total[(k, k)] <= EXPLAINED * self.total[(k, k)];
+        for &gone in of.iter().filter(is_gone) {
+            for block in &mut blocks {
+                block.row_mut(gone).fill(0.0);
+                block.column_mut(gone).fill(0.0);
+            }
+        }
         let total = sum(&blocks, size);
         Self { blocks, total }
     }
@@ -333,6 +369,18 @@ mod tests {
         let [a, b, c] = [(0, 0), (0, 1), (1, 1)].map(|(i, j)| normal.product(i, j));
         assert!((ln_det - (a * c - b * b).ln()).abs() < 1e-9, "{ln_det}");
         assert_eq!(factors.len(), 2);
+        // what all of a column is explained by leaves nothing at all of it, in no block and no product
+        let flat = [Prior { mean: 0.0, deviation: 1e9 }; 4];
+        let projected = normal.projected(&[0, 1], &flat);
+        assert_eq!((0..=4).map(|k| projected.product(2, k).abs()).fold(0.0, f64::max), 0.0);
+        // min over θ of |c − C θ|² + (θ/s)² = |c|² − (c·C)²/(|C|² + 1/s²)
+        let known = [Prior { mean: 0.0, deviation: 0.1 }; 4];
+        let expected = a - b * b / (c + 100.0);
+        assert!((normal.beside(0, &[1], &known) / expected - 1.0).abs() < 1e-8);
+        // a column of nothing takes nothing away
+        assert!(
+            (normal.beside(0, &[1, 3], &flat) / normal.beside(0, &[1], &flat) - 1.0).abs() < 1e-8
+        );
         let mut left = residual.clone();
         normal.take(&independent, &columns, &mut left);
         for column in &columns {

@@ -12,8 +12,7 @@ mod selection;
 pub mod symmetry;
 pub mod words;
 
-use crate::base::Calibration;
-use crate::diagnosis::{Diagnosis, HeldOut, Kind, Missing, Options, Status, Unseen};
+use crate::diagnosis::{Diagnosis, HeldOut, Options, Status, Unseen};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, columns};
 use crate::hypothesis::Unknown;
@@ -27,7 +26,7 @@ use crate::verdict::{Rules, Support};
 use selection::{Library, Selected};
 use trackdyn_core::real;
 use trackdyn_physics::effect::{Symmetry, Term};
-use trackdyn_physics::{CATALOGUE, Effects, Model, Vehicle, VehicleFile};
+use trackdyn_physics::{CATALOGUE, Effects, Model, Vehicle};
 
 /// A law that is proposed for what no effect explains.
 #[derive(Clone)]
@@ -86,8 +85,11 @@ impl Proposal {
 pub fn completed(mut diagnosis: Diagnosis, options: &Options) -> Diagnosis {
     if diagnosis.status == Status::Unexplained {
         diagnosis.proposed = propose(&diagnosis, &diagnosis.evidence, options);
-        if let Some(proposal) = &diagnosis.proposed {
-            correct(&mut diagnosis.corrected, proposal, &diagnosis.missing);
+        if let Some(Proposal { found, effect, .. }) = diagnosis.proposed.clone() {
+            diagnosis.correct_by(&found);
+            if let Some(law) = found.fit.hypothesis.effect(effect) {
+                diagnosis.corrected.effects.insert(law.clone());
+            }
         }
     }
     diagnosis
@@ -216,14 +218,14 @@ fn refitted(
 
 /// The errors without the law and with it, on the runs that judge the diagnosis.
 fn judged(diagnosis: &Diagnosis, fit: &Fit) -> HeldOut {
-    let HeldOut { after: before, noise_floor, are_held_out, .. } = diagnosis.held_out;
+    let HeldOut { instruments, after: before, noise_floor, are_held_out, .. } = diagnosis.held_out;
     let after = match &diagnosis.unseen {
         Some(Unseen { evidence, .. }) => {
             excess(evidence, &fit.on(evidence, &diagnosis.metric).residual)
         }
         None => excess(&diagnosis.evidence, &fit.residual),
     };
-    HeldOut { before, after, noise_floor, are_held_out }
+    HeldOut { before, instruments, after, noise_floor, are_held_out }
 }
 
 /// Length of the contact between its ends, m.
@@ -241,22 +243,4 @@ fn at_limit(fit: &Fit, unknown: Unknown, effect: usize) -> bool {
     let [low, high] = parameter.range;
     let value = fit.hypothesis.get(unknown);
     (value - low).min(high - value) <= 1e-6 * (high - low)
-}
-
-/// Puts the law into the corrected vehicle, with what else is claimed at the sizes that it has beside the law.
-fn correct(corrected: &mut VehicleFile, proposal: &Proposal, missing: &[Missing]) {
-    let hypothesis = &proposal.found.fit.hypothesis;
-    for missing in missing {
-        if missing.kind == Kind::Constant {
-            if let Some(calibrated) = Calibration::Vehicle.calibrated(hypothesis) {
-                corrected.vehicle.friction = calibrated.vehicle.friction;
-                corrected.vehicle.cog = calibrated.vehicle.cog;
-            }
-        } else if let Some(effect) = hypothesis.effect(missing.verdict.effect) {
-            corrected.effects.insert(effect.clone());
-        }
-    }
-    if let Some(effect) = hypothesis.effect(proposal.effect) {
-        corrected.effects.insert(effect.clone());
-    }
 }

@@ -9,7 +9,7 @@ use crate::base::{Base, Calibration, with_vehicle};
 use crate::candidate::{Beside, Signature, Variant};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, Point};
-use crate::hypothesis::{Hypothesis, Unknown, active, unknowns_of};
+use crate::hypothesis::{Hypothesis, Unknown, active, beyond_none, unknowns_of};
 use crate::metric::Metric;
 use crate::normal::{Normal, Prior};
 use crate::prior::{prior, priors};
@@ -359,7 +359,7 @@ impl Search<'_> {
         filed.is_some_and(|filed| {
             let places = self.catalogue.entries[one.entry].0.sizes();
             let mut sizes = places.iter().zip(&one.sizes);
-            sizes.all(|(&place, size)| size.abs() <= AS_FILED * filed.values()[place].abs())
+            sizes.all(|(&place, size)| size.abs() <= AS_FILED * beyond_none(filed, place).abs())
         })
     }
 

@@ -117,9 +117,13 @@ impl Group {
     /// Of each block, the products of the columns with the residual, and among each other.
     pub fn of(blocks: &[(DVector<f64>, DMatrix<f64>)]) -> Self {
         let count = blocks.first().map_or(0, |(score, _)| score.len());
+        if count == 0 {
+            let remainders = DMatrix::zeros(0, blocks.len());
+            return Self { score: DVector::zeros(0), remainders, dispersion: 1.0, degrees: 0 };
+        }
         let information =
             blocks.iter().fold(DMatrix::zeros(count, count), |sum, (_, one)| sum + one);
-        let length: Vec<f64> = (0..count).map(|k| information[(k, k)].sqrt()).collect();
+        let length: Vec<f64> = (0..count).map(|k| information[(k, k)].max(0.0).sqrt()).collect();
         let scaled = DMatrix::from_fn(count, count, |a, b| {
             let product = length[a] * length[b];
             if product > 0.0 { information[(a, b)] / product } else { 0.0 }
@@ -129,10 +133,10 @@ impl Group {
         let kept: Vec<usize> = (0..count)
             .filter(|&k| eigen.eigenvalues[k] > 1e-6 * largest && largest > DEPENDENT)
             .collect();
-        // Axes of unit size, as combinations of the columns.
+        // Axes of unit size, as combinations of the columns; one of nothing has no part in them.
         let axes = DMatrix::from_fn(count, kept.len(), |c, k| {
-            let scale = length[c].max(f64::MIN_POSITIVE) * eigen.eigenvalues[kept[k]].sqrt();
-            eigen.eigenvectors[(c, kept[k])] / scale
+            let scale = length[c] * eigen.eigenvalues[kept[k]].sqrt();
+            if scale > 0.0 { eigen.eigenvectors[(c, kept[k])] / scale } else { 0.0 }
         });
         let scores: Vec<DVector<f64>> =
             blocks.iter().map(|(score, _)| axes.tr_mul(score)).collect();
@@ -225,6 +229,19 @@ mod tests {
 
     fn tests_of(normal: &Normal) -> Vec<Test> {
         test(normal, &[vec![0], vec![1], vec![2]], DRAWS, 1)
+    }
+
+    /// Of a column that others explain rounding is left, of any sign: it is no evidence.
+    #[test]
+    fn rounding_is_no_evidence() {
+        let information =
+            DMatrix::from_row_slice(3, 3, &[1.0, 0.0, 0.5, 0.0, -1e-13, 0.0, 0.5, 0.0, 1.0]);
+        let block = (DVector::from_vec(vec![0.5, 1e-13, 0.2]), information);
+        let group = Group::of(&vec![block; 4]);
+        assert_eq!(group.degrees, 2);
+        assert!(group.observed() < 10.0, "{}", group.observed());
+        let none = Group::of(&vec![(DVector::zeros(0), DMatrix::zeros(0, 0)); 4]);
+        assert_eq!((none.degrees, none.observed()), (0, 0.0));
     }
 
     #[test]

@@ -12,7 +12,7 @@ use crate::base::Base;
 use crate::candidate::{Signature, Variant, sizes};
 use crate::evidence::Evidence;
 use crate::fit::Fit;
-use crate::hypothesis::{Unknown, neutral, typical};
+use crate::hypothesis::{Unknown, beyond_none, neutral, typical};
 use crate::mechanics::is_instrument;
 use crate::search::{AS_FILED, Found, Screened, Search};
 use crate::uncertainty::Interval;
@@ -53,8 +53,7 @@ impl Rules {
     /// χ² that may be left in one symmetry beside a hypothesis: a part of what its laws took away, and of the noise.
     pub fn tolerated(evidence: &Evidence, base: &Base, best: &Found) -> f64 {
         let whole = (base.fit.objective - best.fit.objective).max(0.0);
-        let residuals = 3.0 * real(evidence.samples().len());
-        Self::FORM_LEFT * Self::FORM_LEFT * whole + Self::LEFT * residuals
+        Self::FORM_LEFT * Self::FORM_LEFT * whole + Self::LEFT * real(evidence.measured())
     }
 }
 
@@ -206,7 +205,7 @@ fn nearly_as_filed(search: &Search, found: &Fit, effect: usize) -> Option<String
     let filed = search.base.as_filed.hypothesis.effect(effect)?;
     let found = found.hypothesis.effect(effect)?;
     let near = sizes(effect).into_iter().all(|place| {
-        let (filed, found) = (filed.values()[place], found.values()[place]);
+        let [filed, found] = [filed, found].map(|effect| beyond_none(effect, place));
         (found - filed).abs() <= AS_FILED * filed.abs()
     });
     let id = CATALOGUE[effect].id;
@@ -243,8 +242,7 @@ fn separation(
             priors[column].deviation = deviation;
         }
     }
-    let information = normal.projected(&free, &priors).information(&groups[0])[(0, 0)];
-    changed.size.abs() * information.max(0.0).sqrt()
+    changed.size.abs() * normal.beside(groups[0][0], &free, &priors).sqrt()
 }
 
 /// Why what an effect changes is no more than what laws of the vehicle file may leave; none where it is more.
@@ -269,6 +267,21 @@ fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<St
         let names: Vec<&str> = laws.iter().map(|(law, _)| CATALOGUE[law.effect].id).collect();
         format!("no more than what {} of a slightly other size may leave", names.join(" and "))
     })
+}
+
+/// Refuses the claims that nothing speaks for any more beside what is left of a hypothesis; their effects.
+pub fn refuse_unsupported(search: &Search, best: &Found, verdicts: &mut [Verdict]) -> Vec<usize> {
+    let claimed = verdicts.iter_mut().filter(|verdict| verdict.refused.is_none());
+    let unsupported = claimed.filter_map(|verdict| {
+        let effect = verdict.effect;
+        let left = best.ln_evidence - search.without(best, effect).ln_evidence;
+        (left < Rules::LN_BAYES_FACTOR).then(|| {
+            verdict.refused =
+                Some(format!("ln Bayes factor {left:.1} beside the claims that are left"));
+            effect
+        })
+    });
+    unsupported.collect()
 }
 
 /// Refuses the claims whose sizes may all be none by their own intervals; their effects.

@@ -14,6 +14,9 @@ use trackdyn_recording::{Clock, Recording, SegmentOptions, TrackSample};
 /// How far a fitted clock offset may go beyond the one that the recording shows by itself, s.
 const TAU_MARGIN: f64 = 0.15;
 
+/// Largest coordinate of a pose, m: places of the catalogue lie in some kilometres around the origin.
+const FARTHEST: f64 = 5000.0;
+
 /// Fewer segments than this are no evidence.
 pub const FEWEST: usize = 60;
 
@@ -24,8 +27,14 @@ impl Evidence {
     /// `gauge` (m) turns the noise of the encoders into noise of the yaw where the robot never spins.
     ///
     /// # Errors
-    /// Too few segments, or no noise measured or stated.
+    /// Too few segments, no noise measured or stated, or poses far from the origin of their frame.
     pub fn of_recording(recording: &Recording, gauge: f64) -> Result<Self, Error> {
+        let poses = recording.runs().iter().flat_map(trackdyn_recording::Run::poses);
+        let along = |at: &Pose| at.x.abs().max(at.y.abs());
+        let found = poses.map(|sample| along(&sample.pose)).fold(0.0, f64::max);
+        if found > FARTHEST {
+            return Err(Error::FarFromOrigin { found, largest: FARTHEST });
+        }
         let clock = Clock::of(recording, None);
         let tau = clock.tau();
         let (recording, measured) = quieter(recording, tau);

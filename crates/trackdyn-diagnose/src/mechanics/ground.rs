@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use trackdyn_core::{PerSide, Pose, Side, Twist, Wrench};
 use trackdyn_motion::{Stationary, Status};
 use trackdyn_physics::contact::quadrature::Resolution;
+use trackdyn_physics::effect::Role;
 use trackdyn_physics::{ActiveEffect, Circumstance, Drive, Model, Motion, Vehicle};
 
 /// Where the robot was during a sample.
@@ -30,7 +31,10 @@ pub fn varies(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> 
     let model = single(vehicle, effect).with_resolution(Resolution::Coarse);
     let forces = |at: &Circumstance| probed(&model, at, PerSide::new(-0.2, 0.5));
     let samples = evidence.samples();
-    let mut probes = samples.iter().step_by((samples.len() / PROBES).max(1));
+    // A place may be crossed between any two.
+    let has_place = effect.card().parameters.iter().any(|p| matches!(p.role, Role::Place { .. }));
+    let step = if has_place { 1 } else { (samples.len() / PROBES).max(1) };
+    let mut probes = samples.iter().step_by(step);
     let Some(first) = probes.next().map(|sample| forces(&circumstance(sample))) else {
         return false;
     };

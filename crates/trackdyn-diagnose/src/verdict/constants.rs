@@ -66,16 +66,17 @@ pub fn statics(search: &Search) -> Statics {
     Statics { only, mostly: within(MOSTLY), class }
 }
 
-/// The best hypothesis with the vehicle as filed, no offset, and no effect that mostly stands for one; and what
-/// else is free in it.
+/// The best hypothesis with the vehicle as filed, no offset, and no effect that mostly stands for one but what is claimed;
+/// and what else is free in it.
 fn as_filed(
     search: &Search,
     best: &Found,
     statics: &Statics,
     file: &VehicleFile,
+    claimed: &[usize],
 ) -> (Hypothesis, Vec<Unknown>) {
     let base = &search.base.fit.hypothesis;
-    let is_static = |effect: &usize| statics.mostly.contains(effect);
+    let is_static = |effect: &usize| statics.mostly.contains(effect) && !claimed.contains(effect);
     let added: Vec<usize> = best.effects.iter().copied().filter(is_static).collect();
     let without = added.iter().fold(best.fit.hypothesis.clone(), |hypothesis, &effect| {
         hypothesis.with_effect_of(base, effect)
@@ -95,7 +96,7 @@ pub(super) fn departure(
     statics: &Statics,
     file: &VehicleFile,
 ) -> f64 {
-    let (filed, fixed) = as_filed(search, best, statics, file);
+    let (filed, fixed) = as_filed(search, best, statics, file, &[]);
     let before = Some(&best.fit.mechanics);
     let dropped = Fit::new(filed, &fixed, search.evidence, search.metric, before);
     (dropped.objective - best.fit.objective).max(0.0).sqrt()
@@ -115,16 +116,17 @@ fn as_good_as_filed(free: &Fit) -> Option<String> {
 }
 
 /// Judges the constant ICRs against those of the vehicle file: a wrong number, or one of the class of effects
-/// that only move them.
+/// that only move them. Effects that are `claimed` stay where they are.
 pub fn judge_constants(
     search: &Search,
     best: &Found,
     statics: &Statics,
     file: &VehicleFile,
+    claimed: &[usize],
     draws: usize,
     seed: u64,
 ) -> Option<Verdict> {
-    let (filed, fixed) = as_filed(search, best, statics, file);
+    let (filed, fixed) = as_filed(search, best, statics, file, claimed);
     let evidence = search.evidence;
     let before = Some(&best.fit.mechanics);
     let dropped = Fit::new(filed.clone(), &fixed, evidence, search.metric, before);

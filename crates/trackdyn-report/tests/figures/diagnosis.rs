@@ -189,7 +189,7 @@ fn a_claim_that_held_out_runs_contradict_is_not_for_driving() {
     assert!(!case.diagnosis.missing.is_empty());
     for (after, warned) in [(1.1, false), (1.2, true), (1.3, true)] {
         case.diagnosis.held_out =
-            HeldOut { before: 1.2, after, noise_floor: 1.0, are_held_out: true };
+            HeldOut { before: 1.2, instruments: 1.2, after, noise_floor: 1.0, are_held_out: true };
         let (_, html) = case.report();
         assert_eq!(html.contains("What is claimed does not help there"), warned, "{after}");
     }

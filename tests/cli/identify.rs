@@ -124,8 +124,12 @@ fn what_a_recording_does_not_determine_is_not_written() {
     let place = Workplace::new();
     let straight = |speed| vec![Stretch { duration: 40.0, speeds: PerSide::new(speed, speed) }];
     record(&place, vec![straight(0.5), straight(-0.5)]);
+    std::fs::create_dir(place.path().join("out")).expect("a folder");
+    place.write("out/kinematics_alpha.toml", "of an earlier fit");
     let run = place.run(&format!("identify rec --vehicle {} --generations 2", vehicle()));
     assert_eq!(run.status, 2, "{}", run.stdout);
+    assert!(run.stderr.contains("removed out/kinematics_alpha.toml"), "{}", run.stderr);
+    assert!(!place.path().join("out/kinematics_alpha.toml").exists());
     assert!(run.stdout.contains("no ICR shows"), "{}", run.stdout);
     assert!(run.stdout.contains("taken as equal"), "{}", run.stdout);
     assert!(!place.path().join("out/kinematics.toml").exists());

@@ -13,6 +13,16 @@ fn a_simulated_recording_is_read_and_identified() {
     assert!(run.stdout.contains("yaw-inertia"), "Newton's law is on: {}", run.stdout);
     let run = place.run("inspect drive");
     assert_eq!(run.status, 0, "{}", run.stderr);
+    // what was not simulated is not replaced
+    std::fs::create_dir(place.path().join("log")).expect("a folder");
+    place.write("log/recording.toml", "of a robot");
+    let run = place.run("simulate --runs 1 --out log");
+    assert!(
+        run.status == 1 && run.stderr.contains("--out log: holds a recording"),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(place.read("log/recording.toml"), b"of a robot");
     let run = place.run("identify drive --vehicle drive/vehicle.toml --out found");
     assert_eq!(run.status, 0, "{}", run.stderr);
     let text = String::from_utf8(place.read("found/kinematics.toml")).expect("text");

@@ -90,16 +90,17 @@ fn bag(options: &Options) -> Result<(), trackdyn_recording::Error> {
             println!("{:21}frames: {parent} -> {child}", "");
         }
     }
-    println!("\nsuggested:{}", suggestion(&inspection.suggested));
     let is_odometry = inspection.topics.iter().any(|topic| {
         Some(&topic.name) == inspection.suggested.pose_topic.as_ref()
             && topic.kind.ends_with("/Odometry")
     });
     if is_odometry {
         println!(
-            "caution: an Odometry may be that of the tracks themselves, which agrees with any model of them: poses have to come from something else"
+            "\ncaution: an Odometry may be that of the tracks themselves, which agrees with any model of them: \
+             poses have to come from something else"
         );
     }
+    println!("\nsuggested:{}", suggestion(&inspection.suggested));
     for warning in &inspection.warnings {
         eprintln!("note: {warning}");
     }

@@ -197,3 +197,51 @@ pub(super) fn names<'a>(cdr: &mut Cdr<'a>) -> Result<(Vec<&'a str>, bool, bool),
     let (_, velocities) = cdr.f64_sequence()?;
     Ok((names, positions == count && count > 0, velocities == count && count > 0))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A message after its header: names, positions, velocities, no effort, as CDR of little-endian numbers.
+    fn message(names: &[&str], numbers: [&[f64]; 2]) -> Vec<u8> {
+        let mut bytes = vec![0, 1, 0, 0];
+        let pad = |bytes: &mut Vec<u8>, to: usize| {
+            while !(bytes.len() - 4).is_multiple_of(to) {
+                bytes.push(0);
+            }
+        };
+        let count = |bytes: &mut Vec<u8>, count: usize| {
+            pad(bytes, 4);
+            bytes.extend(u32::try_from(count).expect("small").to_le_bytes());
+        };
+        count(&mut bytes, names.len());
+        for name in names {
+            count(&mut bytes, name.len() + 1);
+            bytes.extend(name.bytes().chain([0]));
+        }
+        for numbers in numbers {
+            count(&mut bytes, numbers.len());
+            pad(&mut bytes, 8);
+            bytes.extend(numbers.iter().flat_map(|number| number.to_le_bytes()));
+        }
+        count(&mut bytes, 0);
+        bytes
+    }
+
+    #[test]
+    fn velocities_that_are_no_numbers_give_way_to_positions() {
+        let names = ["wheel_left", "wheel_right", "lidar"];
+        let mut joints = Joints::new(&RosbagOptions::default());
+        let mut read = |velocities: &[f64]| {
+            let bytes = message(&names, [&[1.0, 2.0, 3.0], velocities]);
+            joints.reading(&mut Cdr::new(&bytes).expect("CDR")).expect("a reading")
+        };
+        let reading = read(&[f64::NAN, f64::NAN, 0.1]);
+        assert!(reading.is_position);
+        assert_eq!(reading.sides, PerSide::new(1.0, 2.0));
+        // those of other joints do not count
+        let reading = read(&[0.4, 0.5, f64::NAN]);
+        assert!(!reading.is_position);
+        assert_eq!(reading.sides, PerSide::new(0.4, 0.5));
+    }
+}

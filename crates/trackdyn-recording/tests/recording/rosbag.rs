@@ -108,15 +108,23 @@ fn several_topics_that_fit_are_named_and_none_is_taken() {
 
 #[test]
 fn joints_are_chosen_and_reversed_by_name() {
-    let options = RosbagOptions {
+    let named = RosbagOptions {
         left_joints: vec!["rear_left".into()],
         right_joints: vec!["-front_right".into(), "-rear_right".into()],
         ..options()
     };
-    let recording = rosbag::read(&fixture("drive.mcap"), &options).expect("readable");
+    let recording = rosbag::read(&fixture("drive.mcap"), &named).expect("readable");
     let first = recording.runs()[0].tracks()[0];
     assert_near(first.v_left, RADIUS * 2.5);
     assert_near(first.v_right, RADIUS * -4.0);
+    let taken = |recording: &Recording| -> Vec<String> {
+        let notes = recording.warnings().iter().map(ToString::to_string);
+        notes.filter(|note| note.contains("joints")).collect()
+    };
+    assert!(taken(&recording).is_empty());
+    // what was guessed by the names is said
+    let guessed = rosbag::read(&fixture("drive.mcap"), &options()).expect("readable");
+    assert_eq!(taken(&guessed)[0], "left joints: took front_left, rear_left");
 }
 
 #[test]

@@ -232,23 +232,19 @@ impl Calibration {
 /// Gives a vehicle file the friction and the centre of gravity of a vehicle with the constant ICRs of a hypothesis, with
 /// friction at a level of its own; those of the hypothesis where no vehicle has them.
 ///
-/// `unclaimed` effects of it are not in the file, or as filed: what they moved the vehicle takes over as well.
+/// Of the effects that were `added` the file may have some otherwise, or not: what these moved the vehicle takes over as well.
 pub fn correct_constants(
     file: &mut VehicleFile,
     hypothesis: &Hypothesis,
-    unclaimed: &[usize],
+    added: &[usize],
     level: f64,
 ) {
-    let shift = |effects: Vec<ActiveEffect>| {
-        let (vehicle, effects) = (&hypothesis.vehicle, effects.into_iter().collect());
-        spin_with(vehicle, effects)
-    };
-    let found = unclaimed.iter().filter_map(|&effect| hypothesis.effect(effect));
-    let filed = file
-        .effects
-        .iter()
-        .filter(|filed| unclaimed.iter().any(|&effect| CATALOGUE[effect].id == filed.card().id));
-    let [with, without] = [found.cloned().collect(), filed.cloned().collect()].map(shift);
+    let filed = |of: &ActiveEffect| file.effects.iter().find(|one| one.card().id == of.card().id);
+    let added = added.iter().filter_map(|&effect| hypothesis.effect(effect));
+    let missed: Vec<&ActiveEffect> = added.filter(|one| filed(one) != Some(one)).collect();
+    let with = spin_with(&hypothesis.vehicle, missed.iter().copied().cloned().collect());
+    let as_filed = missed.iter().filter_map(|one| filed(one)).cloned().collect();
+    let without = spin_with(&hypothesis.vehicle, as_filed);
     let moved = with.zip(without).map_or(Vector3::zeros(), |(with, without)| with - without);
     let offset = Vector3::from(hypothesis.offset) + moved;
     let taken = Hypothesis { offset: offset.into(), ..hypothesis.clone() };
@@ -299,5 +295,12 @@ mod tests {
         let off = spin(&file.vehicle).expect("a spin") - wanted;
         assert!(off.norm() < 1e-6, "{off}");
         assert!((product(&file.vehicle) / before - (2.0 * LEVEL).exp()).abs() < 1e-9);
+        // what stands in the file as it was found is no matter of the vehicle
+        let mut file = VehicleFile::auriga_alpha();
+        file.effects.insert(hypothesis.effect(gradient).expect("there").clone());
+        let bare = spin(&file.vehicle).expect("a spin") + Vector3::from(hypothesis.offset);
+        correct_constants(&mut file, &hypothesis, &[gradient], 0.0);
+        let off = spin(&file.vehicle).expect("a spin") - bare;
+        assert!(off.norm() < 1e-6, "{off}");
     }
 }

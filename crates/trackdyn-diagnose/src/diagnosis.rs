@@ -473,38 +473,30 @@ fn corrected(
     friction_level: Option<Level>,
     missing: &[Missing],
 ) -> VehicleFile {
-    let mut corrected = file.clone();
     let level = sure(friction_level);
-    corrected.vehicle = with_friction(&file.vehicle, level);
+    let vehicle = with_friction(&file.vehicle, level);
+    let mut corrected = VehicleFile { vehicle, ..file.clone() };
     correct(&mut corrected, best, missing, level);
     corrected
 }
 
 /// The level of friction where it surely differs from the filed one.
-fn sure(friction_level: Option<Level>) -> f64 {
+pub(crate) fn sure(friction_level: Option<Level>) -> f64 {
     friction_level.filter(Level::is_sure).map_or(0.0, |level| level.value)
 }
 
 /// Puts what is claimed into a vehicle file, as a hypothesis has it, with friction at a level.
-fn correct(corrected: &mut VehicleFile, found: &Found, missing: &[Missing], level: f64) {
+pub(crate) fn correct(corrected: &mut VehicleFile, found: &Found, missing: &[Missing], level: f64) {
     let hypothesis = &found.fit.hypothesis;
-    let is_claimed = |effect: &usize| {
-        let mut physics = missing.iter().filter(|missing| missing.kind == Kind::Physics);
-        physics.any(|missing| missing.verdict.effect == *effect)
-    };
-    for missing in missing {
-        match missing.kind {
-            Kind::Constant => {
-                let unclaimed: Vec<usize> =
-                    found.effects.iter().copied().filter(|effect| !is_claimed(effect)).collect();
-                correct_constants(corrected, hypothesis, &unclaimed, level);
-            }
-            Kind::Physics | Kind::Instrument => {
-                if let Some(effect) = hypothesis.effect(missing.verdict.effect) {
-                    corrected.effects.insert(effect.clone());
-                }
-            }
+    let (constants, effects): (Vec<_>, Vec<_>) =
+        missing.iter().partition(|missing| missing.kind == Kind::Constant);
+    for missing in effects {
+        if let Some(effect) = hypothesis.effect(missing.verdict.effect) {
+            corrected.effects.insert(effect.clone());
         }
+    }
+    if !constants.is_empty() {
+        correct_constants(corrected, hypothesis, &found.effects, level);
     }
 }
 
@@ -537,11 +529,6 @@ fn before<'a>(base: &'a Base, missing: &[Missing]) -> &'a Fit {
 }
 
 impl Diagnosis {
-    /// Puts all claims into the corrected vehicle as another hypothesis has them.
-    pub(crate) fn correct_by(&mut self, found: &Found) {
-        correct(&mut self.corrected, found, &self.missing, sure(self.friction_level));
-    }
-
     /// Whether encoders or pose sensor are to blame for something: they are then not part of what was before.
     pub fn blames_instruments(&self) -> bool {
         blame_instruments(&self.missing)

@@ -3,7 +3,7 @@
 //! All that a linear model of the residuals can say is in the products of its columns. Kept per block, they
 //! answer at once what a fit without some columns, without some blocks, or with other blocks would be.
 
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector3};
 use std::ops::Range;
 
 /// Residuals and columns, both whitened, three rows per sample.
@@ -190,17 +190,8 @@ impl Normal {
     /// cost: min over θ of |c − C θ|² + Σ (θ/s)².
     pub fn beside(&self, column: usize, others: &[usize], priors: &[Prior]) -> f64 {
         let square = self.product(column, column);
-        let precision = DVector::from_fn(others.len(), |k, _| priors[others[k]].deviation.powi(-2));
-        let mut matrix = self.information(others);
-        matrix.set_diagonal(&(matrix.diagonal() + precision));
-        let scale =
-            matrix.diagonal().map(|square| if square > 0.0 { square.sqrt().recip() } else { 0.0 });
-        let diagonal = DMatrix::from_diagonal(&scale);
-        let mut scaled = &diagonal * matrix * &diagonal;
-        for k in 0..others.len() {
-            scaled[(k, k)] += RIDGE;
-        }
-        let Some(cholesky) = scaled.cholesky() else { return square };
+        let precisions: Vec<f64> = others.iter().map(|&k| priors[k].deviation.powi(-2)).collect();
+        let Some((cholesky, scale)) = self.factored(others, &precisions) else { return square };
         let right =
             DVector::from_fn(others.len(), |k, _| scale[k] * self.product(others[k], column));
         (square - right.dot(&cholesky.solve(&right))).max(0.0)
@@ -219,15 +210,17 @@ impl Normal {
         self.without_what(others, &vec![0.0; others.len()], columns)
     }
 
-    fn without_what(&self, base: &[usize], precisions: &[f64], of: &[usize]) -> Self {
-        let size = self.total.nrows();
-        let count = base.len();
-        let mut matrix = DMatrix::zeros(count, count);
-        for (a, &i) in base.iter().enumerate() {
-            for (b, &j) in base.iter().enumerate() {
-                matrix[(a, b)] = self.total[(i, j)];
-            }
-            matrix[(a, a)] += precisions[a];
+    /// The factor of columns' information with these precisions, scaled so that columns of different units have the same
+    /// size, and the scales; one of nothing has none.
+    fn factored(
+        &self,
+        columns: &[usize],
+        precisions: &[f64],
+    ) -> Option<(Cholesky<f64, Dyn>, DVector<f64>)> {
+        let count = columns.len();
+        let mut matrix = self.information(columns);
+        for (k, precision) in precisions.iter().enumerate() {
+            matrix[(k, k)] += precision;
         }
         let scale = DVector::from_fn(count, |k, _| match matrix[(k, k)] {
             square if square > 0.0 => 1.0 / square.sqrt(),
@@ -235,11 +228,17 @@ impl Normal {
         });
         let mut scaled =
             DMatrix::from_fn(count, count, |a, b| matrix[(a, b)] * scale[a] * scale[b]);
-        // Columns that stand for each other are projected out as one.
+        // Columns that stand for each other count as one.
         for k in 0..count {
             scaled[(k, k)] += RIDGE;
         }
-        let Some(cholesky) = scaled.cholesky() else { return self.clone() };
+        Some((scaled.cholesky()?, scale))
+    }
+
+    fn without_what(&self, base: &[usize], precisions: &[f64], of: &[usize]) -> Self {
+        let size = self.total.nrows();
+        let count = base.len();
+        let Some((cholesky, scale)) = self.factored(base, precisions) else { return self.clone() };
         let right =
             DMatrix::from_fn(count, of.len(), |a, j| self.total[(base[a], of[j])] * scale[a]);
         let solved = cholesky.solve(&right);

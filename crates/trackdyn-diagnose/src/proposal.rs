@@ -12,7 +12,7 @@ mod selection;
 pub mod symmetry;
 pub mod words;
 
-use crate::diagnosis::{Diagnosis, HeldOut, Options, Status, Unseen};
+use crate::diagnosis::{Diagnosis, HeldOut, Options, Status, Unseen, correct, sure};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, columns};
 use crate::hypothesis::Unknown;
@@ -85,11 +85,13 @@ impl Proposal {
 pub fn completed(mut diagnosis: Diagnosis, options: &Options) -> Diagnosis {
     if diagnosis.status == Status::Unexplained {
         diagnosis.proposed = propose(&diagnosis, &diagnosis.evidence, options);
-        if let Some(Proposal { found, effect, .. }) = diagnosis.proposed.clone() {
-            diagnosis.correct_by(&found);
-            if let Some(law) = found.fit.hypothesis.effect(effect) {
-                diagnosis.corrected.effects.insert(law.clone());
+        let Diagnosis { proposed, corrected, missing, friction_level, .. } = &mut diagnosis;
+        if let Some(Proposal { found, effect, .. }) = proposed {
+            // the law first: what it moves is no constant
+            if let Some(law) = found.fit.hypothesis.effect(*effect) {
+                corrected.effects.insert(law.clone());
             }
+            correct(corrected, found, missing, sure(*friction_level));
         }
     }
     diagnosis

@@ -60,7 +60,7 @@ fn mechanism_of(effect: &ActiveEffect) -> Result<ActiveMechanism, String> {
     for (parameter, &value) in card.parameters.iter().zip(effect.values()) {
         if has(parameter.key) {
             settings.push((parameter.key, value));
-        } else if value != parameter.typical {
+        } else if value != card.default_of(parameter) {
             return Err(format!(
                 "--effect {}:{} = {value}: expected it left out on the independent ground, whose law has no such \
                  parameter",

@@ -56,7 +56,7 @@ fn steady_turns_are_the_stationary_ones() {
             let stationary = Stationary::new(&model, &here).solve(shown);
             assert_eq!(stationary.status, Status::Turning, "{}", card.id);
             let expected = stationary.icrs.expect("a turn has ICRs").to_array();
-            let driven = model.drive().belt_speed(shown, PerSide::new(0.0, 0.0));
+            let driven = model.drive().driven(shown);
             let found = Icrs::of_motion(driven, &paper_twist_from_ros(&last.twist));
             let found = found.expect("a turn").to_array();
             for (found, expected) in found.into_iter().zip(expected) {
@@ -206,5 +206,55 @@ fn without_inertia_the_robot_is_where_the_stationary_model_says_at_once() {
         {
             assert!((found - expected).abs() < 1e-5, "{moment:?} {expected}");
         }
+    }
+}
+
+/// Friction turns over within a slip of micrometres per second, and a belt's speed with it: what the traction was a
+/// moment before says nothing of what it is.
+#[test]
+fn belts_that_slip_drive_straight_after_a_turn() {
+    for inertia in [&[][..], &NEWTON] {
+        let effects = [inertia, &["belt-slip:slip=0.05"]].concat();
+        let model = auriga([-0.015, 0.04], &effects);
+        let path =
+            drive(&model, &schedule(&[(0.0, 0.2, 0.8), (2.0, 0.5, 0.5), (4.0, 0.5, 0.5)]), 0.01);
+        let late: Vec<_> = path.moments().iter().filter(|moment| moment.t > 2.2).collect();
+        let fastest = late.iter().map(|moment| moment.twist.w.abs()).fold(0.0, f64::max);
+        assert!(late.len() > 150 && fastest < 1e-9, "{fastest} rad/s {effects:?}");
+        let off = late.iter().map(|moment| (moment.twist.v_x - 0.5).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-6, "{off} m/s {effects:?}");
+    }
+}
+
+/// Belts that slip take up a small difference of the sprockets: the robot does not turn. A larger one turns it, and
+/// the motion in time settles to the stationary one on both sides of the edge.
+#[test]
+fn belts_that_slip_do_not_turn_at_a_small_difference() {
+    const SLIP: f64 = 0.05;
+    let slip = format!("belt-slip:slip={SLIP}");
+    for resistance in [&[][..], &["motion-resistance:coefficient=0.1"]] {
+        let effects = [&[slip.as_str()], resistance].concat();
+        let model = auriga([-0.015, 0.04], &effects);
+        let solver = Stationary::new(&model, &Circumstance::default());
+        let mut kinds = Vec::new();
+        for difference in [-0.06, -0.02, -0.005, 0.0, 0.002, 0.01, 0.02, 0.03, 0.05, 0.1] {
+            let shown = PerSide::new(0.5 - difference / 2.0, 0.5 + difference / 2.0);
+            let stationary = solver.solve(shown);
+            let path =
+                drive(&model, &schedule(&[(0.0, shown.left, shown.right), (3.0, 0.5, 0.5)]), 0.01);
+            let moments = path.moments();
+            let twist = paper_twist_from_ros(&moments[moments.len() - 1].twist);
+            let found = stationary.twist;
+            let off = (found.v_x - twist.v_x).hypot(found.v_y - twist.v_y).hypot(found.w - twist.w);
+            assert!(off < 1e-5, "{off} at {difference}: {stationary:?} {twist:?}");
+            kinds.push(stationary.status);
+            if stationary.status == Status::Straight {
+                // κ V (T_r − T_l)/N takes up the difference, and T is µ N at most
+                assert!(difference.abs() < SLIP * 0.5 * 2.0 * model.vehicle().friction.along);
+            }
+        }
+        let straight = kinds.iter().filter(|kind| **kind == Status::Straight).count();
+        println!("{kinds:?}");
+        assert!((2..kinds.len() - 2).contains(&straight), "{kinds:?}");
     }
 }

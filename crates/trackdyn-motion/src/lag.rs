@@ -28,7 +28,8 @@ pub fn lag(
         Dual::<6>::variables([twist.v_x, twist.v_y - belt_speed.left, twist.w, 0.0, 0.0, 0.0]);
     let departure = Twist { v_x, v_y, w };
     let acceleration = Twist { v_x: a_x, v_y: a_y, w: a_w };
-    let motion = Motion::departing(belt_speed, departure, acceleration, model.extent());
+    let belts = belt_speed.map(Dual::from);
+    let motion = Motion::departing(belts, departure, acceleration, model.extent());
     let sum = net_force(model, ground, &motion, CREEP);
     let rows = [sum.force_x, sum.force_y, sum.moment];
     let by_twist = Matrix3::from_fn(|row, column| rows[row].gradient[column]);

@@ -1,6 +1,6 @@
-//! Newton's method for three equations, damped so that each step reduces the residual.
+//! Newton's method for a few equations, damped so that each step reduces the residual.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{SMatrix, SVector};
 use trackdyn_core::Dual;
 
 /// When a point counts as a root.
@@ -26,27 +26,27 @@ const SUFFICIENT_DECREASE: f64 = 1e-4;
 const SMALLEST_STEP: f64 = 1e-3;
 
 /// Residual and Jacobian at a point.
-pub struct Evaluation {
-    residual: Vector3<f64>,
-    jacobian: Matrix3<f64>,
+pub struct Evaluation<const N: usize> {
+    residual: SVector<f64, N>,
+    jacobian: SMatrix<f64, N, N>,
 }
 
-impl Evaluation {
-    /// From the residual in dual numbers whose derivatives are by the three unknowns.
+impl<const N: usize> Evaluation<N> {
+    /// From the residual in dual numbers whose derivatives are by the unknowns.
     #[inline]
-    pub fn of_dual(residual: [Dual<3>; 3]) -> Self {
+    pub fn of_dual(residual: [Dual<N>; N]) -> Self {
         Self {
-            residual: Vector3::from(residual.map(|r| r.value)),
-            jacobian: Matrix3::from_fn(|row, column| residual[row].gradient[column]),
+            residual: SVector::from(residual.map(|r| r.value)),
+            jacobian: SMatrix::from_fn(|row, column| residual[row].gradient[column]),
         }
     }
 }
 
 /// Where the iteration ended.
 #[derive(Clone, Copy, Debug)]
-pub struct Convergence {
+pub struct Convergence<const N: usize> {
     /// The last point.
-    pub point: Vector3<f64>,
+    pub point: SVector<f64, N>,
     /// Norm of the residual there.
     pub residual: f64,
     /// Newton steps taken.
@@ -54,7 +54,7 @@ pub struct Convergence {
     /// Whether the point is a root to rounding.
     pub is_root: bool,
     /// Inverse of the Jacobian near the point, where it was asked for and has one.
-    pub inverse: Option<Matrix3<f64>>,
+    pub inverse: Option<SMatrix<f64, N, N>>,
 }
 
 /// What a step without derivatives must leave of the residual at most.
@@ -65,12 +65,12 @@ const LEFT: f64 = 0.6;
 /// `inverse` is that of a Jacobian not far from here. Each step corrects it by what the residual changed along the step:
 /// B ← B + (s − B y) sᵀB/(sᵀB y).
 #[inline]
-pub fn from_near(
-    start: Vector3<f64>,
-    inverse: Matrix3<f64>,
+pub fn from_near<const N: usize>(
+    start: SVector<f64, N>,
+    inverse: SMatrix<f64, N, N>,
     tolerance: Tolerance,
-    residual: impl Fn(Vector3<f64>) -> Vector3<f64>,
-) -> Option<Convergence> {
+    residual: impl Fn(SVector<f64, N>) -> SVector<f64, N>,
+) -> Option<Convergence<N>> {
     let (mut point, mut inverse) = (start, inverse);
     let mut value = residual(point);
     let mut norm = value.norm();
@@ -99,13 +99,13 @@ pub fn from_near(
 /// Iterates from `start`. `evaluate` gives residual and Jacobian, `residual` the residual alone; no step
 /// moves the first two unknowns by more than `longest_step`.
 #[inline]
-pub fn solve(
-    start: Vector3<f64>,
+pub fn solve<const N: usize>(
+    start: SVector<f64, N>,
     longest_step: f64,
     tolerance: Tolerance,
-    evaluate: impl Fn(Vector3<f64>) -> Evaluation,
-    residual: impl Fn(Vector3<f64>) -> Vector3<f64>,
-) -> Convergence {
+    evaluate: impl Fn(SVector<f64, N>) -> Evaluation<N>,
+    residual: impl Fn(SVector<f64, N>) -> SVector<f64, N>,
+) -> Convergence<N> {
     let mut point = start;
     let mut at = evaluate(point);
     let mut norm = at.residual.norm();
@@ -129,7 +129,7 @@ pub fn solve(
                 return ended(last, last_norm, iterations + 1, inverse);
             }
         }
-        let mut fraction = (longest_step / step.xy().norm()).min(1.0);
+        let mut fraction = (longest_step / step.fixed_rows::<2>(0).norm()).min(1.0);
         let accepted = loop {
             let trial = point + step * fraction;
             let next = evaluate(trial);
@@ -150,9 +150,9 @@ pub fn solve(
 }
 
 /// The first end that is a root, else the one with the least residual; later ones are not sought.
-pub fn first_root<E>(
+pub fn first_root<E, const N: usize>(
     ends: impl Iterator<Item = E>,
-    convergence: impl Fn(&E) -> &Convergence,
+    convergence: impl Fn(&E) -> &Convergence<N>,
 ) -> Option<E> {
     let mut best: Option<E> = None;
     for end in ends {
@@ -170,10 +170,11 @@ pub fn first_root<E>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::{Matrix3, Vector3};
 
     const EXACT: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11 };
 
-    fn quadratic(root: Vector3<f64>) -> impl Fn(Vector3<f64>) -> Evaluation {
+    fn quadratic(root: Vector3<f64>) -> impl Fn(Vector3<f64>) -> Evaluation<3> {
         move |z| {
             let d = z - root;
             Evaluation {

@@ -23,7 +23,7 @@ use crate::icr::Icrs;
 use crate::newton::{self, Convergence, Evaluation, Tolerance};
 use nalgebra::Vector3;
 use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
-use trackdyn_physics::{Circumstance, Ground, Model, Motion};
+use trackdyn_physics::{Balance, Circumstance, Ground, Model, Motion};
 
 /// Speed, m/s, of the spin that stands for the limit of slow driving.
 const CREEP: f64 = 1e-6;
@@ -83,40 +83,96 @@ impl<'m> Stationary<'m> {
     /// No pair of speeds knows of another, so the order of solves does not matter. The result carries
     /// its status; read it before the numbers.
     ///
-    /// Where a belt loses speed under traction, speeds and traction are found in turns: friction knows
-    /// speeds by their ratios alone, so the next traction hardly differs.
+    /// Where belts slip on their sprockets, speeds and traction are found in turns: friction knows speeds by their
+    /// ratios alone, so the next traction hardly differs.
     pub fn solve(&self, track_speed: PerSide<f64>) -> Solution {
-        let drive = self.model.drive();
-        let mut traction = PerSide::new(0.0, 0.0);
-        let mut solution = self.solve_belts(drive.belt_speed(track_speed, traction));
-        if drive.slip_per_traction != 0.0 {
-            let tolerance = SETTLED * track_speed.left.abs().max(track_speed.right.abs());
-            for turn in 1.. {
-                traction = self.traction(&solution);
-                let before = solution.belt_speed;
-                let next = drive.belt_speed(track_speed, traction);
-                let change = (next.left - before.left).abs().max((next.right - before.right).abs());
-                if change <= tolerance {
-                    break;
-                }
-                if turn > MOST_TURNS {
-                    solution.status = Status::NotConverged;
-                    break;
-                }
-                solution = self.starting_at(solution.near()).solve_belts(next);
-            }
-            let driven = drive.driven(track_speed);
+        let driven = self.model.drive().driven(track_speed);
+        let mut solution = self.solve_belts(driven);
+        if self.model.drive().slip_per_traction != 0.0 {
+            solution = self.slipping(driven, solution);
             solution.icrs = solution.icrs.and_then(|_| Icrs::of_motion(driven, &solution.twist));
         }
         Solution { track_speed, ..solution }
     }
 
-    /// Traction of each side over its normal load, forward positive.
-    fn traction(&self, solution: &Solution) -> PerSide<f64> {
+    /// The motion of belts that slip on sprockets of these speeds, m/s, sought from that of belts that do not.
+    fn slipping(&self, driven: PerSide<f64>, firm: Solution) -> Solution {
+        let tolerance = SETTLED * driven.left.abs().max(driven.right.abs());
+        let mut solution = firm;
+        let (mut share, mut last_change) = (1.0, f64::INFINITY);
+        let mut may_be_straight = true;
+        for _ in 0..MOST_TURNS {
+            let Some(traction) = self.traction(&solution) else { break };
+            let belts = solution.belt_speed;
+            let next = self.model.drive().belt_speed(driven, traction);
+            let step = PerSide::from_fn(|side| next[side] - belts[side]);
+            let change = step.left.abs().max(step.right.abs());
+            if change <= tolerance {
+                return solution;
+            }
+            // Traction that turns the robot the other way than it turns comes before traction that does not turn it.
+            if may_be_straight && difference(&next) * difference(&belts) <= 0.0 {
+                if let Some(straight) = self.straight(driven) {
+                    return straight;
+                }
+                may_be_straight = false;
+            }
+            // What comes back as large as it went is met half-way.
+            if change > 0.5 * last_change {
+                share *= 0.5;
+            }
+            last_change = change;
+            let belts = PerSide::from_fn(|side| belts[side] + share * step[side]);
+            solution = self.starting_at(solution.near()).solve_belts(belts);
+        }
+        Solution { status: Status::NotConverged, ..solution }
+    }
+
+    /// The straight motion behind sprockets of these speeds, m/s, where traction takes up their difference; none where
+    /// it does not.
+    ///
+    /// # Law
+    /// Both tracks stick: κ T/N = (V_d − V)/|V_d| with one V on both sides, and T_l + T_r + F = 0, F the load along
+    /// the tracks. They hold where friction in a vanishing turn, to the left and to the right, would turn the robot
+    /// back.
+    fn straight(&self, driven: PerSide<f64>) -> Option<Solution> {
+        if driven.left == 0.0 || driven.right == 0.0 {
+            return None; // a belt that stands has no slip to stand with the other
+        }
+        let slip = self.model.drive().slip_per_traction;
+        let rolling = PerSide::from_fn(|_| f64::midpoint(driven.left, driven.right));
+        let rolling = Motion::anchored(rolling, Side::Left, [0.0, 0.0], 0.0);
+        let Balance { load, normal_load, .. } = self.model.balance(&self.ground, &rolling);
+        let weight = PerSide::from_fn(|side| normal_load[side] / driven[side].abs());
+        let sum = weight.left * driven.left + weight.right * driven.right;
+        // V = (Σ N V_d/|V_d| + κ F)/Σ N/|V_d|
+        let speed = (sum + slip * load.force_y) / (weight.left + weight.right);
+        let departing = |difference: f64| {
+            let belts = PerSide::new(speed - difference / 2.0, speed + difference / 2.0);
+            self.solve_belts(belts)
+        };
+        let left = departing(CREEP * speed.abs());
+        let right = departing(-CREEP * speed.abs());
+        let turns = |solution| {
+            Some(difference(&self.model.drive().belt_speed(driven, self.traction(solution)?)))
+        };
+        let holds = turns(&left)? <= 0.0 && turns(&right)? >= 0.0;
+        holds.then(|| Solution {
+            status: Status::Straight,
+            belt_speed: PerSide::new(speed, speed),
+            twist: Twist { v_x: 0.0, v_y: speed, w: 0.0 },
+            icrs: None,
+            residual: left.residual.max(right.residual),
+            ..left
+        })
+    }
+
+    /// Traction of each side over its normal load, forward positive; none where no motion was found.
+    fn traction(&self, solution: &Solution) -> Option<PerSide<f64>> {
         let anchor = match solution.status {
-            Status::Straight | Status::NotConverged => return PerSide::new(0.0, 0.0),
+            Status::NotConverged => return None,
             Status::Holds(side) => side,
-            Status::Turning | Status::Lifts => Side::Left,
+            Status::Turning | Status::Straight | Status::Lifts => Side::Left,
         };
         let motion = match solution.icrs {
             Some(Icrs { x_left, x_right, y }) => {
@@ -135,7 +191,7 @@ impl<'m> Stationary<'m> {
                 Side::Right => PerSide::new(traction.left, held),
             };
         }
-        PerSide::from_fn(|side| traction[side] / balance.normal_load[side])
+        Some(PerSide::from_fn(|side| traction[side] / balance.normal_load[side]))
     }
 
     /// The stationary motion at these speeds of the belts, m/s.
@@ -167,6 +223,11 @@ impl<'m> Stationary<'m> {
     }
 }
 
+/// By how much the right belt is faster, m/s.
+fn difference(belt_speed: &PerSide<f64>) -> f64 {
+    belt_speed.right - belt_speed.left
+}
+
 /// One pair of speeds, anchored at one track.
 #[derive(Clone, Copy)]
 struct Problem<'s> {
@@ -178,7 +239,7 @@ struct Problem<'s> {
 /// Where Newton's iteration ended.
 struct Root<'s> {
     problem: Problem<'s>,
-    convergence: Convergence,
+    convergence: Convergence<3>,
 }
 
 impl<'s> Problem<'s> {

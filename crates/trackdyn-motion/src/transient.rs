@@ -15,7 +15,9 @@
 //! # Method
 //! The two-stage singly diagonal implicit Runge-Kutta method of order 2 (Alexander 1977), which damps
 //! stiff parts at once. Each stage is one balance of forces with the acceleration (u − u_b)/(γ h): the
-//! same equations as the stationary ones, solved by the same Newton iteration with exact derivatives.
+//! same equations as the stationary ones, solved by the same Newton iteration with exact derivatives. Where
+//! belts slip on their sprockets, the traction of both sides is sought with the twist: near straight driving
+//! friction turns over within a small slip, and belts at speeds by an earlier traction would jump to and fro.
 //!
 //! # Sources
 //! Alexander, SIAM Journal on Numerical Analysis 14(6), 1977.
@@ -24,9 +26,7 @@ mod stage;
 
 pub(crate) use stage::net_force;
 
-use crate::newton::Convergence;
-use nalgebra::Matrix3;
-use stage::Stage;
+use stage::{Balanced, Inverse, Stage, Start};
 use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{Moment, PerSide, Plant, Pose, Stopped, Trajectory, Twist};
 use trackdyn_physics::{Circumstance, Model, Motion};
@@ -71,14 +71,14 @@ struct State {
     driven: PerSide<f64>,
     /// Speeds of the belts, m/s.
     belt_speed: PerSide<f64>,
-    /// Traction over normal load, forward positive; zero where no belt slips on its sprocket.
+    /// Traction over normal load, forward positive, where belts slip on their sprockets; else zero.
     traction: PerSide<f64>,
     /// Whether some of the contact would have to pull.
     lifts: bool,
     /// Whether that would not do either.
     tips: bool,
-    /// Inverse of the Jacobian of the last balance, from which the search for the next one starts.
-    inverse: Option<Matrix3<f64>>,
+    /// What is known of the Jacobian of the last balance.
+    inverse: Inverse,
 }
 
 impl<'m> Transient<'m> {
@@ -99,7 +99,7 @@ impl<'m> Transient<'m> {
             traction: still,
             lifts: false,
             tips: false,
-            inverse: None,
+            inverse: Inverse::default(),
         };
         Self {
             model,
@@ -206,10 +206,6 @@ impl<'m> Transient<'m> {
         let driven = PerSide::from_fn(|side| {
             target[side] + remaining * (self.state.driven[side] - target[side])
         });
-        let belt_speed = PerSide::from_fn(|side| {
-            // V ← V − κ |V| T/N, with the traction of the stage before
-            driven[side] - drive.slip_per_traction * driven[side].abs() * before.traction[side]
-        });
         let step = Pose::exp(&ros_twist_from_paper(&guess), after);
         let pose = self.state.pose.compose(&step);
         let ground = self.model.ground(&Circumstance {
@@ -219,19 +215,17 @@ impl<'m> Transient<'m> {
         });
         let per_second = if self.has_inertia { duration.recip() } else { 0.0 };
         let Self { model, creep, .. } = *self;
-        let stage = Stage { model, ground: &ground, belt_speed, base, per_second, creep };
-        let Convergence { point, is_root, inverse, .. } =
-            stage.solve(&guess, &before.belt_speed, before.inverse);
-        if !is_root {
-            return None;
-        }
-        let motion = stage.motion([point[0], point[1], point[2]]);
-        // Only belts that slip on their sprockets ask for the traction.
-        let traction =
-            if drive.slip_per_traction == 0.0 { before.traction } else { stage.traction(&motion) };
+        let stage = Stage { model, ground: &ground, driven, base, per_second, creep };
+        let start = Start {
+            twist: guess,
+            belt_speed: before.belt_speed,
+            traction: before.traction,
+            inverse: before.inverse,
+        };
+        let Balanced { motion, traction, inverse } = stage.solve(&start)?;
         let lifts = self.model.lifts(&ground, &motion);
         let tips = lifts && self.may_pull && self.model.tips(&ground, &motion);
-        let twist = motion.twist;
+        let Motion { twist, belt_speed, .. } = motion;
         Some(State { twist, driven, belt_speed, traction, lifts, tips, inverse, ..*before })
     }
 

@@ -17,7 +17,7 @@ pub struct Solution {
     /// Twist of the hull, paper's frame.
     pub twist: Twist,
     /// The ICRs of the tracks by the speeds α V that odometry knows, which a belt that slips on its
-    /// sprocket does not reach; none where one track holds the robot. In straight driving they are the
+    /// sprocket does not reach; none where one track holds the robot, or both do. At equal speeds they are the
     /// limit of a vanishing turn.
     pub icrs: Option<Icrs>,
     /// Norm of the sum of forces over the weight and moments over weight times gauge.
@@ -52,7 +52,8 @@ impl Solution {
 pub enum Status {
     /// The robot turns, and both tracks slip about their ICRs.
     Turning,
-    /// The track speeds are equal: both tracks stick, and the robot drives straight.
+    /// Both tracks stick, and the robot drives straight: the track speeds are equal, or belts that slip on their
+    /// sprockets take up the difference.
     Straight,
     /// The track speeds differ, but this track holds the robot straight while the other one slips.
     Holds(Side),

@@ -18,7 +18,7 @@ pub(super) fn add_resistance<S: Scalar>(
     normal_load: &PerSide<S>,
     wrench: &mut Wrench<S>,
 ) {
-    let belt_speed = situation.motion.belt_speed[side];
+    let belt_speed = situation.motion.belt_speed[side].value();
     if belt_speed == 0.0 {
         return; // a locked track is dragged by friction alone
     }

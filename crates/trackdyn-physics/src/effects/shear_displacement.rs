@@ -63,11 +63,11 @@ impl Effect for ShearDisplacement {
 
     fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
         let belt_speed = site.belt_speed();
-        if belt_speed == 0.0 {
+        if belt_speed.value() == 0.0 {
             return;
         }
         let [x, y] = site.slip.position;
-        let entry = if belt_speed > 0.0 { site.patch.y[1] } else { site.patch.y[0] };
+        let entry = if belt_speed.value() > 0.0 { site.patch.y[1] } else { site.patch.y[0] };
         // The slip is linear in y, so ∫ s dt is its value half-way times |y_entry − y|/|V|.
         let travelled = (-y + entry).abs();
         let half_way = site.slip_field().direction_at([x, (y + entry) * 0.5]);

@@ -1,6 +1,6 @@
 //! From the speeds that the encoders show to the speeds of the belts.
 
-use trackdyn_core::PerSide;
+use trackdyn_core::{PerSide, Scalar};
 
 /// The way from the encoders to the belts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,13 +25,12 @@ impl Drive {
         PerSide::from_fn(|side| self.gain[side] * shown[side])
     }
 
-    /// Steady speeds of the belts, m/s, at the speeds that the encoders show (m/s) and the traction of
-    /// each side over its normal load, forward positive, 1.
-    pub fn belt_speed(&self, shown: PerSide<f64>, traction: PerSide<f64>) -> PerSide<f64> {
-        let driven = self.driven(shown);
+    /// Speeds of the belts, m/s, behind sprockets of these speeds, m/s, at the traction of each side over its normal
+    /// load, forward positive, 1.
+    pub fn belt_speed<S: Scalar>(&self, driven: PerSide<f64>, traction: PerSide<S>) -> PerSide<S> {
         PerSide::from_fn(|side| {
-            // V = α V_e − κ |α V_e| T/N
-            driven[side] - self.slip_per_traction * driven[side].abs() * traction[side]
+            // V = V_d − κ |V_d| T/N
+            -traction[side] * (self.slip_per_traction * driven[side].abs()) + driven[side]
         })
     }
 }

@@ -7,7 +7,7 @@ use trackdyn_core::{PerSide, Scalar, Side, Twist};
 #[derive(Clone, Copy, Debug)]
 pub struct Motion<S = f64> {
     /// Belt speeds relative to the hull, forward positive, m/s.
-    pub belt_speed: PerSide<f64>,
+    pub belt_speed: PerSide<S>,
     /// Twist of the hull at the origin, paper's frame.
     pub twist: Twist<S>,
     /// Rate of change of the twist in the hull's axes, m/s² and rad/s²; zero in stationary motion.
@@ -45,7 +45,7 @@ impl<S: Scalar> Motion<S> {
             speed: S::from(difference.abs()),
         };
         Self {
-            belt_speed,
+            belt_speed: belt_speed.map(S::from),
             twist: Twist {
                 // y = v_x/w
                 v_x: w * y,
@@ -68,7 +68,7 @@ impl<S: Scalar> Motion<S> {
     /// A slip field is scaled by its root mean square over the side's contact.
     #[inline]
     pub fn departing(
-        belt_speed: PerSide<f64>,
+        belt_speed: PerSide<S>,
         departure: Twist<S>,
         acceleration: Twist<S>,
         contact: &PerSide<Extent>,

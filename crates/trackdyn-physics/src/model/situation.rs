@@ -70,7 +70,7 @@ impl<S: Scalar> Site<'_, S> {
 
     /// Belt speed relative to the hull, m/s.
     #[inline]
-    pub fn belt_speed(&self) -> f64 {
+    pub fn belt_speed(&self) -> S {
         self.situation.motion.belt_speed[self.side]
     }
 

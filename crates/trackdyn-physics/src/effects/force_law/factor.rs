@@ -94,7 +94,7 @@ impl<S: Scalar> Arguments<S> {
     pub(super) fn of(situation: &Situation<S>, scales: &Scales) -> Self {
         let motion = situation.motion;
         let circumstance = &situation.ground.circumstance;
-        let belts = &motion.belt_speed;
+        let belts = motion.belt_speed.map(S::value);
         Self {
             // v/√(g ℓ)
             speed: motion.twist.v_y * (STANDARD_GRAVITY * scales.length).sqrt().recip(),

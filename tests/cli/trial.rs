@@ -113,7 +113,13 @@ fn a_diagnosis_reaches_nothing_of_the_trial_and_is_scored_by_the_sealed_answers(
     assert_eq!(run.status, 0, "{}", run.stderr);
     assert!(run.stdout.contains("| false claim: nulls | 0 of 2 |"), "{}", run.stdout);
 
-    // another recording, and another commitment, do not pass
+    // another vehicle, another recording, and another commitment, do not pass
+    let vehicle = text(&place, "cases/case-0002/vehicle.toml");
+    place.write("cases/case-0002/vehicle.toml", &vehicle.replacen("mass_kg = ", "mass_kg = 1", 1));
+    let run = place.run("trial score cases --name tool --key secret/answers.key");
+    assert!(run.status == 1 && run.stderr.contains("case-0002"), "{}", run.stderr);
+    assert!(run.stderr.contains("fingerprint"), "{}", run.stderr);
+    place.write("cases/case-0002/vehicle.toml", &vehicle);
     let poses = text(&place, "cases/case-0001/recording/poses.csv");
     place.write("cases/case-0001/recording/poses.csv", &poses.replacen("0,0.", "0,1.", 1));
     let run = place.run("trial score cases --name tool --key secret/answers.key");

@@ -1,7 +1,5 @@
 //! The ideal differential drive that a tracked robot is, seen at one point.
 
-use serde::Deserialize;
-use toml::Spanned;
 use trackdyn_core::PerSide;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::frames::ros_from_paper;
@@ -34,15 +32,6 @@ pub struct EquivalentDrive {
     pub sectors: usize,
 }
 
-/// The keys that an export divides or multiplies by, with their places.
-#[derive(Deserialize)]
-struct Factors {
-    steering_efficiency: Spanned<f64>,
-    alpha_left: Option<Spanned<f64>>,
-    alpha_right: Option<Spanned<f64>>,
-    y_icr_m: Spanned<f64>,
-}
-
 impl EquivalentDrive {
     /// The drive of a kinematics file (schema `trackdyn.kinematics/1`).
     ///
@@ -50,24 +39,6 @@ impl EquivalentDrive {
     /// A [`DocumentError`] that points at the line and key.
     pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
         let file = KinematicsFile::from_document(document)?;
-        let factors: Factors = document.parse()?;
-        let efficiency = Some(&factors.steering_efficiency);
-        for (factor, key) in [
-            (efficiency, "steering_efficiency"),
-            (factors.alpha_left.as_ref(), "alpha_left"),
-            (factors.alpha_right.as_ref(), "alpha_right"),
-        ] {
-            if let Some(factor) = factor
-                && !(*factor.get_ref() > 0.0 && factor.get_ref().is_finite())
-            {
-                return Err(document.value_error(factor.span(), key, "a positive number"));
-            }
-        }
-        let y = &factors.y_icr_m;
-        if !y.get_ref().is_finite() {
-            return Err(document.value_error(y.span(), "y_icr_m", "a finite number of m"));
-        }
-
         let kinematics = file.kinematics();
         let Icrs { x_left, x_right, y } = kinematics.icrs;
         let separation = x_right - x_left;

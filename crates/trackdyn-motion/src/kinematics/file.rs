@@ -214,6 +214,7 @@ impl KinematicsFile {
             let expected = format!("a number of m above x_icr_left_m = {left}");
             return Err(document.value_error(file.x_icr_right_m.span(), "x_icr_right_m", expected));
         }
+        document.parse::<Divisors>()?.check(document)?;
         Ok(file)
     }
 
@@ -257,6 +258,54 @@ impl KinematicsFile {
         Kinematics {
             icrs,
             alpha: PerSide::new(self.alpha_left.unwrap_or(1.0), self.alpha_right.unwrap_or(1.0)),
+        }
+    }
+}
+
+/// The numbers that a reader divides or multiplies by, with their places.
+#[derive(Deserialize)]
+struct Divisors {
+    steering_efficiency: Spanned<f64>,
+    alpha_left: Option<Spanned<f64>>,
+    alpha_right: Option<Spanned<f64>>,
+    y_icr_m: Spanned<f64>,
+    #[serde(default)]
+    sector: Vec<SectorDivisors>,
+}
+
+/// The same of a sector.
+#[derive(Deserialize)]
+struct SectorDivisors {
+    x_icr_left_m: f64,
+    x_icr_right_m: Spanned<f64>,
+    y_icr_m: Spanned<f64>,
+}
+
+impl Divisors {
+    fn check(&self, document: &Document) -> Result<(), DocumentError> {
+        let factors = [
+            (Some(&self.steering_efficiency), "steering_efficiency"),
+            (self.alpha_left.as_ref(), "alpha_left"),
+            (self.alpha_right.as_ref(), "alpha_right"),
+        ];
+        for (factor, key) in factors {
+            if let Some(factor) = factor
+                && !(*factor.get_ref() > 0.0 && factor.get_ref().is_finite())
+            {
+                return Err(document.value_error(factor.span(), key, "a positive number"));
+            }
+        }
+        for SectorDivisors { x_icr_left_m: left, x_icr_right_m: right, .. } in &self.sector {
+            let separation = right.get_ref() - left;
+            if !(separation > 0.0 && separation.is_finite()) {
+                let expected = format!("a number of m above x_icr_left_m = {left}");
+                return Err(document.value_error(right.span(), "x_icr_right_m", expected));
+            }
+        }
+        let sectors = self.sector.iter().map(|sector| &sector.y_icr_m);
+        match std::iter::once(&self.y_icr_m).chain(sectors).find(|y| !y.get_ref().is_finite()) {
+            Some(y) => Err(document.value_error(y.span(), "y_icr_m", "a finite number of m")),
+            None => Ok(()),
         }
     }
 }
@@ -337,5 +386,30 @@ mod tests {
             .expect_err("right of left")
             .to_string();
         assert!(error.starts_with("k.toml:4: x_icr_right_m = -0.4"), "{error}");
+    }
+
+    #[test]
+    fn numbers_that_nobody_can_drive_by_are_refused_with_their_line() {
+        let whole = file("motion-resistance").with_alpha(PerSide::new(0.97, 1.02)).to_toml();
+        let last = |key: &str| {
+            let place = whole.rfind(key).expect("it is there");
+            let line = whole[..place].matches('\n').count() + 1;
+            (place, line, whole[place..].lines().next().expect("a line").to_owned())
+        };
+        for (key, value) in [
+            ("alpha_left", "0.0"),
+            ("alpha_right", "nan"),
+            ("x_icr_right_m", "-9.0"),
+            ("y_icr_m", "inf"),
+        ] {
+            let (place, line, old) = last(key);
+            let mut text = whole.clone();
+            text.replace_range(place..place + old.len(), &format!("{key} = {value}"));
+            let error = KinematicsFile::from_document(&Document::new("k.toml", text))
+                .expect_err(key)
+                .to_string();
+            let expected = format!("k.toml:{line}: {key} = {value}: expected");
+            assert!(error.starts_with(&expected), "{error}");
+        }
     }
 }

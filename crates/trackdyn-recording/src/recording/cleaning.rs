@@ -1,15 +1,20 @@
 //! Rows that cannot be used as they are.
 
 use super::warning::{Cleaning, Finding};
-use super::{PoseSample, Sample, Series, Stream};
+use super::{PoseSample, Sample, Series, Stream, TrackSample};
+use crate::hold::travelled;
 use crate::robust::median;
 use std::f64::consts::{PI, TAU};
+use trackdyn_core::PerSide;
 
 /// An interval this many times the median one is a gap.
 const GAP: f64 = 5.0;
 
 /// An interval below this part of the median one is too short for two separate measurements.
 const CROWDED: f64 = 0.1;
+
+/// Way of a track, m, that no pose sensor overlooks.
+const STANDING: f64 = 0.005;
 
 /// Drops rows that are not finite, sorts by time, and keeps the first row of each stamp.
 pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut Vec<Cleaning>) {
@@ -54,11 +59,41 @@ pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut
     if kept.len() < samples.len() || !back.is_empty() {
         *series = series.part(&kept);
     }
-    intervals(&series.samples, report);
+}
+
+/// Drops poses that are the one before to the last digit while a track moves: a link that is sent more often than it is
+/// measured says the same again. The first of each row of equal ones is kept.
+pub(super) fn drop_held(
+    poses: &mut Series<PoseSample>,
+    tracks: &[TrackSample],
+    run: i64,
+    cleanings: &mut Vec<Cleaning>,
+) {
+    let mut kept = Vec::with_capacity(poses.samples.len());
+    let mut dropped = Vec::new();
+    let rows: Vec<(usize, &PoseSample)> = poses.samples.iter().enumerate().collect();
+    for equal in rows.chunk_by(|(_, a), (_, b)| a.pose == b.pose) {
+        let (first, last) = (equal[0].1.t, equal[equal.len() - 1].1.t);
+        let PerSide { left, right } = travelled(tracks, first, last, 0.0);
+        let is_held = left.abs().max(right.abs()) > STANDING;
+        let (stays, goes) = equal.split_at(if is_held { 1 } else { equal.len() });
+        kept.extend(stays.iter().map(|(row, _)| *row));
+        dropped.extend(goes.iter().map(|(_, sample)| sample.t));
+    }
+    if let Some(&t) = dropped.first() {
+        let (stream, finding, count) = (Stream::Poses, Finding::Held, dropped.len());
+        cleanings.push(Cleaning { stream, finding, count, runs: 1, run, t });
+        *poses = poses.part(&kept);
+    }
 }
 
 /// Finds gaps and stamps too close to be two measurements; both stay.
-fn intervals<S: Sample>(samples: &[S], mut report: impl FnMut(Finding, usize, f64)) {
+pub(super) fn intervals<S: Sample>(samples: &[S], run: i64, cleanings: &mut Vec<Cleaning>) {
+    let mut report = |finding, count, t| {
+        if count > 0 {
+            cleanings.push(Cleaning { stream: S::STREAM, finding, count, runs: 1, run, t });
+        }
+    };
     let lengths = || samples.windows(2).map(|pair| pair[1].time() - pair[0].time());
     let Some(usual) = median(&mut lengths().collect::<Vec<_>>()) else { return };
     let mut of = |is: &dyn Fn(f64) -> bool, finding: &dyn Fn(f64) -> Finding| {
@@ -106,7 +141,8 @@ pub(super) fn unwrap_yaw(poses: &mut [PoseSample], run: i64, cleanings: &mut Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recording::{Cells, Column, TrackSample};
+    use crate::recording::{Cells, Column};
+    use trackdyn_core::Pose;
 
     fn tracks(stamps: &[f64]) -> Series<TrackSample> {
         let samples: Vec<TrackSample> =
@@ -146,6 +182,7 @@ mod tests {
         let mut series = tracks(&stamps);
         let mut cleanings = Vec::new();
         clean(&mut series, 0, &mut cleanings);
+        intervals(&series.samples, 0, &mut cleanings);
         assert_eq!(series, tracks(&stamps));
         assert_eq!(found(&cleanings), [(Finding::Crowded, 1), (Finding::Gap { longest: 10.0 }, 1)]);
         assert_eq!(cleanings[1].t, 4.0);
@@ -156,8 +193,34 @@ mod tests {
         let mut series = tracks(&[0.0, 1.0, 2.0]);
         let mut cleanings = Vec::new();
         clean(&mut series, 0, &mut cleanings);
+        intervals(&series.samples, 0, &mut cleanings);
         assert_eq!(series, tracks(&[0.0, 1.0, 2.0]));
         assert!(cleanings.is_empty());
+    }
+
+    #[test]
+    fn poses_that_are_sent_again_while_the_tracks_move_go() {
+        // 0.5 m/s from 1 s on; a pose every 20 ms, measured every 60 ms
+        let drive = [(0.0, 0.0), (1.0, 0.5), (2.0, 0.5)];
+        let drive = drive.map(|(t, v)| TrackSample { t, v_left: v, v_right: v });
+        let pose = |step: u32| {
+            let t = 0.02 * f64::from(step);
+            let measured = 0.06 * f64::from(step / 3);
+            let x = 0.5 * (measured - 1.0).max(0.0);
+            PoseSample { t, pose: Pose::new(x, 0.0, 0.0) }
+        };
+        let samples: Vec<PoseSample> = (0..=100).map(pose).collect();
+        let mut series = Series { samples: samples.clone(), extra: Vec::new() };
+        let mut cleanings = Vec::new();
+        drop_held(&mut series, &drive, 0, &mut cleanings);
+        // all that stand and the first one of each that moves
+        let moves = |step: u32| step / 3 >= 17;
+        let expected: Vec<PoseSample> =
+            (0..=100).filter(|step| !moves(*step) || step % 3 == 0).map(pose).collect();
+        assert_eq!(series.samples, expected);
+        assert_eq!(found(&cleanings), [(Finding::Held, samples.len() - series.samples.len())]);
+        drop_held(&mut series, &drive, 0, &mut cleanings);
+        assert_eq!(cleanings.len(), 1, "nothing is left to drop");
     }
 
     #[test]

@@ -96,6 +96,8 @@ pub enum Finding {
     Unsorted,
     /// A stamp that stands there already: the first row is kept.
     Repeated,
+    /// A pose that is the one before to the last digit while a track moves: the first is kept.
+    Held,
     /// Stamps closer than a tenth of the median interval: both stay, but one of them is likely wrong.
     Crowded,
     /// An interval of more than five times the median one.
@@ -105,13 +107,6 @@ pub enum Finding {
     },
     /// A jump of yaw by more than half a turn: whole turns are added from there on.
     YawUnwrapped,
-}
-
-impl Finding {
-    /// Whether rows were dropped or moved because of it.
-    pub(crate) fn changes_rows(self) -> bool {
-        matches!(self, Self::NotFinite | Self::Unsorted | Self::Repeated)
-    }
 }
 
 /// Gathers findings of the same kind in the same series; the first place stands for all.
@@ -146,6 +141,9 @@ impl fmt::Display for Cleaning {
             Finding::NotFinite => write!(f, "rows with an empty cell, NaN or infinity dropped")?,
             Finding::Unsorted => write!(f, "steps back in time, rows sorted")?,
             Finding::Repeated => write!(f, "rows with a repeated stamp dropped, the first kept")?,
+            Finding::Held => {
+                write!(f, "rows dropped that repeat the one before while the tracks move")?;
+            }
             Finding::Crowded => {
                 write!(f, "intervals below a tenth of the median: stamps may be wrong")?;
             }

@@ -83,8 +83,8 @@ impl<'m> Stationary<'m> {
     /// No pair of speeds knows of another, so the order of solves does not matter. The result carries
     /// its status; read it before the numbers.
     ///
-    /// Where belts slip on their sprockets, speeds and traction are found in turns: friction knows speeds by their
-    /// ratios alone, so the next traction hardly differs.
+    /// Where belts slip on their sprockets, speeds and traction are found in turns: Coulomb's friction knows speeds by
+    /// their ratios alone, so the next traction hardly differs.
     pub fn solve(&self, track_speed: PerSide<f64>) -> Solution {
         let driven = self.model.drive().driven(track_speed);
         let mut solution = self.solve_belts(driven);
@@ -99,7 +99,7 @@ impl<'m> Stationary<'m> {
     fn slipping(&self, driven: PerSide<f64>, firm: Solution) -> Solution {
         let tolerance = SETTLED * driven.left.abs().max(driven.right.abs());
         let mut solution = firm;
-        let (mut share, mut last_change) = (1.0, f64::INFINITY);
+        let (mut share, mut last) = (1.0, PerSide::new(0.0, 0.0));
         let mut may_be_straight = true;
         for _ in 0..MOST_TURNS {
             let Some(traction) = self.traction(&solution) else { break };
@@ -117,11 +117,11 @@ impl<'m> Stationary<'m> {
                 }
                 may_be_straight = false;
             }
-            // What comes back as large as it went is met half-way.
-            if change > 0.5 * last_change {
+            // What turns back is met half-way.
+            if step.left * last.left + step.right * last.right < 0.0 {
                 share *= 0.5;
             }
-            last_change = change;
+            last = step;
             let belts = PerSide::from_fn(|side| belts[side] + share * step[side]);
             solution = self.starting_at(solution.near()).solve_belts(belts);
         }
@@ -157,8 +157,9 @@ impl<'m> Stationary<'m> {
             Some(difference(&self.model.drive().belt_speed(driven, self.traction(solution)?)))
         };
         let holds = turns(&left)? <= 0.0 && turns(&right)? >= 0.0;
+        let lifts = [&left, &right].iter().any(|end| end.status == Status::Lifts);
         holds.then(|| Solution {
-            status: Status::Straight,
+            status: if lifts { Status::Lifts } else { Status::Straight },
             belt_speed: PerSide::new(speed, speed),
             twist: Twist { v_x: 0.0, v_y: speed, w: 0.0 },
             icrs: None,

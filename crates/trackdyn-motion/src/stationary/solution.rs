@@ -17,8 +17,8 @@ pub struct Solution {
     /// Twist of the hull, paper's frame.
     pub twist: Twist,
     /// The ICRs of the tracks by the speeds α V that odometry knows, which a belt that slips on its
-    /// sprocket does not reach; none where one track holds the robot, or both do. At equal speeds they are the
-    /// limit of a vanishing turn.
+    /// sprocket does not reach; none where one track holds the robot, or both do. At equal speeds of belts that
+    /// do not slip they are the limit of a vanishing turn.
     pub icrs: Option<Icrs>,
     /// Norm of the sum of forces over the weight and moments over weight times gauge.
     pub residual: f64,

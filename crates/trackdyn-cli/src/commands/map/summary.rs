@@ -55,7 +55,7 @@ fn motions(text: &mut String, map: &IcrMap) {
     // In the order of Status::NAMES.
     let meaning = [
         "turn and enter the means",
-        "are straight: equal speeds",
+        "are straight: both tracks stick",
         "are held straight by one track",
         "lift part of the contact: gaps",
         "have no balance of forces: gaps",

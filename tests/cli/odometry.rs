@@ -223,7 +223,7 @@ fn mistakes_are_named_and_nothing_is_written() {
         ),
         (
             "odometry recording --vehicle robot.toml --kinematics nan.toml",
-            "nan.toml: alpha_left = NaN: expected at most 1000 in size",
+            "nan.toml:8: alpha_left = nan: expected a positive number",
         ),
         (
             "odometry recording --vehicle robot.toml --runs 1,7",

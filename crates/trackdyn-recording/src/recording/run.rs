@@ -1,6 +1,6 @@
 //! A continuous part of a recording.
 
-use super::cleaning::{clean, drop_held, intervals, unwrap_yaw};
+use super::cleaning::{clean, held, intervals, unwrap_yaw};
 use super::warning::Cleaning;
 use super::{ImuSample, PoseSample, Series, TrackSample};
 
@@ -31,7 +31,7 @@ impl Run {
         clean(&mut rows.tracks, rows.id, cleanings);
         clean(&mut rows.poses, rows.id, cleanings);
         clean(&mut rows.imu, rows.id, cleanings);
-        drop_held(&mut rows.poses, &rows.tracks.samples, rows.id, cleanings);
+        held(&rows.poses.samples, &rows.tracks.samples, rows.id, cleanings);
         intervals(&rows.tracks.samples, rows.id, cleanings);
         intervals(&rows.poses.samples, rows.id, cleanings);
         intervals(&rows.imu.samples, rows.id, cleanings);

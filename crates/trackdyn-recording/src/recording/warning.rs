@@ -96,7 +96,7 @@ pub enum Finding {
     Unsorted,
     /// A stamp that stands there already: the first row is kept.
     Repeated,
-    /// A pose that is the one before to the last digit while a track moves: the first is kept.
+    /// A pose that is the one before to the last digit while a track moves: it stays.
     Held,
     /// Stamps closer than a tenth of the median interval: both stay, but one of them is likely wrong.
     Crowded,
@@ -142,7 +142,10 @@ impl fmt::Display for Cleaning {
             Finding::Unsorted => write!(f, "steps back in time, rows sorted")?,
             Finding::Repeated => write!(f, "rows with a repeated stamp dropped, the first kept")?,
             Finding::Held => {
-                write!(f, "rows dropped that repeat the one before while the tracks move")?;
+                write!(
+                    f,
+                    "rows repeat the one before while the tracks move: sent again, not measured?"
+                )?;
             }
             Finding::Crowded => {
                 write!(f, "intervals below a tenth of the median: stamps may be wrong")?;

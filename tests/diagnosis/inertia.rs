@@ -30,8 +30,8 @@ fn what_inertia_adds_is_late_with_the_belts() {
     }
 }
 
-/// The departure by inertia is found without these laws, and what they change in it from the lag of the stationary motion: that is
-/// most of what a motion in time with them gives, which takes a hundred times as long.
+/// The departure by inertia is found without these laws, and what they change in it by a step of Newton's method: that is most of
+/// what a motion in time with them gives, which takes a hundred times as long.
 #[test]
 fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
     let (plain, evidence) = by_hand();
@@ -39,6 +39,8 @@ fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
         "stribeck-friction:excess=0.35,speed_m_per_s=0.08",
         "stribeck-friction:excess=0.35,speed_m_per_s=0.2",
         "viscous-friction:growth_s_per_m=1.0",
+        "viscous-friction:growth_s_per_m=0.15",
+        "shear-displacement:modulus_m=0.01",
         "friction-creep:speed_m_per_s=0.05",
     ] {
         let law: ActiveEffect = law.parse().expect("an effect");

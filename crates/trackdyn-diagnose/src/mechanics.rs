@@ -9,14 +9,14 @@
 //!
 //! # Assumes
 //! The departures are found without the laws that change the shear stress, which need a quadrature per solve. What
-//! these change in that by ground is a product of two small things; what they change in that by inertia is linear in
-//! the acceleration. So is what any law changes where no motion in time goes through: the ticks of a coarse counter may
-//! tip a high robot over that never was near to it.
+//! these change in that by ground is a product of two small things; what they change in that by inertia is one step of
+//! Newton's method away. Where no motion in time goes through, that of a hypothesis that resembles this one stands in: the
+//! ticks of a coarse counter may tip a high robot over that never was near to it.
 
 mod belts;
 mod ground;
 mod inertia;
-mod lag;
+mod sheared;
 
 use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::{Hypothesis, Unknown};
@@ -24,7 +24,6 @@ use crate::surface::{Steady, Surface};
 use belts::lagging;
 use ground::{by_ground, varies};
 use inertia::{Case, InertiaNear, Within, has_slope};
-use lag::by_lag;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -56,9 +55,9 @@ pub struct Mechanics {
     ground: Option<Arc<Vec<Twist>>>,
     /// What inertia adds, of a model without laws of the shear stress.
     inertia: Option<InertiaNear>,
-    /// What the hypothesis changes in that, at each reading.
-    by_lag: Option<Arc<Vec<Vec<Twist>>>>,
-    /// Its laws of the shear stress, which do so.
+    /// What laws of the shear stress change in that, at each reading.
+    sheared: Option<Arc<Vec<Vec<Twist>>>>,
+    /// These laws.
     shear: Vec<ActiveEffect>,
     /// Whether inertia is that of another robot, for no motion in time goes through with this one.
     stands_in: bool,
@@ -188,7 +187,7 @@ impl Mechanics {
             drive,
             ground: None,
             inertia: None,
-            by_lag: None,
+            sheared: None,
             shear: constant.iter().filter(|effect| shears(effect)).cloned().collect(),
             stands_in: false,
             failed: None,
@@ -215,33 +214,29 @@ impl Mechanics {
         let case = Case { vehicle, model: &simple, largest, drive: &drive, evidence };
         // Where no motion in time goes through, that of a hypothesis that resembles this one is taken.
         let known = before.and_then(|before| before.inertia.as_ref());
-        let reference = match (inertia(inert, &case), known) {
-            (Ok(found), _) => {
-                mechanics.inertia = Some(found);
-                simple
-            }
+        match (inertia(inert, &case), known) {
+            (Ok(found), _) => mechanics.inertia = Some(found),
             (Err(_), Some(known)) => {
                 mechanics.inertia = Some(known.unmoved());
                 mechanics.stands_in = true;
-                known.model().clone()
+                return mechanics;
             }
             (Err(reason), None) => {
                 mechanics.failed = Some(reason);
                 return mechanics;
             }
-        };
-        let kept = kept.filter(|kept| !mechanics.stands_in && kept.shear == mechanics.shear);
-        if let Some(kept) = kept {
-            mechanics.by_lag.clone_from(&kept.by_lag);
-        } else if reference.effects() != model.effects() || reference.vehicle() != model.vehicle() {
-            let [with, without] = [&model, &reference].map(|model| mechanics.surface.lags(model));
-            let belts = lagging(evidence.tracks(), drive.time_constant);
-            let twist = |steady: &Steady| steady.twist(&[0.0; 3]);
-            let runs = mechanics.steady.iter();
-            let steady: Vec<Vec<Twist>> = runs.map(|run| run.iter().map(twist).collect()).collect();
-            let departures = by_lag([&with, &without], &drive, &belts, &steady);
-            mechanics.by_lag = Some(Arc::new(departures));
         }
+        if mechanics.shear.is_empty() {
+            return mechanics;
+        }
+        let kept = kept.filter(|kept| !kept.stands_in && kept.shear == mechanics.shear);
+        mechanics.sheared = match (kept, &mechanics.inertia) {
+            (Some(kept), _) => kept.sheared.clone(),
+            (None, Some(inertia)) => {
+                Some(Arc::new(inertia.sheared(&mechanics.shear, &mechanics.surface)))
+            }
+            (None, None) => None,
+        };
         mechanics
     }
 
@@ -299,14 +294,14 @@ impl Mechanics {
                 let departure = departure.map(|departure| seen_from(&departure, offset));
                 let tracks = &evidence.tracks()[sample.run];
                 let steady = &steady[sample.run];
-                let by_lag = self.by_lag.as_ref().map(|departures| &departures[sample.run]);
+                let sheared = self.sheared.as_ref().map(|departures| &departures[sample.run]);
                 let pose = motion_over(tracks, sample, sensor.delay, |reading| {
                     let mut twist = steady[reading].twist(offset);
                     if let Some(departure) = &departure {
                         twist = plus(&twist, departure);
                     }
-                    if let Some(by_lag) = by_lag {
-                        twist = plus(&twist, &seen_from(&by_lag[reading], offset));
+                    if let Some(sheared) = sheared {
+                        twist = plus(&twist, &seen_from(&sheared[reading], offset));
                     }
                     ros_twist_from_paper(&sensor.reported(&twist))
                 });

@@ -10,11 +10,11 @@
 
 mod table;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use rayon::prelude::*;
 use table::{Grid, Spacing, Table};
 use trackdyn_core::{PerSide, Side, Twist, real};
-use trackdyn_motion::{Icrs, Near, Stationary, Status, lag};
+use trackdyn_motion::{Icrs, Near, Stationary, Status};
 use trackdyn_physics::effect::{Stage, Symmetry};
 use trackdyn_physics::{Circumstance, Model};
 
@@ -22,7 +22,7 @@ use trackdyn_physics::{Circumstance, Model};
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// (v_x, v_y − V̄, w) over the scale.
-    beyond: Table<1>,
+    beyond: Table,
     scale: Scale,
     unsolved: usize,
 }
@@ -44,10 +44,6 @@ impl Scale {
         }
     }
 }
-
-/// A table of how far motions stay behind the stationary ones: Λ, s.
-#[derive(Clone, Debug)]
-pub struct Lags(Table<3>);
 
 impl Surface {
     /// The stationary motions of a model whose gain is one, up to belt speeds of size `largest`, m/s.
@@ -74,18 +70,6 @@ impl Surface {
         Self { beyond: Table::new(grid, &solved), scale, unsolved }
     }
 
-    /// How far the motions of a model stay behind these stationary ones.
-    pub fn lags(&self, model: &Model) -> Lags {
-        let grid = self.beyond.grid();
-        let ground = model.ground(&Circumstance::default());
-        let at_node = |index: usize| -> Option<Matrix3<f64>> {
-            let speeds = grid.speeds(index);
-            lag(model, &ground, speeds, &self.motion(speeds).twist(&[0.0; 3]))
-        };
-        let lags: Vec<_> = (0..Grid::NODES).into_par_iter().map(at_node).collect();
-        Lags(Table::new(grid.clone(), &lags))
-    }
-
     /// Share of the nodes without a motion: part of the contact lifts, or no balance was found.
     pub fn unsolved(&self) -> f64 {
         real(self.unsolved) / real(Grid::NODES)
@@ -105,13 +89,6 @@ impl Surface {
             return Steady { mean: mean + beyond[1], difference, beyond: Vector3::zeros() };
         }
         Steady { mean, difference, beyond: beyond / difference }
-    }
-}
-
-impl Lags {
-    /// The matrix Λ (s, paper's frame) at belt speeds.
-    pub fn at(&self, speeds: PerSide<f64>) -> Matrix3<f64> {
-        self.0.at(speeds)
     }
 }
 

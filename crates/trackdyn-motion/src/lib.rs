@@ -2,21 +2,21 @@
 //!
 //! - [`stationary`]: the motion at which the forces balance, for a pair of track speeds.
 //! - [`transient`]: the motion in time, with stick and slip.
-//! - [`lag`]: how far the motion in time stays behind the stationary one.
+//! - [`Forces`]: what pushes the body at a motion, and how that changes with it.
 //! - [`map`]: that motion over a grid of speeds, its means, spreads and sectors.
 //! - [`kinematics`]: what the means are for: equations (7)-(13) with constant ICRs.
 
+mod forces;
 pub mod icr;
 pub mod kinematics;
-mod lag;
 pub mod map;
 mod newton;
 pub mod stationary;
 pub mod transient;
 
+pub use forces::Forces;
 pub use icr::Icrs;
 pub use kinematics::Kinematics;
-pub use lag::lag;
 pub use map::{Grid, IcrMap};
 pub use stationary::{Near, Solution, Stationary, Status};
 pub use transient::Transient;

@@ -5,6 +5,7 @@
 //! found for, it is linear in those that are free: d(θ) = d(θ₀) + Σ (θ − θ₀) ∂d/∂θ, as far as [`REACH`].
 
 use super::belts::{lagging, smooth};
+use super::sheared::{self, Without};
 use super::{minus, motion_over, plus};
 use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::{Unknown, active, find, typical_size, value, with_friction};
@@ -13,8 +14,9 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
-use trackdyn_motion::Transient;
-use trackdyn_physics::{ActiveEffect, CATALOGUE, Drive, Effects, Model, Vehicle};
+use trackdyn_motion::{Forces, Transient};
+use trackdyn_physics::contact::quadrature::Resolution;
+use trackdyn_physics::{ActiveEffect, CATALOGUE, Circumstance, Drive, Effects, Model, Vehicle};
 use trackdyn_recording::TrackSample;
 
 /// Longest step of the motion in time, s: readings come more often.
@@ -170,9 +172,10 @@ impl InertiaNear {
         Self { shift: None, ..self.clone() }
     }
 
-    /// The robot that it was found for.
-    pub fn model(&self) -> &Model {
-        &self.at.model
+    /// What laws of the shear stress change in it where it was found, at each reading; `surface` has the stationary motions
+    /// with them.
+    pub fn sheared(&self, laws: &[ActiveEffect], surface: &Surface) -> Vec<Vec<Twist>> {
+        self.at.sheared(laws, surface)
     }
 
     /// Whether both come from one motion in time.
@@ -347,6 +350,31 @@ impl Inertia {
         are_same(&self.inert, &other.inert)
             && self.later(&other.drive).abs() <= AS_LATE
             && changes.all(|(by, change)| change.abs() <= REACH * size(by))
+    }
+
+    /// What laws of the shear stress change in the motion in time, at each reading.
+    fn sheared(&self, laws: &[ActiveEffect], surface: &Surface) -> Vec<Vec<Twist>> {
+        let mut effects = self.model.effects().clone();
+        for law in laws {
+            effects.insert(law.clone());
+        }
+        let with = Model::new(self.vehicle.clone(), effects).with_resolution(Resolution::Rough);
+        let level = Circumstance::default();
+        let grounds = [&with, &self.model].map(|model| model.ground(&level));
+        let with = Forces { model: &with, ground: &grounds[0], creep: CREEP };
+        let without = Forces { model: &self.model, ground: &grounds[1], creep: CREEP };
+        let runs = self.paths.par_iter().zip(&self.belts).zip(&self.steady);
+        runs.map(|((path, belts), steady)| {
+            let there: Vec<Twist> = belts
+                .iter()
+                .map(|reading| {
+                    let speeds = PerSide::new(reading.v_left, reading.v_right);
+                    surface.motion(speeds).twist(&[0.0; 3])
+                })
+                .collect();
+            sheared::departures([&with, &without], &Without { path, belts, steady }, &there)
+        })
+        .collect()
     }
 
     /// The motion in time less the stationary motion, as a twist over a sample.

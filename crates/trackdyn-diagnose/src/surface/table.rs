@@ -4,7 +4,7 @@
 //! the size ρ of (V_l, V_r); between sectors it may jump. It is interpolated on Chebyshev nodes of each sector, which
 //! lie inside it, so that no node stands on an edge.
 
-use nalgebra::SMatrix;
+use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_4, PI};
 use trackdyn_core::{PerSide, real};
 
@@ -60,9 +60,9 @@ pub struct Grid {
 
 /// Values of three rows at the nodes.
 #[derive(Clone, Debug)]
-pub struct Table<const C: usize> {
+pub struct Table {
     grid: Grid,
-    nodes: Vec<SMatrix<f64, 3, C>>,
+    nodes: Vec<Vector3<f64>>,
 }
 
 impl Grid {
@@ -84,20 +84,15 @@ impl Grid {
     }
 }
 
-impl<const C: usize> Table<C> {
+impl Table {
     /// The table of values at all nodes, in their order; where there is none, that of the nearest node of the same
     /// sector, or zero.
-    pub fn new(grid: Grid, values: &[Option<SMatrix<f64, 3, C>>]) -> Self {
+    pub fn new(grid: Grid, values: &[Option<Vector3<f64>>]) -> Self {
         Self { grid, nodes: filled(values) }
     }
 
-    /// The places of its nodes.
-    pub fn grid(&self) -> &Grid {
-        &self.grid
-    }
-
     /// The value at belt speeds.
-    pub fn at(&self, speeds: PerSide<f64>) -> SMatrix<f64, 3, C> {
+    pub fn at(&self, speeds: PerSide<f64>) -> Vector3<f64> {
         let Grid { largest, spacing, angles, sizes } = &self.grid;
         let squared =
             (speeds.left * speeds.left + speeds.right * speeds.right) / (largest * largest);
@@ -108,7 +103,7 @@ impl<const C: usize> Table<C> {
         let along = angles.weights(phi - real(sector));
         let outwards = sizes.weights(size);
         let nodes = &self.nodes[sector * SIZES * ANGLES..][..SIZES * ANGLES];
-        let mut sum = SMatrix::zeros();
+        let mut sum = Vector3::zeros();
         for (row, weight) in nodes.chunks_exact(ANGLES).zip(outwards) {
             for (node, along) in row.iter().zip(along) {
                 sum += node * (along * weight);
@@ -119,7 +114,7 @@ impl<const C: usize> Table<C> {
 }
 
 /// The nodes, with the nearest one of the same sector where one has no value.
-fn filled<const C: usize>(values: &[Option<SMatrix<f64, 3, C>>]) -> Vec<SMatrix<f64, 3, C>> {
+fn filled(values: &[Option<Vector3<f64>>]) -> Vec<Vector3<f64>> {
     let place = |index: usize| (index % (SIZES * ANGLES) / ANGLES, index % ANGLES);
     let fill = |index: usize| {
         let sector = index / (SIZES * ANGLES) * SIZES * ANGLES;
@@ -130,7 +125,7 @@ fn filled<const C: usize>(values: &[Option<SMatrix<f64, 3, C>>]) -> Vec<SMatrix<
             let (other_size, other_angle) = place(*other);
             (other_size.abs_diff(size) + other_angle.abs_diff(angle), *other)
         });
-        nearest.map_or_else(SMatrix::zeros, |(_, node)| node)
+        nearest.map_or_else(Vector3::zeros, |(_, node)| node)
     };
     values.iter().enumerate().map(|(index, node)| node.unwrap_or_else(|| fill(index))).collect()
 }

@@ -54,6 +54,12 @@ static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(4, 12));
 /// The same for a patch that is hardly longer than wide.
 static COARSE_SHORT: LazyLock<Rule> = LazyLock::new(|| Rule::graded(6, 8));
 
+/// Resolves what a law changes to some hundredths of it, in an eighth of that time again.
+static ROUGH: LazyLock<Rule> = LazyLock::new(|| Rule::graded(1, 5));
+
+/// The same for a patch that is hardly longer than wide.
+static ROUGH_SHORT: LazyLock<Rule> = LazyLock::new(|| Rule::graded(2, 3));
+
 /// How finely laws of the shear stress are integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Resolution {
@@ -62,6 +68,8 @@ pub enum Resolution {
     Fine,
     /// To a thousandth of what a law changes: for comparing with noisy data.
     Coarse,
+    /// To some hundredths of it: for what is a correction itself.
+    Rough,
 }
 
 /// Friction wrench under the base law where the ICR is far from every patch, about the origin.
@@ -99,10 +107,13 @@ pub fn departure_wrench<S: Scalar>(
 ) -> Wrench<S> {
     let mut wrench = Wrench::zero();
     for patch in patches {
-        let rule = match resolution {
-            Resolution::Fine => &FINE,
-            Resolution::Coarse if patch.length() < 2.0 * patch.width() => &COARSE_SHORT,
-            Resolution::Coarse => &COARSE,
+        let is_short = patch.length() < 2.0 * patch.width();
+        let rule = match (resolution, is_short) {
+            (Resolution::Fine, _) => &FINE,
+            (Resolution::Coarse, false) => &COARSE,
+            (Resolution::Coarse, true) => &COARSE_SHORT,
+            (Resolution::Rough, false) => &ROUGH,
+            (Resolution::Rough, true) => &ROUGH_SHORT,
         };
         let panels = Panels::cut(patch, slip);
         wrench += integrate(rule, &panels, slip, |site| {

@@ -214,8 +214,8 @@ impl Mechanics {
         let case = Case { vehicle, model: &simple, largest, drive: &drive, evidence };
         // Where no motion in time goes through, that of a hypothesis that resembles this one is taken.
         let known = before.and_then(|before| before.inertia.as_ref());
-        match (inertia(inert, &case), known) {
-            (Ok(found), _) => mechanics.inertia = Some(found),
+        let found = match (inertia(inert, &case), known) {
+            (Ok(found), _) => found,
             (Err(_), Some(known)) => {
                 mechanics.inertia = Some(known.unmoved());
                 mechanics.stands_in = true;
@@ -225,18 +225,14 @@ impl Mechanics {
                 mechanics.failed = Some(reason);
                 return mechanics;
             }
-        }
-        if mechanics.shear.is_empty() {
-            return mechanics;
-        }
-        let kept = kept.filter(|kept| !kept.stands_in && kept.shear == mechanics.shear);
-        mechanics.sheared = match (kept, &mechanics.inertia) {
-            (Some(kept), _) => kept.sheared.clone(),
-            (None, Some(inertia)) => {
-                Some(Arc::new(inertia.sheared(&mechanics.shear, &mechanics.surface)))
-            }
-            (None, None) => None,
         };
+        let kept = kept.filter(|kept| !kept.stands_in && kept.shear == mechanics.shear);
+        mechanics.sheared = match kept {
+            Some(kept) => kept.sheared.clone(),
+            None if mechanics.shear.is_empty() => None,
+            None => Some(Arc::new(found.sheared(&mechanics.shear, &mechanics.surface))),
+        };
+        mechanics.inertia = Some(found);
         mechanics
     }
 

@@ -1,6 +1,6 @@
 //! The sum of all forces on the body at a motion, and how it changes with the motion.
 
-use crate::transient::net_force;
+use crate::transient::gripping;
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Twist, Wrench};
 use trackdyn_physics::{Ground, Model, Motion};
@@ -24,37 +24,27 @@ impl Forces<'_> {
         Vector3::from(self.at(belts, [v_x, v_y, w], *rate))
     }
 
-    /// Their sum, and its derivatives by the twist.
-    pub fn by_twist(
+    /// Their sum, and its derivatives by the twist and by its rate.
+    pub fn near(
         &self,
         belts: PerSide<f64>,
         twist: &Twist,
         rate: &Twist,
-    ) -> (Vector3<f64>, Matrix3<f64>) {
-        let Twist { v_x, v_y, w } = *rate;
-        let rate = Twist { v_x: v_x.into(), v_y: v_y.into(), w: w.into() };
-        let sum = self.at(belts, Dual::variables([twist.v_x, twist.v_y, twist.w]), rate);
-        (Vector3::from(sum.map(|row| row.value)), gradients(&sum))
-    }
-
-    /// The derivatives of their sum by the rate of the twist.
-    pub fn by_rate(&self, belts: PerSide<f64>, twist: &Twist) -> Matrix3<f64> {
-        let [v_x, v_y, w] = Dual::variables([0.0; 3]);
-        let twist = [twist.v_x, twist.v_y, twist.w].map(Dual::from);
-        gradients(&self.at(belts, twist, Twist { v_x, v_y, w }))
+    ) -> (Vector3<f64>, [Matrix3<f64>; 2]) {
+        let [v_x, v_y, w, a_x, a_y, a_w] =
+            Dual::<6>::variables([twist.v_x, twist.v_y, twist.w, rate.v_x, rate.v_y, rate.w]);
+        let sum = self.at(belts, [v_x, v_y, w], Twist { v_x: a_x, v_y: a_y, w: a_w });
+        let by = |first: usize| Matrix3::from_fn(|row, column| sum[row].gradient[first + column]);
+        (Vector3::from(sum.map(|row| row.value)), [by(0), by(3)])
     }
 
     fn at<S: Scalar>(&self, belts: PerSide<f64>, [v_x, v_y, w]: [S; 3], rate: Twist<S>) -> [S; 3] {
         let departure = Twist { v_x, v_y: v_y - belts.left, w };
         let motion = Motion::departing(belts.map(S::from), departure, rate, self.model.extent());
         let Wrench { force_x, force_y, moment } =
-            net_force(self.model, self.ground, &motion, self.creep);
+            gripping(self.model, self.ground, &motion, self.creep).sum();
         [force_x, force_y, moment]
     }
-}
-
-fn gradients(rows: &[Dual<3>; 3]) -> Matrix3<f64> {
-    Matrix3::from_fn(|row, column| rows[row].gradient[column])
 }
 
 #[cfg(test)]
@@ -83,8 +73,7 @@ mod tests {
             values[column] += step;
             Twist { v_x: values[0], v_y: values[1], w: values[2] }
         };
-        let (sum, by_twist) = forces.by_twist(belts, &twist, &still);
-        let by_rate = forces.by_rate(belts, &twist);
+        let (sum, [by_twist, by_rate]) = forces.near(belts, &twist, &still);
         assert!((sum - forces.sum(belts, &twist, &still)).norm() < 1e-12 * weight);
         for column in 0..3 {
             let [ahead, behind] =

@@ -24,7 +24,7 @@
 
 mod stage;
 
-pub(crate) use stage::net_force;
+pub(crate) use stage::gripping;
 
 use stage::{Balanced, Inverse, Stage, Start};
 use trackdyn_core::frames::ros_twist_from_paper;

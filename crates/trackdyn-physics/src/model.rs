@@ -61,6 +61,18 @@ pub struct Balance<S = f64> {
     pub normal_load: PerSide<S>,
 }
 
+impl<S: Scalar> Balance<S> {
+    /// All of them, which are zero together where they balance.
+    #[inline]
+    pub fn sum(&self) -> Wrench<S> {
+        let mut sum = self.load;
+        for side in Side::BOTH {
+            sum += self.friction[side];
+        }
+        sum
+    }
+}
+
 impl Model {
     /// The model of a vehicle on ground with these effects.
     pub fn new(mut vehicle: Vehicle, effects: Effects) -> Self {

@@ -288,8 +288,8 @@ impl Inertia {
         let Case { model, largest, drive, evidence, .. } = *case;
         let surface = Surface::new(model, largest, None);
         let gained = |reading: &TrackSample| {
-            let speeds = drive.driven(PerSide::new(reading.v_left, reading.v_right));
-            TrackSample { t: reading.t, v_left: speeds.left, v_right: speeds.right }
+            let PerSide { left, right } = drive.driven(speeds(reading));
+            TrackSample { t: reading.t, v_left: left, v_right: right }
         };
         let belts: Vec<Vec<TrackSample>> = lagging(evidence.tracks(), drive.time_constant)
             .iter()
@@ -297,9 +297,7 @@ impl Inertia {
             .collect();
         let paths: Result<Vec<Trajectory>, String> =
             belts.par_iter().map(|run| path_in_time(model, &surface, run)).collect();
-        let speeds = |reading: &TrackSample| PerSide::new(reading.v_left, reading.v_right);
-        let twist = |reading: &TrackSample| surface.motion(speeds(reading)).twist(&[0.0; 3]);
-        let steady = belts.iter().map(|run| run.iter().map(twist).collect()).collect();
+        let steady = belts.iter().map(|run| stationary(&surface, run)).collect();
         let vehicle = case.vehicle.clone();
         let (model, drive) = (model.clone(), *drive);
         Ok(Self { inert, vehicle, model, drive, paths: paths?, belts, steady })
@@ -365,14 +363,8 @@ impl Inertia {
         let without = Forces { model: &self.model, ground: &grounds[1], creep: CREEP };
         let runs = self.paths.par_iter().zip(&self.belts).zip(&self.steady);
         runs.map(|((path, belts), steady)| {
-            let there: Vec<Twist> = belts
-                .iter()
-                .map(|reading| {
-                    let speeds = PerSide::new(reading.v_left, reading.v_right);
-                    surface.motion(speeds).twist(&[0.0; 3])
-                })
-                .collect();
-            sheared::departures([&with, &without], &Without { path, belts, steady }, &there)
+            let run = Without { path, belts, steady };
+            sheared::departures([&with, &without], &run, &stationary(surface, belts))
         })
         .collect()
     }
@@ -391,6 +383,16 @@ impl Inertia {
     }
 }
 
+/// Speeds of the belts at a reading, m/s.
+fn speeds(reading: &TrackSample) -> PerSide<f64> {
+    PerSide::new(reading.v_left, reading.v_right)
+}
+
+/// The stationary twist at each reading of a run.
+fn stationary(surface: &Surface, belts: &[TrackSample]) -> Vec<Twist> {
+    belts.iter().map(|reading| surface.motion(speeds(reading)).twist(&[0.0; 3])).collect()
+}
+
 /// The motion in time over a run.
 fn path_in_time(
     model: &Model,
@@ -399,7 +401,6 @@ fn path_in_time(
 ) -> Result<Trajectory, String> {
     let mut path = Trajectory::default();
     let Some(first) = belts.first() else { return Ok(path) };
-    let speeds = |sample: &TrackSample| PerSide::new(sample.v_left, sample.v_right);
     let start = surface.motion(speeds(first)).twist(&[0.0; 3]);
     let mut robot = Transient::at_rest(model, first.t, Pose::default())
         .with_step(STEP)

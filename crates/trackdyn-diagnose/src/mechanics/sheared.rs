@@ -13,7 +13,7 @@
 //! zero. By the implicit Euler rule over the steps of the motion without,
 //! (G_u + G_a/h) ε_k = G_a ε_{k−1}/h − G.
 
-use super::minus;
+use super::{minus, plus};
 use nalgebra::Vector3;
 use trackdyn_core::frames::paper_twist_from_ros;
 use trackdyn_core::{PerSide, Trajectory, Twist};
@@ -57,10 +57,9 @@ pub fn departures(forces: [&Forces; 2], run: &Without, steady: &[Twist]) -> Vec<
             let twist = paper_twist_from_ros(&moment.twist);
             let change = minus(&twist, &paper_twist_from_ros(&before.twist));
             let rate = Twist { v_x: change.v_x / h, v_y: change.v_y / h, w: change.w / h };
-            let moved = super::plus(&twist, &shift);
             let belts = moment.belt_speed;
-            let (force, by_twist) = with.by_twist(belts, &moved, &rate);
-            let by_rate = with.by_rate(belts, &moved) / h;
+            let (force, [by_twist, by_rate]) = with.near(belts, &plus(&twist, &shift), &rate);
+            let by_rate = by_rate / h;
             let off = force - without.sum(belts, &twist, &rate) - rest;
             epsilon = (by_twist + by_rate)
                 .try_inverse()

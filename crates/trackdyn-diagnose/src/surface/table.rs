@@ -58,7 +58,7 @@ pub struct Grid {
     sizes: Nodes<SIZES>,
 }
 
-/// Values of three rows at the nodes.
+/// Values at the nodes.
 #[derive(Clone, Debug)]
 pub struct Table {
     grid: Grid,

@@ -209,11 +209,7 @@ impl KinematicsFile {
                 return Err(document.value_error(text.span(), key, format!("\"{expected}\"")));
             }
         }
-        let (left, right) = (*file.x_icr_left_m.get_ref(), *file.x_icr_right_m.get_ref());
-        if !(right - left > 0.0 && (right - left).is_finite()) {
-            let expected = format!("a number of m above x_icr_left_m = {left}");
-            return Err(document.value_error(file.x_icr_right_m.span(), "x_icr_right_m", expected));
-        }
+        separated(document, *file.x_icr_left_m.get_ref(), &file.x_icr_right_m)?;
         document.parse::<Divisors>()?.check(document)?;
         Ok(file)
     }
@@ -295,12 +291,8 @@ impl Divisors {
                 return Err(document.value_error(factor.span(), key, "a positive number"));
             }
         }
-        for SectorDivisors { x_icr_left_m: left, x_icr_right_m: right, .. } in &self.sector {
-            let separation = right.get_ref() - left;
-            if !(separation > 0.0 && separation.is_finite()) {
-                let expected = format!("a number of m above x_icr_left_m = {left}");
-                return Err(document.value_error(right.span(), "x_icr_right_m", expected));
-            }
+        for sector in &self.sector {
+            separated(document, sector.x_icr_left_m, &sector.x_icr_right_m)?;
         }
         let sectors = self.sector.iter().map(|sector| &sector.y_icr_m);
         match std::iter::once(&self.y_icr_m).chain(sectors).find(|y| !y.get_ref().is_finite()) {
@@ -308,6 +300,16 @@ impl Divisors {
             None => Ok(()),
         }
     }
+}
+
+/// Refuses an ICR of the right track that is not right of the left one's, m.
+fn separated(document: &Document, left: f64, right: &Spanned<f64>) -> Result<(), DocumentError> {
+    let separation = right.get_ref() - left;
+    if separation > 0.0 && separation.is_finite() {
+        return Ok(());
+    }
+    let expected = format!("a number of m above x_icr_left_m = {left}");
+    Err(document.value_error(right.span(), "x_icr_right_m", expected))
 }
 
 impl SectorTable {

@@ -2,7 +2,7 @@
 
 use crate::newton::{self, Convergence, Evaluation, Tolerance};
 use nalgebra::{SMatrix, SVector, Vector3};
-use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist, Wrench};
+use trackdyn_core::{Dual, PerSide, Scalar, Twist};
 use trackdyn_physics::{Balance, Ground, Model, Motion};
 
 /// Residual over the weight: 10⁻⁹ of gravity is far below what moves a robot.
@@ -154,18 +154,14 @@ impl Stage<'_> {
     #[inline]
     fn residual<S: Scalar, const N: usize>(&self, z: [S; N]) -> [S; N] {
         let motion = self.motion(&z);
-        let Balance { friction, load, normal_load } =
-            gripping(self.model, self.ground, &motion, self.creep);
-        let mut sum = load;
-        for side in Side::BOTH {
-            sum += friction[side];
-        }
+        let balance = gripping(self.model, self.ground, &motion, self.creep);
+        let sum = balance.sum();
         let force = self.model.vehicle().weight().recip();
         let moment = force / self.model.vehicle().gauge;
         let traction = traction(&z);
         // T − (T/N) N
         let off = PerSide::from_fn(|side| {
-            (friction[side].force_y - traction[side] * normal_load[side]) * force
+            (balance.friction[side].force_y - traction[side] * balance.normal_load[side]) * force
         });
         let rows =
             [sum.force_x * force, sum.force_y * force, sum.moment * moment, off.left, off.right];
@@ -180,25 +176,9 @@ fn traction<S: Scalar, const N: usize>(z: &[S; N]) -> PerSide<S> {
     PerSide::new(at(FIRM), at(FIRM + 1))
 }
 
-/// The sum of all forces on the body, which is zero where they balance; tracks stick below the slip velocity `creep`, m/s.
-#[inline]
-pub fn net_force<S: Scalar>(
-    model: &Model,
-    ground: &Ground,
-    motion: &Motion<S>,
-    creep: f64,
-) -> Wrench<S> {
-    let Balance { friction, load, .. } = gripping(model, ground, motion, creep);
-    let mut sum = load;
-    for side in Side::BOTH {
-        sum += friction[side];
-    }
-    sum
-}
-
 /// The forces on the body with the friction of tracks that stick below the slip velocity `creep`, m/s.
 #[inline]
-fn gripping<S: Scalar>(
+pub fn gripping<S: Scalar>(
     model: &Model,
     ground: &Ground,
     motion: &Motion<S>,

@@ -59,6 +59,7 @@ pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut
     if kept.len() < samples.len() || !back.is_empty() {
         *series = series.part(&kept);
     }
+    intervals(&series.samples, report);
 }
 
 /// Finds poses that are the one before to the last digit while a track moves: a link that is sent more often than it is
@@ -83,12 +84,7 @@ pub(super) fn held(
 }
 
 /// Finds gaps and stamps too close to be two measurements; both stay.
-pub(super) fn intervals<S: Sample>(samples: &[S], run: i64, cleanings: &mut Vec<Cleaning>) {
-    let mut report = |finding, count, t| {
-        if count > 0 {
-            cleanings.push(Cleaning { stream: S::STREAM, finding, count, runs: 1, run, t });
-        }
-    };
+fn intervals<S: Sample>(samples: &[S], mut report: impl FnMut(Finding, usize, f64)) {
     let lengths = || samples.windows(2).map(|pair| pair[1].time() - pair[0].time());
     let Some(usual) = median(&mut lengths().collect::<Vec<_>>()) else { return };
     let mut of = |is: &dyn Fn(f64) -> bool, finding: &dyn Fn(f64) -> Finding| {
@@ -177,7 +173,6 @@ mod tests {
         let mut series = tracks(&stamps);
         let mut cleanings = Vec::new();
         clean(&mut series, 0, &mut cleanings);
-        intervals(&series.samples, 0, &mut cleanings);
         assert_eq!(series, tracks(&stamps));
         assert_eq!(found(&cleanings), [(Finding::Crowded, 1), (Finding::Gap { longest: 10.0 }, 1)]);
         assert_eq!(cleanings[1].t, 4.0);
@@ -188,7 +183,6 @@ mod tests {
         let mut series = tracks(&[0.0, 1.0, 2.0]);
         let mut cleanings = Vec::new();
         clean(&mut series, 0, &mut cleanings);
-        intervals(&series.samples, 0, &mut cleanings);
         assert_eq!(series, tracks(&[0.0, 1.0, 2.0]));
         assert!(cleanings.is_empty());
     }

@@ -1,6 +1,6 @@
 //! A continuous part of a recording.
 
-use super::cleaning::{clean, held, intervals, unwrap_yaw};
+use super::cleaning::{clean, held, unwrap_yaw};
 use super::warning::Cleaning;
 use super::{ImuSample, PoseSample, Series, TrackSample};
 
@@ -32,9 +32,6 @@ impl Run {
         clean(&mut rows.poses, rows.id, cleanings);
         clean(&mut rows.imu, rows.id, cleanings);
         held(&rows.poses.samples, &rows.tracks.samples, rows.id, cleanings);
-        intervals(&rows.tracks.samples, rows.id, cleanings);
-        intervals(&rows.poses.samples, rows.id, cleanings);
-        intervals(&rows.imu.samples, rows.id, cleanings);
         unwrap_yaw(&mut rows.poses.samples, rows.id, cleanings);
         Self { id: rows.id, tracks: rows.tracks, poses: rows.poses, imu: rows.imu }
     }

@@ -109,6 +109,13 @@ pub enum Finding {
     YawUnwrapped,
 }
 
+impl Finding {
+    /// Whether rows were dropped or moved because of it.
+    pub(crate) fn changes_rows(self) -> bool {
+        matches!(self, Self::NotFinite | Self::Unsorted | Self::Repeated)
+    }
+}
+
 /// Gathers findings of the same kind in the same series; the first place stands for all.
 pub(super) fn gather(cleanings: Vec<Cleaning>) -> Vec<Cleaning> {
     let mut gathered: Vec<Cleaning> = Vec::new();

@@ -74,7 +74,7 @@ fn dirty_rows_are_cleaned_and_counted() {
 #[test]
 fn runs_come_in_the_order_of_their_numbers_and_incomplete_ones_are_left_out() {
     let tracks = "run,t,v_left,v_right\n7,0,7,7\n-1,0,1,1\n7,1,7,7\n3,0,3,3\n";
-    let poses = "run,t,x,y,yaw\n7,0,0,0,0\n7,1,7,0,0\n-1,0,0,0,0\n-1,1,1,0,0\n3,0,0,0,0\n";
+    let poses = "run,t,x,y,yaw\n7,0,0,0,0\n7,1,0,0,0\n-1,0,0,0,0\n-1,1,0,0,0\n3,0,0,0,0\n";
     let recording = read(MANIFEST, tracks, poses).expect("accepted");
     let ids: Vec<i64> = recording.runs().iter().map(trackdyn_recording::Run::id).collect();
     assert_eq!(ids, [-1, 7]);

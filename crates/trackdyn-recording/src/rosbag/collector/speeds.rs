@@ -51,6 +51,7 @@ pub(super) fn run(
     if are_positions {
         let mut cleanings: Vec<Cleaning> = Vec::new();
         clean(&mut tracks, 0, &mut cleanings);
+        cleanings.retain(|cleaning| cleaning.finding.changes_rows());
         warnings.extend(cleanings.into_iter().map(Warning::Cleaned));
         tracks = speeds_of_positions(&tracks.samples).into();
     }

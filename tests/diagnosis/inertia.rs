@@ -2,14 +2,18 @@
 
 use nalgebra::Vector3;
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory};
-use trackdyn_diagnose::Evidence;
-use trackdyn_diagnose::hypothesis::Hypothesis;
+use trackdyn_diagnose::candidate::{Beside, Variant};
+use trackdyn_diagnose::diagnosis::Kind;
+use trackdyn_diagnose::hypothesis::{Hypothesis, neutral};
 use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
+use trackdyn_diagnose::metric::Metric;
+use trackdyn_diagnose::{Diagnosis, Evidence};
 use trackdyn_field::ScheduleKind;
 use trackdyn_field::sensors::Preset;
 use trackdyn_motion::Transient;
-use trackdyn_physics::{ActiveEffect, Model};
-use trackdyn_tests::concealed::{Drive, INERTIA, owned, runs, sensors};
+use trackdyn_physics::vehicle::FrictionUncertainty;
+use trackdyn_physics::{ActiveEffect, CATALOGUE, Model};
+use trackdyn_tests::concealed::{Drive, INERTIA, diagnosed, named, owned, runs, sensors};
 
 /// What inertia adds is late with belts that lag, without a motion in time of its own for every lag: a hypothesis on the way
 /// of a fit predicts what one that is found anew does. A clock of lag and delay together would else explain more.
@@ -30,22 +34,17 @@ fn what_inertia_adds_is_late_with_the_belts() {
     }
 }
 
-/// The departure by inertia is found without these laws, and what they change in it by a step of Newton's method: that is most of
-/// what a motion in time with them gives, which takes a hundred times as long.
+/// The departure by inertia is found without these laws, and what they change in it by a step of Newton's method: that is most
+/// of what a motion in time with them gives, which takes a hundred times as long; the rest is the answer to an encoder's ticks, which
+/// are smoothed before.
 #[test]
 fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
     let (plain, evidence) = by_hand();
-    for law in [
-        "stribeck-friction:excess=0.35,speed_m_per_s=0.08",
-        "stribeck-friction:excess=0.35,speed_m_per_s=0.2",
-        "viscous-friction:growth_s_per_m=1.0",
-        "viscous-friction:growth_s_per_m=0.15",
-        "shear-displacement:modulus_m=0.01",
-        "friction-creep:speed_m_per_s=0.05",
-    ] {
+    let still = |hypothesis: &Hypothesis| predicted(&without_inertia(hypothesis), &evidence);
+    for law in LAWS {
         let law: ActiveEffect = law.parse().expect("an effect");
         let [with, without] = [plain.with_effect(law.clone()), plain.clone()].map(|hypothesis| {
-            let still = predicted(&without_inertia(&hypothesis), &evidence);
+            let still = still(&hypothesis);
             let exact = in_time(&hypothesis, &evidence);
             [exact, predicted(&hypothesis, &evidence)].map(|moving| minus(&moving, &still))
         });
@@ -54,6 +53,94 @@ fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
         println!("{law} changes {changed:.2e} rad a segment, off by {off:.2e}");
         assert!(off * off < 0.5 * changed * changed, "{law}: {off} of {changed}");
     }
+}
+
+/// The search sees by signatures, and a law of the slip speed shows in the answer to acceleration as well as in steady turns.
+#[test]
+fn signatures_of_laws_of_the_slip_speed_know_the_answer_to_acceleration() {
+    let (plain, evidence) = by_hand();
+    let metric = Metric::default();
+    let beside = Beside::new(&plain, &evidence, &metric);
+    for law in LAWS {
+        let law: ActiveEffect = law.parse().expect("an effect");
+        let variant = Variant { effect: place(&law), values: law.values().to_vec() };
+        let signatures = beside.signatures(std::slice::from_ref(&variant));
+        let [(_, signatures)] = &signatures[..] else { panic!("{law}: {}", signatures.len()) };
+        let size = variant.values[0] - neutral(&law.card().parameters[0]);
+        let white = |changed: &[Vector3<f64>]| {
+            metric.white(&evidence, changed.iter().map(|change| change / size).collect())
+        };
+        let [whole, steady] = [plain.clone(), without_inertia(&plain)].map(|plain: Hypothesis| {
+            let with = predicted(&plain.with_effect(law.clone()), &evidence);
+            white(&minus(&with, &predicted(&plain, &evidence)))
+        });
+        let off = rms(&minus(&signatures[0].column, &whole));
+        let in_time = rms(&minus(&whole, &steady));
+        assert!(off < 0.02 * in_time, "{law}: {off} of {in_time}");
+    }
+}
+
+/// Laws of the shear stress that hang on the slip.
+const LAWS: [&str; 6] = [
+    "stribeck-friction:excess=0.35,speed_m_per_s=0.08",
+    "stribeck-friction:excess=0.35,speed_m_per_s=0.2",
+    "viscous-friction:growth_s_per_m=1.0",
+    "viscous-friction:growth_s_per_m=0.15",
+    "shear-displacement:modulus_m=0.01",
+    "friction-creep:speed_m_per_s=0.05",
+];
+
+fn place(of: &ActiveEffect) -> usize {
+    CATALOGUE.iter().position(|card| card.id == of.card().id).expect("of the catalogue")
+}
+
+/// Friction that grows with the slip brakes a robot that starts to turn as more friction does. Where its owner measured
+/// friction, that is not its level: the noise stays what it is, and the law is named.
+#[test]
+fn friction_that_grows_with_the_slip_is_named_where_its_level_is_known() {
+    const CONCEALED: &str = "viscous-friction:growth_s_per_m=0.3";
+    let mut file = owned(&[CONCEALED]);
+    file.vehicle.uncertainty.friction =
+        FrictionUncertainty { across: Some(0.03), along: Some(0.03) };
+    let schedule = runs(ScheduleKind::Manual, 4, 11);
+    let drive = Drive::new(&file.vehicle, &[CONCEALED], &schedule, 11).expect("it drives");
+    let sensors = sensors(Preset::Laboratory);
+    let found = diagnosed(&drive.recording(&sensors, 11), &file).expect("enough");
+    let walk = walk(&found);
+    println!("walk of the yaw {walk} of {}: {:?}", sensors.pose.walk.yaw, named(&found));
+    assert!(walk < 1.5 * sensors.pose.walk.yaw, "{walk}");
+    let physics: Vec<_> =
+        named(&found).into_iter().filter(|(kind, _)| *kind == Kind::Physics).collect();
+    assert!(
+        matches!(&physics[..], [(_, members)] if members.contains("viscous-friction")),
+        "{physics:?}"
+    );
+}
+
+/// A centre of gravity that is filed wrong and a sensor beside it move the constant ICRs alike, but mass pulls where it is with every
+/// start and stop. Taken for the sensor's, 1 cm would be noise of a heading that walks, or friction that hangs on the slip.
+#[test]
+fn mass_tells_where_it_is_beside_a_mount() {
+    const CONCEALED: &str = "sensor-lever-arm:x_m=0.2,y_m=0.2";
+    let truth = owned(&[CONCEALED]);
+    let mut file = truth.clone();
+    file.vehicle.cog[0] -= 0.01;
+    let schedule = runs(ScheduleKind::Manual, 4, 11);
+    let drive = Drive::new(&truth.vehicle, &[CONCEALED], &schedule, 11).expect("it drives");
+    let sensors = sensors(Preset::Laboratory);
+    let found = diagnosed(&drive.recording(&sensors, 11), &file).expect("enough");
+    let cog = found.base.fit.hypothesis.vehicle.cog;
+    println!("centre of gravity {cog:?} of {:?}: {:?}", truth.vehicle.cog, named(&found));
+    assert!((cog[0] - truth.vehicle.cog[0]).abs() < 0.003, "{cog:?}");
+    let walk = walk(&found);
+    assert!(walk < 1.5 * sensors.pose.walk.yaw, "{walk}");
+    assert!(named(&found).iter().all(|(kind, _)| *kind != Kind::Physics), "{:?}", named(&found));
+}
+
+/// Walk of the yaw that a diagnosis finds, rad/√s.
+fn walk(of: &Diagnosis) -> f64 {
+    let noise = of.evidence.noise().expect("of a recording");
+    (noise.walk[2] + noise.heading).sqrt()
 }
 
 /// A robot with mass, and two runs by hand.

@@ -22,7 +22,7 @@ use trackdyn_physics::{
 /// Part of an instrument's signature that must be its own for it to be free beside the others.
 const OWN: f64 = 0.02;
 
-/// Part of what its owner's guess may be off by to which the evidence must know the level of friction for it to be free.
+/// Part of what its owner's guess may be off by to which the evidence must know a number of the vehicle for it to be free.
 const BETTER: f64 = 0.5;
 
 /// What every hypothesis starts from.
@@ -44,6 +44,9 @@ pub struct Base {
 /// The offsets of the constant ICRs.
 pub const OFFSETS: [Unknown; 3] = [Unknown::Offset(0), Unknown::Offset(1), Unknown::Offset(2)];
 
+/// What only a robot with mass tells: how far it slides, and where it pulls.
+const BY_MASS: [Unknown; 3] = [Unknown::FrictionLevel, Unknown::Cog(0), Unknown::Cog(1)];
+
 impl Base {
     /// The base of a vehicle for this evidence.
     pub fn new(file: &VehicleFile, evidence: &Evidence, metric: &Metric) -> Self {
@@ -55,15 +58,15 @@ impl Base {
         for &effect in &instruments {
             nuisances.extend(unknowns_of(effect));
         }
-        // What has mass tells how much friction there is, if the evidence knows that better than the owner.
-        let tried: Vec<Unknown> =
-            nuisances.iter().copied().chain([Unknown::FrictionLevel]).collect();
+        // What has mass tells how much friction there is, and where the mass is, if the evidence knows that better than the owner.
+        let tried: Vec<Unknown> = nuisances.iter().chain(&BY_MASS).copied().collect();
         let fit = Fit::at(start.clone(), &tried, evidence, metric, Some(&as_filed.mechanics));
-        let known = fit.solution.covariance[(nuisances.len(), nuisances.len())].sqrt();
-        let guessed = prior(&start, Unknown::FrictionLevel, evidence).deviation;
-        if known < BETTER * guessed {
-            nuisances = tried;
-        }
+        let is_known = |(place, unknown): &(usize, &Unknown)| {
+            let known = fit.solution.covariance[(*place, *place)].sqrt();
+            known < BETTER * prior(&start, **unknown, evidence).deviation
+        };
+        let told = tried.iter().enumerate().skip(nuisances.len()).filter(is_known);
+        nuisances.extend(told.map(|(_, unknown)| *unknown));
         let plain = Fit::new(start, &nuisances, evidence, metric, Some(&fit.mechanics));
         // The vehicle takes over what it can of the constant ICRs; a second fit tells what is left.
         let (mut fit, mut calibration) = (plain.clone(), Calibration::None);
@@ -201,7 +204,9 @@ impl Calibration {
             vehicle.check().ok()?;
             let off = wanted - spin(&vehicle)?;
             if self.due(off.into()) < 1e-9 {
-                return Some(Hypothesis { vehicle, offset: off.into(), ..hypothesis.clone() });
+                let cog_moved = [0, 1].map(|axis| hypothesis.cog_moved[axis] + by[1 + axis]);
+                let offset = off.into();
+                return Some(Hypothesis { vehicle, offset, cog_moved, ..hypothesis.clone() });
             }
             let mut slope = Matrix3::zeros();
             for k in 0..3 {
@@ -269,7 +274,8 @@ fn spin_with(vehicle: &Vehicle, effects: Effects) -> Option<Vector3<f64>> {
 pub fn with_vehicle(hypothesis: &Hypothesis, vehicle: &Vehicle) -> Option<Hypothesis> {
     let offset = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset) - spin(vehicle)?;
     let vehicle = with_friction(vehicle, hypothesis.friction_level);
-    Some(Hypothesis { vehicle, offset: offset.into(), ..hypothesis.clone() })
+    let offset = offset.into();
+    Some(Hypothesis { vehicle, offset, cog_moved: [0.0; 2], ..hypothesis.clone() })
 }
 
 #[cfg(test)]

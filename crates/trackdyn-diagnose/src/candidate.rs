@@ -9,7 +9,7 @@ mod places;
 
 use crate::evidence::Evidence;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
-use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument};
+use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument, shears};
 use crate::metric::Metric;
 use crate::prior::area;
 use nalgebra::Vector3;
@@ -99,8 +99,8 @@ pub struct Beside<'a> {
     metric: &'a Metric,
     /// The hypothesis as it is.
     moving: Prepared,
-    /// The hypothesis without inertia: the signature of what does not stand against acceleration is taken
-    /// from stationary motion.
+    /// The hypothesis without inertia: the signature of what neither stands against acceleration nor changes the answer to it
+    /// is taken from stationary motion.
     still: Prepared,
 }
 
@@ -227,14 +227,21 @@ impl<'a> Beside<'a> {
     /// What an effect changes of the prediction; none where it cannot act.
     fn change(&self, effect: ActiveEffect) -> Option<Vec<Vector3<f64>>> {
         let vehicle = &self.hypothesis.vehicle;
-        let base = if feels_inertia(vehicle, &effect) { &self.moving } else { &self.still };
+        let feels_inertia = feels_inertia(vehicle, &effect);
+        // Friction that only moves constant ICRs answers to acceleration as its level does.
+        let answers = shears(&effect) && !effect.card().breaks.is_empty();
+        let base = if feels_inertia || answers { &self.moving } else { &self.still };
         let is_instrument = is_instrument(vehicle, &effect);
         let with = base.hypothesis.with_effect(effect);
         let instruments = Instruments::of(&with);
         let with = if is_instrument {
             base.mechanics.predict(&instruments, self.evidence)
         } else {
-            let mechanics = base.mechanics.anew(&with, self.evidence);
+            let mechanics = if feels_inertia {
+                base.mechanics.anew(&with, self.evidence)
+            } else {
+                Mechanics::beside(Some(&base.mechanics), &with, &[], self.evidence)
+            };
             if mechanics.failure().is_some() {
                 return None;
             }

@@ -66,6 +66,7 @@ fn step(hypothesis: &Hypothesis, unknown: Unknown) -> f64 {
     let size = match unknown {
         Unknown::Offset(_) => 1e-3 * hypothesis.vehicle.gauge,
         Unknown::FrictionLevel => 0.05,
+        Unknown::Cog(_) => 5e-3 * hypothesis.vehicle.gauge,
         Unknown::Effect(..) => {
             let parameter = unknown.parameter().expect("an effect's");
             match parameter.role {
@@ -127,7 +128,7 @@ pub fn derivatives(
 fn is_outside(hypothesis: &Hypothesis, unknown: Unknown) -> bool {
     match unknown {
         Unknown::Offset(_) => true,
-        Unknown::FrictionLevel => false,
+        Unknown::FrictionLevel | Unknown::Cog(_) => false,
         Unknown::Effect(effect, _) => is_instrument(&hypothesis.vehicle, &typical(effect)),
     }
 }

@@ -15,6 +15,9 @@ pub struct Hypothesis {
     /// ln of the factor by which both friction coefficients of the vehicle differ from those first supposed:
     /// steady driving knows their ratio alone, but what has mass slides the farther the less friction there is.
     pub friction_level: f64,
+    /// By what the centre of gravity (x_c, y_c) of the vehicle differs from the one first supposed, m: constant ICRs move with it
+    /// as with much else, but with every start and stop mass pulls where it is.
+    pub cog_moved: [f64; 2],
 }
 
 /// Largest change of the level of friction, as logarithm: a coefficient that is guessed at all is guessed better than
@@ -28,23 +31,25 @@ pub enum Unknown {
     Offset(usize),
     /// Level of friction.
     FrictionLevel,
+    /// Centre of gravity, x_c or y_c.
+    Cog(usize),
     /// Parameter of an effect, both by their places in the catalogue.
     Effect(usize, usize),
 }
 
 impl Unknown {
-    /// The card of its effect; none of an offset, or the level of friction.
+    /// The card of its effect; none of what is no effect's.
     pub fn card(self) -> Option<&'static Card> {
         match self {
-            Self::Offset(_) | Self::FrictionLevel => None,
+            Self::Offset(_) | Self::FrictionLevel | Self::Cog(_) => None,
             Self::Effect(effect, _) => Some(&CATALOGUE[effect]),
         }
     }
 
-    /// The parameter of the catalogue; none of an offset, or the level of friction.
+    /// The parameter of the catalogue; none of what is no effect's.
     pub fn parameter(self) -> Option<&'static Parameter> {
         match self {
-            Self::Offset(_) | Self::FrictionLevel => None,
+            Self::Offset(_) | Self::FrictionLevel | Self::Cog(_) => None,
             Self::Effect(effect, parameter) => Some(&CATALOGUE[effect].parameters[parameter]),
         }
     }
@@ -95,7 +100,7 @@ impl Hypothesis {
     /// What a vehicle file says.
     pub fn filed(file: &VehicleFile) -> Self {
         let VehicleFile { vehicle, effects } = file.clone();
-        Self { vehicle, effects, offset: [0.0; 3], friction_level: 0.0 }
+        Self { vehicle, effects, offset: [0.0; 3], friction_level: 0.0, cog_moved: [0.0; 2] }
     }
 
     /// Value of an unknown; that of no effect where the effect is not there.
@@ -103,6 +108,7 @@ impl Hypothesis {
         match unknown {
             Unknown::Offset(k) => self.offset[k],
             Unknown::FrictionLevel => self.friction_level,
+            Unknown::Cog(k) => self.cog_moved[k],
             Unknown::Effect(effect, parameter) => value(&self.effects, effect, parameter),
         }
     }
@@ -118,6 +124,10 @@ impl Hypothesis {
             Unknown::FrictionLevel => {
                 changed.vehicle = with_friction(&self.vehicle, value - self.friction_level);
                 changed.friction_level = value;
+            }
+            Unknown::Cog(k) => {
+                changed.vehicle.cog[k] += value - self.cog_moved[k];
+                changed.cog_moved[k] = value;
             }
             Unknown::Effect(effect, parameter) => {
                 let card = &CATALOGUE[effect];

@@ -95,6 +95,11 @@ pub fn feels_inertia(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
     Transient::feels_inertia(&single(vehicle, effect))
 }
 
+/// Whether an effect changes the shear stress: what it changes in the answer to acceleration takes no motion in time of its own.
+pub fn shears(effect: &ActiveEffect) -> bool {
+    effect.card().stages.contains(&Stage::Shear)
+}
+
 impl Mechanics {
     /// The mechanics of a hypothesis for this evidence.
     pub fn new(hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
@@ -171,9 +176,8 @@ impl Mechanics {
         let mechanical = hypothesis.effects.iter().filter(|effect| !is_instrument(vehicle, effect));
         let (varying, constant): (Vec<_>, Vec<_>) =
             mechanical.cloned().partition(|effect| varies(vehicle, effect, evidence));
-        let shears = |effect: &ActiveEffect| effect.card().stages.contains(&Stage::Shear);
         let without_shear = |effects: &[ActiveEffect]| -> Effects {
-            effects.iter().filter(|effect| !shears(effect)).cloned().collect()
+            effects.iter().filter(|&effect| !shears(effect)).cloned().collect()
         };
         let drive = Instruments::of(hypothesis).drive;
         let largest = HEADROOM * evidence.fastest() * std::f64::consts::SQRT_2;
@@ -188,7 +192,7 @@ impl Mechanics {
             ground: None,
             inertia: None,
             sheared: None,
-            shear: constant.iter().filter(|effect| shears(effect)).cloned().collect(),
+            shear: constant.iter().filter(|&effect| shears(effect)).cloned().collect(),
             stands_in: false,
             failed: None,
         };

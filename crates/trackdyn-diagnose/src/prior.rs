@@ -19,6 +19,7 @@ pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> 
         Unknown::FrictionLevel => {
             Prior { mean: 0.0, deviation: friction_known(&hypothesis.vehicle) }
         }
+        Unknown::Cog(axis) => Prior { mean: 0.0, deviation: cog_known(&hypothesis.vehicle, axis) },
         Unknown::Effect(..) => {
             let parameter = unknown.parameter().expect("an effect's");
             if let Some(deviation) = measured(&hypothesis.vehicle, unknown) {
@@ -50,6 +51,15 @@ fn friction_known(vehicle: &Vehicle) -> f64 {
         }
         _ => GUESSED,
     }
+}
+
+/// Standard deviation of a coordinate of the centre of gravity, as its owner knows it, m.
+fn cog_known(vehicle: &Vehicle, axis: usize) -> f64 {
+    /// Parts of the gauge: of what was not measured, and of what is exact.
+    const GUESSED: f64 = 0.1;
+    const EXACT: f64 = 1e-5;
+    let measured = vehicle.uncertainty.cog.map(|deviations| deviations[axis]);
+    measured.unwrap_or(GUESSED * vehicle.gauge).max(EXACT * vehicle.gauge)
 }
 
 /// How far an effect's size may be from none because the owner measured what it changes: the vehicle's centre

@@ -64,6 +64,9 @@ impl Within {
 /// Part of the gauge, and of the friction ratio, by which the vehicle may differ.
 const CLOSE: f64 = 0.003;
 
+/// Part of the gauge by which a centre of gravity is off that is.
+const COG: f64 = 0.05;
+
 /// Difference of the logarithm of friction that is rounding.
 const SAME: f64 = 1e-12;
 
@@ -145,18 +148,21 @@ impl InertiaNear {
         {
             return None;
         }
+        let nearly = |by: Unknown, change: f64| match by {
+            Unknown::Cog(_) => change.abs() < CLOSE * case.vehicle.gauge,
+            _ => change.abs() <= within.unknown * size(by, case.vehicle) && !is_of(by, inert),
+        };
         let mut shift: Option<Vec<Twist>> = None;
         for (by, change) in self.at.changes(case.vehicle, case.model.effects()) {
-            let size = size(by);
             match self.slope(by) {
-                Some(slope) if change.abs() <= within.known * size => {
+                Some(slope) if change.abs() <= within.known * size(by, case.vehicle) => {
                     let still = || vec![Twist { v_x: 0.0, v_y: 0.0, w: 0.0 }; slope.change.len()];
                     let sums = shift.get_or_insert_with(still);
                     for (sum, slope) in sums.iter_mut().zip(&slope.change) {
                         *sum = plus(sum, &scaled(slope, change));
                     }
                 }
-                None if change.abs() <= within.unknown * size && !is_of(by, inert) => {}
+                None if nearly(by, change) => {}
                 _ => return None,
             }
         }
@@ -210,9 +216,14 @@ impl Slope {
 /// The robot with a number changed by a step, and the step.
 fn stepped(by: Unknown, case: &Case) -> Option<(Model, f64)> {
     let (vehicle, effects) = (case.vehicle, case.model.effects());
-    let step = REACH * size(by);
+    let step = REACH * size(by, vehicle);
     match by {
         Unknown::Offset(_) => None,
+        Unknown::Cog(axis) => {
+            let mut moved = vehicle.clone();
+            moved.cog[axis] += step;
+            Some((Model::new(moved, effects.clone()), step))
+        }
         Unknown::FrictionLevel => {
             Some((Model::new(with_friction(vehicle, step), effects.clone()), step))
         }
@@ -232,14 +243,19 @@ fn stepped(by: Unknown, case: &Case) -> Option<(Model, f64)> {
 pub fn has_slope(by: Unknown, model: &Model) -> bool {
     match by {
         Unknown::Offset(_) => false,
-        Unknown::FrictionLevel => true,
-        Unknown::Effect(effect, _) => find(model.effects(), effect).is_some() && size(by) > 0.0,
+        Unknown::FrictionLevel | Unknown::Cog(_) => true,
+        Unknown::Effect(effect, _) => {
+            find(model.effects(), effect).is_some() && size(by, model.vehicle()) > 0.0
+        }
     }
 }
 
-/// Typical size of a number; that of the logarithm of friction is one.
-fn size(by: Unknown) -> f64 {
-    by.parameter().map_or(1.0, typical_size)
+/// Typical size of a number of a robot; that of the logarithm of friction is one.
+fn size(by: Unknown, vehicle: &Vehicle) -> f64 {
+    match by {
+        Unknown::Cog(_) => COG * vehicle.gauge,
+        _ => by.parameter().map_or(1.0, typical_size),
+    }
 }
 
 /// Whether a number is one of these effects.
@@ -317,13 +333,10 @@ impl Inertia {
         drive.time_constant - self.drive.time_constant
     }
 
-    /// Whether the vehicle, without what effects make of it, has about this centre of gravity and friction ratio.
+    /// Whether the vehicle, without what effects make of it, has about this friction ratio.
     fn is_close(&self, vehicle: &Vehicle) -> bool {
-        let moved =
-            (self.vehicle.cog[0] - vehicle.cog[0]).hypot(self.vehicle.cog[1] - vehicle.cog[1]);
         let ratio = |vehicle: &Vehicle| vehicle.friction.across / vehicle.friction.along;
-        let grips = (ratio(&self.vehicle) / ratio(vehicle)).ln().abs();
-        moved < CLOSE * self.vehicle.gauge && grips < CLOSE
+        (ratio(&self.vehicle) / ratio(vehicle)).ln().abs() < CLOSE
     }
 
     /// The numbers that differ, with the difference from here to there.
@@ -331,6 +344,7 @@ impl Inertia {
         let level = (level(vehicle) / level(&self.vehicle)).ln();
         let level = if level.abs() < SAME { 0.0 } else { level };
         let level = std::iter::once((Unknown::FrictionLevel, level));
+        let cog = [0, 1].map(|k| (Unknown::Cog(k), vehicle.cog[k] - self.vehicle.cog[k]));
         let change = |effect: usize, place: usize| {
             let [here, there] =
                 [self.model.effects(), effects].map(|effects| value(effects, effect, place));
@@ -339,7 +353,7 @@ impl Inertia {
         let of_effects = CATALOGUE.iter().enumerate().flat_map(|(effect, card)| {
             (0..card.parameters.len()).map(move |place| change(effect, place))
         });
-        level.chain(of_effects).filter(|(_, change)| *change != 0.0).collect()
+        level.chain(cog).chain(of_effects).filter(|(_, change)| *change != 0.0).collect()
     }
 
     /// Whether slopes found for one robot do for the other.
@@ -347,7 +361,7 @@ impl Inertia {
         let mut changes = self.changes(&other.vehicle, other.model.effects()).into_iter();
         are_same(&self.inert, &other.inert)
             && self.later(&other.drive).abs() <= AS_LATE
-            && changes.all(|(by, change)| change.abs() <= REACH * size(by))
+            && changes.all(|(by, change)| change.abs() <= REACH * size(by, &self.vehicle))
     }
 
     /// What laws of the shear stress change in the motion in time, at each reading.

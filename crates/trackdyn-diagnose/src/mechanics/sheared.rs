@@ -2,16 +2,15 @@
 //!
 //! # Law
 //! A motion in time with these laws takes a quadrature for each of many balances of forces. One step of Newton's method
-//! from near it takes one: with û the motion without the laws, moved by what they change in the stationary motion, and G
-//! the sum of forces,
+//! from near it takes two. With û the motion without the laws, D what they add to it, and G and G₀ the sums of forces with and
+//! without them, by the implicit Euler rule over the steps of û,
 //!
 //! ```text
-//! G_u ε + G_a ε̇ = −G(û, û̇)
+//! G(û_k + D_k, û̇_k + (D_k − D_{k−1})/h) = G₀(û_k, û̇_k)
 //! ```
 //!
-//! and û + ε is the motion with them, but for what is of second order in what they change. In stationary motion ε is
-//! zero. By the implicit Euler rule over the steps of the motion without,
-//! (G_u + G_a/h) ε_k = G_a ε_{k−1}/h − G.
+//! from D_k as it is in stationary motion on: (G_u + G_a/h) δ = G₀ − G. Of δ as much is taken as comes nearer to a balance: where a
+//! track nearly sticks a law may be steep, and the whole of it lead far away.
 
 use super::{minus, plus};
 use nalgebra::Vector3;
@@ -30,6 +29,9 @@ pub struct Without<'a> {
     pub steady: &'a [Twist],
 }
 
+/// Shares of a step of Newton's method, the first of which that comes nearer to a balance of forces is taken.
+const SHARES: [f64; 3] = [1.0, 0.3, 0.1];
+
 /// What the laws add to the twist (paper's frame) while each reading of a run holds. `forces` are those with and without
 /// the laws, `steady` is the stationary twist with them at each reading.
 pub fn departures(forces: [&Forces; 2], run: &Without, steady: &[Twist]) -> Vec<Twist> {
@@ -37,13 +39,16 @@ pub fn departures(forces: [&Forces; 2], run: &Without, steady: &[Twist]) -> Vec<
     let mut added = vec![still; run.belts.len()];
     let moments = run.path.moments();
     let [with, without] = forces;
-    let mut epsilon = Vector3::zeros();
+    let gauge = with.model.vehicle().gauge;
+    let size = |force: &Vector3<f64>| force[0].hypot(force[1]).hypot(force[2] / gauge);
+    // What is added to the motion without the laws, at the end of the step before.
+    let mut before_added = Vector3::zeros();
     let mut next = 1;
     for (reading, pair) in run.belts.windows(2).enumerate() {
         let [from, until] = [pair[0].t, pair[1].t];
         let speeds = PerSide::new(pair[0].v_left, pair[0].v_right);
         let (here, there) = (&steady[reading], &run.steady[reading]);
-        let shift = minus(here, there);
+        let shift = vector(&minus(here, there));
         // What the tables and rules of both leave of a stationary motion is no change of it.
         let rest = with.sum(speeds, here, &still) - without.sum(speeds, there, &still);
         let mut sum = Vector3::zeros();
@@ -56,23 +61,39 @@ pub fn departures(forces: [&Forces; 2], run: &Without, steady: &[Twist]) -> Vec<
             }
             let twist = paper_twist_from_ros(&moment.twist);
             let change = minus(&twist, &paper_twist_from_ros(&before.twist));
-            let rate = Twist { v_x: change.v_x / h, v_y: change.v_y / h, w: change.w / h };
+            let rate = twist_of(&(vector(&change) / h));
             let belts = moment.belt_speed;
-            let (force, [by_twist, by_rate]) = with.near(belts, &plus(&twist, &shift), &rate);
-            let by_rate = by_rate / h;
-            let off = force - without.sum(belts, &twist, &rate) - rest;
-            epsilon = (by_twist + by_rate)
-                .try_inverse()
-                .map(|inverse| inverse * (by_rate * epsilon - off))
-                .filter(|epsilon| epsilon.iter().all(|value| value.is_finite()))
-                .unwrap_or_default();
-            sum += epsilon * h;
+            let balance = without.sum(belts, &twist, &rate) + rest;
+            let at = |added: &Vector3<f64>| {
+                let faster = (added - before_added) / h;
+                (plus(&twist, &twist_of(added)), plus(&rate, &twist_of(&faster)))
+            };
+            let (moved, moved_rate) = at(&shift);
+            let (force, [by_twist, by_rate]) = with.near(belts, &moved, &moved_rate);
+            let off = force - balance;
+            let step = (by_twist + by_rate / h).try_inverse().map(|inverse| -(inverse * off));
+            let nearer = step.and_then(|step| {
+                let shares = SHARES.iter().map(|share| shift + step * *share);
+                shares.into_iter().find(|added| {
+                    let (moved, moved_rate) = at(added);
+                    size(&(with.sum(belts, &moved, &moved_rate) - balance)) < size(&off)
+                })
+            });
+            before_added = nearer.unwrap_or(shift);
+            sum += (before_added - shift) * h;
         }
         let held = until - from;
         if held > 0.0 {
-            let mean = sum / held;
-            added[reading] = Twist { v_x: mean[0], v_y: mean[1], w: mean[2] };
+            added[reading] = twist_of(&(sum / held));
         }
     }
     added
+}
+
+fn vector(twist: &Twist) -> Vector3<f64> {
+    Vector3::new(twist.v_x, twist.v_y, twist.w)
+}
+
+fn twist_of(vector: &Vector3<f64>) -> Twist {
+    Twist { v_x: vector[0], v_y: vector[1], w: vector[2] }
 }

@@ -3,8 +3,9 @@
 use super::{COUNT, Variances, noise_of, variances_of};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, derivatives};
-use crate::locate::{IcrColumns, contrasts, icr_columns};
-use crate::mechanics::Instruments;
+use crate::hypothesis::Unknown;
+use crate::locate::{contrasts, icr_columns};
+use crate::mechanics::{Instruments, Mechanics};
 use crate::metric::Metric;
 use crate::normal::{Columns, Normal};
 use nalgebra::Vector3;
@@ -19,9 +20,9 @@ pub(super) struct Flexible {
     pub(super) own: usize,
 }
 
-/// What friction that falls or rises with the speed of slip may do: ICRs that move with the speed of turning. Contrasts, which
-/// are tested, keep to a few columns; here there may be many.
-fn turning(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Vec<Vector3<f64>>> {
+/// What friction that falls or rises with the speed of slip may do: ICRs, and the answer to acceleration, that go with the
+/// speed of turning. Contrasts, which are tested, keep to a few columns; here there may be many.
+fn turning(evidence: &Evidence, of: &[Vec<Vector3<f64>>]) -> Vec<Vec<Vector3<f64>>> {
     /// Parts of the fastest turn in which friction settles: slip is of the order of the turn.
     const SETTLES: [f64; 2] = [0.06, 0.2];
     let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
@@ -30,10 +31,19 @@ fn turning(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Vec<Vector3<f64>>> {
     let turns: Vec<f64> = (evidence.samples().iter())
         .map(|sample| (sample.speeds.right - sample.speeds.left).abs() / (2.0 * fastest))
         .collect();
-    let column = |icr: &[Vector3<f64>], law: &dyn Fn(f64) -> f64| {
-        icr.iter().zip(&turns).map(|(icr, &turn)| icr * law(turn)).collect()
+    let column = |value: &[Vector3<f64>], law: &dyn Fn(f64) -> f64| {
+        value.iter().zip(&turns).map(|(value, &turn)| value * law(turn)).collect()
     };
-    icrs.iter().flat_map(|icr| laws.map(|law| column(icr, law))).collect()
+    of.iter().flat_map(|value| laws.map(|law| column(value, law))).collect()
+}
+
+/// What changes in the motion with the level of friction, known or not: how soon it answers to acceleration.
+fn answer_to_acceleration(evidence: &Evidence, fit: &Fit) -> Vec<Vec<Vector3<f64>>> {
+    let Fit { hypothesis, mechanics, .. } = fit;
+    let level = [Unknown::FrictionLevel];
+    let mechanics = Mechanics::beside(Some(mechanics), hypothesis, &level, evidence);
+    let prediction = mechanics.predict(&Instruments::of(hypothesis), evidence);
+    derivatives(hypothesis, &mechanics, &prediction, &level, evidence)
 }
 
 /// What is left of a residual, not white, and the columns that were fitted.
@@ -51,6 +61,9 @@ impl Flexible {
         let contrasts = contrasts(evidence, &icrs).into_iter();
         columns.extend(contrasts.flat_map(|contrasts| contrasts.columns));
         columns.extend(turning(evidence, &icrs));
+        let answer = answer_to_acceleration(evidence, fit);
+        columns.extend(turning(evidence, &answer));
+        columns.extend(answer);
         let samples = evidence.samples().iter().zip(&prediction);
         let residual = samples.map(|(sample, motion)| sample.motion - motion).collect();
         Self { residual, columns, own: unknowns.len() }

@@ -82,9 +82,12 @@ fn as_filed(
         hypothesis.with_effect_of(base, effect)
     });
     let vehicle = with_friction(&file.vehicle, without.friction_level);
-    let filed = Hypothesis { vehicle, offset: [0.0; 3], ..without };
-    let is_fixed = |unknown: &Unknown| {
-        !OFFSETS.contains(unknown) && !added.iter().any(|&effect| unknown.is_of(effect))
+    let filed = Hypothesis { vehicle, offset: [0.0; 3], cog_moved: [0.0; 2], ..without };
+    let is_fixed = |unknown: &Unknown| match unknown {
+        Unknown::Offset(_) | Unknown::Cog(_) => false,
+        Unknown::FrictionLevel | Unknown::Effect(..) => {
+            !added.iter().any(|&effect| unknown.is_of(effect))
+        }
     };
     (filed, best.fit.unknowns.iter().copied().filter(is_fixed).collect())
 }

@@ -72,7 +72,7 @@ fn without_laws(search: &Search, best: &Found) -> Fit {
     let hypothesis = Hypothesis { effects: effects.cloned().collect(), ..hypothesis.clone() };
     let is_left = |unknown: &Unknown| match unknown {
         Unknown::Effect(effect, _) => is_instrument(vehicle, &typical(*effect)),
-        Unknown::Offset(_) | Unknown::FrictionLevel => true,
+        Unknown::Offset(_) | Unknown::FrictionLevel | Unknown::Cog(_) => true,
     };
     let unknowns: Vec<Unknown> = unknowns.iter().copied().filter(is_left).collect();
     Fit::new(hypothesis, &unknowns, search.evidence, search.metric, Some(&best.fit.mechanics))

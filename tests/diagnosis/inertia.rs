@@ -34,9 +34,8 @@ fn what_inertia_adds_is_late_with_the_belts() {
     }
 }
 
-/// The departure by inertia is found without these laws, and what they change in it by a step of Newton's method: that is most
-/// of what a motion in time with them gives, which takes a hundred times as long; the rest is the answer to an encoder's ticks, which
-/// are smoothed before.
+/// The departure by inertia is found without these laws, and what they change in it by a step of Newton's method: that is what
+/// a motion in time with them gives, which takes many times as long.
 #[test]
 fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
     let (plain, evidence) = by_hand();
@@ -51,7 +50,7 @@ fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
         let [exact, found] = [0, 1].map(|k| minus(&with[k], &without[k]));
         let (changed, off) = (rms(&exact), rms(&minus(&found, &exact)));
         println!("{law} changes {changed:.2e} rad a segment, off by {off:.2e}");
-        assert!(off * off < 0.5 * changed * changed, "{law}: {off} of {changed}");
+        assert!(off < 0.2 * changed, "{law}: {off} of {changed}");
     }
 }
 

@@ -35,13 +35,35 @@ use trackdyn_physics::{Circumstance, Model, Motion};
 pub const CREEP: f64 = 1e-6;
 
 /// Coefficient γ = 1 − 1/√2 of the method: it makes the second stage the end of the step.
-const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+pub const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
 /// Halvings of a step for its error at most.
 const MOST_REFINED: u32 = 2;
 
 /// Halvings of a step after which it is given up.
 const MOST_HALVINGS: u32 = 10;
+
+/// A step as it was taken.
+#[derive(Clone, Copy, Debug)]
+pub struct Step {
+    /// Its end, s.
+    pub end: f64,
+    /// Its length h, s.
+    pub duration: f64,
+    /// Its stages, the second of which is its end. The body moves by 1 − γ of the first twist and γ of the second.
+    pub stages: [Instant; 2],
+}
+
+/// A motion in which the forces on a body balance.
+#[derive(Clone, Copy, Debug)]
+pub struct Instant {
+    /// Speeds of the belts, m/s.
+    pub belt_speed: PerSide<f64>,
+    /// Twist, paper's frame.
+    pub twist: Twist,
+    /// Its rate, as the method takes it: that of γ h.
+    pub rate: Twist,
+}
 
 /// A robot that moves in time.
 #[derive(Clone, Debug)]
@@ -57,6 +79,8 @@ pub struct Transient<'m> {
     has_inertia: bool,
     /// Whether it goes on where some of the contact would have to pull.
     may_pull: bool,
+    /// The steps so far; none where they are not asked for.
+    steps: Option<Vec<Step>>,
     state: State,
 }
 
@@ -108,6 +132,7 @@ impl<'m> Transient<'m> {
             creep: CREEP,
             has_inertia: Self::feels_inertia(model),
             may_pull: false,
+            steps: None,
             state,
         }
     }
@@ -135,6 +160,16 @@ impl<'m> Transient<'m> {
         Self { may_pull: true, ..self }
     }
 
+    /// The same, keeping its steps.
+    pub fn with_steps(self) -> Self {
+        Self { steps: Some(Vec::new()), ..self }
+    }
+
+    /// The steps since they were asked for.
+    pub fn into_steps(self) -> Vec<Step> {
+        self.steps.unwrap_or_default()
+    }
+
     /// The same with another twist (paper's frame).
     pub fn with_twist(mut self, twist: Twist) -> Self {
         self.state.twist = twist;
@@ -144,10 +179,13 @@ impl<'m> Transient<'m> {
     /// One step of length `h` at the speeds `shown` by the encoders, in halves where it does not
     /// converge, or its error is larger than asked for.
     fn step(&mut self, shown: PerSide<f64>, h: f64, halvings: u32) -> Result<(), Stopped> {
-        if let Some((state, error)) = self.advanced(shown, h)
+        if let Some((state, stages, error)) = self.advanced(shown, h)
             && (error <= self.tolerance || halvings >= MOST_REFINED)
         {
             self.state = state;
+            if let Some(steps) = &mut self.steps {
+                steps.push(Step { end: state.t, duration: h, stages });
+            }
             return Ok(());
         }
         if halvings == MOST_HALVINGS {
@@ -158,9 +196,9 @@ impl<'m> Transient<'m> {
         self.step(shown, h / 2.0, halvings + 1)
     }
 
-    /// The state a step later and the estimated error of its twist, m/s; none where Newton's iteration does not
-    /// converge.
-    fn advanced(&self, shown: PerSide<f64>, h: f64) -> Option<(State, f64)> {
+    /// The state a step later, the stages of the step, and the estimated error of its twist, m/s; none where Newton's iteration
+    /// does not converge.
+    fn advanced(&self, shown: PerSide<f64>, h: f64) -> Option<(State, [Instant; 2], f64)> {
         let start = self.state;
         // Stage 1 at t + γ h from u, stage 2 at t + h from u + (1 − γ) h u̇₁.
         let first = self.stage(&start, shown, GAMMA * h, GAMMA * h, start.twist, start.twist)?;
@@ -184,7 +222,16 @@ impl<'m> Transient<'m> {
         let (u, u_1, u_2) = (start.twist, first.twist, second.twist);
         let turn = off(u.w, u_1.w, u_2.w) * self.model.vehicle().gauge / 2.0;
         let error = off(u.v_x, u_1.v_x, u_2.v_x).hypot(off(u.v_y, u_1.v_y, u_2.v_y)).hypot(turn);
-        Some((State { t: start.t + h, pose, ..second }, error))
+        let balance = |state: &State, base: &Twist| {
+            // u̇ = (u − u_b)/(γ h)
+            let rate = |a: f64, b: f64| (a - b) / (GAMMA * h);
+            let Twist { v_x, v_y, w } = state.twist;
+            let rate =
+                Twist { v_x: rate(v_x, base.v_x), v_y: rate(v_y, base.v_y), w: rate(w, base.w) };
+            Instant { belt_speed: state.belt_speed, twist: state.twist, rate }
+        };
+        let stages = [balance(&first, &start.twist), balance(&second, &base)];
+        Some((State { t: start.t + h, pose, ..second }, stages, error))
     }
 
     /// Solves the balance `after` seconds from the start of the step, with the acceleration

@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
+use trackdyn_motion::transient::Step;
 use trackdyn_motion::{Forces, Transient};
 use trackdyn_physics::contact::quadrature::Resolution;
 use trackdyn_physics::{ActiveEffect, CATALOGUE, Circumstance, Drive, Effects, Model, Vehicle};
@@ -293,6 +294,8 @@ struct Inertia {
     drive: Drive,
     /// Motion in time of each run, by the clock of the encoders.
     paths: Vec<Trajectory>,
+    /// The steps that it was found in.
+    steps: Vec<Vec<Step>>,
     /// Speeds of the belts behind it, m/s.
     belts: Vec<Vec<TrackSample>>,
     /// The stationary twists there without it.
@@ -311,12 +314,12 @@ impl Inertia {
             .iter()
             .map(|run| smooth(run).iter().map(gained).collect())
             .collect();
-        let paths: Result<Vec<Trajectory>, String> =
-            belts.par_iter().map(|run| path_in_time(model, &surface, run)).collect();
+        let runs = belts.par_iter().map(|run| path_in_time(model, &surface, run));
+        let (paths, steps) = runs.collect::<Result<(Vec<_>, Vec<_>), String>>()?;
         let steady = belts.iter().map(|run| stationary(&surface, run)).collect();
         let vehicle = case.vehicle.clone();
         let (model, drive) = (model.clone(), *drive);
-        Ok(Self { inert, vehicle, model, drive, paths: paths?, belts, steady })
+        Ok(Self { inert, vehicle, model, drive, paths, steps, belts, steady })
     }
 
     /// Whether it was found for the very same.
@@ -375,9 +378,9 @@ impl Inertia {
         let grounds = [&with, &self.model].map(|model| model.ground(&level));
         let with = Forces { model: &with, ground: &grounds[0], creep: CREEP };
         let without = Forces { model: &self.model, ground: &grounds[1], creep: CREEP };
-        let runs = self.paths.par_iter().zip(&self.belts).zip(&self.steady);
-        runs.map(|((path, belts), steady)| {
-            let run = Without { path, belts, steady };
+        let runs = self.steps.par_iter().zip(&self.belts).zip(&self.steady);
+        runs.map(|((steps, belts), steady)| {
+            let run = Without { steps, belts, steady };
             sheared::departures([&with, &without], &run, &stationary(surface, belts))
         })
         .collect()
@@ -407,26 +410,27 @@ fn stationary(surface: &Surface, belts: &[TrackSample]) -> Vec<Twist> {
     belts.iter().map(|reading| surface.motion(speeds(reading)).twist(&[0.0; 3])).collect()
 }
 
-/// The motion in time over a run.
+/// The motion in time over a run, and its steps.
 fn path_in_time(
     model: &Model,
     surface: &Surface,
     belts: &[TrackSample],
-) -> Result<Trajectory, String> {
+) -> Result<(Trajectory, Vec<Step>), String> {
     let mut path = Trajectory::default();
-    let Some(first) = belts.first() else { return Ok(path) };
+    let Some(first) = belts.first() else { return Ok((path, Vec::new())) };
     let start = surface.motion(speeds(first)).twist(&[0.0; 3]);
     let mut robot = Transient::at_rest(model, first.t, Pose::default())
         .with_step(STEP)
         .with_tolerance(TOLERANCE)
         .with_creep(CREEP)
         .with_twist(start)
-        .with_pull();
+        .with_pull()
+        .with_steps();
     path.push(robot.moment());
     for pair in belts.windows(2) {
         robot
             .drive(speeds(&pair[0]), pair[1].t, &mut path)
             .map_err(|stopped| stopped.to_string())?;
     }
-    Ok(path)
+    Ok((path, robot.into_steps()))
 }

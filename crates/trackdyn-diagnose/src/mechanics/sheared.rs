@@ -2,48 +2,50 @@
 //!
 //! # Law
 //! A motion in time with these laws takes a quadrature for each of many balances of forces. One step of Newton's method
-//! from near it takes two. With û the motion without the laws, D what they add to it, and G and G₀ the sums of forces with and
-//! without them, by the implicit Euler rule over the steps of û,
+//! from near it takes few. With û the motion without the laws, D what they add to it, and G and G₀ the sums of forces with and
+//! without them, in each stage of each step of û
 //!
 //! ```text
-//! G(û_k + D_k, û̇_k + (D_k − D_{k−1})/h) = G₀(û_k, û̇_k)
+//! G(û + D, û̇ + (D − D_b)/(γ h)) = G₀(û, û̇)
 //! ```
 //!
-//! from D_k as it is in stationary motion on: (G_u + G_a/h) δ = G₀ − G. Of δ as much is taken as comes nearer to a balance: where a
-//! track nearly sticks a law may be steep, and the whole of it lead far away.
+//! D_b from the stages before, as û has it from its own ([`transient`](trackdyn_motion::transient)). The first stage begins at D as it is in
+//! stationary motion, the second at that of the first:
+//!
+//! ```text
+//! (G_u + G_a/(γ h)) δ = G₀ − G
+//! ```
+//!
+//! with G_a that without the laws, and both matrices of the first stage. Of δ as much is taken as comes nearer to a balance: where a track nearly sticks a law may be steep, and the
+//! whole of it lead far away.
 
 use super::{minus, plus};
-use nalgebra::Vector3;
-use trackdyn_core::frames::paper_twist_from_ros;
-use trackdyn_core::{PerSide, Trajectory, Twist};
+use nalgebra::{Matrix3, Vector3};
+use trackdyn_core::{PerSide, Twist};
 use trackdyn_motion::Forces;
+use trackdyn_motion::transient::{GAMMA, Instant, Step};
 use trackdyn_recording::TrackSample;
+
+/// Shares of a step of Newton's method, the first of which that comes nearer to a balance of forces is taken.
+const SHARES: [f64; 3] = [1.0, 0.3, 0.1];
 
 /// A run without the laws.
 pub struct Without<'a> {
-    /// Its motion in time.
-    pub path: &'a Trajectory,
+    /// The steps of its motion in time.
+    pub steps: &'a [Step],
     /// Speeds of the belts, m/s.
     pub belts: &'a [TrackSample],
     /// The stationary twist at each of their readings.
     pub steady: &'a [Twist],
 }
 
-/// Shares of a step of Newton's method, the first of which that comes nearer to a balance of forces is taken.
-const SHARES: [f64; 3] = [1.0, 0.3, 0.1];
-
 /// What the laws add to the twist (paper's frame) while each reading of a run holds. `forces` are those with and without
 /// the laws, `steady` is the stationary twist with them at each reading.
-pub fn departures(forces: [&Forces; 2], run: &Without, steady: &[Twist]) -> Vec<Twist> {
+pub fn departures([with, without]: [&Forces; 2], run: &Without, steady: &[Twist]) -> Vec<Twist> {
     let still = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
-    let mut added = vec![still; run.belts.len()];
-    let moments = run.path.moments();
-    let [with, without] = forces;
-    let gauge = with.model.vehicle().gauge;
-    let size = |force: &Vector3<f64>| force[0].hypot(force[1]).hypot(force[2] / gauge);
-    // What is added to the motion without the laws, at the end of the step before.
-    let mut before_added = Vector3::zeros();
-    let mut next = 1;
+    let mut departures = vec![still; run.belts.len()];
+    let mut ended = Vector3::zeros();
+    let mut steps = run.steps.iter().peekable();
     for (reading, pair) in run.belts.windows(2).enumerate() {
         let [from, until] = [pair[0].t, pair[1].t];
         let speeds = PerSide::new(pair[0].v_left, pair[0].v_right);
@@ -52,42 +54,78 @@ pub fn departures(forces: [&Forces; 2], run: &Without, steady: &[Twist]) -> Vec<
         // What the tables and rules of both leave of a stationary motion is no change of it.
         let rest = with.sum(speeds, here, &still) - without.sum(speeds, there, &still);
         let mut sum = Vector3::zeros();
-        while let Some(moment) = moments.get(next).filter(|moment| moment.t <= until) {
-            let before = &moments[next - 1];
-            next += 1;
-            let h = moment.t - before.t;
-            if h <= 0.0 {
-                continue;
-            }
-            let twist = paper_twist_from_ros(&moment.twist);
-            let change = minus(&twist, &paper_twist_from_ros(&before.twist));
-            let rate = twist_of(&(vector(&change) / h));
-            let belts = moment.belt_speed;
-            let balance = without.sum(belts, &twist, &rate) + rest;
-            let at = |added: &Vector3<f64>| {
-                let faster = (added - before_added) / h;
-                (plus(&twist, &twist_of(added)), plus(&rate, &twist_of(&faster)))
-            };
-            let (moved, moved_rate) = at(&shift);
-            let (force, [by_twist, by_rate]) = with.near(belts, &moved, &moved_rate);
-            let off = force - balance;
-            let step = (by_twist + by_rate / h).try_inverse().map(|inverse| -(inverse * off));
-            let nearer = step.and_then(|step| {
-                let shares = SHARES.iter().map(|share| shift + step * *share);
-                shares.into_iter().find(|added| {
-                    let (moved, moved_rate) = at(added);
-                    size(&(with.sum(belts, &moved, &moved_rate) - balance)) < size(&off)
-                })
+        while let Some(step) = steps.next_if(|step| step.end <= until) {
+            let per_second = (GAMMA * step.duration).recip();
+            let [first, second] = step.stages.map(|instant| {
+                let balance = without.sum(instant.belt_speed, &instant.twist, &instant.rate) + rest;
+                Stage { with, instant, per_second, balance }
             });
-            before_added = nearer.unwrap_or(shift);
-            sum += (before_added - shift) * h;
+            let inverse = first.inverse(without, &ended, &shift);
+            let one = first.solve(&shift, inverse, &ended);
+            let base = ended + (one - ended) * ((1.0 - GAMMA) / GAMMA);
+            let two = second.solve(&one, inverse, &base);
+            sum += (one * (1.0 - GAMMA) + two * GAMMA - shift) * step.duration;
+            ended = two;
         }
         let held = until - from;
         if held > 0.0 {
-            added[reading] = twist_of(&(sum / held));
+            departures[reading] = twist_of(&(sum / held));
         }
     }
-    added
+    departures
+}
+
+/// A stage in which what the laws add is sought.
+struct Stage<'a> {
+    with: &'a Forces<'a>,
+    /// The motion without them.
+    instant: Instant,
+    /// 1/(γ h), 1/s.
+    per_second: f64,
+    /// The sum of forces that is to be reached.
+    balance: Vector3<f64>,
+}
+
+impl Stage<'_> {
+    /// The motion with something `added`, which was `base` before.
+    fn moved(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> (Twist, Twist) {
+        let faster = (added - base) * self.per_second;
+        (plus(&self.instant.twist, &twist_of(added)), plus(&self.instant.rate, &twist_of(&faster)))
+    }
+
+    /// How far the forces are from balance.
+    fn off(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> Vector3<f64> {
+        let (twist, rate) = self.moved(added, base);
+        self.with.sum(self.instant.belt_speed, &twist, &rate) - self.balance
+    }
+
+    /// The inverse of the derivative of that; none where it has none.
+    fn inverse(
+        &self,
+        without: &Forces,
+        base: &Vector3<f64>,
+        added: &Vector3<f64>,
+    ) -> Option<Matrix3<f64>> {
+        let (twist, rate) = self.moved(added, base);
+        let belts = self.instant.belt_speed;
+        let by_rate = without.by_rate(belts, &twist, &rate) * self.per_second;
+        (self.with.by_twist(belts, &twist, &rate) + by_rate).try_inverse()
+    }
+
+    /// One step of Newton's method, as far as it comes nearer to a balance.
+    fn solve(
+        &self,
+        start: &Vector3<f64>,
+        inverse: Option<Matrix3<f64>>,
+        base: &Vector3<f64>,
+    ) -> Vector3<f64> {
+        let gauge = self.with.model.vehicle().gauge;
+        let size = |off: &Vector3<f64>| off[0].hypot(off[1]).hypot(off[2] / gauge);
+        let off = self.off(start, base);
+        let Some(inverse) = inverse else { return *start };
+        let mut shares = SHARES.iter().map(|share| start - inverse * off * *share);
+        shares.find(|added| size(&self.off(added, base)) < size(&off)).unwrap_or(*start)
+    }
 }
 
 fn vector(twist: &Twist) -> Vector3<f64> {

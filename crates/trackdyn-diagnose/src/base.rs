@@ -61,12 +61,12 @@ impl Base {
         // What has mass tells how much friction there is, and where the mass is, if the evidence knows that better than the owner.
         let tried: Vec<Unknown> = nuisances.iter().chain(&BY_MASS).copied().collect();
         let fit = Fit::at(start.clone(), &tried, evidence, metric, Some(&as_filed.mechanics));
-        let is_known = |(place, unknown): &(usize, &Unknown)| {
-            let known = fit.solution.covariance[(*place, *place)].sqrt();
-            known < BETTER * prior(&start, **unknown, evidence).deviation
-        };
-        let told = tried.iter().enumerate().skip(nuisances.len()).filter(is_known);
-        nuisances.extend(told.map(|(_, unknown)| *unknown));
+        for (place, &unknown) in tried.iter().enumerate().skip(nuisances.len()) {
+            let known = fit.solution.covariance[(place, place)].sqrt();
+            if known < BETTER * prior(&start, unknown, evidence).deviation {
+                nuisances.push(unknown);
+            }
+        }
         let plain = Fit::new(start, &nuisances, evidence, metric, Some(&fit.mechanics));
         // The vehicle takes over what it can of the constant ICRs; a second fit tells what is left.
         let (mut fit, mut calibration) = (plain.clone(), Calibration::None);

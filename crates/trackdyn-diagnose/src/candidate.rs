@@ -9,13 +9,13 @@ mod places;
 
 use crate::evidence::Evidence;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
-use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument, shears};
+use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument};
 use crate::metric::Metric;
 use crate::prior::area;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
-use trackdyn_physics::effect::{Card, Parameter, Role, Stage};
+use trackdyn_physics::effect::{Card, Parameter, Role};
 use trackdyn_physics::{ActiveEffect, CATALOGUE};
 
 /// An effect with one choice of what is no size.
@@ -174,7 +174,7 @@ fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
     let inside = |value: f64| value.clamp(low, high);
     let step = spacing(parameter, None, evidence);
     match parameter.role {
-        Role::Size { .. } if of.stages.contains(&Stage::Shear) => {
+        Role::Size { .. } if of.shears() => {
             let distance = parameter.typical - neutral(parameter);
             SHEAR_SIZES.map(|part| inside(neutral(parameter) + part * distance)).to_vec()
         }
@@ -227,21 +227,17 @@ impl<'a> Beside<'a> {
     /// What an effect changes of the prediction; none where it cannot act.
     fn change(&self, effect: ActiveEffect) -> Option<Vec<Vector3<f64>>> {
         let vehicle = &self.hypothesis.vehicle;
-        let feels_inertia = feels_inertia(vehicle, &effect);
         // Friction that only moves constant ICRs answers to acceleration as its level does.
-        let answers = shears(&effect) && !effect.card().breaks.is_empty();
-        let base = if feels_inertia || answers { &self.moving } else { &self.still };
+        let answers = effect.card().shears() && !effect.card().breaks.is_empty();
+        let is_moving = answers || feels_inertia(vehicle, &effect);
+        let base = if is_moving { &self.moving } else { &self.still };
         let is_instrument = is_instrument(vehicle, &effect);
         let with = base.hypothesis.with_effect(effect);
         let instruments = Instruments::of(&with);
         let with = if is_instrument {
             base.mechanics.predict(&instruments, self.evidence)
         } else {
-            let mechanics = if feels_inertia {
-                base.mechanics.anew(&with, self.evidence)
-            } else {
-                Mechanics::beside(Some(&base.mechanics), &with, &[], self.evidence)
-            };
+            let mechanics = Mechanics::beside(Some(&base.mechanics), &with, &[], self.evidence);
             if mechanics.failure().is_some() {
                 return None;
             }

@@ -95,21 +95,10 @@ pub fn feels_inertia(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
     Transient::feels_inertia(&single(vehicle, effect))
 }
 
-/// Whether an effect changes the shear stress: what it changes in the answer to acceleration takes no motion in time of its own.
-pub fn shears(effect: &ActiveEffect) -> bool {
-    effect.card().stages.contains(&Stage::Shear)
-}
-
 impl Mechanics {
     /// The mechanics of a hypothesis for this evidence.
     pub fn new(hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
         Self::found(None, None, hypothesis, evidence, InertiaNear::here)
-    }
-
-    /// The mechanics of a hypothesis that differs from this one's, with a motion in time of its own where there is
-    /// one.
-    pub fn anew(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
-        Self::found(Some(self), None, hypothesis, evidence, InertiaNear::here)
     }
 
     /// The same where `before` is the mechanics of a hypothesis that resembles it, and some numbers are free: where
@@ -177,7 +166,7 @@ impl Mechanics {
         let (varying, constant): (Vec<_>, Vec<_>) =
             mechanical.cloned().partition(|effect| varies(vehicle, effect, evidence));
         let without_shear = |effects: &[ActiveEffect]| -> Effects {
-            effects.iter().filter(|&effect| !shears(effect)).cloned().collect()
+            effects.iter().filter(|effect| !effect.card().shears()).cloned().collect()
         };
         let drive = Instruments::of(hypothesis).drive;
         let largest = HEADROOM * evidence.fastest() * std::f64::consts::SQRT_2;
@@ -192,7 +181,7 @@ impl Mechanics {
             ground: None,
             inertia: None,
             sheared: None,
-            shear: constant.iter().filter(|&effect| shears(effect)).cloned().collect(),
+            shear: constant.iter().filter(|effect| effect.card().shears()).cloned().collect(),
             stands_in: false,
             failed: None,
         };

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use table::{Grid, Spacing, Table};
 use trackdyn_core::{PerSide, Side, Twist, real};
 use trackdyn_motion::{Icrs, Near, Stationary, Status};
-use trackdyn_physics::effect::{Stage, Symmetry};
+use trackdyn_physics::effect::Symmetry;
 use trackdyn_physics::{Circumstance, Model};
 
 /// A table of stationary motions.
@@ -120,7 +120,7 @@ impl Steady {
 fn depends_on_slip_speed(model: &Model) -> bool {
     model.effects().iter().any(|effect| {
         let card = effect.card();
-        card.stages.contains(&Stage::Shear) && card.breaks.contains(&Symmetry::SpeedScale)
+        card.shears() && card.breaks.contains(&Symmetry::SpeedScale)
     })
 }
 

@@ -176,15 +176,16 @@ impl<'m> Transient<'m> {
         self
     }
 
-    /// One step of length `h` at the speeds `shown` by the encoders, in halves where it does not
+    /// One step to the time `end` at the speeds `shown` by the encoders, in halves where it does not
     /// converge, or its error is larger than asked for.
-    fn step(&mut self, shown: PerSide<f64>, h: f64, halvings: u32) -> Result<(), Stopped> {
-        if let Some((state, stages, error)) = self.advanced(shown, h)
+    fn step(&mut self, shown: PerSide<f64>, end: f64, halvings: u32) -> Result<(), Stopped> {
+        if let Some((state, stages, error)) = self.advanced(shown, end)
             && (error <= self.tolerance || halvings >= MOST_REFINED)
         {
+            let duration = end - self.state.t;
             self.state = state;
             if let Some(steps) = &mut self.steps {
-                steps.push(Step { end: state.t, duration: h, stages });
+                steps.push(Step { end, duration, stages });
             }
             return Ok(());
         }
@@ -192,14 +193,15 @@ impl<'m> Transient<'m> {
             let reason = "no motion balances the forces on the robot".to_owned();
             return Err(Stopped { t: self.state.t, reason });
         }
-        self.step(shown, h / 2.0, halvings + 1)?;
-        self.step(shown, h / 2.0, halvings + 1)
+        self.step(shown, f64::midpoint(self.state.t, end), halvings + 1)?;
+        self.step(shown, end, halvings + 1)
     }
 
-    /// The state a step later, the stages of the step, and the estimated error of its twist, m/s; none where Newton's iteration
+    /// The state at the end of a step, its stages, and the estimated error of its twist, m/s; none where Newton's iteration
     /// does not converge.
-    fn advanced(&self, shown: PerSide<f64>, h: f64) -> Option<(State, [Instant; 2], f64)> {
+    fn advanced(&self, shown: PerSide<f64>, end: f64) -> Option<(State, [Instant; 2], f64)> {
         let start = self.state;
+        let h = end - start.t;
         // Stage 1 at t + γ h from u, stage 2 at t + h from u + (1 − γ) h u̇₁.
         let first = self.stage(&start, shown, GAMMA * h, GAMMA * h, start.twist, start.twist)?;
         let rate = |a: f64, b: f64| a + (1.0 - GAMMA) / GAMMA * (b - a);
@@ -222,7 +224,7 @@ impl<'m> Transient<'m> {
         let (u, u_1, u_2) = (start.twist, first.twist, second.twist);
         let turn = off(u.w, u_1.w, u_2.w) * self.model.vehicle().gauge / 2.0;
         let error = off(u.v_x, u_1.v_x, u_2.v_x).hypot(off(u.v_y, u_1.v_y, u_2.v_y)).hypot(turn);
-        let balance = |state: &State, base: &Twist| {
+        let instant = |state: &State, base: &Twist| {
             // u̇ = (u − u_b)/(γ h)
             let rate = |a: f64, b: f64| (a - b) / (GAMMA * h);
             let Twist { v_x, v_y, w } = state.twist;
@@ -230,8 +232,8 @@ impl<'m> Transient<'m> {
                 Twist { v_x: rate(v_x, base.v_x), v_y: rate(v_y, base.v_y), w: rate(w, base.w) };
             Instant { belt_speed: state.belt_speed, twist: state.twist, rate }
         };
-        let stages = [balance(&first, &start.twist), balance(&second, &base)];
-        Some((State { t: start.t + h, pose, ..second }, stages, error))
+        let stages = [instant(&first, &start.twist), instant(&second, &base)];
+        Some((State { t: end, pose, ..second }, stages, error))
     }
 
     /// Solves the balance `after` seconds from the start of the step, with the acceleration
@@ -316,8 +318,7 @@ impl Plant for Transient<'_> {
         while count < steps {
             count += 1.0;
             let end = if count < steps { start + interval * count / steps } else { until };
-            self.step(speeds, end - self.state.t, 0)?;
-            self.state.t = end;
+            self.step(speeds, end, 0)?;
             trajectory.push(self.moment());
             if self.state.tips {
                 return Err(Stopped { t: end, reason: "the robot tips over".to_owned() });

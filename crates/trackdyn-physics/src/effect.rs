@@ -83,6 +83,13 @@ pub struct Card {
     pub sources: &'static [&'static str],
 }
 
+impl Card {
+    /// Whether it changes the shear stress, which then needs a quadrature.
+    pub fn shears(&self) -> bool {
+        self.stages.contains(&Stage::Shear)
+    }
+}
+
 /// A parameter of an effect.
 #[derive(Debug, PartialEq)]
 pub struct Parameter {

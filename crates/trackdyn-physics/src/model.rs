@@ -21,7 +21,6 @@ pub use situation::{Site, Situation};
 use crate::contact::pressure::Footprint;
 use crate::contact::quadrature::{self, Resolution};
 use crate::contact::{Extent, Patch, Pressure, ShearStress, friction_wrench};
-use crate::effect::Stage;
 use crate::effects::Effects;
 use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Side, Wrench};
@@ -85,8 +84,7 @@ impl Model {
         let patches = PerSide::from_fn(|side| vehicle.patches(side));
         let footprint = Footprint::of(&patches.left);
         let extent = PerSide::from_fn(|side| footprint.extent(&patches[side]));
-        let has_shear_law =
-            effects.iter().any(|effect| effect.card().stages.contains(&Stage::Shear));
+        let has_shear_law = effects.iter().any(|effect| effect.card().shears());
         let resolution = Resolution::default();
         Self {
             vehicle,

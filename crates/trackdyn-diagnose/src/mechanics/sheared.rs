@@ -16,8 +16,8 @@
 //! (G_u + G_a/(γ h)) δ = G₀ − G
 //! ```
 //!
-//! with G_a that without the laws, and both matrices of the first stage. Of δ as much is taken as comes nearer to a balance: where a track nearly sticks a law may be steep, and the
-//! whole of it lead far away.
+//! with G_a that without the laws, and both matrices of the first stage. Of δ as much is taken as comes nearer to a balance:
+//! where a track nearly sticks a law may be steep, and the whole of it lead far away.
 
 use super::{minus, plus};
 use nalgebra::{Matrix3, Vector3};

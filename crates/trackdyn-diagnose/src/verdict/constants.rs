@@ -83,11 +83,9 @@ fn as_filed(
     });
     let vehicle = with_friction(&file.vehicle, without.friction_level);
     let filed = Hypothesis { vehicle, offset: [0.0; 3], cog_moved: [0.0; 2], ..without };
-    let is_fixed = |unknown: &Unknown| match unknown {
-        Unknown::Offset(_) | Unknown::Cog(_) => false,
-        Unknown::FrictionLevel | Unknown::Effect(..) => {
-            !added.iter().any(|&effect| unknown.is_of(effect))
-        }
+    let is_fixed = |unknown: &Unknown| {
+        let is_constant = matches!(unknown, Unknown::Offset(_) | Unknown::Cog(_));
+        !is_constant && !added.iter().any(|&effect| unknown.is_of(effect))
     };
     (filed, best.fit.unknowns.iter().copied().filter(is_fixed).collect())
 }

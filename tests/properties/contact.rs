@@ -5,7 +5,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use trackdyn_core::{Dual, Scalar, Wrench};
 use trackdyn_physics::contact::{
-    Friction, Patch, Pressure, ShearStress, SlipField, closed_form, friction_wrench, quadrature,
+    Friction, Patch, Pressure, Resolution, ShearStress, SlipField, closed_form, friction_wrench,
+    quadrature,
 };
 use trackdyn_tests::uniform;
 
@@ -104,7 +105,13 @@ fn closed_form_equals_quadrature() {
     let mut random = ChaCha8Rng::seed_from_u64(11);
     for _ in 0..120 {
         let case = Case::random(&mut random, 2.0);
-        let wrench = friction_wrench(&[case.patch], case.friction, &case.pressure(), &case.slip());
+        let wrench = friction_wrench(
+            &[case.patch],
+            case.friction,
+            &case.pressure(),
+            &case.slip(),
+            Resolution::Fine,
+        );
         let expected = case.by_quadrature();
         for ((ours, theirs), scale) in components(&wrench).iter().zip(expected).zip(case.scale()) {
             assert!((ours - theirs).abs() < 1e-11 * scale, "{ours} {theirs} {case:?}");
@@ -126,7 +133,13 @@ fn derivatives_equal_difference_quotients_of_the_quadrature() {
         }
         compared += 1;
         let slip = Case::slip_about(Dual::<2>::variables(case.icr), case.rotation);
-        let exact = friction_wrench(&[case.patch], case.friction, &case.pressure(), &slip);
+        let exact = friction_wrench(
+            &[case.patch],
+            case.friction,
+            &case.pressure(),
+            &slip,
+            Resolution::Fine,
+        );
         for variable in 0..2 {
             let at = |steps: f64| {
                 let mut moved = case;
@@ -162,7 +175,13 @@ fn far_field_takes_over_without_a_step() {
         let Case { patch, friction, .. } = case;
         let (pressure, slip) = (case.pressure(), case.slip());
         let near = closed_form::friction_wrench([patch].iter(), friction, &pressure, &slip);
-        let far = quadrature::far_field_wrench([patch].iter(), friction, &pressure, &slip);
+        let far = quadrature::far_field_wrench(
+            [patch].iter(),
+            friction,
+            &pressure,
+            &slip,
+            Resolution::Fine,
+        );
         for ((a, b), scale) in components(&near).iter().zip(components(&far)).zip(case.scale()) {
             assert!((a - b).abs() < 1e-11 * scale, "{a} {b} {case:?}");
         }
@@ -181,7 +200,13 @@ fn patches_near_and_far_add_up() {
             case.patch.length(),
         );
         let of = |patches: &[Patch]| {
-            components(&friction_wrench(patches, case.friction, &case.pressure(), &case.slip()))
+            components(&friction_wrench(
+                patches,
+                case.friction,
+                &case.pressure(),
+                &case.slip(),
+                Resolution::Fine,
+            ))
         };
         let (both, near, far) = (of(&[case.patch, far]), of(&[case.patch]), of(&[far]));
         for k in 0..3 {
@@ -200,7 +225,13 @@ fn friction_dissipates() {
             continue;
         }
         let slip = case.slip();
-        let wrench = friction_wrench(&[case.patch], case.friction, &case.pressure(), &slip);
+        let wrench = friction_wrench(
+            &[case.patch],
+            case.friction,
+            &case.pressure(),
+            &slip,
+            Resolution::Fine,
+        );
         // P = F · s(0) + M · rotation < 0
         let power = wrench.force_x * slip.lateral
             + wrench.force_y * slip.forward
@@ -214,7 +245,13 @@ fn friction_is_bounded_by_the_load() {
     let mut random = ChaCha8Rng::seed_from_u64(15);
     for _ in 0..5_000 {
         let case = Case::random(&mut random, 30.0);
-        let wrench = friction_wrench(&[case.patch], case.friction, &case.pressure(), &case.slip());
+        let wrench = friction_wrench(
+            &[case.patch],
+            case.friction,
+            &case.pressure(),
+            &case.slip(),
+            Resolution::Fine,
+        );
         let [x, y] = [wrench.force_x / case.friction.across, wrench.force_y / case.friction.along];
         assert!(x.hypot(y) <= case.scale()[0] / case.friction.across.max(case.friction.along));
     }
@@ -232,7 +269,7 @@ fn departure_of_a_polynomial_law_is_exact() {
             case.friction,
             &case.pressure(),
             &slip,
-            quadrature::Resolution::Fine,
+            Resolution::Fine,
             |_, site| {
                 let mut stress = ShearStress::base();
                 stress.scale(site.unit_slip_length + 1.0);

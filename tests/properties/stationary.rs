@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use trackdyn_core::{PerSide, STANDARD_GRAVITY, Side};
 use trackdyn_motion::{Stationary, Status};
-use trackdyn_physics::contact::{SlipField, friction_wrench};
+use trackdyn_physics::contact::{Resolution, SlipField, friction_wrench};
 use trackdyn_physics::{ActiveEffect, Circumstance, Effects, Model, VehicleFile};
 use trackdyn_tests::{random_vehicle, uniform};
 
@@ -121,7 +121,8 @@ fn tracks_that_hold_stay_within_their_limit_surface() {
             let slip =
                 SlipField { lateral: sense * y, forward: -sense * x, rotation: sense, speed: 1.0 };
             let patches = &model.patches()[anchor];
-            let wrench = friction_wrench(patches, friction, &pressure(anchor), &slip);
+            let wrench =
+                friction_wrench(patches, friction, &pressure(anchor), &slip, Resolution::Fine);
             let power = |[x, y, moment]: [f64; 3]| {
                 x * slip.lateral + y * slip.forward + moment * slip.rotation
             };

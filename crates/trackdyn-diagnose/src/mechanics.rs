@@ -9,8 +9,8 @@
 //!
 //! # Assumes
 //! The departures are found without the laws that change the shear stress, which need a quadrature per solve. What
-//! these change in that by ground is a product of two small things; what they change in that by inertia is one step of
-//! Newton's method away. Where no motion in time goes through, that of a hypothesis that resembles this one stands in: the
+//! these change in that by ground is a product of two small things; what they change in that by inertia is found
+//! from it in a few steps. Where no motion in time goes through, that of a hypothesis that resembles this one stands in: the
 //! ticks of a coarse counter may tip a high robot over that never was near to it.
 
 mod belts;
@@ -31,7 +31,7 @@ use std::sync::Arc;
 use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{PerSide, Pose, Twist};
 use trackdyn_motion::Transient;
-use trackdyn_physics::contact::quadrature::Resolution;
+use trackdyn_physics::contact::Resolution;
 use trackdyn_physics::effect::Stage;
 use trackdyn_physics::{ActiveEffect, Drive, Effects, Model, Sensor, Vehicle};
 use trackdyn_recording::TrackSample;
@@ -170,8 +170,7 @@ impl Mechanics {
         };
         let drive = Instruments::of(hypothesis).drive;
         let largest = HEADROOM * evidence.fastest() * std::f64::consts::SQRT_2;
-        let model = Model::new(vehicle.clone(), constant.iter().cloned().collect())
-            .with_resolution(Resolution::Coarse);
+        let model = coarse(vehicle, constant.iter().cloned().collect());
         let surface = Surface::new(&model, largest, before.map(|before| &before.surface));
         let steady = Arc::new(steady(&surface, &drive, evidence.tracks()));
         let mut mechanics = Self {
@@ -189,13 +188,13 @@ impl Mechanics {
         if mechanics.failure().is_some() {
             return mechanics;
         }
-        let simple = Model::new(vehicle.clone(), without_shear(&constant));
+        let simple = coarse(vehicle, without_shear(&constant));
         if !varying.is_empty() {
             let mut effects = without_shear(&constant);
             for effect in varying {
                 effects.insert(effect);
             }
-            let with = Model::new(vehicle.clone(), effects);
+            let with = coarse(vehicle, effects);
             let departure = by_ground(&with, &simple, &mechanics.surface, &drive, evidence);
             mechanics.ground = Some(Arc::new(departure));
         }
@@ -323,8 +322,13 @@ fn motion_over(
     })
 }
 
+/// A robot as finely as noisy data can tell.
+fn coarse(vehicle: &Vehicle, effects: Effects) -> Model {
+    Model::new(vehicle.clone(), effects).with_resolution(Resolution::Coarse)
+}
+
 fn single(vehicle: &Vehicle, effect: &ActiveEffect) -> Model {
-    Model::new(vehicle.clone(), std::iter::once(effect.clone()).collect())
+    coarse(vehicle, std::iter::once(effect.clone()).collect())
 }
 
 fn plus(a: &Twist, b: &Twist) -> Twist {

@@ -2,6 +2,7 @@
 //!
 //! - [`stationary`]: the motion at which the forces balance, for a pair of track speeds.
 //! - [`transient`]: the motion in time, with stick and slip.
+//! - [`newton`]: the search for both, with derivatives or near a root.
 //! - [`Forces`]: what pushes the body at a motion, and how that changes with it.
 //! - [`map`]: that motion over a grid of speeds, its means, spreads and sectors.
 //! - [`kinematics`]: what the means are for: equations (7)-(13) with constant ICRs.
@@ -10,7 +11,7 @@ mod forces;
 pub mod icr;
 pub mod kinematics;
 pub mod map;
-mod newton;
+pub mod newton;
 pub mod stationary;
 pub mod transient;
 

@@ -2,6 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 use trackdyn_core::Dual;
+use trackdyn_physics::contact::Resolution;
 
 /// When a point counts as a root.
 #[derive(Clone, Copy, Debug)]
@@ -10,6 +11,16 @@ pub struct Tolerance {
     pub converged: f64,
     /// Residual up to which a point counts as a root when rounding keeps it from `converged`.
     pub rounding: f64,
+}
+
+impl Tolerance {
+    /// For friction that has half the digits.
+    const COARSE: Self = Self { converged: 1e-8, rounding: 1e-7 };
+
+    /// The same for friction of this resolution: no root is finer.
+    pub fn at(self, resolution: Resolution) -> Self {
+        if resolution == Resolution::Fine { self } else { Self::COARSE }
+    }
 }
 
 /// Residual below which one more step of a quadratic method is expected to be the last, so that

@@ -28,8 +28,8 @@ use trackdyn_physics::{Balance, Circumstance, Ground, Model, Motion};
 /// Speed, m/s, of the spin that stands for the limit of slow driving.
 const CREEP: f64 = 1e-6;
 
-/// Change of belt speeds over the faster one at which speed and traction agree.
-const SETTLED: f64 = 1e-13;
+/// Residual over the weight, and change of belt speeds over the faster one at which speed and traction agree.
+const TOLERANCE: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11 };
 
 /// Turns between belt speeds and traction after which the search is given up.
 const MOST_TURNS: usize = 100;
@@ -97,7 +97,8 @@ impl<'m> Stationary<'m> {
 
     /// The motion of belts that slip on sprockets of these speeds, m/s, sought from that of belts that do not.
     fn slipping(&self, driven: PerSide<f64>, firm: Solution) -> Solution {
-        let tolerance = SETTLED * driven.left.abs().max(driven.right.abs());
+        let settled = TOLERANCE.at(self.model.resolution()).converged;
+        let tolerance = settled * driven.left.abs().max(driven.right.abs());
         let mut solution = firm;
         let (mut share, mut last) = (1.0, PerSide::new(0.0, 0.0));
         let mut may_be_straight = true;
@@ -276,7 +277,7 @@ impl<'s> Problem<'s> {
         let convergence = newton::solve(
             start,
             half_size,
-            Tolerance { converged: 1e-13, rounding: 1e-11 },
+            TOLERANCE.at(model.resolution()),
             |z| Evaluation::of_dual(self.residual(Dual::variables(z.into()))),
             |z| Vector3::from(self.residual([z[0], z[1], z[2]])),
         );

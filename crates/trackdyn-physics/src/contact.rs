@@ -13,6 +13,7 @@ pub mod slip;
 
 pub use patch::{Extent, Patch};
 pub use pressure::Pressure;
+pub use quadrature::Resolution;
 pub use shear::ShearStress;
 pub use slip::SlipField;
 
@@ -30,16 +31,17 @@ pub struct Friction {
 /// Friction wrench on the body from the patches of one side, about the frame's origin.
 ///
 /// Closed form for each patch where it keeps its digits; where the ICR is so far away that the closed form
-/// would cancel, the integrand is smooth and a Gauss rule is exact to rounding.
+/// would cancel, the integrand is smooth and a Gauss rule is exact to the digits asked for.
 pub fn friction_wrench<S: Scalar>(
     patches: &[Patch],
     friction: Friction,
     pressure: &Pressure<S>,
     slip: &SlipField<S>,
+    resolution: Resolution,
 ) -> Wrench<S> {
     let is_near = |patch: &&Patch| closed_form::applies(patch, slip);
     let far = patches.iter().filter(|patch| !is_near(patch));
-    let mut wrench = quadrature::far_field_wrench(far, friction, pressure, slip);
+    let mut wrench = quadrature::far_field_wrench(far, friction, pressure, slip, resolution);
     // The closed form needs an ICR: a field that does not rotate has none.
     if patches.iter().any(|patch| is_near(&patch)) {
         let near = patches.iter().filter(is_near);

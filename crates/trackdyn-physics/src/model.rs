@@ -19,8 +19,8 @@ pub use sensor::Sensor;
 pub use situation::{Site, Situation};
 
 use crate::contact::pressure::Footprint;
-use crate::contact::quadrature::{self, Resolution};
-use crate::contact::{Extent, Patch, Pressure, ShearStress, friction_wrench};
+use crate::contact::quadrature;
+use crate::contact::{Extent, Patch, Pressure, Resolution, ShearStress, friction_wrench};
 use crate::effects::Effects;
 use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Side, Wrench};
@@ -99,9 +99,14 @@ impl Model {
         }
     }
 
-    /// The same with laws of the shear stress integrated this finely.
+    /// The same with the shear stress integrated this finely.
     pub fn with_resolution(self, resolution: Resolution) -> Self {
         Self { resolution, ..self }
+    }
+
+    /// How finely the shear stress is integrated.
+    pub fn resolution(&self) -> Resolution {
+        self.resolution
     }
 
     /// The vehicle, after the effects of stage `body`.
@@ -159,6 +164,7 @@ impl Model {
                 ground.friction[side],
                 &pressure[side],
                 &motion.slip[side],
+                self.resolution,
             );
             if self.has_shear_law {
                 wrench += self.shear_departure(&situation, side, &pressure[side]);

@@ -6,7 +6,6 @@ use crate::surface::Surface;
 use rayon::prelude::*;
 use trackdyn_core::{PerSide, Pose, Side, Twist, Wrench};
 use trackdyn_motion::{Stationary, Status};
-use trackdyn_physics::contact::quadrature::Resolution;
 use trackdyn_physics::effect::Role;
 use trackdyn_physics::{ActiveEffect, Circumstance, Drive, Model, Motion, Vehicle};
 
@@ -28,7 +27,7 @@ pub fn varies(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> 
     if evidence.is_steady() {
         return false;
     }
-    let model = single(vehicle, effect).with_resolution(Resolution::Coarse);
+    let model = single(vehicle, effect);
     let forces = |at: &Circumstance| probed(&model, at, PerSide::new(-0.2, 0.5));
     let samples = evidence.samples();
     // A place may be crossed between any two.

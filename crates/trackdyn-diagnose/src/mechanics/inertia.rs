@@ -6,7 +6,7 @@
 
 use super::belts::{lagging, smooth};
 use super::sheared::{self, Without};
-use super::{minus, motion_over, plus};
+use super::{coarse, minus, motion_over, plus};
 use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::{Unknown, active, find, typical_size, value, with_friction};
 use crate::surface::Surface;
@@ -16,7 +16,7 @@ use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
 use trackdyn_motion::transient::Step;
 use trackdyn_motion::{Forces, Transient};
-use trackdyn_physics::contact::quadrature::Resolution;
+use trackdyn_physics::contact::Resolution;
 use trackdyn_physics::{ActiveEffect, CATALOGUE, Circumstance, Drive, Effects, Model, Vehicle};
 use trackdyn_recording::TrackSample;
 
@@ -223,10 +223,10 @@ fn stepped(by: Unknown, case: &Case) -> Option<(Model, f64)> {
         Unknown::Cog(axis) => {
             let mut moved = vehicle.clone();
             moved.cog[axis] += step;
-            Some((Model::new(moved, effects.clone()), step))
+            Some((coarse(&moved, effects.clone()), step))
         }
         Unknown::FrictionLevel => {
-            Some((Model::new(with_friction(vehicle, step), effects.clone()), step))
+            Some((coarse(&with_friction(vehicle, step), effects.clone()), step))
         }
         Unknown::Effect(effect, place) => {
             let mut values = find(effects, effect)?.values().to_vec();
@@ -235,7 +235,7 @@ fn stepped(by: Unknown, case: &Case) -> Option<(Model, f64)> {
             values[place] += step;
             let mut effects = effects.clone();
             effects.insert(active(effect, &values));
-            Some((Model::new(vehicle.clone(), effects), step))
+            Some((coarse(vehicle, effects), step))
         }
     }
 }

@@ -1,33 +1,38 @@
 //! What laws of the shear stress change in the motion in time.
 //!
 //! # Law
-//! A motion in time with these laws takes a quadrature for each of many balances of forces. One step of Newton's method
-//! from near it takes few. With û the motion without the laws, D what they add to it, and G and G₀ the sums of forces with and
-//! without them, in each stage of each step of û
+//! A motion in time with these laws takes a quadrature for each of many balances of forces. Near it few are enough. With û the
+//! motion without the laws, D what they add to it, and G and G₀ the sums of forces with and without them, in each stage of each
+//! step of û
 //!
 //! ```text
 //! G(û + D, û̇ + (D − D_b)/(γ h)) = G₀(û, û̇)
 //! ```
 //!
 //! D_b from the stages before, as û has it from its own ([`transient`](trackdyn_motion::transient)). The first stage begins at D as it is in
-//! stationary motion, the second at that of the first:
+//! stationary motion, the second at that of the first, and both with the derivatives of the stage before, by Broyden's method;
+//! where that leads nowhere, with those of the stage itself, which are
 //!
 //! ```text
-//! (G_u + G_a/(γ h)) δ = G₀ − G
+//! G_u + G_a/(γ h)
 //! ```
 //!
-//! with G_a that without the laws, and both matrices of the first stage. Of δ as much is taken as comes nearer to a balance:
-//! where a track nearly sticks a law may be steep, and the whole of it lead far away.
+//! with G_a that without the laws. Where these lead nowhere either, as much of one step is taken as comes nearer to a balance:
+//! where a track nearly sticks a law may be steep, and the whole step lead far away.
 
 use super::{minus, plus};
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{PerSide, Twist};
 use trackdyn_motion::Forces;
+use trackdyn_motion::newton::{self, Tolerance};
 use trackdyn_motion::transient::{GAMMA, Instant, Step};
 use trackdyn_recording::TrackSample;
 
 /// Shares of a step of Newton's method, the first of which that comes nearer to a balance of forces is taken.
 const SHARES: [f64; 3] = [1.0, 0.3, 0.1];
+
+/// Residual over the weight that is none: it moves the robot by less than a hundredth of a millimetre in a second.
+const BALANCED: Tolerance = Tolerance { converged: 1e-5, rounding: 1e-5 };
 
 /// A run without the laws.
 pub struct Without<'a> {
@@ -45,6 +50,7 @@ pub fn departures([with, without]: [&Forces; 2], run: &Without, steady: &[Twist]
     let still = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
     let mut departures = vec![still; run.belts.len()];
     let mut ended = Vector3::zeros();
+    let mut inverse = None;
     let mut steps = run.steps.iter().peekable();
     for (reading, pair) in run.belts.windows(2).enumerate() {
         let [from, until] = [pair[0].t, pair[1].t];
@@ -58,12 +64,11 @@ pub fn departures([with, without]: [&Forces; 2], run: &Without, steady: &[Twist]
             let per_second = (GAMMA * step.duration).recip();
             let [first, second] = step.stages.map(|instant| {
                 let balance = without.sum(instant.belt_speed, &instant.twist, &instant.rate) + rest;
-                Stage { with, instant, per_second, balance }
+                Stage { with, without, instant, per_second, balance }
             });
-            let inverse = first.inverse(without, &ended, &shift);
-            let one = first.solve(&shift, inverse, &ended);
+            let one = first.solve(&shift, &mut inverse, &ended);
             let base = ended + (one - ended) * ((1.0 - GAMMA) / GAMMA);
-            let two = second.solve(&one, inverse, &base);
+            let two = second.solve(&one, &mut inverse, &base);
             sum += (one * (1.0 - GAMMA) + two * GAMMA - shift) * step.duration;
             ended = two;
         }
@@ -78,6 +83,7 @@ pub fn departures([with, without]: [&Forces; 2], run: &Without, steady: &[Twist]
 /// A stage in which what the laws add is sought.
 struct Stage<'a> {
     with: &'a Forces<'a>,
+    without: &'a Forces<'a>,
     /// The motion without them.
     instant: Instant,
     /// 1/(γ h), 1/s.
@@ -93,38 +99,48 @@ impl Stage<'_> {
         (plus(&self.instant.twist, &twist_of(added)), plus(&self.instant.rate, &twist_of(&faster)))
     }
 
-    /// How far the forces are from balance.
-    fn off(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> Vector3<f64> {
+    /// By how much the forces are off balance, over the weight, and the moment over that times the gauge.
+    fn residual(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> Vector3<f64> {
         let (twist, rate) = self.moved(added, base);
-        self.with.sum(self.instant.belt_speed, &twist, &rate) - self.balance
+        self.scaled() * (self.with.sum(self.instant.belt_speed, &twist, &rate) - self.balance)
+    }
+
+    /// One over these.
+    fn scaled(&self) -> Matrix3<f64> {
+        let vehicle = self.with.model.vehicle();
+        let lever = Vector3::new(1.0, 1.0, vehicle.gauge.recip());
+        Matrix3::from_diagonal(&(lever / vehicle.weight()))
     }
 
     /// The inverse of the derivative of that; none where it has none.
-    fn inverse(
-        &self,
-        without: &Forces,
-        base: &Vector3<f64>,
-        added: &Vector3<f64>,
-    ) -> Option<Matrix3<f64>> {
+    fn inverse(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> Option<Matrix3<f64>> {
         let (twist, rate) = self.moved(added, base);
         let belts = self.instant.belt_speed;
-        let by_rate = without.by_rate(belts, &twist, &rate) * self.per_second;
-        (self.with.by_twist(belts, &twist, &rate) + by_rate).try_inverse()
+        let by_rate = self.without.by_rate(belts, &twist, &rate) * self.per_second;
+        (self.scaled() * (self.with.by_twist(belts, &twist, &rate) + by_rate)).try_inverse()
     }
 
-    /// One step of Newton's method, as far as it comes nearer to a balance.
+    /// What is added, sought from `start`. `inverse` is that of a stage before, and after it that of this one.
     fn solve(
         &self,
         start: &Vector3<f64>,
-        inverse: Option<Matrix3<f64>>,
+        inverse: &mut Option<Matrix3<f64>>,
         base: &Vector3<f64>,
     ) -> Vector3<f64> {
-        let gauge = self.with.model.vehicle().gauge;
-        let size = |off: &Vector3<f64>| off[0].hypot(off[1]).hypot(off[2] / gauge);
-        let off = self.off(start, base);
+        let residual = |added| self.residual(&added, base);
+        let near = |inverse| newton::from_near(*start, inverse, BALANCED, residual);
+        let found = inverse.and_then(near).or_else(|| {
+            *inverse = self.inverse(start, base);
+            near((*inverse)?)
+        });
+        if let Some(found) = found {
+            *inverse = found.inverse;
+            return found.point;
+        }
         let Some(inverse) = inverse else { return *start };
-        let mut shares = SHARES.iter().map(|share| start - inverse * off * *share);
-        shares.find(|added| size(&self.off(added, base)) < size(&off)).unwrap_or(*start)
+        let off = residual(*start);
+        let mut shares = SHARES.iter().map(|share| start - *inverse * off * *share);
+        shares.find(|added| residual(*added).norm() < off.norm()).unwrap_or(*start)
     }
 }
 

@@ -96,9 +96,10 @@ impl Stage<'_> {
                 [departure[0], departure[1], departure[2], traction.left, traction.right];
             SVector::<f64, N>::from_fn(|row, _| unknowns[row])
         };
+        let tolerance = TOLERANCE.at(self.model.resolution());
         let residual = |z: SVector<f64, N>| SVector::from(self.residual::<f64, N>(z.into()));
         let near = inverse
-            .and_then(|inverse| newton::from_near(at(follows), inverse, TOLERANCE, residual));
+            .and_then(|inverse| newton::from_near(at(follows), inverse, tolerance, residual));
         if let Some(near) = near {
             return near;
         }
@@ -115,7 +116,7 @@ impl Stage<'_> {
             newton::solve(
                 at(start),
                 f64::INFINITY,
-                TOLERANCE,
+                tolerance,
                 |z| Evaluation::of_dual(self.residual(Dual::variables(z.into()))),
                 residual,
             )

@@ -34,7 +34,7 @@ fn what_inertia_adds_is_late_with_the_belts() {
     }
 }
 
-/// The departure by inertia is found without these laws, and what they change in it by a step of Newton's method: that is what
+/// The departure by inertia is found without these laws, and what they change in it from there: that is what
 /// a motion in time with them gives, which takes many times as long.
 #[test]
 fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {

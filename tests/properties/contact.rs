@@ -69,6 +69,11 @@ impl Case {
         }
     }
 
+    /// The friction wrench of patches in this case's ground and pressure, to all digits.
+    fn wrench<S: Scalar>(&self, patches: &[Patch], slip: &SlipField<S>) -> Wrench<S> {
+        friction_wrench(patches, self.friction, &self.pressure(), slip, Resolution::Fine)
+    }
+
     /// Friction that the whole patch can give, N, and that at its largest lever about the origin, N·m.
     fn scale(&self) -> [f64; 3] {
         let mu = self.friction.across.max(self.friction.along);
@@ -105,13 +110,7 @@ fn closed_form_equals_quadrature() {
     let mut random = ChaCha8Rng::seed_from_u64(11);
     for _ in 0..120 {
         let case = Case::random(&mut random, 2.0);
-        let wrench = friction_wrench(
-            &[case.patch],
-            case.friction,
-            &case.pressure(),
-            &case.slip(),
-            Resolution::Fine,
-        );
+        let wrench = case.wrench(&[case.patch], &case.slip());
         let expected = case.by_quadrature();
         for ((ours, theirs), scale) in components(&wrench).iter().zip(expected).zip(case.scale()) {
             assert!((ours - theirs).abs() < 1e-11 * scale, "{ours} {theirs} {case:?}");
@@ -133,13 +132,7 @@ fn derivatives_equal_difference_quotients_of_the_quadrature() {
         }
         compared += 1;
         let slip = Case::slip_about(Dual::<2>::variables(case.icr), case.rotation);
-        let exact = friction_wrench(
-            &[case.patch],
-            case.friction,
-            &case.pressure(),
-            &slip,
-            Resolution::Fine,
-        );
+        let exact = case.wrench(&[case.patch], &slip);
         for variable in 0..2 {
             let at = |steps: f64| {
                 let mut moved = case;
@@ -199,15 +192,7 @@ fn patches_near_and_far_add_up() {
             case.patch.width(),
             case.patch.length(),
         );
-        let of = |patches: &[Patch]| {
-            components(&friction_wrench(
-                patches,
-                case.friction,
-                &case.pressure(),
-                &case.slip(),
-                Resolution::Fine,
-            ))
-        };
+        let of = |patches: &[Patch]| components(&case.wrench(patches, &case.slip()));
         let (both, near, far) = (of(&[case.patch, far]), of(&[case.patch]), of(&[far]));
         for k in 0..3 {
             assert!((both[k] - near[k] - far[k]).abs() <= 1e-13 * (near[k].abs() + far[k].abs()));
@@ -225,13 +210,7 @@ fn friction_dissipates() {
             continue;
         }
         let slip = case.slip();
-        let wrench = friction_wrench(
-            &[case.patch],
-            case.friction,
-            &case.pressure(),
-            &slip,
-            Resolution::Fine,
-        );
+        let wrench = case.wrench(&[case.patch], &slip);
         // P = F · s(0) + M · rotation < 0
         let power = wrench.force_x * slip.lateral
             + wrench.force_y * slip.forward
@@ -245,13 +224,7 @@ fn friction_is_bounded_by_the_load() {
     let mut random = ChaCha8Rng::seed_from_u64(15);
     for _ in 0..5_000 {
         let case = Case::random(&mut random, 30.0);
-        let wrench = friction_wrench(
-            &[case.patch],
-            case.friction,
-            &case.pressure(),
-            &case.slip(),
-            Resolution::Fine,
-        );
+        let wrench = case.wrench(&[case.patch], &case.slip());
         let [x, y] = [wrench.force_x / case.friction.across, wrench.force_y / case.friction.along];
         assert!(x.hypot(y) <= case.scale()[0] / case.friction.across.max(case.friction.along));
     }

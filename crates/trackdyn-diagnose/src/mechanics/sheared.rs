@@ -102,14 +102,14 @@ impl Stage<'_> {
     /// By how much the forces are off balance, over the weight, and the moment over that times the gauge.
     fn residual(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> Vector3<f64> {
         let (twist, rate) = self.moved(added, base);
-        self.scaled() * (self.with.sum(self.instant.belt_speed, &twist, &rate) - self.balance)
+        let off = self.with.sum(self.instant.belt_speed, &twist, &rate) - self.balance;
+        off.component_div(&self.scale())
     }
 
-    /// One over these.
-    fn scaled(&self) -> Matrix3<f64> {
+    /// The weight, twice, and that times the gauge.
+    fn scale(&self) -> Vector3<f64> {
         let vehicle = self.with.model.vehicle();
-        let lever = Vector3::new(1.0, 1.0, vehicle.gauge.recip());
-        Matrix3::from_diagonal(&(lever / vehicle.weight()))
+        Vector3::new(1.0, 1.0, vehicle.gauge) * vehicle.weight()
     }
 
     /// The inverse of the derivative of that; none where it has none.
@@ -117,7 +117,9 @@ impl Stage<'_> {
         let (twist, rate) = self.moved(added, base);
         let belts = self.instant.belt_speed;
         let by_rate = self.without.by_rate(belts, &twist, &rate) * self.per_second;
-        (self.scaled() * (self.with.by_twist(belts, &twist, &rate) + by_rate)).try_inverse()
+        let derivative = self.with.by_twist(belts, &twist, &rate) + by_rate;
+        // (S⁻¹ G')⁻¹ = G'⁻¹ S
+        Some(derivative.try_inverse()? * Matrix3::from_diagonal(&self.scale()))
     }
 
     /// What is added, sought from `start`. `inverse` is that of a stage before, and after it that of this one.

@@ -72,7 +72,7 @@ pub enum Resolution {
     Fine,
     /// The base law to eight digits, and what others change to a thousandth: for comparing with noisy data.
     Coarse,
-    /// What others change to some hundredths: for what is a correction itself.
+    /// The same, but what others change to some hundredths only: for what is a correction itself.
     Rough,
 }
 

@@ -7,10 +7,14 @@ use std::time::SystemTime;
 
 const MAKE: &str = "trial make --cases 2 --seed 424242 --out cases --key secret/answers.key";
 
+/// A key.
+pub const KEY: &str = "4b6579206f6620612074657374207472696c3a206e6f20736563726574206174";
+
 /// Two nulls, which take the least time.
 fn trial() -> Workplace {
     let place = Workplace::new();
     std::fs::create_dir(place.path().join("secret")).expect("a folder");
+    place.write("secret/answers.key", KEY);
     let run = place.run(MAKE);
     assert_eq!(run.status, 0, "{}", run.stderr);
     place
@@ -65,20 +69,17 @@ fn cases_are_alike_outside_and_the_same_on_any_number_of_threads() {
     let sealed = place.read("cases/answers.sealed");
     assert!(!sealed.windows(7).any(|part| part == b"stratum"));
 
-    let again = Workplace::new();
-    let run = again.run_with_threads(&MAKE.replace("secret/", ""), 1);
-    assert_eq!(run.status, 0, "{}", run.stderr);
-    for case in ["case-0001", "case-0002"] {
-        for file in expected {
-            let file = format!("cases/{case}/{file}");
-            assert_eq!(place.read(&file), again.read(&file), "{file}");
-        }
+    let (again, other) = (Workplace::new(), Workplace::new());
+    again.write("answers.key", KEY);
+    for place in [&again, &other] {
+        let run = place.run_with_threads(&MAKE.replace("secret/", ""), 1);
+        assert_eq!(run.status, 0, "{}", run.stderr);
     }
-    let hash = |place: &Workplace| {
-        text(place, "cases/commitment.txt").lines().next().map(str::to_owned).expect("a hash")
-    };
-    assert_eq!(hash(&place), hash(&again));
-    assert_ne!(sealed, again.read("cases/answers.sealed"), "no seed leads to the key");
+    assert!(made(&place, "cases") == made(&again, "cases"));
+    assert_eq!(sealed, again.read("cases/answers.sealed"));
+    let vehicle = |place: &Workplace| text(place, "cases/case-0001/vehicle.toml");
+    assert_ne!(vehicle(&place), vehicle(&other), "a seed without its key leads to no case");
+    assert_ne!(text(&other, "answers.key").trim(), KEY);
 }
 
 #[cfg(unix)]
@@ -112,6 +113,13 @@ fn a_diagnosis_reaches_nothing_of_the_trial_and_is_scored_by_the_sealed_answers(
     let run = place.run("trial score cases --name tool --key secret/answers.key");
     assert_eq!(run.status, 0, "{}", run.stderr);
     assert!(run.stdout.contains("| false claim: nulls | 0 of 2 |"), "{}", run.stdout);
+    let commitment = text(&place, "cases/commitment.txt");
+    let hash = commitment.split('"').nth(1).expect("a hash");
+    assert!(run.stdout.ends_with(&format!("Answers: SHA-256 {hash}.\n")), "{}", run.stdout);
+    let score = "trial score cases --name tool --key secret/answers.key --commitment";
+    assert_eq!(place.run(&format!("{score} {hash}")).status, 0);
+    let run = place.run(&format!("{score} {}", hash.chars().rev().collect::<String>()));
+    assert!(run.status == 1 && run.stderr.contains("committed to elsewhere"), "{}", run.stderr);
 
     // another vehicle, another recording, and another commitment, do not pass
     let vehicle = text(&place, "cases/case-0002/vehicle.toml");
@@ -124,7 +132,6 @@ fn a_diagnosis_reaches_nothing_of_the_trial_and_is_scored_by_the_sealed_answers(
     place.write("cases/case-0001/recording/poses.csv", &poses.replacen("0,0.", "0,1.", 1));
     let run = place.run("trial score cases --name tool --key secret/answers.key");
     assert!(run.status == 1 && run.stderr.contains("fingerprint"), "{}", run.stderr);
-    let commitment = text(&place, "cases/commitment.txt");
     place.write(
         "cases/commitment.txt",
         &commitment.replacen("answers_sha256 = \"", "answers_sha256 = \"0", 1),
@@ -164,6 +171,8 @@ fn made(place: &Workplace, folder: &str) -> (Vec<(String, Vec<u8>)>, String) {
 fn an_interrupted_trial_is_taken_up_and_is_the_same_as_any_other() {
     const MAKE: &str = "trial make --cases 3 --seed 31 --duration 10 --out";
     let place = Workplace::new();
+    place.write("whole.key", KEY);
+    place.write("cases.key", KEY);
     assert_eq!(place.run_with_threads(&format!("{MAKE} whole"), 1).status, 0);
     let mut process = std::process::Command::new(env!("CARGO_BIN_EXE_trackdyn"))
         .args(format!("{MAKE} cases").split_whitespace())
@@ -261,6 +270,7 @@ fn several_trials_count_as_one() {
     for (asked, words) in [
         ("first second --name tool", "--out DIR"),
         ("first second --key first.key --out x", "2 trials, 1 times --key"),
+        ("first second --commitment 12 --out x", "2 trials, 1 times --commitment"),
         ("nowhere --out x", "nowhere/answers.sealed: "),
         ("first first --out x", "trial = first: expected each trial once"),
         ("first longer --out x", "trial = longer: expected trials with runs of one length"),
@@ -275,6 +285,7 @@ fn several_trials_count_as_one() {
 #[test]
 fn what_a_diagnosis_leaves_open_is_driven_for() {
     let place = Workplace::new();
+    place.write("cases.key", KEY);
     let run = place.run("trial make --cases 2 --seed 9 --duration 10 --out cases");
     assert_eq!(run.status, 0, "{}", run.stderr);
     let run = place.run("trial drive cases");
@@ -311,4 +322,15 @@ fn a_trial_is_not_made_twice_and_its_key_not_into_its_folder() {
     let run = place.run("trial make --cases 1 --seed 1 --out cases");
     assert!(run.status == 1 && run.stderr.contains("made once"), "{}", run.stderr);
     assert_eq!(place.run("trial run cases").status, 1);
+    // nor is what was begun for one folder put over another trial
+    std::fs::create_dir(place.path().join("other.key.making")).expect("a folder");
+    let order = format!(
+        "version = \"{}\"\nseed = 1\ncases = 1\nrun_time_s = 54.0\n",
+        env!("CARGO_PKG_VERSION")
+    );
+    place.write("other.key.making/order.toml", &order);
+    place.write("other.key", KEY);
+    let run = place.run("trial make --cases 1 --seed 1 --out cases --key other.key");
+    assert!(run.status == 1 && run.stderr.contains("made once"), "{}", run.stderr);
+    assert!(place.read("cases/answers.sealed").is_empty());
 }

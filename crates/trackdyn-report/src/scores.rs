@@ -90,12 +90,17 @@ mod tests {
             let sheet = Shares {
                 title: "title",
                 explanation: "explanation",
+                of: "cases",
                 rows: &rows,
                 entrants: &entrants(programs, cells),
                 wanted: Some(0.95),
             };
-            let matrix =
-                Matrix { rows: &rows, columns: &rows, counts: vec![vec![1; cells]; cells] };
+            let matrix = Matrix {
+                rows: &rows,
+                columns: &rows,
+                counts: vec![vec![1; cells]; cells],
+                right: vec![[0, 0]; cells.min(1)],
+            };
             let draw = || {
                 [
                     power(&panels, "caption").expect("drawn"),

@@ -1,5 +1,6 @@
 //! What was concealed: the answers of a trial.
 
+use crate::key::Root;
 use crate::plan::{Difficulty, STATIC_CLASS, Stratum};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -16,14 +17,24 @@ pub struct Answers {
     pub schema: String,
     /// Version of the program that made them.
     pub version: String,
-    /// Seed from which everything was drawn.
+    /// Seed of the trial.
     pub seed: u64,
+    /// What everything was drawn from; that of the seed alone where it is absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub root: Option<Root>,
     /// Time of a run where it is not the usual one, s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub run_time_s: Option<f64>,
     /// The cases, in the order of their ids.
     #[serde(rename = "case")]
     pub cases: Vec<Answer>,
+}
+
+impl Answers {
+    /// What everything was drawn from.
+    pub fn drawn_from(&self) -> Root {
+        self.root.unwrap_or_else(|| Root::of_seed(self.seed))
+    }
 }
 
 /// The answer of one case.
@@ -140,11 +151,13 @@ impl Concealed {
         self.is_detectable() && self.z_iso >= crate::oracle::DISTINCT && !self.is_static()
     }
 
-    /// Members of the smallest set that the recording allows: it, and all that cannot be told from it.
+    /// Members of the smallest set that the recording allows: it, and all that cannot be told from it. Where a sensor sits
+    /// moves nothing but constant ICRs either.
     pub fn smallest_set(&self) -> usize {
         let class = self.class.iter().map(String::as_str).chain([self.mechanism.as_str()]);
-        let statics = if self.is_static() { &STATIC_CLASS[..] } else { &[] };
-        class.chain(statics.iter().copied()).collect::<BTreeSet<_>>().len()
+        let statics = STATIC_CLASS.into_iter().chain(["sensor-lever-arm"]);
+        let statics = statics.filter(|_| self.is_static());
+        class.chain(statics).collect::<BTreeSet<_>>().len()
     }
 }
 

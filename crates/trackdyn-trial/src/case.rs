@@ -7,6 +7,7 @@ use crate::driving::Driving;
 use crate::error::Error;
 use crate::ground::{Fineness, Ground, observations};
 use crate::instruments::{Instruments, mechanism};
+use crate::key::Root;
 use crate::machine::Machine;
 use crate::oracle::{Judge, Sized, Standing};
 use crate::order::Order;
@@ -45,15 +46,20 @@ pub struct Case {
 }
 
 impl Case {
-    /// The case of a number (from 0) in a trial.
+    /// The case of a number (from 0) in a trial that is drawn from this.
     ///
     /// # Errors
     /// [`Error::Ground`] where a dozen draws give no robot that drives.
-    pub fn make(planned: &PlannedCase, number: u64, order: &Order) -> Result<Self, Error> {
+    pub fn make(
+        planned: &PlannedCase,
+        number: u64,
+        order: &Order,
+        root: &Root,
+    ) -> Result<Self, Error> {
         let id = name(number);
         let mut reason = String::new();
         for attempt in 0..ATTEMPTS {
-            let draw = Draw { planned, id: &id, order, number: number + 1, attempt };
+            let draw = Draw { planned, id: &id, order, root, number: number + 1, attempt };
             match draw.case() {
                 Ok(case) => return Ok(case),
                 Err(why) => reason = why,
@@ -72,13 +78,14 @@ struct Draw<'a> {
     planned: &'a PlannedCase,
     id: &'a str,
     order: &'a Order,
+    root: &'a Root,
     number: u64,
     attempt: u64,
 }
 
 impl Draw<'_> {
     fn random(&self, purpose: Purpose) -> ChaCha8Rng {
-        stream(self.order.seed, self.number, self.attempt, purpose)
+        stream(self.root, self.number, self.attempt, purpose)
     }
 
     fn case(&self) -> Result<Case, String> {
@@ -303,6 +310,7 @@ impl Size {
     }
 }
 
+/// The hundredth below: what is below a limit stays below it.
 fn two_digits(value: f64) -> f64 {
-    (value * 100.0).round() / 100.0
+    (value * 100.0).floor() / 100.0
 }

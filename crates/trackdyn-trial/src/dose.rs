@@ -248,6 +248,7 @@ fn significant(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::key::Root;
     use crate::plan::INSTRUMENTS;
     use crate::random::{Purpose, stream};
 
@@ -258,7 +259,7 @@ mod tests {
                 continue;
             }
             for case in 0..5 {
-                let mut random = stream(11, case, number, Purpose::Concealed);
+                let mut random = stream(&Root::of_seed(11), case, number, Purpose::Concealed);
                 let machine = Machine::draw(&mut random);
                 let scene = Scene { machine: &machine, visited: &[[1.0, 2.0]] };
                 let dose = Dose::draw(sheet.id, scene, &mut random);

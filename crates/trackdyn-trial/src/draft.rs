@@ -5,7 +5,7 @@
 //! KEY.making/case-0001/{answer.toml, vehicle.toml, recording/...}
 //! ```
 //!
-//! Answers and seed lie with the key and never in the trial's folder. That is filled when all cases are
+//! Answers and seed lie with the key, which is drawn first, and never in the trial's folder. That is filled when all cases are
 //! there, in the order of their numbers: neither its places on the disk nor the times at which files came
 //! to be say how long a case took, and an interrupted trial is the same as any other.
 
@@ -13,8 +13,9 @@ use crate::answer::{Answer, Answers, SCHEMA};
 use crate::case::{self, Case};
 use crate::error::Error;
 use crate::folder;
+use crate::key::{Key, Root};
 use crate::order::Order;
-use crate::seal::{Commitment, Key};
+use crate::seal::Commitment;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,45 +28,62 @@ const ORDER: &str = "order.toml";
 const ANSWER: &str = "answer.toml";
 
 /// A trial in the making.
-#[derive(Debug)]
 pub struct Draft {
     folder: PathBuf,
-    key: PathBuf,
+    key: Key,
     order: Order,
 }
 
 impl Draft {
-    /// Begins a trial whose key will be written to `key`, or takes up the one that was begun there.
+    /// Begins a trial with the key in a file, or with a new one that is written to it; or takes up what was begun there.
+    ///
+    /// With the key and the order of a trial it is made once more, byte for byte.
     ///
     /// # Errors
-    /// [`Error::Made`] where the trial or the key is there already, [`Error::OtherOrder`] where what was
-    /// begun is another trial; [`Error::Output`], [`Error::Document`].
+    /// [`Error::Made`] where another trial is there already, [`Error::OtherOrder`] where what was
+    /// begun is another trial; [`Error::Output`], [`Error::Document`], [`Error::File`], [`Error::Key`].
     ///
     /// # Panics
     /// Never: an order is TOML.
     pub fn begin(trial: &Path, key: &Path, order: &Order) -> Result<Self, Error> {
         let mut name = OsString::from(key);
         name.push(".making");
-        let draft = Self { folder: name.into(), key: key.to_owned(), order: order.clone() };
-        let path = draft.folder.join(ORDER);
+        let folder = PathBuf::from(name);
+        let path = folder.join(ORDER);
         if path.exists() {
             let begun: Order = Document::read(&path)?.parse()?;
             if begun != *order {
                 let (begun, asked) = (begun.to_string(), order.to_string());
-                return Err(Error::OtherOrder { folder: draft.folder, begun, asked });
+                return Err(Error::OtherOrder { folder, begun, asked });
             }
-            return Ok(draft);
+            let is_other =
+                trial.join(folder::SEALED).exists() && folder::open_answers(trial, key).is_err();
+            if is_other {
+                return Err(Error::Made { path: trial.to_owned() });
+            }
+            return Ok(Self { folder, key: Key::read(key)?, order: begun });
         }
-        let there = [trial.join(folder::SEALED), key.to_owned()].into_iter().find(|p| p.exists());
         let has_cases = || folder::cases(trial).is_ok_and(|cases| !cases.is_empty());
-        if let Some(path) = there.or_else(|| has_cases().then(|| trial.to_owned())) {
-            return Err(Error::Made { path });
+        if trial.join(folder::SEALED).exists() || has_cases() {
+            return Err(Error::Made { path: trial.to_owned() });
         }
         prepare_folder(trial)?;
-        prepare_folder(&draft.folder)?;
+        prepare_folder(&folder)?;
+        let drawn = if key.exists() {
+            Key::read(key)?
+        } else {
+            let drawn = Key::new();
+            drawn.write(key)?;
+            drawn
+        };
         let text = toml::to_string(order).expect("numbers and texts are TOML");
         write_file(&path, text.as_bytes())?;
-        Ok(draft)
+        Ok(Self { folder, key: drawn, order: order.clone() })
+    }
+
+    /// What its cases are drawn from.
+    pub fn root(&self) -> Root {
+        self.key.root(self.order.seed)
     }
 
     /// Whether the case of a number (from 0) is there.
@@ -89,19 +107,22 @@ impl Draft {
         })
     }
 
-    /// Writes cases, sealed answers and commitment to the trial's folder, then the key, and is gone.
+    /// Writes cases, sealed answers and commitment to the trial's folder, and is gone.
     ///
     /// # Errors
-    /// [`Error::File`], [`Error::Document`] where a case is not there; [`Error::Output`].
+    /// [`Error::Made`] where a case of another trial is there; [`Error::File`], [`Error::Document`] where one is not
+    /// finished; [`Error::Output`].
     pub fn publish(self, trial: &Path) -> Result<(Answers, Commitment), Error> {
         prepare_folder(trial)?;
         let numbers = (0..).take(self.order.cases);
         let cases = numbers.map(|number| {
             let id = case::name(number);
-            let kept = self.folder.join(&id);
+            let (kept, there) = (self.folder.join(&id), trial.join(&id));
             let answer: Answer = Document::read(&kept.join(ANSWER))?.parse()?;
-            if !trial.join(&id).exists() {
+            if !there.exists() {
                 folder::place(trial, &id, |home| folder::copy_case(&kept, home))?;
+            } else if folder::fingerprint_of(&there)? != answer.files {
+                return Err(Error::Made { path: there });
             }
             Ok(answer)
         });
@@ -109,12 +130,11 @@ impl Draft {
             schema: SCHEMA.to_owned(),
             version: self.order.version.clone(),
             seed: self.order.seed,
+            root: Some(self.root()),
             run_time_s: self.order.unusual_run_time(),
             cases: cases.collect::<Result<_, Error>>()?,
         };
-        let key = if self.key.exists() { Key::read(&self.key)? } else { Key::new() };
-        key.write(&self.key)?;
-        let commitment = folder::write_answers(trial, &answers, &key)?;
+        let commitment = folder::write_answers(trial, &answers, &self.key)?;
         fs::remove_dir_all(&self.folder).map_err(Error::file(self.folder))?;
         Ok((answers, commitment))
     }

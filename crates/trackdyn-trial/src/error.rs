@@ -40,7 +40,7 @@ pub enum Error {
         path: PathBuf,
     },
     /// Bytes that are not those that were committed to.
-    #[error("{what}: SHA-256 {found}, but commitment.txt has {committed}: {reason}")]
+    #[error("{what}: SHA-256 {found}, and committed to is {committed}: {reason}")]
     Broken {
         /// What was compared.
         what: &'static str,
@@ -75,7 +75,7 @@ pub enum Error {
     },
     /// A trial that is there already.
     #[error(
-        "{} is there already: a trial is made once: expected a new --out and a new --key",
+        "{} is there already: a trial is made once: expected a new --out",
         path.display()
     )]
     Made {

@@ -20,7 +20,7 @@ pub(crate) struct Instruments {
     pub(crate) stated: StatedNoise,
 }
 
-/// Instruments of most cases are slightly off: what of it is there beside a concealed effect.
+/// Instruments of most cases are slightly off, whether something is concealed or not.
 const OFTEN: [(f64, Small); 3] = [
     (0.35, Small::EncoderScale(0.005)),
     (0.3, Small::LeverArm(0.05)),
@@ -36,8 +36,8 @@ enum Small {
 }
 
 impl Instruments {
-    /// Sensors of a preset with noise between half and twice of it. `difficulty` is that of a hard null;
-    /// a plain null has perfect mounts and clocks.
+    /// Sensors of a preset with noise between half and twice of it. `difficulty` is that of a hard null, beside small errors of
+    /// other instruments; a plain null has perfect mounts and clocks.
     pub(crate) fn draw(
         difficulty: Option<Difficulty>,
         is_plain: bool,
@@ -61,14 +61,12 @@ impl Instruments {
             sensors.pose.delay -= sensors.clock_offset();
         }
         let pose = &mut sensors.pose;
-        let mut errors = Vec::new();
-        for (share, small) in OFTEN {
-            // drawn whether used or not, so that what follows does not hang on it
+        // drawn whether used or not, so that what follows does not hang on it
+        let small = OFTEN.map(|(share, small)| {
             let (used, first, second) = (happens(random, share), normal(random), normal(random));
-            if used && !is_plain && difficulty.is_none() {
-                errors.push(small.error(first, second, gauge));
-            }
-        }
+            (used && !is_plain).then(|| small.error(first, second, gauge))
+        });
+        let mut errors = Vec::new();
         let mut stated = StatedNoise { position: pose.white.position, yaw: pose.white.yaw };
         match difficulty {
             Some(Difficulty::NoiseStatement) => {
@@ -94,6 +92,12 @@ impl Instruments {
             }
             Some(other) => errors.extend(of_difficulty(other, gauge, random)),
             None => {}
+        }
+        for error in small.into_iter().flatten() {
+            let is_there = |other: &ActiveMechanism| other.sheet().id == error.sheet().id;
+            if !errors.iter().any(is_there) {
+                errors.push(error);
+            }
         }
         Self { sensors, errors, stated }
     }

@@ -7,6 +7,7 @@
 //! - [`oracle`]: what could be found of it: z_det and z_iso.
 //! - [`answer`]: what was concealed.
 //! - [`draft`]: a trial in the making, which can be interrupted.
+//! - [`key`]: keys, and what comes of one.
 //! - [`seal`]: the answers under a key, and the commitment to them.
 //! - [`entry`]: the programs that are put to it.
 //! - [`diagnosis`], [`score`]: what came back, and what it is worth.
@@ -28,6 +29,7 @@ pub mod error;
 pub mod folder;
 mod ground;
 mod instruments;
+pub mod key;
 mod machine;
 pub mod opened;
 pub mod oracle;
@@ -47,6 +49,7 @@ pub use diagnosis::Diagnosis;
 pub use draft::Draft;
 pub use entry::Entry;
 pub use error::Error;
+pub use key::{Key, Root};
 pub use opened::Opened;
 pub use order::Order;
 pub use plan::{PlannedCase, Stratum, plan};

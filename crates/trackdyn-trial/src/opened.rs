@@ -4,6 +4,7 @@ use crate::answer::Answers;
 use crate::entry::Entry;
 use crate::error::Error;
 use crate::folder;
+use crate::key::sha256;
 use crate::score::Judged;
 use crate::seal;
 use std::path::{Path, PathBuf};
@@ -37,6 +38,30 @@ impl Opened {
             opened.add(Trial { folder: folder.to_owned(), answers, text })?;
         }
         Ok(opened)
+    }
+
+    /// SHA-256 of the answers of each trial, hexadecimal.
+    pub fn hashes(&self) -> Vec<String> {
+        self.trials.iter().map(|trial| sha256(trial.text.as_bytes())).collect()
+    }
+
+    /// Compares the answers with hashes that were published elsewhere, in the order of the trials: files of one folder may all
+    /// be replaced.
+    ///
+    /// # Errors
+    /// [`Error::Broken`].
+    pub fn check(&self, published: &[String]) -> Result<(), Error> {
+        for (found, published) in self.hashes().into_iter().zip(published) {
+            if found != published.to_ascii_lowercase() {
+                return Err(Error::Broken {
+                    what: "the opened answers",
+                    found,
+                    committed: published.clone(),
+                    reason: "these are not the answers that were committed to elsewhere",
+                });
+            }
+        }
+        Ok(())
     }
 
     fn add(&mut self, trial: Trial) -> Result<(), Error> {

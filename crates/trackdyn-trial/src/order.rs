@@ -3,13 +3,13 @@
 use crate::driving::RUN_TIME;
 use serde::{Deserialize, Serialize};
 
-/// What is asked of a trial. With the program's version it determines every byte but the key.
+/// What is asked of a trial. With the key it determines every byte.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Order {
     /// Version of the program that makes it.
     pub version: String,
-    /// Seed from which everything is drawn, at most 2⁶³ - 1.
+    /// Seed from which everything is drawn, together with the key; at most 2⁶³ - 1.
     pub seed: u64,
     /// Number of cases.
     pub cases: usize,

@@ -1,5 +1,6 @@
 //! Which cases a trial has: the strata, and what is concealed in each of their cases.
 
+use crate::key::Root;
 use crate::random::{Purpose, stream};
 use rand::seq::{IndexedRandom, SliceRandom};
 use rand_chacha::ChaCha8Rng;
@@ -183,8 +184,8 @@ pub struct PlannedCase {
 }
 
 /// The cases of a trial in shuffled order; every kind comes up as often as the others of its stratum.
-pub fn plan(cases: usize, seed: u64) -> Vec<PlannedCase> {
-    let mut random = stream(seed, 0, 0, Purpose::Plan);
+pub fn plan(cases: usize, root: &Root) -> Vec<PlannedCase> {
+    let mut random = stream(root, 0, 0, Purpose::Plan);
     let mut planned = Vec::with_capacity(cases);
     for (stratum, count) in counts(cases) {
         planned.extend(stratum_cases(stratum, count, &mut random));
@@ -278,7 +279,7 @@ mod tests {
     #[test]
     fn a_fifth_or_more_are_nulls_and_most_of_them_hard() {
         for cases in [1, 2, 7, 20, 60, 333, 1000] {
-            let planned = plan(cases, 3);
+            let planned = plan(cases, &Root::of_seed(3));
             assert_eq!(planned.len(), cases);
             let of = |wanted: &dyn Fn(Stratum) -> bool| {
                 planned.iter().filter(|case| wanted(case.stratum)).count()
@@ -302,7 +303,7 @@ mod tests {
 
     #[test]
     fn singles_are_of_all_kinds_and_the_order_says_nothing() {
-        let planned = plan(400, 5);
+        let planned = plan(400, &Root::of_seed(5));
         for id in ISOLABLE {
             let found =
                 |case: &&PlannedCase| case.stratum == Stratum::Single && case.concealed == [id];
@@ -311,7 +312,7 @@ mod tests {
         let nulls = |half: &[PlannedCase]| half.iter().filter(|c| c.stratum.is_null()).count();
         // 96 nulls fall into halves as 48 ± 4.3
         assert!(nulls(&planned[..200]).abs_diff(nulls(&planned[200..])) < 30);
-        assert_ne!(planned, plan(400, 6));
-        assert_eq!(planned, plan(400, 5));
+        assert_ne!(planned, plan(400, &Root::of_seed(6)));
+        assert_eq!(planned, plan(400, &Root::of_seed(5)));
     }
 }

@@ -1,6 +1,7 @@
 //! Random numbers: a stream for each purpose of each case, so that cases can be made in any order.
 
-use rand::{RngExt, SeedableRng};
+use crate::key::Root;
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 
@@ -31,11 +32,9 @@ pub(crate) enum Purpose {
 const PURPOSES: u64 = 64;
 
 /// The stream of a case for a purpose; a case that has to be drawn anew takes another attempt.
-pub(crate) fn stream(seed: u64, case: u64, attempt: u64, purpose: Purpose) -> ChaCha8Rng {
+pub(crate) fn stream(root: &Root, case: u64, attempt: u64, purpose: Purpose) -> ChaCha8Rng {
     const ATTEMPTS: u64 = 64;
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    random.set_stream((case * ATTEMPTS + attempt) * PURPOSES + purpose as u64);
-    random
+    root.stream((case * ATTEMPTS + attempt) * PURPOSES + purpose as u64)
 }
 
 /// A number between two, uniform in its logarithm.

@@ -6,6 +6,7 @@ use crate::driving::{Drive, HELD_OUT_RUNS, TRAINING_RUNS};
 use crate::error::Error;
 use crate::ground::{Fineness, Ground};
 use crate::instruments::Instruments;
+use crate::key::Root;
 use crate::machine::Machine;
 use crate::plan::Stratum;
 use crate::random::{Purpose, stream};
@@ -29,9 +30,10 @@ pub fn revisit(answers: &Answers, id: &str, schedule: Schedule) -> Result<Record
     let (number, answer) = numbered.ok_or_else(|| failed("no such case".to_owned()))?;
     let document = Document::new(format!("{id}, sealed vehicle"), &answer.vehicle);
     let VehicleFile { vehicle, .. } = VehicleFile::from_document(&document)?;
-    let attempt = attempt(answers.seed, number, &vehicle)
-        .ok_or_else(|| failed("its robot is not of the trial's seed".to_owned()))?;
-    let random = |purpose| stream(answers.seed, number, attempt, purpose);
+    let root = answers.drawn_from();
+    let attempt = attempt(&root, number, &vehicle)
+        .ok_or_else(|| failed("its robot is not of the trial's seed and key".to_owned()))?;
+    let random = |purpose| stream(&root, number, attempt, purpose);
     let instruments = Instruments::draw(
         answer.difficulty,
         answer.stratum == Stratum::PlainNull,
@@ -49,8 +51,8 @@ pub fn revisit(answers: &Answers, id: &str, schedule: Schedule) -> Result<Record
 }
 
 /// The attempt that drew a robot.
-fn attempt(seed: u64, number: u64, vehicle: &Vehicle) -> Option<u64> {
-    let drawn = |attempt| Machine::draw(&mut stream(seed, number, attempt, Purpose::Machine));
+fn attempt(root: &Root, number: u64, vehicle: &Vehicle) -> Option<u64> {
+    let drawn = |attempt| Machine::draw(&mut stream(root, number, attempt, Purpose::Machine));
     (0..ATTEMPTS).find(|attempt| drawn(*attempt).vehicle == *vehicle)
 }
 
@@ -82,10 +84,10 @@ mod tests {
         let planned =
             PlannedCase { stratum: Stratum::PlainNull, concealed: Vec::new(), difficulty: None };
         let order = Order { version: String::new(), seed: 8, cases: 1, run_time_s: 10.0 };
-        let case = Case::make(&planned, 0, &order).expect("a case");
+        let case = Case::make(&planned, 0, &order, &Root::of_seed(8)).expect("a case");
         let version = String::new();
-        let (seed, cases) = (order.seed, vec![case.answer]);
-        Answers { schema: SCHEMA.to_owned(), version, seed, run_time_s: Some(10.0), cases }
+        let (schema, cases) = (SCHEMA.to_owned(), vec![case.answer]);
+        Answers { schema, version, seed: order.seed, root: None, run_time_s: Some(10.0), cases }
     }
 
     fn end(answers: &Answers) -> Pose {

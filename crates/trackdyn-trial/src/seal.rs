@@ -10,66 +10,9 @@
 
 use crate::answer::Answers;
 use crate::error::Error;
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha20Rng;
+use crate::key::{Key, sha256};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
-use std::fmt::Write;
-use std::path::Path;
 use trackdyn_core::document::Document;
-use trackdyn_core::output::write_file;
-
-/// The key of a trial.
-#[derive(Clone, PartialEq, Eq)]
-pub struct Key([u8; 32]);
-
-impl Key {
-    /// A key that the system draws; no seed leads to it.
-    pub fn new() -> Self {
-        Self(rand::random())
-    }
-
-    /// Reads a key file: 64 hexadecimal digits.
-    ///
-    /// # Errors
-    /// [`Error::File`], [`Error::Key`].
-    pub fn read(path: &Path) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path).map_err(Error::file(path))?;
-        Self::parse(text.trim()).ok_or_else(|| Error::Key { path: path.to_owned() })
-    }
-
-    fn parse(text: &str) -> Option<Self> {
-        let mut key = [0; 32];
-        if text.len() != 64 || !text.is_ascii() {
-            return None;
-        }
-        for (place, byte) in key.iter_mut().enumerate() {
-            *byte = u8::from_str_radix(&text[2 * place..2 * place + 2], 16).ok()?;
-        }
-        Some(Self(key))
-    }
-
-    /// Writes the key file.
-    ///
-    /// # Errors
-    /// [`Error::Output`].
-    pub fn write(&self, path: &Path) -> Result<(), Error> {
-        Ok(write_file(path, format!("{}\n", hexadecimal(&self.0)).as_bytes())?)
-    }
-
-    /// Adds the key's stream to bytes; twice gives them back.
-    fn apply(&self, bytes: &[u8]) -> Vec<u8> {
-        let mut stream = vec![0; bytes.len()];
-        ChaCha20Rng::from_seed(self.0).fill_bytes(&mut stream);
-        bytes.iter().zip(stream).map(|(byte, key)| byte ^ key).collect()
-    }
-}
-
-impl Default for Key {
-    fn default() -> Self {
-        Self::new()
-    }
-}
 
 /// What is published with the recordings.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -120,17 +63,6 @@ pub fn open(sealed: &[u8], key: &Key, commitment: &Commitment) -> Result<Answers
     Ok(Document::new("answers.sealed (opened)", text).parse()?)
 }
 
-fn sha256(bytes: &[u8]) -> String {
-    hexadecimal(&Sha256::digest(bytes))
-}
-
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::with_capacity(2 * bytes.len()), |mut text, byte| {
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -141,6 +73,7 @@ mod tests {
             schema: SCHEMA.to_owned(),
             version: "1".to_owned(),
             seed: 77,
+            root: None,
             run_time_s: None,
             cases: Vec::new(),
         }
@@ -167,15 +100,5 @@ mod tests {
         let (forged, forged_commitment) = seal(&text(&Answers { seed: 78, ..answers() }), &key);
         let half = Commitment { sealed_sha256: forged_commitment.sealed_sha256, ..commitment };
         assert!(open(&forged, &key, &half).is_err());
-    }
-
-    #[test]
-    fn a_key_survives_its_file() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let (path, key) = (folder.path().join("x.key"), Key::new());
-        key.write(&path).expect("written");
-        assert!(Key::read(&path).expect("read") == key);
-        std::fs::write(&path, "0123").expect("written");
-        assert!(matches!(Key::read(&path), Err(Error::Key { .. })));
     }
 }

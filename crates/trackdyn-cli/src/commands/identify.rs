@@ -28,7 +28,7 @@ pub struct Options {
     /// Vehicle file (schema trackdyn.vehicle/1), for its gauge
     #[arg(long, value_name = "FILE")]
     vehicle: PathBuf,
-    /// Leave out segments before which the tracks have not run steadily for so many seconds
+    /// Use only segments before which the tracks ran steadily for this many seconds
     #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
     settle: Option<f64>,
     /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw

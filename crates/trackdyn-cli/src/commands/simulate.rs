@@ -31,7 +31,7 @@ pub struct Options {
     /// Runs of a schedule that is generated [default: what is usual for it]
     #[arg(long, value_name = "N")]
     runs: Option<usize>,
-    /// Time of each run of a schedule that is generated, s [default: until it is driven]
+    /// Time of each run of a schedule that is generated, s [default: as long as the schedule takes]
     #[arg(long, value_name = "SECONDS", value_parser = finite)]
     duration: Option<f64>,
     /// Largest track speed of a schedule that is generated, m/s

@@ -26,10 +26,12 @@ const RIGHT: i32 = 260;
 pub struct Matrix<'a> {
     /// What there is.
     pub rows: &'a [String],
-    /// What was said; where a row has the same name, saying so is right.
+    /// What was said.
     pub columns: &'a [String],
     /// Counts, row by row.
     pub counts: Vec<Vec<usize>>,
+    /// Places, row and column, where what was said is right.
+    pub right: Vec<[usize; 2]>,
 }
 
 /// The matrix of what a program took for what. `caption` stands below, for what the figure was made from.
@@ -48,10 +50,11 @@ pub fn confusion(matrix: &Matrix, program: &str, caption: &str) -> Result<Vec<u8
     let height = area.bottom().max(TOP + 300) + below + sheet::FOOT;
     let title = format!("What {program} took for what");
     let explanation = "Each row is what was concealed, each column what was said; the number is how often, the \
-                       colour its share of the row. A set counts as one answer, by whether the truth is in it.";
+                       colour its share of the row. Errors of instruments and of the vehicle file do not count. A set counts as one \
+                       answer, by whether the truth is in it.";
     let mut canvas = sheet::sheet(height, &title, explanation, caption)?;
     let right = look::colour(0);
-    sheet::legend(&mut canvas, LEGEND, &[(Mark::Box(right), "framed: said what is there")]);
+    sheet::legend(&mut canvas, LEGEND, &[(Mark::Box(right), "framed: as it should be")]);
     for (row, name) in matrix.rows.iter().enumerate() {
         let middle = TOP + rows(row) * cell + cell / 2;
         let name = canvas.fitted(name, 22.0, LABELS - 130);
@@ -76,10 +79,10 @@ pub fn confusion(matrix: &Matrix, program: &str, caption: &str) -> Result<Vec<u8
         let name = canvas.fitted(name, 22.0, LONGEST);
         let style = Style { upwards: true, ..Style::new(22.0) };
         canvas.text(&name, at, &style.anchor(Horizontal::Right, Vertical::Middle));
-        if let Some(row) = matrix.rows.iter().position(|row| *row == matrix.columns[column]) {
-            let own = Area::new(LABELS + rows(column) * cell, TOP + rows(row) * cell, cell, cell);
-            canvas.outline(own, 4, right);
-        }
+    }
+    for [row, column] in &matrix.right {
+        let own = Area::new(LABELS + rows(*column) * cell, TOP + rows(*row) * cell, cell, cell);
+        canvas.outline(own, 4, right);
     }
     canvas.outline(Area::new(LABELS - 1, TOP - 1, area.width + 2, area.height + 2), 2, FRAME);
     let bar = Area::new(area.right() + 40, TOP, 28, px(300.0).min(area.height.max(120)));

@@ -49,7 +49,7 @@ pub struct Power<'a> {
 /// # Errors
 /// [`Error`] where a part cannot be drawn; no share is the cause of one.
 pub fn power(panels: &[Power; 4], caption: &str) -> Result<Vec<u8>, Error> {
-    let explanation = "Cases with one effect of the catalogue, by how strongly it shows: z_det is its size in \
+    let explanation = "Cases with one effect of the catalogue, without the class of constants, by how strongly it shows: z_det is its size in \
                        standard deviations of the noise, z_iso what is left of it beside the effect that \
                        comes closest. Numbers at the top: cases. Nothing is drawn where there are none.";
     let title = "What is found against what could be found";

@@ -2,7 +2,7 @@
 
 use super::{Entrant, beside, legend};
 use crate::Error;
-use crate::canvas::Area;
+use crate::canvas::{Area, Canvas};
 use crate::colour::{GREY, GRID, INK};
 use crate::look;
 use crate::panel::ticks::number;
@@ -11,8 +11,9 @@ use crate::sheet::{self, Mark, label_left_of, label_right_of, px, rows};
 use trackdyn_core::real;
 
 const TOP: i32 = sheet::TOP + 70;
-const LABELS: i32 = 1010;
-const WIDTH: i32 = 1080;
+/// Least and most room for the names of the rows, and room for the counts right of the plot.
+const LABELS: [i32; 2] = [300, 1010];
+const COUNTS: i32 = 240;
 /// Height of a row, and what each further program adds.
 const ROW: [i32; 2] = [44, 36];
 const BELOW: i32 = 120;
@@ -24,6 +25,8 @@ pub struct Shares<'a> {
     pub title: &'a str,
     /// How to read it.
     pub explanation: &'a str,
+    /// What they are shares of.
+    pub of: &'a str,
     /// Names of the rows.
     pub rows: &'a [String],
     /// Programs with one share per row.
@@ -40,7 +43,11 @@ pub struct Shares<'a> {
 /// [`Error`] where a part cannot be drawn; no share is the cause of one.
 pub fn shares(of: &Shares, caption: &str) -> Result<Vec<u8>, Error> {
     let pitch = ROW[0] + ROW[1] * rows(of.entrants.len().saturating_sub(1));
-    let plot = Area::new(LABELS, TOP, WIDTH, pitch * rows(of.rows.len().max(1)));
+    let room = Canvas::new(1, 1)?;
+    let longest = of.rows.iter().map(|name| room.text_width(name, TICK_SIZE)).max().unwrap_or(0);
+    let labels = (sheet::LEFT + longest + 40).clamp(LABELS[0], LABELS[1]);
+    let width = sheet::RIGHT - COUNTS - labels;
+    let plot = Area::new(labels, TOP, width, pitch * rows(of.rows.len().max(1)));
     let height = plot.bottom() + BELOW + sheet::FOOT;
     let mut canvas = sheet::sheet(height, of.title, of.explanation, caption)?;
     let names = of.entrants.iter().map(|entrant| entrant.name);
@@ -48,7 +55,7 @@ pub fn shares(of: &Shares, caption: &str) -> Result<Vec<u8>, Error> {
     legend(&mut canvas, [sheet::LEFT, sheet::TOP + 20], names, &[bars]);
     let panel = Panel { plot, x: [-2.0, 102.0], y: [real(of.rows.len().max(1)), 0.0] };
     let ticks = [0.0, 20.0, 40.0, 60.0, 80.0, 100.0].map(|tick| (tick, number(tick, 0)));
-    sheet::axis_below(&mut canvas, &panel, &ticks, "share of cases (%)");
+    sheet::axis_below(&mut canvas, &panel, &ticks, &format!("share of {} (%)", of.of));
     if let Some(wanted) = of.wanted {
         sheet::dashes(&mut canvas, &panel, 100.0 * wanted, INK);
     }
@@ -57,8 +64,8 @@ pub fn shares(of: &Shares, caption: &str) -> Result<Vec<u8>, Error> {
         if row > 0 {
             canvas.fill(Area::new(plot.left, top, plot.width, 1), GRID);
         }
-        let name = canvas.fitted(name, TICK_SIZE, LABELS - sheet::LEFT - 20);
-        label_left_of(&mut canvas, &name, [LABELS - 16, top + pitch / 2], TICK_SIZE, INK);
+        let name = canvas.fitted(name, TICK_SIZE, labels - sheet::LEFT - 20);
+        label_left_of(&mut canvas, &name, [labels - 16, top + pitch / 2], TICK_SIZE, INK);
         for (entry, entrant) in of.entrants.iter().enumerate() {
             let Some(share) = entrant.shares.get(row).copied().flatten() else { continue };
             let middle = panel.pixel([0.0, real(row) + beside(entry, of.entrants.len())])[1];

@@ -5,6 +5,7 @@ use crate::alternatives::places;
 use crate::driving::Driving;
 use crate::ground::{Driven, Fineness, observations, seen};
 use crate::instruments::{Instruments, mechanism};
+use crate::key::Root;
 use crate::machine::Machine;
 use crate::random::{Purpose, stream};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -29,7 +30,7 @@ impl Stage {
     /// Sensors have no jitter and no delay, so that segments of noisy recordings begin where those of the
     /// noise-free one do.
     fn new(seed: u64) -> Self {
-        let random = |purpose| stream(seed, 1, 0, purpose);
+        let random = |purpose| stream(&Root::of_seed(seed), 1, 0, purpose);
         let machine = Machine::draw(&mut random(Purpose::Machine));
         let driving = Driving::draw(&machine, 18.0, &mut random(Purpose::Driving)).expect("runs");
         let (mut sensors, laboratory) = (Preset::Perfect.sensors(), Preset::Laboratory.sensors());
@@ -128,7 +129,11 @@ fn fits_to_noisy_recordings_scatter_by_one_over_z_det() {
     const DRAWS: u64 = 40;
     let stage = Stage::new(21);
     let (dose, z_det) = stage.with(|judge, scene| {
-        let dose = Dose::draw("motion-resistance", scene, &mut stream(1, 1, 0, Purpose::Concealed));
+        let dose = Dose::draw(
+            "motion-resistance",
+            scene,
+            &mut stream(&Root::of_seed(1), 1, 0, Purpose::Concealed),
+        );
         let sized = judge.sized(dose, 30.0, 1.0).expect("a size");
         let at = judge.at(sized.dose, sized.strength).expect("it drives");
         (at.dose.at(at.strength), judge.z(&at.signature))
@@ -168,7 +173,7 @@ fn fits_to_noisy_recordings_scatter_by_one_over_z_det() {
 fn z_grows_in_proportion_and_is_largest_without_alternatives() {
     let stage = Stage::new(22);
     stage.with(|judge, scene| {
-        let mut random = stream(2, 1, 0, Purpose::Concealed);
+        let mut random = stream(&Root::of_seed(2), 1, 0, Purpose::Concealed);
         for id in ["motion-resistance", "slope", "centripetal"] {
             let dose = Dose::draw(id, scene, &mut random);
             let [one, two] = [0.1, 0.2].map(|strength| {
@@ -206,7 +211,7 @@ fn a_size_shows_by_the_z_that_is_stated() {
     for seed in [21, 24] {
         let stage = Stage::new(seed);
         stage.with(|judge, scene| {
-            let mut random = stream(2, 1, 0, Purpose::Concealed);
+            let mut random = stream(&Root::of_seed(2), 1, 0, Purpose::Concealed);
             let weak = SLIP_SPEED.into_iter().chain(OTHERS).flat_map(|id| [(id, 3.0), (id, 10.0)]);
             let strong = SLIP_SPEED.into_iter().flat_map(|id| [(id, 20.0), (id, 50.0)]);
             for (id, wanted) in weak.chain(strong) {
@@ -246,7 +251,7 @@ fn a_patch_stands_where_only_later_runs_pass_it() {
     let radius = (away(place) - reach) / 2.0;
     assert!(radius > 0.5, "the first runs pass everything: {radius} m");
     stage.with(|judge, scene| {
-        let mut random = stream(1, 1, 0, Purpose::Concealed);
+        let mut random = stream(&Root::of_seed(1), 1, 0, Purpose::Concealed);
         let sized = judge.sized(Dose::patch(*place, radius, 1.3), 20.0, 1.0).expect("a size");
         let standing = judge.standings(&[sized], &[], scene, &mut random).expect("compared");
         let Standing { z_det, z_iso, nearest, .. } = &standing[0];

@@ -1,7 +1,6 @@
 //! Means and medians over cases.
 
 use super::verdict::Judged;
-use crate::answer::Concealed;
 use crate::diagnosis::Fit;
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -66,18 +65,28 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
         });
         missed.filter_map(|case| Some(&case.diagnosis()?.fit))
     };
-    let sizes = judged.iter().filter_map(|case| {
-        let truth = case.only().filter(|truth| Concealed::is_detectable(truth))?;
-        Some(crate::real(case.set_with(&truth.mechanism)?.len()))
-    });
-    let singles = || judged.iter().filter_map(|case| case.only());
-    let isolable = singles().filter(|truth| truth.is_isolable());
-    let smallest = singles().filter(|truth| truth.is_detectable());
+    let with_truth = || {
+        judged.iter().filter_map(|case| {
+            let truth = case.only().filter(|truth| truth.is_detectable())?;
+            Some((truth, case.set_with(&truth.mechanism)?))
+        })
+    };
+    let singles = judged.iter().filter_map(|case| case.only());
+    let isolable = singles.filter(|truth| truth.is_isolable());
     [
-        Mean::of("members of the reported set with the truth in it", sizes),
         Mean::of(
-            "fewest to expect: members of the smallest set that the recording allows",
-            smallest.map(|truth| crate::real(truth.smallest_set())),
+            "members of the reported set with the truth in it",
+            with_truth().map(|(_, set)| crate::real(set.len())),
+        ),
+        Mean::of(
+            "fewest to expect there: members of the smallest set that the recording allows",
+            with_truth().map(|(truth, _)| crate::real(truth.smallest_set())),
+        ),
+        Mean::of(
+            "members of the reported set with the truth in it, but constants",
+            with_truth()
+                .filter(|(truth, _)| !truth.is_static())
+                .map(|(_, set)| crate::real(set.len())),
         ),
         Mean::of(
             "share of the held-out excess explained",

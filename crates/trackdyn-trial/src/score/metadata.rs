@@ -1,24 +1,30 @@
 //! Whether files tell by their outside what is inside.
 //!
 //! A classifier that sees no number of a recording, only sizes and stamps of its files, is asked which
-//! cases are nulls: nearest neighbour, leaving out the case itself, among as many nulls as others. It
-//! has to stay at chance, a half.
+//! cases are nulls: nearest neighbour, leaving out the case itself, among as many nulls as others, taken evenly from the whole
+//! list. It has to stay at chance: the neighbour is one of n - 1 of its own kind and n of the other, a little less than a half.
 
 use super::rates::Rate;
 use super::verdict::Judged;
 
 /// How often the classifier is right.
-pub fn told_from_files(judged: &[Judged]) -> Rate {
+pub fn told_from_files<'a>(judged: &'a [Judged]) -> Rate {
     let (nulls, others): (Vec<&Judged>, Vec<&Judged>) =
         judged.iter().partition(|case| case.answer.stratum.is_null());
     let count = nulls.len().min(others.len());
-    let features = nulls[..count].iter().map(|case| (case.outside.as_slice(), true));
-    let features =
-        features.chain(others[..count].iter().map(|case| (case.outside.as_slice(), false)));
+    let shown = |cases: Vec<&'a Judged>, is_null: bool| {
+        evenly(cases, count).map(move |case| (case.outside.as_slice(), is_null))
+    };
+    let features = shown(nulls, true).chain(shown(others, false));
     Rate::of(
         "nulls told by sizes and stamps of files (chance: 50 %)",
         outcomes(&features.collect::<Vec<_>>()),
     )
+}
+
+/// So many of a list, at equal distances: of trials that are counted together each gives its part.
+fn evenly<T: Copy>(of: Vec<T>, count: usize) -> impl Iterator<Item = T> {
+    (0..count).map(move |place| of[place * of.len() / count])
 }
 
 /// Whether each is of the class of its nearest neighbour, in units of each feature's scatter.
@@ -49,10 +55,11 @@ fn outcomes(cases: &[(&[f64], bool)]) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::key::Root;
     use crate::random::{Purpose, normal, stream};
 
     fn share(difference: f64) -> f64 {
-        let mut random = stream(4, 1, 0, Purpose::Plan);
+        let mut random = stream(&Root::of_seed(4), 1, 0, Purpose::Plan);
         let cases: Vec<([f64; 3], bool)> = (0..200)
             .map(|k| {
                 let null = k % 2 == 0;
@@ -63,6 +70,13 @@ mod tests {
         let cases: Vec<(&[f64], bool)> = cases.iter().map(|(f, null)| (&f[..], *null)).collect();
         let told = outcomes(&cases);
         crate::real(told.iter().filter(|told| **told).count()) / 200.0
+    }
+
+    #[test]
+    fn parts_are_taken_evenly() {
+        assert_eq!(evenly((0..10).collect(), 4).collect::<Vec<_>>(), [0, 2, 5, 7]);
+        assert_eq!(evenly((0..3).collect(), 3).collect::<Vec<_>>(), [0, 1, 2]);
+        assert_eq!(evenly(Vec::<u8>::new(), 0).count(), 0);
     }
 
     #[test]

@@ -2,8 +2,8 @@
 
 use super::verdict::Judged;
 
-/// Limits of z between bins, about a factor of 1.6 apart.
-const LIMITS: [f64; 9] = [0.0, 2.0, 3.2, 5.0, 8.0, 12.5, 20.0, 32.0, f64::INFINITY];
+/// Limits of z between bins: those of what is distinct and what is detectable are among them.
+const LIMITS: [f64; 10] = [0.0, 2.0, 3.0, 4.0, 5.0, 8.0, 12.5, 20.0, 32.0, f64::INFINITY];
 
 /// Single effects of the catalogue within limits of z.
 #[derive(Clone, Debug, PartialEq)]

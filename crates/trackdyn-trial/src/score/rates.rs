@@ -41,7 +41,7 @@ impl Rate {
 }
 
 /// All rates of a trial. A process that failed has found nothing; it does not count where false claims
-/// are counted.
+/// and over-claims are counted.
 pub fn rates(judged: &[Judged]) -> Vec<Rate> {
     let mut rates = nulls(judged);
     rates.extend(singles(judged));
@@ -123,23 +123,20 @@ fn singles(judged: &[Judged]) -> Vec<Rate> {
         let cases = one.iter().filter(|(_, truth)| counts(truth));
         Rate::of(name, cases.map(|(case, truth)| succeeds(case, truth)))
     };
+    let answered = || one.iter().filter(|(case, _)| case.diagnosis().is_some());
     let in_set = |case: &Judged, truth: &Concealed| case.set_with(&truth.mechanism).is_some();
     vec![
         of("exact isolation: isolable singles", &Concealed::is_isolable, &|case, truth| {
             case.names_exactly(&[&truth.mechanism])
         }),
         of("truth in the reported set: detectable singles", &Concealed::is_detectable, &in_set),
-        of(
-            "over-claim: one effect named where none is isolable",
-            &|t| !t.is_isolable(),
-            &|case, _| case.names_one_alone(),
-        ),
         Rate::of(
-            "false claim: singles",
-            one.iter()
-                .filter(|(case, _)| case.diagnosis().is_some())
-                .map(|(case, _)| case.claims_falsely()),
+            "over-claim: one effect named where none is isolable",
+            answered()
+                .filter(|(_, truth)| !truth.is_isolable())
+                .map(|(case, _)| case.names_one_alone()),
         ),
+        Rate::of("false claim: singles", answered().map(|(case, _)| case.claims_falsely())),
     ]
 }
 
@@ -176,7 +173,8 @@ fn outside(judged: &[Judged]) -> Vec<Rate> {
     let flagged = isolable.map(|(case, _)| {
         case.diagnosis().is_some_and(|diagnosis| diagnosis.status == Status::Unexplained)
     });
-    let names_alone = detectable.iter().map(|(case, _)| case.names_one_alone());
+    let answered = detectable.iter().filter(|(case, _)| case.diagnosis().is_some());
+    let names_alone = answered.map(|(case, _)| case.names_one_alone());
     // Beside its own are those that known errors break: a late clock shows as a lag does.
     let is_right = |case: &Judged| {
         let (found, truly) = (broken(case), case.truly_broken());

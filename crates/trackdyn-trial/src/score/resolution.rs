@@ -5,6 +5,9 @@ use super::verdict::Judged;
 use crate::diagnosis::{Diagnosis, Missing, Status};
 use crate::plan::STATIC_CLASS;
 
+/// The error of an instrument that moves constant ICRs and nothing else.
+const SENSOR_PLACE: &str = "sensor-lever-arm";
+
 /// A case whose diagnosis left something open, and what further driving made of it.
 #[derive(Clone, Debug)]
 pub struct Revisited<'a> {
@@ -25,26 +28,38 @@ pub enum Outcome {
     Diagnosed(Box<Diagnosis>),
 }
 
-/// The sets of effects that the diagnosis of a case leaves open. Classes of constants are none of them: all
+/// The sets of effects that the diagnosis of a case leaves open. Those of constants alone are none of them: all
 /// that moves the constant ICRs is the same to every driver.
 pub fn open_sets(case: &Judged) -> Vec<Vec<&str>> {
     let diagnosis = case.diagnosis().filter(|diagnosis| diagnosis.status == Status::Ambiguous);
     let claims = diagnosis.map_or(&[][..], |diagnosis| &diagnosis.missing);
     let sets = claims.iter().map(Missing::members);
-    let is_open = |set: &Vec<&str>| set.len() > 1 && !set.iter().any(|m| STATIC_CLASS.contains(m));
+    let is_constant = |member: &&str| STATIC_CLASS.contains(member) || *member == SENSOR_PLACE;
+    let is_open = |set: &Vec<&str>| set.len() > 1 && !set.iter().all(is_constant);
     sets.filter(is_open).collect()
 }
 
 impl Revisited<'_> {
-    /// The open set: the smallest that holds something true, else the smallest.
+    /// The open set: the smallest that holds what is concealed, else the smallest that holds something true, else the
+    /// smallest.
     pub fn set_before(&self) -> Vec<&str> {
-        let key = |set: &Vec<&str>| (!set.iter().any(|m| self.before.is_true(m)), set.len());
+        let key = |set: &Vec<&str>| {
+            let holds = |of: &dyn Fn(&str) -> bool| set.iter().any(|member| of(member));
+            let lacks = [!holds(&|m| self.conceals(m)), !holds(&|m| self.before.is_true(m))];
+            (lacks, set.len())
+        };
         open_sets(self.before).into_iter().min_by_key(key).unwrap_or_default()
     }
 
-    /// What is true of the open set.
+    /// What is true of the open set: what is concealed, else an error of an instrument or of the vehicle file.
     pub fn truth(&self) -> Option<&str> {
-        self.set_before().into_iter().find(|member| self.before.is_true(member))
+        let set = self.set_before();
+        let concealed = set.iter().find(|member| self.conceals(member));
+        concealed.or_else(|| set.iter().find(|member| self.before.is_true(member))).copied()
+    }
+
+    fn conceals(&self, effect: &str) -> bool {
+        self.before.answer.concealed.iter().any(|concealed| concealed.mechanism == effect)
     }
 
     /// The smallest set after driving that holds what is true of the open one.
@@ -74,29 +89,40 @@ impl Revisited<'_> {
 /// All rates of further driving.
 pub fn rates(revisited: &[Revisited]) -> Vec<Rate> {
     let driven = || revisited.iter().filter(|case| case.outcome != Outcome::NothingToDrive);
-    let with_truth = || driven().filter(|case| case.truth().is_some());
-    let after = |holds: fn(&Revisited, &[&str]) -> bool| {
-        with_truth().map(move |case| case.set_after().is_some_and(|set| holds(case, &set)))
+    // "a lag or a late clock" is mostly a clock: what is concealed counts by itself
+    let of = |what: &str, is: fn(&Revisited, &str) -> bool| {
+        let with_truth =
+            || driven().filter(|case| case.truth().is_some_and(|truth| is(case, truth)));
+        let after = |name: &str, holds: fn(&Revisited, &[&str]) -> bool| {
+            let outcomes =
+                with_truth().map(|case| case.set_after().is_some_and(|set| holds(case, &set)));
+            Rate::of(format!("{name}: {what}"), outcomes)
+        };
+        [
+            after("truth still in the set", |_, _| true),
+            after("set smaller and with the truth", |case, set| {
+                set.len() < case.set_before().len()
+            }),
+            after("resolved, the truth named by itself", |_, set| set.len() == 1),
+        ]
     };
-    vec![
+    let mut rates = vec![
         Rate::of(
             "a plan to drive: open sets",
             revisited.iter().map(|case| case.outcome != Outcome::NothingToDrive),
         ),
         Rate::of("truth in the set before: driven", driven().map(|case| case.truth().is_some())),
-        Rate::of("truth still in the set: driven, with the truth before", after(|_, _| true)),
-        Rate::of(
-            "set smaller and with the truth: driven, with the truth before",
-            after(|case, set| set.len() < case.set_before().len()),
-        ),
-        Rate::of(
-            "resolved, the truth named by itself: driven, with the truth before",
-            after(|_, set| set.len() == 1),
-        ),
+    ];
+    rates.extend(of("driven, with what is concealed in the set", |case, truth| {
+        case.conceals(truth)
+    }));
+    rates.extend(of("driven, with another error in the set", |case, truth| !case.conceals(truth)));
+    rates.extend([
         Rate::of("another member named by itself: driven", driven().map(Revisited::is_misled)),
         Rate::of(
             "planning, driving or diagnosing failed: driven",
             driven().map(|case| matches!(case.outcome, Outcome::Failed(_))),
         ),
-    ]
+    ]);
+    rates
 }

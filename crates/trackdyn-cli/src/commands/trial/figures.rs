@@ -49,7 +49,11 @@ pub fn write_confusion(out: &Path, (name, score): (&str, &Score), caption: &str)
     let (rows, columns): (Vec<String>, Vec<String>) = (rows, columns);
     let counts =
         rows.iter().map(|row| columns.iter().map(|column| of.count(row, column)).collect());
-    let matrix = Matrix { rows: &rows, columns: &columns, counts: counts.collect() };
+    let places =
+        (0..rows.len()).flat_map(|row| (0..columns.len()).map(move |column| [row, column]));
+    let right = places.filter(|[row, column]| of.is_right(&rows[*row], &columns[*column]));
+    let (counts, right) = (counts.collect(), right.collect());
+    let matrix = Matrix { rows: &rows, columns: &columns, counts, right };
     Ok(write_file(&out.join("confusion.png"), &confusion(&matrix, name, caption)?)?)
 }
 
@@ -57,6 +61,7 @@ pub fn write_confusion(out: &Path, (name, score): (&str, &Score), caption: &str)
 struct Texts {
     title: &'static str,
     explanation: &'static str,
+    of: &'static str,
     wanted: Option<f64>,
 }
 
@@ -64,6 +69,7 @@ const RATES: Texts = Texts {
     title: "Rates",
     explanation: "What each row counts stands in docs/trials.md. Of false claims, over-claims and failures less \
                   is better, of all others more; files have to tell nulls in half of the cases.",
+    of: "cases",
     wanted: None,
 };
 
@@ -71,6 +77,7 @@ const COVERAGE: Texts = Texts {
     title: "Intervals that hold the true size",
     explanation: "Of every effect that is rightly named by itself: how many of the stated intervals of 95 % hold \
                   the true value, over its parameters. Dashed: 95 %, where all should lie.",
+    of: "intervals",
     wanted: Some(0.95),
 };
 
@@ -86,8 +93,8 @@ fn sheet(
         rows.iter().map(find).collect()
     });
     let rows: Vec<String> = rows.into_iter().map(str::to_owned).collect();
-    let Texts { title, explanation, wanted } = *texts;
-    let sheet = Shares { title, explanation, rows: &rows, entrants: &entrants, wanted };
+    let Texts { title, explanation, of, wanted } = *texts;
+    let sheet = Shares { title, explanation, of, rows: &rows, entrants: &entrants, wanted };
     shares(&sheet, caption)
 }
 

@@ -24,16 +24,16 @@ pub struct Options {
     /// Number of cases
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST))]
     cases: u32,
-    /// Seed of everything that is drawn; whoever knows it can make the answers again
+    /// Seed of everything that is drawn; whoever has it and the key can make the answers again
     #[arg(long, value_name = "SEED", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED))]
     seed: u64,
-    /// Time of each of the twelve runs of a case, s; less makes a trial quicker, and effects harder to find
+    /// Time of each of the twelve runs of a case, s; less makes a trial quicker, with larger effects for the same z
     #[arg(long, value_name = "SECONDS", default_value_t = RUN_TIME, value_parser = run_time)]
     duration: f64,
     /// Folder for the cases, the sealed answers and the commitment to them
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// File for the key to the answers [default: beside DIR, NAME.key]
+    /// File for the key to the answers; with one that is there its trial is made once more [default: beside DIR, NAME.key]
     #[arg(long, value_name = "FILE")]
     key: Option<PathBuf>,
 }
@@ -49,7 +49,8 @@ pub fn run(options: &Options) -> Outcome {
         run_time_s: options.duration,
     };
     let draft = Draft::begin(&options.out, &key, &order)?;
-    let planned = plan(order.cases, order.seed);
+    let root = draft.root();
+    let planned = plan(order.cases, &root);
     let all = (0_u64..).zip(&planned);
     let open: Vec<_> = all.filter(|(number, _)| !draft.has(*number)).collect();
     let progress = Progress::new(planned.len());
@@ -58,7 +59,7 @@ pub fn run(options: &Options) -> Outcome {
         progress.advance(planned.len() - open.len());
     }
     let make = |(number, planned): &(u64, &PlannedCase)| {
-        draft.keep(&Case::make(planned, *number, &order)?)?;
+        draft.keep(&Case::make(planned, *number, &order, &root)?)?;
         progress.advance(1);
         Ok(())
     };

@@ -17,6 +17,9 @@ pub struct Options {
     /// File with the key to the answers; of several trials one each, in their order [default: beside DIR, NAME.key]
     #[arg(long = "key", value_name = "FILE")]
     keys: Vec<PathBuf>,
+    /// SHA-256 of the answers as it was published elsewhere, to be compared; of several trials one each, in their order
+    #[arg(long = "commitment", value_name = "HASH")]
+    commitments: Vec<String>,
     /// Name of the program whose diagnoses are scored; several times for several programs beside each other
     /// [default: trackdyn]
     #[arg(long = "name", value_name = "NAME")]
@@ -29,7 +32,9 @@ pub struct Options {
 /// Scores the diagnoses that are there.
 pub fn run(options: &Options) -> Outcome {
     let keys = key_files(options)?;
+    one_each("--commitment", options.commitments.len(), options.trials.len())?;
     let opened = Opened::open(options.trials.iter().map(PathBuf::as_path).zip(keys))?;
+    opened.check(&options.commitments)?;
     let mut entries = options.names.clone();
     if entries.is_empty() {
         entries.push(Entry::default());
@@ -54,6 +59,7 @@ pub fn run(options: &Options) -> Outcome {
         write(&home, *one, &caption)?;
     }
     figures::write(&out, &named, &caption)?;
+    let page = format!("{page}\nAnswers: SHA-256 {}.\n", opened.hashes().join(" and "));
     write_file(&out.join("score.md"), page.as_bytes())?;
     for (name, text) in opened.texts() {
         write_file(&out.join(name), text.as_bytes())?;
@@ -70,14 +76,17 @@ pub fn run(options: &Options) -> Outcome {
 /// The key of each trial.
 fn key_files(options: &Options) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
     let (trials, keys) = (&options.trials, &options.keys);
-    if !keys.is_empty() && keys.len() != trials.len() {
-        let (trials, keys) = (trials.len(), keys.len());
-        return Err(
-            format!("{trials} trials, {keys} times --key: expected one of each trial").into()
-        );
-    }
+    one_each("--key", keys.len(), trials.len())?;
     let of = |(place, trial)| key_file(keys.get(place).map(PathBuf::as_path), trial);
     trials.iter().map(PathBuf::as_path).enumerate().map(of).collect()
+}
+
+/// An option that comes once for each trial, or not at all.
+fn one_each(name: &str, times: usize, trials: usize) -> Result<(), String> {
+    if times == 0 || times == trials {
+        return Ok(());
+    }
+    Err(format!("{trials} trials, {times} times {name}: expected one of each trial"))
 }
 
 /// Writes the tables of a program, and what it took for what.

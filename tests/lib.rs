@@ -34,7 +34,7 @@ pub fn uniform(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * random.random::<f64>()
 }
 
-/// A vehicle of any proportion: μ_x/μ_y from 0.2 to 5, contact from 0.15 to 7 gauges long, tracks or
+/// A vehicle of any proportion: μ_x/μ_y from 0.2 to 5, contact from e⁻² to e² gauges long, tracks or
 /// two to four axles, the centre of gravity anywhere up to `support` of the tipping limit.
 pub fn random_vehicle(random: &mut ChaCha8Rng, support: f64) -> Vehicle {
     let mu_y = uniform(random, 0.1, 1.5);

@@ -1,7 +1,8 @@
 //! The base: the vehicle as its file says, with all that is free in every hypothesis.
 //!
-//! Free are the constant ICRs, which stand for friction ratio, centre of gravity and their like, and what
-//! encoders and pose sensor make of the motion: gains, clock, mount.
+//! Free are the constant ICRs, which stand for friction ratio, centre of gravity and their like; what
+//! encoders and pose sensor make of the motion: gains, clock, mount; and the level of friction and the centre of gravity where
+//! mass shows them.
 
 use crate::evidence::Evidence;
 use crate::fit::Fit;

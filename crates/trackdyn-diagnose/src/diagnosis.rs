@@ -49,7 +49,7 @@ pub enum Status {
     Explained,
     /// Nothing that this evidence could show was left out.
     NothingMissing,
-    /// Several effects, or none alone, explain it.
+    /// Something is missing that several effects explain alike.
     Ambiguous,
     /// Something is there that the catalogue does not explain.
     Unexplained,
@@ -98,7 +98,7 @@ pub struct Missing {
 pub struct HeldOut {
     /// Root mean square of the whitened residual before.
     pub before: f64,
-    /// With nothing but constant ICRs, encoders and pose sensor fitted.
+    /// With nothing but the base fitted: constants, encoders and pose sensor.
     pub instruments: f64,
     /// After.
     pub after: f64,
@@ -146,7 +146,7 @@ pub struct Detectable {
 pub struct Diagnosis {
     /// In a word.
     pub status: Status,
-    /// Where the vehicle as filed departs from the evidence, clock and constants aside.
+    /// Where the base departs from the evidence.
     pub before: Location,
     /// The same of the corrected model.
     pub after: Location,

@@ -115,7 +115,7 @@ pub struct SupportTable {
 pub struct FitTable {
     /// Before.
     pub held_out_before: f64,
-    /// With nothing but constant ICRs, encoders and pose sensor fitted; older files have none.
+    /// With nothing but the base fitted, constants, encoders and pose sensor; older files have none.
     #[serde(default)]
     pub held_out_instruments: f64,
     /// After.

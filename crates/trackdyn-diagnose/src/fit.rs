@@ -23,16 +23,16 @@ const FOUND_ANEW: usize = 3;
 /// Shares of a step before it is given up.
 const SHARES: [f64; 4] = [1.0, 0.4, 0.15, 0.05];
 
-/// A step that lowers the objective by less than this is the last one.
+/// A step that lowers twice the objective by less than this is the last one.
 const SETTLED: f64 = 0.2;
 
-/// A step that promises to lower it by less than this is not tried.
+/// One that promises to lower it by less than this is not tried.
 const NOTHING: f64 = 0.01;
 
 /// Part of the gain that a step promises by which the true one may differ for its derivatives to stand.
 const FORETOLD: f64 = 0.1;
 
-/// Fall of the objective since the derivatives were found up to which they describe the minimum.
+/// Fall of twice the objective since the derivatives were found up to which they describe the minimum.
 const NEAR: f64 = 10.0;
 
 /// A hypothesis at its best.

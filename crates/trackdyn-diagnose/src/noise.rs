@@ -3,7 +3,7 @@
 //! # Law
 //! To the base belong constant ICRs, encoders and pose sensor; beside them stand the contrasts of
 //! [`locate`](crate::locate), which let the ICRs go with speed, direction, manoeuvre, side, heading, place, time
-//! and change of speed, whatever the reason. The residual r of all these is noise: white noise R of each pose,
+//! and change of speed, whatever the reason, ICRs that go with the speed of turning, and the answer to acceleration. The residual r of all these is noise: white noise R of each pose,
 //! which neighbouring segments share, a random walk q within each segment, and a heading of the sensor that wanders, by
 //! which all later segments of a run are seen turned ([`SegmentNoise`]). The seven variances are those under which
 //! r is most likely, with a heavy-tailed likelihood, so that outliers do not count:
@@ -66,7 +66,7 @@ type Variances = SVector<f64, COUNT>;
 /// A variance changes by no more than this factor in a step, e-fold.
 const LARGEST_STEP: f64 = 1.5;
 
-/// A walk that adds less than this share of the white noise to a segment is none.
+/// No walk is smaller than this share of the white noise, in a second.
 const NO_WALK: f64 = 1e-5;
 
 /// By what a variance must be smaller beside a hypothesis for the noise to be another one.
@@ -152,7 +152,7 @@ pub fn sharper(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Option<Eviden
 /// Samples over which slow effects are summed.
 const SLOW: f64 = 10.0;
 
-/// Samples at whose shared pose the sensor erred: each by itself is far off, both together are not.
+/// Samples at whose shared pose the sensor erred: the one that ends there is far off, both together are not.
 fn outlying(evidence: &Evidence, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
     let mut white = left.to_vec();
     evidence.whiten(&mut white);

@@ -33,10 +33,11 @@ const WORTH: f64 = 3.0;
 /// Rounds of a search: three effects come in as many, two more exchange them.
 const ROUNDS: usize = 5;
 
-/// By how much a round must raise that: a fit from another start ends as far from the same minimum.
+/// By how much a round must raise the logarithm of the evidence, less [`WORTH`] for each effect: a fit from another start ends as far
+/// from the same minimum.
 const BETTER: f64 = 0.5;
 
-/// Part of that which the linear screen must promise.
+/// Part of [`WORTH`] that the linear screen must promise.
 const NEARLY: f64 = 0.7;
 
 /// Part of the best linear gain that a candidate must reach to be refitted.
@@ -52,7 +53,7 @@ const RECALIBRATIONS: usize = 2;
 const CALIBRATED: f64 = 5e-3;
 
 /// Part of its filed size by which an effect of the vehicle file must differ to be looked at: what a strong law of the
-/// shear stress changes in the departures by ground and inertia is left out, and sizes give way to that.
+/// shear stress changes in the departures by ground is left out, and sizes give way to that.
 pub const AS_FILED: f64 = 0.5;
 
 /// By how much twice the misfit must fall for another meaning of the constant ICRs.
@@ -73,7 +74,7 @@ pub struct Screened {
     pub effect: usize,
     /// Gain of ln evidence.
     pub gain: f64,
-    /// Gain of the likelihood alone, as z: √ of what the misfit falls by.
+    /// Gain of the likelihood alone, as z: √ of what twice the misfit falls by.
     pub z: f64,
     /// Estimated sizes, as distances from none.
     pub sizes: Vec<f64>,

@@ -4,7 +4,7 @@
 //! - [`transient`]: the motion in time, with stick and slip.
 //! - [`newton`]: the search for both, with derivatives or near a root.
 //! - [`Forces`]: what pushes the body at a motion, and how that changes with it.
-//! - [`map`]: that motion over a grid of speeds, its means, spreads and sectors.
+//! - [`map`]: the stationary motion over a grid of speeds, its means, spreads and sectors.
 //! - [`kinematics`]: what the means are for: equations (7)-(13) with constant ICRs.
 
 mod forces;

@@ -69,7 +69,7 @@ impl IcrMap {
     }
 
     /// Means and spreads by the signs of V_l, V_r and |V_r| − |V_l| (sec. 4.1), where these explain
-    /// nine tenths of the spread of the map; empty otherwise.
+    /// nine tenths of the variance of one of x_l, x_r, y; empty otherwise.
     pub fn sectors(&self) -> Vec<Sector> {
         sector::sectors(self)
     }

@@ -12,7 +12,7 @@
 //! A track with much more load than the other can hold the robot: it sticks, the robot drives straight
 //! at its speed, and the other track slips. No slip direction exists on the sticking track, so the
 //! balance has no solution with t > 0. The residual is continued to t < 0 by multiplying the force of
-//! the slipping track by 1 − L t: there, a root says that the anchor breaks loose only under so much
+//! the slipping track and all forces beside friction by 1 − L t: there, a root says that the anchor breaks loose only under so much
 //! more force, that is, that it holds. One Newton iteration thus decides between turning and holding.
 
 mod solution;

@@ -15,7 +15,8 @@
 //! # Method
 //! The two-stage singly diagonal implicit Runge-Kutta method of order 2 (Alexander 1977), which damps
 //! stiff parts at once. Each stage is one balance of forces with the acceleration (u − u_b)/(γ h): the
-//! same equations as the stationary ones, solved by the same Newton iteration with exact derivatives. Where
+//! same equations as the stationary ones, solved by Broyden's method from the last balance, else by the same Newton iteration with exact
+//! derivatives. Where
 //! belts slip on their sprockets, the traction of both sides is sought with the twist: near straight driving
 //! friction turns over within a small slip, and belts at speeds by an earlier traction would jump to and fro.
 //!
@@ -61,7 +62,7 @@ pub struct Instant {
     pub belt_speed: PerSide<f64>,
     /// Twist, paper's frame.
     pub twist: Twist,
-    /// Its rate, as the method takes it: that of γ h.
+    /// Its rate, as the method takes it: (u − u_b)/(γ h).
     pub rate: Twist,
 }
 
@@ -197,8 +198,8 @@ impl<'m> Transient<'m> {
         self.step(shown, end, halvings + 1)
     }
 
-    /// The state at the end of a step, its stages, and the estimated error of its twist, m/s; none where Newton's iteration
-    /// does not converge.
+    /// The state at the end of a step, its stages, and the estimated error of its twist, m/s; none where no balance is
+    /// found.
     fn advanced(&self, shown: PerSide<f64>, end: f64) -> Option<(State, [Instant; 2], f64)> {
         let start = self.state;
         let h = end - start.t;

@@ -2,7 +2,7 @@
 //!
 //! # Law
 //! The motion in time less the stationary motion, over each sample. Around the numbers θ₀ of the hypothesis that it was
-//! found for, it is linear in those that are free: d(θ) = d(θ₀) + Σ (θ − θ₀) ∂d/∂θ, as far as [`REACH`].
+//! found for, it is linear in those that are free: d(θ) = d(θ₀) + Σ (θ − θ₀) ∂d/∂θ, as far as [`REACH`], and on the way of a fit however far.
 
 use super::belts::{lagging, smooth};
 use super::sheared::{self, Without};
@@ -35,7 +35,7 @@ const CREEP: f64 = 1e-4;
 /// derivatives are taken. Beyond what is linear, that changes half a percent of what a typical size adds.
 const REACH: f64 = 0.2;
 
-/// The same on the way of a fit.
+/// The same on the way of a fit, of numbers without a slope.
 const ALIKE: f64 = 1.0;
 
 /// Seconds by which belts may lag more, or less, than where the motion in time was found. That long it is late with them,
@@ -65,7 +65,7 @@ impl Within {
 /// Part of the gauge, and of the friction ratio, by which the vehicle may differ.
 const CLOSE: f64 = 0.003;
 
-/// Part of the gauge by which a centre of gravity is off that is.
+/// Typical error of a filed centre of gravity, as part of the gauge.
 const COG: f64 = 0.05;
 
 /// Difference of the logarithm of friction that is rounding.
@@ -240,7 +240,7 @@ fn stepped(by: Unknown, case: &Case) -> Option<(Model, f64)> {
     }
 }
 
-/// Whether a motion in time may change with a number: what is typically zero is near where it is the same.
+/// Whether a motion in time may change with a number: what is typically zero has no size to step by, and is near only where it is equal.
 pub fn has_slope(by: Unknown, model: &Model) -> bool {
     match by {
         Unknown::Offset(_) => false,

@@ -106,7 +106,7 @@ impl Stage<'_> {
         off.component_div(&self.scale())
     }
 
-    /// The weight, twice, and that times the gauge.
+    /// What counts as one: the weight for both forces, the weight times the gauge for the moment.
     fn scale(&self) -> Vector3<f64> {
         let vehicle = self.with.model.vehicle();
         Vector3::new(1.0, 1.0, vehicle.gauge) * vehicle.weight()

@@ -23,7 +23,7 @@ pub(super) struct Flexible {
 /// What friction that falls or rises with the speed of slip may do: ICRs, and the answer to acceleration, that go with the
 /// speed of turning. Contrasts, which are tested, keep to a few columns; here there may be many.
 fn turning(evidence: &Evidence, of: &[Vec<Vector3<f64>>]) -> Vec<Vec<Vector3<f64>>> {
-    /// Parts of the fastest turn in which friction settles: slip is of the order of the turn.
+    /// Parts of twice the largest track speed in which friction settles: slip is of the order of the turn.
     const SETTLES: [f64; 2] = [0.06, 0.2];
     let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
     let [quickly, slowly] = SETTLES.map(|scale| move |u: f64| (-u / scale).exp());

@@ -8,7 +8,7 @@
 //!   p = α_l P − (x_l + i y) E,  P = ∫ V_l e^{iψ} dt,  E = ∫ ω e^{iψ} dt = sin Ψ + i (1 − cos Ψ),
 //!
 //! with Ψ at the segment's end. The sum of |observed − p|² over the segments is therefore quadratic in α_l, x_l
-//! and y, and its seven factors are sums of waves in a and b that run through no more than L and R radians per
+//! and y, and its seven factors are sums of waves in a and b that run through no more than 2 L and 2 R radians per
 //! unit. They are computed at a few hundred places and are known everywhere else, to rounding.
 
 use super::chebyshev::{Axis, Surface, places};

@@ -13,7 +13,7 @@ use trackdyn_core::real;
 /// Legend, and the matrix below it.
 const LEGEND: [i32; 2] = [sheet::LEFT, sheet::TOP + 20];
 const TOP: i32 = sheet::TOP + 120;
-const LABELS: i32 = 430;
+const LABELS: i32 = 545;
 /// Longest name of a column, and room around it for the axis label.
 const LONGEST: i32 = 310;
 const BELOW: i32 = 90;

@@ -6,7 +6,6 @@ use trackdyn_diagnose::candidate::{Beside, Variant};
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::hypothesis::{Hypothesis, neutral};
 use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
-use trackdyn_diagnose::metric::Metric;
 use trackdyn_diagnose::{Diagnosis, Evidence};
 use trackdyn_field::ScheduleKind;
 use trackdyn_field::sensors::Preset;
@@ -58,8 +57,7 @@ fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
 #[test]
 fn signatures_of_laws_of_the_slip_speed_know_the_answer_to_acceleration() {
     let (plain, evidence) = by_hand();
-    let metric = Metric::default();
-    let beside = Beside::new(&plain, &evidence, &metric);
+    let beside = Beside::new(&plain, &evidence);
     for law in LAWS {
         let law: ActiveEffect = law.parse().expect("an effect");
         let variant = Variant { effect: place(&law), values: law.values().to_vec() };
@@ -67,7 +65,7 @@ fn signatures_of_laws_of_the_slip_speed_know_the_answer_to_acceleration() {
         let [(_, signatures)] = &signatures[..] else { panic!("{law}: {}", signatures.len()) };
         let size = variant.values[0] - neutral(&law.card().parameters[0]);
         let white = |changed: &[Vector3<f64>]| {
-            metric.white(&evidence, changed.iter().map(|change| change / size).collect())
+            evidence.white(changed.iter().map(|change| change / size).collect())
         };
         let [whole, steady] = [plain.clone(), without_inertia(&plain)].map(|plain: Hypothesis| {
             let with = predicted(&plain.with_effect(law.clone()), &evidence);

@@ -14,11 +14,11 @@ const PATCH: &str = "terrain-patch:x_m=0.4,y_m=0.3,radius_m=1.5,ratio=1.3";
 
 /// By how much twice the misfit, all else fitted anew, has risen where a number is held at a value.
 fn risen(diagnosis: &Diagnosis, held: Unknown, value: f64) -> f64 {
-    let Diagnosis { evidence, metric, best, .. } = diagnosis;
+    let Diagnosis { evidence, best, .. } = diagnosis;
     let others = best.fit.unknowns.iter().copied().filter(|unknown| *unknown != held);
     let others: Vec<Unknown> = others.collect();
     let start = best.fit.hypothesis.with(held, value);
-    let fit = Fit::new(start, &others, evidence, metric, None);
+    let fit = Fit::new(start, &others, evidence, None);
     let known = prior(&fit.hypothesis, held, evidence);
     let cost = |value: f64| ((value - known.mean) / known.deviation).powi(2);
     fit.objective + cost(value) - best.fit.objective

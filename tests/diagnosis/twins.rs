@@ -15,7 +15,7 @@ use trackdyn_physics::CATALOGUE;
 use trackdyn_tests::concealed::{Drive, diagnosed, named, owned, runs, sensors};
 
 /// Effects that only move the constant ICRs, whatever is driven.
-const STATIC_CLASS: [&str; 8] = [
+const CONSTANTS: [&str; 8] = [
     "friction-anisotropy",
     "cog-shift",
     "friction-split",
@@ -59,7 +59,7 @@ fn split(concealed: &str) -> Option<String> {
     let found = diagnosis_of(&slow(), concealed, &sensors(Preset::Laboratory));
     let beside_clock = named(&found).into_iter().filter(|(_, m)| !m.contains("time-offset"));
     let beside_clock: Vec<_> = beside_clock.collect();
-    let whole = |members: &BTreeSet<&str>| STATIC_CLASS.iter().all(|id| members.contains(id));
+    let whole = |members: &BTreeSet<&str>| CONSTANTS.iter().all(|id| members.contains(id));
     match beside_clock.as_slice() {
         [(Kind::Constant, members)] if whole(members) => None,
         other => Some(format!("{concealed}: {other:?}")),
@@ -76,7 +76,7 @@ fn the_class_of_constants_is_one_answer() {
 #[test]
 #[ignore = "eight drives: cargo test --release -p trackdyn-tests --test diagnosis -- --ignored"]
 fn every_member_of_the_class_of_constants_is_one_answer() {
-    let split: Vec<String> = STATIC_CLASS.par_iter().filter_map(|one| split(one)).collect();
+    let split: Vec<String> = CONSTANTS.par_iter().filter_map(|one| split(one)).collect();
     assert!(split.is_empty(), "{split:#?}");
 }
 
@@ -85,7 +85,7 @@ fn every_member_of_the_class_of_constants_is_one_answer() {
 #[test]
 #[ignore = "eight drives: cargo test --release -p trackdyn-tests --test diagnosis -- --ignored"]
 fn at_speed_the_truth_is_in_the_class_of_constants() {
-    let wrong = STATIC_CLASS.par_iter().filter_map(|truth| {
+    let wrong = CONSTANTS.par_iter().filter_map(|truth| {
         let found = diagnosis(truth, &sensors(Preset::Laboratory));
         let beside_clock = named(&found).into_iter().filter(|(_, m)| !m.contains("time-offset"));
         let beside_clock: Vec<_> = beside_clock.collect();
@@ -124,7 +124,7 @@ fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
 /// Every variant of every other candidate, with the part of an effect's signature, at the size that was found, that
 /// neither it nor the base can stand for, in standard deviations.
 fn separations(found: &Diagnosis, effect: usize) -> Vec<(usize, f64)> {
-    let Diagnosis { base, evidence, metric, best, .. } = found;
+    let Diagnosis { base, evidence, best, .. } = found;
     let active = best.fit.hypothesis.effect(effect).expect("what is named is there");
     let own = Variant { effect, values: active.values().to_vec() };
     let parameters = CATALOGUE[effect].parameters;
@@ -133,9 +133,9 @@ fn separations(found: &Diagnosis, effect: usize) -> Vec<(usize, f64)> {
     let others = candidates(&base.instruments, evidence);
     let others = others.into_iter().filter(|other| other.effect != effect);
     let tried: Vec<Variant> = std::iter::once(own).chain(others).collect();
-    let entries = Beside::new(&base.fit.hypothesis, evidence, metric).signatures(&tried);
+    let entries = Beside::new(&base.fit.hypothesis, evidence).signatures(&tried);
     let catalogue = Catalogue { entries };
-    let search = Search { evidence, metric, base, catalogue: &catalogue };
+    let search = Search { evidence, base, catalogue: &catalogue };
     let apart = |rival: usize| {
         let (normal, known, groups) = search.normal(&base.fit, &[0, rival]);
         let free = (0..base.fit.columns.len()).chain(groups[1].iter().copied());

@@ -5,10 +5,9 @@
 
 use crate::recordings::identified;
 use trackdyn_identify::identification::Fit;
-use trackdyn_identify::least_squares::Interval;
 use trackdyn_odometry::comparison::{Component, SetErrors};
 use trackdyn_odometry::{Comparison, Estimate, ParameterSet};
-use trackdyn_recording::{Clock, RunList};
+use trackdyn_recording::{Clock, Interval, RunList};
 use trackdyn_tests::real_recording;
 
 /// Recording, gauge (m), runs that are fitted to, runs that are judged on.

@@ -66,7 +66,7 @@ impl Trajectory {
         let interval = after.t - before.t;
         if interval <= 0.0 {
             let inside = t == before.t;
-            return if inside { before.twist } else { Twist { v_x: 0.0, v_y: 0.0, w: 0.0 } };
+            return if inside { before.twist } else { Twist::zero() };
         }
         let share = (t - before.t) / interval;
         let mix = |a: f64, b: f64| a + share * (b - a);

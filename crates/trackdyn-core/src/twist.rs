@@ -1,6 +1,7 @@
 //! Velocity of the body in the plane.
 
 use crate::Scalar;
+use std::ops::{Add, Mul, Sub};
 
 /// Planar twist of the body, at the frame's origin and in the frame's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +15,13 @@ pub struct Twist<S = f64> {
 }
 
 impl<S: Scalar> Twist<S> {
+    /// No motion.
+    #[inline]
+    pub fn zero() -> Self {
+        let zero = S::from(0.0);
+        Self { v_x: zero, v_y: zero, w: zero }
+    }
+
     /// Velocity of the body point (x, y), m/s.
     #[inline]
     pub fn velocity_at(&self, [x, y]: [f64; 2]) -> [S; 2] {
@@ -26,5 +34,32 @@ impl<S: Scalar> Twist<S> {
         let [v_x, v_y] = self.velocity_at(point);
         // a = ω × v
         [-self.w * v_y, self.w * v_x]
+    }
+}
+
+impl<S: Scalar> Add for Twist<S> {
+    type Output = Self;
+
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self { v_x: self.v_x + other.v_x, v_y: self.v_y + other.v_y, w: self.w + other.w }
+    }
+}
+
+impl<S: Scalar> Sub for Twist<S> {
+    type Output = Self;
+
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        Self { v_x: self.v_x - other.v_x, v_y: self.v_y - other.v_y, w: self.w - other.w }
+    }
+}
+
+impl<S: Scalar> Mul<S> for Twist<S> {
+    type Output = Self;
+
+    #[inline]
+    fn mul(self, factor: S) -> Self {
+        Self { v_x: self.v_x * factor, v_y: self.v_y * factor, w: self.w * factor }
     }
 }

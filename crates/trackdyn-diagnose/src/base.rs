@@ -10,7 +10,6 @@ use crate::hypothesis::{
     Hypothesis, Unknown, active, neutral, typical, unknowns_of, with_friction,
 };
 use crate::mechanics::{Mechanics, is_instrument};
-use crate::metric::Metric;
 use crate::normal::{Columns, Normal, Prior};
 use crate::prior::prior;
 use nalgebra::{Matrix3, Vector3};
@@ -50,30 +49,30 @@ const BY_MASS: [Unknown; 3] = [Unknown::FrictionLevel, Unknown::Cog(0), Unknown:
 
 impl Base {
     /// The base of a vehicle for this evidence.
-    pub fn new(file: &VehicleFile, evidence: &Evidence, metric: &Metric) -> Self {
+    pub fn new(file: &VehicleFile, evidence: &Evidence) -> Self {
         let hypothesis = Hypothesis::filed(file);
-        let as_filed = Fit::new(hypothesis.clone(), &OFFSETS, evidence, metric, None);
+        let as_filed = Fit::new(hypothesis.clone(), &OFFSETS, evidence, None);
         let start = with_clock(&hypothesis, evidence);
         let mut nuisances = OFFSETS.to_vec();
-        let instruments = free_instruments(&start, evidence, metric, &as_filed.mechanics);
+        let instruments = free_instruments(&start, evidence, &as_filed.mechanics);
         for &effect in &instruments {
             nuisances.extend(unknowns_of(effect));
         }
         // What has mass tells how much friction there is, and where the mass is, if the evidence knows that better than the owner.
         let tried: Vec<Unknown> = nuisances.iter().chain(&BY_MASS).copied().collect();
-        let fit = Fit::at(start.clone(), &tried, evidence, metric, Some(&as_filed.mechanics));
+        let fit = Fit::at(start.clone(), &tried, evidence, Some(&as_filed.mechanics));
         for (place, &unknown) in tried.iter().enumerate().skip(nuisances.len()) {
             let known = fit.solution.covariance[(place, place)].sqrt();
             if known < BETTER * prior(&start, unknown, evidence).deviation {
                 nuisances.push(unknown);
             }
         }
-        let plain = Fit::new(start, &nuisances, evidence, metric, Some(&fit.mechanics));
+        let plain = Fit::new(start, &nuisances, evidence, Some(&fit.mechanics));
         // The vehicle takes over what it can of the constant ICRs; a second fit tells what is left.
         let (mut fit, mut calibration) = (plain.clone(), Calibration::None);
         for tried in Calibration::ALL {
             let Some(hypothesis) = tried.calibrated(&plain.hypothesis) else { continue };
-            let again = Fit::new(hypothesis, &nuisances, evidence, metric, None);
+            let again = Fit::new(hypothesis, &nuisances, evidence, None);
             // Where nothing tells them apart, the first one stands.
             let better = if calibration == Calibration::None { -1.0 } else { 1.0 };
             if again.objective < fit.objective - better {
@@ -83,11 +82,11 @@ impl Base {
         Self { as_filed, fit, nuisances, instruments, calibration }
     }
 
-    /// The same at its best for the evidence with another noise, or in another metric.
-    pub fn refitted(&self, evidence: &Evidence, metric: &Metric) -> Self {
+    /// The same at its best for the evidence with another noise, or another scale of residuals.
+    pub fn refitted(&self, evidence: &Evidence) -> Self {
         let again = |fit: &Fit| {
             let (start, before) = (fit.hypothesis.clone(), Some(&fit.mechanics));
-            Fit::new(start, &fit.unknowns, evidence, metric, before)
+            Fit::new(start, &fit.unknowns, evidence, before)
         };
         Self { as_filed: again(&self.as_filed), fit: again(&self.fit), ..self.clone() }
     }
@@ -119,7 +118,6 @@ fn with_clock(hypothesis: &Hypothesis, evidence: &Evidence) -> Hypothesis {
 fn free_instruments(
     hypothesis: &Hypothesis,
     evidence: &Evidence,
-    metric: &Metric,
     mechanics: &Mechanics,
 ) -> Vec<usize> {
     let mut unknowns = OFFSETS.to_vec();
@@ -130,7 +128,7 @@ fn free_instruments(
         }
         let more: Vec<Unknown> = unknowns_of(effect).collect();
         let tried: Vec<Unknown> = unknowns.iter().chain(&more).copied().collect();
-        let fit = Fit::at(hypothesis.clone(), &tried, evidence, metric, Some(mechanics));
+        let fit = Fit::at(hypothesis.clone(), &tried, evidence, Some(mechanics));
         if own_share(&fit, unknowns.len()) > OWN {
             unknowns = tried;
             chosen.push(effect);

@@ -10,7 +10,6 @@ mod places;
 use crate::evidence::Evidence;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
 use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument};
-use crate::metric::Metric;
 use crate::prior::area;
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -82,7 +81,7 @@ impl Variant {
             }
             let change = beside.change(active(self.effect, &values))?;
             let quotient = change.iter().map(|change| change / distance).collect();
-            let column = beside.metric.white(beside.evidence, quotient);
+            let column = beside.evidence.white(quotient);
             Some(Signature { unknown: Unknown::Effect(self.effect, size), column })
         })
     }
@@ -96,7 +95,6 @@ const STEPS: [f64; 3] = [1.0, 0.2, -0.2];
 pub struct Beside<'a> {
     hypothesis: &'a Hypothesis,
     evidence: &'a Evidence,
-    metric: &'a Metric,
     /// The hypothesis as it is.
     moving: Prepared,
     /// The hypothesis without inertia: the signature of what neither stands against acceleration nor changes the answer to it
@@ -206,14 +204,13 @@ fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f
 
 impl<'a> Beside<'a> {
     /// A hypothesis for this evidence.
-    pub fn new(hypothesis: &'a Hypothesis, evidence: &'a Evidence, metric: &'a Metric) -> Self {
+    pub fn new(hypothesis: &'a Hypothesis, evidence: &'a Evidence) -> Self {
         let vehicle = &hypothesis.vehicle;
         let still = hypothesis.effects.iter().filter(|effect| !feels_inertia(vehicle, effect));
         let still = Hypothesis { effects: still.cloned().collect(), ..hypothesis.clone() };
         Self {
             hypothesis,
             evidence,
-            metric,
             moving: Prepared::new(hypothesis.clone(), evidence),
             still: Prepared::new(still, evidence),
         }

@@ -10,14 +10,13 @@ use crate::hypothesis::with_friction;
 use crate::isolability::Isolability;
 use crate::locate::cells::{Cell, cells};
 use crate::locate::{Location, Residual, excess, icr_columns};
-use crate::metric::Metric;
 use crate::noise::{sharper, with_remaining_noise, without_outliers};
 use crate::proposal::{Proposal, completed};
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, Level, Uncertainty};
 use crate::verdict::{
-    Rules, Statics, Verdict, judge, judge_constants, judge_instruments, refuse_unsupported,
-    refuse_unsure, statics,
+    Constants, Rules, Verdict, judge, judge_constants, judge_instruments, refuse_unsupported,
+    refuse_unsure,
 };
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
@@ -165,7 +164,7 @@ pub struct Diagnosis {
     /// The same beside the corrected model.
     pub left: Vec<Screened>,
     /// Effects that only move constant ICRs.
-    pub statics: Vec<usize>,
+    pub constants: Vec<usize>,
     /// What this evidence can tell apart.
     pub isolability: Isolability,
     /// The same of all candidates beside the base, what is claimed among them.
@@ -188,8 +187,6 @@ pub struct Diagnosis {
     pub friction_level: Option<Level>,
     /// The evidence of the fit, with the noise that its residuals show.
     pub evidence: Evidence,
-    /// The metric of all residuals here.
-    pub metric: Metric,
     /// The vehicle that explains the evidence.
     pub corrected: VehicleFile,
     /// A law for what no effect explains, where something is left and one was found.
@@ -217,15 +214,14 @@ pub fn diagnose(
     if found < FEWEST && !evidence.is_steady() {
         return Err(Error::TooFewSegments { found, needed: FEWEST });
     }
-    let mut metric = Metric::default();
-    let base = Base::new(file, &evidence, &metric);
+    let base = Base::new(file, &evidence);
     if let Some(reason) = base.as_filed.mechanics.failure() {
         return Err(Error::NoMotion(reason));
     }
     if !turns(&base.as_filed) {
         return Err(Error::NoTurning);
     }
-    evidence = with_remaining_noise(&evidence, &base.fit, &metric);
+    evidence = with_remaining_noise(&evidence, &base.fit);
     // Late stamps and ticks are noise that a lag of the drive would smooth: readings without them stand, unless they
     // explain less.
     let steps = evidence.steps();
@@ -233,29 +229,29 @@ pub fn diagnose(
     let cleanings: [&dyn Fn(&Evidence) -> Evidence; 2] =
         [&Evidence::with_regular_stamps, &between_ticks];
     for cleaned in cleanings {
-        let base = base.refitted(&evidence, &metric);
+        let base = base.refitted(&evidence);
         let tried = cleaned(&evidence);
-        let again = base.refitted(&tried, &metric);
+        let again = base.refitted(&tried);
         if again.fit.objective < base.fit.objective + CLEANED {
-            evidence = with_remaining_noise(&tried, &again.fit, &metric);
+            evidence = with_remaining_noise(&tried, &again.fit);
             unseen = cleaned(&unseen);
         }
     }
     loop {
-        let base = base.refitted(&evidence, &metric);
+        let base = base.refitted(&evidence);
         progress(STAGES[0]);
-        let mut attempt = attempt(&evidence, file, options, &metric, base, true, progress);
+        let mut attempt = attempt(&evidence, file, options, base, true, progress);
         evidence = attempt.evidence.clone();
-        let scale = metric.residual_scale(&evidence, &attempt.best.fit.residual);
+        let scale = evidence.residual_scale(&attempt.best.fit.residual);
         // Residuals larger than the noise that no effect explains make every other claim less sure.
         let grows = scale.iter().any(|scale| *scale > TOLERATED);
-        if !grows || metric.scale != [1.0; 3] {
+        if !grows || evidence.scale() != [1.0; 3] {
             if !options.held_out.is_empty() {
                 attempt.judge_on(&unseen, options);
             }
             return Ok(completed(attempt, options));
         }
-        metric.scale = scale.map(|scale| scale.max(1.0));
+        evidence = evidence.with_scale(scale.map(|scale| scale.max(1.0)));
     }
 }
 
@@ -269,7 +265,6 @@ fn attempt(
     evidence: &Evidence,
     file: &VehicleFile,
     options: &Options,
-    metric: &Metric,
     base: Base,
     is_first: bool,
     progress: &dyn Fn(&'static str),
@@ -277,37 +272,37 @@ fn attempt(
     let Options { draws, seed, .. } = *options;
     let of_base = icr_columns(evidence, &base.fit);
     let of_filed = icr_columns(evidence, &base.as_filed);
-    let as_filed = Residual { evidence, metric, fit: &base.as_filed, icrs: &of_filed };
+    let as_filed = Residual { evidence, fit: &base.as_filed, icrs: &of_filed };
     let filed = as_filed.locate(draws, seed);
-    let of_fit = Residual { evidence, metric, fit: &base.fit, icrs: &of_base };
+    let of_fit = Residual { evidence, fit: &base.fit, icrs: &of_base };
     let located = of_fit.locate(draws, seed);
     progress(STAGES[1]);
 
     let tried = candidates(&base.instruments, evidence);
     let hypothesis = &base.fit.hypothesis;
-    let beside = Beside::new(hypothesis, evidence, metric);
+    let beside = Beside::new(hypothesis, evidence);
     let mut catalogue = Catalogue { entries: beside.signatures(&tried) };
-    let between = Search { evidence, metric, base: &base, catalogue: &catalogue }.between(&beside);
+    let between = Search { evidence, base: &base, catalogue: &catalogue }.between(&beside);
     catalogue.entries.extend(between);
     progress(STAGES[2]);
 
-    let search = Search { evidence, metric, base: &base, catalogue: &catalogue };
+    let search = Search { evidence, base: &base, catalogue: &catalogue };
     let screened = search.screen(&search.nothing());
     let found = search.best();
-    let again = if is_first { sharper(evidence, &found.fit, metric) } else { None };
+    let again = if is_first { sharper(evidence, &found.fit) } else { None };
     if let Some(evidence) = again {
-        let base = search.base.refitted(&evidence, metric);
-        return attempt(&evidence, file, options, metric, base, false, progress);
+        let base = search.base.refitted(&evidence);
+        return attempt(&evidence, file, options, base, false, progress);
     }
     progress(STAGES[3]);
 
-    let statics = statics(&search);
+    let constants = Constants::of(&search);
     let Judgement { best, friction_level, missing, refused } =
-        judged(&search, found, &statics, file, options);
+        judged(&search, found, &constants, file, options);
     progress(STAGES[4]);
 
     let of_best = icr_columns(evidence, &best.fit);
-    let of_corrected = Residual { evidence, metric, fit: &best.fit, icrs: &of_best };
+    let of_corrected = Residual { evidence, fit: &best.fit, icrs: &of_best };
     let after = of_corrected.locate_in_waves(draws, seed);
     let left_over = after.left_over(Rules::tolerated(evidence, &base, &best));
     let status = status(&left_over, &missing);
@@ -316,14 +311,13 @@ fn attempt(
     let left = search.screen(&best);
     let isolability = Isolability::new(&search, &best, &screened);
     let resemblance = Isolability::new(&search, &search.nothing(), &screened);
-    let exposures = exposures(&search, &best.fit, &missing, &screened, &statics.only);
+    let exposures = exposures(&search, &best.fit, &missing, &screened, &constants.only);
     let detectable = isolability.detectable();
     let corrected = corrected(file, &best, friction_level, &missing);
     let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]
-        .map(|(fit, icrs)| cells(evidence, metric, &fit.residual, icrs));
+        .map(|(fit, icrs)| cells(evidence, &fit.residual, icrs));
     let place = crate::place::sentence(evidence, &base, [&located, &after], &broken);
-    let held_out =
-        errors(evidence, metric, [before(&base, &missing), &base.fit, &best.fit], options);
+    let held_out = errors(evidence, [before(&base, &missing), &base.fit, &best.fit], options);
     progress(STAGES[5]);
     Diagnosis {
         status,
@@ -336,7 +330,7 @@ fn attempt(
         refused,
         screened,
         left,
-        statics: statics.only,
+        constants: constants.only,
         isolability,
         resemblance,
         exposures,
@@ -347,7 +341,6 @@ fn attempt(
         base,
         best,
         friction_level,
-        metric: *metric,
         evidence: evidence.clone(),
         corrected,
         proposed: None,
@@ -366,15 +359,15 @@ struct Judgement {
 fn judged(
     search: &Search,
     found: Found,
-    statics: &Statics,
+    constants: &Constants,
     file: &VehicleFile,
     options: &Options,
 ) -> Judgement {
     let Options { draws, seed, .. } = *options;
-    let mut physics = judge(search, &found, statics, file, draws, seed);
+    let mut physics = judge(search, &found, constants, file, draws, seed);
     // What mostly moves constant ICRs is free in every hypothesis: it stays, claimed or not.
     let without = |best: Found, dropped: &[usize]| {
-        let dropped = dropped.iter().filter(|effect| !statics.mostly.contains(effect));
+        let dropped = dropped.iter().filter(|effect| !constants.mostly.contains(effect));
         dropped.fold(best, |best, &effect| search.without(&best, effect))
     };
     let mut best = found;
@@ -396,7 +389,7 @@ fn judged(
     };
     let instruments = judge_instruments(search, &best, draws, seed);
     let own = claimed(&physics);
-    let constants = judge_constants(search, &best, statics, file, &own, draws, seed);
+    let wrong = judge_constants(search, &best, constants, file, &own, draws, seed);
     let uncertainty = Uncertainty::of(search, &best);
     intervals.extend(uncertainty.intervals(&claimed(&instruments)));
     let of = |effect: usize| -> Vec<Interval> {
@@ -404,9 +397,9 @@ fn judged(
     };
     let physics = physics.into_iter().map(|verdict| (Kind::Physics, verdict));
     let instruments = instruments.into_iter().map(|verdict| (Kind::Instrument, verdict));
-    let constants = constants.into_iter().map(|verdict| (Kind::Constant, verdict));
+    let wrong = wrong.into_iter().map(|verdict| (Kind::Constant, verdict));
     let (mut missing, mut refused) = (Vec::new(), Vec::new());
-    for (kind, verdict) in physics.chain(instruments).chain(constants) {
+    for (kind, verdict) in physics.chain(instruments).chain(wrong) {
         if verdict.refused.is_some() {
             refused.push(verdict);
         } else {
@@ -441,7 +434,7 @@ fn exposures(
     best: &Fit,
     missing: &[Missing],
     screened: &[Screened],
-    statics: &[usize],
+    constants: &[usize],
 ) -> Vec<Exposure> {
     let claimed = missing.iter().filter(|missing| missing.kind != Kind::Constant);
     let claimed: Vec<Exposure> =
@@ -451,7 +444,7 @@ fn exposures(
     }
     // Of what constant ICRs can stand for, there is nothing to see.
     let shows =
-        |one: &&Screened| one.gain.is_finite() && one.z > 0.0 && !statics.contains(&one.effect);
+        |one: &&Screened| one.gain.is_finite() && one.z > 0.0 && !constants.contains(&one.effect);
     let candidate = screened.iter().find(shows);
     candidate.map(|one| Exposure::of_candidate(search, one)).into_iter().collect()
 }
@@ -503,14 +496,13 @@ pub(crate) fn correct(corrected: &mut VehicleFile, found: &Found, missing: &[Mis
 /// The errors on evidence, with the fits to it.
 fn errors(
     evidence: &Evidence,
-    metric: &Metric,
     [before, instruments, after]: [&Fit; 3],
     options: &Options,
 ) -> HeldOut {
     let [before, instruments, error] =
         [before, instruments, after].map(|fit| excess(evidence, &fit.residual));
     let icrs = icr_columns(evidence, after);
-    let residual = Residual { evidence, metric, fit: after, icrs: &icrs };
+    let residual = Residual { evidence, fit: after, icrs: &icrs };
     let flexible = residual.locate(1, options.seed);
     let count = real(evidence.measured().max(1));
     let floor = error * error - flexible.explicable.max(0.0) / count;
@@ -548,14 +540,14 @@ impl Diagnosis {
 
     /// Judges it by runs that nothing was fitted or chosen on.
     fn judge_on(&mut self, evidence: &Evidence, options: &Options) {
-        let metric = &self.metric;
+        let evidence = evidence.with_scale(self.evidence.scale());
         let noise = self.evidence.noise();
         let evidence = noise.map_or_else(|| evidence.clone(), |noise| evidence.with_noise(*noise));
         let best = &self.best.fit;
-        let evidence = without_outliers(&evidence, &best.on(&evidence, metric), metric);
+        let evidence = without_outliers(&evidence, &best.on(&evidence));
         let [before, instruments, after] =
-            [self.fit_before(), &self.base.fit, best].map(|fit| fit.on(&evidence, metric));
-        let errors = errors(&evidence, metric, [&before, &instruments, &after], options);
+            [self.fit_before(), &self.base.fit, best].map(|fit| fit.on(&evidence));
+        let errors = errors(&evidence, [&before, &instruments, &after], options);
         self.held_out = HeldOut { are_held_out: true, ..errors };
         let (before, after) = (before.residual, after.residual);
         self.unseen = Some(Unseen { evidence, before, after });

@@ -10,6 +10,8 @@ mod ticks;
 
 pub use series::FEWEST;
 
+use crate::huber;
+use crate::normal::{Columns, Normal};
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -17,6 +19,7 @@ use trackdyn_core::{PerSide, Pose};
 use trackdyn_identify::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 use trackdyn_recording::TrackSample;
 use trackdyn_recording::regular::regularise;
+use trackdyn_recording::robust::deviation_about_zero;
 
 /// One observed motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +50,8 @@ pub struct Evidence {
     samples: Vec<Sample>,
     tracks: Vec<Vec<TrackSample>>,
     whitening: Whitening,
+    /// By what the whitened residuals of each channel are larger than the noise says.
+    scale: [f64; 3],
     blocks: usize,
     /// Number of each run in the recording.
     runs: Vec<i64>,
@@ -141,6 +146,16 @@ impl Evidence {
         Self { whitening: Whitening::without(noise, &self.samples, lost), ..self.clone() }
     }
 
+    /// The same with white residuals of each channel this much smaller: they are larger than the noise says.
+    pub fn with_scale(&self, scale: [f64; 3]) -> Self {
+        Self { scale, ..self.clone() }
+    }
+
+    /// By what the whitened residuals of each channel are taken to be larger than the noise says.
+    pub fn scale(&self) -> [f64; 3] {
+        self.scale
+    }
+
     /// The same with readings at regular times: stamps of a clock that ticks evenly, and is read late by chance.
     pub fn with_regular_stamps(&self) -> Self {
         let mut tracks = self.tracks.clone();
@@ -194,7 +209,7 @@ impl Evidence {
         Self { tracks: tracks.collect(), whitening, blocks: numbers.len(), samples, ..self.clone() }
     }
 
-    /// Makes a column of residuals or of their derivatives white, in place: unit variance, no correlation.
+    /// Makes a column of residuals or of their derivatives white by the noise, in place: unit variance, no correlation.
     pub fn whiten(&self, column: &mut [Vector3<f64>]) {
         match &self.whitening {
             Whitening::Segments { whitener, lost, .. } => {
@@ -212,6 +227,41 @@ impl Evidence {
                 }
             }
         }
+    }
+
+    /// A column of residuals or of their derivatives, whitened and scaled.
+    pub fn white(&self, mut column: Vec<Vector3<f64>>) -> Vec<Vector3<f64>> {
+        self.whiten(&mut column);
+        let inverse = Vector3::from(self.scale.map(f64::recip));
+        for value in &mut column {
+            value.component_mul_assign(&inverse);
+        }
+        column
+    }
+
+    /// The white residual of a prediction.
+    pub fn residual(&self, prediction: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+        let samples = self.samples.iter().zip(prediction);
+        self.white(samples.map(|(sample, motion)| sample.motion - motion).collect())
+    }
+
+    /// The normal equations of a white residual and white columns, by blocks.
+    pub fn normal(&self, residual: &[Vector3<f64>], columns: &[Vec<Vector3<f64>>]) -> Normal {
+        let blocks: Vec<usize> = self.samples.iter().map(|sample| sample.block).collect();
+        let (weights, count) = (&huber::weights(residual), self.blocks);
+        Normal::new(&Columns { residual, columns, weights, blocks: &blocks, count })
+    }
+
+    /// By what a white residual is larger in each channel than the noise says, from its median: one where nothing is left
+    /// but noise.
+    pub fn residual_scale(&self, residual: &[Vector3<f64>]) -> [f64; 3] {
+        std::array::from_fn(|channel| {
+            let measured = residual.iter().enumerate();
+            let measured = measured.filter(|(index, _)| self.is_measured(*index, channel));
+            let mut values: Vec<f64> =
+                measured.map(|(_, z)| z[channel] * self.scale[channel]).collect();
+            deviation_about_zero(&mut values).unwrap_or(1.0)
+        })
     }
 
     /// Gives a white column the noise's correlations, in place: the inverse of [`Evidence::whiten`].

@@ -4,8 +4,8 @@
 //! then lies on a line of slope one if the effect is there at its size, and about zero if it is not.
 
 use crate::fit::Fit;
+use crate::huber;
 use crate::mechanics::{Instruments, Mechanics};
-use crate::metric::Metric;
 use crate::normal::{Columns, Normal};
 use crate::search::{Screened, Search};
 use nalgebra::Vector3;
@@ -24,11 +24,11 @@ pub struct Exposure {
 impl Exposure {
     /// Of an effect of a fit: without it, it is as the vehicle file has it.
     pub fn of_fitted(search: &Search, fit: &Fit, effect: usize) -> Self {
-        let Search { evidence, metric, base, .. } = *search;
+        let Search { evidence, base, .. } = *search;
         let without = fit.hypothesis.with_effect_of(&base.as_filed.hypothesis, effect);
         let prediction =
             Mechanics::new(&without, evidence).predict(&Instruments::of(&without), evidence);
-        let observed = metric.residual(evidence, &prediction);
+        let observed = evidence.residual(&prediction);
         let predicted = observed.iter().zip(&fit.residual).map(|(a, b)| a - b).collect();
         let others = fit.unknowns.iter().zip(&fit.columns);
         let others: Vec<_> = others
@@ -54,7 +54,7 @@ impl Exposure {
 
     /// With what these columns explain taken out.
     fn beside(self, columns: &[Vec<Vector3<f64>>], residual: &[Vector3<f64>]) -> Self {
-        let weights = Metric::weights(residual);
+        let weights = huber::weights(residual);
         let blocks = vec![0; weights.len()];
         let rest = |of: Vec<Vector3<f64>>| -> Vec<Vector3<f64>> {
             let normal = Normal::new(&Columns {

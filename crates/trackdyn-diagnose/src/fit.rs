@@ -5,9 +5,9 @@
 //! and m, s what is known of each unknown beforehand.
 
 use crate::evidence::Evidence;
+use crate::huber;
 use crate::hypothesis::{Hypothesis, Unknown, neutral, typical, typical_size};
 use crate::mechanics::{Instruments, Mechanics, is_instrument};
-use crate::metric::Metric;
 use crate::normal::{Prior, Solution};
 use crate::prior::priors;
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -93,10 +93,9 @@ pub fn columns(
     prediction: &[Vector3<f64>],
     unknowns: &[Unknown],
     evidence: &Evidence,
-    metric: &Metric,
 ) -> Vec<Vec<Vector3<f64>>> {
     let columns = derivatives(hypothesis, mechanics, prediction, unknowns, evidence).into_iter();
-    columns.map(|column| metric.white(evidence, column)).collect()
+    columns.map(|column| evidence.white(column)).collect()
 }
 
 /// The derivatives of the prediction by unknowns, not whitened.
@@ -150,11 +149,10 @@ impl Point {
         hypothesis: Hypothesis,
         unknowns: &[Unknown],
         evidence: &Evidence,
-        metric: &Metric,
         before: Option<&Mechanics>,
     ) -> Self {
         let mechanics = Mechanics::beside(before, &hypothesis, unknowns, evidence);
-        Self::with_mechanics(hypothesis, mechanics, unknowns, evidence, metric)
+        Self::with_mechanics(hypothesis, mechanics, unknowns, evidence)
     }
 
     fn with_mechanics(
@@ -162,14 +160,13 @@ impl Point {
         mechanics: Mechanics,
         unknowns: &[Unknown],
         evidence: &Evidence,
-        metric: &Metric,
     ) -> Self {
         let prediction = mechanics.predict(&Instruments::of(&hypothesis), evidence);
-        let residual = metric.residual(evidence, &prediction);
+        let residual = evidence.residual(&prediction);
         let objective = if mechanics.failure().is_some() {
             f64::INFINITY
         } else {
-            Metric::loss(&residual) + penalty(&hypothesis, unknowns, evidence)
+            huber::loss(&residual) + penalty(&hypothesis, unknowns, evidence)
         };
         Self { hypothesis, mechanics, prediction, residual, objective }
     }
@@ -188,11 +185,10 @@ impl Fit {
         start: Hypothesis,
         unknowns: &[Unknown],
         evidence: &Evidence,
-        metric: &Metric,
         before: Option<&Mechanics>,
     ) -> Self {
-        let start = Point::new(start, unknowns, evidence, metric, before);
-        Self::from_point(start, unknowns, evidence, metric)
+        let start = Point::new(start, unknowns, evidence, before);
+        Self::from_point(start, unknowns, evidence)
     }
 
     /// Fits the unknowns of a hypothesis from this point on.
@@ -200,17 +196,12 @@ impl Fit {
     /// What inertia adds stays that of one motion in time, with its derivatives, as long as what it does not come from
     /// resembles what it was found for. Where the fit ends it is found anew unless that is near, and the fit goes on from
     /// there, or from a share of the way if these derivatives led astray.
-    pub fn from_point(
-        start: Point,
-        unknowns: &[Unknown],
-        evidence: &Evidence,
-        metric: &Metric,
-    ) -> Self {
-        let mut fit = Self::linearised(start, unknowns, evidence, metric);
+    pub fn from_point(start: Point, unknowns: &[Unknown], evidence: &Evidence) -> Self {
+        let mut fit = Self::linearised(start, unknowns, evidence);
         for _ in 0..FOUND_ANEW {
-            let end = fit.clone().descended(evidence, metric);
+            let end = fit.clone().descended(evidence);
             let anew = |hypothesis: Hypothesis| {
-                Point::new(hypothesis, unknowns, evidence, metric, Some(&end.mechanics))
+                Point::new(hypothesis, unknowns, evidence, Some(&end.mechanics))
             };
             let whole = anew(end.hypothesis.clone());
             if whole.mechanics.has_inertia_of(&end.mechanics) {
@@ -219,7 +210,7 @@ impl Fit {
             let parts = SHARES[1..].iter().map(|&share| anew(fit.towards(&end, share)));
             let better = |point: &Point| point.objective < fit.objective;
             let Some(point) = std::iter::once(whole).chain(parts).find(better) else { break };
-            fit = Self::linearised(point, unknowns, evidence, metric);
+            fit = Self::linearised(point, unknowns, evidence);
         }
         fit
     }
@@ -249,11 +240,11 @@ impl Fit {
     ///
     /// With it comes what the objective fell by since the derivatives were found; `are_own` says that those to begin with are of
     /// this point.
-    fn descent(self, are_own: bool, evidence: &Evidence, metric: &Metric) -> (Self, f64) {
+    fn descent(self, are_own: bool, evidence: &Evidence) -> (Self, f64) {
         let mut fit = self;
         let (mut are_own, mut since) = (are_own, 0.0);
         for _ in 0..ITERATIONS {
-            let next = fit.next(evidence, metric);
+            let next = fit.next(evidence);
             let gain = next.as_ref().map_or(0.0, |next| fit.objective - next.objective);
             let promised = fit.solution.gain;
             let foretold = (gain - promised).abs() < FORETOLD * promised + SETTLED;
@@ -263,13 +254,13 @@ impl Fit {
             }
             let Self { hypothesis, mechanics, unknowns, columns, .. } = fit;
             let point = next.unwrap_or_else(|| {
-                Point::with_mechanics(hypothesis, mechanics, &unknowns, evidence, metric)
+                Point::with_mechanics(hypothesis, mechanics, &unknowns, evidence)
             });
             (are_own, since) = if foretold { (false, since + gain) } else { (true, 0.0) };
             fit = if foretold {
-                Self::with_columns(point, &unknowns, columns, evidence, metric)
+                Self::with_columns(point, &unknowns, columns, evidence)
             } else {
-                Self::linearised(point, &unknowns, evidence, metric)
+                Self::linearised(point, &unknowns, evidence)
             };
             if is_last {
                 break;
@@ -279,19 +270,19 @@ impl Fit {
     }
 
     /// The end of the descent from here, with derivatives that describe it.
-    fn descended(self, evidence: &Evidence, metric: &Metric) -> Self {
-        let (end, since) = self.descent(true, evidence, metric);
+    fn descended(self, evidence: &Evidence) -> Self {
+        let (end, since) = self.descent(true, evidence);
         if since < NEAR {
             return end;
         }
         let Self { hypothesis, mechanics, unknowns, .. } = end;
-        let point = Point::with_mechanics(hypothesis, mechanics, &unknowns, evidence, metric);
-        Self::linearised(point, &unknowns, evidence, metric)
+        let point = Point::with_mechanics(hypothesis, mechanics, &unknowns, evidence);
+        Self::linearised(point, &unknowns, evidence)
     }
 
     /// The point of a share of the step that lowers the objective; none where no share does, or where the
     /// whole step promises next to nothing.
-    fn next(&self, evidence: &Evidence, metric: &Metric) -> Option<Point> {
+    fn next(&self, evidence: &Evidence) -> Option<Point> {
         if self.solution.gain < NOTHING {
             return None;
         }
@@ -299,14 +290,14 @@ impl Fit {
             let hypothesis = self.stepped(share);
             let mechanics = self.mechanics.on_the_way(&hypothesis, &self.unknowns, evidence);
             let unknowns = &self.unknowns;
-            let point = Point::with_mechanics(hypothesis, mechanics, unknowns, evidence, metric);
+            let point = Point::with_mechanics(hypothesis, mechanics, unknowns, evidence);
             (point.objective < self.objective).then_some(point)
         })
     }
 
     /// Twice the objective where the number at this place of the unknowns is held at a value and the others are refitted,
     /// from where the linear fit takes them. What inertia adds stays that of one motion in time, with its derivatives.
-    pub fn profile(&self, place: usize, value: f64, evidence: &Evidence, metric: &Metric) -> f64 {
+    pub fn profile(&self, place: usize, value: f64, evidence: &Evidence) -> f64 {
         let held = self.unknowns[place];
         let covariance = &self.solution.covariance;
         let moved = (value - self.hypothesis.get(held)) / covariance[(place, place)];
@@ -315,9 +306,9 @@ impl Fit {
         let unknowns: Vec<Unknown> = others().map(|k| self.unknowns[k]).collect();
         let columns = others().map(|k| self.columns[k].clone()).collect();
         let mechanics = self.mechanics.on_the_way(&hypothesis, &unknowns, evidence);
-        let point = Point::with_mechanics(hypothesis, mechanics, &unknowns, evidence, metric);
-        let start = Self::with_columns(point, &unknowns, columns, evidence, metric);
-        let (Self { hypothesis, objective, .. }, _) = start.descent(false, evidence, metric);
+        let point = Point::with_mechanics(hypothesis, mechanics, &unknowns, evidence);
+        let start = Self::with_columns(point, &unknowns, columns, evidence);
+        let (Self { hypothesis, objective, .. }, _) = start.descent(false, evidence);
         objective + penalty(&hypothesis, &[held], evidence)
     }
 
@@ -326,27 +317,21 @@ impl Fit {
         hypothesis: Hypothesis,
         unknowns: &[Unknown],
         evidence: &Evidence,
-        metric: &Metric,
         before: Option<&Mechanics>,
     ) -> Self {
-        let point = Point::new(hypothesis, unknowns, evidence, metric, before);
-        Self::linearised(point, unknowns, evidence, metric)
+        let point = Point::new(hypothesis, unknowns, evidence, before);
+        Self::linearised(point, unknowns, evidence)
     }
 
     /// The same hypothesis on other evidence, with its derivatives.
-    pub fn on(&self, evidence: &Evidence, metric: &Metric) -> Self {
-        Self::at(self.hypothesis.clone(), &self.unknowns, evidence, metric, None)
+    pub fn on(&self, evidence: &Evidence) -> Self {
+        Self::at(self.hypothesis.clone(), &self.unknowns, evidence, None)
     }
 
-    fn linearised(
-        point: Point,
-        unknowns: &[Unknown],
-        evidence: &Evidence,
-        metric: &Metric,
-    ) -> Self {
+    fn linearised(point: Point, unknowns: &[Unknown], evidence: &Evidence) -> Self {
         let Point { hypothesis, mechanics, prediction, .. } = &point;
-        let columns = columns(hypothesis, mechanics, prediction, unknowns, evidence, metric);
-        Self::with_columns(point, unknowns, columns, evidence, metric)
+        let columns = columns(hypothesis, mechanics, prediction, unknowns, evidence);
+        Self::with_columns(point, unknowns, columns, evidence)
     }
 
     /// A point with these derivatives.
@@ -355,11 +340,10 @@ impl Fit {
         unknowns: &[Unknown],
         columns: Vec<Vec<Vector3<f64>>>,
         evidence: &Evidence,
-        metric: &Metric,
     ) -> Self {
         let Point { hypothesis, mechanics, residual, objective, .. } = point;
         let priors = priors(&hypothesis, unknowns, evidence);
-        let normal = metric.normal(evidence, &residual, &columns);
+        let normal = evidence.normal(&residual, &columns);
         // At a bound that the step would cross, an unknown stays.
         let mut free: Vec<usize> = (0..unknowns.len()).collect();
         let solution = loop {
@@ -400,22 +384,10 @@ impl Fit {
     }
 
     /// Logarithm of the evidence, up to what all hypotheses share; −∞ where the linear fit has no solution.
-    pub fn ln_evidence(&self, evidence: &Evidence) -> f64 {
-        if !self.solution.ln_evidence.is_finite() {
-            return f64::NEG_INFINITY;
-        }
-        // ½ (minimum − its quadratic part) is the same at the optimum; what is left is Occam's factor.
-        let count = self.unknowns.len();
-        let priors = priors(&self.hypothesis, &self.unknowns, evidence);
-        let mut occam = 0.0;
-        let scaled = DMatrix::from_fn(count, count, |a, b| {
-            self.solution.covariance[(a, b)] / (priors[a].deviation * priors[b].deviation)
-        });
-        if let Some(cholesky) = scaled.cholesky() {
-            let factor = cholesky.l_dirty();
-            occam = (0..count).map(|k| 2.0 * factor[(k, k)].ln()).sum();
-        }
-        -0.5 * self.objective + 0.5 * occam
+    ///
+    /// −½ minimum − ½ ln det(1 + S J S)
+    pub fn ln_evidence(&self) -> f64 {
+        -0.5 * (self.objective + self.solution.occam)
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! - [`evidence`]: what was seen, drives and tables of steady motion alike, and what its residuals weigh.
 //! - [`hypothesis`]: a vehicle with effects; [`mechanics`], [`surface`]: what it predicts of the evidence.
-//! - [`metric`], [`prior`]: what residuals weigh, and what is known of its unknowns beforehand.
+//! - [`huber`], [`prior`]: what residuals far out weigh, and what is known of its unknowns beforehand.
 //! - [`fit`], [`normal`]: its unknowns at their best, and normal equations by blocks.
 //! - [`base`]: what is free in every hypothesis: constant ICRs, encoders and pose sensor.
 //! - [`locate`], [`significance`], [`place`]: where evidence departs from it, without a model of why.
@@ -22,11 +22,11 @@ pub mod error;
 pub mod evidence;
 pub mod exposure;
 pub mod fit;
+pub mod huber;
 pub mod hypothesis;
 pub mod isolability;
 pub mod locate;
 pub mod mechanics;
-pub mod metric;
 pub mod noise;
 pub mod normal;
 pub mod place;

@@ -16,8 +16,8 @@ pub use waves::Wave;
 
 use crate::evidence::{Evidence, Sample};
 use crate::fit::Fit;
+use crate::huber;
 use crate::mechanics::Instruments;
-use crate::metric::Metric;
 use crate::normal::Prior;
 use crate::significance::{Test, test};
 use nalgebra::Vector3;
@@ -95,7 +95,6 @@ pub struct Residual<'a> {
     /// The evidence.
     pub evidence: &'a Evidence,
     /// How residuals are measured.
-    pub metric: &'a Metric,
     /// The fit.
     pub fit: &'a Fit,
     /// Derivatives of its prediction by x_l, x_r and y, not whitened.
@@ -105,17 +104,17 @@ pub struct Residual<'a> {
 impl Residual<'_> {
     /// What it shows.
     pub fn locate(&self, draws: usize, seed: u64) -> Location {
-        let Self { evidence, metric, fit, icrs } = *self;
+        let Self { evidence, fit, icrs } = *self;
         let Fit { residual, columns: fitted, .. } = fit;
         let mut columns = fitted.clone();
         let mut groups: Vec<(Contrasts, Vec<usize>)> = Vec::new();
         for mut contrasts in contrasts(evidence, icrs) {
             let first = columns.len();
             let of = std::mem::take(&mut contrasts.columns).into_iter();
-            columns.extend(of.map(|column| metric.white(evidence, column)));
+            columns.extend(of.map(|column| evidence.white(column)));
             groups.push((contrasts, (first..columns.len()).collect()));
         }
-        let normal = metric.normal(evidence, residual, &columns);
+        let normal = evidence.normal(residual, &columns);
         let base: Vec<usize> = (0..fitted.len()).collect();
         let flat = vec![Prior { mean: 0.0, deviation: 1e9 }; columns.len()];
         let mut projected = normal.projected(&base, &flat);
@@ -150,16 +149,16 @@ impl Residual<'_> {
     /// What it shows in waves of the ground as well: these are the strictest test of places.
     pub fn locate_in_waves(&self, draws: usize, seed: u64) -> Location {
         let mut location = self.locate(draws, seed);
-        let Self { evidence, metric, fit, icrs } = *self;
+        let Self { evidence, fit, icrs } = *self;
         let strongest = |beside: &[Vec<Vector3<f64>>]| {
-            let wave = strongest_wave(evidence, metric, &fit.residual, beside, icrs, (draws, seed));
+            let wave = strongest_wave(evidence, &fit.residual, beside, icrs, (draws, seed));
             wave.filter(|wave| wave.test.p < SIGNIFICANT)
         };
         // What plainer contrasts show is in some waves as well, and in the best of so many by chance.
         let wave = strongest(&fit.columns).and_then(|_| {
             let plainer =
                 contrasts(evidence, icrs).into_iter().flat_map(|contrasts| contrasts.columns);
-            let plainer = plainer.map(|column| metric.white(evidence, column));
+            let plainer = plainer.map(|column| evidence.white(column));
             strongest(&fit.columns.iter().cloned().chain(plainer).collect::<Vec<_>>())
         });
         let place = location.tests.iter_mut().find(|test| test.symmetry == Symmetry::Place);
@@ -183,7 +182,7 @@ pub fn excess_of(
     residual: &[Vector3<f64>],
     counts: impl Fn(&Sample, usize) -> bool,
 ) -> f64 {
-    let weights = Metric::weights(residual);
+    let weights = huber::weights(residual);
     let (mut sum, mut count) = (0.0, 0.0);
     for (index, (z, sample)) in residual.iter().zip(evidence.samples()).enumerate() {
         for channel in 0..3 {
@@ -197,7 +196,7 @@ pub fn excess_of(
 }
 
 fn shares(evidence: &Evidence, residual: &[Vector3<f64>]) -> [f64; 3] {
-    let weights = Metric::weights(residual);
+    let weights = huber::weights(residual);
     let beyond: [f64; 3] = std::array::from_fn(|channel| {
         let measured = (0..residual.len()).filter(|&index| evidence.is_measured(index, channel));
         let sum: f64 =

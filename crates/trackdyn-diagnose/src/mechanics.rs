@@ -277,8 +277,7 @@ impl Mechanics {
                     .inertia
                     .as_ref()
                     .map(|inertia| inertia.departure(index, sample, drive, sensor.delay));
-                let departure =
-                    [by_ground, by_inertia].into_iter().flatten().reduce(|a, b| plus(&a, &b));
+                let departure = [by_ground, by_inertia].into_iter().flatten().reduce(|a, b| a + b);
                 let departure = departure.map(|departure| seen_from(&departure, offset));
                 let tracks = &evidence.tracks()[sample.run];
                 let steady = &steady[sample.run];
@@ -286,10 +285,10 @@ impl Mechanics {
                 let pose = motion_over(tracks, sample, sensor.delay, |reading| {
                     let mut twist = steady[reading].twist(offset);
                     if let Some(departure) = &departure {
-                        twist = plus(&twist, departure);
+                        twist = twist + *departure;
                     }
                     if let Some(sheared) = sheared {
-                        twist = plus(&twist, &seen_from(&sheared[reading], offset));
+                        twist = twist + seen_from(&sheared[reading], offset);
                     }
                     ros_twist_from_paper(&sensor.reported(&twist))
                 });
@@ -329,14 +328,6 @@ fn coarse(vehicle: &Vehicle, effects: Effects) -> Model {
 
 fn single(vehicle: &Vehicle, effect: &ActiveEffect) -> Model {
     coarse(vehicle, std::iter::once(effect.clone()).collect())
-}
-
-fn plus(a: &Twist, b: &Twist) -> Twist {
-    Twist { v_x: a.v_x + b.v_x, v_y: a.v_y + b.v_y, w: a.w + b.w }
-}
-
-fn minus(a: &Twist, b: &Twist) -> Twist {
-    Twist { v_x: a.v_x - b.v_x, v_y: a.v_y - b.v_y, w: a.w - b.w }
 }
 
 /// What a change of the twist is at the point from which the ICRs have this offset: δv = ω × r, with y for all of

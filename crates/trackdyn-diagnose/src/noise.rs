@@ -31,20 +31,17 @@ mod flexible;
 
 use crate::evidence::Evidence;
 use crate::fit::Fit;
-use crate::metric::Metric;
 use flexible::Flexible;
 use nalgebra::{Cholesky, SMatrix, SVector, Vector3};
 use trackdyn_core::{Pose, real};
 use trackdyn_identify::weighting::SegmentNoise;
+use trackdyn_recording::robust::{MEDIAN_OF_CHI_SQUARE, median};
 
 /// Degrees of freedom of the heavy-tailed likelihood.
 const TAILS: f64 = 5.0;
 
 /// Median of a χ² with three degrees of freedom.
 const MEDIAN: f64 = 2.365_973_884_375_338;
-
-/// Median of a χ² with one degree of freedom.
-const MEDIAN_OF_ONE: f64 = 0.454_936_423_119_572_3;
 
 /// |z|² of a sample that one in a million would reach by chance, and that of a pair which one in a hundred does.
 const FAR_OFF: f64 = 30.7;
@@ -73,22 +70,17 @@ const NO_WALK: f64 = 1e-5;
 const SHARPER: f64 = 1.3;
 
 /// The evidence with the noise that the residuals beside a fit show. Tables of steady points keep theirs.
-pub fn with_remaining_noise(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Evidence {
+pub fn with_remaining_noise(evidence: &Evidence, fit: &Fit) -> Evidence {
     let Some(&measured) = evidence.noise() else { return evidence.clone() };
-    remaining(evidence, measured, &Flexible::new(evidence, fit), metric)
+    remaining(evidence, measured, &Flexible::new(evidence, fit))
 }
 
 /// The evidence with the noise that is left beside what is flexible, from what was measured on.
-fn remaining(
-    evidence: &Evidence,
-    measured: SegmentNoise,
-    flexible: &Flexible,
-    metric: &Metric,
-) -> Evidence {
+fn remaining(evidence: &Evidence, measured: SegmentNoise, flexible: &Flexible) -> Evidence {
     let mut noise = noise_of(&start(&measured));
     let mut evidence = evidence.with_noise(noise);
     for _ in 0..ROUNDS {
-        let left = flexible.left(&evidence, metric);
+        let left = flexible.left(&evidence);
         let taken = flexible.taken(&evidence, &noise, &left.columns);
         noise = most_likely(&evidence, noise, &left.residual, &taken);
         evidence = evidence.with_noise(noise);
@@ -108,13 +100,13 @@ fn start(measured: &SegmentNoise) -> Variances {
 }
 
 /// The evidence without the samples at whose poses the sensor erred, beside a fit, in the noise that it has.
-pub fn without_outliers(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Evidence {
+pub fn without_outliers(evidence: &Evidence, fit: &Fit) -> Evidence {
     let mut evidence = evidence.clone();
     let Some(&noise) = evidence.noise() else { return evidence };
     let flexible = Flexible::new(&evidence, fit);
     // Each round judges what outliers of the one before stood beside.
     loop {
-        let lost = outlying(&evidence, &noise, &flexible.left(&evidence, metric).residual);
+        let lost = outlying(&evidence, &noise, &flexible.left(&evidence).residual);
         if lost.is_empty() {
             return evidence;
         }
@@ -136,9 +128,9 @@ pub fn sentence(noise: &SegmentNoise) -> String {
 
 /// The evidence with the noise beside a hypothesis that explains more than contrasts can; none where this does
 /// not make it smaller.
-pub fn sharper(evidence: &Evidence, fit: &Fit, metric: &Metric) -> Option<Evidence> {
+pub fn sharper(evidence: &Evidence, fit: &Fit) -> Option<Evidence> {
     let before = evidence.noise()?;
-    let again = with_remaining_noise(evidence, fit, metric);
+    let again = with_remaining_noise(evidence, fit);
     let after = again.noise()?;
     // What a variance adds to a sample decides: a walk of nearly nothing may be half of that.
     let duration = evidence.samples().first()?.duration;
@@ -208,11 +200,9 @@ fn most_likely(
     let (_, white) = likelihood.white(&noise);
     let squares = white.iter().map(Vector3::norm_squared);
     let mut squares: Vec<f64> = squares.filter(|square| *square > 0.0).collect();
-    squares.sort_by(f64::total_cmp);
     let numbers = 3.0 * real(squares.len());
     let free = (numbers - taken.sum()).max(1.0);
-    let level =
-        squares.get(squares.len() / 2).map_or(1.0, |median| median / MEDIAN * numbers / free);
+    let level = median(&mut squares).map_or(1.0, |median| median / MEDIAN * numbers / free);
     SegmentNoise {
         pose: noise.pose.map(|v| v * level),
         walk: noise.walk.map(|v| v * level),
@@ -238,9 +228,8 @@ impl Likelihood<'_> {
             }
         }
         let pose = squares.map(|mut squares| {
-            squares.sort_by(f64::total_cmp);
-            let median = squares.get(squares.len() / 2).copied().unwrap_or_default();
-            (median / MEDIAN_OF_ONE / 2.0).max(f64::MIN_POSITIVE)
+            let median = median(&mut squares).unwrap_or_default();
+            (median / MEDIAN_OF_CHI_SQUARE / 2.0).max(f64::MIN_POSITIVE)
         });
         SegmentNoise { pose, walk: [0.0; 3], heading: 0.0 }
     }
@@ -446,16 +435,15 @@ mod tests {
         let columns: Vec<_> = (0..COLUMNS).map(column).collect();
         // Poses that seem to have no noise forward, and nothing that walks: as what is measured without a model may say.
         let measured = SegmentNoise { pose: [0.0, 4e-6, 4e-6], walk: [0.0; 3], heading: 0.0 };
-        let metric = Metric::default();
         let mut logarithms = [[0.0; COUNT]; 2];
         for seed in 0..SEEDS {
             let residual = noisy(&evidence, seed.into());
             let flexible = Flexible { residual, columns: columns.clone(), own: COLUMNS };
-            let left = flexible.left(&evidence, &metric);
+            let left = flexible.left(&evidence);
             let taken = flexible.taken(&evidence, &TRUE, &left.columns);
             assert!((taken.sum() - real(COLUMNS)).abs() < 0.1 * real(COLUMNS), "{taken}");
             let unaware = most_likely(&evidence, TRUE, &left.residual, &Variances::zeros());
-            let aware = *remaining(&evidence, measured, &flexible, &metric).noise().expect("one");
+            let aware = *remaining(&evidence, measured, &flexible).noise().expect("one");
             for (sums, found) in logarithms.iter_mut().zip([unaware, aware]) {
                 let off = variances_of(&found) - variances_of(&TRUE);
                 for (sum, off) in sums.iter_mut().zip(off.iter()) {

@@ -3,7 +3,11 @@
 //! All that a linear model of the residuals can say is in the products of its columns. Kept per block, they
 //! answer at once what a fit without some columns, without some blocks, or with other blocks would be.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Vector3};
+mod scaled;
+
+pub use scaled::Scaled;
+
+use nalgebra::{DMatrix, DVector, Vector3};
 use std::ops::Range;
 
 /// Residuals and columns, both whitened, three rows per sample.
@@ -38,6 +42,8 @@ pub struct Solution {
     pub misfit: f64,
     /// By how much it lies below θ = 0.
     pub gain: f64,
+    /// ln det(1 + S J S), twice the logarithm of Occam's factor: what it costs that the factors were not known before.
+    pub occam: f64,
     /// −½ minimum − ½ ln det(1 + S J S): the logarithm of the evidence up to what all models share.
     pub ln_evidence: f64,
 }
@@ -95,6 +101,11 @@ impl Normal {
         self.blocks.len()
     }
 
+    /// Products of all blocks; the residual stands last.
+    pub fn total(&self) -> &DMatrix<f64> {
+        &self.total
+    }
+
     /// Products of a block; the residual stands last.
     pub fn block(&self, block: usize) -> &DMatrix<f64> {
         &self.blocks[block]
@@ -138,20 +149,8 @@ impl Normal {
             gradient[a] = self.total[(i, last)] + precision * mean;
             penalty += precision * mean * mean;
         }
-        // Scaled so that columns of different units have the same size.
-        let scale = DVector::from_fn(count, |k, _| 1.0 / matrix[(k, k)].sqrt());
-        let scaled = DMatrix::from_fn(count, count, |a, b| matrix[(a, b)] * scale[a] * scale[b]);
-        let (estimate, covariance, ln_det) = match scaled.clone().cholesky() {
-            Some(cholesky) => {
-                let right = gradient.component_mul(&scale);
-                let estimate = cholesky.solve(&right).component_mul(&scale);
-                let inverse = cholesky.inverse();
-                let covariance =
-                    DMatrix::from_fn(count, count, |a, b| inverse[(a, b)] * scale[a] * scale[b]);
-                let factor = cholesky.l_dirty();
-                let ln_det: f64 = (0..count).map(|k| 2.0 * (factor[(k, k)] / scale[k]).ln()).sum();
-                (estimate, covariance, ln_det)
-            }
+        let (estimate, covariance, ln_det) = match Scaled::new(&matrix) {
+            Some(factor) => (factor.solve(&gradient), factor.inverse(), factor.ln_det()),
             None => (
                 DVector::zeros(count),
                 DMatrix::from_diagonal_element(count, count, f64::INFINITY),
@@ -163,7 +162,8 @@ impl Normal {
         // det(1 + S J S) = det(J + S⁻²) · Π s²
         let occam: f64 =
             ln_det + columns.iter().map(|&i| 2.0 * priors[i].deviation.ln()).sum::<f64>();
-        Solution { estimate, covariance, misfit, gain, ln_evidence: -0.5 * (misfit + occam) }
+        let ln_evidence = -0.5 * (misfit + occam);
+        Solution { estimate, covariance, misfit, gain, occam, ln_evidence }
     }
 
     /// Squared residuals of a block at given factors of some columns.
@@ -191,10 +191,9 @@ impl Normal {
     pub fn beside(&self, column: usize, others: &[usize], priors: &[Prior]) -> f64 {
         let square = self.product(column, column);
         let precisions: Vec<f64> = others.iter().map(|&k| priors[k].deviation.powi(-2)).collect();
-        let Some((cholesky, scale)) = self.factored(others, &precisions) else { return square };
-        let right =
-            DVector::from_fn(others.len(), |k, _| scale[k] * self.product(others[k], column));
-        (square - right.dot(&cholesky.solve(&right))).max(0.0)
+        let Some(factor) = self.factored(others, &precisions) else { return square };
+        let right = DVector::from_fn(others.len(), |k, _| self.product(others[k], column));
+        (square - right.dot(&factor.solve(&right))).max(0.0)
     }
 
     /// Removes from columns and residual what `base` columns explain (with their priors), block by block
@@ -210,43 +209,25 @@ impl Normal {
         self.without_what(others, &vec![0.0; others.len()], columns)
     }
 
-    /// The factor of columns' information with these precisions, scaled so that columns of different units have the same
-    /// size, and the scales; one of nothing has none.
-    fn factored(
-        &self,
-        columns: &[usize],
-        precisions: &[f64],
-    ) -> Option<(Cholesky<f64, Dyn>, DVector<f64>)> {
-        let count = columns.len();
+    /// The factor of columns' information with these precisions. Columns that stand for each other count as one.
+    fn factored(&self, columns: &[usize], precisions: &[f64]) -> Option<Scaled> {
         let mut matrix = self.information(columns);
         for (k, precision) in precisions.iter().enumerate() {
             matrix[(k, k)] += precision;
         }
-        let scale = DVector::from_fn(count, |k, _| match matrix[(k, k)] {
-            square if square > 0.0 => 1.0 / square.sqrt(),
-            _ => 0.0,
-        });
-        let mut scaled =
-            DMatrix::from_fn(count, count, |a, b| matrix[(a, b)] * scale[a] * scale[b]);
-        // Columns that stand for each other count as one.
-        for k in 0..count {
-            scaled[(k, k)] += RIDGE;
-        }
-        Some((scaled.cholesky()?, scale))
+        Scaled::with_ridge(&matrix, RIDGE)
     }
 
     fn without_what(&self, base: &[usize], precisions: &[f64], of: &[usize]) -> Self {
         let size = self.total.nrows();
-        let count = base.len();
-        let Some((cholesky, scale)) = self.factored(base, precisions) else { return self.clone() };
-        let right =
-            DMatrix::from_fn(count, of.len(), |a, j| self.total[(base[a], of[j])] * scale[a]);
-        let solved = cholesky.solve(&right);
+        let Some(factor) = self.factored(base, precisions) else { return self.clone() };
+        let right = DMatrix::from_fn(base.len(), of.len(), |a, j| self.total[(base[a], of[j])]);
+        let solved = factor.solve(&right);
         // T = 1 − P with P the factors of the base columns in every other column
         let mut transform = DMatrix::identity(size, size);
         for (a, &i) in base.iter().enumerate() {
             for (b, &j) in of.iter().enumerate() {
-                transform[(i, j)] -= solved[(a, b)] * scale[a];
+                transform[(i, j)] -= solved[(a, b)];
             }
         }
         let mut blocks: Vec<DMatrix<f64>> =
@@ -306,16 +287,10 @@ impl Normal {
     /// The factors of columns that leave least of the residual, and ln det of the columns' products. The columns must be
     /// [`independent`](Self::independent); none where rounding shows that they are not.
     pub fn least_squares(&self, columns: &[usize]) -> Option<(DVector<f64>, f64)> {
-        let information = self.information(columns);
-        let scale = information.diagonal().map(|square| square.sqrt().recip());
-        let diagonal = DMatrix::from_diagonal(&scale);
-        let cholesky = (&diagonal * information * &diagonal).cholesky()?;
+        let factor = Scaled::new(&self.information(columns))?;
         let last = self.columns();
         let right = DVector::from_fn(columns.len(), |a, _| self.product(columns[a], last));
-        let factors = cholesky.solve(&right.component_mul(&scale)).component_mul(&scale);
-        let factor = cholesky.l_dirty();
-        let ln_det = (0..columns.len()).map(|k| 2.0 * (factor[(k, k)] / scale[k]).ln()).sum();
-        Some((factors, ln_det))
+        Some((factor.solve(&right), factor.ln_det()))
     }
 
     /// Product of a column with the residual, block by block: its score.

@@ -2,8 +2,8 @@
 
 use crate::base::Base;
 use crate::evidence::{Evidence, Sample};
+use crate::huber;
 use crate::locate::{Location, Manoeuvre, Wave};
-use crate::metric::Metric;
 use trackdyn_core::real;
 use trackdyn_physics::effect::Symmetry;
 
@@ -54,15 +54,14 @@ pub fn sentence(
     if let Some((manoeuvre, speed)) = worst(evidence, base) {
         parts.push(format!("it is largest in {} at {speed:.2} m/s", manoeuvre.name()));
     }
-    let symmetries: Vec<String> = broken.iter().map(|symmetry| words(*symmetry, after)).collect();
-    parts.push(symmetries.join(", "));
+    parts.extend(broken.iter().map(|symmetry| words(*symmetry, after)));
     parts.join("; ")
 }
 
 /// The manoeuvre, and the mean track speed of it, with the largest residuals.
 fn worst(evidence: &Evidence, base: &Base) -> Option<(Manoeuvre, f64)> {
     let residual = &base.fit.residual;
-    let weights = Metric::weights(residual);
+    let weights = huber::weights(residual);
     let fast = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs());
     let fastest = evidence.fastest();
     let mut best: Option<(f64, Manoeuvre, f64)> = None;

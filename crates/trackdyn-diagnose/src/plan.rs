@@ -19,7 +19,7 @@ use crate::evidence::planned::PlannedRun;
 use menu::{INTERVAL, Manoeuvre, menu};
 use nalgebra::DMatrix;
 use rivals::Rival;
-use separation::{Pair, products, shares, squared, total};
+use separation::{Pair, products, shares, squared};
 use trackdyn_core::{Command, PerSide, Pose, Schedule, real};
 use trackdyn_identify::weighting::SegmentNoise;
 use trackdyn_motion::Stationary;
@@ -133,7 +133,7 @@ impl Plan {
     }
 }
 
-/// To the micrometre per second, and the microsecond.
+/// To six decimals: what is below is rounding.
 fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }
@@ -419,7 +419,7 @@ fn judged(classes: &[Class], menu: &[Manoeuvre], chosen: &[usize], options: &Opt
         for (index, pair) in class.pairs.iter().enumerate() {
             let mut z = 0.0;
             if let Some(products) = products.as_ref().map(|products| &products[index]) {
-                z = squared(&total(products), &pair.prior).sqrt();
+                z = squared(products.total(), &pair.prior).sqrt();
                 for (step, share) in steps.iter_mut().zip(shares(products, &pair.prior)) {
                     step.z.push(share.sqrt());
                 }

@@ -110,7 +110,7 @@ fn law(
     evidence: &Evidence,
     options: &Options,
 ) -> Option<Proposal> {
-    let Diagnosis { base, best, metric, .. } = diagnosis;
+    let Diagnosis { base, best, .. } = diagnosis;
     let form = Rules::tolerated(evidence, base, best);
     let left_over = diagnosis.after.left_over(form);
     let kept = symmetry::kept([&diagnosis.filed, &diagnosis.before, &diagnosis.after]);
@@ -120,7 +120,7 @@ fn law(
         .collect();
 
     let catalogue = Catalogue { entries: Vec::new() };
-    let search = Search { evidence, metric, base, catalogue: &catalogue };
+    let search = Search { evidence, base, catalogue: &catalogue };
     let library = library(effect, terms, &search, &best.fit);
     let selected = selection::select(&library, options);
     if selected.is_empty() {
@@ -128,7 +128,7 @@ fn law(
     }
     let found = refitted(effect, &selected, &library, &search, best);
     let icrs = icr_columns(evidence, &found.fit);
-    let residual = Residual { evidence, metric, fit: &found.fit, icrs: &icrs };
+    let residual = Residual { evidence, fit: &found.fit, icrs: &icrs };
     let after = residual.locate_in_waves(options.draws, options.seed);
     let held_out = judged(diagnosis, &found.fit);
     let still = after.left_over(form);
@@ -171,7 +171,7 @@ fn remainder(location: &Location, symmetries: &[Symmetry]) -> f64 {
 
 /// The normal equations of the best fit with the signatures of all terms beside.
 fn library(effect: usize, terms: Vec<Term>, search: &Search, fit: &Fit) -> Library {
-    let Search { evidence, metric, .. } = *search;
+    let Search { evidence, .. } = *search;
     let mut unknowns: Vec<Unknown> = terms
         .iter()
         .flat_map(|term| term.coefficients.iter().map(|&k| Unknown::Effect(effect, k)))
@@ -180,7 +180,7 @@ fn library(effect: usize, terms: Vec<Term>, search: &Search, fit: &Fit) -> Libra
     unknowns.dedup();
     let hypothesis = &fit.hypothesis;
     let prediction = fit.mechanics.predict(&Instruments::of(hypothesis), evidence);
-    let more = columns(hypothesis, &fit.mechanics, &prediction, &unknowns, evidence, metric);
+    let more = columns(hypothesis, &fit.mechanics, &prediction, &unknowns, evidence);
     let known = unknowns.iter().map(|&unknown| {
         let known = prior(hypothesis, unknown, evidence);
         Prior { mean: known.mean - hypothesis.get(unknown), ..known }
@@ -189,7 +189,7 @@ fn library(effect: usize, terms: Vec<Term>, search: &Search, fit: &Fit) -> Libra
     priors.extend(known);
     let free = fit.columns.len();
     let all: Vec<_> = fit.columns.iter().cloned().chain(more).collect();
-    let normal = metric.normal(evidence, &fit.residual, &all);
+    let normal = evidence.normal(&fit.residual, &all);
     Library { effect, terms, unknowns, normal, priors, free }
 }
 
@@ -211,20 +211,18 @@ fn refitted(
         }
     }
     let before = Some(&best.fit.mechanics);
-    let fit = Fit::new(hypothesis, &unknowns, search.evidence, search.metric, before);
+    let fit = Fit::new(hypothesis, &unknowns, search.evidence, before);
     let mut effects = best.effects.clone();
     effects.push(effect);
     effects.sort_unstable();
-    Found { effects, ln_evidence: fit.ln_evidence(search.evidence), fit }
+    Found { effects, ln_evidence: fit.ln_evidence(), fit }
 }
 
 /// The errors without the law and with it, on the runs that judge the diagnosis.
 fn judged(diagnosis: &Diagnosis, fit: &Fit) -> HeldOut {
     let HeldOut { instruments, after: before, noise_floor, are_held_out, .. } = diagnosis.held_out;
     let after = match &diagnosis.unseen {
-        Some(Unseen { evidence, .. }) => {
-            excess(evidence, &fit.on(evidence, &diagnosis.metric).residual)
-        }
+        Some(Unseen { evidence, .. }) => excess(evidence, &fit.on(evidence).residual),
         None => excess(&diagnosis.evidence, &fit.residual),
     };
     HeldOut { before, instruments, after, noise_floor, are_held_out }

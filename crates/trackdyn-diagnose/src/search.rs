@@ -10,7 +10,6 @@ use crate::candidate::{Beside, Signature, Variant};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, Point};
 use crate::hypothesis::{Hypothesis, Unknown, active, beyond_none, unknowns_of};
-use crate::metric::Metric;
 use crate::normal::{Normal, Prior};
 use crate::prior::{prior, priors};
 use rayon::prelude::*;
@@ -97,8 +96,6 @@ pub struct Found {
 pub struct Search<'a> {
     /// The evidence.
     pub evidence: &'a Evidence,
-    /// The metric.
-    pub metric: &'a Metric,
     /// The base.
     pub base: &'a Base,
     /// The candidates.
@@ -109,7 +106,7 @@ impl Search<'_> {
     /// The base as a hypothesis that adds nothing.
     pub fn nothing(&self) -> Found {
         let fit = self.base.fit.clone();
-        Found { effects: Vec::new(), ln_evidence: fit.ln_evidence(self.evidence), fit }
+        Found { effects: Vec::new(), ln_evidence: fit.ln_evidence(), fit }
     }
 
     /// The normal equations of a fit with the signatures of these catalogue entries beside.
@@ -136,7 +133,7 @@ impl Search<'_> {
             }
             groups.push((first..columns.len()).collect());
         }
-        let normal = self.metric.normal(self.evidence, &fit.residual, &columns);
+        let normal = self.evidence.normal(&fit.residual, &columns);
         (normal, known, groups)
     }
 
@@ -251,13 +248,13 @@ impl Search<'_> {
             unknowns.extend(unknowns_of(one.effect));
         }
         effects.sort_unstable();
-        let (evidence, metric) = (self.evidence, self.metric);
+        let evidence = self.evidence;
         let start = |share: f64| {
             let hypothesis = self.with(beside, more, share);
-            Point::new(hypothesis, &unknowns, evidence, metric, Some(&beside.fit.mechanics))
+            Point::new(hypothesis, &unknowns, evidence, Some(&beside.fit.mechanics))
         };
         let fitted = |start: Point| {
-            let fit = Fit::from_point(start, &unknowns, evidence, metric);
+            let fit = Fit::from_point(start, &unknowns, evidence);
             self.recalibrated(effects.clone(), fit)
         };
         // Of a law that is not in proportion the screen may promise a size that is far too large to come back from: one
@@ -313,13 +310,13 @@ impl Search<'_> {
             }
             let Some(again) = calibration.calibrated(&fit.hypothesis) else { break };
             let (unknowns, before) = (&fit.unknowns, Some(&fit.mechanics));
-            let again = Fit::new(again, unknowns, self.evidence, self.metric, before);
+            let again = Fit::new(again, unknowns, self.evidence, before);
             if again.objective >= fit.objective {
                 break;
             }
             fit = again;
         }
-        Found { effects, ln_evidence: fit.ln_evidence(self.evidence), fit }
+        Found { effects, ln_evidence: fit.ln_evidence(), fit }
     }
 
     /// The same with the constant ICRs as another of the vehicle's numbers, where its effects now tell that it is
@@ -331,9 +328,9 @@ impl Search<'_> {
         for calibration in Calibration::ALL {
             let Some(hypothesis) = calibration.calibrated(&whole) else { continue };
             let (unknowns, before) = (&best.fit.unknowns, Some(&best.fit.mechanics));
-            let fit = Fit::new(hypothesis, unknowns, self.evidence, self.metric, before);
+            let fit = Fit::new(hypothesis, unknowns, self.evidence, before);
             if fit.objective < best.fit.objective - TOLD {
-                best = Found { ln_evidence: fit.ln_evidence(self.evidence), fit, ..best };
+                best = Found { ln_evidence: fit.ln_evidence(), fit, ..best };
             }
         }
         best
@@ -347,7 +344,7 @@ impl Search<'_> {
         let hypothesis = found.fit.hypothesis.with_effect_of(&self.base.fit.hypothesis, effect);
         let unknowns = found.fit.unknowns_without(effect);
         let before = Some(&self.base.fit.mechanics);
-        let fit = Fit::new(hypothesis, &unknowns, self.evidence, self.metric, before);
+        let fit = Fit::new(hypothesis, &unknowns, self.evidence, before);
         let without = self.recalibrated(effects, fit);
         let is_further = self.base.fit.objective <= without.fit.objective;
         if is_base && is_further { self.nothing() } else { without }

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use trackdyn_core::real;
-use trackdyn_identify::least_squares::Interval as Student;
+use trackdyn_recording::Interval as Student;
 
 /// A fitted parameter with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,7 +148,7 @@ impl<'a> Uncertainty<'a> {
     ///
     /// √(rise of twice the objective) is in proportion to the distance for a parabola, and nearly so for what is no parabola.
     fn end(&self, place: usize, parabola: f64) -> f64 {
-        let Self { search: Search { evidence, metric, .. }, fit, .. } = self;
+        let Self { search: Search { evidence, .. }, fit, .. } = self;
         if !fit.free.contains(&place) {
             return parabola.abs();
         }
@@ -164,7 +164,7 @@ impl<'a> Uncertainty<'a> {
         for _ in 0..LOOKS {
             let looked = distance.min(room);
             let there = value + looked.copysign(parabola);
-            let risen = fit.profile(place, there, evidence, metric) - fit.objective;
+            let risen = fit.profile(place, there, evidence) - fit.objective;
             let root = risen.max(0.0).sqrt();
             if (root / asked - 1.0).abs() < EXACT || (looked == room && root < asked) {
                 return looked;

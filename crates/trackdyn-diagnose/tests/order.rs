@@ -4,7 +4,6 @@ use trackdyn_diagnose::base::Base;
 use trackdyn_diagnose::candidate::{Beside, candidates};
 use trackdyn_diagnose::evidence::Evidence;
 use trackdyn_diagnose::fit::Fit;
-use trackdyn_diagnose::metric::Metric;
 use trackdyn_diagnose::search::{Catalogue, Found, Search};
 
 use trackdyn_physics::{Effects, VehicleFile};
@@ -36,17 +35,15 @@ fn owned() -> VehicleFile {
 fn both_ways() -> [Found; 2] {
     let file = owned();
     let evidence = Evidence::of_recording(&recording(), file.vehicle.gauge).expect("enough");
-    let metric = Metric::default();
-    let base = Base::new(&file, &evidence, &metric);
+    let base = Base::new(&file, &evidence);
     let tried = candidates(&base.instruments, &evidence);
-    let mut entries = Beside::new(&base.fit.hypothesis, &evidence, &metric).signatures(&tried);
+    let mut entries = Beside::new(&base.fit.hypothesis, &evidence).signatures(&tried);
     [false, true].map(|is_reversed| {
         if is_reversed {
             entries.reverse();
         }
         let catalogue = Catalogue { entries: entries.clone() };
-        let search =
-            Search { evidence: &evidence, metric: &metric, base: &base, catalogue: &catalogue };
+        let search = Search { evidence: &evidence, base: &base, catalogue: &catalogue };
         search.best()
     })
 }

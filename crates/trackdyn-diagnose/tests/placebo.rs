@@ -15,7 +15,6 @@ use library::{Library, PLACEBOS};
 use nalgebra::Vector3;
 use noise::Noise;
 use rayon::prelude::*;
-use trackdyn_diagnose::metric::Metric;
 use trackdyn_diagnose::significance::test;
 use trackdyn_diagnose::verdict::{Rules, cross_validated};
 
@@ -27,11 +26,11 @@ const TOLERATED: f64 = 1.1;
 
 /// The placebos that would be claimed with this residual.
 fn claimed(library: &Library, residual: &[Vector3<f64>], seed: u64) -> Vec<usize> {
-    let metric = library.metric(residual);
+    let scale = library.scale(residual);
     let scaled: Vec<Vector3<f64>> =
-        residual.iter().map(|z| z.component_div(&Vector3::from(metric.scale))).collect();
+        residual.iter().map(|z| z.component_div(&Vector3::from(scale))).collect();
     let base: Vec<usize> = (0..library.base.len()).collect();
-    let placebos = library.normal(&metric, &scaled, &library.placebos);
+    let placebos = library.normal(scale, &scaled, &library.placebos);
     let known = library.priors(PLACEBOS);
     let beside = placebos.projected(&base, &known);
     let passed: Vec<usize> = (0..PLACEBOS)
@@ -48,7 +47,7 @@ fn claimed(library: &Library, residual: &[Vector3<f64>], seed: u64) -> Vec<usize
     }
     // Chance is asked of the whole family: all variants of the catalogue, and all placebos.
     let all: Vec<_> = library.candidates.iter().chain(&library.placebos).cloned().collect();
-    let family = library.normal(&metric, &scaled, &all);
+    let family = library.normal(scale, &scaled, &all);
     let known = library.priors(all.len());
     let projected = family.projected(&base, &known);
     let groups: Vec<Vec<usize>> = library
@@ -64,14 +63,11 @@ fn claimed(library: &Library, residual: &[Vector3<f64>], seed: u64) -> Vec<usize
 }
 
 impl Library {
-    /// The metric that a diagnosis would take: larger where residuals are larger than the noise.
-    fn metric(&self, residual: &[Vector3<f64>]) -> Metric {
-        let mut metric = self.metric;
-        let scale = metric.residual_scale(&self.evidence, residual);
-        if scale.iter().any(|scale| *scale > TOLERATED) {
-            metric.scale = scale.map(|scale| scale.max(1.0));
-        }
-        metric
+    /// The scale of residuals that a diagnosis would take: larger where they are larger than the noise.
+    fn scale(&self, residual: &[Vector3<f64>]) -> [f64; 3] {
+        let scale = self.evidence.residual_scale(residual);
+        let grows = scale.iter().any(|scale| *scale > TOLERATED);
+        if grows { scale.map(|scale| scale.max(1.0)) } else { [1.0; 3] }
     }
 }
 
@@ -116,7 +112,7 @@ fn a_placebo_that_is_there_is_claimed() {
     let library = Library::new(1);
     let base: Vec<usize> = (0..library.base.len()).collect();
     let nothing = vec![Vector3::zeros(); library.evidence.samples().len()];
-    let normal = library.normal(&library.metric, &nothing, &library.placebos);
+    let normal = library.normal([1.0; 3], &nothing, &library.placebos);
     let projected = normal.projected(&base, &library.priors(PLACEBOS));
     let claims: Vec<usize> = (0..PLACEBOS)
         .into_par_iter()

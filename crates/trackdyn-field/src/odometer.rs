@@ -60,7 +60,7 @@ mod tests {
     fn speeds_change_linearly() {
         let mut trajectory = Trajectory::default();
         for (t, v) in [(1.0, 0.0), (2.0, 2.0), (4.0, 0.0)] {
-            let twist = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
+            let twist = Twist::zero();
             let belt_speed = PerSide::new(v, -v);
             trajectory.push(Moment { t, pose: Pose::default(), twist, belt_speed });
         }

@@ -17,7 +17,7 @@ pub struct Rolling {
 impl Rolling {
     /// The robot at rest at t = 0.
     pub fn new(kinematics: Kinematics, pose: Pose) -> Self {
-        let twist = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
+        let twist = Twist::zero();
         Self { kinematics, moment: Moment { t: 0.0, pose, twist, belt_speed: PerSide::default() } }
     }
 }

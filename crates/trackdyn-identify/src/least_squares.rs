@@ -5,7 +5,6 @@ mod estimate;
 mod identifiability;
 mod linearisation;
 
-pub use covariance::Interval;
 pub use estimate::Estimate;
 pub use identifiability::{doubts, lacks, lacks_nuisance, nuisance_doubts};
 pub(crate) use identifiability::{inverse, too_wide};

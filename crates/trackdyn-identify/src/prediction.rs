@@ -1,5 +1,6 @@
 //! What a kinematic model makes of the track speeds of a segment.
 
+pub(crate) mod batch;
 mod lanes;
 mod series;
 
@@ -18,32 +19,10 @@ pub struct Prediction {
     pub sensitivity: [[f64; 3]; COUNT],
 }
 
-/// The motion alone.
+/// The motion and its derivatives by all parameters.
 ///
 /// Constant speeds move the robot on an arc of angle a: a chord along the mean heading, shorter than
 /// the arc by sinc(a/2). Exact.
-#[inline]
-pub fn motion(parameters: &Parameters, pieces: &[Piece]) -> [f64; 3] {
-    let [x_l, x_r, y, alpha_l, alpha_r] = parameters.0;
-    let per_gap = 1.0 / (x_r - x_l);
-    let (mut forward, mut left, mut yaw) = (0.0, 0.0, 0.0);
-    for piece in pieces {
-        let v_l = alpha_l * piece.v_left;
-        // ω = (V_r − V_l)/(x_r − x_l), eq. (9)
-        let w = (alpha_r * piece.v_right - v_l) * per_gap;
-        let angle = w * piece.duration;
-        let (sin, cos) = (yaw + 0.5 * angle).sin_cos();
-        let time = sinc_half(angle).0 * piece.duration;
-        // Forward speed V_l − ω x_l, eq. (8); to the left −ω y, eq. (7)
-        let (ahead, aside) = (time * (v_l - w * x_l), time * (-w * y));
-        forward += ahead * cos - aside * sin;
-        left += ahead * sin + aside * cos;
-        yaw += angle;
-    }
-    [forward, left, yaw]
-}
-
-/// The motion and its derivatives by all parameters.
 #[inline]
 pub fn predict(parameters: &Parameters, pieces: &[Piece]) -> Prediction {
     let [x_l, x_r, y, alpha_l, alpha_r] = parameters.0;
@@ -131,11 +110,9 @@ mod tests {
             let twist = kinematics.twist(PerSide::new(piece.v_left, piece.v_right));
             pose.compose(&Pose::exp(&ros_twist_from_paper(&twist), piece.duration))
         });
-        let [x, y, yaw] = motion(&PARAMETERS, &pieces());
+        let [x, y, yaw] = predict(&PARAMETERS, &pieces()).motion;
         assert!((x - pose.x).abs() < 1e-14 && (y - pose.y).abs() < 1e-14);
         assert!((yaw - pose.yaw).abs() < 1e-14);
-        let predicted = predict(&PARAMETERS, &pieces()).motion;
-        assert!(predicted.iter().zip([x, y, yaw]).all(|(a, b)| (a - b).abs() < 1e-15));
     }
 
     #[test]
@@ -146,7 +123,7 @@ mod tests {
             let at = |step: f64| {
                 let mut moved = PARAMETERS;
                 moved.0[k] += step;
-                motion(&moved, &pieces())
+                predict(&moved, &pieces()).motion
             };
             let (ahead, behind) = (at(STEP), at(-STEP));
             for channel in 0..3 {

@@ -164,7 +164,6 @@ impl Report {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::prediction::motion;
     use trackdyn_core::Pose;
 
     const PARAMETERS: Parameters = Parameters([-0.375, 0.457, 0.049, 0.97, 1.03]);
@@ -184,7 +183,8 @@ mod tests {
     fn a_turned_sensor_reports_turned_motion() {
         let sensor = Sensor { tau: 0.0, yaw: 0.1 };
         let [x, y, yaw] = report(&PARAMETERS, &sensor, &pieces()).motion;
-        let expected = of_mounted(&Pose::new(0.0, 0.0, 0.1), motion(&PARAMETERS, &pieces()));
+        let expected =
+            of_mounted(&Pose::new(0.0, 0.0, 0.1), predict(&PARAMETERS, &pieces()).motion);
         assert!((x - expected.x).abs() < 1e-15 && (y - expected.y).abs() < 1e-15);
         assert!((yaw - expected.yaw).abs() < 1e-15);
     }
@@ -194,8 +194,9 @@ mod tests {
         // 0.3 m forward and 0.2 m to the left: the ICRs lie as much further back and to the right of it.
         let [x_l, x_r, y, alpha_l, alpha_r] = PARAMETERS.0;
         let shifted = Parameters([x_l + 0.2, x_r + 0.2, y - 0.3, alpha_l, alpha_r]);
-        let [x, y, yaw] = motion(&shifted, &pieces());
-        let expected = of_mounted(&Pose::new(0.3, 0.2, 0.0), motion(&PARAMETERS, &pieces()));
+        let [x, y, yaw] = predict(&shifted, &pieces()).motion;
+        let expected =
+            of_mounted(&Pose::new(0.3, 0.2, 0.0), predict(&PARAMETERS, &pieces()).motion);
         assert!((x - expected.x).abs() < 1e-15 && (y - expected.y).abs() < 1e-15);
         assert_eq!(yaw, expected.yaw);
     }

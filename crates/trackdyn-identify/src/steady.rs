@@ -19,13 +19,14 @@ pub use lagging::{Lagging, lagging};
 
 use crate::doubt::Doubt;
 use crate::error::Error;
-use crate::least_squares::covariance::{Interval, jackknife};
+use crate::least_squares::covariance::jackknife;
 use crate::least_squares::{Loss, inverse, too_wide};
 use crate::parameters::{Free, Parameters};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use row::{Row, observed};
-use trackdyn_recording::OperatingPoint;
-use trackdyn_recording::robust::NORMAL_FROM_MAD;
+use trackdyn_core::real;
+use trackdyn_recording::robust::deviation_about_zero;
+use trackdyn_recording::{Interval, OperatingPoint};
 
 /// Channels of a point: forward (m/s), left (m/s), yaw rate (rad/s).
 pub const CHANNELS: usize = 3;
@@ -212,17 +213,12 @@ fn sum(parts: &[Part], count: usize) -> Part {
 /// Scatter of each channel: by the median where outliers count linearly, by the mean square else.
 fn scatter_of(rows: &[Row], loss: Loss) -> [Option<f64>; CHANNELS] {
     std::array::from_fn(|channel| {
-        let mut sizes: Vec<f64> =
-            rows.iter().filter_map(|row| row.residuals[channel]).map(f64::abs).collect();
-        if sizes.is_empty() {
-            return None;
-        }
-        sizes.sort_by(f64::total_cmp);
-        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 points")]
-        let mean_square = sizes.iter().map(|size| size * size).sum::<f64>() / sizes.len() as f64;
+        let mut sizes: Vec<f64> = rows.iter().filter_map(|row| row.residuals[channel]).collect();
+        let by_median = deviation_about_zero(&mut sizes)?;
+        let mean_square = sizes.iter().map(|size| size * size).sum::<f64>() / real(sizes.len());
         let size = match loss {
             // where most residuals are rounded away, the median says nothing
-            Loss::Huber if sizes[sizes.len() / 2] > 0.0 => NORMAL_FROM_MAD * sizes[sizes.len() / 2],
+            Loss::Huber if by_median > 0.0 => by_median,
             _ => mean_square.sqrt(),
         };
         // Points that a model explains to rounding scatter by something all the same.

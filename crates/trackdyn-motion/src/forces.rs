@@ -71,7 +71,7 @@ mod tests {
         let forces = Forces { model: &model, ground: &ground, creep: 1e-6 };
         let belts = PerSide::new(-0.2, 0.7);
         let twist = Stationary::new(&model, &Circumstance::default()).solve(belts).twist;
-        let still = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
+        let still = Twist::zero();
         let weight = model.vehicle().weight();
         assert!(forces.sum(belts, &twist, &still).norm() < 1e-9 * weight);
 

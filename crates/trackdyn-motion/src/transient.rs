@@ -114,7 +114,7 @@ impl<'m> Transient<'m> {
     /// The robot at rest at a pose (REP-103) and time.
     pub fn at_rest(model: &'m Model, t: f64, pose: Pose) -> Self {
         let still = PerSide::new(0.0, 0.0);
-        let twist = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
+        let twist = Twist::zero();
         let state = State {
             t,
             pose,
@@ -282,7 +282,7 @@ impl<'m> Transient<'m> {
     /// Whether the forces beside friction depend on the acceleration: else the robot is at its stationary
     /// motion at once.
     pub fn feels_inertia(model: &Model) -> bool {
-        let still = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
+        let still = Twist::zero();
         let force = |acceleration: Twist| {
             let motion = Motion::departing(PerSide::default(), still, acceleration, model.extent());
             model.balance(&model.ground(&Circumstance::default()), &motion).load

@@ -25,6 +25,6 @@ pub use comparison::Comparison;
 pub use error::Error;
 pub use intervals::Estimate;
 pub use parameter_set::ParameterSet;
-pub use replay::{Trajectory, replay};
+pub use replay::{DeadReckoning, replay};
 pub use residual::Residual;
 pub use stretch::{Span, Stretch};

@@ -7,7 +7,7 @@ use trackdyn_recording::{Run, hold};
 
 /// A predicted path, with poses at the stamps of the recorded ones.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Trajectory {
+pub struct DeadReckoning {
     /// Index of its first pose in the run; one pose of the run follows the other from there.
     pub first: usize,
     /// Stamps, s of the pose clock.
@@ -40,13 +40,13 @@ pub(crate) fn covered(run: &Run, tau: f64) -> Range<usize> {
 ///
 /// # Errors
 /// [`Error::NotCovered`].
-pub fn replay(run: &Run, set: &ParameterSet, tau: f64) -> Result<Trajectory, Error> {
+pub fn replay(run: &Run, set: &ParameterSet, tau: f64) -> Result<DeadReckoning, Error> {
     let range = covered(run, tau);
     let [start, .., _] = &run.poses()[range.clone()] else {
         let (poses, all) = (range.len(), run.poses().len());
         return Err(Error::NotCovered { run: run.id(), poses, all, tau });
     };
-    let mut trajectory = Trajectory {
+    let mut trajectory = DeadReckoning {
         first: range.start,
         stamps: Vec::with_capacity(range.len()),
         poses: Vec::with_capacity(range.len()),

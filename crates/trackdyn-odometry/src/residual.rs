@@ -1,6 +1,6 @@
 //! Observed minus predicted motion.
 
-use crate::{Stretch, Trajectory};
+use crate::{DeadReckoning, Stretch};
 use trackdyn_core::Pose;
 
 /// Observed minus predicted motion over a stretch, in the frame of its first pose.
@@ -25,7 +25,7 @@ impl Residual {
     }
 
     /// The residual of a stretch of the run that the trajectory was replayed from.
-    pub fn of_stretch(stretch: &Stretch, trajectory: &Trajectory) -> Self {
+    pub fn of_stretch(stretch: &Stretch, trajectory: &DeadReckoning) -> Self {
         let [from, to] = stretch.poses.map(|index| &trajectory.poses[index - trajectory.first]);
         Self::new(&stretch.observed, &from.relative(to))
     }

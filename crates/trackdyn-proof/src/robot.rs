@@ -89,7 +89,7 @@ impl Robot {
             t: setup.start_time,
             step: setup.shortest_step,
             pose: setup.start,
-            twist: Twist { v_x: 0.0, v_y: 0.0, w: 0.0 },
+            twist: Twist::zero(),
             encoder: PerSide::new(0.0, 0.0),
             belt: PerSide::new(0.0, 0.0),
             traction: PerSide::new(0.0, 0.0),

@@ -5,10 +5,10 @@
 pub const NORMAL_FROM_MAD: f64 = 1.482_602_218_505_602;
 
 /// Ratio of the median of squares to the mean of squares of a normal distribution, Φ⁻¹(3/4)².
-pub(crate) const MEDIAN_OF_CHI_SQUARE: f64 = 0.454_936_423_119_572_9;
+pub const MEDIAN_OF_CHI_SQUARE: f64 = 0.454_936_423_119_572_8;
 
 /// The median; `None` where there is nothing. Reorders the values.
-pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
+pub fn median(values: &mut [f64]) -> Option<f64> {
     if values.is_empty() {
         return None;
     }
@@ -21,9 +21,9 @@ pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     Some(f64::midpoint(lower, upper))
 }
 
-/// Standard deviation of zero-mean normal values, from the median of their squares: outliers do
-/// not count. Reorders the values.
-pub(crate) fn deviation_about_zero(values: &mut [f64]) -> Option<f64> {
+/// Standard deviation of zero-mean normal values, from the median of their sizes: outliers do
+/// not count. `None` where there is nothing. Reorders the values, and drops their signs.
+pub fn deviation_about_zero(values: &mut [f64]) -> Option<f64> {
     for value in values.iter_mut() {
         *value = value.abs();
     }

@@ -91,9 +91,7 @@ impl<'a> Subject<'a> {
         }
         let fit = self.fit_before();
         let icrs = icr_columns(self.evidence(), fit);
-        let metric = &self.diagnosis.metric;
-        let filed =
-            trackdyn_diagnose::locate::cells::cells(self.evidence(), metric, &fit.residual, &icrs);
+        let filed = trackdyn_diagnose::locate::cells::cells(self.evidence(), &fit.residual, &icrs);
         [filed, after.clone()]
     }
 

@@ -1,7 +1,6 @@
 //! The figure of an ICR map.
 
 mod cloud;
-pub(crate) mod colour_bar;
 mod heading;
 mod heat_map;
 mod legend;
@@ -10,6 +9,7 @@ mod zoom;
 
 use crate::Error;
 use crate::canvas::{Area, Canvas};
+use crate::colour_bar;
 use cloud::Cloud;
 use heat_map::HeatMap;
 use trackdyn_core::{PerSide, Side};

@@ -17,6 +17,7 @@
 pub mod brush;
 pub mod canvas;
 pub mod colour;
+mod colour_bar;
 mod diagnosis;
 mod error;
 mod icr_map;

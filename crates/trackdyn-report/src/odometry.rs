@@ -84,7 +84,10 @@ fn heading(canvas: &mut Canvas, result: &Comparison, name: &str, caption: &str) 
     let right = i32::from(WIDTH) - LEFT;
     let title = canvas.fitted(&title, 40.0, right - LEFT);
     canvas.text(&title, [LEFT, 72], &style(40.0));
-    let below = format!("Whiskers: 95 % confidence, {}. {caption}", result.blocks.description());
+    let below = format!(
+        "Whiskers: 95 % confidence, {}; marks of one length stand side by side. {caption}",
+        result.blocks.description()
+    );
     let below = canvas.fitted(&below, 24.0, right - LEFT);
     canvas.text(&below, [LEFT, i32::from(HEIGHT) - 28], &style(24.0).colour(GREY));
 }

@@ -100,6 +100,7 @@ mod tests {
                 columns: &rows,
                 counts: vec![vec![1; cells]; cells],
                 right: vec![[0, 0]; cells.min(1)],
+                remarks: "remarks",
             };
             let draw = || {
                 [

@@ -1,7 +1,7 @@
 //! What was concealed: the answers of a trial.
 
 use crate::key::Root;
-use crate::plan::{Difficulty, STATIC_CLASS, Stratum};
+use crate::plan::{CONSTANTS, Difficulty, Stratum};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use trackdyn_proof::{ActiveMechanism, Origin};
@@ -140,24 +140,22 @@ impl Concealed {
         self.z_det >= crate::oracle::DETECTABLE
     }
 
-    /// Whether it is a member of the static class: nothing that a recording shows beside constant ICRs.
-    pub fn is_static(&self) -> bool {
-        STATIC_CLASS.contains(&self.mechanism.as_str())
+    /// Whether it is a member of the class of constants: nothing that a recording shows beside constant ICRs.
+    pub fn is_constant(&self) -> bool {
+        CONSTANTS.contains(&self.mechanism.as_str())
     }
 
-    /// Whether the recording can tell it from everything else in the catalogue. A member of the static class never is:
+    /// Whether the recording can tell it from everything else in the catalogue. A member of the class of constants never is:
     /// what its z_iso was compared with are the effects outside that class.
     pub fn is_isolable(&self) -> bool {
-        self.is_detectable() && self.z_iso >= crate::oracle::DISTINCT && !self.is_static()
+        self.is_detectable() && self.z_iso >= crate::oracle::DISTINCT && !self.is_constant()
     }
 
-    /// Members of the smallest set that the recording allows: it, and all that cannot be told from it. Where a sensor sits
-    /// moves nothing but constant ICRs either.
+    /// Members of the smallest set that the recording allows: it, and all that cannot be told from it.
     pub fn smallest_set(&self) -> usize {
         let class = self.class.iter().map(String::as_str).chain([self.mechanism.as_str()]);
-        let statics = STATIC_CLASS.into_iter().chain(["sensor-lever-arm"]);
-        let statics = statics.filter(|_| self.is_static());
-        class.chain(statics).collect::<BTreeSet<_>>().len()
+        let constants = CONSTANTS.into_iter().filter(|_| self.is_constant());
+        class.chain(constants).collect::<BTreeSet<_>>().len()
     }
 }
 

@@ -11,7 +11,7 @@ use crate::key::Root;
 use crate::machine::Machine;
 use crate::oracle::{Judge, Sized, Standing};
 use crate::order::Order;
-use crate::plan::{PlannedCase, STATIC_CLASS, Stratum};
+use crate::plan::{CONSTANTS, PlannedCase, Stratum};
 use crate::random::{Purpose, log_uniform, stream, uniform};
 use crate::recorded::recorded;
 use crate::signature::Bench;
@@ -134,7 +134,7 @@ impl Draw<'_> {
         let is_null = self.planned.stratum.is_null();
         let share = if is_null { NULLS_WITHOUT_INERTIA } else { WITHOUT_INERTIA };
         let left_out = INERTIA.iter().enumerate().find(|(place, _)| {
-            let from = share * crate::real(*place);
+            let from = share * trackdyn_core::real(*place);
             (from..from + share).contains(&drawn)
         });
         let is_concealed = |id: &str| self.planned.concealed.contains(&id);
@@ -232,7 +232,7 @@ impl Draw<'_> {
             }
             Stratum::Pair => (dose, z(5.0, 40.0, random)),
             Stratum::Outside => (dose, z(4.0, 60.0, random)),
-            Stratum::Equivalence if STATIC_CLASS.contains(&id) => {
+            Stratum::Equivalence if CONSTANTS.contains(&id) => {
                 (dose, Size::Strength(log_uniform(random, 0.3, 2.0)))
             }
             Stratum::Equivalence if id == "drivetrain-lag" => {

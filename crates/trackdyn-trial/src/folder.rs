@@ -202,7 +202,7 @@ fn outside(home: &Path) -> Result<Vec<f64>, Error> {
     Ok(shown)
 }
 
-/// Effects of the static class by which a vehicle file is off.
+/// Effects of the class of constants by which a vehicle file is off.
 fn owner_errors(owned: &Vehicle, truth: &Vehicle) -> Vec<&'static str> {
     let mut errors = Vec::new();
     if owned.cog != truth.cog {

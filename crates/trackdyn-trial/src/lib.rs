@@ -54,9 +54,3 @@ pub use opened::Opened;
 pub use order::Order;
 pub use plan::{PlannedCase, Stratum, plan};
 pub use score::Score;
-
-/// A count as a real number.
-#[expect(clippy::cast_precision_loss, reason = "counts stay far below 2⁵³")]
-pub(crate) fn real(count: usize) -> f64 {
-    count as f64
-}

@@ -108,7 +108,8 @@ impl Judge<'_> {
 
     /// The strength at which an effect shows with about this z, by what some runs show of it; none where it does not show.
     fn strength(&self, dose: &Dose, clear: f64, runs: &[Drive]) -> Result<Option<f64>, String> {
-        let more_runs = (crate::real(self.runs.len()) / crate::real(runs.len())).sqrt();
+        let more_runs =
+            (trackdyn_core::real(self.runs.len()) / trackdyn_core::real(runs.len())).sqrt();
         let z = |strength: f64| -> Result<f64, String> {
             Ok(more_runs * self.z(&self.signature(dose, strength, runs)?))
         };
@@ -156,7 +157,8 @@ impl Judge<'_> {
         };
         let mut still = self.still(FEW_RUNS)?;
         let mut shapes = shapes_in(&still)?;
-        let part = (crate::real(still.runs.len()) / crate::real(self.runs.len())).sqrt();
+        let part =
+            (trackdyn_core::real(still.runs.len()) / trackdyn_core::real(self.runs.len())).sqrt();
         let is_missed = |(sized, shape): (&Sized, &Vec<f64>)| {
             self.z(shape) < MISSED * part * self.z(&sized.signature)
         };

@@ -26,8 +26,8 @@ pub const ISOLABLE: [&str; 16] = [
     "friction-drift",
 ];
 
-/// Effects that move the constant ICRs and nothing else.
-pub const STATIC_CLASS: [&str; 7] = [
+/// The class of constants: what moves the constant ICRs and nothing else. The last one is an error of an instrument as well.
+pub const CONSTANTS: [&str; 8] = [
     "friction-anisotropy",
     "cog-shift",
     "friction-split",
@@ -35,6 +35,7 @@ pub const STATIC_CLASS: [&str; 7] = [
     "pressure-concentration",
     "cohesion",
     "bulldozing",
+    "sensor-lever-arm",
 ];
 
 /// Errors of instruments, which are truths of their own wherever they are.
@@ -199,7 +200,7 @@ fn counts(cases: usize) -> Vec<(Stratum, usize)> {
     let mut counts: Vec<(Stratum, usize)> = Stratum::ALL
         .into_iter()
         .map(|stratum| {
-            let wanted = stratum.share() * crate::real(cases);
+            let wanted = stratum.share() * trackdyn_core::real(cases);
             let whole = if stratum.is_null() { wanted.ceil() } else { wanted.floor() };
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
             (stratum, whole as usize)
@@ -232,7 +233,9 @@ fn stratum_cases(stratum: Stratum, count: usize, random: &mut ChaCha8Rng) -> Vec
         Stratum::Outside => single(&OUTSIDE, count, random, case),
         Stratum::Equivalence => {
             let close = count / 2;
-            let mut cases = single(&STATIC_CLASS, count - close, random, case);
+            let concealed = CONSTANTS.into_iter().filter(|id| !INSTRUMENTS.contains(id));
+            let concealed: Vec<&'static str> = concealed.collect();
+            let mut cases = single(&concealed, count - close, random, case);
             cases.extend(single(&CLOSE, close, random, case));
             cases
         }
@@ -296,7 +299,7 @@ mod tests {
     #[test]
     fn every_mechanism_of_the_independent_ground_has_its_place() {
         for sheet in trackdyn_proof::MECHANISMS {
-            let lists: [&[&str]; 5] = [&ISOLABLE, &STATIC_CLASS, &INSTRUMENTS, &OUTSIDE, &CLOSE];
+            let lists: [&[&str]; 5] = [&ISOLABLE, &CONSTANTS, &INSTRUMENTS, &OUTSIDE, &CLOSE];
             assert!(lists.iter().any(|list| list.contains(&sheet.id)), "{}", sheet.id);
         }
     }

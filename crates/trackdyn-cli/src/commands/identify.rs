@@ -12,6 +12,7 @@ use crate::options::{DrivingOptions, command_line, finite, read_vehicle};
 use crate::progress::Progress;
 use clap::Args;
 use std::path::{Path, PathBuf};
+use trackdyn_core::document::Document;
 use trackdyn_core::output::{prepare_folder, write_file};
 use trackdyn_identify::genetic::GeneticOptions;
 use trackdyn_identify::identification::{self, Fit};
@@ -106,7 +107,7 @@ pub fn run(options: &Options) -> Outcome {
 }
 
 /// Writes the files of the fits that are determined. That of an earlier fit goes where this one is not: it would be taken for
-/// this one's.
+/// this one's. A map's stays.
 fn keep(out: &Path, files: impl IntoIterator<Item = Option<KinematicsFile>>) -> Outcome {
     let mut written = 0;
     for (file, name) in files.into_iter().zip(document::FILES) {
@@ -115,12 +116,19 @@ fn keep(out: &Path, files: impl IntoIterator<Item = Option<KinematicsFile>>) -> 
             write_file(&path, file.to_toml().as_bytes())?;
             eprintln!("wrote {}", path.display());
             written += 1;
-        } else if path.exists() {
+        } else if is_of_fit(&path) {
             std::fs::remove_file(&path).map_err(|cause| format!("{}: {cause}", path.display()))?;
             eprintln!("removed {}, of an earlier fit: this one is not determined", path.display());
         }
     }
     Ok(if written > 0 { Exit::Done } else { Exit::NoResult })
+}
+
+/// Whether there is a file of parameters that were fitted to a recording.
+fn is_of_fit(path: &Path) -> bool {
+    let file = Document::read(path).ok();
+    let file = file.and_then(|document| KinematicsFile::from_document(&document).ok());
+    file.is_some_and(|file| file.source.recording.is_some())
 }
 
 /// Where the numbers come from.

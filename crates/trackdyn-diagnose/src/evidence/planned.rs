@@ -41,6 +41,7 @@ impl Evidence {
             samples,
             tracks: runs.iter().map(|run| run.tracks.clone()).collect(),
             whitening: Whitening::Points(Vec::new()),
+            scale: [1.0; 3],
             blocks,
             runs: (0..).take(runs.len()).collect(),
             tau,

@@ -5,7 +5,7 @@ use crate::error::Error;
 use nalgebra::Vector3;
 use trackdyn_core::{PerSide, Pose, real};
 use trackdyn_recording::operating_points::line_triples;
-use trackdyn_recording::robust::NORMAL_FROM_MAD;
+use trackdyn_recording::robust::deviation_about_zero;
 use trackdyn_recording::{OperatingPoint, TrackSample};
 
 /// Time that stands for an instant, s.
@@ -76,6 +76,7 @@ impl Evidence {
             samples,
             tracks,
             whitening: Whitening::Points(inverse),
+            scale: [1.0; 3],
             blocks,
             runs: (0..).take(points.len()).collect(),
             tau: 0.0,
@@ -98,13 +99,12 @@ fn scatter(points: &[OperatingPoint], channel: Channel) -> Option<f64> {
     let jumps = |[x, y, z]: [f64; 3]| x * y < 0.0 || y * z < 0.0 || x.abs().min(z.abs()) < 1e-9;
     let triples = line_triples(points, channel).into_iter();
     let smooth = triples.filter(|triple| !jumps(triple.across));
-    let mut sizes: Vec<f64> = smooth.map(|triple| triple.off.abs()).collect();
-    if sizes.len() < FEWEST_TRIPLES {
+    let mut off: Vec<f64> = smooth.map(|triple| triple.off).collect();
+    if off.len() < FEWEST_TRIPLES {
         return None;
     }
-    sizes.sort_by(f64::total_cmp);
-    let rms = (sizes.iter().map(|size| size * size).sum::<f64>() / real(sizes.len())).sqrt();
-    let median = NORMAL_FROM_MAD * sizes[sizes.len() / 2];
+    let rms = (off.iter().map(|off| off * off).sum::<f64>() / real(off.len())).sqrt();
+    let median = deviation_about_zero(&mut off)?;
     // Where most readings are rounded away the median says nothing.
     Some(if median > 0.0 { median } else { rms }).filter(|scatter| *scatter > 0.0)
 }

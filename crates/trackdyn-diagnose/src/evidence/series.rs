@@ -91,6 +91,7 @@ impl Evidence {
         }
         Ok(Self {
             whitening: Whitening::of(noise, &samples),
+            scale: [1.0; 3],
             samples,
             tracks,
             blocks: blocks.count(),

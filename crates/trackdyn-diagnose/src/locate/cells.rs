@@ -3,7 +3,7 @@
 use super::IcrColumns;
 use super::contrasts::Manoeuvre;
 use crate::evidence::{Evidence, Sample};
-use crate::metric::Metric;
+use crate::huber;
 use crate::normal::{Columns, Normal, Prior};
 use nalgebra::Vector3;
 use trackdyn_core::real;
@@ -29,12 +29,7 @@ pub struct Cell {
 }
 
 /// The cells with enough turning.
-pub fn cells(
-    evidence: &Evidence,
-    metric: &Metric,
-    residual: &[Vector3<f64>],
-    icrs: &IcrColumns,
-) -> Vec<Cell> {
+pub fn cells(evidence: &Evidence, residual: &[Vector3<f64>], icrs: &IcrColumns) -> Vec<Cell> {
     let samples = evidence.samples();
     let fast = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs());
     let mut speeds: Vec<f64> = samples.iter().map(fast).filter(|speed| *speed > 0.0).collect();
@@ -44,8 +39,8 @@ pub fn cells(
     }
     let bounds = [speeds[speeds.len() / 3], speeds[2 * speeds.len() / 3]];
     let columns: Vec<Vec<Vector3<f64>>> =
-        icrs.iter().map(|column| metric.white(evidence, column.clone())).collect();
-    let weights = Metric::weights(residual);
+        icrs.iter().map(|column| evidence.white(column.clone())).collect();
+    let weights = huber::weights(residual);
     let mut cells = Vec::new();
     for manoeuvre in [Manoeuvre::Arc, Manoeuvre::CounterRotation, Manoeuvre::Spin] {
         for speed in 0..3 {

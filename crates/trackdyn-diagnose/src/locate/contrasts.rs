@@ -80,102 +80,145 @@ pub fn middle_half_y([left, right, y]: &IcrColumns) -> [Vec<Vector3<f64>>; 3] {
 ///
 /// `icrs` are the derivatives of the prediction by x_l, x_r and y.
 pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Contrasts> {
-    let samples = evidence.samples();
-    let [middle, half, y] = &middle_half_y(icrs);
-    let mut all: Vec<Contrasts> = Vec::new();
-    let mut add_each = |symmetry: Symmetry, of: &[Vector3<f64>], by: &dyn Fn(usize) -> f64| {
+    let moved = &middle_half_y(icrs);
+    let mut collector = Collector { samples: evidence.samples(), moved, all: Vec::new() };
+    let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
+    collector.of_speed_and_direction(fastest);
+    collector.of_straight_driving();
+    if evidence.is_steady() {
+        return collector.all;
+    }
+    collector.of_heading();
+    collector.of_place_and_time();
+    collector.of_changes_of_speed(fastest);
+    collector.of_turning_round(&turned(evidence));
+    let mut all = collector.all;
+    all.extend(past::contrasts(evidence, moved));
+    all
+}
+
+/// The contrasts of some samples, symmetry by symmetry.
+struct Collector<'a> {
+    samples: &'a [Sample],
+    /// Derivatives by a, h and y.
+    moved: &'a [Vec<Vector3<f64>>; 3],
+    all: Vec<Contrasts>,
+}
+
+impl Collector<'_> {
+    /// Adds a column times a number of each sample, by its index, unless nothing comes of it.
+    fn add_each(&mut self, symmetry: Symmetry, of: &[Vector3<f64>], by: impl Fn(usize) -> f64) {
         let column: Vec<Vector3<f64>> =
             of.iter().enumerate().map(|(index, value)| value * by(index)).collect();
         if column.iter().all(|value| value.norm() == 0.0) {
             return;
         }
-        match all.iter_mut().find(|one| one.symmetry == symmetry) {
+        match self.all.iter_mut().find(|one| one.symmetry == symmetry) {
             Some(contrasts) => contrasts.columns.push(column),
-            None => all.push(Contrasts { symmetry, beside: &[], columns: vec![column] }),
-        }
-    };
-    let mut add = |symmetry: Symmetry, of: &[Vector3<f64>], by: &dyn Fn(&Sample) -> f64| {
-        add_each(symmetry, of, &|index| by(&samples[index]));
-    };
-
-    let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
-    let speed = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs()) / fastest;
-    let direction = |sample: &Sample| sign(sample.speeds.left + sample.speeds.right);
-    let turn = |sample: &Sample| sign(sample.speeds.right - sample.speeds.left);
-    let is = |sample: &Sample, manoeuvre: Manoeuvre| {
-        if Manoeuvre::of(sample) == manoeuvre { 1.0 } else { 0.0 }
-    };
-
-    for of in [middle, half, y] {
-        add(Symmetry::SpeedScale, of, &|s| speed(s) - 0.5);
-        add(Symmetry::SpeedScale, of, &|s| (speed(s) - 0.5).powi(2));
-        add(Symmetry::Reversal, of, &direction);
-        add(Symmetry::Reversal, of, &turn);
-        add(Symmetry::Manoeuvre, of, &|s| is(s, Manoeuvre::Arc));
-        add(Symmetry::Manoeuvre, of, &|s| is(s, Manoeuvre::CounterRotation));
-    }
-    for of in [half, y] {
-        add(Symmetry::Mirror, of, &|s| direction(s) * turn(s));
-        add(Symmetry::Mirror, of, &turn);
-    }
-    add(Symmetry::Mirror, middle, &direction);
-    let straight = |s: &Sample| is(s, Manoeuvre::Straight) * s.duration;
-    for channel in 0..3 {
-        let unit =
-            vec![Vector3::from_fn(|k, _| if k == channel { 1.0 } else { 0.0 }); samples.len()];
-        add(Symmetry::Straight, &unit, &straight);
-        add(Symmetry::Straight, &unit, &|s| {
-            straight(s) * f64::midpoint(s.speeds.left, s.speeds.right)
-        });
-    }
-    if evidence.is_steady() {
-        return all;
-    }
-
-    for of in [middle, half, y] {
-        for by in [f64::cos, f64::sin] {
-            add(Symmetry::Heading, of, &|s| by(s.pose.yaw));
-            add(Symmetry::Heading, of, &|s| by(s.pose.yaw) * turn(s));
-            add(Symmetry::Heading, of, &|s| by(2.0 * s.pose.yaw));
+            None => self.all.push(Contrasts { symmetry, beside: &[], columns: vec![column] }),
         }
     }
-    let (x_at, y_at) =
-        (scaled(samples, |s: &Sample| s.pose.x), scaled(samples, |s: &Sample| s.pose.y));
-    for of in [middle, half, y] {
-        add(Symmetry::Place, of, &x_at);
-        add(Symmetry::Place, of, &y_at);
-        add(Symmetry::Place, of, &|s| x_at(s) * y_at(s));
-        add(Symmetry::Place, of, &|s| x_at(s).powi(2) - 0.3);
-        add(Symmetry::Place, of, &|s| y_at(s).powi(2) - 0.3);
+
+    fn add(&mut self, symmetry: Symmetry, of: &[Vector3<f64>], by: impl Fn(&Sample) -> f64) {
+        let samples = self.samples;
+        self.add_each(symmetry, of, |index| by(&samples[index]));
     }
-    let time = scaled(samples, |s: &Sample| s.start);
-    for of in [middle, half, y] {
-        add(Symmetry::Time, of, &time);
-        add(Symmetry::Time, of, &|s| time(s).powi(2) - 0.3);
+
+    /// One in a channel of every sample: forward, left, yaw.
+    fn along(&self, channel: usize) -> Vec<Vector3<f64>> {
+        vec![Vector3::from_fn(|k, _| if k == channel { 1.0 } else { 0.0 }); self.samples.len()]
     }
-    // What changes of speed do: the motion is ahead of the speeds or behind them.
-    let change = |s: &Sample| (s.acceleration.left + s.acceleration.right) * s.duration / 2.0;
-    let turning = |s: &Sample| (s.acceleration.right - s.acceleration.left) * s.duration;
-    let along = |channel: usize| {
-        vec![Vector3::from_fn(|k, _| if k == channel { 1.0 } else { 0.0 }); samples.len()]
-    };
-    add(Symmetry::Transient, &along(0), &change);
-    add(Symmetry::Transient, &along(1), &turning);
-    add(Symmetry::Transient, &along(2), &turning);
-    let hurry = |s: &Sample| {
-        (s.acceleration.left.abs() + s.acceleration.right.abs()) * s.duration / fastest
-    };
-    for of in [middle, half, y] {
-        add(Symmetry::Transient, of, &hurry);
+
+    fn of_speed_and_direction(&mut self, fastest: f64) {
+        let speed =
+            |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs()) / fastest;
+        for of in self.moved {
+            self.add(Symmetry::SpeedScale, of, |s| speed(s) - 0.5);
+            self.add(Symmetry::SpeedScale, of, |s| (speed(s) - 0.5).powi(2));
+            self.add(Symmetry::Reversal, of, direction);
+            self.add(Symmetry::Reversal, of, turn);
+            self.add(Symmetry::Manoeuvre, of, |s| is(s, Manoeuvre::Arc));
+            self.add(Symmetry::Manoeuvre, of, |s| is(s, Manoeuvre::CounterRotation));
+        }
+        let [middle, half, y] = self.moved;
+        for of in [half, y] {
+            self.add(Symmetry::Mirror, of, |s| direction(s) * turn(s));
+            self.add(Symmetry::Mirror, of, turn);
+        }
+        self.add(Symmetry::Mirror, middle, direction);
     }
-    // What a track does where it turns round: play in its drive, or soil that yields the other way.
-    let turned = turned(evidence);
-    add_each(Symmetry::Transient, &along(0), &|k| turned[k].right + turned[k].left);
-    for channel in [1, 2] {
-        add_each(Symmetry::Transient, &along(channel), &|k| turned[k].right - turned[k].left);
+
+    fn of_straight_driving(&mut self) {
+        let straight = |s: &Sample| is(s, Manoeuvre::Straight) * s.duration;
+        let speed = |s: &Sample| f64::midpoint(s.speeds.left, s.speeds.right);
+        for channel in 0..3 {
+            let along = self.along(channel);
+            self.add(Symmetry::Straight, &along, straight);
+            self.add(Symmetry::Straight, &along, |s| straight(s) * speed(s));
+        }
     }
-    all.extend(past::contrasts(evidence, [middle, half, y]));
-    all
+
+    fn of_heading(&mut self) {
+        for of in self.moved {
+            for by in [f64::cos, f64::sin] {
+                self.add(Symmetry::Heading, of, |s| by(s.pose.yaw));
+                self.add(Symmetry::Heading, of, |s| by(s.pose.yaw) * turn(s));
+                self.add(Symmetry::Heading, of, |s| by(2.0 * s.pose.yaw));
+            }
+        }
+    }
+
+    fn of_place_and_time(&mut self) {
+        let x = scaled(self.samples, |s: &Sample| s.pose.x);
+        let y = scaled(self.samples, |s: &Sample| s.pose.y);
+        let time = scaled(self.samples, |s: &Sample| s.start);
+        for of in self.moved {
+            self.add(Symmetry::Place, of, &x);
+            self.add(Symmetry::Place, of, &y);
+            self.add(Symmetry::Place, of, |s| x(s) * y(s));
+            self.add(Symmetry::Place, of, |s| x(s).powi(2) - 0.3);
+            self.add(Symmetry::Place, of, |s| y(s).powi(2) - 0.3);
+        }
+        for of in self.moved {
+            self.add(Symmetry::Time, of, &time);
+            self.add(Symmetry::Time, of, |s| time(s).powi(2) - 0.3);
+        }
+    }
+
+    /// The motion is ahead of the speeds or behind them, and ICRs move as speeds change.
+    fn of_changes_of_speed(&mut self, fastest: f64) {
+        let change = |s: &Sample| (s.acceleration.left + s.acceleration.right) * s.duration / 2.0;
+        let turning = |s: &Sample| (s.acceleration.right - s.acceleration.left) * s.duration;
+        let [forward, left, yaw] = [0, 1, 2].map(|channel| self.along(channel));
+        self.add(Symmetry::Transient, &forward, change);
+        self.add(Symmetry::Transient, &left, turning);
+        self.add(Symmetry::Transient, &yaw, turning);
+        let size = |s: &Sample| s.acceleration.left.abs() + s.acceleration.right.abs();
+        for of in self.moved {
+            self.add(Symmetry::Transient, of, |s| size(s) * s.duration / fastest);
+        }
+    }
+
+    /// What a track does where it turns round: play in its drive, or soil that yields the other way.
+    fn of_turning_round(&mut self, turned: &[PerSide<f64>]) {
+        let [forward, left, yaw] = [0, 1, 2].map(|channel| self.along(channel));
+        self.add_each(Symmetry::Transient, &forward, |k| turned[k].right + turned[k].left);
+        for of in [left, yaw] {
+            self.add_each(Symmetry::Transient, &of, |k| turned[k].right - turned[k].left);
+        }
+    }
+}
+
+fn direction(sample: &Sample) -> f64 {
+    sign(sample.speeds.left + sample.speeds.right)
+}
+
+fn turn(sample: &Sample) -> f64 {
+    sign(sample.speeds.right - sample.speeds.left)
+}
+
+fn is(sample: &Sample, manoeuvre: Manoeuvre) -> f64 {
+    if Manoeuvre::of(sample) == manoeuvre { 1.0 } else { 0.0 }
 }
 
 /// Part of the fastest speed from which on a track counts as running.

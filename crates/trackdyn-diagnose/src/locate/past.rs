@@ -17,7 +17,7 @@ const PRESENT: &[Symmetry] =
 /// The departures of a, h and y by what the tracks did before, not whitened.
 pub fn contrasts(
     evidence: &Evidence,
-    [middle, half, y]: [&[Vector3<f64>]; 3],
+    [middle, half, y]: &[Vec<Vector3<f64>>; 3],
 ) -> Option<Contrasts> {
     let mut columns: Vec<Vec<Vector3<f64>>> = Vec::new();
     for seconds in MEMORIES {

@@ -11,7 +11,7 @@
 use super::IcrColumns;
 use super::contrasts::middle_half_y;
 use crate::evidence::{Evidence, Sample};
-use crate::metric::Metric;
+use crate::huber;
 use crate::significance::{Group, Test, test_family};
 use nalgebra::{DMatrix, DVector, Vector2, Vector3};
 use rayon::prelude::*;
@@ -44,7 +44,6 @@ const FINENESS: f64 = 1.3;
 /// `residual` and the columns `beside` are whitened, `icrs` are not.
 pub fn strongest_wave(
     evidence: &Evidence,
-    metric: &Metric,
     residual: &[Vector3<f64>],
     beside: &[Vec<Vector3<f64>>],
     icrs: &IcrColumns,
@@ -60,7 +59,7 @@ pub fn strongest_wave(
         .par_iter()
         .map(|number| {
             let columns = columns(evidence, &departures, *number);
-            weighted.group(&columns.map(|column| metric.white(evidence, column)))
+            weighted.group(&columns.map(|column| evidence.white(column)))
         })
         .collect();
     let tests = test_family(&groups, draws, seed);
@@ -135,7 +134,7 @@ struct Weighted {
 
 impl Weighted {
     fn new(evidence: &Evidence, residual: &[Vector3<f64>], beside: &[Vec<Vector3<f64>>]) -> Self {
-        let weights = Metric::weights(residual);
+        let weights = huber::weights(residual);
         let roots: Vec<f64> = weights.into_iter().map(f64::sqrt).collect();
         let flat = |column: &[Vector3<f64>]| {
             let values = column.iter().zip(&roots).flat_map(|(value, root)| {

@@ -1,6 +1,6 @@
 //! Ground that changes with place, heading or time.
 
-use super::{TASK, minus, single};
+use super::{TASK, single};
 use crate::evidence::{Evidence, Sample};
 use crate::surface::Surface;
 use rayon::prelude::*;
@@ -62,7 +62,7 @@ pub fn by_ground(
     samples
         .map(|sample| {
             let (speeds, at) = (drive.driven(sample.speeds), circumstance(sample));
-            let nothing = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
+            let nothing = Twist::zero();
             // beside a patch forces are those of level ground
             if probed(with, &at, speeds) == probed(without, &Circumstance::default(), speeds) {
                 return nothing;
@@ -73,7 +73,7 @@ pub fn by_ground(
             let here = Stationary::from_start(with, &at, near).solve(speeds);
             let usable = |status: Status| status != Status::NotConverged;
             if usable(here.status) && usable(there.status) {
-                minus(&here.twist, &there.twist)
+                here.twist - there.twist
             } else {
                 nothing
             }

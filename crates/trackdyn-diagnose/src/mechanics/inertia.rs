@@ -6,7 +6,7 @@
 
 use super::belts::{lagging, smooth};
 use super::sheared::{self, Without};
-use super::{coarse, minus, motion_over, plus};
+use super::{coarse, motion_over};
 use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::{Unknown, active, find, typical_size, value, with_friction};
 use crate::surface::Surface;
@@ -157,10 +157,10 @@ impl InertiaNear {
         for (by, change) in self.at.changes(case.vehicle, case.model.effects()) {
             match self.slope(by) {
                 Some(slope) if change.abs() <= within.known * size(by, case.vehicle) => {
-                    let still = || vec![Twist { v_x: 0.0, v_y: 0.0, w: 0.0 }; slope.change.len()];
+                    let still = || vec![Twist::zero(); slope.change.len()];
                     let sums = shift.get_or_insert_with(still);
                     for (sum, slope) in sums.iter_mut().zip(&slope.change) {
-                        *sum = plus(sum, &scaled(slope, change));
+                        *sum = *sum + *slope * change;
                     }
                 }
                 None if nearly(by, change) => {}
@@ -194,7 +194,7 @@ impl InertiaNear {
     /// and poses that are late, s.
     pub fn departure(&self, index: usize, sample: &Sample, drive: &Drive, delay: f64) -> Twist {
         let departure = self.at.departure(sample, delay + self.at.later(drive));
-        self.shift.as_ref().map_or(departure, |shift| plus(&departure, &shift[index]))
+        self.shift.as_ref().map_or(departure, |shift| departure + shift[index])
     }
 }
 
@@ -209,7 +209,7 @@ impl Slope {
         let there = Inertia::new(Vec::new(), &Case { model: &model, ..*case }).ok()?;
         let (there, here) = (departures(&there), departures(at));
         let change = there.iter().zip(&here);
-        let change = change.map(|(there, here)| scaled(&minus(there, here), step.recip()));
+        let change = change.map(|(there, here)| (*there - *here) * step.recip());
         Some(Self { by, at: Arc::clone(at), change: change.collect() })
     }
 }
@@ -276,10 +276,6 @@ fn are_same(known: &[ActiveEffect], effects: &[ActiveEffect]) -> bool {
 /// Geometric mean of the friction coefficients.
 fn level(vehicle: &Vehicle) -> f64 {
     (vehicle.friction.across * vehicle.friction.along).sqrt()
-}
-
-fn scaled(twist: &Twist, by: f64) -> Twist {
-    Twist { v_x: by * twist.v_x, v_y: by * twist.v_y, w: by * twist.w }
 }
 
 /// What inertia adds to the stationary motion.
@@ -396,7 +392,7 @@ impl Inertia {
             ros_twist_from_paper(&steady[reading])
         });
         let twist = |pose: &Pose| paper_twist_from_ros(&pose.log(sample.duration));
-        minus(&twist(&moved), &twist(&steady))
+        twist(&moved) - twist(&steady)
     }
 }
 

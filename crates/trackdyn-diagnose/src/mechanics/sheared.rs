@@ -20,7 +20,6 @@
 //! with G_a that without the laws. Where these lead nowhere either, as much of one step is taken as comes nearer to a balance:
 //! where a track nearly sticks a law may be steep, and the whole step lead far away.
 
-use super::{minus, plus};
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{PerSide, Twist};
 use trackdyn_motion::Forces;
@@ -47,7 +46,7 @@ pub struct Without<'a> {
 /// What the laws add to the twist (paper's frame) while each reading of a run holds. `forces` are those with and without
 /// the laws, `steady` is the stationary twist with them at each reading.
 pub fn departures([with, without]: [&Forces; 2], run: &Without, steady: &[Twist]) -> Vec<Twist> {
-    let still = Twist { v_x: 0.0, v_y: 0.0, w: 0.0 };
+    let still = Twist::zero();
     let mut departures = vec![still; run.belts.len()];
     let mut ended = Vector3::zeros();
     let mut inverse = None;
@@ -56,7 +55,7 @@ pub fn departures([with, without]: [&Forces; 2], run: &Without, steady: &[Twist]
         let [from, until] = [pair[0].t, pair[1].t];
         let speeds = PerSide::new(pair[0].v_left, pair[0].v_right);
         let (here, there) = (&steady[reading], &run.steady[reading]);
-        let shift = vector(&minus(here, there));
+        let shift = vector(&(*here - *there));
         // What the tables and rules of both leave of a stationary motion is no change of it.
         let rest = with.sum(speeds, here, &still) - without.sum(speeds, there, &still);
         let mut sum = Vector3::zeros();
@@ -96,7 +95,7 @@ impl Stage<'_> {
     /// The motion with something `added`, which was `base` before.
     fn moved(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> (Twist, Twist) {
         let faster = (added - base) * self.per_second;
-        (plus(&self.instant.twist, &twist_of(added)), plus(&self.instant.rate, &twist_of(&faster)))
+        (self.instant.twist + twist_of(added), self.instant.rate + twist_of(&faster))
     }
 
     /// By how much the forces are off balance, over the weight, and the moment over that times the gauge.

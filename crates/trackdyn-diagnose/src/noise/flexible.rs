@@ -6,7 +6,6 @@ use crate::fit::{Fit, derivatives};
 use crate::hypothesis::Unknown;
 use crate::locate::{contrasts, icr_columns};
 use crate::mechanics::{Instruments, Mechanics};
-use crate::metric::Metric;
 use crate::normal::{Columns, Normal};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -71,11 +70,11 @@ impl Flexible {
 
     /// What is left when all columns are fitted in the evidence's noise, or the fit's own where a recording is so short
     /// that all would leave less than half.
-    pub(super) fn left(&self, evidence: &Evidence, metric: &Metric) -> Left {
-        let white = |column: &Vec<Vector3<f64>>| metric.white(evidence, column.clone());
+    pub(super) fn left(&self, evidence: &Evidence) -> Left {
+        let white = |column: &Vec<Vector3<f64>>| evidence.white(column.clone());
         let mut residual = white(&self.residual);
         let columns: Vec<_> = self.columns.iter().map(white).collect();
-        let normal = metric.normal(evidence, &residual, &columns);
+        let normal = evidence.normal(&residual, &columns);
         let mut fitted = normal.independent();
         if 2 * fitted.len() > 3 * residual.len() {
             fitted.retain(|&column| column < self.own);

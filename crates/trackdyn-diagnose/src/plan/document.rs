@@ -1,6 +1,6 @@
 //! The plan as a file, schema `trackdyn.plan/1`.
 
-use super::{Answer, Options, Plan, measurement};
+use super::{Answer, Options, Plan, measurement, rounded};
 use serde::Serialize;
 use trackdyn_motion::kinematics::Source;
 use trackdyn_physics::CATALOGUE;
@@ -118,9 +118,4 @@ pub fn measurements(effects: impl IntoIterator<Item = usize>) -> Vec<&'static st
         }
     }
     all
-}
-
-/// To six decimals: what is below is rounding.
-fn rounded(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6
 }

@@ -7,7 +7,6 @@ use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, active, unknowns_of};
 use crate::mechanics::{Instruments, Mechanics, is_instrument};
-use crate::metric::Metric;
 use crate::search::{Catalogue, Search};
 use nalgebra::Vector3;
 use trackdyn_physics::{CATALOGUE, VehicleFile};
@@ -54,7 +53,7 @@ impl Rival {
     /// The others of the class, each at what mimics this one best on driving where this one acts.
     pub fn mimicked(&self, question: &Question, driving: &Evidence) -> Vec<Self> {
         let without = self.hypothesis.without(self.effect);
-        let metric = whole(&without, driving);
+        let driving = &weighed_coarsely(driving, &without);
         let vehicle = &self.hypothesis.vehicle;
         let instruments: Vec<usize> = (0..CATALOGUE.len())
             .filter(|effect| !question.members.contains(effect))
@@ -66,7 +65,7 @@ impl Rival {
             .collect();
         let mut nuisances = OFFSETS.to_vec();
         nuisances.extend(instruments.iter().copied().flat_map(unknowns_of));
-        let fit = Fit::new(without, &nuisances, driving, &metric, None);
+        let fit = Fit::new(without, &nuisances, driving, None);
         let calibration = Calibration::Vehicle;
         let base = Base { as_filed: fit.clone(), fit, nuisances, instruments, calibration };
         let others = question.members.iter().copied().filter(|member| *member != self.effect);
@@ -74,14 +73,9 @@ impl Rival {
             .map(|effect| {
                 let hypothesis = &base.fit.hypothesis;
                 let tried = variants(effect, driving);
-                let entries = Beside::new(hypothesis, driving, &metric).signatures(&tried);
+                let entries = Beside::new(hypothesis, driving).signatures(&tried);
                 let catalogue = Catalogue { entries };
-                let search = Search {
-                    evidence: driving,
-                    metric: &metric,
-                    base: &base,
-                    catalogue: &catalogue,
-                };
+                let search = Search { evidence: driving, base: &base, catalogue: &catalogue };
                 let nothing = search.nothing();
                 let best = search.screen(&nothing).into_iter().next();
                 let found = best.map_or(nothing.clone(), |best| search.refit(&nothing, &[best]));
@@ -91,14 +85,13 @@ impl Rival {
     }
 }
 
-/// A metric so coarse that no part of what an effect changes counts as an outlier: here it is what is looked for.
-fn whole(without: &Hypothesis, driving: &Evidence) -> Metric {
+/// The same driving so coarsely weighed that no part of what an effect changes counts as an outlier: here it is what is
+/// looked for.
+fn weighed_coarsely(driving: &Evidence, without: &Hypothesis) -> Evidence {
     /// Length of the longest residual.
     const LONGEST: f64 = 3.0;
-    let fine = Metric::default();
     let mechanics = Mechanics::new(without, driving);
-    let moves = mechanics.predict(&Instruments::of(without), driving);
-    let residual = fine.residual(driving, &moves);
+    let residual = driving.residual(&mechanics.predict(&Instruments::of(without), driving));
     let longest = residual.iter().map(Vector3::norm).fold(0.0, f64::max);
-    Metric { scale: [(longest / LONGEST).max(1.0); 3] }
+    driving.with_scale([(longest / LONGEST).max(1.0); 3])
 }

@@ -8,8 +8,7 @@ use super::rivals::Rival;
 use crate::evidence::Evidence;
 use crate::fit::columns;
 use crate::mechanics::Instruments;
-use crate::metric::Metric;
-use crate::normal::{Columns, Normal};
+use crate::normal::{Columns, Normal, Scaled};
 use crate::prior::prior;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
@@ -39,16 +38,9 @@ impl Pair {
         let prior = DMatrix::from_diagonal(&DVector::from_vec(precision));
         let all: Vec<usize> = (0..products.columns()).collect();
         let driven = products.information(&all);
-        let typical = squared(&total(products), &prior).sqrt();
+        let typical = squared(products.total(), &prior).sqrt();
         Self { of, prior, driven, typical }
     }
-}
-
-/// Products of all blocks; the difference stands last.
-pub fn total(products: &Normal) -> DMatrix<f64> {
-    let size = products.columns() + 1;
-    (0..products.blocks())
-        .fold(DMatrix::zeros(size, size), |sum, block| sum + products.block(block))
 }
 
 /// How the robot moves if a rival is the one.
@@ -60,7 +52,6 @@ struct Predicted {
 
 /// The products of differences and derivatives of each pair, block by block.
 pub fn products(pairs: &[[usize; 2]], rivals: &[Rival], evidence: &Evidence) -> Vec<Normal> {
-    let metric = Metric::default();
     let is_second = |k: usize| pairs.iter().any(|pair| pair[1] == k);
     let seen: Vec<Predicted> = rivals
         .par_iter()
@@ -70,7 +61,7 @@ pub fn products(pairs: &[[usize; 2]], rivals: &[Rival], evidence: &Evidence) -> 
             let moves = mechanics.predict(&Instruments::of(&rival.hypothesis), evidence);
             let derivatives = if is_second(k) {
                 let Rival { hypothesis, unknowns, .. } = rival;
-                columns(hypothesis, &mechanics, &moves, unknowns, evidence, &metric)
+                columns(hypothesis, &mechanics, &moves, unknowns, evidence)
             } else {
                 Vec::new()
             };
@@ -84,7 +75,7 @@ pub fn products(pairs: &[[usize; 2]], rivals: &[Rival], evidence: &Evidence) -> 
             let Predicted { moves, derivatives } = &seen[second];
             let difference = seen[first].moves.iter().zip(moves).map(|(a, b)| a - b).collect();
             Normal::new(&Columns {
-                residual: &metric.white(evidence, difference),
+                residual: &evidence.white(difference),
                 columns: derivatives,
                 weights: &vec![1.0; blocks.len()],
                 blocks: &blocks,
@@ -102,7 +93,7 @@ pub fn squared(products: &DMatrix<f64>, known: &DMatrix<f64>) -> f64 {
 
 /// z² of each block at the unknowns that suit all blocks together.
 pub fn shares(products: &Normal, known: &DMatrix<f64>) -> Vec<f64> {
-    let (estimate, _) = fitted(&total(products), known);
+    let (estimate, _) = fitted(products.total(), known);
     // (−θ, 1) on the products of a block.
     let mut factors = -estimate;
     factors = factors.push(1.0);
@@ -115,18 +106,9 @@ pub fn shares(products: &Normal, known: &DMatrix<f64>) -> Vec<f64> {
 fn fitted(products: &DMatrix<f64>, known: &DMatrix<f64>) -> (DVector<f64>, f64) {
     let count = known.nrows();
     let matrix = products.view((0, 0), (count, count)) + known;
-    let gradient = products.view((0, count), (count, 1));
-    let whole = products[(count, count)];
-    // Scaled so that columns of different units have the same size.
-    let scale = DVector::from_fn(count, |k, _| 1.0 / matrix[(k, k)].sqrt());
-    let scaled = DMatrix::from_fn(count, count, |a, b| matrix[(a, b)] * scale[a] * scale[b]);
-    let right = gradient.component_mul(&scale);
-    match scaled.cholesky() {
-        Some(cholesky) => {
-            let estimate = cholesky.solve(&right);
-            let remaining = (whole - right.dot(&estimate)).max(0.0);
-            (estimate.component_mul(&scale).column(0).into_owned(), remaining)
-        }
-        None => (DVector::zeros(count), 0.0),
-    }
+    let gradient: DVector<f64> = products.view((0, count), (count, 1)).column(0).into_owned();
+    let Some(factor) = Scaled::new(&matrix) else { return (DVector::zeros(count), 0.0) };
+    let estimate = factor.solve(&gradient);
+    let remaining = (products[(count, count)] - gradient.dot(&estimate)).max(0.0);
+    (estimate, remaining)
 }

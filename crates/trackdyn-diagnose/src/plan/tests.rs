@@ -54,7 +54,7 @@ fn a_clock_and_a_lag_differ_where_speeds_change_only() {
         speeds: vec![PerSide::new(0.3, 0.9); 30 * crate::evidence::planned::READINGS],
     };
     let products = class.products(&[run(&[&steady], 0.0, Pose::default())], &Options::default());
-    let z = squared(&total(&products[0]), &class.pairs[0].prior).sqrt();
+    let z = squared(products[0].total(), &class.pairs[0].prior).sqrt();
     // Far below what one pose resolves.
     assert!(z < 0.1, "{z}");
 }

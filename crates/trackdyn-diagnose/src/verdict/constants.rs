@@ -12,14 +12,14 @@ use trackdyn_physics::effect::Symmetry;
 use trackdyn_physics::{CATALOGUE, VehicleFile};
 
 /// Share of its own beyond constant ICRs below which an effect is of their class.
-const STATIC: f64 = 0.03;
+const NOTHING_ELSE: f64 = 0.03;
 
 /// The same below which it mostly moves these.
 const MOSTLY: f64 = 0.1;
 
 /// Effects that move the constant ICRs in all their variants, by their places in the catalogue, ascending.
 #[derive(Clone, Debug)]
-pub struct Statics {
+pub struct Constants {
     /// Those that move nothing else.
     pub only: Vec<usize>,
     /// Those that mostly do, the former among them.
@@ -29,41 +29,42 @@ pub struct Statics {
     class: Vec<usize>,
 }
 
-impl Statics {
+impl Constants {
+    /// The effects of whose signatures next to nothing is their own beyond constant ICRs.
+    pub fn of(search: &Search) -> Self {
+        let fit = &search.base.fit;
+        let entries: Vec<usize> = (0..search.catalogue.entries.len()).collect();
+        let (normal, known, groups) = search.normal(fit, &entries);
+        let offsets: Vec<usize> =
+            (0..fit.unknowns.len()).filter(|&k| OFFSETS.contains(&fit.unknowns[k])).collect();
+        let projected = normal.projected(&offsets, &known);
+        let within = |share: f64| {
+            let is_within = |group: &[usize]| {
+                group.iter().all(|&column| {
+                    let whole = normal.product(column, column);
+                    whole > 0.0 && projected.product(column, column) <= share * whole
+                })
+            };
+            let mut effects = BTreeMap::new();
+            for ((variant, _), group) in search.catalogue.entries.iter().zip(&groups) {
+                *effects.entry(variant.effect).or_insert(true) &= is_within(group);
+            }
+            effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
+        };
+        let only: Vec<usize> = within(NOTHING_ELSE);
+        let keeps = |effect: &usize| {
+            CATALOGUE[*effect].breaks.iter().all(|symmetry| *symmetry == Symmetry::Mirror)
+        };
+        let seen: Vec<usize> = within(f64::INFINITY);
+        let class =
+            seen.into_iter().filter(|effect| only.contains(effect) || keeps(effect)).collect();
+        Self { only, mostly: within(MOSTLY), class }
+    }
+
     /// Whether an effect mostly moves constant ICRs, and breaks no symmetry that they do not.
     pub(super) fn could_be_constant(&self, effect: usize) -> bool {
         self.mostly.contains(&effect) && self.class.contains(&effect)
     }
-}
-
-/// The effects of whose signatures next to nothing is their own beyond constant ICRs.
-pub fn statics(search: &Search) -> Statics {
-    let fit = &search.base.fit;
-    let entries: Vec<usize> = (0..search.catalogue.entries.len()).collect();
-    let (normal, known, groups) = search.normal(fit, &entries);
-    let offsets: Vec<usize> =
-        (0..fit.unknowns.len()).filter(|&k| OFFSETS.contains(&fit.unknowns[k])).collect();
-    let projected = normal.projected(&offsets, &known);
-    let within = |share: f64| {
-        let is_static = |group: &[usize]| {
-            group.iter().all(|&column| {
-                let whole = normal.product(column, column);
-                whole > 0.0 && projected.product(column, column) <= share * whole
-            })
-        };
-        let mut effects = BTreeMap::new();
-        for ((variant, _), group) in search.catalogue.entries.iter().zip(&groups) {
-            *effects.entry(variant.effect).or_insert(true) &= is_static(group);
-        }
-        effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
-    };
-    let only: Vec<usize> = within(STATIC);
-    let keeps = |effect: &usize| {
-        CATALOGUE[*effect].breaks.iter().all(|symmetry| *symmetry == Symmetry::Mirror)
-    };
-    let seen: Vec<usize> = within(f64::INFINITY);
-    let class = seen.into_iter().filter(|effect| only.contains(effect) || keeps(effect)).collect();
-    Statics { only, mostly: within(MOSTLY), class }
 }
 
 /// The best hypothesis with the vehicle as filed, no offset, and no effect that mostly stands for one but what is claimed;
@@ -71,13 +72,14 @@ pub fn statics(search: &Search) -> Statics {
 fn as_filed(
     search: &Search,
     best: &Found,
-    statics: &Statics,
+    constants: &Constants,
     file: &VehicleFile,
     claimed: &[usize],
 ) -> (Hypothesis, Vec<Unknown>) {
     let base = &search.base.fit.hypothesis;
-    let is_static = |effect: &usize| statics.mostly.contains(effect) && !claimed.contains(effect);
-    let added: Vec<usize> = best.effects.iter().copied().filter(is_static).collect();
+    let is_dropped =
+        |effect: &usize| constants.mostly.contains(effect) && !claimed.contains(effect);
+    let added: Vec<usize> = best.effects.iter().copied().filter(is_dropped).collect();
     let without = added.iter().fold(best.fit.hypothesis.clone(), |hypothesis, &effect| {
         hypothesis.with_effect_of(base, effect)
     });
@@ -94,12 +96,12 @@ fn as_filed(
 pub(super) fn departure(
     search: &Search,
     best: &Found,
-    statics: &Statics,
+    constants: &Constants,
     file: &VehicleFile,
 ) -> f64 {
-    let (filed, fixed) = as_filed(search, best, statics, file, &[]);
+    let (filed, fixed) = as_filed(search, best, constants, file, &[]);
     let before = Some(&best.fit.mechanics);
-    let dropped = Fit::new(filed, &fixed, search.evidence, search.metric, before);
+    let dropped = Fit::new(filed, &fixed, search.evidence, before);
     (dropped.objective - best.fit.objective).max(0.0).sqrt()
 }
 
@@ -121,19 +123,19 @@ fn as_good_as_filed(free: &Fit) -> Option<String> {
 pub fn judge_constants(
     search: &Search,
     best: &Found,
-    statics: &Statics,
+    constants: &Constants,
     file: &VehicleFile,
     claimed: &[usize],
     draws: usize,
     seed: u64,
 ) -> Option<Verdict> {
-    let (filed, fixed) = as_filed(search, best, statics, file, claimed);
+    let (filed, fixed) = as_filed(search, best, constants, file, claimed);
     let evidence = search.evidence;
     let before = Some(&best.fit.mechanics);
-    let dropped = Fit::new(filed.clone(), &fixed, evidence, search.metric, before);
+    let dropped = Fit::new(filed.clone(), &fixed, evidence, before);
     let moving: Vec<Unknown> = OFFSETS.iter().chain(&fixed).copied().collect();
-    let free = Fit::new(filed.clone(), &moving, evidence, search.metric, before);
-    let ln_bayes_factor = free.ln_evidence(evidence) - dropped.ln_evidence(evidence);
+    let free = Fit::new(filed.clone(), &moving, evidence, before);
+    let ln_bayes_factor = free.ln_evidence() - dropped.ln_evidence();
     let z = (dropped.objective - free.objective).max(0.0).sqrt();
     if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
         return None;
@@ -143,7 +145,7 @@ pub fn judge_constants(
         z,
         ..Support::of_columns(search, &free, &[0, 1, 2], &free.hypothesis.offset, draws, seed)
     };
-    let refused = refusal(&support, z, 0.0).or_else(|| as_good_as_filed(&free));
+    let refused = refusal(&support, 0.0).or_else(|| as_good_as_filed(&free));
     // What the owner measured can have moved within its uncertainty only: is that enough?
     let can = |effect: &usize| {
         if unknowns_of(*effect).all(|unknown| measured(&file.vehicle, unknown).is_none()) {
@@ -152,12 +154,12 @@ pub fn judge_constants(
         let unknowns: Vec<Unknown> = fixed.iter().copied().chain(unknowns_of(*effect)).collect();
         let none: Vec<f64> = CATALOGUE[*effect].parameters.iter().map(neutral).collect();
         let start = filed.with_effect(active(*effect, &none));
-        let fit = Fit::new(start, &unknowns, evidence, search.metric, before);
+        let fit = Fit::new(start, &unknowns, evidence, before);
         // Each unknown fewer than the three constants is worth two: chance alone gives one half.
         let fewer = OFFSETS.len().saturating_sub(unknowns_of(*effect).count());
         (fit.objective - free.objective) / 2.0 < Rules::SAME + 2.0 * real(fewer)
     };
-    let one_of: Vec<usize> = statics.class.iter().copied().filter(can).collect();
+    let one_of: Vec<usize> = constants.class.iter().copied().filter(can).collect();
     let effect = *one_of.first()?;
     Some(Verdict { effect, one_of, support, refused })
 }

@@ -1,6 +1,7 @@
 //! Encoders and pose sensor that are not what the vehicle file says.
 
-use super::{RIVALS, Rules, Support, Verdict, is_rival, refusal};
+use super::rivals::{RIVALS, is_rival};
+use super::{Rules, Support, Verdict, refusal};
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, typical};
 use crate::mechanics::is_instrument;
@@ -49,7 +50,7 @@ pub fn judge_instruments(search: &Search, best: &Found, draws: usize, seed: u64)
             z,
             ..Support::of_columns(search, fit, &columns, &parts, draws, seed)
         };
-        let refused = refusal(&support, z, *laws);
+        let refused = refusal(&support, *laws);
         verdicts.push(Verdict { effect, one_of, support, refused });
     }
     verdicts
@@ -60,8 +61,8 @@ fn without_instrument(search: &Search, best: &Found, effect: usize) -> Found {
     let hypothesis = best.fit.hypothesis.with_effect_of(&search.base.as_filed.hypothesis, effect);
     let unknowns = best.fit.unknowns_without(effect);
     let before = Some(&best.fit.mechanics);
-    let fit = Fit::new(hypothesis, &unknowns, search.evidence, search.metric, before);
-    Found { effects: best.effects.clone(), ln_evidence: fit.ln_evidence(search.evidence), fit }
+    let fit = Fit::new(hypothesis, &unknowns, search.evidence, before);
+    Found { effects: best.effects.clone(), ln_evidence: fit.ln_evidence(), fit }
 }
 
 /// The best hypothesis without any law of forces.
@@ -75,5 +76,5 @@ fn without_laws(search: &Search, best: &Found) -> Fit {
         Unknown::Offset(_) | Unknown::FrictionLevel | Unknown::Cog(_) => true,
     };
     let unknowns: Vec<Unknown> = unknowns.iter().copied().filter(is_left).collect();
-    Fit::new(hypothesis, &unknowns, search.evidence, search.metric, Some(&best.fit.mechanics))
+    Fit::new(hypothesis, &unknowns, search.evidence, Some(&best.fit.mechanics))
 }

@@ -10,7 +10,6 @@ use trackdyn_diagnose::base::Base;
 use trackdyn_diagnose::candidate::{Beside, variants};
 use trackdyn_diagnose::evidence::{Evidence, Sample};
 use trackdyn_diagnose::locate::{IcrColumns, icr_columns};
-use trackdyn_diagnose::metric::Metric;
 use trackdyn_diagnose::normal::{Normal, Prior};
 use trackdyn_diagnose::prior::priors;
 use trackdyn_physics::{CATALOGUE, VehicleFile};
@@ -26,8 +25,6 @@ const TYPICAL: [f64; 2] = [0.03, 0.02];
 pub struct Library {
     /// The recording.
     pub evidence: Evidence,
-    /// Its metric.
-    pub metric: Metric,
     /// What is free in every hypothesis.
     pub base: Vec<Vec<Vector3<f64>>>,
     /// The signatures of the catalogue.
@@ -55,13 +52,12 @@ impl Library {
         let recording = synthetic.recording().expect("long enough");
         let file = VehicleFile::auriga_alpha();
         let evidence = Evidence::of_recording(&recording, file.vehicle.gauge).expect("enough");
-        let metric = Metric::default();
-        let Base { fit, instruments, .. } = Base::new(&file, &evidence, &metric);
+        let Base { fit, instruments, .. } = Base::new(&file, &evidence);
         let tried: Vec<_> = (0..CATALOGUE.len())
             .filter(|effect| !instruments.contains(effect))
             .flat_map(|effect| variants(effect, &evidence))
             .collect();
-        let entries = Beside::new(&fit.hypothesis, &evidence, &metric).signatures(&tried);
+        let entries = Beside::new(&fit.hypothesis, &evidence).signatures(&tried);
         let (mut candidates, mut groups) = (Vec::new(), Vec::new());
         for (_, signatures) in entries {
             let first = candidates.len();
@@ -72,27 +68,27 @@ impl Library {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let placebos = (0..PLACEBOS).map(|place| {
             let column = placebo(place, &evidence, &icrs, &mut random);
-            metric.white(&evidence, column)
+            evidence.white(column)
         });
         let placebos = placebos.collect();
         let known = priors(&fit.hypothesis, &fit.unknowns, &evidence);
-        Self { metric, base: fit.columns, candidates, groups, placebos, known, evidence }
+        Self { base: fit.columns, candidates, groups, placebos, known, evidence }
     }
 
-    /// The normal equations of a residual that is scaled by this metric, with the base and more columns that
+    /// The normal equations of a residual that is scaled by this, with the base and more columns that
     /// are not.
     pub fn normal(
         &self,
-        metric: &Metric,
+        scale: [f64; 3],
         residual: &[Vector3<f64>],
         more: &[Vec<Vector3<f64>>],
     ) -> Normal {
-        let scale = Vector3::from(metric.scale);
+        let scale = Vector3::from(scale);
         let scaled = |column: &Vec<Vector3<f64>>| -> Vec<Vector3<f64>> {
             column.iter().map(|value| value.component_div(&scale)).collect()
         };
         let columns: Vec<Vec<Vector3<f64>>> = self.base.iter().chain(more).map(scaled).collect();
-        metric.normal(&self.evidence, residual, &columns)
+        self.evidence.normal(residual, &columns)
     }
 
     /// What is known of the base and of so many columns more, of three typical sizes each.

@@ -12,10 +12,10 @@
 //! unit. They are computed at a few hundred places and are known everywhere else, to rounding.
 
 use super::chebyshev::{Axis, Surface, places};
-use super::cost::{LANES, Lane};
 use crate::observations::{Observation, Observations, Piece};
 use crate::parameters::{COUNT, Free, Parameters};
 use crate::prediction::arc;
+use crate::prediction::batch::{Batch, LANES, Lane};
 use rayon::prelude::*;
 
 /// Σ|P|², Σ|E|², Re Σ ō P, Σ ō E and Σ P̄ E, with the observed position o; the last two have two parts each.
@@ -51,15 +51,14 @@ impl Form {
         if places.len() > most {
             return None;
         }
-        let batches: Vec<Batch> =
-            observations.segments().chunks(LANES).map(|s| Batch::new(observations, s)).collect();
+        let batches = Batch::all(observations);
         let values: Vec<[f64; FACTORS]> = places
             .into_par_iter()
             .map(|place| {
                 let turn = turn(free, place);
                 let mut sums = [[0.0; LANES]; FACTORS];
                 for batch in &batches {
-                    batch.add(turn, &mut sums);
+                    add(batch, turn, &mut sums);
                 }
                 sums.map(|lanes| lanes.iter().sum())
             })
@@ -119,63 +118,38 @@ fn axes(observations: &Observations, free: Free, ranges: &[[f64; 2]; COUNT]) -> 
     }
 }
 
-/// Segments side by side; the shorter ones are filled up with pieces in which nothing moves.
-struct Batch {
-    /// Distances that the left and the right track run in each piece, m.
-    pieces: Vec<[Lane; 2]>,
-    /// Observed position, m; where no segment is, nothing moved.
-    observed: [Lane; 2],
-}
-
-impl Batch {
-    fn new(observations: &Observations, segments: &[Observation]) -> Self {
-        let pieces = |lane: usize| segments.get(lane).map_or(&[][..], |s| observations.pieces(s));
-        let longest = (0..LANES).map(|lane| pieces(lane).len()).max().unwrap_or(0);
-        let column = |k: usize, of: fn(&Piece) -> f64| -> Lane {
-            std::array::from_fn(|lane| pieces(lane).get(k).map_or(0.0, of))
-        };
-        let of = |k: usize| {
-            [column(k, |p| p.duration * p.v_left), column(k, |p| p.duration * p.v_right)]
-        };
-        let observed = |channel: usize| {
-            std::array::from_fn(|lane| segments.get(lane).map_or(0.0, |s| s.motion[channel]))
-        };
-        Self { pieces: (0..longest).map(of).collect(), observed: [observed(0), observed(1)] }
-    }
-
-    /// Adds what the segments contribute to the factors.
-    fn add(&self, [a, b]: [f64; 2], sums: &mut [Lane; FACTORS]) {
-        let (mut ahead, mut aside) = ([0.0; LANES], [0.0; LANES]);
-        let (mut cos, mut sin) = ([1.0; LANES], [0.0; LANES]);
-        for [left, right] in &self.pieces {
-            for lane in 0..LANES {
-                let angle = b * right[lane] - a * left[lane];
-                let (s, c) = arc(angle);
-                // P of the piece: V_l dt e^{iψ} (s + i c), with ψ at its start
-                ahead[lane] += left[lane] * (cos[lane] * s - sin[lane] * c);
-                aside[lane] += left[lane] * (sin[lane] * s + cos[lane] * c);
-                let (sin_a, cos_a) = (s * angle, 1.0 - c * angle);
-                (cos[lane], sin[lane]) =
-                    (cos[lane] * cos_a - sin[lane] * sin_a, sin[lane] * cos_a + cos[lane] * sin_a);
-            }
-        }
-        let [forward, leftward] = &self.observed;
+/// Adds what the segments of a batch contribute to the factors.
+fn add(batch: &Batch, [a, b]: [f64; 2], sums: &mut [Lane; FACTORS]) {
+    let (mut ahead, mut aside) = ([0.0; LANES], [0.0; LANES]);
+    let (mut cos, mut sin) = ([1.0; LANES], [0.0; LANES]);
+    for [left, right] in &batch.pieces {
         for lane in 0..LANES {
-            let (p, p_i) = (ahead[lane], aside[lane]);
-            let (e, e_i) = (sin[lane], 1.0 - cos[lane]);
-            let (o, o_i) = (forward[lane], leftward[lane]);
-            let products = [
-                p * p + p_i * p_i,
-                e * e + e_i * e_i,
-                o * p + o_i * p_i,
-                o * e + o_i * e_i,
-                o * e_i - o_i * e,
-                p * e + p_i * e_i,
-                p * e_i - p_i * e,
-            ];
-            for (sum, product) in sums.iter_mut().zip(products) {
-                sum[lane] += product;
-            }
+            let angle = b * right[lane] - a * left[lane];
+            let (s, c) = arc(angle);
+            // P of the piece: V_l dt e^{iψ} (s + i c), with ψ at its start
+            ahead[lane] += left[lane] * (cos[lane] * s - sin[lane] * c);
+            aside[lane] += left[lane] * (sin[lane] * s + cos[lane] * c);
+            let (sin_a, cos_a) = (s * angle, 1.0 - c * angle);
+            (cos[lane], sin[lane]) =
+                (cos[lane] * cos_a - sin[lane] * sin_a, sin[lane] * cos_a + cos[lane] * sin_a);
+        }
+    }
+    let [forward, leftward, _] = &batch.observed;
+    for lane in 0..LANES {
+        let (p, p_i) = (ahead[lane], aside[lane]);
+        let (e, e_i) = (sin[lane], 1.0 - cos[lane]);
+        let (o, o_i) = (forward[lane], leftward[lane]);
+        let products = [
+            p * p + p_i * p_i,
+            e * e + e_i * e_i,
+            o * p + o_i * p_i,
+            o * e + o_i * e_i,
+            o * e_i - o_i * e,
+            p * e + p_i * e_i,
+            p * e_i - p_i * e,
+        ];
+        for (sum, product) in sums.iter_mut().zip(products) {
+            sum[lane] += product;
         }
     }
 }

@@ -1,7 +1,6 @@
-//! Uncertainty from the scatter between blocks of consecutive segments.
+//! Covariance from the scatter between blocks of consecutive segments.
 
 use nalgebra::{DMatrix, DVector};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 use trackdyn_core::real;
 
 /// Covariance of an estimate by leaving out each block: (B − 1)/B Σ δᵦ δᵦᵀ, with the change
@@ -22,42 +21,4 @@ pub fn jackknife(curvature: &DMatrix<f64>, parts: &[(DMatrix<f64>, DVector<f64>)
     });
     let blocks = real(parts.len());
     scatter * ((blocks - 1.0) / blocks)
-}
-
-/// A number with its 95 % interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interval {
-    /// The estimate.
-    pub value: f64,
-    /// Its standard deviation.
-    pub deviation: f64,
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
-}
-
-impl Interval {
-    /// Student's interval of a number by the numbers with one block left out each; none with fewer than two.
-    ///
-    /// σ² = (B − 1)/B Σ (θ₋ᵦ − θ̄)²
-    pub(crate) fn of_jackknife(value: f64, without: &[f64]) -> Option<Self> {
-        if without.len() < 2 {
-            return None;
-        }
-        let blocks = real(without.len());
-        let mean = without.iter().sum::<f64>() / blocks;
-        let scatter: f64 = without.iter().map(|value| (value - mean).powi(2)).sum();
-        let deviation = (scatter * (blocks - 1.0) / blocks).sqrt();
-        Some(Self::new(value, deviation, without.len(), 1)).filter(|_| deviation.is_finite())
-    }
-
-    /// Student's interval with as many degrees of freedom as blocks exceed parameters.
-    pub fn new(value: f64, deviation: f64, blocks: usize, parameters: usize) -> Self {
-        let freedom = real(blocks.saturating_sub(parameters).max(1));
-        let quantile =
-            StudentsT::new(0.0, 1.0, freedom).map_or(1.96, |student| student.inverse_cdf(0.975));
-        let half = quantile * deviation;
-        Self { value, deviation, low: value - half, high: value + half }
-    }
 }

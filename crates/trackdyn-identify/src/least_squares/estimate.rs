@@ -1,11 +1,10 @@
 //! What a fit says: values, intervals, and what they are worth.
 
 use super::Unknowns;
-use super::covariance::Interval;
 use crate::parameters::{COUNT, Parameters};
 use crate::sensor::{Nuisance, Sensor};
 use nalgebra::{DMatrix, DVector};
-use trackdyn_recording::Blocks;
+use trackdyn_recording::{Blocks, Interval};
 
 /// Fitted parameters.
 #[derive(Clone, Debug)]

@@ -9,14 +9,12 @@
 //! so that ∂P/∂a = −i ∫ V_l L e^{iψ} dt and ∂P/∂b = i ∫ V_l R e^{iψ} dt are all that pieces are needed for;
 //! the derivatives by the parameters follow once per segment.
 
+use super::batch::{Batch, LANES};
 use super::series::{arc, moment};
 use super::{Prediction, predict};
-use crate::observations::{Observation, Observations, Piece};
+use crate::observations::{Observation, Observations};
 use crate::parameters::{COUNT, Parameters};
 use rayon::prelude::*;
-
-/// Segments that are computed side by side, for the compiler to put into vector registers.
-const LANES: usize = 4;
 
 /// Batches that one thread takes at least: fewer cost more to hand over than to compute.
 const FEWEST: usize = 64;
@@ -24,32 +22,16 @@ const FEWEST: usize = 64;
 /// Angle of a piece, rad, up to which the series are exact to rounding.
 const SERIES: f64 = 0.8;
 
-/// One number per segment of a batch.
-type Lane = [f64; LANES];
-
 /// The segments of a recording, to be predicted again and again.
 pub struct Lanes<'a> {
     observations: &'a Observations,
     batches: Vec<Batch>,
 }
 
-/// Segments side by side; the shorter ones are filled up with pieces in which nothing moves.
-struct Batch {
-    /// Distances that the left and the right track run in each piece, m.
-    pieces: Vec<[Lane; 2]>,
-    segments: std::ops::Range<usize>,
-}
-
 impl<'a> Lanes<'a> {
     /// The segments of these observations.
     pub fn new(observations: &'a Observations) -> Self {
-        let all = observations.segments();
-        let starts = (0..all.len()).step_by(LANES);
-        let batches = starts.map(|start| {
-            let segments = start..(start + LANES).min(all.len());
-            Batch::new(observations, &all[segments.clone()], segments)
-        });
-        Self { observations, batches: batches.collect() }
+        Self { observations, batches: Batch::all(observations) }
     }
 
     /// The observations whose segments these are.
@@ -62,8 +44,9 @@ impl<'a> Lanes<'a> {
         let batches: Vec<[Prediction; LANES]> = self
             .batches
             .par_iter()
+            .zip(self.observations.segments().par_chunks(LANES))
             .with_min_len(FEWEST)
-            .map(|batch| batch.predict(parameters, self.observations))
+            .map(|(batch, segments)| predicted(batch, segments, parameters, self.observations))
             .collect();
         let mut predictions = batches.into_flattened();
         predictions.truncate(self.observations.len());
@@ -71,86 +54,74 @@ impl<'a> Lanes<'a> {
     }
 }
 
-impl Batch {
-    fn new(
-        observations: &Observations,
-        of: &[Observation],
-        segments: std::ops::Range<usize>,
-    ) -> Self {
-        let pieces = |lane: usize| of.get(lane).map_or(&[][..], |s| observations.pieces(s));
-        let longest = (0..LANES).map(|lane| pieces(lane).len()).max().unwrap_or(0);
-        let column = |k: usize, way: fn(&Piece) -> f64| -> Lane {
-            std::array::from_fn(|lane| pieces(lane).get(k).map_or(0.0, way))
-        };
-        let ways = |k: usize| {
-            [column(k, |p| p.duration * p.v_left), column(k, |p| p.duration * p.v_right)]
-        };
-        Self { pieces: (0..longest).map(ways).collect(), segments }
-    }
-
-    fn predict(&self, parameters: &Parameters, observations: &Observations) -> [Prediction; LANES] {
-        let [x_l, x_r, y, alpha_l, alpha_r] = parameters.0;
-        let per_gap = 1.0 / (x_r - x_l);
-        let (a, b) = (alpha_l * per_gap, alpha_r * per_gap);
-        let mut steepest = [0.0_f64; LANES];
-        // Real and imaginary parts of P, ∫ V_l L e^{iψ} dt, ∫ V_l R e^{iψ} dt
-        let mut sums = [[0.0; LANES]; 6];
-        let (mut left, mut right) = ([0.0; LANES], [0.0; LANES]);
-        let (mut cos, mut sin) = ([1.0; LANES], [0.0; LANES]);
-        for [step_left, step_right] in &self.pieces {
-            for lane in 0..LANES {
-                let (l, r) = (step_left[lane], step_right[lane]);
-                let angle = b * r - a * l;
-                steepest[lane] =
-                    if angle.abs() > steepest[lane] { angle.abs() } else { steepest[lane] };
-                let (s, c) = arc(angle);
-                let (u, v) = moment(angle);
-                let (re, im) = (cos[lane], sin[lane]);
-                let (p, p_i) = (l * (re * s - im * c), l * (re * c + im * s));
-                let (m, m_i) = (l * (re * u - im * v), l * (re * v + im * u));
-                sums[0][lane] += p;
-                sums[1][lane] += p_i;
-                sums[2][lane] += left[lane] * p + l * m;
-                sums[3][lane] += left[lane] * p_i + l * m_i;
-                sums[4][lane] += right[lane] * p + r * m;
-                sums[5][lane] += right[lane] * p_i + r * m_i;
-                left[lane] += l;
-                right[lane] += r;
-                let (sin_a, cos_a) = (s * angle, 1.0 - c * angle);
-                cos[lane] = re * cos_a - im * sin_a;
-                sin[lane] = im * cos_a + re * sin_a;
-            }
-        }
-        if steepest.iter().any(|angle| *angle > SERIES) {
-            return std::array::from_fn(|lane| {
-                let segments = observations.segments()[self.segments.clone()].get(lane);
-                predict(parameters, segments.map_or(&[], |s| observations.pieces(s)))
-            });
-        }
-        std::array::from_fn(|lane| {
-            let [p, p_i, pl, pl_i, pr, pr_i] = sums.map(|sum| sum[lane]);
-            let (l, r, re, im) = (left[lane], right[lane], cos[lane], sin[lane]);
-            let (e, e_i) = (im, 1.0 - re);
-            // (x_l + i y) e^{iΨ}
-            let (z, z_i) = (x_l * re - y * im, x_l * im + y * re);
-            // ∂p/∂a and ∂p/∂b
-            let (pa, pa_i) = (alpha_l * pl_i + z * l, z_i * l - alpha_l * pl);
-            let (pb, pb_i) = (-alpha_l * pr_i - z * r, alpha_l * pr - z_i * r);
-            // what a change of x_r − x_l does
+/// The predictions of a batch, whose segments are these.
+fn predicted(
+    batch: &Batch,
+    segments: &[Observation],
+    parameters: &Parameters,
+    observations: &Observations,
+) -> [Prediction; LANES] {
+    let [x_l, x_r, y, alpha_l, alpha_r] = parameters.0;
+    let per_gap = 1.0 / (x_r - x_l);
+    let (a, b) = (alpha_l * per_gap, alpha_r * per_gap);
+    let mut steepest = [0.0_f64; LANES];
+    // Real and imaginary parts of P, ∫ V_l L e^{iψ} dt, ∫ V_l R e^{iψ} dt
+    let mut sums = [[0.0; LANES]; 6];
+    let (mut left, mut right) = ([0.0; LANES], [0.0; LANES]);
+    let (mut cos, mut sin) = ([1.0; LANES], [0.0; LANES]);
+    for [step_left, step_right] in &batch.pieces {
+        for lane in 0..LANES {
+            let (l, r) = (step_left[lane], step_right[lane]);
             let angle = b * r - a * l;
-            let gap = [a * pa + b * pb, a * pa_i + b * pb_i, angle].map(|by| by * per_gap);
-            let sensitivity: [[f64; 3]; COUNT] = [
-                [gap[0] - e, gap[1] - e_i, gap[2]],
-                gap.map(|by| -by),
-                [e_i, -e, 0.0],
-                [p + per_gap * pa, p_i + per_gap * pa_i, -l * per_gap],
-                [per_gap * pb, per_gap * pb_i, r * per_gap],
-            ];
-            let forward = alpha_l * p - x_l * e + y * e_i;
-            let leftward = alpha_l * p_i - x_l * e_i - y * e;
-            Prediction { motion: [forward, leftward, angle], sensitivity }
-        })
+            steepest[lane] =
+                if angle.abs() > steepest[lane] { angle.abs() } else { steepest[lane] };
+            let (s, c) = arc(angle);
+            let (u, v) = moment(angle);
+            let (re, im) = (cos[lane], sin[lane]);
+            let (p, p_i) = (l * (re * s - im * c), l * (re * c + im * s));
+            let (m, m_i) = (l * (re * u - im * v), l * (re * v + im * u));
+            sums[0][lane] += p;
+            sums[1][lane] += p_i;
+            sums[2][lane] += left[lane] * p + l * m;
+            sums[3][lane] += left[lane] * p_i + l * m_i;
+            sums[4][lane] += right[lane] * p + r * m;
+            sums[5][lane] += right[lane] * p_i + r * m_i;
+            left[lane] += l;
+            right[lane] += r;
+            let (sin_a, cos_a) = (s * angle, 1.0 - c * angle);
+            cos[lane] = re * cos_a - im * sin_a;
+            sin[lane] = im * cos_a + re * sin_a;
+        }
     }
+    if steepest.iter().any(|angle| *angle > SERIES) {
+        return std::array::from_fn(|lane| {
+            let segment = segments.get(lane);
+            predict(parameters, segment.map_or(&[], |s| observations.pieces(s)))
+        });
+    }
+    std::array::from_fn(|lane| {
+        let [p, p_i, pl, pl_i, pr, pr_i] = sums.map(|sum| sum[lane]);
+        let (l, r, re, im) = (left[lane], right[lane], cos[lane], sin[lane]);
+        let (e, e_i) = (im, 1.0 - re);
+        // (x_l + i y) e^{iΨ}
+        let (z, z_i) = (x_l * re - y * im, x_l * im + y * re);
+        // ∂p/∂a and ∂p/∂b
+        let (pa, pa_i) = (alpha_l * pl_i + z * l, z_i * l - alpha_l * pl);
+        let (pb, pb_i) = (-alpha_l * pr_i - z * r, alpha_l * pr - z_i * r);
+        // what a change of x_r − x_l does
+        let angle = b * r - a * l;
+        let gap = [a * pa + b * pb, a * pa_i + b * pb_i, angle].map(|by| by * per_gap);
+        let sensitivity: [[f64; 3]; COUNT] = [
+            [gap[0] - e, gap[1] - e_i, gap[2]],
+            gap.map(|by| -by),
+            [e_i, -e, 0.0],
+            [p + per_gap * pa, p_i + per_gap * pa_i, -l * per_gap],
+            [per_gap * pb, per_gap * pb_i, r * per_gap],
+        ];
+        let forward = alpha_l * p - x_l * e + y * e_i;
+        let leftward = alpha_l * p_i - x_l * e_i - y * e;
+        Prediction { motion: [forward, leftward, angle], sensitivity }
+    })
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@
 
 use trackdyn_recording::OperatingPoint;
 use trackdyn_recording::operating_points::line_triples;
-use trackdyn_recording::robust::NORMAL_FROM_MAD;
+use trackdyn_recording::robust::deviation_about_zero;
 
 /// A shortfall of this many standard deviations is none of chance: of a hundred thousand pairs of points
 /// one exceeds 4.4, and the worst of many pairs is what is looked at.
@@ -62,7 +62,6 @@ pub fn lagging(points: &[OperatingPoint]) -> Vec<Lagging> {
 /// Standard deviation of yaw rates, rad/s; none without neighbours on lines of one track speed.
 fn scatter(points: &[OperatingPoint]) -> Option<f64> {
     let triples = line_triples(points, |point| point.yaw_rate);
-    let mut sizes: Vec<f64> = triples.iter().map(|triple| triple.off.abs()).collect();
-    sizes.sort_by(f64::total_cmp);
-    sizes.get(sizes.len() / 2).map(|median| NORMAL_FROM_MAD * median)
+    let mut off: Vec<f64> = triples.iter().map(|triple| triple.off).collect();
+    deviation_about_zero(&mut off)
 }

@@ -1,7 +1,7 @@
 //! One run with all its predicted paths.
 
 use crate::pose_error::{self, Delta, Statistics};
-use crate::{Residual, Trajectory};
+use crate::{DeadReckoning, Residual};
 use trackdyn_core::Pose;
 use trackdyn_recording::{Extent, Run, hold};
 
@@ -19,7 +19,7 @@ pub struct Path {
     /// Distance travelled up to each pose, m, as in [`Stretch::distance`](crate::Stretch::distance).
     pub travelled: Vec<f64>,
     /// Predictions in the order of the parameter sets.
-    pub trajectories: Vec<Trajectory>,
+    pub trajectories: Vec<DeadReckoning>,
     /// Whether both tracks stand all the time.
     pub(super) rests: bool,
 }
@@ -43,7 +43,7 @@ pub struct PathErrors {
 }
 
 impl Path {
-    pub(super) fn new(index: usize, run: &Run, trajectories: &[Trajectory], tau: f64) -> Self {
+    pub(super) fn new(index: usize, run: &Run, trajectories: &[DeadReckoning], tau: f64) -> Self {
         let (first, stamps) = trajectories
             .first()
             .map_or((0, Vec::new()), |trajectory| (trajectory.first, trajectory.stamps.clone()));

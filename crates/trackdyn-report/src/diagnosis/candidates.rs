@@ -127,7 +127,7 @@ fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
     if let Some(verdict) = diagnosis.refused.iter().find(|verdict| verdict.effect == effect) {
         return (Outcome::Lost, refusal(verdict.refused.as_deref()));
     }
-    if diagnosis.statics.contains(&effect) {
+    if diagnosis.constants.contains(&effect) {
         return (Outcome::Constant, "only moves constant ICRs, which are fitted anyway".to_owned());
     }
     if one.held {

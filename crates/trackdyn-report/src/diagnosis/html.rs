@@ -287,7 +287,7 @@ fn rules() -> Vec<String> {
 }
 
 fn noise(subject: &Subject) -> String {
-    let scale = subject.diagnosis.metric.scale;
+    let scale = subject.diagnosis.evidence.scale();
     let taken = subject.evidence().description();
     let taken = subject.diagnosis.evidence.noise().map_or_else(
         || taken.to_owned(),

@@ -6,7 +6,7 @@ use super::words::{id, ids};
 use crate::Error;
 use crate::canvas::{Area, Canvas};
 use crate::colour::{BLUES, FRAME, GREY, INK, WHITE};
-use crate::icr_map::colour_bar;
+use crate::colour_bar;
 use crate::panel::ticks::number;
 use crate::panel::{TICK_SIZE, TITLE_SIZE};
 use crate::text::{Horizontal, Style, Vertical};

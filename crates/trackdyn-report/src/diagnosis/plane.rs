@@ -6,7 +6,7 @@ use super::{Subject, View};
 use crate::Error;
 use crate::canvas::{Area, Canvas};
 use crate::colour::{BLUE_RED, BLUES, ColourMap, FRAME, GREY, GRID};
-use crate::icr_map::colour_bar;
+use crate::colour_bar;
 use crate::panel::{Labels, Panel, TICK_SIZE};
 use crate::text::{Horizontal, Style, Vertical};
 use trackdyn_core::real;

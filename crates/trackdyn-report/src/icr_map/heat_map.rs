@@ -1,9 +1,9 @@
 //! One coordinate of the ICRs over the track speeds.
 
-use super::colour_bar;
 use crate::Error;
 use crate::canvas::{Area, Canvas};
 use crate::colour::{LAST, Rgb, VIRIDIS};
+use crate::colour_bar;
 use crate::panel::{Labels, Panel};
 use trackdyn_motion::{IcrMap, Status};
 

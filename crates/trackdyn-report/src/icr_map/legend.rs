@@ -7,7 +7,7 @@ use crate::panel::ticks::number;
 use crate::text::{Horizontal, Style, Vertical};
 use trackdyn_core::Side;
 use trackdyn_motion::map::Statistics;
-use trackdyn_motion::{IcrMap, Icrs, Status};
+use trackdyn_motion::{IcrMap, Status};
 
 const SIZE: f32 = 25.0;
 /// Distance between lines, pixels.
@@ -94,22 +94,31 @@ fn table(canvas: &mut Canvas, area: Area, first: i32, statistics: &Statistics) {
             canvas.text(&value, [column, row], &style);
         }
     };
-    let heads = ["mean", "standard deviation"].map(str::to_owned);
-    line(first, "", heads, GREY);
-    let mut row = first + LINE;
+    let mut row = first;
+    let mut rows_under = |heads: [&str; 2], rows: &[(&str, [String; 2])]| {
+        line(row, "", heads.map(str::to_owned), GREY);
+        for (name, values) in rows {
+            row += LINE;
+            line(row, name, values.clone(), INK);
+        }
+        row += LINE;
+    };
     let (mean, spread) = (statistics.mean.to_array(), statistics.spread.to_array());
-    for (k, name) in ["xₗ", "xᵣ", "y"].into_iter().enumerate().take(Icrs::NAMES.len()) {
-        let values =
-            [format!("{} m", number(mean[k], 4)), format!("{} mm", number(1e3 * spread[k], 2))];
-        line(row, name, values, INK);
-        row += LINE;
-    }
-    for (name, mean, of_means) in [
-        ("χ", statistics.mean_steering_efficiency, statistics.steering_efficiency),
-        ("e", statistics.mean_eccentricity, statistics.eccentricity),
-    ] {
-        let of_means = format!("of mean ICRs {}", number(of_means, 4));
-        line(row, name, [number(mean, 4), of_means], INK);
-        row += LINE;
-    }
+    let of_icr = |k: usize| {
+        [format!("{} m", number(mean[k], 4)), format!("{} mm", number(1e3 * spread[k], 2))]
+    };
+    rows_under(
+        ["mean", "standard deviation"],
+        &[("xₗ", of_icr(0)), ("xᵣ", of_icr(1)), ("y", of_icr(2))],
+    );
+    let of_ratio = |of_map: f64, of_means: f64| [of_map, of_means].map(|value| number(value, 4));
+    let Statistics { steering_efficiency, mean_steering_efficiency, .. } = *statistics;
+    let Statistics { eccentricity, mean_eccentricity, .. } = *statistics;
+    rows_under(
+        ["mean over map", "of the mean ICRs"],
+        &[
+            ("χ", of_ratio(mean_steering_efficiency, steering_efficiency)),
+            ("e", of_ratio(mean_eccentricity, eccentricity)),
+        ],
+    );
 }

@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::canvas::{Area, Canvas};
 use crate::colour::{BLUES, FRAME, GREY, GRID, INK, WHITE};
-use crate::icr_map::colour_bar;
+use crate::colour_bar;
 use crate::look;
 use crate::panel::LABEL_SIZE;
 use crate::sheet::{self, Mark, label_left_of, px, rows};
@@ -12,7 +12,11 @@ use trackdyn_core::real;
 
 /// Legend, and the matrix below it.
 const LEGEND: [i32; 2] = [sheet::LEFT, sheet::TOP + 20];
-const TOP: i32 = sheet::TOP + 120;
+const REMARKS: i32 = sheet::TOP + 66;
+const TOP: i32 = sheet::TOP + 170;
+/// Size of the remarks and distance of their lines.
+const REMARK: f32 = 22.0;
+const LINE: i32 = 30;
 const LABELS: i32 = 545;
 /// Longest name of a column, and room around it for the axis label.
 const LONGEST: i32 = 310;
@@ -32,6 +36,8 @@ pub struct Matrix<'a> {
     pub counts: Vec<Vec<usize>>,
     /// Places, row and column, where what was said is right.
     pub right: Vec<[usize; 2]>,
+    /// What the names of columns mean that do not speak for themselves.
+    pub remarks: &'a str,
 }
 
 /// The matrix of what a program took for what. `caption` stands below, for what the figure was made from.
@@ -55,6 +61,12 @@ pub fn confusion(matrix: &Matrix, program: &str, caption: &str) -> Result<Vec<u8
     let mut canvas = sheet::sheet(height, &title, explanation, caption)?;
     let right = look::colour(0);
     sheet::legend(&mut canvas, LEGEND, &[(Mark::Box(right), "framed: as it should be")]);
+    let remarks = sheet::two_lines(&canvas, matrix.remarks, REMARK);
+    for (line, remark) in remarks.iter().enumerate() {
+        let at = [LEGEND[0], REMARKS + rows(line) * LINE];
+        let remark = canvas.fitted(remark, REMARK, sheet::RIGHT - LEGEND[0]);
+        canvas.text(&remark, at, &Style::new(REMARK).colour(GREY));
+    }
     for (row, name) in matrix.rows.iter().enumerate() {
         let middle = TOP + rows(row) * cell + cell / 2;
         let name = canvas.fitted(name, 22.0, LABELS - 130);

@@ -158,7 +158,7 @@ fn fits_to_noisy_recordings_scatter_by_one_over_z_det() {
     };
     for (driven, truth) in [(&stage.driven, 0.0), (&with, 1.0)] {
         let found: Vec<f64> = (0..DRAWS).map(|seed| amplitude(driven, 100 + seed)).collect();
-        let count = crate::real(found.len());
+        let count = trackdyn_core::real(found.len());
         let mean = found.iter().sum::<f64>() / count;
         let variance = found.iter().map(|a| (a - mean).powi(2)).sum::<f64>() / (count - 1.0);
         // four standard errors of a mean, and of a standard deviation

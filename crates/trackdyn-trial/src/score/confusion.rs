@@ -33,7 +33,7 @@ impl Truth {
             [only] if !only.in_catalogue => {
                 (Kind::Outside, format!("{} (outside)", only.mechanism))
             }
-            [only] if only.is_static() => {
+            [only] if only.is_constant() => {
                 (Kind::Constants, format!("{} (constants)", only.mechanism))
             }
             [only] => (Kind::Effect, only.mechanism.clone()),

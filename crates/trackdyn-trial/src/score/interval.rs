@@ -12,7 +12,7 @@ pub fn clopper_pearson(successes: usize, cases: usize) -> Option<[f64; 2]> {
     if cases == 0 || successes > cases {
         return None;
     }
-    let (k, n) = (crate::real(successes), crate::real(cases));
+    let (k, n) = (trackdyn_core::real(successes), trackdyn_core::real(cases));
     let quantile = |a: f64, b: f64, p: f64| Beta::new(a, b).ok().map(|beta| beta.inverse_cdf(p));
     let low = if successes == 0 { 0.0 } else { quantile(k, n - k + 1.0, TAIL)? };
     let high = if successes == cases { 1.0 } else { quantile(k + 1.0, n - k, 1.0 - TAIL)? };

@@ -27,7 +27,7 @@ pub(super) fn power(judged: &[Judged]) -> Vec<PowerBin> {
         for limits in LIMITS.windows(2) {
             let mut bin =
                 PowerBin { of, limits: [limits[0], limits[1]], cases: 0, in_set: 0, exact: 0 };
-            for case in judged.iter().filter(|case| !case.is_static()) {
+            for case in judged.iter().filter(|case| !case.is_constant()) {
                 let Some(truth) = case.only() else { continue };
                 let z = if of == "z_det" { truth.z_det } else { truth.z_iso };
                 if (limits[0]..limits[1]).contains(&z) {

@@ -31,7 +31,8 @@ impl Rate {
 
     /// The share; none without cases.
     pub fn share(&self) -> Option<f64> {
-        (self.cases > 0).then(|| crate::real(self.successes) / crate::real(self.cases))
+        (self.cases > 0)
+            .then(|| trackdyn_core::real(self.successes) / trackdyn_core::real(self.cases))
     }
 
     /// Its interval of 95 %.
@@ -92,7 +93,8 @@ fn beside(judged: &[Judged]) -> Vec<Rate> {
     let strictly =
         |case: &Judged| case.only().is_some_and(|truth| case.names_strictly(&truth.mechanism));
     let is_isolable = |case: &Judged| case.only().is_some_and(Concealed::is_isolable);
-    let is_split = |case: &Judged| case.only().is_some_and(|t| t.is_detectable() && !t.is_static());
+    let is_split =
+        |case: &Judged| case.only().is_some_and(|t| t.is_detectable() && !t.is_constant());
     let in_set = |case: &Judged| case.only().is_some_and(|t| case.set_with(&t.mechanism).is_some());
     vec![
         of("false claim: pairs", &is_pair, &Judged::claims_falsely),

@@ -6,7 +6,7 @@
 //! names both those that it should and those that it should not.
 //!
 //! # Assumes
-//! That the nearest other effect is the only one to be taken for it, and that the members of the static class are never named alone.
+//! That the nearest other effect is the only one to be taken for it, and that the members of the class of constants are never named alone.
 
 use super::verdict::Judged;
 use crate::answer::Concealed;
@@ -35,9 +35,9 @@ pub fn reach(judged: &[Judged]) -> Vec<Reach> {
     }
     let share = |of: &[&Concealed], threshold: f64| {
         let normal = Normal::standard();
-        let named = of.iter().filter(|truth| !truth.is_static());
+        let named = of.iter().filter(|truth| !truth.is_constant());
         let expected: f64 = named.map(|truth| normal.cdf(truth.z_iso - threshold)).sum();
-        expected / crate::real(of.len())
+        expected / trackdyn_core::real(of.len())
     };
     let at = |threshold| Reach {
         threshold,

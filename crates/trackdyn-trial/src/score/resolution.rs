@@ -3,10 +3,7 @@
 use super::rates::Rate;
 use super::verdict::Judged;
 use crate::diagnosis::{Diagnosis, Missing, Status};
-use crate::plan::STATIC_CLASS;
-
-/// The error of an instrument that moves constant ICRs and nothing else.
-const SENSOR_PLACE: &str = "sensor-lever-arm";
+use crate::plan::CONSTANTS;
 
 /// A case whose diagnosis left something open, and what further driving made of it.
 #[derive(Clone, Debug)]
@@ -34,8 +31,8 @@ pub fn open_sets(case: &Judged) -> Vec<Vec<&str>> {
     let diagnosis = case.diagnosis().filter(|diagnosis| diagnosis.status == Status::Ambiguous);
     let claims = diagnosis.map_or(&[][..], |diagnosis| &diagnosis.missing);
     let sets = claims.iter().map(Missing::members);
-    let is_constant = |member: &&str| STATIC_CLASS.contains(member) || *member == SENSOR_PLACE;
-    let is_open = |set: &Vec<&str>| set.len() > 1 && !set.iter().all(is_constant);
+    let is_open =
+        |set: &Vec<&str>| set.len() > 1 && !set.iter().all(|member| CONSTANTS.contains(member));
     sets.filter(is_open).collect()
 }
 

@@ -23,7 +23,9 @@ pub fn markdown(score: &Score) -> String {
             mean.name, mean.cases, mean.mean, mean.median
         );
     }
-    text.push_str("\n## Power\n\nSingle effects of the catalogue, without the static class.\n\n");
+    text.push_str(
+        "\n## Power\n\nSingle effects of the catalogue, without the class of constants.\n\n",
+    );
     text.push_str("| z | cases | truth in the set | interval | named exactly | interval |\n");
     text.push_str("|---|---|---|---|---|---|\n");
     for bin in score.power.iter().filter(|bin| bin.cases > 0) {
@@ -225,7 +227,7 @@ fn rate_table(text: &mut String, rates: &[Rate]) {
 fn shown(successes: usize, cases: usize) -> (String, String) {
     match clopper_pearson(successes, cases) {
         Some([low, high]) => {
-            let share = crate::real(successes) / crate::real(cases);
+            let share = trackdyn_core::real(successes) / trackdyn_core::real(cases);
             (
                 format!("{:.1} %", 100.0 * share),
                 format!("{:.1} to {:.1} %", 100.0 * low, 100.0 * high),
@@ -238,7 +240,10 @@ fn shown(successes: usize, cases: usize) -> (String, String) {
 fn csv_numbers(successes: usize, cases: usize) -> String {
     match clopper_pearson(successes, cases) {
         Some([low, high]) => {
-            format!("{:.4},{low:.4},{high:.4}", crate::real(successes) / crate::real(cases))
+            format!(
+                "{:.4},{low:.4},{high:.4}",
+                trackdyn_core::real(successes) / trackdyn_core::real(cases)
+            )
         }
         None => ",,".to_owned(),
     }

@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, Concealed};
 use crate::diagnosis::{Diagnosis, Missing};
-use crate::plan::{INSTRUMENTS, STATIC_CLASS, Stratum};
+use crate::plan::{CONSTANTS, INSTRUMENTS, Stratum};
 use trackdyn_proof::MECHANISMS;
 
 /// What came back of a case.
@@ -21,7 +21,7 @@ pub enum Reply {
 pub struct Judged {
     /// What was concealed.
     pub answer: Answer,
-    /// Effects of the static class by which the owner's vehicle file is off.
+    /// Effects of the class of constants by which the owner's vehicle file is off.
     pub owner_errors: Vec<&'static str>,
     /// Sizes of the case's files (bytes) and their stamps (s): what the outside of a case shows.
     pub outside: Vec<f64>,
@@ -70,7 +70,7 @@ impl Judged {
     }
 
     fn has_absent_law(&self, claim: &Missing) -> bool {
-        let is_law = |id: &str| !STATIC_CLASS.contains(&id) && !INSTRUMENTS.contains(&id);
+        let is_law = |id: &str| !CONSTANTS.contains(&id) && !INSTRUMENTS.contains(&id);
         claim.members().iter().any(|member| is_law(member) && !self.is_true(member))
     }
 
@@ -122,10 +122,10 @@ impl Judged {
         self.physics().iter().any(|claim| claim.members().len() == 1)
     }
 
-    /// Whether the vehicle or the static class alone is concerned: nothing that a recording shows beside
+    /// Whether the vehicle or the class of constants alone is concerned: nothing that a recording shows beside
     /// constant ICRs.
-    pub fn is_static(&self) -> bool {
-        self.only().is_some_and(Concealed::is_static)
+    pub fn is_constant(&self) -> bool {
+        self.only().is_some_and(Concealed::is_constant)
     }
 
     /// Whether its stratum is one of these.

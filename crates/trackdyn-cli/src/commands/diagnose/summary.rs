@@ -155,9 +155,12 @@ fn line(missing: &Missing) -> String {
         .iter()
         .filter_map(|interval| {
             let parameter = interval.unknown.parameter()?;
-            let unit = if parameter.unit == "1" { "" } else { parameter.unit };
+            let unit = match parameter.unit {
+                "1" => String::new(),
+                unit => format!(" {unit}"),
+            };
             Some(format!(
-                "{} = {:.4} [{:.4}, {:.4}] {unit}",
+                "{} = {:.4} [{:.4}, {:.4}]{unit}",
                 parameter.key, interval.value, interval.low, interval.high
             ))
         })

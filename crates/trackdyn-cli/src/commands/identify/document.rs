@@ -4,12 +4,11 @@ use crate::tables::{ClockTable, rounded};
 use serde::Serialize;
 use trackdyn_core::output::fingerprint;
 use trackdyn_identify::identification::Fit;
-use trackdyn_identify::least_squares::Interval;
 use trackdyn_identify::{Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest};
 use trackdyn_motion::kinematics::Source;
 use trackdyn_physics::VehicleFile;
-use trackdyn_recording::Recording;
 use trackdyn_recording::noise::Component;
+use trackdyn_recording::{Interval, Recording};
 
 #[derive(Serialize)]
 struct File<'a> {

@@ -2,10 +2,9 @@
 
 use std::fmt::Write;
 use trackdyn_identify::identification::Fit;
-use trackdyn_identify::least_squares::Interval;
 use trackdyn_identify::{Estimate, Free, Identification, Parameters};
 use trackdyn_physics::Vehicle;
-use trackdyn_recording::{Clock, Recording};
+use trackdyn_recording::{Clock, Interval, Recording};
 
 /// One screen: the recording, its clock and noise, the methods side by side.
 pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) -> String {

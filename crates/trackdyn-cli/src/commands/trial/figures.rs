@@ -53,9 +53,14 @@ pub fn write_confusion(out: &Path, (name, score): (&str, &Score), caption: &str)
         (0..rows.len()).flat_map(|row| (0..columns.len()).map(move |column| [row, column]));
     let right = places.filter(|[row, column]| of.is_right(&rows[*row], &columns[*column]));
     let (counts, right) = (counts.collect(), right.collect());
-    let matrix = Matrix { rows: &rows, columns: &columns, counts, right };
+    let matrix = Matrix { rows: &rows, columns: &columns, counts, right, remarks: CONFUSION };
     Ok(write_file(&out.join("confusion.png"), &confusion(&matrix, name, caption)?)?)
 }
+
+/// What columns in brackets mean.
+const CONFUSION: &str = "(set with it), (set without it): one answer of several effects. (both): both effects of a pair, and \
+                         nothing else. (several): any other answer with more than one effect. (absent law in a true set): one answer of an \
+                         error that is there, of instruments or of the vehicle file, and a law that is not. (failed): no answer.";
 
 /// Texts of a sheet of shares.
 struct Texts {

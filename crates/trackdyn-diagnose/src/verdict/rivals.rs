@@ -1,0 +1,150 @@
+//! What explains an effect's part as well as it does.
+
+use super::support::{self, Change};
+use super::{Constants, Rules, Support};
+use crate::candidate::Signature;
+use crate::hypothesis::{Unknown, typical};
+use crate::mechanics::is_instrument;
+use crate::search::{Found, Screened, Search};
+use std::slice;
+
+/// Effects that are named together at most because resampled recordings name now this one, now that.
+const UNSTABLE: usize = 3;
+
+/// Rivals of an effect that are refitted, and as many more that may be among those that move constant ICRs.
+pub(super) const RIVALS: usize = 3;
+
+/// The rivals of an effect of the best hypothesis.
+pub(super) struct Rivals {
+    effect: usize,
+    /// The best hypothesis without it.
+    pub without: Found,
+    /// What refitting with it changed; none where none of its sizes is there.
+    pub changed: Option<Change>,
+    screened: Vec<Screened>,
+    /// Number of rivals that the screen leaves open.
+    close: usize,
+    /// The strongest of them in its place, refitted.
+    exchanged: Vec<(usize, Found)>,
+    /// Those of them that do as well.
+    alike: Vec<usize>,
+}
+
+impl Rivals {
+    /// Puts what the screen leaves open in the place of an effect.
+    pub fn new(search: &Search, best: &Found, constants: &Constants, effect: usize) -> Self {
+        let without = search.without(best, effect);
+        let screened = search.screen(&without);
+        let changed = support::change(effect, &without, best);
+        let own = screened.iter().find(|one| one.effect == effect).map_or(0.0, |one| one.gain);
+        let is_close = |one: &&Screened| one.effect != effect && is_rival(one, own, best);
+        let close: Vec<&Screened> = screened.iter().filter(is_close).collect();
+        // Where constant ICRs moved far the linear screen is blind to what else such a law does.
+        let is_asked = |(place, one): &(usize, &&Screened)| {
+            *place < RIVALS || constants.could_be_constant(one.effect)
+        };
+        let asked = close.iter().enumerate().filter(is_asked).take(2 * RIVALS);
+        let (mut exchanged, mut alike) = (Vec::new(), Vec::new());
+        for (_, rival) in asked {
+            let found = search.refit(&without, slice::from_ref(rival));
+            let behind = (found.fit.objective - best.fit.objective) / 2.0;
+            let less = best.ln_evidence - found.ln_evidence;
+            let apart = changed.as_ref().map_or(f64::INFINITY, |changed| {
+                let (_, signatures) = &search.catalogue.entries[rival.entry];
+                separation(search, &without, changed, &[signatures], |_| None)
+            });
+            if behind < Rules::SAME || less < Rules::LN_BAYES_FACTOR || apart < Rules::ISOLATED {
+                alike.push(rival.effect);
+            }
+            exchanged.push((rival.effect, found));
+        }
+        let close = close.len();
+        Self { effect, without, changed, screened, close, exchanged, alike }
+    }
+
+    /// The effect and the rivals that were refitted, each with its hypothesis.
+    pub fn refitted<'a>(&'a self, best: &'a Found) -> impl Iterator<Item = (usize, &'a Found)> {
+        let rivals = self.exchanged.iter().map(|(rival, found)| (*rival, found));
+        std::iter::once((self.effect, best)).chain(rivals)
+    }
+
+    /// The effect with all that explains its part as well, ascending, and the share of resampled recordings that name one
+    /// of them. What other recordings of the same robot would name instead is one answer with it.
+    pub fn answer(&self, search: &Search, best: &Found, seed: u64) -> (Vec<usize>, f64) {
+        let mut one_of: Vec<usize> =
+            std::iter::once(self.effect).chain(self.alike.iter().copied()).collect();
+        let refitted: Vec<(usize, &Found)> = self.refitted(best).collect();
+        let named = support::named(search, &self.without, &self.screened, &refitted, seed);
+        let share =
+            |one_of: &[usize]| -> f64 { one_of.iter().filter_map(|one| named.get(one)).sum() };
+        while one_of.len() < UNSTABLE && share(&one_of) < Rules::STABLE {
+            let next = named.iter().filter(|(effect, _)| !one_of.contains(effect));
+            let Some((&next, _)) = next.max_by(|a, b| a.1.total_cmp(b.1)) else { break };
+            one_of.push(next);
+        }
+        let stable = share(&one_of);
+        one_of.sort_unstable();
+        (one_of, stable)
+    }
+
+    /// What speaks for an answer beside the strongest hypothesis that is none of it.
+    pub fn support(
+        &self,
+        search: &Search,
+        best: &Found,
+        one_of: &[usize],
+        stable: f64,
+        (draws, seed): (usize, u64),
+    ) -> Support {
+        let others = self.refitted(best).filter(|(effect, _)| !one_of.contains(effect));
+        let strongest = others.map(|(_, found)| found.ln_evidence);
+        let strongest = strongest.fold(self.without.ln_evidence, f64::max);
+        let own = self.screened.iter().find(|one| one.effect == self.effect);
+        own.map_or(Support::none(), |own| Support {
+            ln_bayes_factor: best.ln_evidence - strongest,
+            z: (self.without.fit.objective - best.fit.objective).max(0.0).sqrt(),
+            stable,
+            ..Support::of_effect(search, &self.without, best, own, draws, seed)
+        })
+    }
+
+    /// Where all that were asked explain it as well, those that were not may.
+    pub fn too_many(&self) -> Option<String> {
+        (self.exchanged.len() < self.close && self.alike.len() >= self.exchanged.len())
+            .then(|| format!("{} effects explain it as well", self.close))
+    }
+}
+
+/// Whether the linear screen leaves it open that a candidate does as well as what gains `own`.
+///
+/// Signatures of encoders and pose sensor are taken far from where they are needed; they promise less than they keep.
+pub(super) fn is_rival(one: &Screened, own: f64, best: &Found) -> bool {
+    let hypothesis = &best.fit.hypothesis;
+    let is_instrument = is_instrument(&hypothesis.vehicle, &typical(one.effect));
+    let share = if is_instrument { 0.5 } else { 0.85 };
+    one.gain.is_finite()
+        && one.gain > share * own - 2.0 * Rules::SAME
+        && !best.effects.contains(&one.effect)
+}
+
+/// Separation of an effect from rivals: the part of what refitting with it changed that neither the rivals' signatures nor
+/// what is free can stand for, in standard deviations. Sizes of rivals of which something is `known` have this standard
+/// deviation.
+pub(super) fn separation(
+    search: &Search,
+    without: &Found,
+    changed: &Change,
+    rivals: &[&[Signature]],
+    known: impl Fn(Unknown) -> Option<f64>,
+) -> f64 {
+    let signatures = [&[slice::from_ref(&changed.signature)], rivals].concat();
+    let (normal, mut priors, groups) = search.normal_of(&without.fit, &signatures);
+    let mut free: Vec<usize> = (0..without.fit.columns.len()).collect();
+    for (&column, signature) in groups[1..].iter().flatten().zip(rivals.iter().copied().flatten()) {
+        free.push(column);
+        if let Some(deviation) = known(signature.unknown) {
+            priors[column].deviation = deviation;
+        }
+    }
+    changed.size.abs() * normal.beside(groups[0][0], &free, &priors).sqrt()
+}

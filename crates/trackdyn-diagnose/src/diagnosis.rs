@@ -15,8 +15,7 @@ use crate::proposal::{Proposal, completed};
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, Level, Uncertainty};
 use crate::verdict::{
-    Constants, Rules, Verdict, judge, judge_constants, judge_instruments, refuse_unsupported,
-    refuse_unsure,
+    Constants, Rules, Verdict, judge, judge_constants, judge_instruments, refuse_unsure,
 };
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
@@ -364,28 +363,27 @@ fn judged(
     options: &Options,
 ) -> Judgement {
     let Options { draws, seed, .. } = *options;
-    let mut physics = judge(search, &found, constants, file, draws, seed);
-    // What mostly moves constant ICRs is free in every hypothesis: it stays, claimed or not.
-    let without = |best: Found, dropped: &[usize]| {
-        let dropped = dropped.iter().filter(|effect| !constants.mostly.contains(effect));
-        dropped.fold(best, |best, &effect| search.without(&best, effect))
-    };
     let mut best = found;
-    let mut refused: Vec<usize> =
-        physics.iter().filter(|one| one.refused.is_some()).map(|one| one.effect).collect();
-    // A claim was judged beside all others: where one of them is refused, what is left of it is asked again.
-    let mut intervals = loop {
-        best = without(best, &refused);
-        let beside_less = !refused.is_empty();
-        refused =
-            if beside_less { refuse_unsupported(search, &best, &mut physics) } else { Vec::new() };
-        if refused.is_empty() {
-            let intervals = Uncertainty::of(search, &best).intervals(&claimed(&physics));
-            refused = refuse_unsure(&mut physics, &intervals);
-            if refused.is_empty() {
-                break intervals;
-            }
+    let mut refused: Vec<Verdict> = Vec::new();
+    // A claim is judged beside all others: each time the weakest of them is refused, those that are left are asked again.
+    let (physics, mut intervals) = loop {
+        let mut physics = judge(search, &best, constants, file, draws, seed);
+        physics.retain(|one| !refused.iter().any(|other| other.effect == one.effect));
+        // What mostly moves constant ICRs is free in every hypothesis: it stays, claimed or not.
+        let stays = |one: &Verdict| constants.mostly.contains(&one.effect);
+        refused.extend(physics.extract_if(.., |one| one.refused.is_some() && stays(one)));
+        let mut intervals = Vec::new();
+        if physics.iter().all(|one| one.refused.is_none()) {
+            intervals = Uncertainty::of(search, &best).intervals(&claimed(&physics));
+            refuse_unsure(&mut physics, &intervals);
+            refused.extend(physics.extract_if(.., |one| one.refused.is_some() && stays(one)));
         }
+        let fallen = physics.iter().enumerate().filter(|(_, one)| one.refused.is_some());
+        let weakest = fallen.min_by(|(_, a), (_, b)| a.support.z.total_cmp(&b.support.z));
+        let Some((place, _)) = weakest else { break (physics, intervals) };
+        let weakest = physics.remove(place);
+        best = search.without(&best, weakest.effect);
+        refused.push(weakest);
     };
     let instruments = judge_instruments(search, &best, draws, seed);
     let own = claimed(&physics);
@@ -398,7 +396,7 @@ fn judged(
     let physics = physics.into_iter().map(|verdict| (Kind::Physics, verdict));
     let instruments = instruments.into_iter().map(|verdict| (Kind::Instrument, verdict));
     let wrong = wrong.into_iter().map(|verdict| (Kind::Constant, verdict));
-    let (mut missing, mut refused) = (Vec::new(), Vec::new());
+    let mut missing = Vec::new();
     for (kind, verdict) in physics.chain(instruments).chain(wrong) {
         if verdict.refused.is_some() {
             refused.push(verdict);

@@ -185,6 +185,12 @@ impl Evidence {
         Self { whitening: Whitening::without(*noise, &self.samples, lost.into()), ..self.clone() }
     }
 
+    /// The same with all samples of a recording again.
+    pub fn with_all(&self) -> Self {
+        let Whitening::Segments { noise, .. } = &self.whitening else { return self.clone() };
+        Self { whitening: Whitening::of(*noise, &self.samples), ..self.clone() }
+    }
+
     /// What these runs show, by whether each of all is one of them.
     pub fn of_runs(&self, runs: &[bool]) -> Self {
         fn kept<T: Clone>(all: &[T], kept: &[usize]) -> Vec<T> {

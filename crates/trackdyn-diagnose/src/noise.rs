@@ -78,7 +78,7 @@ pub fn with_remaining_noise(evidence: &Evidence, fit: &Fit) -> Evidence {
 /// The evidence with the noise that is left beside what is flexible, from what was measured on.
 fn remaining(evidence: &Evidence, measured: SegmentNoise, flexible: &Flexible) -> Evidence {
     let mut noise = noise_of(&start(&measured));
-    let mut evidence = evidence.with_noise(noise);
+    let mut evidence = evidence.with_all().with_noise(noise);
     for _ in 0..ROUNDS {
         let left = flexible.left(&evidence);
         let taken = flexible.taken(&evidence, &noise, &left.columns);
@@ -440,6 +440,8 @@ mod tests {
             let residual = noisy(&evidence, seed.into());
             let flexible = Flexible { residual, columns: columns.clone(), own: COLUMNS };
             let left = flexible.left(&evidence);
+            let scaled = flexible.left(&evidence.with_scale([2.0; 3]));
+            assert_eq!(left.residual, scaled.residual, "noise is looked for whatever its scale");
             let taken = flexible.taken(&evidence, &TRUE, &left.columns);
             assert!((taken.sum() - real(COLUMNS)).abs() < 0.1 * real(COLUMNS), "{taken}");
             let unaware = most_likely(&evidence, TRUE, &left.residual, &Variances::zeros());

@@ -55,6 +55,32 @@ pub struct Prior {
     pub mean: f64,
     /// Standard deviation.
     pub deviation: f64,
+    /// Logarithm of the part of it that lies where the factor can be: the density is larger by that.
+    pub ln_mass: f64,
+}
+
+impl Prior {
+    /// A normal prior wherever the factor is.
+    pub fn normal(mean: f64, deviation: f64) -> Self {
+        Self { mean, deviation, ln_mass: 0.0 }
+    }
+
+    /// The same within a range.
+    pub fn within(self, [low, high]: [f64; 2]) -> Self {
+        let below = |end: f64| {
+            0.5 * statrs::function::erf::erfc(
+                (self.mean - end) / self.deviation / std::f64::consts::SQRT_2,
+            )
+        };
+        Self { ln_mass: (below(high) - below(low)).ln(), ..self }
+    }
+
+    /// An even density over a width, whose standard deviation is left as wide as that.
+    pub fn even(mean: f64, width: f64) -> Self {
+        // a normal density of this deviation is 1/√(2π) of the even one at its middle
+        let ln_mass = -0.5 * std::f64::consts::TAU.ln();
+        Self { mean, deviation: width, ln_mass }
+    }
 }
 
 /// Part of its own square by which a column may differ from others and still be taken for them.
@@ -143,7 +169,7 @@ impl Normal {
             for (b, &j) in columns.iter().enumerate() {
                 matrix[(a, b)] = self.total[(i, j)];
             }
-            let Prior { mean, deviation } = priors[i];
+            let Prior { mean, deviation, .. } = priors[i];
             let precision = deviation.powi(-2);
             matrix[(a, a)] += precision;
             gradient[a] = self.total[(i, last)] + precision * mean;
@@ -159,9 +185,12 @@ impl Normal {
         };
         let gain = gradient.dot(&estimate);
         let misfit = self.squares() + penalty - gain;
-        // det(1 + S J S) = det(J + S⁻²) · Π s²
-        let occam: f64 =
-            ln_det + columns.iter().map(|&i| 2.0 * priors[i].deviation.ln()).sum::<f64>();
+        // det(1 + S J S) = det(J + S⁻²) · Π s²; densities that end where a factor cannot be are larger by what they leave out
+        let occam: f64 = ln_det
+            + columns
+                .iter()
+                .map(|&i| 2.0 * (priors[i].deviation.ln() + priors[i].ln_mass))
+                .sum::<f64>();
         let ln_evidence = -0.5 * (misfit + occam);
         Solution { estimate, covariance, misfit, gain, occam, ln_evidence }
     }
@@ -344,11 +373,11 @@ mod tests {
         assert!((ln_det - (a * c - b * b).ln()).abs() < 1e-9, "{ln_det}");
         assert_eq!(factors.len(), 2);
         // what all of a column is explained by leaves nothing at all of it, in no block and no product
-        let flat = [Prior { mean: 0.0, deviation: 1e9 }; 4];
+        let flat = [Prior::normal(0.0, 1e9); 4];
         let projected = normal.projected(&[0, 1], &flat);
         assert_eq!((0..=4).map(|k| projected.product(2, k).abs()).fold(0.0, f64::max), 0.0);
         // min over θ of |c − C θ|² + (θ/s)² = |c|² − (c·C)²/(|C|² + 1/s²)
-        let known = [Prior { mean: 0.0, deviation: 0.1 }; 4];
+        let known = [Prior::normal(0.0, 0.1); 4];
         let expected = a - b * b / (c + 100.0);
         assert!((normal.beside(0, &[1], &known) / expected - 1.0).abs() < 1e-8);
         // a column of nothing takes nothing away
@@ -361,5 +390,28 @@ mod tests {
             let product: f64 = left.iter().zip(column).map(|(left, value)| left.dot(value)).sum();
             assert!(product.abs() < 1e-6, "{product}");
         }
+    }
+
+    /// Half of a normal density about none is twice as large; an even one over a turn is what ∫ exp(-θ²/2σ²) dθ/360 says.
+    #[test]
+    fn priors_end_where_a_factor_cannot_be() {
+        let size = Prior::normal(0.0, 0.3);
+        assert!((size.within([0.0, 100.0]).ln_mass - 0.5_f64.ln()).abs() < 1e-12);
+        assert!(size.within([-100.0, 100.0]).ln_mass.abs() < 1e-12);
+        assert!(
+            (Prior::normal(20.0, 20.0).within([1.0, 20.0]).ln_mass.exp() - 0.328_94).abs() < 1e-4
+        );
+        // one column of information J: ln E rises by ln(√(2π/J)/360)
+        let column = vec![Vector3::new(1.0, 0.0, 0.0); 100];
+        let normal = Normal::new(&Columns {
+            residual: &vec![Vector3::zeros(); 100],
+            columns: &[column],
+            weights: &[1.0; 100],
+            blocks: &[0; 100],
+            count: 1,
+        });
+        let solution = normal.fit(&[0], &[Prior::even(0.0, 360.0)]);
+        let expected = (std::f64::consts::TAU / 100.0).sqrt() / 360.0;
+        assert!((solution.ln_evidence - expected.ln()).abs() < 1e-6, "{}", solution.ln_evidence);
     }
 }

@@ -15,27 +15,27 @@ pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> 
     /// Sizes of several times the typical one are seldom.
     const SEVERAL: f64 = 3.0;
     match unknown {
-        Unknown::Offset(_) => Prior { mean: 0.0, deviation: 0.5 * hypothesis.vehicle.gauge },
-        Unknown::FrictionLevel => {
-            Prior { mean: 0.0, deviation: friction_known(&hypothesis.vehicle) }
-        }
-        Unknown::Cog(axis) => Prior { mean: 0.0, deviation: cog_known(&hypothesis.vehicle, axis) },
+        Unknown::Offset(_) => Prior::normal(0.0, 0.5 * hypothesis.vehicle.gauge),
+        Unknown::FrictionLevel => Prior::normal(0.0, friction_known(&hypothesis.vehicle)),
+        Unknown::Cog(axis) => Prior::normal(0.0, cog_known(&hypothesis.vehicle, axis)),
         Unknown::Effect(..) => {
             let parameter = unknown.parameter().expect("an effect's");
             if let Some(deviation) = measured(&hypothesis.vehicle, unknown) {
-                return Prior { mean: neutral(parameter), deviation };
+                return Prior::normal(neutral(parameter), deviation).within(parameter.range);
             }
-            match parameter.role {
+            let prior = match parameter.role {
                 Role::Size { .. } => {
-                    Prior { mean: neutral(parameter), deviation: SEVERAL * typical_size(parameter) }
+                    Prior::normal(neutral(parameter), SEVERAL * typical_size(parameter))
                 }
                 Role::Place { .. } => {
                     let [middle, spread] = area(evidence, parameter.role);
-                    Prior { mean: middle, deviation: 3.0 * spread.max(1.0) }
+                    Prior::normal(middle, 3.0 * spread.max(1.0))
                 }
-                Role::Direction => Prior { mean: 0.0, deviation: 360.0 },
-                Role::Shape => Prior { mean: parameter.typical, deviation: parameter.typical },
-            }
+                // all alike, wherever it stands
+                Role::Direction => return Prior::even(hypothesis.get(unknown), 360.0),
+                Role::Shape => Prior::normal(parameter.typical, parameter.typical),
+            };
+            prior.within(parameter.range)
         }
     }
 }

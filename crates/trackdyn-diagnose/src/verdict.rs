@@ -141,42 +141,24 @@ fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<St
     })
 }
 
-/// Refuses the claims that nothing speaks for any more beside what is left of a hypothesis; their effects.
-pub fn refuse_unsupported(search: &Search, best: &Found, verdicts: &mut [Verdict]) -> Vec<usize> {
-    let claimed = verdicts.iter_mut().filter(|verdict| verdict.refused.is_none());
-    let unsupported = claimed.filter_map(|verdict| {
-        let effect = verdict.effect;
-        let left = best.ln_evidence - search.without(best, effect).ln_evidence;
-        (left < Rules::LN_BAYES_FACTOR).then(|| {
-            verdict.refused =
-                Some(format!("ln Bayes factor {left:.1} beside the claims that are left"));
-            effect
-        })
-    });
-    unsupported.collect()
-}
-
-/// Refuses the claims whose sizes may all be none by their own intervals; their effects.
-pub fn refuse_unsure(verdicts: &mut [Verdict], intervals: &[Interval]) -> Vec<usize> {
-    let claimed = verdicts.iter_mut().filter(|verdict| verdict.refused.is_none());
-    let unsure = claimed.filter_map(|verdict| {
+/// Refuses the claims whose sizes may all be none by their own intervals.
+pub fn refuse_unsure(verdicts: &mut [Verdict], intervals: &[Interval]) {
+    for verdict in verdicts.iter_mut().filter(|verdict| verdict.refused.is_none()) {
         let effect = verdict.effect;
         let places = sizes(effect).into_iter().map(|place| Unknown::Effect(effect, place));
-        let sizes = places
-            .filter_map(|unknown| intervals.iter().find(|interval| interval.unknown == unknown));
-        let mut may_be_none = sizes.map(|interval| {
+        let sizes: Vec<&Interval> = places
+            .filter_map(|unknown| intervals.iter().find(|interval| interval.unknown == unknown))
+            .collect();
+        let may_be_none = |interval: &&Interval| {
             // of a limit that the law approaches, the range ends before it
             let [low, high] = interval.unknown.range();
             let none = interval.unknown.parameter().map_or(0.0, neutral).clamp(low, high);
             (interval.low..=interval.high).contains(&none)
-        });
-        let refused = may_be_none.next()? && may_be_none.all(|may| may);
-        refused.then(|| {
+        };
+        if !sizes.is_empty() && sizes.iter().all(may_be_none) {
             verdict.refused = Some("the 95 % interval of its size holds none".to_owned());
-            effect
-        })
-    });
-    unsure.collect()
+        }
+    }
 }
 
 #[cfg(test)]
@@ -192,7 +174,8 @@ mod tests {
             let interval = Interval { unknown, value: f64::midpoint(low, high), low, high };
             let support = Support::none();
             let mut verdicts = [Verdict { effect, one_of: vec![effect], support, refused: None }];
-            refuse_unsure(&mut verdicts, &[interval]) == [effect] && verdicts[0].refused.is_some()
+            refuse_unsure(&mut verdicts, &[interval]);
+            verdicts[0].refused.is_some()
         };
         assert!(refused("yaw-inertia", [0.0, 0.03]));
         assert!(!refused("yaw-inertia", [0.01, 0.03]));

@@ -72,7 +72,7 @@ pub fn cells(evidence: &Evidence, residual: &[Vector3<f64>], icrs: &IcrColumns) 
                     blocks: &vec![0; chosen.len()],
                     count: 1,
                 });
-                let wide = Prior { mean: 0.0, deviation: 10.0 };
+                let wide = Prior::normal(0.0, 10.0);
                 let fit = normal.fit(&[0, 1, 2], &[wide; 3]);
                 let departure =
                     std::array::from_fn(|k| (fit.estimate[k], fit.covariance[(k, k)].sqrt()));

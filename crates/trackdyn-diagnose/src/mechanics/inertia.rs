@@ -130,15 +130,15 @@ impl InertiaNear {
         let before = before.map_or(&[][..], |before| &before.slopes);
         // Slopes of a robot that is not quite this one lead astray: moments of inertia go with the square of a radius.
         let alike = |slope: &&Arc<Slope>| slope.at.is_alike(&here.at);
-        let slopes: Option<Vec<Arc<Slope>>> = free
+        let slopes: Vec<Arc<Slope>> = free
             .par_iter()
-            .map(|by| {
+            .filter_map(|by| {
                 let mut known = before.iter().filter(alike);
                 let known = known.find(|slope| slope.by == *by).cloned();
                 known.or_else(|| Slope::new(*by, &here.at, case, delay).map(Arc::new))
             })
             .collect();
-        Ok(Self { slopes: slopes.unwrap_or_default(), ..here })
+        Ok(Self { slopes, ..here })
     }
 
     /// The same for a hypothesis that differs; none where it comes from other effects there, or differs by more than
@@ -205,8 +205,11 @@ impl Slope {
             let samples = case.evidence.samples().par_iter();
             samples.map(|sample| inertia.departure(sample, delay)).collect()
         };
-        let (model, step) = stepped(by, case)?;
-        let there = Inertia::new(Vec::new(), &Case { model: &model, ..*case }).ok()?;
+        // A robot that is about to tip stands on one side of where it is.
+        let (there, step) = [1.0, -1.0].into_iter().find_map(|sign| {
+            let (model, step) = stepped(by, case, sign)?;
+            Some((Inertia::new(Vec::new(), &Case { model: &model, ..*case }).ok()?, step))
+        })?;
         let (there, here) = (departures(&there), departures(at));
         let change = there.iter().zip(&here);
         let change = change.map(|(there, here)| (*there - *here) * step.recip());
@@ -214,10 +217,10 @@ impl Slope {
     }
 }
 
-/// The robot with a number changed by a step, and the step.
-fn stepped(by: Unknown, case: &Case) -> Option<(Model, f64)> {
+/// The robot with a number changed by a step of this sign, and the step; none where it would leave what is physical.
+fn stepped(by: Unknown, case: &Case, sign: f64) -> Option<(Model, f64)> {
     let (vehicle, effects) = (case.vehicle, case.model.effects());
-    let step = REACH * size(by, vehicle);
+    let step = sign * REACH * size(by, vehicle);
     match by {
         Unknown::Offset(_) => None,
         Unknown::Cog(axis) => {
@@ -230,9 +233,11 @@ fn stepped(by: Unknown, case: &Case) -> Option<(Model, f64)> {
         }
         Unknown::Effect(effect, place) => {
             let mut values = find(effects, effect)?.values().to_vec();
-            let [_, high] = CATALOGUE[effect].parameters[place].range;
-            let step = if values[place] + step > high { -step } else { step };
+            let [low, high] = CATALOGUE[effect].parameters[place].range;
             values[place] += step;
+            if !(low..=high).contains(&values[place]) {
+                return None;
+            }
             let mut effects = effects.clone();
             effects.insert(active(effect, &values));
             Some((coarse(vehicle, effects), step))

@@ -71,7 +71,12 @@ impl Flexible {
     /// What is left when all columns are fitted in the evidence's noise, or the fit's own where a recording is so short
     /// that all would leave less than half.
     pub(super) fn left(&self, evidence: &Evidence) -> Left {
-        let white = |column: &Vec<Vector3<f64>>| evidence.white(column.clone());
+        // White by the noise alone, whatever its scale: this is where noise is looked for.
+        let white = |column: &Vec<Vector3<f64>>| {
+            let mut column = column.clone();
+            evidence.whiten(&mut column);
+            column
+        };
         let mut residual = white(&self.residual);
         let columns: Vec<_> = self.columns.iter().map(white).collect();
         let normal = evidence.normal(&residual, &columns);

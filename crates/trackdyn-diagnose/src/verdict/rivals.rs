@@ -22,8 +22,8 @@ pub(super) struct Rivals {
     /// What refitting with it changed; none where none of its sizes is there.
     pub changed: Option<Change>,
     screened: Vec<Screened>,
-    /// Number of rivals that the screen leaves open.
-    close: usize,
+    /// Rivals that nobody asked, of which the screen says that they do as well.
+    unasked: usize,
     /// The strongest of them in its place, refitted.
     exchanged: Vec<(usize, Found)>,
     /// Those of them that do as well.
@@ -58,8 +58,11 @@ impl Rivals {
             }
             exchanged.push((rival.effect, found));
         }
-        let close = close.len();
-        Self { effect, without, changed, screened, close, exchanged, alike }
+        let is_unasked =
+            |one: &&&Screened| !exchanged.iter().any(|(effect, _)| *effect == one.effect);
+        let does_as_well = |one: &&&Screened| one.gain > own - Rules::LN_BAYES_FACTOR;
+        let unasked = close.iter().filter(is_unasked).filter(does_as_well).count();
+        Self { effect, without, changed, screened, unasked, exchanged, alike }
     }
 
     /// The effect and the rivals that were refitted, each with its hypothesis.
@@ -110,8 +113,9 @@ impl Rivals {
 
     /// Where all that were asked explain it as well, those that were not may.
     pub fn too_many(&self) -> Option<String> {
-        (self.exchanged.len() < self.close && self.alike.len() >= self.exchanged.len())
-            .then(|| format!("{} effects explain it as well", self.close))
+        let alike = self.alike.len();
+        (self.unasked > 0 && alike >= self.exchanged.len())
+            .then(|| format!("{} effects explain it as well", alike + self.unasked))
     }
 }
 

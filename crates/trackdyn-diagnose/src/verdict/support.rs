@@ -142,7 +142,9 @@ impl Support {
 }
 
 /// The effects that are named beside a hypothesis, by the share of resampled recordings in which each is the best: by the
-/// screen, or, of the effects that were refitted, by the change that this found and the evidence that it has.
+/// screen, or, of the effects that were refitted, by the change that this found and the evidence that it has. Asked is which
+/// one it is, not whether there is any: what the screen puts further behind its best than a claim must be ahead does not
+/// take part.
 pub(super) fn named(
     search: &Search,
     without: &Found,
@@ -151,7 +153,9 @@ pub(super) fn named(
     seed: u64,
 ) -> BTreeMap<usize, f64> {
     let is_refitted = |effect: usize| refitted.iter().any(|(other, _)| *other == effect);
-    let screened = screened.iter().filter(|one| one.gain.is_finite() && !is_refitted(one.effect));
+    let most = screened.iter().map(|one| one.gain).fold(0.0, f64::max);
+    let takes_part = |one: &&Screened| one.gain > most - Rules::LN_BAYES_FACTOR;
+    let screened = screened.iter().filter(takes_part).filter(|one| !is_refitted(one.effect));
     let screened =
         screened.map(|one| (one.effect, &search.catalogue.entries[one.entry].1[..], None));
     let changes: Vec<(usize, Change, f64)> = refitted
@@ -243,4 +247,50 @@ pub fn cross_validated(projected: &Normal, known: &[Prior], columns: &[usize]) -
     let share = if expected > 0.0 { sum / expected } else { 0.0 };
     let spread: f64 = gains.iter().map(|(gain, change)| (gain - share * change).powi(2)).sum();
     (sum, spread.max(expected).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::normal::Columns;
+    use nalgebra::Vector3;
+
+    /// Gain and its standard error of an effect that has this size in each block, over samples of one block after the other.
+    fn of_sizes(sizes: &[f64]) -> (f64, f64) {
+        const SAMPLES: usize = 20;
+        let blocks: Vec<usize> =
+            (0..sizes.len() * SAMPLES).map(|sample| sample / SAMPLES).collect();
+        let column = vec![Vector3::new(0.2, -0.1, 0.0); blocks.len()];
+        let residual: Vec<Vector3<f64>> =
+            blocks.iter().zip(&column).map(|(&block, value)| value * sizes[block]).collect();
+        let normal = Normal::new(&Columns {
+            residual: &residual,
+            columns: &[column],
+            weights: &vec![1.0; blocks.len()],
+            blocks: &blocks,
+            count: sizes.len(),
+        });
+        cross_validated(&normal, &[Prior::normal(0.0, 1e6)], &[0])
+    }
+
+    #[test]
+    fn what_is_everywhere_gains_by_half_of_its_square() {
+        // |c|² of a block is 20 (0.2² + 0.1²) = 1, and z² is 36
+        let (gain, error) = of_sizes(&[2.0; 9]);
+        assert!((gain - 18.0).abs() < 1e-6 && (error - 6.0).abs() < 1e-6, "{gain} {error}");
+        // half the size in some blocks is another form, no chance
+        let (gain, error) = of_sizes(&[4.0, 2.0, 4.0, 2.0, 4.0, 2.0, 4.0, 2.0, 4.0]);
+        assert!(gain > Rules::GAIN * error, "{gain} {error}");
+    }
+
+    #[test]
+    fn what_one_block_alone_shows_is_not_foretold() {
+        let mut sizes = [0.0; 9];
+        sizes[3] = 20.0;
+        let (gain, _) = of_sizes(&sizes);
+        assert!(gain < 0.0, "{gain}");
+        // nor what changes its sign
+        let (gain, _) = of_sizes(&[3.0, -3.0, 3.0, -3.0, 3.0, -3.0, 3.0, -3.0]);
+        assert!(gain < 0.0, "{gain}");
+    }
 }

@@ -93,7 +93,7 @@ impl Library {
 
     /// What is known of the base and of so many columns more, of three typical sizes each.
     pub fn priors(&self, more: usize) -> Vec<Prior> {
-        let size = Prior { mean: 0.0, deviation: 3.0 };
+        let size = Prior::normal(0.0, 3.0);
         let base = self.known.iter().map(|known| Prior { mean: 0.0, ..*known });
         base.chain(std::iter::repeat_n(size, more)).collect()
     }

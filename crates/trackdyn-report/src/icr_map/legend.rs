@@ -12,6 +12,8 @@ use trackdyn_motion::{IcrMap, Status};
 const SIZE: f32 = 25.0;
 /// Distance between lines, pixels.
 const LINE: i32 = 35;
+/// Distance between tables beyond that, pixels.
+const BETWEEN: i32 = 12;
 /// Width and height of a sample of colour, pixels.
 const SWATCH: [i32; 2] = [46, 26];
 /// Distance from the beginning of a line to its text, pixels.
@@ -101,7 +103,7 @@ fn table(canvas: &mut Canvas, area: Area, first: i32, statistics: &Statistics) {
             row += LINE;
             line(row, name, values.clone(), INK);
         }
-        row += LINE;
+        row += LINE + BETWEEN;
     };
     let (mean, spread) = (statistics.mean.to_array(), statistics.spread.to_array());
     let of_icr = |k: usize| {

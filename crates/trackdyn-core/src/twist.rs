@@ -1,7 +1,7 @@
 //! Velocity of the body in the plane.
 
 use crate::Scalar;
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, AddAssign, Mul, Sub};
 
 /// Planar twist of the body, at the frame's origin and in the frame's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +43,13 @@ impl<S: Scalar> Add for Twist<S> {
     #[inline]
     fn add(self, other: Self) -> Self {
         Self { v_x: self.v_x + other.v_x, v_y: self.v_y + other.v_y, w: self.w + other.w }
+    }
+}
+
+impl<S: Scalar> AddAssign for Twist<S> {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
     }
 }
 

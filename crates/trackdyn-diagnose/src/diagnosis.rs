@@ -365,19 +365,19 @@ fn judged(
     let Options { draws, seed, .. } = *options;
     let mut best = found;
     let mut refused: Vec<Verdict> = Vec::new();
+    // What mostly moves constant ICRs is free in every hypothesis: it stays, claimed or not.
+    let stays = |one: &Verdict| constants.mostly.contains(&one.effect);
     // A claim is judged beside all others: each time the weakest of them is refused, those that are left are asked again.
     let (physics, mut intervals) = loop {
-        let mut physics = judge(search, &best, constants, file, draws, seed);
-        physics.retain(|one| !refused.iter().any(|other| other.effect == one.effect));
-        // What mostly moves constant ICRs is free in every hypothesis: it stays, claimed or not.
-        let stays = |one: &Verdict| constants.mostly.contains(&one.effect);
-        refused.extend(physics.extract_if(.., |one| one.refused.is_some() && stays(one)));
+        let mut asked = best.effects.clone();
+        asked.retain(|effect| !refused.iter().any(|other| other.effect == *effect));
+        let mut physics = judge(search, &best, &asked, constants, file, draws, seed);
         let mut intervals = Vec::new();
-        if physics.iter().all(|one| one.refused.is_none()) {
+        if physics.iter().all(|one| one.refused.is_none() || stays(one)) {
             intervals = Uncertainty::of(search, &best).intervals(&claimed(&physics));
             refuse_unsure(&mut physics, &intervals);
-            refused.extend(physics.extract_if(.., |one| one.refused.is_some() && stays(one)));
         }
+        refused.extend(physics.extract_if(.., |one| one.refused.is_some() && stays(one)));
         let fallen = physics.iter().enumerate().filter(|(_, one)| one.refused.is_some());
         let weakest = fallen.min_by(|(_, a), (_, b)| a.support.z.total_cmp(&b.support.z));
         let Some((place, _)) = weakest else { break (physics, intervals) };

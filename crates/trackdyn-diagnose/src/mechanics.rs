@@ -285,10 +285,10 @@ impl Mechanics {
                 let pose = motion_over(tracks, sample, sensor.delay, |reading| {
                     let mut twist = steady[reading].twist(offset);
                     if let Some(departure) = &departure {
-                        twist = twist + *departure;
+                        twist += *departure;
                     }
                     if let Some(sheared) = sheared {
-                        twist = twist + seen_from(&sheared[reading], offset);
+                        twist += seen_from(&sheared[reading], offset);
                     }
                     ros_twist_from_paper(&sensor.reported(&twist))
                 });

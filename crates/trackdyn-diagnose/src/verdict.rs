@@ -35,12 +35,13 @@ pub struct Verdict {
     pub refused: Option<String>,
 }
 
-/// Judges every effect that the best hypothesis adds.
+/// Judges effects that the best hypothesis adds.
 ///
 /// `file` is the vehicle's.
 pub fn judge(
     search: &Search,
     best: &Found,
+    effects: &[usize],
     constants: &Constants,
     file: &VehicleFile,
     draws: usize,
@@ -74,7 +75,7 @@ pub fn judge(
             .or_else(|| within_filed(search, &rivals.without, rivals.changed.as_ref()?));
         Verdict { effect, one_of, support, refused }
     };
-    best.effects.iter().copied().map(of).collect()
+    effects.iter().copied().map(of).collect()
 }
 
 /// Why a claim is refused by the rules; none where it is not. The `whole` is √ of what the misfit falls by with all laws.

@@ -56,9 +56,10 @@ mod tests {
         let blocks: Vec<Sums<2>> = means.iter().map(|mean| [10.0, 10.0 * mean]).collect();
         let Estimate { value, half_width } = estimate(&blocks, |[count, sum]| sum / count);
         assert!((value - 3.0).abs() < 1e-12);
-        // s² = (4 + 1 + 1 + 0 + 4 + 0)/5 = 2, standard error √(2/6), t₀.₉₇₅(5) = 2.570582
-        let half = 2.570_582 * (2.0_f64 / 6.0).sqrt();
-        assert!((half_width.expect("enough blocks") - half).abs() < 1e-6);
+        // s² = (4 + 1 + 1 + 0 + 4 + 0)/5 = 2, standard error √(2/6) with five degrees of freedom
+        let of_student = Interval::new(3.0, (2.0_f64 / 6.0).sqrt(), 6, 1);
+        let half = of_student.half_width();
+        assert!((half_width.expect("enough blocks") - half).abs() < 1e-12);
         assert_eq!(estimate(&blocks[..4], |[count, sum]| sum / count).half_width, None);
     }
 }

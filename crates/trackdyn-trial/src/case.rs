@@ -17,6 +17,7 @@ use crate::recorded::recorded;
 use crate::signature::Bench;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
+use trackdyn_core::real;
 use trackdyn_physics::{ActiveEffect, VehicleFile};
 use trackdyn_proof::ActiveMechanism;
 use trackdyn_recording::Recording;
@@ -134,7 +135,7 @@ impl Draw<'_> {
         let is_null = self.planned.stratum.is_null();
         let share = if is_null { NULLS_WITHOUT_INERTIA } else { WITHOUT_INERTIA };
         let left_out = INERTIA.iter().enumerate().find(|(place, _)| {
-            let from = share * trackdyn_core::real(*place);
+            let from = share * real(*place);
             (from..from + share).contains(&drawn)
         });
         let is_concealed = |id: &str| self.planned.concealed.contains(&id);

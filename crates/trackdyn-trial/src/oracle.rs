@@ -9,6 +9,7 @@ use crate::subspace::Subspace;
 use nalgebra::Vector3;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
+use trackdyn_core::real;
 use trackdyn_field::Sensors;
 use trackdyn_identify::Observations;
 
@@ -108,8 +109,7 @@ impl Judge<'_> {
 
     /// The strength at which an effect shows with about this z, by what some runs show of it; none where it does not show.
     fn strength(&self, dose: &Dose, clear: f64, runs: &[Drive]) -> Result<Option<f64>, String> {
-        let more_runs =
-            (trackdyn_core::real(self.runs.len()) / trackdyn_core::real(runs.len())).sqrt();
+        let more_runs = (real(self.runs.len()) / real(runs.len())).sqrt();
         let z = |strength: f64| -> Result<f64, String> {
             Ok(more_runs * self.z(&self.signature(dose, strength, runs)?))
         };
@@ -157,8 +157,7 @@ impl Judge<'_> {
         };
         let mut still = self.still(FEW_RUNS)?;
         let mut shapes = shapes_in(&still)?;
-        let part =
-            (trackdyn_core::real(still.runs.len()) / trackdyn_core::real(self.runs.len())).sqrt();
+        let part = (real(still.runs.len()) / real(self.runs.len())).sqrt();
         let is_missed = |(sized, shape): (&Sized, &Vec<f64>)| {
             self.z(shape) < MISSED * part * self.z(&sized.signature)
         };

@@ -5,6 +5,7 @@ use crate::random::{Purpose, stream};
 use rand::seq::{IndexedRandom, SliceRandom};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
+use trackdyn_core::real;
 
 /// Effects that a recording can name, each by itself.
 pub const ISOLABLE: [&str; 16] = [
@@ -200,7 +201,7 @@ fn counts(cases: usize) -> Vec<(Stratum, usize)> {
     let mut counts: Vec<(Stratum, usize)> = Stratum::ALL
         .into_iter()
         .map(|stratum| {
-            let wanted = stratum.share() * trackdyn_core::real(cases);
+            let wanted = stratum.share() * real(cases);
             let whole = if stratum.is_null() { wanted.ceil() } else { wanted.floor() };
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
             (stratum, whole as usize)

@@ -160,7 +160,7 @@ impl InertiaNear {
                     let still = || vec![Twist::zero(); slope.change.len()];
                     let sums = shift.get_or_insert_with(still);
                     for (sum, slope) in sums.iter_mut().zip(&slope.change) {
-                        *sum = *sum + *slope * change;
+                        *sum += *slope * change;
                     }
                 }
                 None if nearly(by, change) => {}

@@ -45,6 +45,13 @@ fn answer_to_acceleration(evidence: &Evidence, fit: &Fit) -> Vec<Vec<Vector3<f64
     derivatives(hypothesis, &mechanics, &prediction, &level, evidence)
 }
 
+/// White by the noise alone, whatever its scale: this is where noise is looked for.
+fn white(evidence: &Evidence, column: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    let mut column = column.to_vec();
+    evidence.whiten(&mut column);
+    column
+}
+
 /// What is left of a residual, not white, and the columns that were fitted.
 pub(super) struct Left {
     pub(super) residual: Vec<Vector3<f64>>,
@@ -71,14 +78,8 @@ impl Flexible {
     /// What is left when all columns are fitted in the evidence's noise, or the fit's own where a recording is so short
     /// that all would leave less than half.
     pub(super) fn left(&self, evidence: &Evidence) -> Left {
-        // White by the noise alone, whatever its scale: this is where noise is looked for.
-        let white = |column: &Vec<Vector3<f64>>| {
-            let mut column = column.clone();
-            evidence.whiten(&mut column);
-            column
-        };
-        let mut residual = white(&self.residual);
-        let columns: Vec<_> = self.columns.iter().map(white).collect();
+        let mut residual = white(evidence, &self.residual);
+        let columns: Vec<_> = self.columns.iter().map(|column| white(evidence, column)).collect();
         let normal = evidence.normal(&residual, &columns);
         let mut fitted = normal.independent();
         if 2 * fitted.len() > 3 * residual.len() {
@@ -100,11 +101,7 @@ impl Flexible {
         let count = evidence.samples().len();
         let ln_det = |noise: SegmentNoise| -> Option<f64> {
             let evidence = evidence.with_noise(noise);
-            let white = fitted.iter().map(|&column| {
-                let mut column = self.columns[column].clone();
-                evidence.whiten(&mut column);
-                column
-            });
+            let white = fitted.iter().map(|&column| white(&evidence, &self.columns[column]));
             let normal = Normal::new(&Columns {
                 residual: &vec![Vector3::zeros(); count],
                 columns: &white.collect::<Vec<_>>(),

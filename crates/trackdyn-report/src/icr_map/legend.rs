@@ -114,8 +114,13 @@ fn table(canvas: &mut Canvas, area: Area, first: i32, statistics: &Statistics) {
         &[("xₗ", of_icr(0)), ("xᵣ", of_icr(1)), ("y", of_icr(2))],
     );
     let of_ratio = |of_map: f64, of_means: f64| [of_map, of_means].map(|value| number(value, 4));
-    let Statistics { steering_efficiency, mean_steering_efficiency, .. } = *statistics;
-    let Statistics { eccentricity, mean_eccentricity, .. } = *statistics;
+    let Statistics {
+        steering_efficiency,
+        mean_steering_efficiency,
+        eccentricity,
+        mean_eccentricity,
+        ..
+    } = *statistics;
     rows_under(
         ["mean over map", "of the mean ICRs"],
         &[

@@ -9,6 +9,7 @@ use crate::key::Root;
 use crate::machine::Machine;
 use crate::random::{Purpose, stream};
 use nalgebra::{DMatrix, DVector, Vector3};
+use trackdyn_core::real;
 use trackdyn_field::sensors::Preset;
 use trackdyn_identify::least_squares::Loss;
 use trackdyn_identify::sensor::{Sensor, report};
@@ -158,7 +159,7 @@ fn fits_to_noisy_recordings_scatter_by_one_over_z_det() {
     };
     for (driven, truth) in [(&stage.driven, 0.0), (&with, 1.0)] {
         let found: Vec<f64> = (0..DRAWS).map(|seed| amplitude(driven, 100 + seed)).collect();
-        let count = trackdyn_core::real(found.len());
+        let count = real(found.len());
         let mean = found.iter().sum::<f64>() / count;
         let variance = found.iter().map(|a| (a - mean).powi(2)).sum::<f64>() / (count - 1.0);
         // four standard errors of a mean, and of a standard deviation

@@ -1,6 +1,7 @@
 //! Intervals of rates.
 
 use statrs::distribution::{Beta, ContinuousCDF};
+use trackdyn_core::real;
 
 /// The interval of 95 % of a rate by Clopper and Pearson: it covers the true rate in at least 95 of
 /// 100 trials, however few the cases. None without cases.
@@ -12,7 +13,7 @@ pub fn clopper_pearson(successes: usize, cases: usize) -> Option<[f64; 2]> {
     if cases == 0 || successes > cases {
         return None;
     }
-    let (k, n) = (trackdyn_core::real(successes), trackdyn_core::real(cases));
+    let (k, n) = (real(successes), real(cases));
     let quantile = |a: f64, b: f64, p: f64| Beta::new(a, b).ok().map(|beta| beta.inverse_cdf(p));
     let low = if successes == 0 { 0.0 } else { quantile(k, n - k + 1.0, TAIL)? };
     let high = if successes == cases { 1.0 } else { quantile(k + 1.0, n - k, 1.0 - TAIL)? };

@@ -3,6 +3,7 @@
 use super::verdict::Judged;
 use crate::diagnosis::Fit;
 use statrs::distribution::{ContinuousCDF, Normal};
+use trackdyn_core::real;
 
 /// ln Bayes factor that a claim needs.
 const LN_BAYES_FACTOR: f64 = 5.0;
@@ -26,7 +27,7 @@ impl Mean {
         values.sort_by(f64::total_cmp);
         let cases = values.len();
         let (low, high) = (values.get(cases.wrapping_sub(1) / 2)?, values.get(cases / 2)?);
-        let mean = values.iter().sum::<f64>() / trackdyn_core::real(cases);
+        let mean = values.iter().sum::<f64>() / real(cases);
         Some(Self { name, mean, median: f64::midpoint(*low, *high), cases })
     }
 }
@@ -76,17 +77,15 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
     [
         Mean::of(
             "members of the reported set with the truth in it",
-            with_truth().map(|(_, set)| trackdyn_core::real(set.len())),
+            with_truth().map(|(_, set)| real(set.len())),
         ),
         Mean::of(
             "fewest to expect there: members of the smallest set that the recording allows",
-            with_truth().map(|(truth, _)| trackdyn_core::real(truth.smallest_set())),
+            with_truth().map(|(truth, _)| real(truth.smallest_set())),
         ),
         Mean::of(
             "members of the reported set with the truth in it, but constants",
-            with_truth()
-                .filter(|(truth, _)| !truth.is_constant())
-                .map(|(_, set)| trackdyn_core::real(set.len())),
+            with_truth().filter(|(truth, _)| !truth.is_constant()).map(|(_, set)| real(set.len())),
         ),
         Mean::of(
             "share of the held-out excess explained",

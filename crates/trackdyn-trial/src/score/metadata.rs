@@ -6,6 +6,7 @@
 
 use super::rates::Rate;
 use super::verdict::Judged;
+use trackdyn_core::real;
 
 /// How often the classifier is right.
 pub fn told_from_files<'a>(judged: &'a [Judged]) -> Rate {
@@ -30,7 +31,7 @@ fn evenly<T: Copy>(of: Vec<T>, count: usize) -> impl Iterator<Item = T> {
 /// Whether each is of the class of its nearest neighbour, in units of each feature's scatter.
 fn outcomes(cases: &[(&[f64], bool)]) -> Vec<bool> {
     let features = cases.first().map_or(0, |(features, _)| features.len());
-    let count = trackdyn_core::real(cases.len());
+    let count = real(cases.len());
     let scatter: Vec<f64> = (0..features)
         .map(|k| {
             let mean = cases.iter().map(|(of, _)| of[k]).sum::<f64>() / count;
@@ -69,7 +70,7 @@ mod tests {
             .collect();
         let cases: Vec<(&[f64], bool)> = cases.iter().map(|(f, null)| (&f[..], *null)).collect();
         let told = outcomes(&cases);
-        trackdyn_core::real(told.iter().filter(|told| **told).count()) / 200.0
+        real(told.iter().filter(|told| **told).count()) / 200.0
     }
 
     #[test]

@@ -6,6 +6,7 @@ use super::verdict::Judged;
 use crate::answer::Concealed;
 use crate::diagnosis::Status;
 use crate::plan::{Difficulty, Stratum};
+use trackdyn_core::real;
 
 /// A share of cases.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,8 +32,7 @@ impl Rate {
 
     /// The share; none without cases.
     pub fn share(&self) -> Option<f64> {
-        (self.cases > 0)
-            .then(|| trackdyn_core::real(self.successes) / trackdyn_core::real(self.cases))
+        (self.cases > 0).then(|| real(self.successes) / real(self.cases))
     }
 
     /// Its interval of 95 %.

@@ -11,6 +11,7 @@
 use super::verdict::Judged;
 use crate::answer::Concealed;
 use statrs::distribution::{ContinuousCDF, Normal};
+use trackdyn_core::real;
 
 /// Separations from which on rules name an effect alone.
 const THRESHOLDS: [f64; 7] = [3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0];
@@ -37,7 +38,7 @@ pub fn reach(judged: &[Judged]) -> Vec<Reach> {
         let normal = Normal::standard();
         let named = of.iter().filter(|truth| !truth.is_constant());
         let expected: f64 = named.map(|truth| normal.cdf(truth.z_iso - threshold)).sum();
-        expected / trackdyn_core::real(of.len())
+        expected / real(of.len())
     };
     let at = |threshold| Reach {
         threshold,

@@ -8,6 +8,7 @@ use super::rates::Rate;
 use super::resolution::{self, Outcome, Revisited};
 use crate::diagnosis::Fit;
 use std::fmt::Write;
+use trackdyn_core::real;
 
 /// The scores as a page.
 pub fn markdown(score: &Score) -> String {
@@ -227,7 +228,7 @@ fn rate_table(text: &mut String, rates: &[Rate]) {
 fn shown(successes: usize, cases: usize) -> (String, String) {
     match clopper_pearson(successes, cases) {
         Some([low, high]) => {
-            let share = trackdyn_core::real(successes) / trackdyn_core::real(cases);
+            let share = real(successes) / real(cases);
             (
                 format!("{:.1} %", 100.0 * share),
                 format!("{:.1} to {:.1} %", 100.0 * low, 100.0 * high),
@@ -240,10 +241,7 @@ fn shown(successes: usize, cases: usize) -> (String, String) {
 fn csv_numbers(successes: usize, cases: usize) -> String {
     match clopper_pearson(successes, cases) {
         Some([low, high]) => {
-            format!(
-                "{:.4},{low:.4},{high:.4}",
-                trackdyn_core::real(successes) / trackdyn_core::real(cases)
-            )
+            format!("{:.4},{low:.4},{high:.4}", real(successes) / real(cases))
         }
         None => ",,".to_owned(),
     }

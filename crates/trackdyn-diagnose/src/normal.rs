@@ -8,6 +8,7 @@ mod scaled;
 pub use scaled::Scaled;
 
 use nalgebra::{DMatrix, DVector, Vector3};
+use rayon::prelude::*;
 use std::ops::Range;
 
 /// Residuals and columns, both whitened, three rows per sample.
@@ -96,23 +97,29 @@ impl Normal {
     /// The products of these columns.
     pub fn new(of: &Columns) -> Self {
         let size = of.columns.len() + 1;
-        let mut blocks = vec![DMatrix::zeros(size, size); of.count];
-        let mut row = DMatrix::<f64>::zeros(size, 3);
-        for (sample, residual) in of.residual.iter().enumerate() {
-            if of.weights[sample] == 0.0 {
-                continue;
-            }
-            let root = of.weights[sample].sqrt();
-            for (k, column) in of.columns.iter().enumerate() {
-                row.row_mut(k).copy_from(&(column[sample] * root).transpose());
-            }
-            row.row_mut(size - 1).copy_from(&(residual * root).transpose());
-            let block = &mut blocks[of.blocks[sample]];
-            for c in 0..3 {
-                let column = row.column(c);
-                block.ger(1.0, &column, &column, 1.0);
+        let mut samples = vec![Vec::new(); of.count];
+        for (sample, &block) in of.blocks.iter().enumerate() {
+            if of.weights[sample] != 0.0 {
+                samples[block].push(sample);
             }
         }
+        let blocks: Vec<DMatrix<f64>> = samples
+            .par_iter()
+            .map(|samples| {
+                // √W (C, r), a column of the matrix for each column and the residual
+                let mut rows = DMatrix::zeros(3 * samples.len(), size);
+                for (k, column) in
+                    of.columns.iter().map(Vec::as_slice).chain([of.residual]).enumerate()
+                {
+                    let mut places = rows.column_mut(k);
+                    for (place, &sample) in samples.iter().enumerate() {
+                        let value = column[sample] * of.weights[sample].sqrt();
+                        places.fixed_rows_mut::<3>(3 * place).copy_from(&value);
+                    }
+                }
+                rows.transpose() * rows
+            })
+            .collect();
         let total = sum(&blocks, size);
         Self { blocks, total }
     }

@@ -39,7 +39,7 @@ pub fn friction_wrench<S: Scalar>(
     slip: &SlipField<S>,
     resolution: Resolution,
 ) -> Wrench<S> {
-    let is_near = |patch: &&Patch| closed_form::applies(patch, slip);
+    let is_near = |patch: &&Patch| closed_form::applies(patch, slip, resolution);
     let far = patches.iter().filter(|patch| !is_near(patch));
     let mut wrench = quadrature::far_field_wrench(far, friction, pressure, slip, resolution);
     // The closed form needs an ICR: a field that does not rotate has none.

@@ -45,7 +45,8 @@ pub struct Model {
     extent: PerSide<Extent>,
     drive: Drive,
     sensor: Sensor,
-    has_shear_law: bool,
+    /// Those of the effects that change the shear stress.
+    shear_laws: Effects,
     resolution: Resolution,
 }
 
@@ -84,19 +85,9 @@ impl Model {
         let patches = PerSide::from_fn(|side| vehicle.patches(side));
         let footprint = Footprint::of(&patches.left);
         let extent = PerSide::from_fn(|side| footprint.extent(&patches[side]));
-        let has_shear_law = effects.iter().any(|effect| effect.card().shears());
+        let shear_laws = effects.iter().filter(|effect| effect.card().shears()).cloned().collect();
         let resolution = Resolution::default();
-        Self {
-            vehicle,
-            effects,
-            patches,
-            footprint,
-            extent,
-            drive,
-            sensor,
-            has_shear_law,
-            resolution,
-        }
+        Self { vehicle, effects, patches, footprint, extent, drive, sensor, shear_laws, resolution }
     }
 
     /// The same with the shear stress integrated this finely.
@@ -166,7 +157,7 @@ impl Model {
                 &motion.slip[side],
                 self.resolution,
             );
-            if self.has_shear_law {
+            if !self.shear_laws.is_empty() {
                 wrench += self.shear_departure(&situation, side, &pressure[side]);
             }
             wrench
@@ -235,7 +226,7 @@ impl Model {
             |patch, slip| {
                 let site = Site { situation, side, patch, pressure, slip };
                 let mut stress = ShearStress::base();
-                for effect in &self.effects {
+                for effect in &self.shear_laws {
                     effect.shear(&site, &mut stress);
                 }
                 stress

@@ -18,19 +18,23 @@
 //! shift of the ICR moves the edges, ∂/∂X ∬ g = −[∫ g dv]. All is bounded and continuous wherever
 //! the ICR lies, inside, on an edge or on a corner.
 
-use crate::contact::{Friction, Patch, Pressure, SlipField};
+use crate::contact::{Friction, Patch, Pressure, Resolution, SlipField};
 use trackdyn_core::{Scalar, Wrench};
 
 /// Distance to the ICR, in half diagonals of the patch, up to which the closed form is used.
 ///
-/// The sum over the edges loses about (distance/width)² in digits, while the Gauss rule of the far
-/// field gains them as the integrand turns smooth: at this distance both are exact to rounding.
+/// The sum over the edges loses digits with the distance, while the Gauss rule of the far field gains
+/// them as the integrand turns smooth: at this distance both are exact to rounding.
 const REACH: f64 = 6.0;
+
+/// The same where half the digits are enough, which the closed form keeps farther out, at a half to a quarter of the cost.
+const REACH_COARSE: f64 = 50.0;
 
 /// Whether the closed form keeps its digits for this patch and slip.
 #[inline]
-pub fn applies<S: Scalar>(patch: &Patch, slip: &SlipField<S>) -> bool {
-    distance_squared(patch, slip) < REACH * REACH
+pub fn applies<S: Scalar>(patch: &Patch, slip: &SlipField<S>, resolution: Resolution) -> bool {
+    let reach = if resolution == Resolution::Fine { REACH } else { REACH_COARSE };
+    distance_squared(patch, slip) < reach * reach
 }
 
 /// Squared distance from the centre of the patch to the ICR, in half diagonals of the patch; infinite where

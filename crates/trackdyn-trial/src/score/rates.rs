@@ -83,6 +83,9 @@ fn beside(judged: &[Judged]) -> Vec<Rate> {
         let answered = judged.iter().filter(|case| case.diagnosis().is_some() && counts(case));
         Rate::of(name, answered.map(is))
     };
+    let found = |name: &str, counts: &dyn Fn(&Judged) -> bool, is: &dyn Fn(&Judged) -> bool| {
+        Rate::of(name, judged.iter().filter(|case| counts(case)).map(is))
+    };
     let is_null = |case: &Judged| case.answer.stratum.is_null();
     let is_pair = |case: &Judged| case.is_of(&[Stratum::Pair]);
     let is_outside = |case: &Judged| case.is_of(&[Stratum::Outside]);
@@ -104,12 +107,12 @@ fn beside(judged: &[Judged]) -> Vec<Rate> {
             &is_null,
             &Judged::names_absent_law,
         ),
-        of(
+        found(
             "exact isolation, and no absent law in any set: isolable singles",
             &is_isolable,
             &strictly,
         ),
-        of("truth in the reported set: detectable singles but constants", &is_split, &in_set),
+        found("truth in the reported set: detectable singles but constants", &is_split, &in_set),
         of("nothing missing: nulls", &is_null, &nothing),
         of("flagged as unexplained: nulls", &is_null, &unexplained),
         of("flagged as unexplained: effects of the catalogue", &of_catalogue, &unexplained),
@@ -192,9 +195,6 @@ fn outside(judged: &[Judged]) -> Vec<Rate> {
         Rate::of("outside the catalogue, unlike any effect of it: flagged as unexplained", flagged),
         Rate::of("outside the catalogue: one effect named all the same", names_alone),
         Rate::of("outside the catalogue: broken symmetries are its own or of known errors", within),
-        Rate::of(
-            "outside the catalogue: broken symmetries are all of its own, and of known errors",
-            equal,
-        ),
+        Rate::of("outside the catalogue: broken symmetries are its own, all of them", equal),
     ]
 }

@@ -48,6 +48,24 @@ fn not_toml() {
     refused("name = ", &["robot.toml:1:"]);
 }
 
+/// A file of another kind is called so before its keys are asked for.
+#[test]
+fn another_kind_of_file() {
+    refused(
+        "name = \"x\"\nschema = \"trackdyn.kinematics/1\"\n",
+        &["robot.toml:2: schema = \"trackdyn.kinematics/1\": expected \"trackdyn.vehicle/1\""],
+    );
+}
+
+/// A height beside the two would be dropped without a word.
+#[test]
+fn three_numbers_for_two() {
+    refused(
+        &vehicle("[-0.015, 0.04]", "[-0.015, 0.04, 0.1]"),
+        &["cog_m = [-0.015, 0.04, 0.1]: expected 2 numbers"],
+    );
+}
+
 #[test]
 fn wrong_schema() {
     refused(

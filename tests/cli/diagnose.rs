@@ -180,6 +180,8 @@ fn bad_input_is_refused_and_leaves_nothing() {
         (format!("diagnose drive --vehicle {VEHICLE} --held-out 7-3"), "--held-out 7-3: expected"),
         (format!("diagnose drive --vehicle {VEHICLE} --held-out 0-1"), "at least one run to fit"),
         (format!("diagnose points.csv --vehicle {VEHICLE}"), "expected at least 30"),
+        (format!("diagnose drive drive --vehicle {VEHICLE}"), "each recording once"),
+        (format!("diagnose drive --wheel-radius 0.1 --vehicle {VEHICLE}"), "drive is no bag"),
         (format!("diagnose far --vehicle {VEHICLE}"), "expected at most 5000 m"),
     ] {
         let before = place.files();

@@ -14,6 +14,7 @@ mod proposal;
 mod recordings;
 mod sealed_trial;
 mod simulate;
+mod stdout;
 mod trial;
 
 use std::path::{Path, PathBuf};

@@ -77,8 +77,11 @@ fn same_bytes_on_any_number_of_threads() {
 #[test]
 fn robot_that_never_turns_gets_its_picture_and_status_2() {
     let place = Workplace::new();
+    // parameters of an earlier map would stand beside the picture of this one
+    assert_eq!(place.run("map --grid 3").status, 0);
     let run = place.run("map --cog 0.2,0 --grid 5");
     assert_eq!(run.status, 2, "{}", run.stdout);
+    assert!(run.stderr.contains("removed out/kinematics.toml"), "{}", run.stderr);
     assert!(run.stdout.contains("20 are held straight by one track"), "{}", run.stdout);
     assert_eq!(place.files(), [std::path::PathBuf::from("out/icr_map.png")]);
 }

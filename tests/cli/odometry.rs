@@ -219,7 +219,7 @@ fn mistakes_are_named_and_nothing_is_written() {
         ("odometry recording --vehicle missing.toml", "missing.toml: cannot be read"),
         (
             "odometry recording --vehicle robot.toml --kinematics robot.toml",
-            "robot.toml:7:1: unknown field `cog_m`",
+            "schema = \"trackdyn.vehicle/1\": expected \"trackdyn.kinematics/1\"",
         ),
         (
             "odometry recording --vehicle robot.toml --kinematics nan.toml",

@@ -1,6 +1,6 @@
 //! `trackdyn simulate` and `trackdyn drive`.
 
-use crate::Workplace;
+use crate::{Workplace, project_text};
 use std::path::PathBuf;
 
 const SCHEDULE: &str = "t,v_left,v_right\n0,0.2,0.6\n4,-0.3,0.3\n8,0.5,0.5\n10,0,0\n11,0,0\n";
@@ -77,6 +77,19 @@ fn bad_schedules_and_worlds_are_refused_and_leave_nothing() {
     }
     let inputs = ["path.csv", "short.csv", "text.csv"].map(PathBuf::from);
     assert_eq!(place.files(), inputs, "nothing is written");
+}
+
+/// A simulation writes the vehicle that it moved, with what was switched on: not over its owner's file.
+#[test]
+fn an_owner_s_vehicle_file_is_not_replaced() {
+    let place = Workplace::new();
+    std::fs::create_dir(place.path().join("robot")).expect("a folder");
+    let vehicle = project_text("configs/vehicles/auriga-alpha.toml");
+    place.write("robot/vehicle.toml", &vehicle);
+    let run = place.run("simulate --vehicle robot/vehicle.toml --runs 1 --duration 5 --out robot");
+    assert!(run.status == 1 && run.stderr.contains("holds a vehicle.toml"), "{}", run.stderr);
+    assert_eq!(place.read("robot/vehicle.toml"), vehicle.as_bytes());
+    assert_eq!(place.files().len(), 1);
 }
 
 #[test]

@@ -240,6 +240,10 @@ fn several_programs_are_scored_side_by_side() {
         assert!(png.starts_with(b"\x89PNG"), "{file}");
     }
     assert!(text(&place, "both/bold/cases.csv").contains(",explained,slope,,true"));
+    // a name that was never run may be mistyped, and opens nothing
+    let run = place.run("trial score cases --key secret/answers.key --name slient");
+    assert!(run.status == 1 && run.stderr.contains("answers stay sealed"), "{}", run.stderr);
+    assert!(!place.path().join("cases/score.slient").exists());
     let run = place.run("trial score cases --key secret/answers.key --name odd");
     assert!(run.stdout.contains("| process failed | 2 of 2 |"), "{}", run.stdout);
 }
@@ -253,7 +257,7 @@ fn several_trials_count_as_one() {
         assert_eq!(place.run(&make).status, 0);
     }
     let silent = tool(&place, "echo 'status = \"nothing-missing\"' > $7/diagnosis.toml");
-    for trial in ["first", "second"] {
+    for trial in ["first", "second", "longer"] {
         assert_eq!(place.run(&format!("trial run {trial} --program {silent}")).status, 0);
     }
     let run = place.run("trial score first second --name tool --out both");
@@ -268,15 +272,15 @@ fn several_trials_count_as_one() {
     assert_eq!(cases.lines().count(), 1 + 4);
 
     for (asked, words) in [
-        ("first second --name tool", "--out DIR"),
+        ("first second", "--out DIR"),
         ("first second --key first.key --out x", "2 trials, 1 times --key"),
         ("first second --commitment 12 --out x", "2 trials, 1 times --commitment"),
-        ("nowhere --out x", "nowhere/answers.sealed: "),
+        ("nowhere --out x", "nowhere: "),
         ("first first --out x", "trial = first: expected each trial once"),
         ("first longer --out x", "trial = longer: expected trials with runs of one length"),
         ("first second --key second.key --key first.key --out x", "SHA-256"),
     ] {
-        let run = place.run(&format!("trial score {asked}"));
+        let run = place.run(&format!("trial score {asked} --name tool"));
         assert!(run.status == 1 && run.stderr.contains(words), "{}", run.stderr);
     }
     assert!(!place.path().join("x").exists());

@@ -2,11 +2,15 @@
 //!
 //! Results go to stdout, talk and progress to stderr. Exit status: see [`exit::Exit`].
 
+#![warn(clippy::print_stdout)]
+
 mod arguments;
 mod commands;
+mod earlier;
 mod exit;
 mod options;
 mod progress;
+mod stdout;
 mod tables;
 
 use arguments::Arguments;

@@ -122,6 +122,12 @@ impl RecordingOptions {
     /// # Errors
     /// As [`RecordingOptions::read`].
     pub fn read_path(&self, path: &Path) -> Result<Recording, Box<dyn std::error::Error>> {
+        if !matches!(Format::of(path)?, Format::Rosbag)
+            && let Some(option) = self.of_bags().first()
+        {
+            let name = path.display();
+            return Err(format!("{option}: {name} is no bag: expected with rosbag2 only").into());
+        }
         let recording = match tracks_of(path, self.tracks.as_deref())? {
             Some(tracks) => tum::read(path, tracks, "unknown")?,
             None => trackdyn_recording::read(path, &self.rosbag())?,
@@ -130,6 +136,21 @@ impl RecordingOptions {
             eprintln!("note: {warning}");
         }
         Ok(recording)
+    }
+
+    /// The options given that only bags have something to say to.
+    fn of_bags(&self) -> Vec<&'static str> {
+        let options = [
+            ("--tracks-topic", self.tracks_topic.is_some()),
+            ("--left-joint", !self.left_joint.is_empty()),
+            ("--right-joint", !self.right_joint.is_empty()),
+            ("--joint-signal", self.joint_signal.is_some()),
+            ("--wheel-radius", self.wheel_radius.is_some()),
+            ("--pose-topic", self.pose_topic.is_some()),
+            ("--parent-frame", self.parent_frame.is_some()),
+            ("--child-frame", self.child_frame.is_some()),
+        ];
+        options.into_iter().filter_map(|(name, given)| given.then_some(name)).collect()
     }
 
     fn rosbag(&self) -> RosbagOptions {
@@ -268,9 +289,10 @@ pub fn model(file: &VehicleFile) -> Model {
 
 /// The command line, for the head of files that are written.
 pub fn command_line() -> String {
-    let mut arguments: Vec<String> = std::env::args().skip(1).collect();
-    arguments.insert(0, "trackdyn".to_owned());
-    arguments.join(" ")
+    let arguments = std::env::args_os().skip(1);
+    let arguments = arguments.map(|argument| argument.to_string_lossy().into_owned());
+    let words: Vec<String> = std::iter::once("trackdyn".to_owned()).chain(arguments).collect();
+    words.join(" ")
 }
 
 /// Two numbers, separated by a comma.

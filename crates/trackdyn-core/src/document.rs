@@ -1,8 +1,10 @@
 //! TOML files that users write, and errors that point into them.
 
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::ops::Range;
 use std::path::Path;
+use toml::Spanned;
 
 /// A TOML text and the name under which errors mention it.
 #[derive(Clone, Debug)]
@@ -101,6 +103,33 @@ impl Document {
         })
     }
 
+    /// The contents as a `T`, if the file says that it has this schema. What keys another kind of file has is no help.
+    ///
+    /// # Errors
+    /// [`DocumentError::Value`] where it says otherwise; those of [`Document::parse`].
+    pub fn parse_as<T: DeserializeOwned>(&self, schema: &str) -> Result<T, DocumentError> {
+        let Head { schema: found } = self.parse()?;
+        match found {
+            Some(found) if found.get_ref() != schema => {
+                Err(self.value_error(found.span(), "schema", format!("\"{schema}\"")))
+            }
+            _ => self.parse(),
+        }
+    }
+
+    /// A list of a file as so many numbers, no more and no fewer.
+    ///
+    /// # Errors
+    /// [`DocumentError::Value`].
+    pub fn numbers<const N: usize>(
+        &self,
+        key: &str,
+        list: &Spanned<Vec<f64>>,
+    ) -> Result<[f64; N], DocumentError> {
+        let numbers = list.get_ref().as_slice().try_into();
+        numbers.map_err(|_| self.value_error(list.span(), key, format!("{N} numbers")))
+    }
+
     /// The error of a value that was read and is not accepted; `span` is where it stands.
     pub fn value_error(
         &self,
@@ -133,6 +162,12 @@ impl Document {
     }
 }
 
+/// What the file says that it is.
+#[derive(Deserialize)]
+struct Head {
+    schema: Option<Spanned<String>>,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -145,5 +180,38 @@ mod tests {
         // Columns count characters, not bytes.
         assert_eq!(document.position(13), (2, 7));
         assert_eq!(document.position(15), (3, 1));
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Place {
+        #[serde(rename = "schema")]
+        _schema: String,
+        at: Spanned<Vec<f64>>,
+    }
+
+    /// Of another kind of file the first key that this one lacks says nothing.
+    #[test]
+    fn a_file_of_another_kind_is_called_so() {
+        let read = |text: &str| Document::new("x.toml", text).parse_as::<Place>("place/1");
+        let error = |text: &str| read(text).expect_err("not accepted").to_string();
+        let found = error("other = 1\nschema = \"vehicle/1\"\n");
+        assert!(
+            found.contains("x.toml:2: schema = \"vehicle/1\": expected \"place/1\""),
+            "{found}"
+        );
+        assert!(error("at = [1, 2]\n").contains("missing field `schema`"));
+        assert!(error("schema = 1\n").contains("x.toml:1:10"));
+        assert!(read("schema = \"place/1\"\nat = [1, 2]\n").is_ok());
+    }
+
+    /// A third number would be dropped, and a user would take it for known.
+    #[test]
+    fn a_pair_is_two_numbers() {
+        let document = Document::new("x.toml", "schema = \"place/1\"\nat = [1.0, 2.0, 3.0]\n");
+        let place: Place = document.parse().expect("a place");
+        assert!(document.numbers::<3>("at", &place.at).is_ok());
+        let error = document.numbers::<2>("at", &place.at).expect_err("three").to_string();
+        assert!(error.contains("x.toml:2: at = [1.0, 2.0, 3.0]: expected 2 numbers"), "{error}");
     }
 }

@@ -176,12 +176,7 @@ impl DiagnosisFile {
     /// # Errors
     /// A [`DocumentError`] that points at line and key.
     pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
-        let file: Self = document.parse()?;
-        if file.schema != SCHEMA {
-            let start = document.text().find("schema").unwrap_or(0);
-            return Err(document.value_error(start..start, "schema", format!("\"{SCHEMA}\"")));
-        }
-        Ok(file)
+        document.parse_as(SCHEMA)
     }
 
     /// Its text.

@@ -48,7 +48,6 @@ pub struct Residuals {
 /// What is read of an odometry file.
 #[derive(Deserialize)]
 struct File {
-    schema: Spanned<String>,
     runs: Vec<i64>,
     distance_m: f64,
     set: Vec<Set>,
@@ -100,11 +99,7 @@ impl Residuals {
         document: &Document,
         kinematics: &str,
     ) -> Result<Self, Box<dyn std::error::Error>> {
-        let file: File = document.parse()?;
-        if file.schema.get_ref() != SCHEMA {
-            let expected = format!("\"{SCHEMA}\"");
-            return Err(document.value_error(file.schema.span(), "schema", expected).into());
-        }
+        let file: File = document.parse_as(SCHEMA)?;
         let missing = || Error::NoResiduals {
             residuals: document.name().to_owned(),
             fingerprint: kinematics.to_owned(),

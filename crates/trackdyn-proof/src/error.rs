@@ -1,5 +1,6 @@
 //! What cannot be simulated.
 
+use crate::mechanisms::MECHANISMS;
 use crate::sheet::{Parameter, Sheet};
 use trackdyn_physics::VehicleError;
 
@@ -8,7 +9,7 @@ use trackdyn_physics::VehicleError;
 #[non_exhaustive]
 pub enum Error {
     /// No mechanism of this id.
-    #[error("no mechanism \"{0}\"")]
+    #[error("no mechanism \"{0}\": expected one of {ids}", ids = ids())]
     UnknownMechanism(String),
     /// No such parameter.
     #[error("{} has no parameter \"{key}\"; it has {}", sheet.id, sheet.keys())]
@@ -50,4 +51,9 @@ pub enum Error {
         /// What was expected.
         expected: &'static str,
     },
+}
+
+/// The ids of all mechanisms.
+fn ids() -> String {
+    MECHANISMS.iter().map(|sheet| sheet.id).collect::<Vec<_>>().join(", ")
 }

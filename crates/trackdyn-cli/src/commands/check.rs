@@ -5,9 +5,11 @@ mod reference;
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{model, read_vehicle};
+use crate::stdout::show;
 use clap::Args;
 use reference::{Case, Reference};
 use std::error::Error;
+use std::fmt::Write;
 use std::path::PathBuf;
 use trackdyn_core::document::Document;
 use trackdyn_motion::map::Statistics;
@@ -30,13 +32,15 @@ pub fn run(options: &Options) -> Outcome {
     let reference = Reference::from_document(&document)?;
     let override_vehicle = options.vehicle.as_deref().map(read_vehicle).transpose()?;
 
+    let mut text = String::new();
     let mut misses = 0;
     let mut checked = 0;
     for case in &reference.cases {
         let vehicle = vehicle(case, override_vehicle.as_ref(), options)?;
         let statistics = solve(&vehicle, reference.grid, case)?;
-        println!("{}: {}", case.name, vehicle.vehicle.name);
-        println!(
+        let _ = writeln!(text, "{}: {}", case.name, vehicle.vehicle.name);
+        let _ = writeln!(
+            text,
             "  {:26}{:>12}{:>12}{:>12}{:>12}",
             "", "expected", "computed", "off by", "tolerance"
         );
@@ -47,7 +51,8 @@ pub fn run(options: &Options) -> Outcome {
             let holds = error.abs() <= expected.tolerance;
             misses += usize::from(!holds);
             checked += 1;
-            println!(
+            let _ = writeln!(
+                text,
                 "  {:26}{:>12.6}{computed:>12.6}{error:>12.1e}{:>12.1e}  {}",
                 quantity.key(),
                 expected.value,
@@ -56,7 +61,8 @@ pub fn run(options: &Options) -> Outcome {
             );
         }
     }
-    println!("{} of {checked} values within tolerance", checked - misses);
+    let _ = writeln!(text, "{} of {checked} values within tolerance", checked - misses);
+    show(&text)?;
     Ok(if misses == 0 { Exit::Done } else { Exit::BadInput })
 }
 
@@ -77,7 +83,9 @@ fn vehicle(
     if let Some(cog) = case.cog {
         file.vehicle.cog = cog;
         file.vehicle.uncertainty.cog = None; // the file's is of the value that this one replaces
-        file.vehicle.check().map_err(|error| format!("case \"{}\": {error}", case.name))?;
+        file.vehicle.check().map_err(|error| {
+            format!("{}: case \"{}\": {error}", options.reference.display(), case.name)
+        })?;
     }
     for effect in &case.effects {
         file.effects.insert(effect.clone());

@@ -2,6 +2,7 @@
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::stdout::show;
 use clap::{Args, Command};
 use clap_complete::Shell;
 
@@ -14,6 +15,8 @@ pub struct Options {
 
 /// Prints the completions.
 pub fn run(options: &Options, mut command: Command) -> Outcome {
-    clap_complete::generate(options.shell, &mut command, "trackdyn", &mut std::io::stdout().lock());
+    let mut script = Vec::new();
+    clap_complete::generate(options.shell, &mut command, "trackdyn", &mut script);
+    show(&String::from_utf8(script)?)?;
     Ok(Exit::Done)
 }

@@ -7,6 +7,7 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{RecordingOptions, command_line, read_vehicle};
 use crate::progress::Progress;
+use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
 use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
@@ -65,8 +66,8 @@ pub fn run(options: &Options) -> Outcome {
     };
     let diagnosis = diagnose(&subject.evidence, &vehicle, &settings, &|_| progress.advance(1))?;
     progress.finish();
-    print!("{}", summary::text(&diagnosis, &subject.evidence, &subject.name));
     write(&diagnosis, &subject, &vehicle, options)?;
+    show(&summary::text(&diagnosis, &subject.evidence, &subject.name))?;
     Ok(Exit::Done)
 }
 
@@ -122,7 +123,15 @@ fn subject(
     }
     let mut recordings = vec![options.recording.read()?];
     for path in &options.more {
-        recordings.push(options.recording.read_path(path)?);
+        let next = options.recording.read_path(path)?;
+        if recordings.iter().any(|other| other.fingerprint() == next.fingerprint()) {
+            let name = path.display();
+            return Err(format!(
+                "{name}: expected each recording once: its runs count as evidence of their own"
+            )
+            .into());
+        }
+        recordings.push(next);
     }
     let recording = match recordings.as_slice() {
         [one] => one.clone(),

@@ -6,6 +6,7 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{ModelOptions, finite, model};
 use crate::progress::Progress;
+use crate::stdout::show;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -100,7 +101,6 @@ pub fn run(options: &Options) -> Outcome {
         drives.push(Drive { name, fingerprint, journey });
     }
 
-    print!("{}", document::summary(&path, &tracker, &drives));
     let tracked: Vec<TrackedDrive> = drives
         .iter()
         .map(|drive| TrackedDrive { name: &drive.name, journey: &drive.journey })
@@ -121,6 +121,7 @@ pub fn run(options: &Options) -> Outcome {
     write_file(&options.out.join("path.csv"), path.to_csv().as_bytes())?;
     let text = document::text(&file, &path, &tracker, &drives)?;
     write_file(&options.out.join("drive.toml"), text.as_bytes())?;
+    show(&document::summary(&path, &tracker, &drives))?;
     eprintln!("wrote drive.toml, drive.png and tables to {}", options.out.display());
     let arrived = drives.iter().all(|drive| drive.journey.ending == Ending::Arrived);
     Ok(if arrived { Exit::Done } else { Exit::NoResult })

@@ -2,6 +2,7 @@
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
 use trackdyn_physics::effect::{Card, Parameter, Symmetry, Term};
@@ -27,7 +28,7 @@ pub fn run(options: &Options) -> Outcome {
         None if options.markdown => markdown(),
         None => list(),
     };
-    print!("{text}");
+    show(&text)?;
     Ok(Exit::Done)
 }
 

@@ -7,12 +7,13 @@ mod summary;
 pub use points::lagging_points;
 
 use crate::commands::Outcome;
+use crate::earlier::remove_earlier;
 use crate::exit::Exit;
 use crate::options::{DrivingOptions, command_line, finite, read_vehicle};
 use crate::progress::Progress;
+use crate::stdout::show;
 use clap::Args;
 use std::path::{Path, PathBuf};
-use trackdyn_core::document::Document;
 use trackdyn_core::output::{prepare_folder, write_file};
 use trackdyn_identify::genetic::GeneticOptions;
 use trackdyn_identify::identification::{self, Fit};
@@ -93,9 +94,9 @@ pub fn run(options: &Options) -> Outcome {
         nuisances: options.nuisances(),
         genetic,
     };
-    let found = identify(&recording, &identify_options, &|_| progress.advance(1))?;
+    let found = identify(&recording, &identify_options, &|_| progress.advance(1));
     progress.finish();
-    print!("{}", summary::text(&recording, &vehicle.vehicle, &found));
+    let found = found.map_err(|error| format!("{}: {error}", options.driving.path().display()))?;
 
     let source = source(&recording, &vehicle, options);
     let document = document::text(&recording, &vehicle, &source, &found)?;
@@ -103,7 +104,9 @@ pub fn run(options: &Options) -> Outcome {
     write_file(&path, document.as_bytes())?;
     eprintln!("wrote {}", path.display());
     let files = found.fits.iter().map(|fit| file(fit, gauge, &source));
-    keep(&options.out, files)
+    let exit = keep(&options.out, files)?;
+    show(&summary::text(&recording, &vehicle.vehicle, &found))?;
+    Ok(exit)
 }
 
 /// Writes the files of the fits that are determined. That of an earlier fit goes where this one is not: it would be taken for
@@ -116,19 +119,11 @@ fn keep(out: &Path, files: impl IntoIterator<Item = Option<KinematicsFile>>) -> 
             write_file(&path, file.to_toml().as_bytes())?;
             eprintln!("wrote {}", path.display());
             written += 1;
-        } else if is_of_fit(&path) {
-            std::fs::remove_file(&path).map_err(|cause| format!("{}: {cause}", path.display()))?;
-            eprintln!("removed {}, of an earlier fit: this one is not determined", path.display());
+        } else {
+            remove_earlier(&path, |source| source.recording.is_some())?;
         }
     }
     Ok(if written > 0 { Exit::Done } else { Exit::NoResult })
-}
-
-/// Whether there is a file of parameters that were fitted to a recording.
-fn is_of_fit(path: &Path) -> bool {
-    let file = Document::read(path).ok();
-    let file = file.and_then(|document| KinematicsFile::from_document(&document).ok());
-    file.is_some_and(|file| file.source.recording.is_some())
 }
 
 /// Where the numbers come from.

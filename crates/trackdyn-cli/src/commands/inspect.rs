@@ -4,6 +4,7 @@ use crate::commands::Outcome;
 use crate::commands::identify::lagging_points;
 use crate::exit::Exit;
 use crate::options::tracks_of;
+use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -27,39 +28,38 @@ pub struct Options {
 pub fn run(options: &Options) -> Outcome {
     let (path, tracks) = (&options.recording, options.tracks.as_deref());
     if let Some(table) = OperatingPoints::file_of(path) {
-        points(&OperatingPoints::read(&table)?);
+        show(&points(&OperatingPoints::read(&table)?))?;
         return Ok(Exit::Done);
     }
-    match (Format::of(path)?, tracks) {
+    let text = match (Format::of(path)?, tracks) {
         (Format::Rosbag, None) => bag(options)?,
         (Format::Tum, None) => trajectory(path)?,
         _ => match tracks_of(path, tracks)? {
             Some(tracks) => runs(&tum::read(path, tracks, "unknown")?),
             None => runs(&folder::read(path)?),
         },
-    }
+    };
+    show(&text)?;
     Ok(Exit::Done)
 }
 
 /// A trajectory alone, and the option that adds its track speeds.
-fn trajectory(path: &Path) -> Result<(), trackdyn_recording::Error> {
+fn trajectory(path: &Path) -> Result<String, trackdyn_recording::Error> {
     let poses = tum::read_poses(path)?.samples;
     let (first, last) = (poses.first().map_or(0.0, |p| p.t), poses.last().map_or(0.0, |p| p.t));
-    println!(
-        "{}: trajectory, {} poses, t = {first:.3} to {last:.3} s",
+    Ok(format!(
+        "{}: trajectory, {} poses, t = {first:.3} to {last:.3} s\n\nsuggested: --tracks TRACKS.csv\n",
         path.display(),
         poses.len()
-    );
-    println!("\nsuggested: --tracks TRACKS.csv");
-    Ok(())
+    ))
 }
 
 /// A table of operating points: its speeds, what was measured, and the points that lag.
-fn points(table: &OperatingPoints) {
+fn points(table: &OperatingPoints) -> String {
     let points = &table.points;
     let measured = |of: fn(&OperatingPoint) -> Option<f64>| points.iter().filter_map(of).count();
-    println!(
-        "{}: {} steady operating points; measured: {} forward speeds, {} lateral speeds, {} yaw rates",
+    let mut text = format!(
+        "{}: {} steady operating points; measured: {} forward speeds, {} lateral speeds, {} yaw rates\n",
         table.name,
         points.len(),
         measured(|point| point.v_forward),
@@ -72,22 +72,24 @@ fn points(table: &OperatingPoints) {
     ] {
         let low = points.iter().map(speed).fold(f64::INFINITY, f64::min);
         let high = points.iter().map(speed).fold(f64::NEG_INFINITY, f64::max);
-        println!("{side} track {low:.3} to {high:.3} m/s");
+        let _ = writeln!(text, "{side} track {low:.3} to {high:.3} m/s");
     }
-    print!("{}", lagging_points(points));
+    text + &lagging_points(points)
 }
 
-fn bag(options: &Options) -> Result<(), trackdyn_recording::Error> {
+/// The topics of a bag, and the options that read it.
+fn bag(options: &Options) -> Result<String, trackdyn_recording::Error> {
     let inspection = rosbag::inspect(&options.recording)?;
-    println!("{:>9} {:>9}  {:40} type", "messages", "seconds", "topic");
+    let mut text = format!("{:>9} {:>9}  {:40} type\n", "messages", "seconds", "topic");
     for topic in &inspection.topics {
-        println!("{:>9} {:>9.1}  {:40} {}", topic.messages, topic.duration, topic.name, topic.kind);
+        let (count, seconds) = (topic.messages, topic.duration);
+        let _ = writeln!(text, "{count:>9} {seconds:>9.1}  {:40} {}", topic.name, topic.kind);
         if !topic.joints.is_empty() {
             let (joints, signals) = (topic.joints.join(", "), topic.signals.join(", "));
-            println!("{:21}joints: {joints} ({signals})", "");
+            let _ = writeln!(text, "{:21}joints: {joints} ({signals})", "");
         }
         for (parent, child) in &topic.frames {
-            println!("{:21}frames: {parent} -> {child}", "");
+            let _ = writeln!(text, "{:21}frames: {parent} -> {child}", "");
         }
     }
     let is_odometry = inspection.topics.iter().any(|topic| {
@@ -95,16 +97,14 @@ fn bag(options: &Options) -> Result<(), trackdyn_recording::Error> {
             && topic.kind.ends_with("/Odometry")
     });
     if is_odometry {
-        println!(
-            "\ncaution: an Odometry may be that of the tracks themselves, which agrees with any model of them: \
-             poses have to come from something else"
-        );
+        text += "\ncaution: an Odometry may be that of the tracks themselves, which agrees with any model of them: \
+                 poses have to come from something else\n";
     }
-    println!("\nsuggested:{}", suggestion(&inspection.suggested));
+    let _ = writeln!(text, "\nsuggested:{}", suggestion(&inspection.suggested));
     for warning in &inspection.warnings {
         eprintln!("note: {warning}");
     }
-    Ok(())
+    Ok(text)
 }
 
 /// The options of the command line that read the bag so.
@@ -137,17 +137,19 @@ fn suggestion(options: &RosbagOptions) -> String {
     text
 }
 
-fn runs(recording: &Recording) {
+/// The runs of a recording, and its clocks.
+fn runs(recording: &Recording) -> String {
     let runs = recording.runs();
     let total =
         |count: fn(&trackdyn_recording::Run) -> usize| runs.iter().map(count).sum::<usize>();
-    println!(
-        "{}: robot {}, fingerprint {}",
+    let mut text = format!(
+        "{}: robot {}, fingerprint {}\n",
         recording.name(),
         recording.robot(),
         recording.fingerprint()
     );
-    println!(
+    let _ = writeln!(
+        text,
         "{} runs, {:.0} s, {} readings of the tracks, {} poses, {} readings of an IMU",
         runs.len(),
         runs.iter().map(trackdyn_recording::Run::duration).sum::<f64>(),
@@ -155,14 +157,16 @@ fn runs(recording: &Recording) {
         total(|run| run.poses().len()),
         total(|run| run.imu().len()),
     );
-    match clock_offset(recording, &ClockSearch::default()) {
-        Ok(offset) => println!(
+    let _ = match clock_offset(recording, &ClockSearch::default()) {
+        Ok(offset) => writeln!(
+            text,
             "poses come {:.3} s after the tracks (standard error {:.3} s)",
             offset.tau, offset.standard_error
         ),
-        Err(reason) => println!("{reason}"),
-    }
+        Err(reason) => writeln!(text, "{reason}"),
+    };
     for warning in recording.warnings() {
         eprintln!("note: {warning}");
     }
+    text
 }

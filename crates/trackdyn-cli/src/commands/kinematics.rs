@@ -3,8 +3,10 @@
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{ModelOptions, model, pair};
+use crate::stdout::show;
 use clap::{ArgGroup, Args};
 use std::error::Error;
+use std::fmt::Write;
 use std::path::PathBuf;
 use trackdyn_core::document::Document;
 use trackdyn_core::frames::ros_twist_from_paper;
@@ -40,7 +42,7 @@ pub fn run(options: &Options) -> Outcome {
         (None, Some([forward, yaw_rate])) => file.track_speeds(forward, yaw_rate),
         (None, None) => return Err("one of --speeds and --twist is needed".into()),
     };
-    print_motion(speed, &kinematics);
+    show(&motion(speed, &kinematics))?;
     Ok(Exit::Done)
 }
 
@@ -60,30 +62,43 @@ fn parameters(options: &Options) -> Result<KinematicsFile, Box<dyn Error>> {
         .with_alpha(model.drive().gain))
 }
 
-fn print_motion(speed: PerSide<f64>, kinematics: &Kinematics) {
+/// The motion in both frames.
+fn motion(speed: PerSide<f64>, kinematics: &Kinematics) -> String {
     let twist = kinematics.twist(speed);
     let Twist { v_x: forward, v_y: left, w } = ros_twist_from_paper(&twist);
     let icrs = kinematics.icrs;
-    println!("  ICRs          x_l {:.5}  x_r {:.5}  y {:.5} m", icrs.x_left, icrs.x_right, icrs.y);
+    let mut text = format!(
+        "  ICRs          x_l {:.5}  x_r {:.5}  y {:.5} m\n",
+        icrs.x_left, icrs.x_right, icrs.y
+    );
     if kinematics.alpha != PerSide::new(1.0, 1.0) {
-        println!(
+        let _ = writeln!(
+            text,
             "  alpha         left {:.5}  right {:.5}",
             kinematics.alpha.left, kinematics.alpha.right
         );
     }
-    println!("  track speeds  left {}  right {} m/s", readable(speed.left), readable(speed.right));
-    println!(
+    let _ = writeln!(
+        text,
+        "  track speeds  left {}  right {} m/s",
+        readable(speed.left),
+        readable(speed.right)
+    );
+    let _ = writeln!(
+        text,
         "  paper frame   v_x {} (right)  v_y {} (forward) m/s  w {} rad/s",
         readable(twist.v_x),
         readable(twist.v_y),
         readable(w)
     );
-    println!(
+    let _ = writeln!(
+        text,
         "  ROS frame     v_x {} (forward)  v_y {} (left) m/s  w {} rad/s",
         readable(forward),
         readable(left),
         readable(w)
     );
+    text
 }
 
 /// The number with five decimals, or with an exponent where that would be too long to read.

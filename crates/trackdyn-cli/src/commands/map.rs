@@ -3,9 +3,11 @@
 mod summary;
 
 use crate::commands::Outcome;
+use crate::earlier::remove_earlier;
 use crate::exit::Exit;
 use crate::options::{ModelOptions, command_line, model};
 use crate::progress::Progress;
+use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
 use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
@@ -44,20 +46,23 @@ pub fn run(options: &Options) -> Outcome {
     progress.finish();
 
     let statistics = map.statistics();
-    print!("{}", summary::text(&file, &map, statistics.as_ref()));
+    let summary = summary::text(&file, &map, statistics.as_ref());
     let picture = options.out.join("icr_map.png");
     let source = source(&file, &map);
     let caption =
         format!("trackdyn {}, vehicle and effects {}", source.version, source.fingerprint);
     write_file(&picture, &trackdyn_report::icr_map(&map, &model, &caption)?)?;
+    let parameters = options.out.join("kinematics.toml");
     let Some(statistics) = statistics else {
+        remove_earlier(&parameters, |source| source.grid.is_some())?;
+        show(&summary)?;
         eprintln!("wrote {}; no kinematics.toml, for no motion turns", picture.display());
         return Ok(Exit::NoResult);
     };
-    let parameters = options.out.join("kinematics.toml");
     let contents =
         KinematicsFile::of_map(&statistics, &map.sectors(), source).with_alpha(model.drive().gain);
     write_file(&parameters, contents.to_toml().as_bytes())?;
+    show(&summary)?;
     eprintln!("wrote {} and {}", parameters.display(), picture.display());
     Ok(Exit::Done)
 }

@@ -8,6 +8,7 @@ mod summary;
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{DrivingOptions, command_line};
+use crate::stdout::show;
 use clap::Args;
 use inputs::Inputs;
 use std::error::Error;
@@ -59,8 +60,8 @@ pub fn run(options: &Options) -> Outcome {
             result.left_out.len()
         );
     }
-    print!("{}", summary::text(&inputs, &clock, &result));
     write(options, &inputs, &clock, &result)?;
+    show(&summary::text(&inputs, &clock, &result))?;
     Ok(Exit::Done)
 }
 

@@ -6,6 +6,7 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{command_line, finite, read_vehicle};
 use crate::progress::Progress;
+use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
 use trackdyn_core::document::Document;
@@ -47,7 +48,7 @@ pub fn run(options: &Options) -> Outcome {
     let document = Document::read(&options.diagnosis)?;
     let questions = Question::of(&document)?;
     if questions.is_empty() {
-        println!("nothing to plan: the diagnosis leaves nothing open between several effects");
+        show("nothing to plan: the diagnosis leaves nothing open between several effects\n")?;
         return Ok(Exit::Done);
     }
     let vehicle = vehicle(options)?;
@@ -64,8 +65,8 @@ pub fn run(options: &Options) -> Outcome {
         Error::TooShort { .. } => format!("--duration: {error}"),
         _ => format!("{}: {error}", vehicle.vehicle.name),
     })?;
-    print!("{}", summary::text(&plan));
     let Some(schedule) = plan.schedule() else {
+        show(&summary::text(&plan))?;
         eprintln!("wrote nothing: there is nothing to drive");
         return Ok(Exit::Done);
     };
@@ -84,6 +85,7 @@ pub fn run(options: &Options) -> Outcome {
         write_file(&path, text.as_bytes())?;
         eprintln!("wrote {}", path.display());
     }
+    show(&summary::text(&plan))?;
     Ok(Exit::Done)
 }
 

@@ -7,6 +7,7 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{ModelOptions, finite, model};
 use crate::progress::Progress;
+use crate::stdout::show;
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -112,21 +113,22 @@ pub fn run(options: &Options) -> Outcome {
     let text = document::text(&file, &sensors, &recording, options)?;
     write_file(&options.out.join("simulation.toml"), text.as_bytes())?;
     folder::write(&recording, &options.out)?;
-    print!("{}", document::summary(&file, &sensors, &recording, &runs));
+    show(&document::summary(&file, &sensors, &recording, &runs))?;
     eprintln!("wrote the recording, truth.csv and simulation.toml to {}", options.out.display());
     Ok(Exit::Done)
 }
 
-/// A recording that was not simulated is nobody's to replace.
+/// What no simulation wrote, be it a recording or the vehicle's own file, is not replaced.
 fn refuse_other(out: &Path) -> Result<(), String> {
-    let is_there = |name: &str| out.join(name).exists();
-    if is_there("recording.toml") && !is_there("simulation.toml") {
-        return Err(format!(
-            "--out {}: holds a recording that was not simulated: expected another folder",
+    const WRITTEN: [&str; 4] = ["recording.toml", "vehicle.toml", "sensors.toml", "schedule.csv"];
+    let is_there = |name: &&str| out.join(name).exists();
+    match WRITTEN.into_iter().find(is_there).filter(|_| !is_there(&"simulation.toml")) {
+        Some(name) => Err(format!(
+            "--out {}: holds a {name} that was not simulated: expected another folder",
             out.display()
-        ));
+        )),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// One run, driven and seen.

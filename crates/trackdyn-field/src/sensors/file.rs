@@ -39,11 +39,7 @@ impl Sensors {
     /// # Errors
     /// [`Error::Document`], which points at the line and key.
     pub fn from_document(document: &Document) -> Result<Self, Error> {
-        let Tables { schema, name, encoder, pose, imu } = document.parse()?;
-        if schema.get_ref() != SCHEMA {
-            let expected = format!("\"{SCHEMA}\"");
-            return Err(document.value_error(schema.span(), "schema", expected).into());
-        }
+        let Tables { name, encoder, pose, imu, .. } = document.parse_as(SCHEMA)?;
         let sensors = Self { name, encoder, pose, imu };
         sensors.check().map_err(|problem| {
             let span = span_of(document.text(), problem.key).unwrap_or_default();

@@ -33,11 +33,7 @@ impl Room {
     /// # Errors
     /// A [`DocumentError`] that points at the line and key.
     pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
-        let tables: Tables = document.parse()?;
-        if tables.schema.get_ref() != SCHEMA {
-            let expected = format!("\"{SCHEMA}\"");
-            return Err(document.value_error(tables.schema.span(), "schema", expected));
-        }
+        let tables: Tables = document.parse_as(SCHEMA)?;
         let mut outlines = Vec::with_capacity(tables.outline.len());
         for (index, table) in tables.outline.into_iter().enumerate() {
             let span = table.corners_m.span();

@@ -10,6 +10,7 @@ use trackdyn_core::PerSide;
 use trackdyn_core::document::{Document, DocumentError};
 
 const SCHEMA: &str = "trackdyn.kinematics/1";
+const FRAME: &str = "paper";
 
 /// Where the numbers of a file come from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -179,7 +180,7 @@ impl KinematicsFile {
         let unplaced = |value| Spanned::new(0..0, rounded(value));
         Self {
             schema: Spanned::new(0..0, SCHEMA.to_owned()),
-            frame: Spanned::new(0..0, "paper".to_owned()),
+            frame: Spanned::new(0..0, FRAME.to_owned()),
             x_icr_left_m: unplaced(icrs.x_left),
             x_icr_right_m: unplaced(icrs.x_right),
             y_icr_m: rounded(icrs.y),
@@ -201,13 +202,9 @@ impl KinematicsFile {
     /// # Errors
     /// A [`DocumentError`] that points at the line and key.
     pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
-        let file: Self = document.parse()?;
-        for (text, key, expected) in
-            [(&file.schema, "schema", SCHEMA), (&file.frame, "frame", "paper")]
-        {
-            if text.get_ref() != expected {
-                return Err(document.value_error(text.span(), key, format!("\"{expected}\"")));
-            }
+        let file: Self = document.parse_as(SCHEMA)?;
+        if file.frame.get_ref() != FRAME {
+            return Err(document.value_error(file.frame.span(), "frame", format!("\"{FRAME}\"")));
         }
         separated(document, *file.x_icr_left_m.get_ref(), &file.x_icr_right_m)?;
         document.parse::<Divisors>()?.check(document)?;

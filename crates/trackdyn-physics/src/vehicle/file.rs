@@ -41,11 +41,7 @@ impl VehicleFile {
     /// # Errors
     /// A [`DocumentError`] that points at the line and key.
     pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
-        let tables: Tables = document.parse()?;
-        if tables.schema.get_ref() != SCHEMA {
-            let expected = format!("\"{SCHEMA}\"");
-            return Err(document.value_error(tables.schema.span(), "schema", expected));
-        }
+        let tables: Tables = document.parse_as(SCHEMA)?;
         let vehicle = tables.vehicle(document)?;
         if let Err(problem) = vehicle.check() {
             return Err(document.value_error(
@@ -89,8 +85,8 @@ impl VehicleFile {
             mass_kg_sd: uncertainty.mass.map(unplaced),
             gauge_m: unplaced(vehicle.gauge),
             gauge_m_sd: uncertainty.gauge.map(unplaced),
-            cog_m: unplaced(vehicle.cog),
-            cog_m_sd: uncertainty.cog.map(unplaced),
+            cog_m: unplaced(vehicle.cog.to_vec()),
+            cog_m_sd: uncertainty.cog.map(|cog| unplaced(cog.to_vec())),
             track,
             wheels,
             friction: FrictionTable {
@@ -126,8 +122,8 @@ struct Tables {
     mass_kg_sd: Option<Spanned<f64>>,
     gauge_m: Spanned<f64>,
     gauge_m_sd: Option<Spanned<f64>>,
-    cog_m: Spanned<[f64; 2]>,
-    cog_m_sd: Option<Spanned<[f64; 2]>>,
+    cog_m: Spanned<Vec<f64>>,
+    cog_m_sd: Option<Spanned<Vec<f64>>>,
     track: Option<Track>,
     wheels: Option<Wheels>,
     friction: FrictionTable,
@@ -191,11 +187,12 @@ impl Tables {
                 return Err(document.value_error(self.gauge_m.span(), "gauge_m", expected));
             }
         };
+        let cog_sd = self.cog_m_sd.as_ref().map(|list| document.numbers("cog_m_sd", list));
         Ok(Vehicle {
             name: self.name.clone(),
             mass: *self.mass_kg.get_ref(),
             gauge: *self.gauge_m.get_ref(),
-            cog: *self.cog_m.get_ref(),
+            cog: document.numbers("cog_m", &self.cog_m)?,
             running_gear,
             friction: Friction {
                 across: *self.friction.mu_x.get_ref(),
@@ -204,7 +201,7 @@ impl Tables {
             uncertainty: Uncertainty {
                 mass: optional(self.mass_kg_sd.as_ref()),
                 gauge: optional(self.gauge_m_sd.as_ref()),
-                cog: optional(self.cog_m_sd.as_ref()),
+                cog: cog_sd.transpose()?,
                 friction: FrictionUncertainty {
                     across: optional(self.friction.mu_x_sd.as_ref()),
                     along: optional(self.friction.mu_y_sd.as_ref()),

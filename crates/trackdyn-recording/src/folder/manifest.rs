@@ -31,14 +31,10 @@ struct Keys {
 impl Manifest {
     pub(super) fn read(path: &Path) -> Result<Self, Error> {
         let document = Document::read(path)?;
-        let keys: Keys = document.parse()?;
-        for (key, found, expected) in
-            [("schema", &keys.schema, SCHEMA), ("frame", &keys.frame, FRAME)]
-        {
-            if found.get_ref() != expected {
-                let expected = format!("\"{expected}\"");
-                return Err(document.value_error(found.span(), key, expected).into());
-            }
+        let keys: Keys = document.parse_as(SCHEMA)?;
+        if keys.frame.get_ref() != FRAME {
+            let expected = format!("\"{FRAME}\"");
+            return Err(document.value_error(keys.frame.span(), "frame", expected).into());
         }
         if let Some(noise) = &keys.noise {
             let StatedNoise { position, yaw } = *noise.get_ref();

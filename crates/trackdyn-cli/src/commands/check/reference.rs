@@ -1,11 +1,12 @@
 //! Reference files, schema `trackdyn.reference/1`.
 
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use toml::Spanned;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_motion::Grid;
-use trackdyn_motion::map::Statistics;
+use trackdyn_motion::map::{GridError, Statistics};
 use trackdyn_physics::ActiveEffect;
 
 const SCHEMA: &str = "trackdyn.reference/1";
@@ -87,10 +88,10 @@ struct Tables {
 struct CaseTable {
     name: String,
     vehicle: Option<PathBuf>,
-    cog_m: Option<[f64; 2]>,
+    cog_m: Option<Spanned<Vec<f64>>>,
     #[serde(default)]
     effects: Vec<Spanned<String>>,
-    expect: std::collections::BTreeMap<Spanned<String>, Spanned<Expected>>,
+    expect: Spanned<BTreeMap<Spanned<String>, Spanned<Expected>>>,
 }
 
 fn paper_speed() -> Spanned<f64> {
@@ -103,16 +104,22 @@ impl Reference {
     /// # Errors
     /// A [`DocumentError`] that points at the line and key.
     pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
-        let tables: Tables = document.parse()?;
-        if tables.schema.get_ref() != SCHEMA {
-            let expected = format!("\"{SCHEMA}\"");
+        let tables: Tables = document.parse_as(SCHEMA)?;
+        let (points, speed) = (*tables.grid.get_ref(), *tables.max_speed_m_s.get_ref());
+        let grid = Grid::new(points, speed).map_err(|error| {
+            let (key, span) = match error {
+                GridError::Speed(_) => ("max_speed_m_s", tables.max_speed_m_s.span()),
+                _ => ("grid", tables.grid.span()),
+            };
+            let reason = error.to_string();
+            let expected =
+                reason.split_once("expected ").map_or(&*reason, |(_, expected)| expected);
+            document.value_error(span, key, expected)
+        })?;
+        if tables.case.is_empty() {
+            let expected = "a file with a [[case]]: nothing would be checked";
             return Err(document.value_error(tables.schema.span(), "schema", expected));
         }
-        let (points, speed) = (*tables.grid.get_ref(), *tables.max_speed_m_s.get_ref());
-        let grid = Grid::new(points, speed).map_err(|_| {
-            let expected = format!("2 to {} points and a positive speed", Grid::MAX_POINTS);
-            document.value_error(tables.grid.span(), "grid", expected)
-        })?;
         let cases = tables
             .case
             .into_iter()
@@ -133,8 +140,14 @@ impl CaseTable {
                     .map_err(|error| document.value_error(text.span(), "effects", error.expected()))
             })
             .collect::<Result<_, _>>()?;
+        if self.expect.get_ref().is_empty() {
+            let keys = QUANTITIES.map(|quantity| quantity.key).join(", ");
+            let expected = format!("at least one of {keys}: nothing would be checked");
+            return Err(document.value_error(self.expect.span(), "expect", expected));
+        }
         let expect = self
             .expect
+            .get_ref()
             .iter()
             .map(|(key, expected)| {
                 let name = key.get_ref();
@@ -143,13 +156,14 @@ impl CaseTable {
                     document.value_error(key.span(), "expect", format!("one of {keys}"))
                 })?;
                 let Expected { value, tolerance } = *expected.get_ref();
-                if !(value.is_finite() && tolerance >= 0.0) {
-                    let expected_text = "a finite value and a tolerance that is not negative";
+                if !(value.is_finite() && tolerance.is_finite() && tolerance >= 0.0) {
+                    let expected_text = "a finite value and a finite tolerance, not negative";
                     return Err(document.value_error(expected.span(), name, expected_text));
                 }
                 Ok((quantity, Expected { value, tolerance }))
             })
             .collect::<Result<_, _>>()?;
-        Ok(Case { name: self.name, vehicle: self.vehicle, cog: self.cog_m, effects, expect })
+        let cog = self.cog_m.map(|list| document.numbers("cog_m", &list)).transpose()?;
+        Ok(Case { name: self.name, vehicle: self.vehicle, cog, effects, expect })
     }
 }

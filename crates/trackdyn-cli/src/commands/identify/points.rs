@@ -3,6 +3,7 @@
 use super::Options;
 use crate::commands::Outcome;
 use crate::options::command_line;
+use crate::stdout::show;
 use std::fmt::Write;
 use std::path::Path;
 use trackdyn_core::document::Document;
@@ -55,8 +56,6 @@ pub fn run(path: &Path, vehicle: &VehicleFile, options: &Options) -> Outcome {
     if let (_, Ok(fit)) = &fits[0] {
         worst(&mut text, &table.points, fit);
     }
-    print!("{text}");
-
     let fingerprint = fingerprint(Document::read(path)?.text().as_bytes());
     let files = fits.iter().map(|(free, fit)| {
         let fit = fit.as_ref().ok().filter(|fit| fit.doubts(gauge).is_empty())?;
@@ -73,7 +72,9 @@ pub fn run(path: &Path, vehicle: &VehicleFile, options: &Options) -> Outcome {
         let with_alphas = *free == Free::IcrsAndAlphas;
         Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source))
     });
-    super::keep(&options.out, files)
+    let exit = super::keep(&options.out, files)?;
+    show(&text)?;
+    Ok(exit)
 }
 
 fn fit(text: &mut String, free: Free, fit: &Result<SteadyEstimate, Error>, gauge: f64) {

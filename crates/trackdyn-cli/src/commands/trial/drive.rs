@@ -8,6 +8,7 @@ use super::room::{OUT, Program, Room};
 use crate::commands::Outcome as Exited;
 use crate::exit::Exit;
 use crate::progress::Progress;
+use crate::stdout::show;
 use clap::Args;
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -62,7 +63,7 @@ pub fn run(options: &Options) -> Exited {
     let judged = folder::judge(&options.trial, &answers, &Entry::default())?;
     let open: Vec<&Judged> = judged.iter().filter(|case| !open_sets(case).is_empty()).collect();
     if open.is_empty() {
-        println!("nothing to drive for: no diagnosis leaves a set open that driving may split");
+        show("nothing to drive for: no diagnosis leaves a set open that driving may split\n")?;
         return Ok(Exit::NoResult);
     }
     let out = options.out.clone().unwrap_or_else(|| options.trial.join("driven"));
@@ -79,7 +80,7 @@ pub fn run(options: &Options) -> Exited {
     let page = resolution_markdown(&revisited);
     write_file(&out.join("driven.md"), page.as_bytes())?;
     write_file(&out.join("rates.csv"), rates_csv(&rates(&revisited)).as_bytes())?;
-    print!("{page}");
+    show(&page)?;
     eprintln!("wrote plans, recordings, diagnoses and scores to {}", out.display());
     Ok(Exit::Done)
 }

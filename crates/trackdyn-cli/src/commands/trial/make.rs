@@ -5,6 +5,7 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::finite;
 use crate::progress::Progress;
+use crate::stdout::show;
 use clap::Args;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -70,9 +71,13 @@ pub fn run(options: &Options) -> Outcome {
         let of = answers.cases.iter().filter(|answer| answer.stratum == stratum);
         format!("{} {}", of.count(), stratum.name())
     });
-    println!("{} cases: {}", options.cases, counts.join(", "));
-    println!("answers  SHA-256 {}", commitment.answers_sha256);
-    println!("sealed   SHA-256 {}", commitment.sealed_sha256);
+    show(&format!(
+        "{} cases: {}\nanswers  SHA-256 {}\nsealed   SHA-256 {}\n",
+        options.cases,
+        counts.join(", "),
+        commitment.answers_sha256,
+        commitment.sealed_sha256
+    ))?;
     eprintln!("wrote {} and the key to {}", options.out.display(), key.display());
     Ok(Exit::Done)
 }

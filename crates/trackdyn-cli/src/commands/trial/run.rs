@@ -4,6 +4,7 @@ use super::room::{OUT, Program, Room};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::progress::Progress;
+use crate::stdout::show;
 use clap::Args;
 use std::error::Error;
 use std::fs;
@@ -30,7 +31,8 @@ pub struct Options {
     #[arg(long, value_name = "NAME")]
     name: Option<Entry>,
     /// Time after which a process is ended and counts as failed, s
-    #[arg(long, value_name = "SECONDS", default_value_t = 3600)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 3600,
+          value_parser = clap::value_parser!(u64).range(1..))]
     limit: u64,
     /// Run cases again whose process failed
     #[arg(long)]
@@ -89,13 +91,13 @@ pub fn run(options: &Options) -> Outcome {
     }
     progress.finish();
     let before = mine.len() - open.len();
-    println!(
-        "{}: {} cases: {} diagnosed now, {failed} failed, {before} before",
+    let diagnosed = open.len() - failed;
+    show(&format!(
+        "{}: {} cases: {diagnosed} diagnosed now, {failed} failed, {before} before\n",
         entry.name(),
         mine.len(),
-        open.len() - failed
-    );
-    Ok(Exit::Done)
+    ))?;
+    Ok(if failed > 0 && diagnosed == 0 { Exit::NoResult } else { Exit::Done })
 }
 
 /// The program as asked for, or this one.

@@ -3,10 +3,11 @@
 use super::{figures, key_file};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::stdout::show;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_trial::{Entry, Opened, Score, score};
+use trackdyn_trial::{Entry, Opened, Score, diagnosis, folder, score};
 
 /// Options of `trackdyn trial score`.
 #[derive(Args)]
@@ -31,14 +32,15 @@ pub struct Options {
 
 /// Scores the diagnoses that are there.
 pub fn run(options: &Options) -> Outcome {
-    let keys = key_files(options)?;
-    one_each("--commitment", options.commitments.len(), options.trials.len())?;
-    let opened = Opened::open(options.trials.iter().map(PathBuf::as_path).zip(keys))?;
-    opened.check(&options.commitments)?;
     let mut entries = options.names.clone();
     if entries.is_empty() {
         entries.push(Entry::default());
     }
+    refuse_unknown(&entries, &options.trials)?;
+    let keys = key_files(options)?;
+    one_each("--commitment", options.commitments.len(), options.trials.len())?;
+    let opened = Opened::open(options.trials.iter().map(PathBuf::as_path).zip(keys))?;
+    opened.check(&options.commitments)?;
     let out = match (&options.out, options.trials.as_slice()) {
         (Some(out), _) => out.clone(),
         (None, [trial]) => trial.join(usual_folder(&entries)),
@@ -64,13 +66,33 @@ pub fn run(options: &Options) -> Outcome {
     for (name, text) in opened.texts() {
         write_file(&out.join(name), text.as_bytes())?;
     }
-    print!("{page}");
+    show(&page)?;
     eprintln!(
         "the commitment holds; wrote tables, figures and the opened answers to {}",
         out.display()
     );
-    let is_empty = scores.iter().all(|score| score.judged.is_empty());
-    Ok(if is_empty { Exit::NoResult } else { Exit::Done })
+    Ok(Exit::Done)
+}
+
+/// Answers are not opened for a program that was never run: its name may be mistyped.
+fn refuse_unknown(entries: &[Entry], trials: &[PathBuf]) -> Result<(), Box<dyn std::error::Error>> {
+    let mut cases = Vec::new();
+    for trial in trials {
+        cases.extend(folder::cases(trial)?);
+    }
+    for entry in entries {
+        let has_replied = |case: &PathBuf| {
+            entry.diagnosis(case).join(diagnosis::FILE).exists() || entry.failure(case).exists()
+        };
+        if !cases.iter().any(has_replied) {
+            return Err(format!(
+                "--name {}: expected a program that was run on the trial: the answers stay sealed",
+                entry.name()
+            )
+            .into());
+        }
+    }
+    Ok(())
 }
 
 /// The key of each trial.

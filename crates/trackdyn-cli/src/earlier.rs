@@ -1,0 +1,19 @@
+//! Files of an earlier run that would be taken for this one's.
+
+use std::path::Path;
+use trackdyn_core::document::Document;
+use trackdyn_motion::kinematics::{KinematicsFile, Source};
+
+/// Removes a kinematics file where this run gives none, if it comes from an earlier run of the same kind.
+///
+/// # Errors
+/// A file that cannot be removed.
+pub fn remove_earlier(path: &Path, is_own: impl FnOnce(&Source) -> bool) -> Result<(), String> {
+    let file = Document::read(path).ok();
+    let file = file.and_then(|document| KinematicsFile::from_document(&document).ok());
+    if file.is_some_and(|file| is_own(&file.source)) {
+        std::fs::remove_file(path).map_err(|cause| format!("{}: {cause}", path.display()))?;
+        eprintln!("removed {}, of an earlier run: this one determines none", path.display());
+    }
+    Ok(())
+}

@@ -188,6 +188,13 @@ impl Panel {
             Style::new(TICK_SIZE).colour(GREY).anchor(Horizontal::Right, Vertical::Baseline);
         canvas.text(text, [self.plot.right(), self.plot.top - ABOVE], &style);
     }
+
+    /// In the middle of a plot with nothing in it: why.
+    pub fn explain_emptiness(&self, canvas: &mut Canvas, reason: &str) {
+        let Area { left, top, width, height } = self.plot;
+        let style = Style::new(TICK_SIZE).colour(GREY).anchor(Horizontal::Centre, Vertical::Middle);
+        canvas.text(reason, [left + width / 2, top + height / 2], &style);
+    }
 }
 
 fn plain([r, g, b]: Rgb) -> ShapeStyle {

@@ -56,3 +56,13 @@ fn key_file(asked: Option<&Path>, trial: &Path) -> Result<PathBuf, Box<dyn std::
     name.push(".key");
     Ok(trial.with_file_name(name))
 }
+
+/// The same of a trial whose answers are to be opened: the key is there.
+fn key_to_open(asked: Option<&Path>, trial: &Path) -> Result<PathBuf, Box<dyn std::error::Error>> {
+    let key = key_file(asked, trial)?;
+    if asked.is_none() && !key.exists() {
+        let reason = "no key is there: expected --key FILE, the one of trial make";
+        return Err(format!("{}: {reason}", key.display()).into());
+    }
+    Ok(key)
+}

@@ -42,7 +42,7 @@ pub(super) fn draw(
     let x = if by_time { "time (s)" } else { "distance travelled (m)" };
     panel.frame(canvas, &Labels { title: quantity.name, x, y: &y }, true)?;
     if spans.is_empty() {
-        panel.remark(canvas, "runs too short");
+        panel.explain_emptiness(canvas, "runs too short");
     }
     canvas.clip(area, |canvas| {
         for set in 0..result.sets.len() {

@@ -3,7 +3,7 @@
 //! After opening: each case with an open set is planned for by a process, driven on its own ground, and
 //! diagnosed anew, from the old recording and the new one together, by another process.
 
-use super::key_file;
+use super::key_to_open;
 use super::room::{OUT, Program, Room};
 use crate::commands::Outcome as Exited;
 use crate::exit::Exit;
@@ -58,7 +58,7 @@ struct Visit<'a> {
 
 /// Drives on where diagnoses are ambiguous, and scores what comes of it.
 pub fn run(options: &Options) -> Exited {
-    let key = key_file(options.key.as_deref(), &options.trial)?;
+    let key = key_to_open(options.key.as_deref(), &options.trial)?;
     let answers = folder::open_answers(&options.trial, &key)?;
     let judged = folder::judge(&options.trial, &answers, &Entry::default())?;
     let open: Vec<&Judged> = judged.iter().filter(|case| !open_sets(case).is_empty()).collect();

@@ -92,8 +92,10 @@ pub fn run(options: &Options) -> Outcome {
     progress.finish();
     let before = mine.len() - open.len();
     let diagnosed = open.len() - failed;
+    let lost = mine.iter().filter(|case| entry.failure(case).exists()).count() - failed;
+    let lost = if lost == 0 { String::new() } else { format!(" ({lost} of them failed)") };
     show(&format!(
-        "{}: {} cases: {diagnosed} diagnosed now, {failed} failed, {before} before\n",
+        "{}: {} cases: {diagnosed} diagnosed now, {failed} failed, {before} before{lost}\n",
         entry.name(),
         mine.len(),
     ))?;

@@ -1,6 +1,6 @@
 //! `trackdyn trial score`: opens the answers and scores the diagnoses.
 
-use super::{figures, key_file};
+use super::{figures, key_to_open};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::stdout::show;
@@ -99,7 +99,7 @@ fn refuse_unknown(entries: &[Entry], trials: &[PathBuf]) -> Result<(), Box<dyn s
 fn key_files(options: &Options) -> Result<Vec<PathBuf>, Box<dyn std::error::Error>> {
     let (trials, keys) = (&options.trials, &options.keys);
     one_each("--key", keys.len(), trials.len())?;
-    let of = |(place, trial)| key_file(keys.get(place).map(PathBuf::as_path), trial);
+    let of = |(place, trial)| key_to_open(keys.get(place).map(PathBuf::as_path), trial);
     trials.iter().map(PathBuf::as_path).enumerate().map(of).collect()
 }
 

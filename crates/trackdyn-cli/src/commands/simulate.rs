@@ -106,12 +106,13 @@ pub fn run(options: &Options) -> Outcome {
     for warning in recording.warnings() {
         eprintln!("note: {warning}");
     }
+    // It comes first: it says that all others may be replaced.
+    let text = document::text(&file, &sensors, &recording, options)?;
+    write_file(&options.out.join("simulation.toml"), text.as_bytes())?;
     truth::write(&options.out, runs.iter().map(|run| (run.id, &run.path)))?;
     schedules::write(&options.out.join("schedule.csv"), &schedules)?;
     write_file(&options.out.join("vehicle.toml"), file.to_toml().as_bytes())?;
     write_file(&options.out.join("sensors.toml"), sensors.to_toml().as_bytes())?;
-    let text = document::text(&file, &sensors, &recording, options)?;
-    write_file(&options.out.join("simulation.toml"), text.as_bytes())?;
     folder::write(&recording, &options.out)?;
     show(&document::summary(&file, &sensors, &recording, &runs))?;
     eprintln!("wrote the recording, truth.csv and simulation.toml to {}", options.out.display());

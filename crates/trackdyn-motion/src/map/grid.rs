@@ -12,11 +12,23 @@ pub struct Grid {
 #[non_exhaustive]
 pub enum GridError {
     /// Too few or too many points.
-    #[error("grid = {0}: expected 2 to {max} points per track", max = Grid::MAX_POINTS)]
+    #[error("grid = {0}: expected {expected}", expected = self.expected())]
     Points(usize),
     /// A speed that is not positive, or that no robot drives.
-    #[error("speed = {0}: expected a positive largest track speed in m/s, at most {max}", max = Grid::MAX_SPEED)]
+    #[error("speed = {0}: expected {expected}", expected = self.expected())]
     Speed(f64),
+}
+
+impl GridError {
+    /// What would be accepted.
+    pub fn expected(&self) -> String {
+        match self {
+            Self::Points(_) => format!("2 to {} points per track", Grid::MAX_POINTS),
+            Self::Speed(_) => {
+                format!("a positive largest track speed in m/s, at most {}", Grid::MAX_SPEED)
+            }
+        }
+    }
 }
 
 impl Grid {

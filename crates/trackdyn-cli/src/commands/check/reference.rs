@@ -111,10 +111,7 @@ impl Reference {
                 GridError::Speed(_) => ("max_speed_m_s", tables.max_speed_m_s.span()),
                 _ => ("grid", tables.grid.span()),
             };
-            let reason = error.to_string();
-            let expected =
-                reason.split_once("expected ").map_or(&*reason, |(_, expected)| expected);
-            document.value_error(span, key, expected)
+            document.value_error(span, key, error.expected())
         })?;
         if tables.case.is_empty() {
             let expected = "a file with a [[case]]: nothing would be checked";

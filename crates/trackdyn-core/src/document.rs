@@ -109,12 +109,10 @@ impl Document {
     /// [`DocumentError::Value`] where it says otherwise; those of [`Document::parse`].
     pub fn parse_as<T: DeserializeOwned>(&self, schema: &str) -> Result<T, DocumentError> {
         let Head { schema: found } = self.parse()?;
-        match found {
-            Some(found) if found.get_ref() != schema => {
-                Err(self.value_error(found.span(), "schema", format!("\"{schema}\"")))
-            }
-            _ => self.parse(),
+        if found.get_ref() != schema {
+            return Err(self.value_error(found.span(), "schema", format!("\"{schema}\"")));
         }
+        self.parse()
     }
 
     /// A list of a file as so many numbers, no more and no fewer.
@@ -165,7 +163,7 @@ impl Document {
 /// What the file says that it is.
 #[derive(Deserialize)]
 struct Head {
-    schema: Option<Spanned<String>>,
+    schema: Spanned<String>,
 }
 
 #[cfg(test)]

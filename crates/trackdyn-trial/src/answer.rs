@@ -97,7 +97,10 @@ pub struct Concealed {
     pub z_det: f64,
     /// The same outside the alternative that comes closest.
     pub z_iso: f64,
-    /// That alternative.
+    /// The same outside three alternatives together, those that take most of it; older answers have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub z_beyond: Option<f64>,
+    /// The alternative that comes closest.
     pub nearest: String,
     /// Alternatives from which the recording cannot tell it.
     pub class: Vec<String>,
@@ -149,6 +152,12 @@ impl Concealed {
     /// what its z_iso was compared with are the effects outside that class.
     pub fn is_isolable(&self) -> bool {
         self.is_detectable() && self.z_iso >= crate::oracle::DISTINCT && !self.is_constant()
+    }
+
+    /// Whether the recording shows it beside what three effects of the catalogue together may take of it; none where that is not
+    /// known.
+    pub fn is_beyond_others(&self) -> Option<bool> {
+        self.z_beyond.map(|z| z >= crate::oracle::DETECTABLE)
     }
 
     /// Members of the smallest set that the recording allows: it, and all that cannot be told from it.

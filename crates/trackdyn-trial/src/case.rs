@@ -288,6 +288,7 @@ fn answer(sized: &Sized, standing: Standing, wanted: Option<f64>) -> Concealed {
         z_wanted: wanted.map(two_digits),
         z_det: two_digits(standing.z_det),
         z_iso: two_digits(standing.z_iso),
+        z_beyond: Some(two_digits(standing.z_beyond)),
         nearest: standing.nearest.to_owned(),
         class: standing.class.into_iter().map(str::to_owned).collect(),
     }

@@ -17,6 +17,8 @@ use trackdyn_identify::Observations;
 pub const DETECTABLE: f64 = 5.0;
 /// z from which on an effect can be told from every other one.
 pub const DISTINCT: f64 = 4.0;
+/// Alternatives that may together stand for an effect, as many as a diagnosis names laws.
+const TOGETHER: usize = 3;
 /// Smallest z at which sizes are found: above what the phases of shoes make of any change, one or two. Only strengths of
 /// smaller sizes are taken in proportion: between z = 10 and 40 laws of the slip speed are anything but linear, and sheared
 /// soil changes the sign of what it shows.
@@ -60,7 +62,9 @@ pub(crate) struct Standing {
     pub(crate) z_det: f64,
     /// Length outside the nuisances and the alternative that comes closest.
     pub(crate) z_iso: f64,
-    /// That alternative.
+    /// Length outside the nuisances and the three alternatives that take most of it, one after the other.
+    pub(crate) z_beyond: f64,
+    /// The alternative that comes closest.
     pub(crate) nearest: &'static str,
     /// All alternatives that leave less than [`DISTINCT`].
     pub(crate) class: Vec<&'static str>,
@@ -179,15 +183,17 @@ impl Judge<'_> {
             // what is compared was driven alike: without inertia, in the same runs
             let (space, part) = (taken(rows, &shapes), shapes[index]);
             let whole = space.outside(part);
+            let scaled = |left: f64| if whole > 0.0 { z_det * left / whole } else { 0.0 };
             let left = others.iter().zip(&columns).map(|(alternative, columns)| {
                 let mut space = space.clone();
                 for column in columns {
                     space.add(column.clone());
                 }
-                let share = if whole > 0.0 { space.outside(part) / whole } else { 0.0 };
-                (alternative.id, z_det * share)
+                (alternative.id, scaled(space.outside(part)))
             });
-            standing(z_det, &left.collect::<Vec<_>>())
+            let left: Vec<_> = left.collect();
+            let z_beyond = scaled(beyond(space.clone(), part, &others, &columns));
+            standing(z_det, z_beyond, &left)
         });
         Ok(standings.collect())
     }
@@ -246,13 +252,37 @@ impl Still<'_> {
     }
 }
 
-fn standing(z_det: f64, left: &[(&'static str, f64)]) -> Standing {
+/// What the alternatives that take most of a signature leave of it, one after the other, each effect once.
+fn beyond(
+    mut space: Subspace,
+    signature: &[f64],
+    others: &[Alternative],
+    columns: &[Vec<Vec<f64>>],
+) -> f64 {
+    let mut taken: Vec<&str> = Vec::new();
+    for _ in 0..TOGETHER {
+        let free = others.iter().zip(columns).filter(|(other, _)| !taken.contains(&other.id));
+        let with = free.map(|(other, columns)| {
+            let mut space = space.clone();
+            for column in columns {
+                space.add(column.clone());
+            }
+            (space.outside(signature), other.id, space)
+        });
+        let Some((_, id, next)) = with.min_by(|a, b| a.0.total_cmp(&b.0)) else { break };
+        taken.push(id);
+        space = next;
+    }
+    space.outside(signature)
+}
+
+fn standing(z_det: f64, z_beyond: f64, left: &[(&'static str, f64)]) -> Standing {
     let nearest = left.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1));
     let (nearest, z_iso) = nearest.unwrap_or(("", z_det));
     let mut class: Vec<_> = left.iter().filter(|(_, z)| *z < DISTINCT).map(|(id, _)| *id).collect();
     class.sort_unstable();
     class.dedup();
-    Standing { z_det, z_iso, nearest, class }
+    Standing { z_det, z_iso, z_beyond, nearest, class }
 }
 
 #[cfg(test)]

@@ -115,6 +115,7 @@ mod tests {
             z_wanted: None,
             z_det: 0.0,
             z_iso: 0.0,
+            z_beyond: None,
             nearest: String::new(),
             class: Vec::new(),
         }];

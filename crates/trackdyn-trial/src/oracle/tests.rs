@@ -187,11 +187,26 @@ fn z_grows_in_proportion_and_is_largest_without_alternatives() {
         let dose = Dose::slope(15.0);
         let sized = judge.sized(dose, 60.0, 1.0).expect("a size");
         let standing = judge.standings(&[sized], &[], scene, &mut random).expect("compared");
-        let Standing { z_det, z_iso, nearest, .. } = &standing[0];
+        let Standing { z_det, z_iso, z_beyond, nearest, .. } = &standing[0];
         assert!((z_det / 60.0).ln().abs() < 2.0 * CLOSE_ENOUGH, "{z_det}");
         // a cable from afar pulls as a slope does; phases of shoes leave one or two
         assert!(*nearest == "tether" && *z_iso < 0.1 * z_det, "{nearest}: {z_iso} of {z_det}");
+        assert!(z_beyond <= z_iso, "{z_beyond} beside three, {z_iso} beside one");
     });
+}
+
+/// Three alternatives take of a signature what they span, each effect once.
+#[test]
+fn alternatives_together_take_what_each_leaves() {
+    let dose = || vec![(Dose::slope(0.0), 1.0)];
+    let others: Vec<Alternative> = ["slope", "slope", "tether", "hitch-drag", "belt-slip"]
+        .map(|id| Alternative { id, members: dose() })
+        .into();
+    let axis = |k: usize| (0..5).map(|row| f64::from(row == k)).collect::<Vec<f64>>();
+    let columns: Vec<Vec<Vec<f64>>> = (0..5).map(|k| vec![axis(k)]).collect();
+    // the second variant of the first effect may not come beside it: 4, then 2, then 1, and 3 is left with 0.5
+    let left = beyond(Subspace::default(), &[4.0, 3.0, 2.0, 1.0, 0.5], &others, &columns);
+    assert!((left - 9.25_f64.sqrt()).abs() < 1e-12, "{left}");
 }
 
 /// What is stated is what the size really leaves, in length and in shape: laws of the slip speed are not linear, what

@@ -1,6 +1,7 @@
 //! Means and medians over cases.
 
 use super::verdict::Judged;
+use crate::answer::Concealed;
 use crate::diagnosis::Fit;
 use statrs::distribution::{ContinuousCDF, Normal};
 use trackdyn_core::real;
@@ -72,6 +73,9 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
             Some((truth, case.set_with(&truth.mechanism)?))
         })
     };
+    let pairs = judged.iter().map(|case| case.answer.concealed.as_slice());
+    let isolable_pairs =
+        pairs.filter(|pair| pair.len() == 2 && pair.iter().all(Concealed::is_isolable));
     let singles = judged.iter().filter_map(|case| case.only());
     let isolable = singles.filter(|truth| truth.is_isolable());
     [
@@ -111,6 +115,10 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
         Mean::of(
             "most to expect of exact isolation: chance that noise allows it",
             isolable.map(|truth| told_apart(truth.z_iso)),
+        ),
+        Mean::of(
+            "most to expect of isolable pairs: chance that noise allows both",
+            isolable_pairs.map(|pair| pair.iter().map(|truth| told_apart(truth.z_iso)).product()),
         ),
     ]
     .into_iter()

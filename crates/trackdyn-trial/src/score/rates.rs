@@ -174,10 +174,13 @@ fn outside(judged: &[Judged]) -> Vec<Rate> {
         .filter(|(_, truth)| truth.is_detectable())
         .collect();
     let broken = |case: &Judged| case.diagnosis().map_or(Vec::new(), |d| d.located.broken.clone());
-    let isolable = detectable.iter().filter(|(_, truth)| truth.is_isolable());
-    let flagged = isolable.map(|(case, _)| {
-        case.diagnosis().is_some_and(|diagnosis| diagnosis.status == Status::Unexplained)
-    });
+    let flagged = |counts: &dyn Fn(&Concealed) -> bool| -> Vec<bool> {
+        let cases = detectable.iter().filter(|(_, truth)| counts(truth));
+        let is_flagged = |case: &Judged| {
+            case.diagnosis().is_some_and(|diagnosis| diagnosis.status == Status::Unexplained)
+        };
+        cases.map(|(case, _)| is_flagged(case)).collect()
+    };
     let answered = detectable.iter().filter(|(case, _)| case.diagnosis().is_some());
     let names_alone = answered.map(|(case, _)| case.names_one_alone());
     // Beside its own are those that known errors break: a late clock shows as a lag does.
@@ -192,7 +195,14 @@ fn outside(judged: &[Judged]) -> Vec<Rate> {
         is_right(case) && truth.breaks.iter().all(|letter| broken(case).contains(letter))
     });
     vec![
-        Rate::of("outside the catalogue, unlike any effect of it: flagged as unexplained", flagged),
+        Rate::of(
+            "outside the catalogue, unlike any effect of it: flagged as unexplained",
+            flagged(&Concealed::is_isolable),
+        ),
+        Rate::of(
+            "outside the catalogue, unlike any three effects of it together: flagged as unexplained",
+            flagged(&|truth| truth.is_beyond_others() == Some(true)),
+        ),
         Rate::of("outside the catalogue: one effect named all the same", names_alone),
         Rate::of("outside the catalogue: broken symmetries are its own or of known errors", within),
         Rate::of("outside the catalogue: broken symmetries are its own, all of them", equal),

@@ -170,7 +170,7 @@ pub fn confusion_csv(score: &Score) -> String {
 pub fn cases_csv(score: &Score) -> String {
     let mut text = String::from(
         "case,stratum,concealed,z_det,z_iso,nearest,status,named,broken,false_claim,absent_law,intervals_hold,intervals,\
-         excess_explained,held_out_before,held_out_instruments,held_out_after,noise_floor\n",
+         excess_explained,held_out_before,held_out_instruments,held_out_after,noise_floor,z_beyond\n",
     );
     for case in &score.judged {
         let answer = &case.answer;
@@ -200,7 +200,7 @@ pub fn cases_csv(score: &Score) -> String {
         ];
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{},{status},{named},{broken},{},{},{hold},{},{}",
+            "{},{},{},{},{},{},{status},{named},{broken},{},{},{hold},{},{},{}",
             answer.id,
             answer.stratum.name(),
             list(&|c| c.mechanism.clone()),
@@ -210,7 +210,8 @@ pub fn cases_csv(score: &Score) -> String {
             case.claims_falsely(),
             case.names_absent_law(),
             intervals.len(),
-            figures.join(",")
+            figures.join(","),
+            list(&|c| c.z_beyond.map_or_else(String::new, |z| z.to_string()))
         );
     }
     text

@@ -14,6 +14,7 @@ fn concealed(id: &str, z_det: f64, z_iso: f64) -> Concealed {
         z_wanted: None,
         z_det,
         z_iso,
+        z_beyond: Some(z_iso),
         nearest: String::new(),
         class: Vec::new(),
     }
@@ -131,7 +132,8 @@ fn pairs_intervals_and_laws_outside() {
         |text: &str| case(Stratum::Outside, vec![concealed("steering-grip", 20.0, 9.0)], text);
     let flagged = outside("status = 'unexplained'\n[located]\nbroken = ['P']\n");
     let cases = [flagged, outside(SLOPE)];
-    assert_eq!(rate(&cases, "outside the catalogue, unlike"), (1, 2));
+    assert_eq!(rate(&cases, "outside the catalogue, unlike any effect"), (1, 2));
+    assert_eq!(rate(&cases, "outside the catalogue, unlike any three"), (1, 2));
     assert_eq!(rate(&cases, "outside the catalogue: broken symmetries are its own, all"), (1, 2));
     assert_eq!(rate(&cases, "outside the catalogue: one effect"), (1, 2));
     assert_eq!(rate(&cases, "false claim: outside"), (1, 2));
@@ -158,7 +160,8 @@ fn what_was_not_run_does_not_count_and_what_failed_is_counted() {
     assert_eq!(rate(&score.judged, "process failed"), (1, 1));
     assert!(markdown(&score).contains("| slope | 1 |"));
     assert!(
-        cases_csv(&score).contains("case-0001,single,slope,20,9,,failed,,,false,false,0,0,,,,,\n")
+        cases_csv(&score)
+            .contains("case-0001,single,slope,20,9,,failed,,,false,false,0,0,,,,,,9\n")
     );
 }
 
@@ -169,7 +172,7 @@ fn the_line_of_a_case_is_enough_to_count_it_again() {
     let line =
         cases_csv(&Score::of(vec![case(Stratum::PlainNull, Vec::new(), &format!("{SCALE}{fit}"))]));
     let line = line.lines().nth(1);
-    let expected = "case-0001,plain-null,,,,,explained,encoder-scale,,false,false,1,1,0.9877,2.0000,,1.0200,1.0100";
+    let expected = "case-0001,plain-null,,,,,explained,encoder-scale,,false,false,1,1,0.9877,2.0000,,1.0200,1.0100,";
     assert_eq!(line, Some(expected));
 }
 

@@ -1,5 +1,6 @@
 //! Programs that are put to a trial.
 
+use crate::diagnosis;
 use crate::error::Error;
 use crate::folder::DIAGNOSIS;
 use std::path::{Path, PathBuf};
@@ -24,6 +25,16 @@ impl Entry {
     /// What it wrote of a case, in the folder of the case.
     pub fn diagnosis(&self, case: &Path) -> PathBuf {
         case.join(self.qualified(DIAGNOSIS, ""))
+    }
+
+    /// Whether there is a diagnosis of a case.
+    pub fn has_diagnosed(&self, case: &Path) -> bool {
+        self.diagnosis(case).join(diagnosis::FILE).exists()
+    }
+
+    /// Whether it failed at a case.
+    pub fn has_failed(&self, case: &Path) -> bool {
+        self.failure(case).exists()
     }
 
     /// Why it failed at a case, in the folder of the case.

@@ -12,7 +12,7 @@
 
 use crate::answer::{Answer, Answers};
 use crate::case::Case;
-use crate::diagnosis::{self, Diagnosis};
+use crate::diagnosis::Diagnosis;
 use crate::entry::Entry;
 use crate::error::Error;
 use crate::key::Key;
@@ -153,13 +153,13 @@ fn judge_case(trial: &Path, answer: &Answer, entry: &Entry) -> Result<Judged, Er
     let owned = VehicleFile::from_document(&Document::read(&home.join(VEHICLE))?)?;
     let truth = Document::new(format!("{}, sealed vehicle", answer.id), &answer.vehicle);
     let truth = VehicleFile::from_document(&truth)?;
-    let (written, failure) = (entry.diagnosis(&home), entry.failure(&home));
-    let reply = if written.join(diagnosis::FILE).exists() {
-        match Diagnosis::read(&written) {
+    let reply = if entry.has_diagnosed(&home) {
+        match Diagnosis::read(&entry.diagnosis(&home)) {
             Ok(diagnosis) => Reply::Diagnosed(Box::new(diagnosis)),
             Err(error) => Reply::Failed(error.to_string()),
         }
-    } else if failure.exists() {
+    } else if entry.has_failed(&home) {
+        let failure = entry.failure(&home);
         Reply::Failed(fs::read_to_string(&failure).map_err(Error::file(failure))?)
     } else {
         Reply::Absent

@@ -13,7 +13,7 @@ use std::str::FromStr;
 use std::time::{Duration, Instant};
 use trackdyn_core::output::write_file;
 use trackdyn_trial::driving::HELD_OUT;
-use trackdyn_trial::{Diagnosis, Entry, diagnosis, folder};
+use trackdyn_trial::{Diagnosis, Entry, folder};
 
 /// Options of `trackdyn trial run`.
 #[derive(Args)]
@@ -73,10 +73,8 @@ pub fn run(options: &Options) -> Outcome {
     }
     let Shard { index, of } = options.shard.unwrap_or(Shard { index: 1, of: 1 });
     let mine: Vec<&PathBuf> = cases.iter().skip(index - 1).step_by(of).collect();
-    let is_done = |case: &Path| {
-        entry.diagnosis(case).join(diagnosis::FILE).exists()
-            || (!options.retry && entry.failure(case).exists())
-    };
+    let is_done =
+        |case: &Path| entry.has_diagnosed(case) || (!options.retry && entry.has_failed(case));
     let open: Vec<&PathBuf> = mine.iter().copied().filter(|case| !is_done(case)).collect();
     let progress = Progress::new(open.len());
     let mut failed = 0;
@@ -92,7 +90,7 @@ pub fn run(options: &Options) -> Outcome {
     progress.finish();
     let before = mine.len() - open.len();
     let diagnosed = open.len() - failed;
-    let lost = mine.iter().filter(|case| entry.failure(case).exists()).count() - failed;
+    let lost = mine.iter().filter(|case| entry.has_failed(case)).count() - failed;
     let lost = if lost == 0 { String::new() } else { format!(" ({lost} of them failed)") };
     show(&format!(
         "{}: {} cases: {diagnosed} diagnosed now, {failed} failed, {before} before{lost}\n",

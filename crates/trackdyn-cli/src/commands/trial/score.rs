@@ -7,7 +7,7 @@ use crate::stdout::show;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_trial::{Entry, Opened, Score, diagnosis, folder, score};
+use trackdyn_trial::{Entry, Opened, Score, folder, score};
 
 /// Options of `trackdyn trial score`.
 #[derive(Args)]
@@ -81,9 +81,7 @@ fn refuse_unknown(entries: &[Entry], trials: &[PathBuf]) -> Result<(), Box<dyn s
         cases.extend(folder::cases(trial)?);
     }
     for entry in entries {
-        let has_replied = |case: &PathBuf| {
-            entry.diagnosis(case).join(diagnosis::FILE).exists() || entry.failure(case).exists()
-        };
+        let has_replied = |case: &PathBuf| entry.has_diagnosed(case) || entry.has_failed(case);
         if !cases.iter().any(has_replied) {
             return Err(format!(
                 "--name {}: expected a program that was run on the trial: the answers stay sealed",

@@ -23,6 +23,35 @@ fn vehicle() -> String {
     project_file("configs/vehicles/auriga-alpha.toml").display().to_string()
 }
 
+/// Speeds as they were told, and the poses of a simulator: nothing of their noise can be measured, and all is determined.
+#[test]
+fn commands_and_poses_without_noise_do() {
+    let place = Workplace::new();
+    let synthetic = Synthetic {
+        schedules: (0..4).map(|run| random_steps(15, 2.0, 0.8, run)).collect(),
+        encoder_noise: 0.0,
+        position_noise: 0.005,
+        yaw_noise: 0.005,
+        ..Synthetic::default()
+    };
+    let recording = synthetic.recording().expect("long enough");
+    folder::write(&recording, &place.path().join("told")).expect("written");
+    let perfect = "simulate --schedule designed --runs 2 --duration 30 --cog -0.015,0.04 --sensors perfect --out perfect";
+    assert_eq!(place.run(perfect).status, 0);
+    for (name, close) in [("told", 5e-3), ("perfect", 1e-2)] {
+        let run = place.run(&format!(
+            "identify {name} --vehicle {} --generations 20 --out {name}.d",
+            vehicle()
+        ));
+        assert_eq!(run.status, 0, "{name}: {}{}", run.stdout, run.stderr);
+        let text = String::from_utf8(place.read(&format!("{name}.d/kinematics.toml")));
+        let file: toml::Table = text.expect("text").parse().expect("TOML");
+        let number = |key: &str| file[key].as_float().expect("a number");
+        assert!((number("x_icr_left_m") + 0.375).abs() < close, "{name}: {file}");
+        assert!((number("x_icr_right_m") - 0.457).abs() < close, "{name}: {file}");
+    }
+}
+
 #[test]
 fn parameters_come_out_of_a_recording() {
     let place = Workplace::new();

@@ -170,6 +170,28 @@ fn operating_points_give_icrs_with_intervals() {
     assert_eq!(used.status, 0, "{}", used.stderr);
 }
 
+/// A table without lateral speeds tells x_l and x_r, and nothing of y: that is said, and no file is written.
+#[test]
+fn points_without_lateral_speeds_give_what_they_can() {
+    let place = Workplace::new();
+    let table = operating_points(|l, r| (r - l) / 0.8);
+    let without = table.lines().enumerate().map(|(row, line)| {
+        let mut cells: Vec<&str> = line.split(',').collect();
+        if row > 0 {
+            cells[3] = "";
+        }
+        cells.join(",") + "\n"
+    });
+    place.write("floor.csv", &without.collect::<String>());
+    let run = place.run(&format!("identify floor.csv --vehicle {}", vehicle()));
+    assert_eq!(run.status, 2, "{}", run.stderr);
+    for part in ["measure v_lateral", "x_l      ", "x_r - x_l", "chi"] {
+        assert!(run.stdout.contains(part), "{part} is not in:\n{}", run.stdout);
+    }
+    assert!(!run.stdout.contains("NaN"), "{}", run.stdout);
+    assert!(!place.files().iter().any(|file| file.ends_with("kinematics.toml")));
+}
+
 #[test]
 fn points_that_lag_are_told() {
     let place = Workplace::new();

@@ -30,6 +30,8 @@ pub enum Doubt {
     NoTranslation,
     /// The track speeds hardly change: an offset of the clocks moves nothing.
     NoChange,
+    /// No point of a table has a lateral speed.
+    NoLateralSpeed,
     /// The tracks run alike: the robot hardly turns, and no ICR shows.
     NoTurning,
     /// The tracks run at one ratio of speeds, as in a spin or on one arc: ICRs and α cannot be told apart.
@@ -67,6 +69,9 @@ impl std::fmt::Display for Doubt {
             Self::NoChange => f.write_str(
                 "time-offset shows only where track speeds change, and here they change by less than their \
                  noise: speed up, slow down, begin and end turns",
+            ),
+            Self::NoLateralSpeed => f.write_str(
+                "y shows in the lateral speed only, of which the table has none: measure v_lateral",
             ),
             Self::NoTurning => f.write_str(
                 "the tracks run alike all the time, so no ICR shows: drive turns, both ways",

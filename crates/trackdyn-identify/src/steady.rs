@@ -19,7 +19,7 @@ pub use lagging::{Lagging, lagging};
 
 use crate::doubt::Doubt;
 use crate::error::Error;
-use crate::least_squares::covariance::jackknife;
+use crate::least_squares::covariance::{jackknife, with_deviations};
 use crate::least_squares::{Loss, inverse, too_wide};
 use crate::parameters::{Free, Parameters};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
@@ -30,6 +30,9 @@ use trackdyn_recording::{Interval, OperatingPoint};
 
 /// Channels of a point: forward (m/s), left (m/s), yaw rate (rad/s).
 pub const CHANNELS: usize = 3;
+
+/// Place of y_icr among the parameters.
+const Y: usize = 2;
 
 const MAX_ITERATIONS: usize = 200;
 
@@ -157,10 +160,25 @@ impl SteadyEstimate {
 
     /// The parameters that are too uncertain for a vehicle with this gauge, m.
     pub fn doubts(&self, gauge: f64) -> Vec<Doubt> {
-        let deviations: Vec<f64> = (0..self.free.count())
-            .map(|k| self.interval(k).map_or(0.0, |interval| interval.deviation))
-            .collect();
-        too_wide(&deviations, gauge)
+        let (mut deviations, mut doubts) = (self.deviations(), Vec::new());
+        // y shows in the lateral speed alone.
+        if self.scatter[1].is_none() {
+            deviations[Y] = 0.0;
+            doubts.push(Doubt::NoLateralSpeed);
+        }
+        doubts.extend(too_wide(&deviations, gauge));
+        doubts
+    }
+
+    /// The covariance of the free parameters, with the standard deviations of their intervals.
+    pub fn covariance_of_parameters(&self) -> Vec<Vec<f64>> {
+        with_deviations(&self.covariance, &self.deviations())
+    }
+
+    /// Standard deviations of the free parameters.
+    fn deviations(&self) -> Vec<f64> {
+        let deviation = |k| self.interval(k).map_or(0.0, |interval| interval.deviation);
+        (0..self.free.count()).map(deviation).collect()
     }
 
     /// Distance between the ICRs x_r − x_l with its 95 % interval, m.

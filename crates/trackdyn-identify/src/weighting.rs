@@ -31,6 +31,9 @@ pub struct SegmentNoise {
     pub heading: f64,
 }
 
+/// Less noise of a pose, m and rad, no model explains: poses of a simulator have none, and no covariance without it.
+const LEAST: f64 = 1e-4;
+
 impl SegmentNoise {
     /// From the noise that was measured without a model: that of the poses while moving, or at
     /// stand-still where no other is known, and that of the encoders at a distance `gap` (m) between
@@ -46,7 +49,7 @@ impl SegmentNoise {
         let encoders = [both / 4.0, 0.0, both / gap.powi(2)];
         let mut walk = components.map(|component| component.walk.powi(2));
         walk.iter_mut().zip(encoders).for_each(|(walk, encoder)| *walk += encoder);
-        let pose = components.map(|component| component.white.powi(2));
+        let pose = components.map(|component| component.white.max(LEAST).powi(2));
         Some(Self { pose, walk, heading: 0.0 })
     }
 }

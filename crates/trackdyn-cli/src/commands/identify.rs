@@ -144,10 +144,7 @@ fn source(recording: &Recording, vehicle: &VehicleFile, options: &Options) -> So
 /// The file of a fit, where the recording determines it.
 fn file(fit: &Fit, gauge: f64, source: &Source) -> Option<KinematicsFile> {
     let estimate = fit.least_squares.as_ref().ok().filter(|_| fit.doubts.is_empty())?;
-    let count = fit.free.count();
-    // Of the kinematic parameters alone: those of the sensor are uncertain within it.
-    let rows = estimate.covariance.view((0, 0), (count, count));
-    let rows = rows.row_iter().map(|row| row.iter().copied().collect()).collect();
+    let rows = estimate.covariance_of_parameters();
     let with_alphas = fit.free == Free::IcrsAndAlphas;
     let kinematics = estimate.parameters.kinematics();
     Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source.clone()))

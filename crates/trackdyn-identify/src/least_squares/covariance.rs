@@ -22,3 +22,25 @@ pub fn jackknife(curvature: &DMatrix<f64>, parts: &[(DMatrix<f64>, DVector<f64>)
     let blocks = real(parts.len());
     scatter * ((blocks - 1.0) / blocks)
 }
+
+/// A covariance with these standard deviations and the correlations of another one, row by row.
+pub fn with_deviations(of: &DMatrix<f64>, deviations: &[f64]) -> Vec<Vec<f64>> {
+    let factor = |k: usize| {
+        let variance = of[(k, k)];
+        if variance > 0.0 { deviations[k] / variance.sqrt() } else { 1.0 }
+    };
+    let row = |i| (0..deviations.len()).map(|j| of[(i, j)] * factor(i) * factor(j)).collect();
+    (0..deviations.len()).map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn correlations_stay_where_deviations_are_others() {
+        let of = DMatrix::from_row_slice(3, 3, &[4.0, -1.0, 7.0, -1.0, 1.0, 7.0, 7.0, 7.0, 7.0]);
+        let found = with_deviations(&of, &[6.0, 2.0]);
+        assert_eq!(found, [[36.0, -6.0], [-6.0, 4.0]]);
+    }
+}

@@ -1,6 +1,7 @@
 //! What a fit says: values, intervals, and what they are worth.
 
 use super::Unknowns;
+use super::covariance::with_deviations;
 use crate::parameters::{COUNT, Parameters};
 use crate::sensor::{Nuisance, Sensor};
 use nalgebra::{DMatrix, DVector};
@@ -91,6 +92,12 @@ impl Estimate {
         };
         let larger = variance(&self.covariance).max(variance(&self.covariance_of_noise));
         Interval::new(value, larger.sqrt(), self.filled_blocks, self.unknowns.count())
+    }
+
+    /// The covariance of the free kinematic parameters, with the standard deviations of their intervals.
+    pub fn covariance_of_parameters(&self) -> Vec<Vec<f64>> {
+        let free = self.unknowns.free.count();
+        with_deviations(&self.covariance, &self.deviations()[..free])
     }
 
     /// Standard deviations of all parameters; 0 where fixed.

@@ -3,6 +3,7 @@
 use crate::pose_error::{self, Delta, Statistics};
 use crate::{DeadReckoning, Residual};
 use trackdyn_core::Pose;
+use trackdyn_core::pose::wrap_angle;
 use trackdyn_recording::{Extent, Run, hold};
 
 /// A run: what was recorded and what each parameter set predicts, pose by pose.
@@ -102,13 +103,49 @@ impl Path {
         let aligned = pose_error::absolute(&self.recorded, &aligned);
         let pairs = pose_error::pairs(&self.recorded, Delta::Metres(1.0), false);
         let relative = pose_error::relative(&self.recorded, estimate, &pairs);
+        // Turns that no pose shows are no error: what adds up is the error from pose to pose.
+        let steps = self.recorded.windows(2).zip(estimate.windows(2));
+        let yaw = steps.map(|(seen, predicted)| {
+            wrap_angle((seen[1].yaw - seen[0].yaw) - (predicted[1].yaw - predicted[0].yaw))
+        });
+        let last = Residual::new(&start.relative(end), &from.relative(to));
         Some(PathErrors {
-            last: Residual::new(&start.relative(end), &from.relative(to)),
+            last: Residual { yaw: yaw.sum(), ..last },
             absolute: Statistics::of(&pose_error::lengths(&absolute))?,
             absolute_yaw: Statistics::of(&pose_error::angles(&absolute))?,
             aligned: Statistics::of(&pose_error::lengths(&aligned))?,
             relative: Statistics::of(&pose_error::lengths(&relative)),
             relative_yaw: Statistics::of(&pose_error::angles(&relative)),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// A robot spins on while no pose is seen: the turns that the poses cannot show are no error, those of a drive that turns
+    /// too fast all the time are.
+    #[test]
+    fn turns_that_no_pose_shows_are_no_error() {
+        let path = |recorded: [f64; 4], predicted: [f64; 4]| Path {
+            index: 0,
+            run: 0,
+            stamps: vec![0.0, 1.0, 2.0, 3.0],
+            recorded: recorded.map(|yaw| Pose::new(0.0, 0.0, yaw)).into(),
+            travelled: vec![0.0, 1.0, 2.0, 3.0],
+            trajectories: vec![DeadReckoning {
+                first: 0,
+                stamps: vec![0.0, 1.0, 2.0, 3.0],
+                poses: predicted.map(|yaw| Pose::new(0.0, 0.0, yaw)).into(),
+            }],
+            rests: false,
+        };
+        let yaw = |path: Path| path.errors(0).expect("a path").last.yaw;
+        let gap = path([0.0, 1.0, 1.2, 2.2], [0.0, 1.01, 1.21 + TAU, 2.22 + TAU]);
+        assert!((yaw(gap) + 0.02).abs() < 1e-12);
+        let fast = path([0.0, 1.0, 2.0, 3.0], [0.0, 3.5, 7.0, 10.5]);
+        assert!((yaw(fast) + 7.5).abs() < 1e-12);
     }
 }

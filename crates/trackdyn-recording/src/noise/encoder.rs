@@ -8,7 +8,11 @@ use trackdyn_core::Side;
 /// Fewer triples than this say nothing.
 const FEWEST: usize = 30;
 
-/// The noise of one side while its track runs.
+/// A speed that is held for longer, s, and for more readings is told, not measured.
+const HELD: f64 = 0.5;
+const HELD_READINGS: f64 = 10.0;
+
+/// The noise of one side while its track runs; none of speeds that are told, whose changes are the driving.
 pub(super) fn noise(recording: &Recording, side: Side) -> Option<EncoderNoise> {
     let speed = |sample: &TrackSample| match side {
         Side::Left => sample.v_left,
@@ -17,7 +21,9 @@ pub(super) fn noise(recording: &Recording, side: Side) -> Option<EncoderNoise> {
     let mut residuals = Vec::new();
     let mut speeds = Vec::new();
     let mut intervals = Vec::new();
+    let mut readings = Vec::new();
     for run in recording.runs() {
+        readings.extend(run.tracks().windows(2).map(|pair| pair[1].t - pair[0].t));
         let mut updates: Vec<(f64, f64)> = Vec::with_capacity(run.tracks().len());
         for sample in run.tracks() {
             let v = speed(sample);
@@ -41,12 +47,16 @@ pub(super) fn noise(recording: &Recording, side: Side) -> Option<EncoderNoise> {
     if residuals.len() < FEWEST {
         return None;
     }
+    let update_interval = median(&mut intervals)?;
+    if update_interval > HELD.min(HELD_READINGS * median(&mut readings)?) {
+        return None;
+    }
     let triples = residuals.len();
     let deviation = deviation_about_zero(&mut residuals)?;
     Some(EncoderNoise {
         deviation,
         relative: deviation / median(&mut speeds)?,
-        update_interval: median(&mut intervals)?,
+        update_interval,
         triples,
         method: Method::ReadingDifferences,
     })

@@ -10,7 +10,7 @@ use trackdyn_core::document::Document;
 use trackdyn_core::output::{fingerprint, prepare_folder};
 use trackdyn_identify::least_squares::Loss;
 use trackdyn_identify::steady::{SteadyEstimate, lagging};
-use trackdyn_identify::{Error, Free, Parameters, fit_points};
+use trackdyn_identify::{Doubt, Error, Free, Parameters, fit_points};
 use trackdyn_motion::Kinematics;
 use trackdyn_motion::kinematics::{KinematicsFile, Source};
 use trackdyn_physics::VehicleFile;
@@ -67,7 +67,7 @@ pub fn run(path: &Path, vehicle: &VehicleFile, options: &Options) -> Outcome {
             recording: Some(table.name.clone()),
             ..Source::default()
         };
-        let rows = fit.covariance.row_iter().map(|row| row.iter().copied().collect()).collect();
+        let rows = fit.covariance_of_parameters();
         let kinematics = fit.parameters.kinematics();
         let with_alphas = *free == Free::IcrsAndAlphas;
         Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source))
@@ -93,21 +93,26 @@ fn fit(text: &mut String, free: Free, fit: &Result<SteadyEstimate, Error>, gauge
     let doubts = fit.doubts(gauge);
     if !doubts.is_empty() {
         text.push_str("    not determined by this table:\n");
-        for doubt in doubts {
+        for doubt in &doubts {
             let _ = writeln!(text, "    - {doubt}");
         }
-        return;
+        if doubts != [Doubt::NoLateralSpeed] {
+            return;
+        }
     }
     let _ = writeln!(text, "    {:9}{:>9}{:>24}", "", "estimate", "95 % interval");
     let named = (0..free.count()).filter_map(|k| Some((Parameters::NAMES[k], fit.interval(k)?)));
-    for (name, interval) in named.chain([("x_r - x_l", fit.gap())]) {
+    let known = named.filter(|(_, interval)| interval.deviation.is_finite());
+    for (name, interval) in known.chain([("x_r - x_l", fit.gap())]) {
         let range = format!("{:.4} to {:.4}", interval.low, interval.high);
         let unit = if name.starts_with("alpha") { "" } else { " m" };
         let _ = writeln!(text, "    {name:9}{:>9.4}{range:>24}{unit}", interval.value);
     }
     let icrs = fit.parameters.kinematics().icrs;
     let _ = writeln!(text, "    {:9}{:>9.4}", "chi", icrs.steering_efficiency(gauge));
-    let _ = writeln!(text, "    {:9}{:>9.4}", "e", icrs.eccentricity());
+    if doubts.is_empty() {
+        let _ = writeln!(text, "    {:9}{:>9.4}", "e", icrs.eccentricity());
+    }
     let scatter = |channel: usize, unit: &str| match fit.scatter[channel] {
         Some(scatter) => format!("{:.1} {unit}", 1e3 * scatter),
         None => "not measured".to_owned(),

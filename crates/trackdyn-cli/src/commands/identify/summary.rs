@@ -38,7 +38,7 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) ->
         }
     }
     for fit in &found.fits {
-        self::fit(&mut text, fit, vehicle.gauge);
+        self::fit(&mut text, fit, vehicle.gauge, found.weighted_by_noise);
     }
     text
 }
@@ -71,7 +71,7 @@ fn noise(text: &mut String, found: &Identification) {
     };
 }
 
-fn fit(text: &mut String, fit: &Fit, gauge: f64) {
+fn fit(text: &mut String, fit: &Fit, gauge: f64, by_noise: bool) {
     let title = match fit.free {
         Free::Icrs => "ICRs, track speeds as measured",
         Free::IcrsAndAlphas => "ICRs and factors on the track speeds",
@@ -96,11 +96,16 @@ fn fit(text: &mut String, fit: &Fit, gauge: f64) {
         let _ = writeln!(text, "    not fitted: {doubt}");
     }
     let cut = if estimate.blocks.are_pieces() { "pieces of runs" } else { "runs" };
-    let _ = writeln!(
-        text,
-        "    residuals {:.2} times the noise; intervals from the noise and from {} {cut}",
-        estimate.whitened_rms, estimate.filled_blocks
-    );
+    let count = estimate.filled_blocks;
+    let _ = if by_noise {
+        let rms = estimate.whitened_rms;
+        writeln!(
+            text,
+            "    residuals {rms:.2} times the noise; intervals from the noise and from {count} {cut}"
+        )
+    } else {
+        writeln!(text, "    intervals from the residuals and from {count} {cut}")
+    };
 }
 
 fn parameters(text: &mut String, fit: &Fit, estimate: &Estimate, gauge: f64) {

@@ -32,7 +32,9 @@ pub(super) fn run(
     let seconds = |stamp| seconds_between(epoch_ns, stamp);
 
     warnings.extend(turns::unwrap(&mut readings, joints, seconds));
-    let are_positions = readings.first().is_some_and(|(_, reading)| reading.is_position);
+    // The first messages of a driver may lack what it does not know yet.
+    let positions = readings.iter().filter(|(_, reading)| reading.is_position).count();
+    let are_positions = 2 * positions > readings.len();
     let joint = |(stamp, reading): &Stamped<Reading>| TrackSample {
         t: seconds(*stamp),
         v_left: reading.sides.left * radius,
@@ -45,7 +47,7 @@ pub(super) fn run(
         warnings.push(Warning::MessagesSkipped {
             topic: options.tracks_topic.clone().unwrap_or_else(|| "joints".to_owned()),
             count: other_signal as u64,
-            reason: "it has another signal than the first message".to_owned(),
+            reason: "it has another signal than most messages".to_owned(),
         });
     }
     if are_positions {
@@ -89,4 +91,29 @@ fn speeds_of_positions(positions: &[TrackSample]) -> Vec<TrackSample> {
 #[expect(clippy::cast_precision_loss, reason = "recordings last less than 2⁵³ ns, 104 days")]
 fn seconds_between(epoch_ns: i64, stamp_ns: i64) -> f64 {
     stamp_ns.saturating_sub(epoch_ns) as f64 / 1e9
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trackdyn_core::PerSide;
+
+    /// A driver that does not know its speeds yet sends none in its first messages.
+    #[test]
+    fn most_messages_say_what_the_signal_is() {
+        let reading = |is_position: bool, k: i64| {
+            let sides = PerSide::new(2.0, 4.0);
+            (k * 50_000_000, Reading { sides, angles: Vec::new(), is_position })
+        };
+        let readings = (0..20).map(|k| reading(k < 2, k)).collect();
+        let options = RosbagOptions { wheel_radius: Some(0.1), ..RosbagOptions::default() };
+        let bag = Path::new("bag.mcap");
+        let found = run(bag, &options, &[], readings, Vec::new(), Vec::new(), Vec::new());
+        let found = found.expect("a run");
+        assert_eq!(found.run.tracks.samples.len(), 18);
+        assert!(found.run.tracks.samples.iter().all(|sample| sample.v_right == 0.4));
+        let skipped =
+            |warning: &Warning| matches!(warning, Warning::MessagesSkipped { count: 2, .. });
+        assert!(found.warnings.iter().any(skipped));
+    }
 }

@@ -2,9 +2,9 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use trackdyn_core::PerSide;
+use trackdyn_core::{PerSide, Side, Wrench};
 use trackdyn_motion::{Grid, IcrMap, Solution, Stationary, Status};
-use trackdyn_physics::{Circumstance, Effects, Model};
+use trackdyn_physics::{Circumstance, Effects, Model, Motion};
 use trackdyn_tests::{auriga, parse_effects, random_vehicle};
 
 fn map(model: &Model, points: usize) -> IcrMap {
@@ -137,4 +137,27 @@ fn order_of_effects_does_not_matter() {
     let mut reversed = names;
     reversed.reverse();
     assert_eq!(parse_effects(&names), parse_effects(&reversed));
+}
+
+/// A pressure that is not linear and a stress that needs none add up: neither is a factor on the other.
+#[test]
+fn stresses_of_pressure_and_cohesion_add_up() {
+    let effects = ["pressure-concentration:concentration=0.6", "cohesion:stress_pa=3000"];
+    let friction = |effects: &[&str]| {
+        let model = auriga([0.01, 0.1], effects);
+        let motion = Motion::anchored(PerSide::new(0.2, 0.5), Side::Left, [-0.4, 0.1], 1.2);
+        let balance = model.balance(&model.ground(&Circumstance::default()), &motion);
+        Side::BOTH.map(|side| {
+            let Wrench { force_x, force_y, moment } = balance.friction[side];
+            [force_x, force_y, moment]
+        })
+    };
+    let [base, first, second] = [&[][..], &effects[..1], &effects[1..]].map(friction);
+    let both = friction(&effects);
+    for side in 0..2 {
+        for k in 0..3 {
+            let sum = first[side][k] + second[side][k] - base[side][k];
+            assert!((both[side][k] - sum).abs() < 1e-9 * base[side][0].hypot(base[side][1]));
+        }
+    }
 }

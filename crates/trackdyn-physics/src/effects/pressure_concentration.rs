@@ -1,6 +1,6 @@
 //! Normal pressure that is not linear along a patch.
 
-use crate::contact::ShearStress;
+use crate::contact::{Friction, ShearStress};
 use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::model::Site;
 use trackdyn_core::Scalar;
@@ -48,7 +48,12 @@ impl Effect for PressureConcentration {
         let mean = site.pressure.at(S::from(middle));
         let eta = (site.slip.position[1] - middle) * (2.0 / site.patch.length());
         // p ← p + κ p̄ (3 η² − 1)/2
-        let added = mean * (eta * eta * 1.5 - 0.5) * self.concentration;
-        stress.scale(added / site.normal_pressure() + 1.0);
+        let pressure = mean * (eta * eta * 1.5 - 0.5) * self.concentration;
+        let Friction { across, along } = site.friction();
+        let direction = site.slip_direction();
+        for ((added, component), mu) in stress.added.iter_mut().zip(direction).zip([across, along]) {
+            // τ_added = −[μ] Δp s/|s|
+            *added += component * pressure * -mu;
+        }
     }
 }

@@ -106,3 +106,28 @@ fn factors_of_the_encoders_are_parameters_and_not_icrs() {
     assert!((number("x_icr_left_m") + 0.37538).abs() < 5e-6, "{text}");
     assert_eq!((number("alpha_left"), number("alpha_right")), (0.98, 1.02));
 }
+
+#[test]
+fn few_pairs_of_speeds_make_no_sectors() {
+    let place = Workplace::new();
+    for grid in [2, 3, 4, 5] {
+        let run = place.run(&format!("map --effect centripetal --grid {grid}"));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        assert!(!run.stdout.contains("piecewise"), "{grid}: {}", run.stdout);
+    }
+}
+
+/// What a pose sensor makes of the motion is no part of the hull's ICRs, and a reader of them is told so.
+#[test]
+fn what_steady_icrs_leave_out_is_said() {
+    let place = Workplace::new();
+    let note = |effect: &str| {
+        let run = place.run(&format!("map --effect {effect} --grid 5"));
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        run.stderr.contains(&format!("note: {effect} does not change the steady motion"))
+    };
+    assert!(note("sensor-lever-arm") && note("time-offset") && note("drivetrain-lag"));
+    assert!(!note("centripetal") && !note("slope") && !note("encoder-scale"));
+    let run = place.run("kinematics --speeds 0.3,0.9 --effect friction-creep");
+    assert!(run.stderr.contains("go with the speeds"), "{}", run.stderr);
+}

@@ -3,7 +3,8 @@
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
-use trackdyn_physics::{ActiveEffect, Circumstance, Model, VehicleFile};
+use trackdyn_physics::effect::{Stage, Symmetry};
+use trackdyn_physics::{ActiveEffect, Circumstance, Effects, Model, VehicleFile};
 use trackdyn_recording::rosbag::{JointSignal, RosbagOptions};
 use trackdyn_recording::{Format, Recording, RunList, tum};
 
@@ -52,12 +53,40 @@ impl ModelOptions {
         Ok(file)
     }
 
+    /// An error where the place, heading or time is given to a command that has its own.
+    ///
+    /// # Errors
+    /// A message that names the options.
+    pub fn refuse(&self, names: &[&str], why: &str) -> Result<(), String> {
+        let given = [
+            ("--heading", self.heading != 0.0),
+            ("--position", self.position.is_some()),
+            ("--time", self.time != 0.0),
+        ];
+        let given = given.into_iter().filter(|(name, given)| *given && names.contains(name));
+        let given: Vec<&str> = given.map(|(name, _)| name).collect();
+        if given.is_empty() { Ok(()) } else { Err(format!("{}: {why}", given.join(", "))) }
+    }
+
     /// The place, heading and time.
     pub fn circumstance(&self) -> Circumstance {
         Circumstance {
             position: self.position.unwrap_or_default(),
             heading: self.heading.to_radians(),
             time: self.time,
+        }
+    }
+}
+
+/// Notes which effects do not change the steady motion of the hull, whose ICRs are computed: those of the pose sensor, and those that
+/// only changes of speed show.
+pub fn note_what_steady_icrs_leave_out(effects: &Effects) {
+    for card in effects.iter().map(ActiveEffect::card) {
+        if card.stages == [Stage::Sense] || card.breaks == [Symmetry::Transient] {
+            eprintln!(
+                "note: {} does not change the steady motion of the hull: these ICRs are without it",
+                card.id
+            );
         }
     }
 }

@@ -4,7 +4,7 @@ mod reference;
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{model, read_vehicle};
+use crate::options::{model, note_what_steady_icrs_leave_out, read_vehicle};
 use crate::stdout::show;
 use clap::Args;
 use reference::{Case, Reference};
@@ -21,7 +21,7 @@ use trackdyn_physics::{Circumstance, VehicleFile};
 pub struct Options {
     /// Reference file (schema trackdyn.reference/1)
     reference: PathBuf,
-    /// Check this vehicle instead of those that the cases name
+    /// Check this vehicle instead of those that the cases name; a case's cog_m and effects still replace its own
     #[arg(long, value_name = "FILE")]
     vehicle: Option<PathBuf>,
 }
@@ -37,6 +37,7 @@ pub fn run(options: &Options) -> Outcome {
     let mut checked = 0;
     for case in &reference.cases {
         let vehicle = vehicle(case, override_vehicle.as_ref(), options)?;
+        note_what_steady_icrs_leave_out(&vehicle.effects);
         let statistics = solve(&vehicle, reference.grid, case)?;
         let _ = writeln!(text, "{}: {}", case.name, vehicle.vehicle.name);
         let _ = writeln!(

@@ -65,6 +65,8 @@ pub struct Drive {
 
 /// Drives, prints the table of errors and writes the files.
 pub fn run(options: &Options) -> Outcome {
+    let why = "a drive begins at the start of its path, at time zero: expected with map, kinematics and simulate";
+    options.model.refuse(&["--heading", "--position", "--time"], why)?;
     let mut file = options.model.vehicle_file()?;
     if !options.quasi_static {
         file.effects = file.effects.with_inertia();

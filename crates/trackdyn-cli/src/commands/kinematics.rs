@@ -2,7 +2,7 @@
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{ModelOptions, model, pair};
+use crate::options::{ModelOptions, model, note_what_steady_icrs_leave_out, pair};
 use crate::stdout::show;
 use clap::{ArgGroup, Args};
 use std::error::Error;
@@ -24,12 +24,16 @@ pub struct Options {
     /// Forward speed in m/s and yaw rate in rad/s; prints the track speeds
     #[arg(long, value_name = "FORWARD,YAW_RATE", value_parser = pair, allow_hyphen_values = true)]
     twist: Option<[f64; 2]>,
-    /// Parameters from a file (schema trackdyn.kinematics/1) [default: from the vehicle's map]
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["vehicle", "cog", "effects"])]
+    /// Parameters from a file (schema trackdyn.kinematics/1) [default: the mean of the vehicle's map up to 1 m/s]
+    #[arg(long, value_name = "FILE",
+          conflicts_with_all = ["vehicle", "cog", "effects", "heading", "position", "time"])]
     kinematics: Option<PathBuf>,
     #[command(flatten)]
     model: ModelOptions,
 }
+
+/// Standard deviation of an ICR over the map, m, from which on its mean is not all that there is to say.
+const NOTABLE: f64 = 1e-3;
 
 /// Prints the motion for track speeds, or track speeds for a motion.
 pub fn run(options: &Options) -> Outcome {
@@ -52,12 +56,21 @@ fn parameters(options: &Options) -> Result<KinematicsFile, Box<dyn Error>> {
         return Ok(KinematicsFile::from_document(&Document::read(path)?)?);
     }
     let vehicle = options.model.vehicle_file()?;
+    note_what_steady_icrs_leave_out(&vehicle.effects);
     let grid = Grid::new(21, Grid::PAPER_SPEED)?;
     let model = model(&vehicle);
     let map = IcrMap::solve(&model, grid, &options.model.circumstance(), &|_| ());
     let statistics = map
         .statistics()
         .ok_or("the vehicle does not turn at any pair of track speeds: it has no ICRs")?;
+    let spread = statistics.spread.to_array().into_iter().fold(0.0, f64::max);
+    if spread > NOTABLE {
+        eprintln!(
+            "note: the ICRs of this vehicle go with the speeds, by {:.1} mm up to {} m/s: these are their means",
+            1e3 * spread,
+            Grid::PAPER_SPEED
+        );
+    }
     Ok(KinematicsFile::of_map(&statistics, &map.sectors(), Source::default())
         .with_alpha(model.drive().gain))
 }

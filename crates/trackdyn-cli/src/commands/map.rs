@@ -5,7 +5,7 @@ mod summary;
 use crate::commands::Outcome;
 use crate::earlier::remove_earlier;
 use crate::exit::Exit;
-use crate::options::{ModelOptions, command_line, model};
+use crate::options::{ModelOptions, command_line, model, note_what_steady_icrs_leave_out};
 use crate::progress::Progress;
 use crate::stdout::show;
 use clap::Args;
@@ -38,6 +38,7 @@ pub fn run(options: &Options) -> Outcome {
     let file = options.model.vehicle_file()?;
     prepare_folder(&options.out)?;
 
+    note_what_steady_icrs_leave_out(&file.effects);
     let model = model(&file);
     let progress = Progress::new(grid.points() * grid.points());
     let map = IcrMap::solve(&model, grid, &options.model.circumstance(), &|pairs| {

@@ -73,6 +73,10 @@ enum Ground {
 
 /// Simulates, prints what was driven and writes the recording.
 pub fn run(options: &Options) -> Outcome {
+    options.model.refuse(
+        &["--time"],
+        "a drive has the times of its schedule: expected with map and kinematics",
+    )?;
     let mut file = options.model.vehicle_file()?;
     if !options.quasi_static {
         file.effects = file.effects.with_inertia();

@@ -3,7 +3,7 @@
 use crate::icr::Icrs;
 use crate::map::{IcrMap, Statistics};
 use std::collections::BTreeMap;
-use trackdyn_core::PerSide;
+use trackdyn_core::{PerSide, real};
 
 /// Spread, m, below which ICRs are equal: rounding of the solver, with room.
 const EQUAL: f64 = 1e-9;
@@ -56,11 +56,12 @@ pub(super) fn sectors(map: &IcrMap) -> Vec<Sector> {
         let within: f64 = sectors
             .iter()
             .map(|sector| {
-                let share = count(&sector.statistics) / count(&whole);
-                share * sector.statistics.spread.to_array()[k].powi(2)
+                count(&sector.statistics) * sector.statistics.spread.to_array()[k].powi(2)
             })
             .sum();
-        variance > EQUAL.powi(2) && within < WITHIN * variance
+        // A mean of each sector takes up as many numbers: of few pairs of speeds it would explain all.
+        let free = count(&whole) - real(sectors.len());
+        variance > EQUAL.powi(2) && within < WITHIN * variance * free
     });
     if explained { sectors } else { Vec::new() }
 }

@@ -58,7 +58,7 @@ fn motions(text: &mut String, map: &IcrMap) {
         "are straight: both tracks stick",
         "are held straight by one track",
         "lift part of the contact: gaps",
-        "have no balance of forces: gaps",
+        "have no balance of forces that was found: gaps",
     ];
     let _ = write!(text, "\n  Of {} pairs of speeds", map.solutions.len());
     let parts: Vec<String> = map

@@ -154,10 +154,9 @@ impl Concealed {
         self.is_detectable() && self.z_iso >= crate::oracle::DISTINCT && !self.is_constant()
     }
 
-    /// Whether the recording shows it beside what three effects of the catalogue together may take of it; none where that is not
-    /// known.
-    pub fn is_beyond_others(&self) -> Option<bool> {
-        self.z_beyond.map(|z| z >= crate::oracle::DETECTABLE)
+    /// Whether the recording is known to show it beside what three effects of the catalogue together may take of it.
+    pub fn is_beyond_others(&self) -> bool {
+        self.z_beyond.is_some_and(|z| z >= crate::oracle::DETECTABLE)
     }
 
     /// Members of the smallest set that the recording allows: it, and all that cannot be told from it.

@@ -184,15 +184,12 @@ impl Judge<'_> {
             let (space, part) = (taken(rows, &shapes), shapes[index]);
             let whole = space.outside(part);
             let scaled = |left: f64| if whole > 0.0 { z_det * left / whole } else { 0.0 };
-            let left = others.iter().zip(&columns).map(|(alternative, columns)| {
-                let mut space = space.clone();
-                for column in columns {
-                    space.add(column.clone());
-                }
-                (alternative.id, scaled(space.outside(part)))
-            });
-            let left: Vec<_> = left.collect();
-            let z_beyond = scaled(beyond(space.clone(), part, &others, &columns));
+            let left: Vec<_> = others
+                .iter()
+                .zip(&columns)
+                .map(|(other, columns)| (other.id, scaled(space.with(columns).outside(part))))
+                .collect();
+            let z_beyond = scaled(beyond(space, part, &others, &columns));
             standing(z_det, z_beyond, &left)
         });
         Ok(standings.collect())
@@ -263,10 +260,7 @@ fn beyond(
     for _ in 0..TOGETHER {
         let free = others.iter().zip(columns).filter(|(other, _)| !taken.contains(&other.id));
         let with = free.map(|(other, columns)| {
-            let mut space = space.clone();
-            for column in columns {
-                space.add(column.clone());
-            }
+            let space = space.with(columns);
             (space.outside(signature), other.id, space)
         });
         let Some((_, id, next)) = with.min_by(|a, b| a.0.total_cmp(&b.0)) else { break };

@@ -23,6 +23,15 @@ impl Subspace {
         }
     }
 
+    /// The space with these columns as well.
+    pub(crate) fn with(&self, columns: &[Vec<f64>]) -> Self {
+        let mut space = self.clone();
+        for column in columns {
+            space.add(column.clone());
+        }
+        space
+    }
+
     /// Takes away of a column what lies in the space; twice, for rounding.
     pub(crate) fn remove_from(&self, column: &mut [f64]) {
         for _ in 0..2 {

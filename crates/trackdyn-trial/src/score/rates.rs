@@ -90,9 +90,8 @@ fn beside(judged: &[Judged]) -> Vec<Rate> {
     let is_pair = |case: &Judged| case.is_of(&[Stratum::Pair]);
     let is_outside = |case: &Judged| case.is_of(&[Stratum::Outside]);
     let of_catalogue = |case: &Judged| !is_null(case) && !is_outside(case);
-    let says = |case: &Judged, status: Status| case.diagnosis().is_some_and(|d| d.status == status);
-    let unexplained = |case: &Judged| says(case, Status::Unexplained);
-    let nothing = |case: &Judged| says(case, Status::NothingMissing);
+    let unexplained = |case: &Judged| case.says(Status::Unexplained);
+    let nothing = |case: &Judged| case.says(Status::NothingMissing);
     let strictly =
         |case: &Judged| case.only().is_some_and(|truth| case.names_strictly(&truth.mechanism));
     let is_isolable = |case: &Judged| case.only().is_some_and(Concealed::is_isolable);
@@ -174,12 +173,9 @@ fn outside(judged: &[Judged]) -> Vec<Rate> {
         .filter(|(_, truth)| truth.is_detectable())
         .collect();
     let broken = |case: &Judged| case.diagnosis().map_or(Vec::new(), |d| d.located.broken.clone());
-    let flagged = |counts: &dyn Fn(&Concealed) -> bool| -> Vec<bool> {
+    let flagged = |name: &str, counts: fn(&Concealed) -> bool| {
         let cases = detectable.iter().filter(|(_, truth)| counts(truth));
-        let is_flagged = |case: &Judged| {
-            case.diagnosis().is_some_and(|diagnosis| diagnosis.status == Status::Unexplained)
-        };
-        cases.map(|(case, _)| is_flagged(case)).collect()
+        Rate::of(name, cases.map(|(case, _)| case.says(Status::Unexplained)))
     };
     let answered = detectable.iter().filter(|(case, _)| case.diagnosis().is_some());
     let names_alone = answered.map(|(case, _)| case.names_one_alone());
@@ -195,13 +191,13 @@ fn outside(judged: &[Judged]) -> Vec<Rate> {
         is_right(case) && truth.breaks.iter().all(|letter| broken(case).contains(letter))
     });
     vec![
-        Rate::of(
+        flagged(
             "outside the catalogue, unlike any effect of it: flagged as unexplained",
-            flagged(&Concealed::is_isolable),
+            Concealed::is_isolable,
         ),
-        Rate::of(
+        flagged(
             "outside the catalogue, unlike any three effects of it together: flagged as unexplained",
-            flagged(&|truth| truth.is_beyond_others() == Some(true)),
+            Concealed::is_beyond_others,
         ),
         Rate::of("outside the catalogue: one effect named all the same", names_alone),
         Rate::of("outside the catalogue: broken symmetries are its own or of known errors", within),

@@ -1,7 +1,7 @@
 //! A case with its answer and what the diagnosis said of it.
 
 use crate::answer::{Answer, Concealed};
-use crate::diagnosis::{Diagnosis, Missing};
+use crate::diagnosis::{Diagnosis, Missing, Status};
 use crate::plan::{CONSTANTS, INSTRUMENTS, Stratum};
 use trackdyn_proof::MECHANISMS;
 
@@ -36,6 +36,11 @@ impl Judged {
             Reply::Diagnosed(diagnosis) => Some(diagnosis),
             Reply::Failed(_) | Reply::Absent => None,
         }
+    }
+
+    /// Whether the diagnosis says so in a word.
+    pub fn says(&self, status: Status) -> bool {
+        self.diagnosis().is_some_and(|diagnosis| diagnosis.status == status)
     }
 
     /// The concealed effect of a case that has one, of the catalogue.

@@ -15,8 +15,13 @@ fn record(place: &Workplace, schedules: Vec<Vec<Stretch>>) {
         tau: 0.1,
         ..Synthetic::default()
     };
+    write(place, "rec", &synthetic);
+}
+
+/// Writes a recording into a folder of this name.
+fn write(place: &Workplace, name: &str, synthetic: &Synthetic) {
     let recording = synthetic.recording().expect("long enough");
-    folder::write(&recording, &place.path().join("rec")).expect("written");
+    folder::write(&recording, &place.path().join(name)).expect("written");
 }
 
 fn vehicle() -> String {
@@ -34,8 +39,7 @@ fn commands_and_poses_without_noise_do() {
         yaw_noise: 0.005,
         ..Synthetic::default()
     };
-    let recording = synthetic.recording().expect("long enough");
-    folder::write(&recording, &place.path().join("told")).expect("written");
+    write(&place, "told", &synthetic);
     let perfect = "simulate --schedule designed --runs 2 --duration 30 --cog -0.015,0.04 --sensors perfect --out perfect";
     assert_eq!(place.run(perfect).status, 0);
     for (name, close) in [("told", 5e-3), ("perfect", 1e-2)] {

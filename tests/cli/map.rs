@@ -130,4 +130,6 @@ fn what_steady_icrs_leave_out_is_said() {
     assert!(!note("centripetal") && !note("slope") && !note("encoder-scale"));
     let run = place.run("kinematics --speeds 0.3,0.9 --effect friction-creep");
     assert!(run.stderr.contains("go with the speeds"), "{}", run.stderr);
+    let piecewise = place.run("kinematics --speeds 0.3,0.9 --effect motion-resistance");
+    assert!(!piecewise.stderr.contains("note:"), "{}", piecewise.stderr);
 }

@@ -63,15 +63,17 @@ fn parameters(options: &Options) -> Result<KinematicsFile, Box<dyn Error>> {
     let statistics = map
         .statistics()
         .ok_or("the vehicle does not turn at any pair of track speeds: it has no ICRs")?;
-    let spread = statistics.spread.to_array().into_iter().fold(0.0, f64::max);
-    if spread > NOTABLE {
+    let (sectors, spread) = (map.sectors(), statistics.spread.to_array());
+    let spread = spread.into_iter().fold(0.0, f64::max);
+    // a piecewise map has the ICRs of each sector
+    if sectors.is_empty() && spread > NOTABLE {
         eprintln!(
             "note: the ICRs of this vehicle go with the speeds, by {:.1} mm up to {} m/s: these are their means",
             1e3 * spread,
             Grid::PAPER_SPEED
         );
     }
-    Ok(KinematicsFile::of_map(&statistics, &map.sectors(), Source::default())
+    Ok(KinematicsFile::of_map(&statistics, &sectors, Source::default())
         .with_alpha(model.drive().gain))
 }
 

@@ -28,7 +28,7 @@ pub struct Path {
 /// Errors of one parameter set over a whole run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathErrors {
-    /// Observed minus predicted motion from the first to the last pose.
+    /// Observed minus predicted motion from the first to the last pose; yaw without turns that no pose shows.
     pub last: Residual,
     /// Absolute error of the places, m; both paths start at the same pose.
     pub absolute: Statistics,

@@ -8,7 +8,7 @@ use trackdyn_core::Side;
 /// Fewer triples than this say nothing.
 const FEWEST: usize = 30;
 
-/// A speed that is held for longer, s, and for more readings is told, not measured.
+/// A speed that is held for longer, s, or for more readings, is told, not measured.
 const HELD: f64 = 0.5;
 const HELD_READINGS: f64 = 10.0;
 

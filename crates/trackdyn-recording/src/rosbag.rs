@@ -15,6 +15,7 @@ use std::path::Path;
 mod cdr;
 mod chain;
 mod collector;
+mod date;
 mod frames;
 mod inspection;
 mod joints;

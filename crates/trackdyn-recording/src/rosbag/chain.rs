@@ -6,6 +6,7 @@
 //! `_static` hold at all times.
 
 use super::cdr::{Cdr, CdrError};
+use super::date::{Received, Stamped, dated};
 use super::frames::{Frames, Hop};
 use super::message::{header, planar, rigid};
 use super::options::RosbagOptions;
@@ -19,9 +20,9 @@ use std::path::Path;
 
 /// Poses along a chain, and what was done for them.
 pub(super) struct Chain {
-    /// Stamp in ns and (x, y, yaw).
-    pub(super) poses: Vec<(i64, [f64; 3])>,
-    pub(super) warning: Warning,
+    /// x, y, yaw.
+    pub(super) poses: Vec<Stamped<[f64; 3]>>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 /// Reads the transforms on the way from `parent` to `child` and composes them.
@@ -44,14 +45,13 @@ pub(super) fn read(
         .way(parent, child)
         .filter(|hops| !hops.is_empty())
         .ok_or_else(|| refuse(format!("no transforms lead from {parent:?} to {child:?}")))?;
-    let series = hops.into_iter().map(Series::new).collect();
-    let mut collector = Collector { options, series };
+    let links = hops.into_iter().map(Link::new).collect();
+    let mut collector = Collector { options, links };
     // The damage of the files was told when their frames were read.
     storage::scan(path, &mut collector)?;
-    let mut series = collector.series;
-    for link in &mut series {
-        link.sort();
-    }
+    let mut warnings = Vec::new();
+    let series = collector.links.into_iter().map(|link| Series::of(link, &mut warnings));
+    let series: Vec<Series> = series.collect();
     let leading =
         series.iter().filter(|link| !link.is_static).max_by_key(|link| link.moments.len());
     let Some(leading) = leading else {
@@ -78,29 +78,46 @@ pub(super) fn read(
     if left_out > 0 {
         let _ = write!(taken, "; {left_out} stamps that a link does not reach are left out");
     }
-    Ok(Chain { poses, warning: Warning::Chosen { what: "poses", taken } })
+    warnings.push(Warning::Chosen { what: "poses", taken });
+    Ok(Chain { poses, warnings })
+}
+
+/// The transforms of a link as they were received.
+struct Link {
+    hop: Hop,
+    is_static: bool,
+    /// Topic of the last of them.
+    topic: String,
+    received: Vec<Received<Isometry3<f64>>>,
+}
+
+impl Link {
+    fn new(hop: Hop) -> Self {
+        Self { hop, is_static: false, topic: String::new(), received: Vec::new() }
+    }
 }
 
 /// The transforms of a link in the order of time.
 struct Series {
     hop: Hop,
     is_static: bool,
-    moments: Vec<(i64, Isometry3<f64>)>,
+    moments: Vec<Stamped<Isometry3<f64>>>,
 }
 
 impl Series {
-    fn new(hop: Hop) -> Self {
-        Self { hop, is_static: false, moments: Vec::new() }
+    /// In the order of time, the first of each stamp.
+    fn of(link: Link, warnings: &mut Vec<Warning>) -> Self {
+        let Link { hop, is_static, topic, received } = link;
+        let (mut moments, warning) = dated(&topic, received);
+        // What holds at all times needs no stamp.
+        warnings.extend(warning.filter(|_| !is_static));
+        moments.sort_by_key(|(stamp, _)| *stamp);
+        moments.dedup_by_key(|(stamp, _)| *stamp);
+        Self { hop, is_static, moments }
     }
 
     fn name(&self) -> String {
         format!("{} -> {}", self.hop.link.parent, self.hop.link.child)
-    }
-
-    /// In the order of time, the first of each stamp.
-    fn sort(&mut self) {
-        self.moments.sort_by_key(|(stamp, _)| *stamp);
-        self.moments.dedup_by_key(|(stamp, _)| *stamp);
     }
 
     /// The transform at a stamp; none where it is not known.
@@ -153,7 +170,7 @@ fn portion(start: i64, stamp: i64, end: i64) -> f64 {
 /// Takes the transforms of the chain's links.
 struct Collector<'a> {
     options: &'a RosbagOptions,
-    series: Vec<Series>,
+    links: Vec<Link>,
 }
 
 impl Collector<'_> {
@@ -163,11 +180,11 @@ impl Collector<'_> {
             let header = header(&mut cdr)?;
             let child = cdr.text()?;
             let transform = rigid(&mut cdr)?;
-            let link =
-                self.series.iter_mut().find(|series| series.hop.link.is(header.frame, child));
-            if let (Some(link), Some(transform)) = (link, transform) {
+            let link = self.links.iter_mut().find(|link| link.hop.link.is(header.frame, child));
+            if let (Some(link), Some(value)) = (link, transform) {
                 link.is_static |= topic.is_static();
-                link.moments.push((header.stamp_ns.unwrap_or(log_ns), transform));
+                link.topic.clone_from(&topic.name);
+                link.received.push(Received { stamp_ns: header.stamp_ns, log_ns, value });
             }
         }
         Ok(())

@@ -2,6 +2,7 @@
 
 use super::cdr::Cdr;
 use super::chain;
+use super::date::{Received, Stamped, dated};
 use super::frames::{Frames, same_frame};
 use super::joints::{Joints, Reading};
 use super::message::{header, imu, planar_pose};
@@ -19,21 +20,16 @@ mod turns;
 
 use choice::Sources;
 
-/// A value and when it was measured, Unix time in nanoseconds.
-type Stamped<T> = (i64, T);
-
 /// What the messages of a bag say, kept by source until it is clear which one to use.
 pub(super) struct Collector<'a> {
     options: &'a RosbagOptions,
     joints: Joints,
     seen: Vec<Topic>,
-    readings: BTreeMap<String, Vec<Stamped<Reading>>>,
-    poses: BTreeMap<PoseKey, Vec<Stamped<[f64; 3]>>>,
-    imu: BTreeMap<String, Vec<Stamped<[f64; 3]>>>,
+    readings: BTreeMap<String, Vec<Received<Reading>>>,
+    poses: BTreeMap<PoseKey, Vec<Received<[f64; 3]>>>,
+    imu: BTreeMap<String, Vec<Received<[f64; 3]>>>,
     /// What the transforms of all topics link.
     frames: Frames,
-    /// Per topic: messages dated by their logging.
-    undated: BTreeMap<String, u64>,
     /// Per topic: messages that were skipped, and why the first was.
     skipped: BTreeMap<String, (u64, String)>,
 }
@@ -66,7 +62,6 @@ impl<'a> Collector<'a> {
             poses: BTreeMap::new(),
             imu: BTreeMap::new(),
             frames: Frames::default(),
-            undated: BTreeMap::new(),
             skipped: BTreeMap::new(),
         }
     }
@@ -74,37 +69,29 @@ impl<'a> Collector<'a> {
     /// Chooses among the sources and makes the run.
     pub(super) fn finish(self, path: &Path) -> Result<Collected, Error> {
         let mut warnings = Vec::new();
-        for (topic, &count) in &self.undated {
-            warnings.push(Warning::LogTime { topic: topic.clone(), count });
-        }
+        let readings = all_dated(self.readings, String::as_str, &mut warnings);
+        let poses = all_dated(self.poses, |key| &key.topic, &mut warnings);
+        let imu = all_dated(self.imu, String::as_str, &mut warnings);
         for (topic, (count, reason)) in &self.skipped {
             let (topic, reason) = (topic.clone(), reason.clone());
             warnings.push(Warning::MessagesSkipped { topic, count: *count, reason });
         }
         let sources = Sources { path, options: self.options, seen: &self.seen };
-        let readings = sources.tracks(self.readings, &self.skipped, &mut warnings)?;
-        let poses = match (self.options.frames(), self.poses.is_empty()) {
+        let readings = sources.tracks(readings, &self.skipped, &mut warnings)?;
+        let poses = match (self.options.frames(), poses.is_empty()) {
             (Some(ends), true) if !self.frames.is_empty() => {
                 let chain = chain::read(path, self.options, &self.frames, ends)?;
-                warnings.push(chain.warning);
+                warnings.extend(chain.warnings);
                 chain.poses
             }
-            _ => sources.poses(self.poses, &mut warnings)?,
+            _ => sources.poses(poses, &mut warnings)?,
         };
-        let imu = sources.imu(self.imu, &mut warnings)?;
+        let imu = sources.imu(imu, &mut warnings)?;
         warnings.extend(self.joints.guessed());
         speeds::run(path, self.options, self.joints.met(), readings, poses, imu, warnings)
     }
 
-    /// The stamp of a message, or the time of its logging where it has none.
-    fn date(&mut self, topic: &Topic, stamp_ns: Option<i64>, log_ns: i64) -> i64 {
-        stamp_ns.unwrap_or_else(|| {
-            *self.undated.entry(topic.name.clone()).or_default() += 1;
-            log_ns
-        })
-    }
-
-    fn keep_pose(&mut self, topic: &Topic, frames: [&str; 2], stamped: Stamped<[f64; 3]>) {
+    fn keep_pose(&mut self, topic: &Topic, frames: [&str; 2], received: Received<[f64; 3]>) {
         let fits = |wanted: &Option<String>, frame: &str| {
             wanted.as_deref().is_none_or(|name| same_frame(name, frame))
         };
@@ -117,7 +104,7 @@ impl<'a> Collector<'a> {
             parent: parent.to_owned(),
             child: child.to_owned(),
         };
-        self.poses.entry(key).or_default().push(stamped);
+        self.poses.entry(key).or_default().push(received);
     }
 
     fn take(
@@ -139,15 +126,13 @@ impl<'a> Collector<'a> {
         match layout {
             Layout::JointState => {
                 let stamp_ns = header(&mut cdr).map_err(decode)?.stamp_ns;
-                let reading = self.joints.reading(&mut cdr).map_err(|error| error.to_string())?;
-                let date = self.date(topic, stamp_ns, log_ns);
-                push(&mut self.readings, &topic.name, (date, reading));
+                let value = self.joints.reading(&mut cdr).map_err(|error| error.to_string())?;
+                push(&mut self.readings, &topic.name, Received { stamp_ns, log_ns, value });
             }
             Layout::Imu => {
                 let stamp_ns = header(&mut cdr).map_err(decode)?.stamp_ns;
-                let values = imu(&mut cdr).map_err(decode)?;
-                let date = self.date(topic, stamp_ns, log_ns);
-                push(&mut self.imu, &topic.name, (date, values));
+                let value = imu(&mut cdr).map_err(decode)?;
+                push(&mut self.imu, &topic.name, Received { stamp_ns, log_ns, value });
             }
             Layout::Pose | Layout::PoseOfChild | Layout::Transforms => {
                 let has_child = layout == Layout::PoseOfChild;
@@ -166,7 +151,7 @@ impl<'a> Collector<'a> {
     ) -> Result<(), super::cdr::CdrError> {
         let header = header(cdr)?;
         let child = if has_child { cdr.text()? } else { "" };
-        let pose = planar_pose(cdr)?;
+        let value = planar_pose(cdr)?;
         if topic.layout() == Some(Layout::Transforms) {
             self.frames.note(header.frame, child);
         }
@@ -174,10 +159,24 @@ impl<'a> Collector<'a> {
             // It holds at all times, and shows no motion.
             return Ok(());
         }
-        let date = self.date(topic, header.stamp_ns, log_ns);
-        self.keep_pose(topic, [header.frame, child], (date, pose));
+        let received = Received { stamp_ns: header.stamp_ns, log_ns, value };
+        self.keep_pose(topic, [header.frame, child], received);
         Ok(())
     }
+}
+
+/// All series with their dates; `topic` names the topic of a key.
+fn all_dated<K: Ord, T>(
+    series: BTreeMap<K, Vec<Received<T>>>,
+    topic: impl Fn(&K) -> &str,
+    warnings: &mut Vec<Warning>,
+) -> BTreeMap<K, Vec<Stamped<T>>> {
+    let dates = series.into_iter().map(|(key, received)| {
+        let (dated, warning) = dated(topic(&key), received);
+        warnings.extend(warning);
+        (key, dated)
+    });
+    dates.collect()
 }
 
 /// Appends without making a new key where there is one.

@@ -154,6 +154,33 @@ fn messages_without_a_stamp_are_dated_by_their_logging() {
     }
 }
 
+/// A simulation begins at zero: its first message has that stamp, and was logged at another time.
+#[test]
+fn a_message_without_a_stamp_among_others_is_left_out() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("drive.db3");
+    std::fs::copy(fixture("drive.db3"), &path).expect("copied");
+    let bag = rusqlite::Connection::open(&path).expect("a database");
+    // the stamp follows the four bytes that say how the message is encoded
+    let first = "UPDATE messages \
+                 SET data = CAST(substr(data, 1, 4) || zeroblob(8) || substr(data, 13) AS BLOB) \
+                 WHERE id = 1";
+    assert_eq!(bag.execute(first, []), Ok(1));
+    drop(bag);
+    let recording = rosbag::read(&path, &options()).expect("readable");
+    let tracks = recording.runs()[0].tracks();
+    assert_eq!(tracks.len(), COUNT - 1);
+    assert_near(tracks[0].t, 0.05);
+    assert_poses(&recording, COUNT);
+    let said = recording.warnings().iter().any(|warning| match warning {
+        Warning::MessagesSkipped { topic, count: 1, reason } => {
+            topic == "/joint_states" && reason.contains("no stamp")
+        }
+        _ => false,
+    });
+    assert!(said, "{:?}", recording.warnings());
+}
+
 #[test]
 fn a_folder_without_metadata_is_read_file_by_file() {
     let folder = tempfile::tempdir().expect("a temporary folder");

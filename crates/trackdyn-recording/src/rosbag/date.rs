@@ -1,0 +1,36 @@
+//! When the value of a message was measured.
+
+use crate::recording::Warning;
+
+/// A value and when it was measured, Unix time in nanoseconds.
+pub(super) type Stamped<T> = (i64, T);
+
+/// A value as it was received.
+pub(super) struct Received<T> {
+    /// Stamp of its message, Unix time in nanoseconds; none where it is zero.
+    pub(super) stamp_ns: Option<i64>,
+    /// Time of its logging, Unix time in nanoseconds.
+    pub(super) log_ns: i64,
+    pub(super) value: T,
+}
+
+/// Values of a topic with the times at which they were measured, and what is to be said of these.
+///
+/// Where no message has a stamp, all are dated by their logging. Where others have one, those without are left
+/// out: the first message of a simulation is stamped zero, and was logged years after its time.
+pub(super) fn dated<T>(
+    topic: &str,
+    received: Vec<Received<T>>,
+) -> (Vec<Stamped<T>>, Option<Warning>) {
+    let all = received.len();
+    let undated = received.iter().filter(|one| one.stamp_ns.is_none()).count();
+    let (topic, count) = (topic.to_owned(), undated as u64);
+    if undated == all {
+        let logged = received.into_iter().map(|one| (one.log_ns, one.value)).collect();
+        return (logged, (undated > 0).then_some(Warning::LogTime { topic, count }));
+    }
+    let stamped = received.into_iter().filter_map(|one| Some((one.stamp_ns?, one.value)));
+    let reason = "it has no stamp, as others have".to_owned();
+    let warning = Warning::MessagesSkipped { topic, count, reason };
+    (stamped.collect(), (undated > 0).then_some(warning))
+}

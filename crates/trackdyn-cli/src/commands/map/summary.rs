@@ -33,9 +33,7 @@ fn parameters(text: &mut String, statistics: &Statistics) {
         ("x_r  ICR of the right track", mean.x_right, spread.x_right),
         ("y    ICR of both, forward", mean.y, spread.y),
     ] {
-        // Rounding is neither a spread nor a sign.
-        let spread = if spread < 1e-9 { 0.0 } else { 1e3 * spread };
-        let mean = if mean.abs() < 1e-9 { 0.0 } else { mean };
+        let (mean, spread) = (unrounded(mean), 1e3 * unrounded(spread));
         let _ = writeln!(text, "  {name:34}{mean:>10.5} m{spread:>11.3} mm");
     }
     let _ = writeln!(text, "\n  {:34}{:>12}{:>14}", "", "of the means", "mean over map");
@@ -47,8 +45,14 @@ fn parameters(text: &mut String, statistics: &Statistics) {
         ),
         ("e    eccentricity", statistics.eccentricity, statistics.mean_eccentricity),
     ] {
+        let (of_means, over_map) = (unrounded(of_means), unrounded(over_map));
         let _ = writeln!(text, "  {name:34}{of_means:>12.5}{over_map:>14.5}");
     }
+}
+
+/// A number without what rounding makes of none: it is neither a spread nor a sign.
+fn unrounded(value: f64) -> f64 {
+    if value.abs() < 1e-9 { 0.0 } else { value }
 }
 
 fn motions(text: &mut String, map: &IcrMap) {
@@ -90,9 +94,9 @@ fn sectors(text: &mut String, map: &IcrMap) {
             "  {:>10.5}{:>11.5}{:>11.5}{:>10.5}{:>10.5}{:>7}  {}",
             statistics.mean.x_left,
             statistics.mean.x_right,
-            statistics.mean.y,
+            unrounded(statistics.mean.y),
             statistics.steering_efficiency,
-            statistics.eccentricity,
+            unrounded(statistics.eccentricity),
             statistics.count,
             signs.join(" ")
         );

@@ -74,35 +74,42 @@ impl Gear {
     }
 
     /// Spreads a side's load (N) with its centre of pressure at y (m) over the shoes, through springs of
-    /// the given relative stiffness at (y, extent).
+    /// the given relative stiffness at (y, ends of the contact there).
+    ///
+    /// # Errors
+    /// A centre of pressure beyond what the contacts reach.
     pub(crate) fn bear(
         &mut self,
         side: Side,
         load: f64,
         y: f64,
         stiffness: impl Fn(f64, [f64; 2]) -> f64,
-    ) {
+    ) -> Result<(), String> {
         for strip in &self.strips[side] {
             for shoe in &mut self.shoes[side][strip.shoes.clone()] {
                 // the spring's stiffness stands in the load until the load is known
                 shoe.load = shoe.area * stiffness(shoe.position[1], strip.extent);
             }
         }
-        bed::settle(&mut self.shoes[side], load, y);
+        bed::settle(&mut self.shoes[side], load, y)
     }
 
-    /// The shoes of a side with the ends of their contacts.
-    pub(crate) fn shoes(&self, side: Side) -> impl Iterator<Item = (&Shoe, [f64; 2])> {
-        let shoes = &self.shoes[side];
-        self.strips[side]
-            .iter()
-            .flat_map(|strip| shoes[strip.shoes.clone()].iter().map(|shoe| (shoe, strip.extent)))
+    /// The shoes of a side.
+    pub(crate) fn shoes(&self, side: Side) -> &[Shoe] {
+        &self.shoes[side]
     }
 
     /// As [`Gear::shoes`], to be changed.
-    pub(crate) fn shoes_mut(&mut self, side: Side) -> impl Iterator<Item = (&mut Shoe, [f64; 2])> {
-        let extents = self.strips[side].iter().flat_map(|s| s.shoes.clone().map(|_| s.extent));
-        self.shoes[side].iter_mut().zip(extents)
+    pub(crate) fn shoes_mut(&mut self, side: Side) -> &mut [Shoe] {
+        &mut self.shoes[side]
+    }
+
+    /// Rear and front end of all contacts of a side, m.
+    pub(crate) fn extent(&self, side: Side) -> [f64; 2] {
+        let strips = self.strips[side].iter().map(|strip| strip.extent);
+        strips.fold([f64::INFINITY, f64::NEG_INFINITY], |[rear, front], [back, ahead]| {
+            [rear.min(back), front.max(ahead)]
+        })
     }
 
     /// Takes over the state of a gear of the same machine.
@@ -150,8 +157,7 @@ mod tests {
         let mut gear = gear(3);
         for distance in [0.0, 0.013, 0.4, -1.7] {
             gear.roll(Side::Left, distance);
-            let sum =
-                |of: fn(&Shoe) -> f64| gear.shoes(Side::Left).map(|(s, _)| of(s)).sum::<f64>();
+            let sum = |of: fn(&Shoe) -> f64| gear.shoes(Side::Left).iter().map(of).sum::<f64>();
             assert!((sum(|s| s.area) - 0.7 * 0.15).abs() < 1e-14);
             assert!((sum(|s| s.area * s.position[0]) + 0.21 * 0.7 * 0.15).abs() < 1e-14);
             assert!(sum(|s| s.area * s.position[1]).abs() < 1e-14);
@@ -167,16 +173,16 @@ mod tests {
     #[test]
     fn what_a_shoe_has_gone_through_travels_with_it_and_ends_with_its_contact() {
         let mut gear = gear(1);
-        for (shoe, _) in gear.shoes_mut(Side::Right) {
+        for shoe in gear.shoes_mut(Side::Right) {
             shoe.slid = 1.0;
         }
         gear.roll(Side::Right, 0.35);
-        for (shoe, _) in gear.shoes(Side::Right).filter(|(shoe, _)| shoe.area > 0.0) {
+        for shoe in gear.shoes(Side::Right).iter().filter(|shoe| shoe.area > 0.0) {
             // driving forward brings new shoes in at the front; the border is one pitch wide
             let [_, y] = shoe.position;
             assert!(y.abs() < 0.06 || shoe.slid == f64::from(y < 0.0), "{y} {}", shoe.slid);
         }
         gear.roll(Side::Right, -0.8);
-        assert!(gear.shoes(Side::Right).all(|(shoe, _)| shoe.slid == 0.0));
+        assert!(gear.shoes(Side::Right).iter().all(|shoe| shoe.slid == 0.0));
     }
 }

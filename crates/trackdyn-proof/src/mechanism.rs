@@ -17,8 +17,20 @@ pub trait Mechanism: std::fmt::Debug + Send + Sync {
     /// What follows Newton's law beyond the quasi-static balance.
     fn inertia(&self, _inertia: &mut Inertia) {}
 
-    /// Mean belt speeds over the hull, m/s, in a step of `dt` seconds, from what the encoders show.
+    /// Mean speeds of the sprockets as speeds of their belts, m/s, in a step of `dt` seconds, from what the encoders
+    /// show.
     fn drive(&self, _scene: &Scene, _dt: f64, _belt: &mut PerSide<f64>) {}
+
+    /// Whether belts slip on their sprockets ([`Mechanism::slip`]).
+    fn slips(&self) -> bool {
+        false
+    }
+
+    /// Mean part of its sprocket's speed that a belt loses in a step of `dt` seconds, with this traction over load in the sense
+    /// of the sprocket.
+    fn slip(&self, _side: Side, _traction: f64, _dt: f64) -> f64 {
+        0.0
+    }
 
     /// Velocity of a belt's contact over the hull, m/s, paper's frame.
     fn belt(&self, _scene: &Scene, _side: Side, _velocity: &mut [f64; 2]) {}
@@ -36,14 +48,18 @@ pub trait Mechanism: std::fmt::Debug + Send + Sync {
     /// Friction coefficients μ_x and μ_y under a shoe.
     fn friction(&self, _contact: &Contact, _mu: &mut [f64; 2]) {}
 
-    /// Force of the ground on a shoe beside friction, N, paper's frame.
+    /// Shear force of the ground on a shoe beside friction, N, paper's frame.
     fn traction(&self, _contact: &Contact, _force: &mut [f64; 2]) {}
 
-    /// Friction and traction of many shoes: one call, in which those of a mechanism are inlined.
-    fn act(&self, contacts: &[Contact], mu: &mut [[f64; 2]], force: &mut [[f64; 2]]) {
-        for ((contact, mu), force) in contacts.iter().zip(mu).zip(force) {
+    /// Force along the track that holds a shoe's frame back, beside what the belt delivers, N.
+    fn resistance(&self, _contact: &Contact, _force: &mut f64) {}
+
+    /// Friction, traction and resistance of many shoes: one call, in which those of a mechanism are inlined.
+    fn act(&self, contacts: &[Contact], shoes: &mut [Acting]) {
+        for (contact, Acting { mu, force, resistance }) in contacts.iter().zip(shoes) {
             self.friction(contact, mu);
             self.traction(contact, force);
+            self.resistance(contact, resistance);
         }
     }
 
@@ -64,6 +80,17 @@ pub trait Described: Mechanism + Sized + 'static {
 
     /// The mechanism with its parameters in the order of the sheet, each within its range.
     fn from_values(values: &[f64]) -> Self;
+}
+
+/// What acts on a shoe.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Acting {
+    /// Friction coefficients μ_x and μ_y.
+    pub mu: [f64; 2],
+    /// Shear force of the ground, N, paper's frame.
+    pub force: [f64; 2],
+    /// Force along the track beside it, N.
+    pub resistance: f64,
 }
 
 /// How much of Newton's law acts.
@@ -108,9 +135,10 @@ pub struct Scene<'a> {
     pub twist: Twist,
     /// Speeds that the encoders show during the step, m/s.
     pub encoder: PerSide<f64>,
-    /// Mean belt speeds over the hull in the step, m/s; those of the step before in the stage `drive`.
+    /// Mean speeds of the sprockets in the step as speeds of their belts, m/s; those of the belts in the step before in
+    /// the stage `drive`.
     pub belt: PerSide<f64>,
-    /// Force of the ground along each track in the step before, forward positive, N.
+    /// Shear force of the ground along each track in the step before, forward positive, N.
     pub traction: PerSide<f64>,
     /// Load on each side in the step before, N.
     pub weight: PerSide<f64>,
@@ -154,7 +182,7 @@ pub struct Contact<'a> {
     pub side: Side,
     /// Where it is, paper's frame, m.
     pub position: [f64; 2],
-    /// Rear and front end of its contact, m.
+    /// Rear and front end of all contacts of its side, m.
     pub extent: [f64; 2],
     /// Slip velocity over the ground, paper's axes, m/s.
     pub slip: [f64; 2],
@@ -181,7 +209,7 @@ impl Contact<'_> {
         self.scene.world_from_body(self.position)
     }
 
-    /// y over the half length of the contact, from −1 at the rear to 1 at the front.
+    /// y over the half length of its side's contact, from −1 at the rear to 1 at the front.
     pub fn relative_y(&self) -> f64 {
         let [rear, front] = self.extent;
         (2.0 * self.position[1] - rear - front) / (front - rear)
@@ -201,7 +229,7 @@ pub struct Step<'a> {
     pub inertia: Inertia,
     /// Twist at its end, paper's frame.
     pub twist: Twist,
-    /// Force of the ground along each track, forward positive, N.
+    /// Shear force of the ground along each track, forward positive, N.
     pub traction: PerSide<f64>,
     /// Power that slip turned into heat on each side, W.
     pub heat: PerSide<f64>,

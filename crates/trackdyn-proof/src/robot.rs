@@ -10,8 +10,8 @@ use crate::error::Error;
 use crate::gear::Gear;
 use crate::mechanism::{Gravity, Inertia, Load, Mechanism, Scene, Step};
 use crate::mechanisms::ActiveMechanism;
-use balance::Balance;
-use newton::Newton;
+use balance::{Balance, Trial};
+use newton::{FIRM, Newton, SLIPPING};
 use trackdyn_core::{
     Moment, PerSide, Plant, Pose, STANDARD_GRAVITY, Side, Stopped, Trajectory, Twist, frames,
 };
@@ -37,12 +37,15 @@ pub struct Robot {
     inertia: Inertia,
     gear: Gear,
     trial: Gear,
-    newton: Newton,
+    firm: Newton<FIRM>,
+    slipping: Newton<SLIPPING>,
     t: f64,
     step: f64,
     pose: Pose,
     twist: Twist,
     encoder: PerSide<f64>,
+    /// Speeds of the sprockets, as speeds of their belts, m/s.
+    sprocket: PerSide<f64>,
     belt: PerSide<f64>,
     traction: PerSide<f64>,
     weight: PerSide<f64>,
@@ -85,12 +88,14 @@ impl Robot {
             gear,
             mechanisms,
             inertia,
-            newton: Newton::default(),
+            firm: Newton::default(),
+            slipping: Newton::default(),
             t: setup.start_time,
             step: setup.shortest_step,
             pose: setup.start,
             twist: Twist::zero(),
             encoder: PerSide::new(0.0, 0.0),
+            sprocket: PerSide::new(0.0, 0.0),
             belt: PerSide::new(0.0, 0.0),
             traction: PerSide::new(0.0, 0.0),
             weight: PerSide::new(half_weight, half_weight),
@@ -152,17 +157,19 @@ impl Robot {
             weight: self.weight,
             gravity: level,
         };
-        let mut belt = self.encoder;
+        let mut sprocket = self.encoder;
         let mut fed = Vec::with_capacity(self.mechanisms.len());
         for mechanism in &self.mechanisms {
-            fed.push(belt);
-            mechanism.drive(&scene, dt, &mut belt);
+            fed.push(sprocket);
+            mechanism.drive(&scene, dt, &mut sprocket);
         }
+        // Before the step's end is found: belts lose what they lost before.
+        let belt = PerSide::from_fn(|side| sprocket[side] + self.belt[side] - self.sprocket[side]);
         let mut gravity = level;
         for mechanism in &self.mechanisms {
             mechanism.gravity(&scene, &mut gravity);
         }
-        scene.belt = belt;
+        scene.belt = sprocket;
         scene.gravity = gravity;
         let [across, along] = self.vehicle.cog;
         let mut load = Load { across, along: PerSide::new(along, along) };
@@ -185,20 +192,25 @@ impl Robot {
                     mechanism.bed(y, extent, &mut stiffness);
                 }
                 stiffness
-            });
+            })?;
         }
         let Setup { elastic_range, .. } = self.setup;
         let mut balance =
             Balance::new(&scene, &self.mechanisms, self.inertia, elastic_range, dt, &self.trial);
-        let twist = self.newton.solve(&mut balance)?;
-        let outcome = balance.settle(&mut self.trial, &twist);
+        let end = if balance.slips() {
+            self.slipping.solve(&mut balance, &belt)?
+        } else {
+            self.firm.solve(&mut balance, &belt)?
+        };
+        let outcome = balance.settle(&mut self.trial, &end);
+        let Trial { twist, belt } = end;
         for side in Side::BOTH {
             self.trial.roll(side, belt[side] * dt / 2.0);
         }
         let step = Step {
             scene: &scene,
             dt,
-            fed: belt,
+            fed: sprocket,
             inertia: self.inertia,
             twist,
             traction: outcome.traction,
@@ -212,6 +224,7 @@ impl Robot {
             .hypot(self.vehicle.gauge * (twist.w - self.twist.w));
         self.weight = scene.weight;
         self.traction = outcome.traction;
+        self.sprocket = sprocket;
         self.belt = belt;
         self.twist = twist;
         self.pose = self.pose.compose(&Pose::exp(&frames::ros_twist_from_paper(&twist), dt));

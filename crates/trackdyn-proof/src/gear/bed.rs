@@ -12,7 +12,10 @@ use super::Shoe;
 /// # Assumes
 /// Both sides bear their part of the weight at the same y_p: the hull lies on two cross-beams and does
 /// not resist torsion. Under equal springs this is the linear pressure of the paper's Fig. 5.
-pub(super) fn settle(shoes: &mut [Shoe], load: f64, y_pressure: f64) {
+///
+/// # Errors
+/// No springs carry the load there: the machine pitches over.
+pub(super) fn settle(shoes: &mut [Shoe], load: f64, y_pressure: f64) -> Result<(), String> {
     let mut frame = [1.0, 0.0];
     let mut bearing = shoes.len() + 1;
     loop {
@@ -36,10 +39,22 @@ pub(super) fn settle(shoes: &mut [Shoe], load: f64, y_pressure: f64) {
             load * (k0 * y_pressure - k1) / determinant,
         ];
     }
+    let mut carried = [0.0, 0.0];
     for shoe in shoes {
         shoe.load *= (frame[0] + frame[1] * shoe.position[1]).max(0.0);
+        carried[0] += shoe.load;
+        carried[1] += shoe.load * shoe.position[1];
     }
+    let off = (carried[0] - load).abs() + (carried[1] - load * y_pressure).abs();
+    if off <= ROUNDING * load {
+        return Ok(());
+    }
+    let end = if y_pressure > 0.0 { "front" } else { "rear" };
+    Err(format!("the load shifts beyond the {end} end and the robot pitches over"))
 }
+
+/// Part of the load, and of the load a metre away, that rounding may lose.
+const ROUNDING: f64 = 1e-9;
 
 #[cfg(test)]
 mod tests {
@@ -65,7 +80,7 @@ mod tests {
         // 0.09 m is inside the middle third, 0.15 m lifts the rear
         for y in [0.0, 0.04, -0.09, 0.15] {
             let mut shoes = row();
-            settle(&mut shoes, 1000.0, y);
+            settle(&mut shoes, 1000.0, y).expect("it bears");
             let [load, centre] = carried(&shoes);
             assert!((load - 1000.0).abs() < 1e-9 && (centre - y).abs() < 1e-9, "{y} {centre}");
             assert!(shoes.iter().all(|shoe| shoe.load >= 0.0));
@@ -73,9 +88,18 @@ mod tests {
     }
 
     #[test]
+    fn a_load_beyond_the_end_is_not_borne() {
+        for (y, end) in [(0.301, "front"), (0.5, "front"), (-0.4, "rear")] {
+            let error = settle(&mut row(), 1000.0, y).expect_err("no springs there");
+            assert!(error.contains(end), "{error}");
+        }
+        settle(&mut row(), 1000.0, 0.28).expect("few springs bear");
+    }
+
+    #[test]
     fn equal_springs_press_linearly() {
         let mut shoes = row();
-        settle(&mut shoes, 1000.0, 0.05);
+        settle(&mut shoes, 1000.0, 0.05).expect("it bears");
         for three in shoes.windows(3) {
             assert!((three[0].load - 2.0 * three[1].load + three[2].load).abs() < 1e-9);
         }

@@ -1,6 +1,6 @@
 //! A belt that slips on its sprocket under load.
 
-use crate::mechanism::{Described, Mechanism, Scene, Step};
+use crate::mechanism::{Described, Mechanism, Step};
 use crate::sheet::{Invariance, Origin, Parameter, Sheet};
 use trackdyn_core::{PerSide, Side};
 
@@ -21,8 +21,8 @@ impl Described for BeltSlip {
     const SHEET: Sheet = Sheet {
         id: "belt-slip",
         origin: Origin::Catalogue,
-        law: "V = V_shown (1 − q), q' = (λ x √(|x|/0.3) − q)/0.02 s, x = traction over load, in \
-              the belt's direction",
+        law: "V = V_shown (1 − q), q' = (λ x √(|x|/0.3) − q)/0.02 s, x = shear force over load, in \
+              the sprocket's direction",
         size: "equal to the linear V_shown (1 − λ x) at a traction of 0.3 of the load",
         breaks: &[Invariance::Manoeuvre],
         parameters: &[Parameter { key: "slip", unit: "1", range: [0.0, 0.5], typical: 0.1 }],
@@ -34,19 +34,32 @@ impl Described for BeltSlip {
 }
 
 impl Mechanism for BeltSlip {
-    fn drive(&self, _scene: &Scene, _dt: f64, belt: &mut PerSide<f64>) {
-        for side in Side::BOTH {
-            belt[side] *= 1.0 - self.lost[side];
-        }
+    fn slips(&self) -> bool {
+        true
+    }
+
+    fn slip(&self, side: Side, traction: f64, dt: f64) -> f64 {
+        let settled = self.settled(traction);
+        let passed = dt / STRETCH_TIME;
+        // the mean of q_0 + (λ x √(|x|/0.3) − q_0)(1 − e^(−t/T))
+        settled + (self.lost[side] - settled) * -(-passed).exp_m1() / passed
     }
 
     fn advance(&mut self, step: &Step) {
         let share = -(-step.dt / STRETCH_TIME).exp_m1();
         for side in Side::BOTH {
-            let sense = step.scene.encoder[side].signum();
-            let x = sense * step.traction[side] / step.scene.weight[side];
-            let slip = self.slip * x * (x.abs() / EQUAL_AT).sqrt();
-            self.lost[side] += share * (slip.clamp(-1.0, 1.0) - self.lost[side]);
+            let traction = step.scene.belt[side].signum() * step.traction[side];
+            let settled = self.settled(traction / step.scene.weight[side]);
+            self.lost[side] += share * (settled - self.lost[side]);
         }
+    }
+}
+
+impl BeltSlip {
+    /// Part of the speed that is lost under a steady traction over load.
+    fn settled(&self, traction: f64) -> f64 {
+        // λ x √(|x|/0.3)
+        let slip = self.slip * traction * (traction.abs() / EQUAL_AT).sqrt();
+        slip.clamp(-1.0, 1.0)
     }
 }

@@ -13,7 +13,7 @@ impl Described for FrictionGradient {
     const SHEET: Sheet = Sheet {
         id: "friction-gradient",
         origin: Origin::Catalogue,
-        law: "μ (1 + (2/3) γ tanh(5 η)), η = y over the half length",
+        law: "μ (1 + (2/3) γ tanh(5 η)), η = y over the half length of a side's contact",
         size: "a step of 2/3 γ has the first moment along y of the linear law 1 + γ η",
         breaks: &[],
         parameters: &[Parameter { key: "gradient", unit: "1", range: [-0.9, 0.9], typical: 0.1 }],

@@ -39,7 +39,7 @@ impl Described for MotionResistance {
 }
 
 impl Mechanism for MotionResistance {
-    fn traction(&self, contact: &Contact, force: &mut [f64; 2]) {
-        force[1] += resistance(self.coefficient, contact);
+    fn resistance(&self, contact: &Contact, force: &mut f64) {
+        *force += resistance(self.coefficient, contact);
     }
 }

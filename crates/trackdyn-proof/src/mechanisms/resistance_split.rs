@@ -32,8 +32,8 @@ impl Described for ResistanceSplit {
 }
 
 impl Mechanism for ResistanceSplit {
-    fn traction(&self, contact: &Contact, force: &mut [f64; 2]) {
+    fn resistance(&self, contact: &Contact, force: &mut f64) {
         let coefficient = -contact.side.sign() * self.difference / 2.0;
-        force[1] += resistance(coefficient, contact);
+        *force += resistance(coefficient, contact);
     }
 }

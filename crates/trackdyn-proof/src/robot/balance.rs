@@ -1,7 +1,7 @@
 //! Forces on the robot at a trial of a step's end.
 
 use crate::gear::Gear;
-use crate::mechanism::{Contact, Inertia, Mechanism, Scene};
+use crate::mechanism::{Acting, Contact, Inertia, Mechanism, Scene};
 use trackdyn_core::{PerSide, Side, Twist, Wrench};
 
 /// Newton's law over one step, by the implicit Euler rule.
@@ -11,7 +11,25 @@ pub(super) struct Balance<'a> {
     inertia: Inertia,
     elastic_range: f64,
     dt: f64,
+    slips: bool,
     shoes: PerSide<Shoes<'a>>,
+}
+
+/// A trial of a step's end.
+#[derive(Clone, Copy)]
+pub(super) struct Trial {
+    /// Twist, paper's frame.
+    pub(super) twist: Twist,
+    /// Speeds of the belts over the hull, m/s.
+    pub(super) belt: PerSide<f64>,
+}
+
+/// What a trial leaves over; nothing at the step's end.
+pub(super) struct Residual {
+    /// Of Newton's law, about the origin.
+    pub(super) wrench: Wrench,
+    /// By how much belts are faster than their slip allows, m/s.
+    pub(super) belt: PerSide<f64>,
 }
 
 /// The shoes of a side at the trial that was looked at last.
@@ -21,10 +39,7 @@ struct Shoes<'a> {
     start: Vec<State>,
     /// The same at its end.
     end: Vec<State>,
-    /// Friction coefficients.
-    mu: Vec<[f64; 2]>,
-    /// Forces, N.
-    force: Vec<[f64; 2]>,
+    acting: Vec<Acting>,
 }
 
 /// What a shoe carries from step to step.
@@ -36,7 +51,7 @@ struct State {
 
 /// What a step leaves behind beside the motion.
 pub(super) struct Outcome {
-    /// Force of the ground along each track, N.
+    /// Shear force of the ground along each track, N.
     pub(super) traction: PerSide<f64>,
     /// Power that slip turned into heat, W.
     pub(super) heat: PerSide<f64>,
@@ -53,9 +68,11 @@ impl<'a> Balance<'a> {
         gear: &Gear,
     ) -> Self {
         let shoes = PerSide::from_fn(|side| {
-            let contacts: Vec<_> = gear
-                .shoes(side)
-                .map(|(shoe, extent)| Contact {
+            let extent = gear.extent(side);
+            let shoes = gear.shoes(side).iter();
+            let contacts: Vec<_> = shoes
+                .clone()
+                .map(|shoe| Contact {
                     scene,
                     side,
                     position: shoe.position,
@@ -67,20 +84,13 @@ impl<'a> Balance<'a> {
                     area: shoe.area,
                 })
                 .collect();
-            let start: Vec<_> = gear
-                .shoes(side)
-                .map(|(shoe, _)| State { bristle: shoe.bristle, slid: shoe.slid })
-                .collect();
-            let count = start.len();
-            Shoes {
-                contacts,
-                end: start.clone(),
-                start,
-                mu: vec![[0.0, 0.0]; count],
-                force: vec![[0.0, 0.0]; count],
-            }
+            let start: Vec<_> =
+                shoes.map(|shoe| State { bristle: shoe.bristle, slid: shoe.slid }).collect();
+            let acting = vec![Acting::default(); start.len()];
+            Shoes { contacts, end: start.clone(), start, acting }
         });
-        Self { scene, mechanisms, inertia, elastic_range, dt, shoes }
+        let slips = mechanisms.iter().any(|mechanism| mechanism.slips());
+        Self { scene, mechanisms, inertia, elastic_range, dt, slips, shoes }
     }
 
     /// The state at the step's start.
@@ -88,31 +98,48 @@ impl<'a> Balance<'a> {
         self.scene
     }
 
-    /// What Newton's law leaves over at a twist, about the origin; zero at the step's end.
-    pub(super) fn residual(&mut self, twist: &Twist) -> Wrench {
-        let mut sum = self.body(twist);
+    /// Whether belts may be slower than their sprockets.
+    pub(super) fn slips(&self) -> bool {
+        self.slips
+    }
+
+    /// What a trial leaves over.
+    pub(super) fn residual(&mut self, trial: &Trial) -> Residual {
+        let mut wrench = self.body(&trial.twist);
+        let mut belt = PerSide::new(0.0, 0.0);
         for side in Side::BOTH {
-            self.react(side, twist);
-            let Shoes { contacts, force, .. } = &self.shoes[side];
-            for (contact, force) in contacts.iter().zip(force) {
-                sum.add_force(*force, contact.position);
+            self.react(side, trial);
+            let mut traction = 0.0;
+            let Shoes { contacts, acting, .. } = &self.shoes[side];
+            for (contact, Acting { force, resistance, .. }) in contacts.iter().zip(acting) {
+                traction += force[1];
+                wrench.add_force([force[0], force[1] + resistance], contact.position);
             }
+            belt[side] = trial.belt[side] - self.belt(side, traction);
         }
-        sum
+        Residual { wrench, belt }
+    }
+
+    /// Speed of a belt under this traction, N, m/s.
+    fn belt(&self, side: Side, traction: f64) -> f64 {
+        let sprocket = self.scene.belt[side];
+        let traction = sprocket.signum() * traction / self.scene.weight[side];
+        let slips = self.mechanisms.iter().map(|m| m.slip(side, traction, self.dt));
+        sprocket * (1.0 - slips.sum::<f64>())
     }
 
     /// Brings the shoes to the step's end.
-    pub(super) fn settle(&mut self, gear: &mut Gear, twist: &Twist) -> Outcome {
+    pub(super) fn settle(&mut self, gear: &mut Gear, trial: &Trial) -> Outcome {
         let zero = PerSide::new(0.0, 0.0);
         let mut outcome = Outcome { traction: zero, heat: zero };
         for side in Side::BOTH {
-            self.react(side, twist);
-            let Shoes { contacts, end, force, .. } = &self.shoes[side];
-            for (Contact { slip, .. }, force) in contacts.iter().zip(force) {
+            self.react(side, trial);
+            let Shoes { contacts, end, acting, .. } = &self.shoes[side];
+            for (Contact { slip, .. }, Acting { force, .. }) in contacts.iter().zip(acting) {
                 outcome.traction[side] += force[1];
                 outcome.heat[side] -= force[0] * slip[0] + force[1] * slip[1];
             }
-            for ((shoe, _), State { bristle, slid }) in gear.shoes_mut(side).zip(end) {
+            for (shoe, State { bristle, slid }) in gear.shoes_mut(side).iter_mut().zip(end) {
                 shoe.bristle = *bristle;
                 shoe.slid = *slid;
             }
@@ -147,8 +174,8 @@ impl<'a> Balance<'a> {
         wrench
     }
 
-    fn belt_velocity(&self, side: Side) -> [f64; 2] {
-        let mut velocity = [0.0, self.scene.belt[side]];
+    fn belt_velocity(&self, side: Side, speed: f64) -> [f64; 2] {
+        let mut velocity = [0.0, speed];
         for mechanism in self.mechanisms {
             mechanism.belt(self.scene, side, &mut velocity);
         }
@@ -159,10 +186,10 @@ impl<'a> Balance<'a> {
     /// A bristle z of elastic range z₀: `z' = s` while |z| < z₀, and z stays on |z| = z₀ while it slides;
     /// `F = −[μ] N z/z₀`. Sliding steadily this is `−[μ] N s/|s|`. The end of a step is found by radial
     /// return, which is stable whatever the step.
-    fn react(&mut self, side: Side, twist: &Twist) {
-        let belt = self.belt_velocity(side);
+    fn react(&mut self, side: Side, Trial { twist, belt }: &Trial) {
+        let belt = self.belt_velocity(side, belt[side]);
         let friction = self.scene.vehicle.friction;
-        let Shoes { contacts, start, end, mu, force } = &mut self.shoes[side];
+        let Shoes { contacts, start, end, acting } = &mut self.shoes[side];
         for ((contact, start), end) in contacts.iter_mut().zip(start).zip(end) {
             let hull = twist.velocity_at(contact.position);
             let slip = [hull[0] - belt[0], hull[1] - belt[1]];
@@ -179,12 +206,13 @@ impl<'a> Balance<'a> {
             contact.slid = f64::midpoint(start.slid, slid);
             *end = State { bristle, slid };
         }
-        mu.fill([friction.across, friction.along]);
-        force.fill([0.0, 0.0]);
+        acting.fill(Acting { mu: [friction.across, friction.along], ..Acting::default() });
         for mechanism in self.mechanisms {
-            mechanism.act(contacts, mu, force);
+            mechanism.act(contacts, acting);
         }
-        for ((Contact { load, deflection, .. }, mu), force) in contacts.iter().zip(mu).zip(force) {
+        for (Contact { load, deflection, .. }, Acting { mu, force, .. }) in
+            contacts.iter().zip(acting)
+        {
             // F = −[μ] N z/z₀
             force[0] -= mu[0] * load * deflection[0];
             force[1] -= mu[1] * load * deflection[1];

@@ -1,8 +1,14 @@
-//! The twist at which a step ends.
+//! The motion in which a step ends.
 
-use super::balance::Balance;
-use nalgebra::{Matrix3, Vector3};
-use trackdyn_core::{Twist, Wrench};
+use super::balance::{Balance, Residual, Trial};
+use nalgebra::{SMatrix, SVector};
+use trackdyn_core::{PerSide, Twist, Wrench};
+
+/// Unknowns of belts that follow their sprockets: the twist.
+pub(super) const FIRM: usize = 3;
+
+/// Unknowns of belts that slip on them: their speeds too.
+pub(super) const SLIPPING: usize = 5;
 
 /// Residual, in parts of the weight, at which the balance is found. An ICR is off by about this part of a
 /// metre.
@@ -25,11 +31,11 @@ const STALLS: usize = 4;
 /// Newton's method with difference quotients, whose Jacobian is kept from step to step and corrected by
 /// Broyden's rule for as long as it serves.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Newton {
-    jacobian: Option<Matrix3<f64>>,
+pub(super) struct Newton<const N: usize> {
+    jacobian: Option<SMatrix<f64, N, N>>,
 }
 
-/// The balance over the scaled unknowns (v_x, v_y, ω L), in parts of the weight.
+/// The balance over the scaled unknowns (v_x, v_y, ω L), in parts of the weight, and the speeds of belts that slip, m/s.
 struct Scaled<'a, 'b> {
     balance: &'a mut Balance<'b>,
     length: f64,
@@ -37,17 +43,29 @@ struct Scaled<'a, 'b> {
 }
 
 impl Scaled<'_, '_> {
-    fn twist(&self, q: &Vector3<f64>) -> Twist {
-        Twist { v_x: q.x, v_y: q.y, w: q.z / self.length }
+    fn trial<const N: usize>(&self, q: &SVector<f64, N>) -> Trial {
+        let sprocket = self.balance.scene().belt;
+        let belt = |k: usize, follows: f64| q.get(k).copied().unwrap_or(follows);
+        Trial {
+            twist: Twist { v_x: q[0], v_y: q[1], w: q[2] / self.length },
+            belt: PerSide::new(belt(3, sprocket.left), belt(4, sprocket.right)),
+        }
     }
 
-    fn residual(&mut self, q: &Vector3<f64>) -> Vector3<f64> {
-        let Wrench { force_x, force_y, moment } = self.balance.residual(&self.twist(q));
-        Vector3::new(force_x, force_y, moment / self.length) / self.weight
+    fn residual<const N: usize>(&mut self, q: &SVector<f64, N>) -> SVector<f64, N> {
+        let Residual { wrench, belt } = self.balance.residual(&self.trial(q));
+        let Wrench { force_x, force_y, moment } = wrench;
+        let forces = [force_x, force_y, moment / self.length].map(|part| part / self.weight);
+        let rows = [forces[0], forces[1], forces[2], belt.left, belt.right];
+        SVector::from_fn(|row, _| rows[row])
     }
 
-    fn jacobian(&mut self, q: &Vector3<f64>, residual: &Vector3<f64>) -> Matrix3<f64> {
-        Matrix3::from_columns(&[0, 1, 2].map(|k| {
+    fn jacobian<const N: usize>(
+        &mut self,
+        q: &SVector<f64, N>,
+        residual: &SVector<f64, N>,
+    ) -> SMatrix<f64, N, N> {
+        SMatrix::from_columns(&std::array::from_fn::<_, N, _>(|k| {
             let mut ahead = *q;
             ahead[k] += REACH;
             (self.residual(&ahead) - residual) / REACH
@@ -55,29 +73,35 @@ impl Scaled<'_, '_> {
     }
 }
 
-impl Newton {
-    /// The twist, or why there is none.
-    pub(super) fn solve(&mut self, balance: &mut Balance) -> Result<Twist, String> {
+impl<const N: usize> Newton<N> {
+    /// The end of a step, looked for from where it starts, with belts at speeds `belt`; or why there is none.
+    pub(super) fn solve(
+        &mut self,
+        balance: &mut Balance,
+        belt: &PerSide<f64>,
+    ) -> Result<Trial, String> {
         let scene = balance.scene();
         let (length, weight) = (scene.vehicle.gauge, scene.total_weight());
         let Twist { v_x, v_y, w } = scene.twist;
         let mut scaled = Scaled { balance, length, weight };
-        let mut q = Vector3::new(v_x, v_y, w * length);
+        let start = [v_x, v_y, w * length, belt.left, belt.right];
+        let mut q = SVector::<f64, N>::from_fn(|row, _| start[row]);
         let mut residual = scaled.residual(&q);
         let mut stalls = 0;
         for _ in 0..ITERATIONS {
             if residual.norm() < TOLERANCE {
-                return Ok(scaled.twist(&q));
+                return Ok(scaled.trial(&q));
             }
             let fresh = self.jacobian.is_none();
             let jacobian = self.jacobian.unwrap_or_else(|| scaled.jacobian(&q, &residual));
-            let Some(step) = jacobian.lu().solve(&-residual) else {
+            let Some(inverse) = jacobian.try_inverse() else {
                 self.jacobian = None;
                 if fresh {
                     break;
                 }
                 continue;
             };
+            let step = -(inverse * residual);
             let Some((share, next)) = shorten(&mut scaled, &q, &step, &residual, fresh) else {
                 self.jacobian = None;
                 if fresh {
@@ -109,13 +133,13 @@ impl Newton {
 
 /// The share of a step that brings the residual down, and the residual there. A Jacobian that is not
 /// fresh gets one chance.
-fn shorten(
+fn shorten<const N: usize>(
     scaled: &mut Scaled,
-    q: &Vector3<f64>,
-    step: &Vector3<f64>,
-    residual: &Vector3<f64>,
+    q: &SVector<f64, N>,
+    step: &SVector<f64, N>,
+    residual: &SVector<f64, N>,
     fresh: bool,
-) -> Option<(f64, Vector3<f64>)> {
+) -> Option<(f64, SVector<f64, N>)> {
     let mut share = 1.0;
     for _ in 0..if fresh { HALVINGS } else { 1 } {
         let next = scaled.residual(&(q + step * share));

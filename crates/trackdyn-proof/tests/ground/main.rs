@@ -8,5 +8,6 @@ mod parity;
 mod published;
 mod rest;
 mod slide;
+mod straight;
 mod transients;
 mod turn;

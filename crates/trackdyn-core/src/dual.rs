@@ -177,6 +177,7 @@ mod tests {
             let mut sum = (a * b + a / b) * 1.5 - (a - b) / 3.0;
             sum += (a * a + b * b).sqrt() + (a * -0.7).exp_m1() - 0.25;
             sum *= (a - b).abs() + b.recip() + 2.0;
+            sum += (a * 0.4).exp() + b.ln_1p();
             -sum
         }};
     }

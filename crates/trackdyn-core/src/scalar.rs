@@ -62,14 +62,36 @@ pub trait Scalar:
         self.map(self.value().abs(), self.value().signum())
     }
 
+    /// eᵃ.
+    #[must_use]
+    #[inline]
+    fn exp(self) -> Self {
+        let value = self.value().exp();
+        self.map(value, value)
+    }
+
     /// eᵃ − 1, exact near zero.
     #[must_use]
     #[inline]
     fn exp_m1(self) -> Self {
-        let value = self.value().exp_m1();
+        let a = self.value();
+        // Far from zero the difference loses nothing, and takes half the time.
+        let value = if a.abs() > NOT_SMALL { a.exp() - 1.0 } else { a.exp_m1() };
         self.map(value, value + 1.0)
     }
+
+    /// ln(1 + a), exact near zero.
+    #[must_use]
+    #[inline]
+    fn ln_1p(self) -> Self {
+        let a = self.value();
+        let value = if a > NOT_SMALL { (1.0 + a).ln() } else { a.ln_1p() };
+        self.map(value, (1.0 + a).recip())
+    }
 }
+
+/// Size from which on a sum with one keeps all digits of what is added.
+const NOT_SMALL: f64 = 0.5;
 
 /// A count as a real number.
 #[expect(clippy::cast_precision_loss, reason = "counts of samples stay far below 2⁵³")]

@@ -2,7 +2,7 @@
 
 use super::{CATALOGUE, EffectError, INERTIA, Law};
 use crate::contact::ShearStress;
-use crate::effect::{Card, Parameter};
+use crate::effect::{Card, Parameter, Symmetry};
 use crate::model::{Drive, Ground, Sensor, Site, Situation};
 use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Wrench};
@@ -126,6 +126,15 @@ impl Effects {
                 self.insert(typical.expect("typical sizes are in range"));
             }
         }
+        self
+    }
+
+    /// The same without what of Newton's second law stands against changes of speed: the robot is at its stationary motion
+    /// at once, be it with the forces of a steady turn.
+    pub fn quasi_static(mut self) -> Self {
+        let is_kept =
+            |card: &Card| !INERTIA.contains(&card.id) || card.breaks != [Symmetry::Transient];
+        self.0.retain(|effect| is_kept(effect.card()));
         self
     }
 

@@ -60,10 +60,9 @@ impl FrictionCreep {
     /// Part of full friction at a slip speed, m/s.
     fn mobilised<S: Scalar>(&self, slip_speed: S) -> S {
         let Self { speed, sharpness } = *self;
-        // 1 − (1 + |s|/(n v_c))^−n, with the slope (1 + |s|/(n v_c))^−(n + 1)/v_c
-        let ln = (slip_speed.value() / (sharpness * speed)).ln_1p();
-        let value = -(-sharpness * ln).exp_m1();
-        slip_speed.map(value, (-(sharpness + 1.0) * ln).exp() / speed)
+        // 1 − (1 + |s|/(n v_c))^−n
+        let ratio = slip_speed * (1.0 / (sharpness * speed));
+        -(ratio.ln_1p() * -sharpness).exp_m1()
     }
 }
 

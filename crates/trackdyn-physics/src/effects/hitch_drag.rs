@@ -19,8 +19,8 @@ impl Effect for HitchDrag {
         id: "hitch-drag",
         title: "Passive drag behind the robot",
         law: "F = −d m g v_h/|v_h| at (0, −r)",
-        assumes: "Dry friction of what is dragged, at a point fixed to the hull; none while that \
-                  point is at rest.",
+        assumes: "Dry friction of what is dragged, at a point fixed to the hull; a point at rest is held \
+                  by up to d m g, as it creeps at less than 1 µm/s.",
         shows: "The drag turns with the motion of the hitch: counter-rotation sees it across, arcs \
                 along the tracks. Close to motion resistance.",
         breaks: &[Symmetry::Manoeuvre],

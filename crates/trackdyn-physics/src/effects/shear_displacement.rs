@@ -88,7 +88,7 @@ impl ShearDisplacement {
             return build_up;
         }
         // 1 + (1/r − 1)/cosh(j/4K), with 1/cosh x = 2 q/(1 + q²), q = exp(−x)
-        let q = (ratio * (-1.0 / GIVES_WAY)).exp_m1() + 1.0;
+        let q = (ratio * (-1.0 / GIVES_WAY)).exp();
         build_up * (q / (q * q + 1.0) * (2.0 * excess) + 1.0)
     }
 }

@@ -16,7 +16,8 @@ impl Effect for Slope {
         title: "Sloping ground",
         law: "g_along = −g sin β · uphill, g_normal = g cos β; uphill in the robot's axes",
         assumes: "A plane; the robot's heading stays what it is while it turns by a little.",
-        shows: "ICRs that move with the heading; nothing in straight driving, where the tracks stick.",
+        shows: "ICRs that move with the heading; nothing in straight driving where the tracks stick, as they \
+                do unless friction or belts need slip to bear a load.",
         breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading],
         stages: &[Stage::Ground],
         parameters: &[

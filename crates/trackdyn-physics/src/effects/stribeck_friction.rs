@@ -55,7 +55,7 @@ impl Effect for StribeckFriction {
 
     fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
         // 1 + a exp(−|s|/v_s)
-        let decay = (site.slip_speed() * (-1.0 / self.speed)).exp_m1() + 1.0;
+        let decay = (site.slip_speed() * (-1.0 / self.speed)).exp();
         stress.scale(decay * self.excess + 1.0);
     }
 }

@@ -16,8 +16,11 @@ impl Effect for TerrainPatch {
     const CARD: Card = Card {
         id: "terrain-patch",
         title: "Other ground in one place",
-        law: "μ_x ← (1 + (k − 1) s) μ_x, s the part of a side's length where |p − p_0| < R",
-        assumes: "A disc; each side has the mean friction of what lies under its middle line.",
+        law: "μ_x ← (1 + (√k − 1) s) μ_x, μ_y ← (1 + (1/√k − 1) s) μ_y, s the part of a side's \
+              length where |p − p_0| < R",
+        assumes: "A disc; each side has the mean friction of what lies under its middle line. Where \
+                  both sides are on it, the ratio alone counts; with one of them on it, how both \
+                  coefficients change does too.",
         shows: "The ICRs jump at a place, the same each time the robot comes by.",
         breaks: &[Symmetry::Place],
         stages: &[Stage::Ground],
@@ -69,8 +72,12 @@ impl Effect for TerrainPatch {
     fn ground(&self, ground: &mut Ground) {
         for side in Side::BOTH {
             let line = ground.lines[side].map(|end| ground.circumstance.to_world(end));
-            // μ_x ← (1 + (k − 1) s) μ_x
-            ground.friction[side].across *= 1.0 + (self.ratio - 1.0) * self.share(line);
+            let share = self.share(line);
+            let root = self.ratio.sqrt();
+            let friction = &mut ground.friction[side];
+            // μ_x ← (1 + (√k − 1) s) μ_x, μ_y ← (1 + (1/√k − 1) s) μ_y
+            friction.across *= 1.0 + (root - 1.0) * share;
+            friction.along *= 1.0 + (1.0 / root - 1.0) * share;
         }
     }
 }

@@ -21,6 +21,7 @@ pub mod clock;
 pub mod error;
 pub mod folder;
 pub mod format;
+mod gaps;
 pub mod hold;
 pub mod interval;
 pub mod noise;

@@ -94,7 +94,9 @@ impl Recording {
         }
         if kept.is_empty() {
             let path = source.path.clone().unwrap_or_else(|| PathBuf::from(&name));
-            let message = "no run with track speeds and at least two poses".to_owned();
+            let found = warning::gather(cleanings).into_iter().map(|one| format!("; {one}"));
+            let found: String = found.collect();
+            let message = format!("no run with track speeds and at least two poses{found}");
             return Err(Error::Empty { path, message });
         }
         kept.sort_by_key(Run::id);

@@ -4,9 +4,9 @@
 //! at the first pose that is late enough would pick late stamps, and segments would look longer than they
 //! are: by half a percent in runs of two seconds whose stamps are those of readings 0.05 s apart.
 
+use crate::gaps::{GAP, Gaps, usual_interval};
 use crate::hold::{holding, readings};
 use crate::recording::{Recording, Run};
-use crate::robust::median;
 use std::ops::Range;
 use trackdyn_core::{Pose, real};
 
@@ -77,9 +77,6 @@ pub fn segments(recording: &Recording, options: &SegmentOptions) -> Vec<Segment>
     runs.flat_map(|(index, run)| Cut::new(index, run, options).segments()).collect()
 }
 
-/// Intervals beyond this many medians are gaps.
-const GAP: f64 = 5.0;
-
 /// A segment that spans its pose intervals in less than this share of the shortest duration takes more of
 /// them: its stamps are crowded.
 const SHORT: f64 = 0.5;
@@ -99,30 +96,22 @@ struct Cut<'a> {
     longest_pose_interval: f64,
     /// Pose intervals that a segment spans.
     pose_intervals: usize,
-    /// Indices of readings after which none comes for too long.
-    track_gaps: Vec<usize>,
+    gaps: Gaps,
 }
 
 impl<'a> Cut<'a> {
     fn new(index: usize, run: &'a Run, options: &'a SegmentOptions) -> Self {
-        let usual = |stamps: &[f64]| {
-            let mut intervals: Vec<f64> = stamps.windows(2).map(|pair| pair[1] - pair[0]).collect();
-            median(&mut intervals).unwrap_or(0.0)
-        };
-        let poses: Vec<f64> = run.poses().iter().map(|sample| sample.t).collect();
-        let tracks: Vec<f64> = run.tracks().iter().map(|sample| sample.t).collect();
-        let (pose_interval, track_interval) = (usual(&poses), usual(&tracks));
+        let pose_interval = usual_interval(run.poses().iter().map(|sample| sample.t));
+        let track_interval = usual_interval(run.tracks().iter().map(|sample| sample.t));
         let longest_track = options.longest_track_interval.unwrap_or(GAP * track_interval);
         let wanted = options.minimum_duration.max(real(options.minimum_readings) * track_interval);
-        let gap = |pair: &[f64]| pair[1] - pair[0] > longest_track;
-        let gaps = tracks.windows(2).enumerate().filter(|(_, pair)| gap(pair));
         Self {
             index,
             run,
             options,
             longest_pose_interval: options.longest_pose_interval.unwrap_or(GAP * pose_interval),
             pose_intervals: intervals_in(wanted, pose_interval),
-            track_gaps: gaps.map(|(before, _)| before).collect(),
+            gaps: Gaps::longer_than(longest_track, run.tracks()),
         }
     }
 
@@ -166,17 +155,10 @@ impl<'a> Cut<'a> {
     fn covered(&self, start: f64, end: f64) -> Option<Range<usize>> {
         let SegmentOptions { tau, tau_margin, .. } = *self.options;
         let tracks = self.run.tracks();
-        let earliest = holding(tracks, start - tau - tau_margin)?;
+        let (earliest, latest) = (start - tau - tau_margin, end - tau + tau_margin);
+        holding(tracks, earliest)?;
         // The last reading holds until its stamp: what comes after was not measured.
-        let latest_end = end - tau + tau_margin;
-        if tracks.last()?.t < latest_end {
-            return None;
-        }
-        let latest = holding(tracks, latest_end)?;
-        let gap_from = self.track_gaps.partition_point(|before| *before < earliest);
-        if self.track_gaps.get(gap_from).is_some_and(|before| *before <= latest) {
-            return None;
-        }
-        Some(readings(tracks, start, end, tau))
+        let is_known = latest <= tracks.last()?.t && !self.gaps.meet(earliest, latest);
+        is_known.then(|| readings(tracks, start, end, tau))
     }
 }

@@ -3,6 +3,7 @@
 use crate::Error;
 use csv::{ByteRecord, ErrorKind, Reader, ReaderBuilder};
 use std::fs::File;
+use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 /// A table that is being read, one row at a time.
@@ -92,7 +93,7 @@ impl Table {
     pub fn cell_error(&self, column: usize, expected: &'static str) -> Error {
         Error::Cell {
             path: self.path.clone(),
-            line: self.row.position().map_or(0, csv::Position::line),
+            line: self.row.position().map_or(0, |position| line(&self.path, position)),
             column: column + 1,
             name: self.header[column].clone(),
             value: String::from_utf8_lossy(self.cell(column)).into(),
@@ -114,13 +115,25 @@ pub(crate) fn unreadable(path: &Path, cause: std::io::Error) -> Error {
     Error::Unreadable { path: path.to_owned(), cause }
 }
 
+/// The line of a row. Of lines that end in CR LF a row seems to begin at the LF before it.
+fn line(path: &Path, position: &csv::Position) -> u64 {
+    let first = || -> std::io::Result<u8> {
+        let mut file = File::open(path)?;
+        file.seek(SeekFrom::Start(position.byte()))?;
+        let mut byte = [0];
+        file.read_exact(&mut byte)?;
+        Ok(byte[0])
+    };
+    position.line() + u64::from(first().is_ok_and(|byte| byte == b'\n'))
+}
+
 fn csv_error(path: &Path, error: csv::Error) -> Error {
     let path = path.to_owned();
     match error.into_kind() {
         ErrorKind::Io(cause) => Error::Unreadable { path, cause },
         ErrorKind::UnequalLengths { pos, expected_len, len } => Error::Row {
+            line: pos.map_or(0, |position| line(&path, &position)),
             path,
-            line: pos.map_or(0, |position| position.line()),
             found: len,
             expected: expected_len,
         },

@@ -47,7 +47,8 @@ pub fn read_poses(path: &Path) -> Result<Series<PoseSample>, Error> {
             break;
         }
         line += 1;
-        let row = text.trim_ascii();
+        let marked = text.strip_prefix(b"\xef\xbb\xbf").filter(|_| line == 1);
+        let row = marked.unwrap_or(&text).trim_ascii();
         if !row.is_empty() && row[0] != b'#' {
             poses.push(parse_row(row, path, line)?);
         }

@@ -1,12 +1,10 @@
 //! Pose intervals and what the encoders did in them.
 
 use super::regression::{Fit, Sums};
+use crate::gaps::{GAP, Gaps, usual_interval};
 use crate::hold::holding;
 use crate::recording::{Recording, Run, TrackSample};
 use crate::robust::median;
-
-/// Pose intervals longer than this many medians are not used.
-const GAP: f64 = 5.0;
 
 /// The pose intervals of all runs.
 pub(super) struct Intervals {
@@ -21,6 +19,7 @@ pub(super) struct Intervals {
 pub(super) struct RunIntervals {
     pub(super) turns: Vec<Turn>,
     tracks: Vec<TrackSample>,
+    gaps: Gaps,
     /// ∫ (Vᵣ − Vₗ) dt from the first reading to each, m.
     sums: Vec<f64>,
 }
@@ -66,8 +65,7 @@ impl Intervals {
 impl RunIntervals {
     fn new(run: &Run) -> Self {
         let poses = run.poses();
-        let mut lengths: Vec<f64> = poses.windows(2).map(|pair| pair[1].t - pair[0].t).collect();
-        let longest = GAP * median(&mut lengths).unwrap_or(0.0);
+        let longest = GAP * usual_interval(poses.iter().map(|sample| sample.t));
         let turns = poses.windows(2).filter(|pair| pair[1].t - pair[0].t <= longest);
         let turns = turns
             .map(|pair| Turn {
@@ -84,13 +82,15 @@ impl RunIntervals {
             let until = tracks.get(index + 1).map_or(sample.t, |next| next.t);
             sum += (until - sample.t) * (sample.v_right - sample.v_left);
         }
-        Self { turns, tracks, sums }
+        let gaps = Gaps::of(&tracks);
+        Self { turns, tracks, gaps, sums }
     }
 
-    /// Whether there are readings for all offsets between these two.
+    /// Whether there are readings, without a gap, for all offsets between these two.
     pub(super) fn covers(&self, turn: &Turn, [least, most]: [f64; 2]) -> bool {
+        let (from, until) = (turn.start - most, turn.end - least);
         match self.tracks.as_slice() {
-            [first, .., last] => turn.start - most >= first.t && turn.end - least <= last.t,
+            [first, .., last] => from >= first.t && until <= last.t && !self.gaps.meet(from, until),
             _ => false,
         }
     }

@@ -1,6 +1,7 @@
 //! Triples of poses and the noise they show.
 
 use super::{Component, Method, PoseNoise};
+use crate::gaps::Gaps;
 use crate::hold::travelled;
 use crate::recording::{PoseSample, Recording, Run};
 use crate::robust::{MEDIAN_OF_CHI_SQUARE, median};
@@ -89,7 +90,11 @@ pub(super) fn moving(
 ) -> Option<PoseNoise> {
     let mut groups: [Group; 4] = Default::default();
     for run in recording.runs() {
-        gather(run.poses(), &mut groups, |triple| is_steady(run, triple, tau, deviation));
+        let gaps = Gaps::of(run.tracks());
+        let is_known = |a: &PoseSample, c: &PoseSample| !gaps.meet(a.t - tau, c.t - tau);
+        gather(run.poses(), &mut groups, |triple| {
+            is_known(triple[0], triple[2]) && is_steady(run, triple, tau, deviation)
+        });
     }
     figures(&groups, Method::SteadyIncrements)
 }

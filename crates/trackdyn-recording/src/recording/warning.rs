@@ -28,6 +28,16 @@ pub enum Warning {
         /// Messages that were read before.
         messages: u64,
     },
+    /// A file that belongs to a recording and is not there, or cannot be read as it is.
+    PartMissing {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Poses that may be the odometry of the tracks themselves.
+    OwnOdometry {
+        /// Their source.
+        poses: String,
+    },
     /// Messages that are not what their type says, or lack what is needed.
     MessagesSkipped {
         /// Their topic.
@@ -174,6 +184,17 @@ impl fmt::Display for Warning {
             Self::Damaged { path, message, messages } => {
                 write!(f, "{}: {message}; the {messages} messages before are used", path.display())
             }
+            Self::PartMissing { path } => write!(
+                f,
+                "{}: listed in metadata.yaml, and not there or packed (zstd -d unpacks .zstd files); \
+                 what it holds is missing",
+                path.display()
+            ),
+            Self::OwnOdometry { poses } => write!(
+                f,
+                "{poses}: if it comes from the tracks themselves, it agrees with any model of them: poses have \
+                 to come from something else"
+            ),
             Self::MessagesSkipped { topic, count, reason } => {
                 write!(f, "{topic}: {count} messages skipped, the first because {reason}")
             }

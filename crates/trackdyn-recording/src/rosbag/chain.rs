@@ -1,13 +1,13 @@
 //! Poses along a chain of transforms, such as map → odom → base_link.
 //!
-//! The poses stand at the stamps of the link that is reported most often. The other links are
+//! The poses stand at the stamps of the link that changes most often. The other links are
 //! interpolated between their neighbouring stamps, as tf2 does it (translation along a line, rotation
 //! about one axis), and never beyond them: poses there are left out. Links of a topic that ends in
 //! `_static` hold at all times.
 
 use super::cdr::{Cdr, CdrError};
 use super::date::{Received, Stamped, dated};
-use super::frames::{Frames, Hop};
+use super::frames::{Frames, Hop, is_of_odometry};
 use super::message::{header, planar, rigid};
 use super::options::RosbagOptions;
 use super::storage::{self, Visitor};
@@ -52,9 +52,8 @@ pub(super) fn read(
     let mut warnings = Vec::new();
     let series = collector.links.into_iter().map(|link| Series::of(link, &mut warnings));
     let series: Vec<Series> = series.collect();
-    let leading =
-        series.iter().filter(|link| !link.is_static).max_by_key(|link| link.moments.len());
-    let Some(leading) = leading else {
+    let moving = || series.iter().filter(|link| !link.is_static);
+    let Some(leading) = moving().max_by_key(|link| link.changes()) else {
         return Err(refuse(format!("nothing moves between {parent:?} and {child:?}")));
     };
     let mut left_out = 0_usize;
@@ -79,6 +78,8 @@ pub(super) fn read(
         let _ = write!(taken, "; {left_out} stamps that a link does not reach are left out");
     }
     warnings.push(Warning::Chosen { what: "poses", taken });
+    let odometry = moving().find(|link| is_of_odometry(&link.hop.link.parent));
+    warnings.extend(odometry.map(|link| Warning::OwnOdometry { poses: link.name() }));
     Ok(Chain { poses, warnings })
 }
 
@@ -118,6 +119,11 @@ impl Series {
 
     fn name(&self) -> String {
         format!("{} -> {}", self.hop.link.parent, self.hop.link.child)
+    }
+
+    /// How often it is reported to have changed: some links are sent again and again as they are.
+    fn changes(&self) -> usize {
+        self.moments.windows(2).filter(|pair| pair[0].1 != pair[1].1).count()
     }
 
     /// The transform at a stamp; none where it is not known.

@@ -33,6 +33,14 @@ pub(super) fn same_frame(a: &str, b: &str) -> bool {
     bare(a) == bare(b)
 }
 
+/// The frame that wheel odometry moves the robot in (REP-105).
+const ODOMETRY: &str = "odom";
+
+/// Whether poses in this frame are usually the odometry of the tracks.
+pub(super) fn is_of_odometry(parent: &str) -> bool {
+    same_frame(parent, ODOMETRY)
+}
+
 impl Link {
     pub(super) fn new(parent: &str, child: &str) -> Self {
         Self { parent: bare(parent).to_owned(), child: bare(child).to_owned() }

@@ -1,7 +1,7 @@
 //! What a bag holds, and which options would read it.
 
 use super::cdr::{Cdr, CdrError};
-use super::frames::Frames;
+use super::frames::{Frames, is_of_odometry};
 use super::joints;
 use super::message::header;
 use super::options::RosbagOptions;
@@ -20,7 +20,7 @@ pub struct Inspection {
     pub topics: Vec<TopicSummary>,
     /// Options that would read it; what the bag leaves open, and the wheel radius, are left open.
     pub suggested: RosbagOptions,
-    /// Damage to the files.
+    /// Damage to the files, and poses that may be no reference.
     pub warnings: Vec<Warning>,
 }
 
@@ -53,10 +53,13 @@ pub struct TopicSummary {
 /// [`Error::NotARecording`], [`Error::Bag`], [`Error::Unreadable`].
 pub fn inspect(path: &Path) -> Result<Inspection, Error> {
     let mut observer = Observer::default();
-    let warnings = storage::scan(path, &mut observer)?;
+    let mut warnings = storage::scan(path, &mut observer)?;
     let topics: Vec<TopicSummary> =
         observer.topics.into_iter().map(|(topic, seen)| seen.summary(topic)).collect();
     let suggested = suggest(&topics);
+    let chosen = topics.iter().filter(|topic| Some(&topic.name) == suggested.pose_topic.as_ref());
+    let odometry = chosen.filter(|topic| topic.may_be_odometry());
+    warnings.extend(odometry.map(|topic| Warning::OwnOdometry { poses: topic.name.clone() }));
     Ok(Inspection { topics, suggested, warnings })
 }
 
@@ -196,6 +199,15 @@ fn suggest(topics: &[TopicSummary]) -> RosbagOptions {
         pose_topic: pose,
         imu_topic: only(of(Role::Imu).collect()),
         ..RosbagOptions::default()
+    }
+}
+
+impl TopicSummary {
+    /// Whether its poses may come from the tracks themselves: those of an Odometry, and transforms out of its frame.
+    fn may_be_odometry(&self) -> bool {
+        let of_odometry = |(parent, _): &(String, String)| is_of_odometry(parent);
+        self.kind.ends_with("/Odometry")
+            || (self.kind.ends_with("/TFMessage") && self.frames.iter().any(of_odometry))
     }
 }
 

@@ -20,7 +20,7 @@ pub(super) trait Visitor {
 
 /// Whether the path is a bag: a file that ends in `.mcap` or `.db3`, or a folder with such files.
 pub(crate) fn is_bag(path: &Path) -> bool {
-    if path.is_dir() { files(path).is_ok_and(|files| !files.is_empty()) } else { is_part(path) }
+    if path.is_dir() { parts(path).is_ok_and(|parts| !parts.is_empty()) } else { is_part(path) }
 }
 
 fn is_part(path: &Path) -> bool {
@@ -30,8 +30,8 @@ fn is_part(path: &Path) -> bool {
 /// Shows all messages of the bag's files, in their order; memory does not grow with the files.
 pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Vec<Warning>, Error> {
     let mut warnings = Vec::new();
-    let files = files(path)?;
-    if files.is_empty() {
+    let parts = parts(path)?;
+    if parts.is_empty() {
         return Err(Error::NotARecording {
             path: path.to_owned(),
             found: "no bag file".to_owned(),
@@ -39,7 +39,11 @@ pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Vec<Warning
                        files",
         });
     }
-    for file in files {
+    for file in parts {
+        if !file.is_file() || !is_part(&file) {
+            warnings.push(Warning::PartMissing { path: file });
+            continue;
+        }
         let damage = if file.extension().is_some_and(|extension| extension == "db3") {
             sqlite_file::scan(&file, visitor)?
         } else {
@@ -50,17 +54,14 @@ pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Vec<Warning
     Ok(warnings)
 }
 
-/// The files of a bag: those that `metadata.yaml` lists, else those in the folder by name.
-pub(super) fn files(path: &Path) -> Result<Vec<PathBuf>, Error> {
+/// The files of a bag: those that `metadata.yaml` lists, there or not, else those in the folder by name.
+fn parts(path: &Path) -> Result<Vec<PathBuf>, Error> {
     if !path.is_dir() {
         return Ok(if is_part(path) { vec![path.to_owned()] } else { Vec::new() });
     }
     if let Ok(text) = std::fs::read_to_string(path.join(METADATA)) {
-        let listed: Vec<PathBuf> = listed_files(&text)
-            .map(|name| path.join(name))
-            .filter(|file| is_part(file) && file.is_file())
-            .collect();
-        if !listed.is_empty() {
+        let listed: Vec<PathBuf> = listed_files(&text).map(|name| path.join(name)).collect();
+        if listed.iter().any(|file| is_part(file) && file.is_file()) {
             return Ok(listed);
         }
     }

@@ -105,3 +105,24 @@ fn outlying_poses_widen_the_error_and_do_not_hide_the_offset() {
     assert!(hurt.standard_error > 2.0 * clean.standard_error);
     assert!((hurt.tau - 0.25).abs() < 4.0 * hurt.standard_error, "{hurt:?}");
 }
+
+/// Where no reading came nobody knows what the tracks did: two seconds of every six pull the offset by a fifth of a second if the
+/// last reading is taken to hold on.
+#[test]
+fn times_without_readings_do_not_count() {
+    for seed in 0..5 {
+        let tau = 0.03 * f64::from(u32::try_from(seed).expect("small"));
+        let whole = noisy(tau, seed).recording().expect("long enough");
+        let runs = whole.runs().iter().cloned().map(|run| {
+            let mut rows = run.into_rows();
+            rows.tracks.samples.retain(|sample| sample.t.rem_euclid(6.0) < 4.0);
+            rows
+        });
+        let recording =
+            Recording::new("gaps", "robot", runs.collect(), Source::computed(), Vec::new());
+        let recording = recording.expect("usable");
+        let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");
+        let off = (found.tau - tau).abs();
+        assert!(off < 4.0 * found.standard_error && off < 0.02, "{tau}: {found:?}");
+    }
+}

@@ -116,7 +116,20 @@ fn empty_and_missing_files_are_named() {
     let text = refusal("", TRACKS, POSES);
     assert!(text.contains("no recording.toml: expected recording.toml (schema, name"), "{text}");
     let text = refusal(MANIFEST, TRACKS, "t,x,y,yaw\nnan,0,0,0\n1,0,0,0\n");
-    assert!(text.ends_with("no run with track speeds and at least two poses"), "{text}");
+    let why = "no run with track speeds and at least two poses; poses: 1 rows with an empty cell";
+    assert!(text.contains(why), "{text}");
+}
+
+#[test]
+fn the_line_of_a_mistake_is_right_whatever_ends_the_lines() {
+    for end in ["\n", "\r\n"] {
+        let cell = ["t,v_left,v_right", "0,0,0", "1,0,0", "2,x,0", "3,0,0", ""].join(end);
+        let text = refusal(MANIFEST, &cell, POSES);
+        assert!(text.contains("tracks.csv:4:2: v_left = \"x\""), "{end:?}: {text}");
+        let row = ["t,v_left,v_right", "0,0,0", "1,0", "2,0,0", ""].join(end);
+        let text = refusal(MANIFEST, &row, POSES);
+        assert!(text.contains("tracks.csv:3"), "{end:?}: {text}");
+    }
 }
 
 #[test]

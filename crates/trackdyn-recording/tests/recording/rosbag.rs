@@ -90,6 +90,42 @@ fn a_bag_folder_is_read_through_its_metadata() {
 }
 
 #[test]
+fn a_listed_file_that_is_not_there_is_missed() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for name in ["metadata.yaml", "poses.mcap"] {
+        std::fs::copy(fixture("poses").join(name), folder.path().join(name)).expect("copied");
+    }
+    let metadata = folder.path().join("metadata.yaml");
+    let text = std::fs::read_to_string(&metadata).expect("text");
+    let more = text.replace("  - poses.mcap\n", "  - poses.mcap\n  - poses_1.mcap\n");
+    assert_ne!(more, text);
+    std::fs::write(&metadata, more).expect("written");
+    let options = RosbagOptions { pose_topic: Some("/amcl".into()), ..options() };
+    let recording = rosbag::read(folder.path(), &options).expect("readable");
+    let path = folder.path().join("poses_1.mcap");
+    assert!(recording.warnings().contains(&Warning::PartMissing { path }));
+}
+
+/// The odometry of the tracks agrees with any model of them.
+#[test]
+fn poses_that_may_come_from_the_tracks_are_doubted() {
+    let doubts = |name: &str, options: &RosbagOptions| {
+        let recording = rosbag::read(&fixture(name), options).expect("readable");
+        let doubt = |warning: &&Warning| matches!(warning, Warning::OwnOdometry { .. });
+        recording.warnings().iter().filter(doubt).count()
+    };
+    assert_eq!(doubts("drive.mcap", &options()), 1);
+    let amcl = RosbagOptions { pose_topic: Some("/amcl".into()), ..options() };
+    assert_eq!(doubts("poses", &amcl), 0);
+    let tf = RosbagOptions {
+        pose_topic: Some("/tf".into()),
+        child_frame: Some("base_link".into()),
+        ..options()
+    };
+    assert_eq!(doubts("poses", &tf), 1);
+}
+
+#[test]
 fn transforms_are_told_apart_by_their_frames() {
     let tf = RosbagOptions { pose_topic: Some("/tf".into()), ..options() };
     let error = rosbag::read(&fixture("poses"), &tf).expect_err("two pairs of frames");

@@ -16,7 +16,9 @@ const TRACKS: &str = "t,v_left,v_right\n10,0.1,0.2\n10.5,0.1,0.2\n";
 fn a_trajectory_goes_with_its_track_speeds() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let (sin, cos) = 0.4_f64.sin_cos();
-    let text = format!("# t x y z q\n10 1 2 0.3 0 0 {sin} {cos}\n\n  10.5\t1.5 2 0.3 0 0 0 1\n");
+    // some editors mark text as Unicode
+    let text =
+        format!("\u{feff}# t x y z q\n10 1 2 0.3 0 0 {sin} {cos}\n\n  10.5\t1.5 2 0.3 0 0 0 1\n");
     let trajectory = file(&folder, "walk.txt", &text);
     let tracks = file(&folder, "tracks.csv", TRACKS);
     let recording = tum::read(&trajectory, &tracks, "robot").expect("accepted");

@@ -3,7 +3,8 @@
 use super::{PoseKey, Reading, RosbagOptions, Stamped};
 use crate::Error;
 use crate::recording::Warning;
-use crate::rosbag::topic::{Topic, list};
+use crate::rosbag::frames::is_of_odometry;
+use crate::rosbag::topic::{Layout, Topic, list};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -44,9 +45,22 @@ impl Sources<'_> {
         let kind = "no Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or \
                     TFMessage of these frames";
         let named = self.options.pose_topic.is_some();
-        self.only("poses", kind, named, poses, warnings, |key| match key.child.as_str() {
+        let name = |key: &PoseKey| match key.child.as_str() {
             "" => format!("{} in {:?}", key.topic, key.parent),
             child => format!("{} of {child:?} in {:?}", key.topic, key.parent),
+        };
+        let odometry = poses.keys().find(|key| self.may_be_odometry(key)).map(name);
+        let chosen = self.only("poses", kind, named, poses, warnings, name)?;
+        warnings.extend(odometry.map(|poses| Warning::OwnOdometry { poses }));
+        Ok(chosen)
+    }
+
+    /// Whether poses may come from the tracks themselves: those of an Odometry, and transforms out of its frame.
+    fn may_be_odometry(&self, key: &PoseKey) -> bool {
+        let mut topics = self.seen.iter().filter(|topic| topic.name == key.topic);
+        topics.any(|topic| {
+            topic.kind.ends_with("/Odometry")
+                || (topic.layout() == Some(Layout::Transforms) && is_of_odometry(&key.parent))
         })
     }
 

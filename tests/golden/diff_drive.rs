@@ -99,7 +99,7 @@ fn exported(drive: &EquivalentDrive, radius: f64) -> [String; 3] {
         Frames::new(name("odom"), name("icr_link"), name("base_link"), [0.0, 0.0]).expect("frames");
     let wheels = Wheels::new(radius, vec![name("l")], vec![name("r")]).expect("wheels");
     let provenance = Provenance::default();
-    let controller = name("diff_drive_controller");
+    let controller = "diff_drive_controller".parse().expect("a name of a node");
     let files = ros2::files(drive, &frames, &wheels, &controller, None, &provenance);
     let [parameters, launch] = <[_; 2]>::try_from(files).expect("two files").map(|file| file.text);
     [parameters, launch, urdf::fragment(drive, &frames, &provenance).text]
@@ -218,7 +218,8 @@ fn gazebo_commands_the_same_tracks() {
     let mut random = ChaCha8Rng::seed_from_u64(3);
     for (drive, kinematics) in robots(&mut random) {
         let name = |text: &str| [text.parse::<Name>().expect("a name")];
-        let text = gz::plugin(&drive, &name("l"), &name("r"), &Provenance::default()).text;
+        let plugin = gz::plugin(&drive, &name("l"), &name("r"), &Provenance::default());
+        let text = plugin.expect("two links").text;
         let document = roxmltree::Document::parse(&text).expect("XML");
         let of = |tag: &str| -> f64 {
             let element = document.descendants().find(|node| node.has_tag_name(tag)).expect(tag);

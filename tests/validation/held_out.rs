@@ -60,7 +60,7 @@ fn row(name: &str, runs: [&str; 2], fits: &[Fit; 2], errors: &[SetErrors]) -> St
     };
     let [.., alpha_l, alpha_r] = fits[1].least_squares.as_ref().expect(name).parameters.0;
     let over = |component: &Component| {
-        let Estimate { value, half_width } = component.over_first.expect("an ideal");
+        let Estimate { value, half_width, .. } = component.over_first.expect("an ideal");
         format!("{value:.2} ± {:.2}", half_width.expect("blocks"))
     };
     let [fitted, judged] = runs;

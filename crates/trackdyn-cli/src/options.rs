@@ -47,7 +47,19 @@ impl ModelOptions {
             file.vehicle.uncertainty.cog = None; // the file's is of the value that this one replaces
             file.vehicle.check().map_err(|error| format!("--cog: {error}"))?;
         }
-        for effect in &self.effects {
+        for (place, effect) in self.effects.iter().enumerate() {
+            let id = effect.card().id;
+            if self.effects[..place].iter().any(|other| other.card().id == id) {
+                return Err(format!(
+                    "--effect {id}: given twice: expected once, with all its parameters"
+                )
+                .into());
+            }
+            if file.effects.iter().any(|other| other.card().id == id) {
+                eprintln!(
+                    "note: --effect {effect} replaces the vehicle file's, all its parameters"
+                );
+            }
             file.effects.insert(effect.clone());
         }
         Ok(file)
@@ -75,6 +87,18 @@ impl ModelOptions {
             heading: self.heading.to_radians(),
             time: self.time,
         }
+    }
+}
+
+/// The effects of a drive in time: with inertia, unless it is to be left out.
+pub fn in_time(effects: Effects, quasi_static: bool) -> Effects {
+    if quasi_static { effects.quasi_static() } else { effects.with_inertia() }
+}
+
+/// Notes which effects do nothing where no pose sensor reports.
+pub fn note_what_no_sensor_reports(effects: &Effects) {
+    for card in effects.iter().map(ActiveEffect::card).filter(|c| c.stages == [Stage::Sense]) {
+        eprintln!("note: {} is of a pose sensor, and none reports here: it does nothing", card.id);
     }
 }
 

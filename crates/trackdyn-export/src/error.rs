@@ -18,6 +18,20 @@ pub enum Error {
         /// Names on the right.
         right: usize,
     },
+    /// A part that would be driven from both sides, or twice from one.
+    #[error("{option} {name}: stands there twice, on one side or on both: expected each once")]
+    Repeated {
+        /// The option.
+        option: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// A name that no node of ROS has.
+    #[error("{value}: expected letters, digits and _, with a letter or _ first: it names a node")]
+    NodeName {
+        /// The name.
+        value: String,
+    },
     /// A rate at which nothing is published.
     #[error("publish-rate = {value}: expected a positive number of Hz")]
     PublishRate {

@@ -1,7 +1,7 @@
 //! Gazebo: the `TrackedVehicle` system.
 
 use crate::number::{metres, number};
-use crate::{EquivalentDrive, Name, Provenance, TextFile};
+use crate::{EquivalentDrive, Error, Name, Provenance, TextFile};
 use std::fmt::Write;
 
 /// The plugin element for a model with these track links.
@@ -10,6 +10,9 @@ use std::fmt::Write;
 /// The system commands V_r,l = v ± ω s/(2 χ), with s its `tracks_separation` and χ its
 /// `steering_efficiency`: equations (10)-(11) of the paper for symmetric ICRs.
 ///
+/// # Errors
+/// [`Error::Repeated`].
+///
 /// # Sources
 /// gz-sim, `src/systems/tracked_vehicle/TrackedVehicle.cc`.
 pub fn plugin(
@@ -17,7 +20,8 @@ pub fn plugin(
     left: &[Name],
     right: &[Name],
     provenance: &Provenance,
-) -> TextFile {
+) -> Result<TextFile, Error> {
+    Name::all_differ("left-track, --right-track", left, right)?;
     let (separation, [x, y]) = (metres(drive.separation), drive.point);
     let (x, y) = (metres(x), metres(y));
     let mut notes = format!(
@@ -51,5 +55,5 @@ pub fn plugin(
     let _ = writeln!(text, "  <tracks_separation>{gauge}</tracks_separation>");
     let _ = writeln!(text, "  <steering_efficiency>{efficiency}</steering_efficiency>");
     text += "</plugin>\n";
-    TextFile { name: "tracked_vehicle.sdf", text }
+    Ok(TextFile { name: "tracked_vehicle.sdf", text })
 }

@@ -23,7 +23,7 @@ pub use covariance::Residuals;
 pub use drive::EquivalentDrive;
 pub use error::Error;
 pub use frames::Frames;
-pub use name::Name;
+pub use name::{Name, NodeName};
 pub use provenance::Provenance;
 
 /// A file to write.

@@ -23,6 +23,42 @@ impl FromStr for Name {
     }
 }
 
+impl Name {
+    /// Refuses names of which one stands twice among those of both sides.
+    pub(crate) fn all_differ(
+        option: &'static str,
+        left: &[Self],
+        right: &[Self],
+    ) -> Result<(), Error> {
+        let all: Vec<&Self> = left.iter().chain(right).collect();
+        let twice = (0..all.len()).find(|&k| all[..k].contains(&all[k]));
+        twice.map_or(Ok(()), |k| Err(Error::Repeated { option, name: all[k].to_string() }))
+    }
+}
+
+/// A name of a ROS node: letters, digits and `_`, with a letter or `_` first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NodeName(String);
+
+impl FromStr for NodeName {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let begins = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+        if begins && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
+            Ok(Self(text.to_owned()))
+        } else {
+            Err(Error::NodeName { value: text.to_owned() })
+        }
+    }
+}
+
+impl fmt::Display for NodeName {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.0)
+    }
+}
+
 impl fmt::Display for Name {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(&self.0)
@@ -41,5 +77,21 @@ mod tests {
         for name in ["", "/base_link", "1st", "a b", "a\"b", "a:", "a<b", "ä"] {
             assert!(name.parse::<Name>().is_err(), "{name}");
         }
+        assert_eq!("diff_1".parse::<NodeName>().expect("a name").to_string(), "diff_1");
+        for name in ["", "my-ctrl", "a.b", "a/b", "1st"] {
+            assert!(name.parse::<NodeName>().is_err(), "{name}");
+        }
+    }
+
+    #[test]
+    fn no_part_is_driven_twice() {
+        let names = |names: &[&str]| -> Vec<Name> {
+            names.iter().map(|name| name.parse().expect("a name")).collect()
+        };
+        let differ = |left: &[&str], right: &[&str]| {
+            Name::all_differ("left-wheel", &names(left), &names(right))
+        };
+        assert!(differ(&["a", "b"], &["c", "d"]).is_ok());
+        assert!(differ(&["a"], &["a"]).is_err() && differ(&["a", "a"], &["b", "c"]).is_err());
     }
 }

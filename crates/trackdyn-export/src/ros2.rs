@@ -3,7 +3,7 @@
 mod controller;
 mod launch;
 
-use crate::{EquivalentDrive, Error, Frames, Name, Provenance, Residuals, TextFile};
+use crate::{EquivalentDrive, Error, Frames, Name, NodeName, Provenance, Residuals, TextFile};
 
 /// What a kinematics file does not know of the robot's drive.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +18,7 @@ impl Wheels {
     /// and names of the wheel joints.
     ///
     /// # Errors
-    /// [`Error::WheelRadius`], [`Error::WheelCount`].
+    /// [`Error::WheelRadius`], [`Error::WheelCount`], [`Error::Repeated`].
     pub fn new(radius: f64, left: Vec<Name>, right: Vec<Name>) -> Result<Self, Error> {
         if !(radius > 0.0 && radius.is_finite()) {
             return Err(Error::WheelRadius { value: radius });
@@ -26,6 +26,7 @@ impl Wheels {
         if left.len() != right.len() || left.is_empty() {
             return Err(Error::WheelCount { left: left.len(), right: right.len() });
         }
+        Name::all_differ("left-wheel, --right-wheel", &left, &right)?;
         Ok(Self { radius, left, right })
     }
 }
@@ -59,7 +60,7 @@ pub fn files(
     drive: &EquivalentDrive,
     frames: &Frames,
     wheels: &Wheels,
-    controller: &Name,
+    controller: &NodeName,
     published: Option<&Published>,
     provenance: &Provenance,
 ) -> Vec<TextFile> {

@@ -12,13 +12,6 @@ fn sum(a: PerSide<f64>, b: PerSide<f64>) -> PerSide<f64> {
     PerSide::from_fn(|side| a[side] + b[side])
 }
 
-/// Travel from the first to the last of some moments, m.
-pub(crate) fn travel(moments: &[Moment]) -> PerSide<f64> {
-    moments
-        .windows(2)
-        .fold(PerSide::default(), |so_far, pair| sum(so_far, step(&pair[0], &pair[1])))
-}
-
 /// A counter that runs along with a motion.
 pub(crate) struct Odometer<'a> {
     moments: &'a [Moment],
@@ -67,6 +60,5 @@ mod tests {
         let mut odometer = Odometer::new(&trajectory);
         let left = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0].map(|t| odometer.travel(t).left);
         assert_eq!(left, [0.0, 0.25, 1.0, 2.5, 3.0, 3.0]);
-        assert_eq!(travel(trajectory.moments()), PerSide::new(3.0, -3.0));
     }
 }

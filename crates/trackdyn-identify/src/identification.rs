@@ -99,9 +99,10 @@ pub fn identify(
     let spin_test = spin_test(&observations, options.gauge);
     // Only the weights of the encoders' noise hang on it, and they need no more than its size.
     let gap = spin_test.as_ref().map_or(1.5 * options.gauge, |spin| spin.gap);
-    let measured = SegmentNoise::measured(&noise, gap);
-    let weighted_by_noise = measured.is_some();
-    let weighting = measured.map_or(Weighting::Distance { lever }, Weighting::Noise);
+    let stated = recording.stated_noise().map(SegmentNoise::stated);
+    let known = SegmentNoise::measured(&noise, gap).or(stated);
+    let weighted_by_noise = known.is_some();
+    let weighting = known.map_or(Weighting::Distance { lever }, Weighting::Noise);
 
     let fits = [Free::Icrs, Free::IcrsAndAlphas].map(|free| {
         let genetic =

@@ -3,6 +3,7 @@
 use crate::observations::{Observation, Observations};
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, RowVector3, Vector3};
 use trackdyn_core::Side;
+use trackdyn_recording::StatedNoise;
 use trackdyn_recording::noise::Noise;
 
 /// The metric in which residuals are summed.
@@ -35,6 +36,13 @@ pub struct SegmentNoise {
 const LEAST: f64 = 1e-4;
 
 impl SegmentNoise {
+    /// From what the maker of the recording states of its poses.
+    pub fn stated(stated: StatedNoise) -> Self {
+        let position = stated.position.max(LEAST).powi(2);
+        let pose = [position, position, stated.yaw.max(LEAST).powi(2)];
+        Self { pose, walk: [0.0; 3], heading: 0.0 }
+    }
+
     /// From the noise that was measured without a model: that of the poses while moving, or at
     /// stand-still where no other is known, and that of the encoders at a distance `gap` (m) between
     /// the ICRs. None where the recording does not show it.

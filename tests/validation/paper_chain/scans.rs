@@ -1,7 +1,7 @@
 //! Localisation by laser, the paper's section 5.3: from drives in a room to recordings.
 
+use super::models::GAUGE;
 use super::robot::auriga_without_alpha;
-use super::{ALPHA, models::GAUGE};
 use crate::map_statistics;
 use std::f64::consts::TAU;
 use trackdyn_core::{Pose, Trajectory};
@@ -57,7 +57,7 @@ impl Drive {
         let steering = Kinematics::new(map_statistics(&auriga_without_alpha()).mean);
         let tracker = Tracker { look_ahead: 0.3, speed: 0.4, ..Tracker::default() };
         let mut robot = Transient::at_rest(model, 0.0, path.start());
-        let options = DriveOptions { alpha: ALPHA, ..DriveOptions::default() };
+        let options = DriveOptions::default();
         let journey = drive(&mut robot, &path, &tracker, &steering, &options, &|_| ());
         let journey = journey.expect("values that a tracker has");
         assert_eq!(journey.ending, Ending::Arrived);

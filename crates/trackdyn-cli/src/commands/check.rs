@@ -13,7 +13,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use trackdyn_core::document::Document;
 use trackdyn_motion::map::Statistics;
-use trackdyn_motion::{Grid, IcrMap};
+use trackdyn_motion::{Grid, IcrMap, Status};
 use trackdyn_physics::{Circumstance, VehicleFile};
 
 /// Options of `trackdyn check`.
@@ -96,6 +96,16 @@ fn vehicle(
 
 fn solve(file: &VehicleFile, grid: Grid, case: &Case) -> Result<Statistics, Box<dyn Error>> {
     let map = IcrMap::solve(&model(file), grid, &Circumstance::default(), &|_| ());
+    let counts = map.counts();
+    let gaps = counts[Status::Lifts.index()] + counts[Status::NotConverged.index()];
+    if gaps > 0 {
+        eprintln!(
+            "note: case \"{}\": at {gaps} of {} pairs of speeds part of the contact lifts or no forces balance: \
+             they enter no mean (expect turning_pairs to watch how many do)",
+            case.name,
+            map.solutions.len()
+        );
+    }
     map.statistics().ok_or_else(|| {
         format!("case \"{}\": no motion turns, so there are no ICRs to check", case.name).into()
     })

@@ -4,7 +4,7 @@ mod document;
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{ModelOptions, finite, model};
+use crate::options::{ModelOptions, finite, in_time, model, note_what_no_sensor_reports};
 use crate::progress::Progress;
 use crate::stdout::show;
 use clap::{Args, ValueEnum};
@@ -34,10 +34,12 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = Knows::Truth)]
     estimate: Knows,
     /// Speed on open ground, m/s
-    #[arg(long, value_name = "SPEED", default_value_t = Tracker::default().speed, value_parser = finite)]
+    #[arg(long, value_name = "SPEED", default_value_t = Tracker::default().speed, value_parser = finite,
+          allow_negative_numbers = true)]
     speed: f64,
     /// Look-ahead of the path tracker, m
-    #[arg(long, value_name = "M", default_value_t = Tracker::default().look_ahead, value_parser = finite)]
+    #[arg(long, value_name = "M", default_value_t = Tracker::default().look_ahead, value_parser = finite,
+          allow_negative_numbers = true)]
     look_ahead: f64,
     /// Leave inertia out: the robot is at its stationary motion at once
     #[arg(long)]
@@ -68,9 +70,8 @@ pub fn run(options: &Options) -> Outcome {
     let why = "a drive begins at the start of its path, at time zero: expected with map, kinematics and simulate";
     options.model.refuse(&["--heading", "--position", "--time"], why)?;
     let mut file = options.model.vehicle_file()?;
-    if !options.quasi_static {
-        file.effects = file.effects.with_inertia();
-    }
+    file.effects = in_time(file.effects, options.quasi_static);
+    note_what_no_sensor_reports(&file.effects);
     let path = match &options.path {
         Some(path) => Path::read(path)?,
         None => Path::square(3.0, true, 1)?,
@@ -88,15 +89,23 @@ pub fn run(options: &Options) -> Outcome {
         let print = fingerprint(document.text().as_bytes());
         steerings.push((path.display().to_string(), Some(print), Box::new(parameters)));
     }
-    prepare_folder(&options.out)?;
-
-    let model = model(&file);
     let tracker = Tracker {
         speed: options.speed,
         look_ahead: options.look_ahead,
         point,
         ..Tracker::default()
     };
+    if tracker.speed > tracker.belt_speed {
+        let most = tracker.belt_speed;
+        return Err(format!(
+            "--speed {}: expected at most that of the tracks, {most} m/s",
+            tracker.speed
+        )
+        .into());
+    }
+    prepare_folder(&options.out)?;
+
+    let model = model(&file);
     let mut drives = Vec::new();
     for (name, fingerprint, steering) in steerings {
         let journey = follow(&model, &path, &tracker, &*steering, options)?;
@@ -142,7 +151,7 @@ fn follow(
         Knows::Truth => Estimate::Truth,
         Knows::Odometry => Estimate::Odometry,
     };
-    let settings = DriveOptions { estimate, alpha: model.drive().gain, time_limit: None };
+    let settings = DriveOptions { estimate, time_limit: None };
     let progress = Progress::new(PARTS);
     let done = AtomicUsize::new(0);
     let journey = drive(&mut robot, path, tracker, steering, &settings, &|share| {

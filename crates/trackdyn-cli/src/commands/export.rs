@@ -9,7 +9,7 @@ use trackdyn_core::document::Document;
 use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
 use trackdyn_export::ros2::{Published, Wheels};
 use trackdyn_export::{
-    EquivalentDrive, Error, Frames, Name, Provenance, Residuals, TextFile, gz, ros2, urdf,
+    EquivalentDrive, Error, Frames, Name, NodeName, Provenance, Residuals, TextFile, gz, ros2, urdf,
 };
 
 /// Options of `trackdyn export`.
@@ -47,7 +47,7 @@ struct Ros2Options {
     right_wheel: Vec<Name>,
     /// Name of the controller
     #[arg(long, value_name = "NAME", default_value = "diff_drive_controller")]
-    controller: Name,
+    controller: NodeName,
     /// Odometry file (schema trackdyn.odometry/1) of a replay with these kinematics, best of runs that they were
     /// not fitted to: for the covariances
     #[arg(long, value_name = "FILE")]
@@ -189,7 +189,8 @@ fn export(
             ros2::files(drive, &frames, &wheels, controller, published.as_ref(), provenance)
         }
         Target::Gz(options) => {
-            vec![gz::plugin(drive, &options.left_track, &options.right_track, provenance)]
+            let (left, right) = (&options.left_track, &options.right_track);
+            vec![gz::plugin(drive, left, right, provenance).map_err(option)?]
         }
         Target::UrdfFrames(options) => {
             vec![urdf::fragment(drive, &options.frames.frames()?, provenance)]

@@ -103,6 +103,12 @@ pub fn run(options: &Options) -> Outcome {
     let path = options.out.join("identification.toml");
     write_file(&path, document.as_bytes())?;
     eprintln!("wrote {}", path.display());
+    if identify_options.nuisances.contains(&Nuisance::SensorYaw) {
+        eprintln!(
+            "note: no kinematics file holds the yaw of the sensor's mount: before odometry and export with these \
+             parameters, turn the sensor by it, or the frame of the poses"
+        );
+    }
     let files = found.fits.iter().map(|fit| file(fit, gauge, &source));
     let exit = keep(&options.out, files)?;
     show(&summary::text(&recording, &vehicle.vehicle, &found))?;

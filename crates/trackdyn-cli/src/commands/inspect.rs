@@ -28,6 +28,9 @@ pub struct Options {
 pub fn run(options: &Options) -> Outcome {
     let (path, tracks) = (&options.recording, options.tracks.as_deref());
     if let Some(table) = OperatingPoints::file_of(path) {
+        if tracks.is_some() {
+            return Err(format!("--tracks: {} is a table of steady motion, which has them: expected with a trajectory", path.display()).into());
+        }
         show(&points(&OperatingPoints::read(&table)?))?;
         return Ok(Exit::Done);
     }
@@ -91,14 +94,6 @@ fn bag(options: &Options) -> Result<String, trackdyn_recording::Error> {
         for (parent, child) in &topic.frames {
             let _ = writeln!(text, "{:21}frames: {parent} -> {child}", "");
         }
-    }
-    let is_odometry = inspection.topics.iter().any(|topic| {
-        Some(&topic.name) == inspection.suggested.pose_topic.as_ref()
-            && topic.kind.ends_with("/Odometry")
-    });
-    if is_odometry {
-        text += "\ncaution: an Odometry may be that of the tracks themselves, which agrees with any model of them: \
-                 poses have to come from something else\n";
     }
     let _ = writeln!(text, "\nsuggested:{}", suggestion(&inspection.suggested));
     for warning in &inspection.warnings {

@@ -5,19 +5,19 @@ mod ground;
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{ModelOptions, finite, model};
+use crate::options::{ModelOptions, finite, in_time, model};
 use crate::progress::Progress;
 use crate::stdout::show;
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
-use trackdyn_core::Trajectory;
 use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_field::schedules::{self, ScheduleOptions, ScheduledRun, as_commanded};
+use trackdyn_core::{PerSide, Trajectory};
+use trackdyn_field::schedules::{self, ScheduleKind, ScheduleOptions, ScheduledRun, as_commanded};
 use trackdyn_field::sensors::{Preset, Sensors, Views};
 use trackdyn_field::truth;
-use trackdyn_motion::Transient;
-use trackdyn_physics::{Model, VehicleFile};
+use trackdyn_motion::{Stationary, Transient};
+use trackdyn_physics::{Circumstance, Model, VehicleFile};
 use trackdyn_proof::ActiveMechanism;
 use trackdyn_recording::{Recording, Source, UncheckedRun, folder};
 
@@ -32,12 +32,13 @@ pub struct Options {
     /// Runs of a schedule that is generated [default: what is usual for it]
     #[arg(long, value_name = "N")]
     runs: Option<usize>,
-    /// Time of each run of a schedule that is generated, s [default: as long as the schedule takes]
+    /// Time of each run of a schedule that is generated, s: a square or a plan that has begun is driven to its end [default: as
+    /// long as the schedule takes]
     #[arg(long, value_name = "SECONDS", value_parser = finite)]
     duration: Option<f64>,
-    /// Largest track speed of a schedule that is generated, m/s
-    #[arg(long, value_name = "SPEED", default_value_t = 1.0, value_parser = finite)]
-    fastest: f64,
+    /// Largest track speed of a schedule that is generated, m/s [default: 1]
+    #[arg(long, value_name = "SPEED", value_parser = finite)]
+    fastest: Option<f64>,
     /// Sensors: perfect, laboratory, field, or a file (schema trackdyn.sensors/1)
     #[arg(long, value_name = "NAME|FILE", default_value = "laboratory")]
     sensors: String,
@@ -78,20 +79,18 @@ pub fn run(options: &Options) -> Outcome {
         "a drive has the times of its schedule: expected with map and kinematics",
     )?;
     let mut file = options.model.vehicle_file()?;
-    if !options.quasi_static {
-        file.effects = file.effects.with_inertia();
-    }
+    file.effects = in_time(file.effects, options.quasi_static);
     if options.ground == Ground::Own && !options.mechanisms.is_empty() {
         return Err("--mechanism: expected with --ground independent only; the effects of the \
                     project's own simulator are switched on by --effect"
             .into());
     }
     let sensors = sensors(&options.sensors)?;
-    let schedules = schedules::load(&options.schedule, &schedule_options(options))?;
+    let model = model(&file);
+    let schedules = scheduled(options, &model)?;
     refuse_other(&options.out)?;
     prepare_folder(&options.out)?;
 
-    let model = model(&file);
     let progress = Progress::new(schedules.len());
     let runs: Vec<Driven> = schedules
         .par_iter()
@@ -125,7 +124,16 @@ pub fn run(options: &Options) -> Outcome {
 
 /// What no simulation wrote, be it a recording or the vehicle's own file, is not replaced.
 fn refuse_other(out: &Path) -> Result<(), String> {
-    const WRITTEN: [&str; 4] = ["recording.toml", "vehicle.toml", "sensors.toml", "schedule.csv"];
+    const WRITTEN: [&str; 8] = [
+        "recording.toml",
+        "tracks.csv",
+        "poses.csv",
+        "imu.csv",
+        "truth.csv",
+        "vehicle.toml",
+        "sensors.toml",
+        "schedule.csv",
+    ];
     let is_there = |name: &&str| out.join(name).exists();
     match WRITTEN.into_iter().find(is_there).filter(|_| !is_there(&"simulation.toml")) {
         Some(name) => Err(format!(
@@ -175,14 +183,34 @@ impl Driven {
     }
 }
 
-fn schedule_options(options: &Options) -> ScheduleOptions {
-    ScheduleOptions {
-        runs: options.runs,
-        seed: options.seed,
-        fastest: options.fastest,
-        duration: options.duration,
-        ..ScheduleOptions::default()
+/// The schedules of a name, or of a file, for which there is nothing to generate.
+fn scheduled(
+    options: &Options,
+    model: &Model,
+) -> Result<Vec<ScheduledRun>, Box<dyn std::error::Error>> {
+    let given = [
+        ("--runs", options.runs.is_some()),
+        ("--duration", options.duration.is_some()),
+        ("--fastest", options.fastest.is_some()),
+    ];
+    if options.schedule.parse::<ScheduleKind>().is_err()
+        && Path::new(&options.schedule).exists()
+        && let Some((name, _)) = given.into_iter().find(|(_, given)| *given)
+    {
+        let file = &options.schedule;
+        return Err(
+            format!("{name}: {file} says it: expected with a schedule that is generated").into()
+        );
     }
+    let usual = ScheduleOptions::default();
+    let fastest = options.fastest.unwrap_or(usual.fastest);
+    // Turns of squares are measured by the ICRs of this very robot.
+    let spin = PerSide::new(-fastest / 2.0, fastest / 2.0);
+    let icrs = Stationary::new(model, &Circumstance::default()).solve(spin).icrs;
+    let icr_distance = icrs.map_or(usual.icr_distance, |icrs| icrs.x_right - icrs.x_left);
+    let (runs, seed, duration) = (options.runs, options.seed, options.duration);
+    let schedule = ScheduleOptions { runs, seed, fastest, duration, icr_distance, ..usual };
+    Ok(schedules::load(&options.schedule, &schedule)?)
 }
 
 /// The sensors of a name or a file.

@@ -50,11 +50,7 @@ impl Evidence {
             return Err(Error::TooFewSegments { found: observations.len(), needed: FEWEST });
         }
         let gap = spin_test(&observations, gauge).map_or(1.5 * gauge, |spin| spin.gap);
-        let stated = recording.stated_noise().map(|stated| {
-            let position = stated.position * stated.position;
-            let pose = [position, position, stated.yaw * stated.yaw];
-            SegmentNoise { pose, walk: [0.0; 3], heading: 0.0 }
-        });
+        let stated = recording.stated_noise().map(SegmentNoise::stated);
         let noise = SegmentNoise::measured(&measured, gap).or(stated).ok_or(Error::NoNoise)?;
         let blocks = observations.blocks();
         let tracks = recording.runs().iter().map(|run| run.tracks().to_vec());

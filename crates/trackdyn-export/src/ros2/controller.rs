@@ -2,14 +2,14 @@
 
 use crate::number::number;
 use crate::ros2::{Published, Wheels};
-use crate::{EquivalentDrive, Frames, Name, Provenance, Residuals, TextFile};
+use crate::{EquivalentDrive, Frames, Name, NodeName, Provenance, Residuals, TextFile};
 
 /// The parameter file.
 pub(super) fn parameters(
     drive: &EquivalentDrive,
     frames: &Frames,
     wheels: &Wheels,
-    controller: &Name,
+    controller: &NodeName,
     published: Option<&Published>,
     provenance: &Provenance,
 ) -> TextFile {
@@ -121,7 +121,7 @@ mod tests {
             &drive(),
             &frames(),
             &wheels.expect("wheels"),
-            &name("base_controller"),
+            &"base_controller".parse().expect("a name"),
             None,
             &Provenance::default(),
         );
@@ -154,7 +154,7 @@ mod tests {
             &drive(),
             &frames(),
             &wheels,
-            &name("c"),
+            &"c".parse().expect("a name"),
             Some(&published),
             &Provenance::default(),
         );

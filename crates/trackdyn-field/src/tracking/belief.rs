@@ -1,7 +1,6 @@
 //! Where the robot takes itself to be.
 
 use super::Steering;
-use crate::odometer::travel;
 use trackdyn_core::{Moment, PerSide, Pose};
 
 /// How a robot knows its pose.
@@ -18,35 +17,27 @@ pub enum Estimate {
 pub(super) struct Belief<'a> {
     estimate: Estimate,
     steering: &'a dyn Steering,
-    /// α: belt speed per speed that the encoders show.
-    alpha: PerSide<f64>,
     pose: Pose,
 }
 
 impl<'a> Belief<'a> {
-    pub(super) fn new(
-        estimate: Estimate,
-        steering: &'a dyn Steering,
-        alpha: PerSide<f64>,
-        start: Pose,
-    ) -> Self {
-        Self { estimate, steering, alpha, pose: start }
+    pub(super) fn new(estimate: Estimate, steering: &'a dyn Steering, start: Pose) -> Self {
+        Self { estimate, steering, pose: start }
     }
 
     pub(super) fn pose(&self) -> Pose {
         self.pose
     }
 
-    /// Takes in the moments since the last time, that one among them.
-    pub(super) fn moved(&mut self, moments: &[Moment]) {
+    /// Takes in the moments since the last time, that one among them, in which the encoders showed these speeds, m/s: they
+    /// sit on the sprockets, which do as they are told, whatever the belts lose to them.
+    pub(super) fn moved(&mut self, moments: &[Moment], shown: PerSide<f64>) {
         let [first, .., last] = moments else { return };
         if self.estimate == Estimate::Truth {
             self.pose = last.pose;
             return;
         }
         let duration = last.t - first.t;
-        let travel = travel(moments);
-        let shown = PerSide::from_fn(|side| travel[side] / duration / self.alpha[side]);
         self.pose = self.pose.compose(&Pose::exp(&self.steering.twist(shown), duration));
     }
 }

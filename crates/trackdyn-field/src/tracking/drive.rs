@@ -17,15 +17,13 @@ const SETTLING: f64 = 0.3;
 pub struct DriveOptions {
     /// How the robot knows its pose.
     pub estimate: Estimate,
-    /// Belt speed per speed that the encoders show, α of (20)-(21), of this very robot.
-    pub alpha: PerSide<f64>,
     /// Longest time, s; where absent, four times that of the path at full speed and 30 s per leg.
     pub time_limit: Option<f64>,
 }
 
 impl Default for DriveOptions {
     fn default() -> Self {
-        Self { estimate: Estimate::Truth, alpha: PerSide::new(1.0, 1.0), time_limit: None }
+        Self { estimate: Estimate::Truth, time_limit: None }
     }
 }
 
@@ -59,7 +57,7 @@ pub fn drive(
     let mut pursuit = Pursuit::new(tracker, path);
     let patience = 4.0 * path.length() / tracker.speed + 30.0 * real(pursuit.legs());
     let end = start.t + options.time_limit.unwrap_or(patience);
-    let mut belief = Belief::new(options.estimate, steering, options.alpha, start.pose);
+    let mut belief = Belief::new(options.estimate, steering, start.pose);
     let mut watch = Watch { path, tracker, travelled: 0.0, before: None, cross_track: Vec::new() };
     let mut trajectory = Trajectory::default();
     trajectory.push(start);
@@ -91,7 +89,7 @@ pub fn drive(
         if let Err(stopped) = plant.drive(speeds, until, &mut trajectory) {
             ending = Some(Ending::Stopped(stopped));
         }
-        belief.moved(&trajectory.moments()[known..]);
+        belief.moved(&trajectory.moments()[known..], speeds);
         now = until;
     }
     believed.push(belief.pose());

@@ -146,7 +146,7 @@ fn a_kinematics_file_steers_as_its_constants_do() {
     let of = |steering: &dyn Steering| {
         let mut robot = Rolling::new(kinematics, Pose::default());
         let estimate = Estimate::Odometry;
-        let options = DriveOptions { estimate, alpha: kinematics.alpha, time_limit: None };
+        let options = DriveOptions { estimate, time_limit: None };
         let tracker = Tracker::default();
         drive(&mut robot, &square, &tracker, steering, &options, &|_| ()).expect("valid")
     };
@@ -159,19 +159,19 @@ fn a_kinematics_file_steers_as_its_constants_do() {
 fn wrong_scale_shows_in_dead_reckoning_only() {
     let square = Path::square(2.0, true, 1).expect("a square");
     let truth = Kinematics { icrs: AURIGA, alpha: PerSide::new(0.98, 0.98) };
-    let of = |model, estimate, alpha| {
+    let of = |model, estimate| {
         let start = Pose::new(-AURIGA.y, 0.0, 0.0);
         let mut robot = Rolling::new(truth, start);
-        let options = DriveOptions { estimate, alpha, ..DriveOptions::default() };
+        let options = DriveOptions { estimate, ..DriveOptions::default() };
         let journey =
             drive(&mut robot, &square, &at_pivot(), &model, &options, &|_| ()).expect("valid");
         assert_eq!(journey.ending, Ending::Arrived);
         journey.summary(&square, at_pivot().point)
     };
     // it goes 2 % less than its encoders show, and its kinematics knows or not
-    let right = of(truth, Estimate::Odometry, truth.alpha);
-    let wrong = of(Kinematics::new(AURIGA), Estimate::Odometry, truth.alpha);
-    let told = of(Kinematics::new(AURIGA), Estimate::Truth, truth.alpha);
+    let right = of(truth, Estimate::Odometry);
+    let wrong = of(Kinematics::new(AURIGA), Estimate::Odometry);
+    let told = of(Kinematics::new(AURIGA), Estimate::Truth);
     assert!(right.max < 2e-3 && told.max < 5e-3, "{right:?} {told:?}");
     assert!(wrong.max > 0.02, "{wrong:?}");
 }

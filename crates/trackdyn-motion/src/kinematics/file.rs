@@ -206,7 +206,7 @@ impl KinematicsFile {
         if file.frame.get_ref() != FRAME {
             return Err(document.value_error(file.frame.span(), "frame", format!("\"{FRAME}\"")));
         }
-        separated(document, *file.x_icr_left_m.get_ref(), &file.x_icr_right_m)?;
+        separated(document, &file.x_icr_left_m, &file.x_icr_right_m)?;
         document.parse::<Divisors>()?.check(document)?;
         Ok(file)
     }
@@ -269,7 +269,7 @@ struct Divisors {
 /// The same of a sector.
 #[derive(Deserialize)]
 struct SectorDivisors {
-    x_icr_left_m: f64,
+    x_icr_left_m: Spanned<f64>,
     x_icr_right_m: Spanned<f64>,
     y_icr_m: Spanned<f64>,
 }
@@ -289,23 +289,38 @@ impl Divisors {
             }
         }
         for sector in &self.sector {
-            separated(document, sector.x_icr_left_m, &sector.x_icr_right_m)?;
+            separated(document, &sector.x_icr_left_m, &sector.x_icr_right_m)?;
         }
         let sectors = self.sector.iter().map(|sector| &sector.y_icr_m);
-        match std::iter::once(&self.y_icr_m).chain(sectors).find(|y| !y.get_ref().is_finite()) {
-            Some(y) => Err(document.value_error(y.span(), "y_icr_m", "a finite number of m")),
-            None => Ok(()),
-        }
+        let mut all = std::iter::once(&self.y_icr_m).chain(sectors);
+        all.try_for_each(|y| near(document, y, "y_icr_m"))
     }
 }
 
-/// Refuses an ICR of the right track that is not right of the left one's, m.
-fn separated(document: &Document, left: f64, right: &Spanned<f64>) -> Result<(), DocumentError> {
-    let separation = right.get_ref() - left;
-    if separation > 0.0 && separation.is_finite() {
+/// Distance from which on an ICR is none that a robot turns about, m.
+const FARTHEST: f64 = 1e4;
+
+/// Refuses a coordinate of an ICR that is no place near a robot, m.
+fn near(document: &Document, value: &Spanned<f64>, key: &str) -> Result<(), DocumentError> {
+    if value.get_ref().abs() <= FARTHEST {
         return Ok(());
     }
-    let expected = format!("a number of m above x_icr_left_m = {left}");
+    let expected = format!("a number of m, at most {FARTHEST} from the robot");
+    Err(document.value_error(value.span(), key, expected))
+}
+
+/// Refuses an ICR of the right track that is not right of the left one's, m.
+fn separated(
+    document: &Document,
+    left: &Spanned<f64>,
+    right: &Spanned<f64>,
+) -> Result<(), DocumentError> {
+    near(document, left, "x_icr_left_m")?;
+    near(document, right, "x_icr_right_m")?;
+    if right.get_ref() > left.get_ref() {
+        return Ok(());
+    }
+    let expected = format!("a number of m above x_icr_left_m = {}", left.get_ref());
     Err(document.value_error(right.span(), "x_icr_right_m", expected))
 }
 

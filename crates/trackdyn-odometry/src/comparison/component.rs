@@ -1,7 +1,7 @@
 //! One component of the residuals.
 
 use crate::Estimate;
-use crate::intervals::{Sums, estimate};
+use crate::intervals::{Sums, estimate, size};
 
 /// Statistics of one component of the residuals: along, across, yaw, or the distance between
 /// observed and predicted place. Units: m or rad.
@@ -49,13 +49,11 @@ impl Component {
         let has_first = first.is_some() && total(5) > 0.0;
         Self {
             mean: estimate(&sums, |[count, sum, ..]| sum / count),
-            rms: estimate(&sums, |[count, _, squares, ..]| (squares / count).max(0.0).sqrt()),
+            rms: size(&sums, |[count, _, squares, ..]| (squares / count).max(0.0).sqrt()),
             per_metre: (total(4) > 0.0)
-                .then(|| estimate(&sums, |[.., sizes, distance, _]| sizes / distance)),
+                .then(|| size(&sums, |[.., sizes, distance, _]| sizes / distance)),
             over_first: has_first.then(|| {
-                estimate(&sums, |[_, _, squares, .., of_first]| {
-                    (squares / of_first).max(0.0).sqrt()
-                })
+                size(&sums, |[_, _, squares, .., of_first]| (squares / of_first).max(0.0).sqrt())
             }),
         }
     }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use toml::Spanned;
 use trackdyn_core::document::{Document, DocumentError};
+use trackdyn_core::real;
 use trackdyn_motion::Grid;
 use trackdyn_motion::map::{GridError, Statistics};
 use trackdyn_physics::ActiveEffect;
@@ -50,8 +51,8 @@ pub struct Quantity {
     of: fn(&Statistics) -> f64,
 }
 
-/// The quantities that can be checked, under their names in `kinematics.toml`.
-const QUANTITIES: [Quantity; 7] = [
+/// The quantities that can be checked, under their names in `kinematics.toml`; and how many pairs of speeds turn.
+const QUANTITIES: [Quantity; 8] = [
     Quantity { key: "x_icr_left_m", of: |s| s.mean.x_left },
     Quantity { key: "x_icr_right_m", of: |s| s.mean.x_right },
     Quantity { key: "y_icr_m", of: |s| s.mean.y },
@@ -59,6 +60,7 @@ const QUANTITIES: [Quantity; 7] = [
     Quantity { key: "eccentricity", of: |s| s.eccentricity },
     Quantity { key: "mean_steering_efficiency", of: |s| s.mean_steering_efficiency },
     Quantity { key: "mean_eccentricity", of: |s| s.mean_eccentricity },
+    Quantity { key: "turning_pairs", of: |s| real(s.count) },
 ];
 
 impl Quantity {

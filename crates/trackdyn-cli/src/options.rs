@@ -55,7 +55,7 @@ impl ModelOptions {
                 )
                 .into());
             }
-            if file.effects.iter().any(|other| other.card().id == id) {
+            if file.effects.get(id).is_some() {
                 eprintln!(
                     "note: --effect {effect} replaces the vehicle file's, all its parameters"
                 );

@@ -243,7 +243,7 @@ pub fn correct_constants(
     added: &[usize],
     level: f64,
 ) {
-    let filed = |of: &ActiveEffect| file.effects.iter().find(|one| one.card().id == of.card().id);
+    let filed = |of: &ActiveEffect| file.effects.get(of.card().id);
     let added = added.iter().filter_map(|&effect| hypothesis.effect(effect));
     let missed: Vec<&ActiveEffect> = added.filter(|one| filed(one) != Some(one)).collect();
     let with = spin_with(&hypothesis.vehicle, missed.iter().copied().cloned().collect());

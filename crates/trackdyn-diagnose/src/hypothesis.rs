@@ -173,7 +173,7 @@ impl Hypothesis {
 
 /// The effect at a place of the catalogue, where it is there.
 pub fn find(effects: &Effects, effect: usize) -> Option<&ActiveEffect> {
-    effects.iter().find(|active| active.card().id == CATALOGUE[effect].id)
+    effects.get(CATALOGUE[effect].id)
 }
 
 /// Value of an effect's parameter, both by their places in the catalogue; that of no effect where the effect is not

@@ -13,13 +13,8 @@ impl FromStr for Name {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Error> {
-        let begins = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-        let allowed = |c: char| c.is_ascii_alphanumeric() || "_-./".contains(c);
-        if begins && text.chars().all(allowed) {
-            Ok(Self(text.to_owned()))
-        } else {
-            Err(Error::Name { value: text.to_owned() })
-        }
+        let name = word(text, "-./").map(Self);
+        name.ok_or_else(|| Error::Name { value: text.to_owned() })
     }
 }
 
@@ -44,12 +39,8 @@ impl FromStr for NodeName {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Error> {
-        let begins = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
-        if begins && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') {
-            Ok(Self(text.to_owned()))
-        } else {
-            Err(Error::NodeName { value: text.to_owned() })
-        }
+        let name = word(text, "").map(Self);
+        name.ok_or_else(|| Error::NodeName { value: text.to_owned() })
     }
 }
 
@@ -63,6 +54,13 @@ impl fmt::Display for Name {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(&self.0)
     }
+}
+
+/// A text of letters, digits, `_` and some signs `beside` these, with a letter or `_` first.
+fn word(text: &str, beside: &str) -> Option<String> {
+    let begins = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || beside.contains(c);
+    (begins && text.chars().all(allowed)).then(|| text.to_owned())
 }
 
 #[cfg(test)]

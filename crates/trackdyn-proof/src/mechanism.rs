@@ -19,7 +19,7 @@ pub trait Mechanism: std::fmt::Debug + Send + Sync {
 
     /// Mean speeds of the sprockets as speeds of their belts, m/s, in a step of `dt` seconds, from what the encoders
     /// show.
-    fn drive(&self, _scene: &Scene, _dt: f64, _belt: &mut PerSide<f64>) {}
+    fn drive(&self, _scene: &Scene, _dt: f64, _sprocket: &mut PerSide<f64>) {}
 
     /// Whether belts slip on their sprockets ([`Mechanism::slip`]).
     fn slips(&self) -> bool {
@@ -135,9 +135,8 @@ pub struct Scene<'a> {
     pub twist: Twist,
     /// Speeds that the encoders show during the step, m/s.
     pub encoder: PerSide<f64>,
-    /// Mean speeds of the sprockets in the step as speeds of their belts, m/s; those of the belts in the step before in
-    /// the stage `drive`.
-    pub belt: PerSide<f64>,
+    /// Mean speeds of the sprockets as speeds of their belts, m/s; those of the step before in the stage `drive`.
+    pub sprocket: PerSide<f64>,
     /// Shear force of the ground along each track in the step before, forward positive, N.
     pub traction: PerSide<f64>,
     /// Load on each side in the step before, N.

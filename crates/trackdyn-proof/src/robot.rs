@@ -152,7 +152,7 @@ impl Robot {
             pose: self.pose.compose(&way),
             twist: self.twist,
             encoder: self.encoder,
-            belt: self.belt,
+            sprocket: self.sprocket,
             traction: self.traction,
             weight: self.weight,
             gravity: level,
@@ -163,13 +163,13 @@ impl Robot {
             fed.push(sprocket);
             mechanism.drive(&scene, dt, &mut sprocket);
         }
-        // Before the step's end is found: belts lose what they lost before.
+        // Where the search begins: belts lose what they lost before.
         let belt = PerSide::from_fn(|side| sprocket[side] + self.belt[side] - self.sprocket[side]);
         let mut gravity = level;
         for mechanism in &self.mechanisms {
             mechanism.gravity(&scene, &mut gravity);
         }
-        scene.belt = sprocket;
+        scene.sprocket = sprocket;
         scene.gravity = gravity;
         let [across, along] = self.vehicle.cog;
         let mut load = Load { across, along: PerSide::new(along, along) };

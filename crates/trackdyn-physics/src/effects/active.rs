@@ -121,7 +121,7 @@ impl Effects {
     /// Never: both are of the catalogue.
     pub fn with_inertia(mut self) -> Self {
         for card in CATALOGUE.iter().filter(|card| INERTIA.contains(&card.id)) {
-            if !self.iter().any(|effect| effect.card().id == card.id) {
+            if self.get(card.id).is_none() {
                 let typical = ActiveEffect::new(card.id, &[]);
                 self.insert(typical.expect("typical sizes are in range"));
             }
@@ -144,6 +144,11 @@ impl Effects {
             Ok(position) => self.0[position] = effect,
             Err(position) => self.0.insert(position, effect),
         }
+    }
+
+    /// The effect of this id, where it is there.
+    pub fn get(&self, id: &str) -> Option<&ActiveEffect> {
+        self.iter().find(|effect| effect.card().id == id)
     }
 
     /// The effects, in the catalogue's order.

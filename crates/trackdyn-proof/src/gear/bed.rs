@@ -2,6 +2,9 @@
 
 use super::Shoe;
 
+/// Part of the load, and of the load a metre away, that rounding may lose.
+const ROUNDING: f64 = 1e-9;
+
 /// Replaces each shoe's spring stiffness, which stands in its load, by the load it carries.
 ///
 /// # Law
@@ -52,9 +55,6 @@ pub(super) fn settle(shoes: &mut [Shoe], load: f64, y_pressure: f64) -> Result<(
     let end = if y_pressure > 0.0 { "front" } else { "rear" };
     Err(format!("the load shifts beyond the {end} end and the robot pitches over"))
 }
-
-/// Part of the load, and of the load a metre away, that rounding may lose.
-const ROUNDING: f64 = 1e-9;
 
 #[cfg(test)]
 mod tests {

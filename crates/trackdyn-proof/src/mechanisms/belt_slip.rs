@@ -48,7 +48,7 @@ impl Mechanism for BeltSlip {
     fn advance(&mut self, step: &Step) {
         let share = -(-step.dt / STRETCH_TIME).exp_m1();
         for side in Side::BOTH {
-            let traction = step.scene.belt[side].signum() * step.traction[side];
+            let traction = step.scene.sprocket[side].signum() * step.traction[side];
             let settled = self.settled(traction / step.scene.weight[side]);
             self.lost[side] += share * (settled - self.lost[side]);
         }

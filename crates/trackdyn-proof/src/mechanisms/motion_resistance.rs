@@ -8,7 +8,7 @@ const ONSET: f64 = 2e-3;
 
 /// Force along the track that holds a shoe back, N.
 pub(super) fn resistance(coefficient: f64, contact: &Contact) -> f64 {
-    let speed = contact.scene.belt[contact.side];
+    let speed = contact.scene.sprocket[contact.side];
     -coefficient * contact.load * speed / (speed * speed + ONSET * ONSET).sqrt()
 }
 

@@ -2,6 +2,7 @@
 
 use crate::mechanism::{Contact, Described, Mechanism};
 use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use trackdyn_core::PerSide;
 
 /// The tension of a steered belt lifts its lugs: it holds less along, by the difference of the track
 /// speeds.
@@ -32,7 +33,7 @@ impl Described for SteeringGrip {
 
 impl Mechanism for SteeringGrip {
     fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
-        let belt = contact.scene.belt;
-        mu[1] /= 1.0 + self.loss * (belt.right - belt.left).abs();
+        let PerSide { left, right } = contact.scene.sprocket;
+        mu[1] /= 1.0 + self.loss * (right - left).abs();
     }
 }

@@ -122,7 +122,7 @@ impl<'a> Balance<'a> {
 
     /// Speed of a belt under this traction, N, m/s.
     fn belt(&self, side: Side, traction: f64) -> f64 {
-        let sprocket = self.scene.belt[side];
+        let sprocket = self.scene.sprocket[side];
         let traction = sprocket.signum() * traction / self.scene.weight[side];
         let slips = self.mechanisms.iter().map(|m| m.slip(side, traction, self.dt));
         sprocket * (1.0 - slips.sum::<f64>())

@@ -44,7 +44,7 @@ struct Scaled<'a, 'b> {
 
 impl Scaled<'_, '_> {
     fn trial<const N: usize>(&self, q: &SVector<f64, N>) -> Trial {
-        let sprocket = self.balance.scene().belt;
+        let sprocket = self.balance.scene().sprocket;
         let belt = |k: usize, follows: f64| q.get(k).copied().unwrap_or(follows);
         Trial {
             twist: Twist { v_x: q[0], v_y: q[1], w: q[2] / self.length },

@@ -2,13 +2,11 @@
 
 use super::warning::{Cleaning, Finding};
 use super::{PoseSample, Sample, Series, Stream, TrackSample};
+use crate::gaps::GAP;
 use crate::hold::travelled;
 use crate::robust::median;
 use std::f64::consts::{PI, TAU};
 use trackdyn_core::PerSide;
-
-/// An interval this many times the median one is a gap.
-const GAP: f64 = 5.0;
 
 /// An interval below this part of the median one is too short for two separate measurements.
 const CROWDED: f64 = 0.1;

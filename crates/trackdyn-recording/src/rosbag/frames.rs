@@ -41,6 +41,11 @@ pub(super) fn is_of_odometry(parent: &str) -> bool {
     same_frame(parent, ODOMETRY)
 }
 
+/// Whether messages of this type may hold the odometry of the tracks: those of an Odometry, and transforms out of its frame.
+pub(super) fn may_be_odometry<'a>(kind: &str, mut parents: impl Iterator<Item = &'a str>) -> bool {
+    kind.ends_with("/Odometry") || (kind.ends_with("/TFMessage") && parents.any(is_of_odometry))
+}
+
 impl Link {
     pub(super) fn new(parent: &str, child: &str) -> Self {
         Self { parent: bare(parent).to_owned(), child: bare(child).to_owned() }

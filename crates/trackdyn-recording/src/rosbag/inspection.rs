@@ -1,7 +1,7 @@
 //! What a bag holds, and which options would read it.
 
 use super::cdr::{Cdr, CdrError};
-use super::frames::{Frames, is_of_odometry};
+use super::frames::{Frames, may_be_odometry};
 use super::joints;
 use super::message::header;
 use super::options::RosbagOptions;
@@ -58,7 +58,9 @@ pub fn inspect(path: &Path) -> Result<Inspection, Error> {
         observer.topics.into_iter().map(|(topic, seen)| seen.summary(topic)).collect();
     let suggested = suggest(&topics);
     let chosen = topics.iter().filter(|topic| Some(&topic.name) == suggested.pose_topic.as_ref());
-    let odometry = chosen.filter(|topic| topic.may_be_odometry());
+    let odometry = chosen.filter(|topic| {
+        may_be_odometry(&topic.kind, topic.frames.iter().map(|(parent, _)| &**parent))
+    });
     warnings.extend(odometry.map(|topic| Warning::OwnOdometry { poses: topic.name.clone() }));
     Ok(Inspection { topics, suggested, warnings })
 }
@@ -199,15 +201,6 @@ fn suggest(topics: &[TopicSummary]) -> RosbagOptions {
         pose_topic: pose,
         imu_topic: only(of(Role::Imu).collect()),
         ..RosbagOptions::default()
-    }
-}
-
-impl TopicSummary {
-    /// Whether its poses may come from the tracks themselves: those of an Odometry, and transforms out of its frame.
-    fn may_be_odometry(&self) -> bool {
-        let of_odometry = |(parent, _): &(String, String)| is_of_odometry(parent);
-        self.kind.ends_with("/Odometry")
-            || (self.kind.ends_with("/TFMessage") && self.frames.iter().any(of_odometry))
     }
 }
 

@@ -27,6 +27,11 @@ fn is_part(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "mcap" || extension == "db3")
 }
 
+/// Whether it is a file of a bag that can be read.
+fn is_there(file: &Path) -> bool {
+    is_part(file) && file.is_file()
+}
+
 /// Shows all messages of the bag's files, in their order; memory does not grow with the files.
 pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Vec<Warning>, Error> {
     let mut warnings = Vec::new();
@@ -40,7 +45,7 @@ pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Vec<Warning
         });
     }
     for file in parts {
-        if !file.is_file() || !is_part(&file) {
+        if !is_there(&file) {
             warnings.push(Warning::PartMissing { path: file });
             continue;
         }
@@ -61,14 +66,14 @@ fn parts(path: &Path) -> Result<Vec<PathBuf>, Error> {
     }
     if let Ok(text) = std::fs::read_to_string(path.join(METADATA)) {
         let listed: Vec<PathBuf> = listed_files(&text).map(|name| path.join(name)).collect();
-        if listed.iter().any(|file| is_part(file) && file.is_file()) {
+        if listed.iter().any(|file| is_there(file)) {
             return Ok(listed);
         }
     }
     let mut found = Vec::new();
     for entry in std::fs::read_dir(path).map_err(|cause| unreadable(path, cause))? {
         let file = entry.map_err(|cause| unreadable(path, cause))?.path();
-        if is_part(&file) && file.is_file() {
+        if is_there(&file) {
             found.push(file);
         }
     }

@@ -3,8 +3,8 @@
 use super::{PoseKey, Reading, RosbagOptions, Stamped};
 use crate::Error;
 use crate::recording::Warning;
-use crate::rosbag::frames::is_of_odometry;
-use crate::rosbag::topic::{Layout, Topic, list};
+use crate::rosbag::frames::may_be_odometry;
+use crate::rosbag::topic::{Topic, list};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -55,13 +55,10 @@ impl Sources<'_> {
         Ok(chosen)
     }
 
-    /// Whether poses may come from the tracks themselves: those of an Odometry, and transforms out of its frame.
+    /// Whether poses may come from the tracks themselves.
     fn may_be_odometry(&self, key: &PoseKey) -> bool {
         let mut topics = self.seen.iter().filter(|topic| topic.name == key.topic);
-        topics.any(|topic| {
-            topic.kind.ends_with("/Odometry")
-                || (topic.layout() == Some(Layout::Transforms) && is_of_odometry(&key.parent))
-        })
+        topics.any(|topic| may_be_odometry(&topic.kind, std::iter::once(&*key.parent)))
     }
 
     /// An IMU is welcome and not needed: where several could be it, none is taken.

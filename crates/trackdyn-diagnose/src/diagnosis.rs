@@ -107,6 +107,27 @@ pub struct HeldOut {
 }
 
 impl HeldOut {
+    /// What these errors say against what is claimed, anything at all or physics too; none where that does better than
+    /// what it was compared with.
+    fn contradiction(&self, claims: bool, claims_physics: bool) -> Option<&'static str> {
+        let Self { before, instruments, after, are_held_out, .. } = *self;
+        if !are_held_out {
+            None
+        } else if claims && after >= before {
+            Some(
+                "What is claimed does not help there: it may be true of the other runs alone, and the vehicle as filed is the \
+                 one to drive on with.",
+            )
+        } else if claims_physics && after >= instruments {
+            Some(
+                "The physics that is claimed does not help there: encoders, pose sensor and constants at their best do as \
+                 well alone, and it may be true of the other runs only.",
+            )
+        } else {
+            None
+        }
+    }
+
     /// Share of the excess over the noise floor that the corrected model explains; none where there is no
     /// excess.
     pub fn excess_explained(&self) -> Option<f64> {
@@ -524,10 +545,10 @@ impl Diagnosis {
         blame_instruments(&self.missing)
     }
 
-    /// Whether held-out runs contradict what is claimed: the corrected model does no better there.
-    pub fn is_contradicted(&self) -> bool {
-        let HeldOut { before, after, are_held_out, .. } = self.held_out;
-        are_held_out && after >= before && !self.missing.is_empty()
+    /// What held-out runs say against what is claimed, as a sentence; none where the corrected model does better there.
+    pub fn contradiction(&self) -> Option<&'static str> {
+        let claims_physics = self.missing.iter().any(|missing| missing.kind == Kind::Physics);
+        self.held_out.contradiction(!self.missing.is_empty(), claims_physics)
     }
 
     /// The fit of what was there before: of the vehicle as filed where encoders or pose sensor are to blame for
@@ -549,5 +570,34 @@ impl Diagnosis {
         self.held_out = HeldOut { are_held_out: true, ..errors };
         let (before, after) = (before.residual, after.residual);
         self.unseen = Some(Unseen { evidence, before, after });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn held_out_runs_contradict_what_does_no_better_than_what_was_there_before() {
+        let errors = |before, instruments, after| HeldOut {
+            before,
+            instruments,
+            after,
+            noise_floor: 1.0,
+            are_held_out: true,
+        };
+        let says = |held_out: HeldOut, claims, claims_physics| {
+            held_out.contradiction(claims, claims_physics)
+        };
+        assert_eq!(says(errors(1.5, 1.3, 1.1), true, true), None);
+        let filed = says(errors(1.2, 1.3, 1.25), true, true).expect("the file does better");
+        assert!(filed.contains("vehicle as filed"));
+        // what encoders did wrong is explained, and the physics beside it makes it worse
+        let physics = says(errors(3.0, 1.1, 1.2), true, true).expect("instruments do better");
+        assert!(physics.contains("physics"));
+        assert_eq!(says(errors(3.0, 1.1, 1.2), true, false), None);
+        assert_eq!(says(errors(1.1, 1.1, 1.1), false, false), None);
+        let fitted = HeldOut { are_held_out: false, ..errors(1.2, 1.3, 1.25) };
+        assert_eq!(says(fitted, true, true), None);
     }
 }

@@ -73,17 +73,16 @@ const LEFT: f64 = 0.6;
 
 /// Iterates from a `start` near a root without derivatives, by Broyden's method; none where that does not lead there.
 ///
-/// `inverse` is that of a Jacobian not far from here. Each step corrects it by what the residual changed along the step:
+/// `value` is the residual there, `inverse` that of a Jacobian not far from here. Each step corrects it by what the residual changed along the step:
 /// B ← B + (s − B y) sᵀB/(sᵀB y).
 #[inline]
 pub fn from_near<const N: usize>(
-    start: SVector<f64, N>,
+    (start, value): (SVector<f64, N>, SVector<f64, N>),
     inverse: SMatrix<f64, N, N>,
     tolerance: Tolerance,
     residual: impl Fn(SVector<f64, N>) -> SVector<f64, N>,
 ) -> Option<Convergence<N>> {
-    let (mut point, mut inverse) = (start, inverse);
-    let mut value = residual(point);
+    let (mut point, mut value, mut inverse) = (start, value, inverse);
     let mut norm = value.norm();
     let mut iterations = 0;
     if norm.is_nan() {
@@ -211,12 +210,13 @@ mod tests {
         let begin = |distance: f64| {
             let start = root + Vector3::repeat(distance);
             // the Jacobian of another place
-            from_near(start, Matrix3::identity() * 0.9, EXACT, f)
+            from_near((start, f(start)), Matrix3::identity() * 0.9, EXACT, f)
         };
         let found = begin(0.1).expect("it is near");
         assert!(found.is_root && (found.point - root).norm() < 1e-12, "{found:?}");
         assert!(begin(10.0).is_none() && begin(f64::NAN).is_none());
-        let away = from_near(root + Vector3::repeat(0.1), -Matrix3::identity(), EXACT, f);
+        let start = root + Vector3::repeat(0.1);
+        let away = from_near((start, f(start)), -Matrix3::identity(), EXACT, f);
         assert!(away.is_none());
     }
 

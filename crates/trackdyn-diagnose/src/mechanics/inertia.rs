@@ -10,8 +10,9 @@ use super::{coarse, motion_over};
 use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::{Unknown, active, find, typical_size, value, with_friction};
 use crate::surface::Surface;
+use nalgebra::Vector3;
 use rayon::prelude::*;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
 use trackdyn_motion::transient::Step;
@@ -301,6 +302,8 @@ struct Inertia {
     belts: Vec<Vec<TrackSample>>,
     /// The stationary twists there without it.
     steady: Vec<Vec<Twist>>,
+    /// The sums of forces in these, which the table of stationary motions leaves, once they were asked for.
+    left: OnceLock<Vec<Vec<Vector3<f64>>>>,
 }
 
 impl Inertia {
@@ -320,7 +323,8 @@ impl Inertia {
         let steady = belts.iter().map(|run| stationary(&surface, run)).collect();
         let vehicle = case.vehicle.clone();
         let (model, drive) = (model.clone(), *drive);
-        Ok(Self { inert, vehicle, model, drive, paths, steps, belts, steady })
+        let left = OnceLock::new();
+        Ok(Self { inert, vehicle, model, drive, paths, steps, belts, steady, left })
     }
 
     /// Whether it was found for the very same.
@@ -379,9 +383,17 @@ impl Inertia {
         let grounds = [&with, &self.model].map(|model| model.ground(&level));
         let with = Forces { model: &with, ground: &grounds[0], creep: CREEP };
         let without = Forces { model: &self.model, ground: &grounds[1], creep: CREEP };
-        let runs = self.steps.par_iter().zip(&self.belts).zip(&self.steady);
-        runs.map(|((steps, belts), steady)| {
-            let run = Without { steps, belts, steady };
+        // On one thread: another job of the pool, taken up in between, would wait for this one.
+        let left = self.left.get_or_init(|| {
+            let runs = self.belts.iter().zip(&self.steady);
+            let sum = |(belts, twist): (&TrackSample, &Twist)| {
+                without.sum(speeds(belts), twist, &Twist::zero())
+            };
+            runs.map(|(belts, steady)| belts.iter().zip(steady).map(sum).collect()).collect()
+        });
+        let runs = self.steps.par_iter().zip(&self.belts).zip(&self.steady).zip(left);
+        runs.map(|(((steps, belts), steady), left)| {
+            let run = Without { steps, belts, steady, left };
             sheared::departures([&with, &without], &run, &stationary(surface, belts))
         })
         .collect()

@@ -6,12 +6,13 @@
 //! step of û
 //!
 //! ```text
-//! G(û + D, û̇ + (D − D_b)/(γ h)) = G₀(û, û̇)
+//! G(û + D, û̇ + (D − D_b)/(γ h)) = G₀(û, û̇) = 0
 //! ```
 //!
 //! D_b from the stages before, as û has it from its own ([`transient`](trackdyn_motion::transient)). The first stage begins at D as it is in
 //! stationary motion, the second at that of the first, and both with the derivatives of the stage before, by Broyden's method;
-//! where that leads nowhere, with those of the stage itself, which are
+//! a step that, by what the last ones left, ends in balance is taken without a look. Where that leads nowhere, it begins with the
+//! derivatives of the stage itself, which are
 //!
 //! ```text
 //! G_u + G_a/(γ h)
@@ -23,7 +24,7 @@
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{PerSide, Twist};
 use trackdyn_motion::Forces;
-use trackdyn_motion::newton::{self, Tolerance};
+use trackdyn_motion::newton::{self, Convergence, Tolerance};
 use trackdyn_motion::transient::{GAMMA, Instant, Step};
 use trackdyn_recording::TrackSample;
 
@@ -41,7 +42,21 @@ pub struct Without<'a> {
     pub belts: &'a [TrackSample],
     /// The stationary twist at each of their readings.
     pub steady: &'a [Twist],
+    /// The sum of forces in that, which the tables of stationary motions leave.
+    pub left: &'a [Vector3<f64>],
 }
+
+/// What is known of the derivatives of a stage from those before.
+#[derive(Clone, Copy)]
+struct Known {
+    /// Inverse of them.
+    inverse: Matrix3<f64>,
+    /// Part of the residual that a step with it is taken to leave.
+    leaves: f64,
+}
+
+/// By how much more a step is taken to leave than the one before it, which was not looked at.
+const AGEING: f64 = 1.5;
 
 /// What the laws add to the twist (paper's frame) while each reading of a run holds. `forces` are those with and without
 /// the laws, `steady` is the stationary twist with them at each reading.
@@ -49,7 +64,7 @@ pub fn departures([with, without]: [&Forces; 2], run: &Without, steady: &[Twist]
     let still = Twist::zero();
     let mut departures = vec![still; run.belts.len()];
     let mut ended = Vector3::zeros();
-    let mut inverse = None;
+    let mut known = None;
     let mut steps = run.steps.iter().peekable();
     for (reading, pair) in run.belts.windows(2).enumerate() {
         let [from, until] = [pair[0].t, pair[1].t];
@@ -57,17 +72,15 @@ pub fn departures([with, without]: [&Forces; 2], run: &Without, steady: &[Twist]
         let (here, there) = (&steady[reading], &run.steady[reading]);
         let shift = vector(&(*here - *there));
         // What the tables and rules of both leave of a stationary motion is no change of it.
-        let rest = with.sum(speeds, here, &still) - without.sum(speeds, there, &still);
+        let rest = with.sum(speeds, here, &still) - run.left[reading];
         let mut sum = Vector3::zeros();
         while let Some(step) = steps.next_if(|step| step.end <= until) {
             let per_second = (GAMMA * step.duration).recip();
-            let [first, second] = step.stages.map(|instant| {
-                let balance = without.sum(instant.belt_speed, &instant.twist, &instant.rate) + rest;
-                Stage { with, without, instant, per_second, balance }
-            });
-            let one = first.solve(&shift, &mut inverse, &ended);
+            let [first, second] =
+                step.stages.map(|instant| Stage { with, without, instant, per_second, rest });
+            let one = first.solve(&shift, &mut known, &ended);
             let base = ended + (one - ended) * ((1.0 - GAMMA) / GAMMA);
-            let two = second.solve(&one, &mut inverse, &base);
+            let two = second.solve(&one, &mut known, &base);
             sum += (one * (1.0 - GAMMA) + two * GAMMA - shift) * step.duration;
             ended = two;
         }
@@ -87,8 +100,8 @@ struct Stage<'a> {
     instant: Instant,
     /// 1/(γ h), 1/s.
     per_second: f64,
-    /// The sum of forces that is to be reached.
-    balance: Vector3<f64>,
+    /// The sum of forces that counts as balance.
+    rest: Vector3<f64>,
 }
 
 impl Stage<'_> {
@@ -101,7 +114,7 @@ impl Stage<'_> {
     /// By how much the forces are off balance, over the weight, and the moment over that times the gauge.
     fn residual(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> Vector3<f64> {
         let (twist, rate) = self.moved(added, base);
-        let off = self.with.sum(self.instant.belt_speed, &twist, &rate) - self.balance;
+        let off = self.with.sum(self.instant.belt_speed, &twist, &rate) - self.rest;
         off.component_div(&self.scale())
     }
 
@@ -121,27 +134,43 @@ impl Stage<'_> {
         Some(derivative.try_inverse()? * Matrix3::from_diagonal(&self.scale()))
     }
 
-    /// What is added, sought from `start`. `inverse` is that of a stage before, and after it that of this one.
+    /// What is added, sought from `start`. `known` is that of a stage before, and after it that of this one.
     fn solve(
         &self,
         start: &Vector3<f64>,
-        inverse: &mut Option<Matrix3<f64>>,
+        known: &mut Option<Known>,
         base: &Vector3<f64>,
     ) -> Vector3<f64> {
         let residual = |added| self.residual(&added, base);
-        let near = |inverse| newton::from_near(*start, inverse, BALANCED, residual);
+        let off = residual(*start);
+        if let Some(known) = known
+            && known.leaves * off.norm() <= BALANCED.converged
+        {
+            known.leaves *= AGEING;
+            return start - known.inverse * off;
+        }
+        let near = |inverse| newton::from_near((*start, off), inverse, BALANCED, residual);
+        let mut inverse = known.map(|known| known.inverse);
         let found = inverse.and_then(near).or_else(|| {
-            *inverse = self.inverse(start, base);
-            near((*inverse)?)
+            inverse = self.inverse(start, base);
+            near(inverse?)
         });
         if let Some(found) = found {
-            *inverse = found.inverse;
+            *known = found.inverse.map(|inverse| Known { inverse, leaves: leaves(&off, &found) });
             return found.point;
         }
+        *known = inverse.map(|inverse| Known { inverse, leaves: 1.0 });
         let Some(inverse) = inverse else { return *start };
-        let off = residual(*start);
-        let mut shares = SHARES.iter().map(|share| start - *inverse * off * *share);
+        let mut shares = SHARES.iter().map(|share| start - inverse * off * *share);
         shares.find(|added| residual(*added).norm() < off.norm()).unwrap_or(*start)
+    }
+}
+
+/// Part of the residual that each step of a search left, which began `off` balance.
+fn leaves(off: &Vector3<f64>, found: &Convergence<3>) -> f64 {
+    match i32::try_from(found.iterations) {
+        Ok(steps @ 1..) => (found.residual / off.norm()).powf(f64::from(steps).recip()),
+        _ => 1.0,
     }
 }
 

@@ -98,8 +98,10 @@ impl Stage<'_> {
         };
         let tolerance = TOLERANCE.at(self.model.resolution());
         let residual = |z: SVector<f64, N>| SVector::from(self.residual::<f64, N>(z.into()));
-        let near = inverse
-            .and_then(|inverse| newton::from_near(at(follows), inverse, tolerance, residual));
+        let near = inverse.and_then(|inverse| {
+            let start = at(follows);
+            newton::from_near((start, residual(start)), inverse, tolerance, residual)
+        });
         if let Some(near) = near {
             return near;
         }

@@ -173,15 +173,11 @@ fn errors(subject: &Subject) -> String {
             format!("{} % of the excess over that floor is explained", number(100.0 * share, 1))
         },
     );
-    let transfers = if subject.diagnosis.is_contradicted() {
-        " What is claimed does not help there: it may be true of the other runs alone, and the vehicle as filed is \
-         the one to drive on with."
-    } else {
-        ""
-    };
+    let contradiction = subject.diagnosis.contradiction();
+    let contradiction = contradiction.map_or_else(String::new, |sentence| format!(" {sentence}"));
     format!(
         "{on} the error is {} standard deviations of the noise before and {} after, where {} would be left \
-         if everything that could move ICRs or instruments were fitted away: {share}.{transfers}",
+         if everything that could move ICRs or instruments were fitted away: {share}.{contradiction}",
         number(fit.before, 3),
         number(fit.after, 3),
         number(fit.noise_floor, 3)

@@ -79,12 +79,8 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
         "fit      on {on}: {:.3} before, {:.3} after, noise floor {:.3} ({share})",
         fit.before, fit.after, fit.noise_floor
     );
-    if diagnosis.is_contradicted() {
-        let _ = writeln!(
-            text,
-            "         what is missing does not help there: it may be true of the other runs alone; drive on with the \
-             vehicle as filed"
-        );
+    if let Some(sentence) = diagnosis.contradiction() {
+        let _ = writeln!(text, "         {sentence}");
     }
     text
 }

@@ -586,18 +586,16 @@ mod tests {
             noise_floor: 1.0,
             are_held_out: true,
         };
-        let says = |held_out: HeldOut, claims, claims_physics| {
-            held_out.contradiction(claims, claims_physics)
-        };
-        assert_eq!(says(errors(1.5, 1.3, 1.1), true, true), None);
-        let filed = says(errors(1.2, 1.3, 1.25), true, true).expect("the file does better");
+        assert_eq!(errors(1.5, 1.3, 1.1).contradiction(true, true), None);
+        let filed = errors(1.2, 1.3, 1.25).contradiction(true, true).expect("the file does better");
         assert!(filed.contains("vehicle as filed"));
         // what encoders did wrong is explained, and the physics beside it makes it worse
-        let physics = says(errors(3.0, 1.1, 1.2), true, true).expect("instruments do better");
+        let physics =
+            errors(3.0, 1.1, 1.2).contradiction(true, true).expect("instruments do better");
         assert!(physics.contains("physics"));
-        assert_eq!(says(errors(3.0, 1.1, 1.2), true, false), None);
-        assert_eq!(says(errors(1.1, 1.1, 1.1), false, false), None);
+        assert_eq!(errors(3.0, 1.1, 1.2).contradiction(true, false), None);
+        assert_eq!(errors(1.1, 1.1, 1.1).contradiction(false, false), None);
         let fitted = HeldOut { are_held_out: false, ..errors(1.2, 1.3, 1.25) };
-        assert_eq!(says(fitted, true, true), None);
+        assert_eq!(fitted.contradiction(true, true), None);
     }
 }

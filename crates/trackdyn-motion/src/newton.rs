@@ -73,7 +73,8 @@ const LEFT: f64 = 0.6;
 
 /// Iterates from a `start` near a root without derivatives, by Broyden's method; none where that does not lead there.
 ///
-/// `value` is the residual there, `inverse` that of a Jacobian not far from here. Each step corrects it by what the residual changed along the step:
+/// `value` is the residual there, `inverse` that of a Jacobian not far from here. Each step corrects it by what the
+/// residual changed along the step:
 /// B ← B + (s − B y) sᵀB/(sᵀB y).
 #[inline]
 pub fn from_near<const N: usize>(

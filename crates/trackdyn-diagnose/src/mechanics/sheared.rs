@@ -22,7 +22,7 @@
 //! where a track nearly sticks a law may be steep, and the whole step lead far away.
 
 use nalgebra::{Matrix3, Vector3};
-use trackdyn_core::{PerSide, Twist};
+use trackdyn_core::{PerSide, Twist, real};
 use trackdyn_motion::Forces;
 use trackdyn_motion::newton::{self, Convergence, Tolerance};
 use trackdyn_motion::transient::{GAMMA, Instant, Step};
@@ -168,10 +168,10 @@ impl Stage<'_> {
 
 /// Part of the residual that each step of a search left, which began `off` balance.
 fn leaves(off: &Vector3<f64>, found: &Convergence<3>) -> f64 {
-    match i32::try_from(found.iterations) {
-        Ok(steps @ 1..) => (found.residual / off.norm()).powf(f64::from(steps).recip()),
-        _ => 1.0,
+    if found.iterations == 0 {
+        return 1.0;
     }
+    (found.residual / off.norm()).powf(real(found.iterations).recip())
 }
 
 fn vector(twist: &Twist) -> Vector3<f64> {

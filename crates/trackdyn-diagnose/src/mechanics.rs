@@ -22,7 +22,7 @@ use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::{Hypothesis, Unknown};
 use crate::surface::{Steady, Surface};
 use belts::lagging;
-use ground::{by_ground, varies};
+use ground::{Acts, acts, by_ground};
 use inertia::{Case, InertiaNear, Within, has_slope};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -163,8 +163,14 @@ impl Mechanics {
     ) -> Self {
         let vehicle = &hypothesis.vehicle;
         let mechanical = hypothesis.effects.iter().filter(|effect| !is_instrument(vehicle, effect));
-        let (varying, constant): (Vec<_>, Vec<_>) =
-            mechanical.cloned().partition(|effect| varies(vehicle, effect, evidence));
+        let (mut varying, mut constant) = (Vec::new(), Vec::new());
+        for effect in mechanical.cloned() {
+            match acts(vehicle, &effect, evidence) {
+                Acts::Varying => varying.push(effect),
+                Acts::Alike => constant.push(effect),
+                Acts::Nowhere => {}
+            }
+        }
         let without_shear = |effects: &[ActiveEffect]| -> Effects {
             effects.iter().filter(|effect| !effect.card().shears()).cloned().collect()
         };

@@ -12,6 +12,7 @@ mod table;
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use std::sync::Arc;
 use table::{Grid, Spacing, Table};
 use trackdyn_core::{PerSide, Side, Twist, real};
 use trackdyn_motion::{Icrs, Near, Stationary, Status};
@@ -24,6 +25,8 @@ pub struct Surface {
     /// (v_x, v_y − V̄, w) over the scale.
     beyond: Table,
     scale: Scale,
+    /// Where the search for the motion of each node of a similar model starts.
+    starts: Arc<Vec<Option<Near>>>,
     unsolved: usize,
 }
 
@@ -56,18 +59,25 @@ impl Surface {
         let slips = model.drive().slip_per_traction != 0.0;
         let scale = if slips { Scale::Size } else { Scale::Difference };
         let solver = Stationary::new(model, &Circumstance::default());
-        let solved: Vec<Option<Vector3<f64>>> = (0..Grid::NODES)
+        let (solved, starts): (Vec<Option<Vector3<f64>>>, _) = (0..Grid::NODES)
             .into_par_iter()
             .map(|index| {
                 let speeds = grid.speeds(index);
-                let near = before.and_then(|before| before.motion(speeds).near());
+                let near = before.and_then(|before| before.near(index, &grid));
                 let solution = solver.starting_at(near).solve(speeds);
                 let usable = !matches!(solution.status, Status::NotConverged | Status::Lifts);
-                usable.then(|| beyond(speeds, &solution.twist) / scale.of(speeds))
+                let node = usable.then(|| beyond(speeds, &solution.twist) / scale.of(speeds));
+                (node, solution.linearised.map(Near::Linearised))
             })
-            .collect();
+            .unzip();
         let unsolved = solved.iter().filter(|node| node.is_none()).count();
-        Self { beyond: Table::new(grid, &solved), scale, unsolved }
+        Self { beyond: Table::new(grid, &solved), scale, starts: Arc::new(starts), unsolved }
+    }
+
+    /// Where the search for the motion at a node of this grid starts.
+    fn near(&self, index: usize, grid: &Grid) -> Option<Near> {
+        let known = self.starts[index].filter(|_| self.beyond.grid() == grid);
+        known.or_else(|| self.motion(grid.speeds(index)).near())
     }
 
     /// Share of the nodes without a motion: part of the contact lifts, or no balance was found.
@@ -152,7 +162,7 @@ fn moved(twist: Vector3<f64>, [left, right, y]: &[f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trackdyn_physics::contact::Friction;
+    use trackdyn_physics::contact::{Friction, Resolution};
     use trackdyn_physics::{Effects, RunningGear, VehicleFile};
 
     /// Effects of every kind that steady motion shows. The root mean square of the table's error must stay
@@ -231,6 +241,35 @@ mod tests {
             }
             let error = (squares / count).sqrt();
             assert!(count > 300.0 && error < 3e-5, "{id}: {error:.1e}");
+        }
+    }
+
+    #[test]
+    fn a_table_that_starts_from_that_of_a_similar_model_is_the_same() {
+        const SAME: f64 = 1e-5;
+        for id in [
+            "centripetal",
+            "belt-slip motion-resistance",
+            "shear-displacement",
+            "friction-creep",
+            "stribeck-friction load-transfer",
+            "hitch-drag",
+        ] {
+            let effects: Effects =
+                id.split_whitespace().map(|text| text.parse().expect("an effect")).collect();
+            let model = |cog| {
+                let mut vehicle = VehicleFile::auriga_alpha().vehicle;
+                vehicle.cog = cog;
+                Model::new(vehicle, effects.clone()).with_resolution(Resolution::Coarse)
+            };
+            let before = Surface::new(&model([0.0, 0.0]), 1.5, None);
+            let there = model([-0.02, 0.03]);
+            let [anew, beside] =
+                [None, Some(&before)].map(|before| Surface::new(&there, 1.5, before));
+            let nodes = anew.beyond.nodes().iter().zip(beside.beyond.nodes());
+            let off = nodes.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+            println!("{id}: {off:.1e}, {} and {}", anew.unsolved, beside.unsolved);
+            assert!(off < SAME && anew.unsolved == beside.unsolved, "{id}: {off:.1e}");
         }
     }
 

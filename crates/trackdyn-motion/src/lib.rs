@@ -19,5 +19,5 @@ pub use forces::Forces;
 pub use icr::Icrs;
 pub use kinematics::Kinematics;
 pub use map::{Grid, IcrMap};
-pub use stationary::{Near, Solution, Stationary, Status};
+pub use stationary::{Linearised, Near, Solution, Stationary, Status};
 pub use transient::Transient;

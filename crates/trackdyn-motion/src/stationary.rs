@@ -21,7 +21,7 @@ pub use solution::{Solution, Status};
 
 use crate::icr::Icrs;
 use crate::newton::{self, Convergence, Evaluation, Tolerance};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
 use trackdyn_physics::{Balance, Circumstance, Ground, Model, Motion};
 
@@ -30,6 +30,9 @@ const CREEP: f64 = 1e-6;
 
 /// Residual over the weight, and change of belt speeds over the faster one at which speed and traction agree.
 const TOLERANCE: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11 };
+
+/// Residual at which a search beside a known motion stops at the latest: what differs between the two is asked for.
+const COMPARABLE: f64 = 1e-10;
 
 /// Turns between belt speeds and traction after which the search is given up.
 const MOST_TURNS: usize = 100;
@@ -41,6 +44,35 @@ pub enum Near {
     Turning(Icrs),
     /// The track of this side holds the robot.
     Held(Side),
+    /// It was found for a model that resembles this one.
+    Linearised(Linearised),
+}
+
+/// A motion with what a small force would change in it: a search from there takes no derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linearised {
+    anchor: Side,
+    /// The unknowns.
+    point: Vector3<f64>,
+    /// Inverse of the derivative of the residual by them.
+    inverse: Matrix3<f64>,
+}
+
+impl Linearised {
+    /// The ICRs; none where a track holds the robot.
+    fn icrs(&self) -> Option<Icrs> {
+        icrs(self.anchor, &self.point)
+    }
+}
+
+/// The ICRs of both tracks by that of the anchor and the turn; none where there is no turn.
+fn icrs(anchor: Side, unknowns: &Vector3<f64>) -> Option<Icrs> {
+    let [x, y, turn] = [unknowns[0], unknowns[1], unknowns[2]];
+    let other = x - anchor.sign() / turn;
+    (turn > 0.0).then_some(match anchor {
+        Side::Left => Icrs { x_left: x, x_right: other, y },
+        Side::Right => Icrs { x_left: other, x_right: x, y },
+    })
 }
 
 /// Solver for the stationary motions of one model at one place, heading and time.
@@ -203,6 +235,13 @@ impl<'m> Stationary<'m> {
     fn solve_belts(&self, belt_speed: PerSide<f64>) -> Solution {
         let first = match self.near {
             Some(Near::Held(side)) => side,
+            Some(Near::Linearised(known)) => {
+                let problem = Problem { solver: self, belt_speed, anchor: known.anchor };
+                if let Some(end) = problem.solve_beside(&known) {
+                    return end.solution();
+                }
+                known.anchor
+            }
             _ => self.better_anchor(),
         };
         let problems =
@@ -257,15 +296,17 @@ impl<'s> Problem<'s> {
         // The anchor breaks loose under twice the other track's friction, whose lever is the gauge.
         let x = gauge / 2.0 + model.footprint().gyration_squared / gauge;
         let holding = Vector3::new(outwards * x, cog_y, -1.0 / gauge);
+        let from = |icrs: Icrs| {
+            let x = match self.anchor {
+                Side::Left => icrs.x_left,
+                Side::Right => icrs.x_right,
+            };
+            Vector3::new(x, icrs.y, 1.0 / (icrs.x_right - icrs.x_left))
+        };
         let near = self.solver.near.map(|near| match near {
-            Near::Turning(icrs) => {
-                let x = match self.anchor {
-                    Side::Left => icrs.x_left,
-                    Side::Right => icrs.x_right,
-                };
-                Vector3::new(x, icrs.y, 1.0 / (icrs.x_right - icrs.x_left))
-            }
+            Near::Turning(icrs) => from(icrs),
             Near::Held(_) => holding,
+            Near::Linearised(known) => known.icrs().map_or(holding, from),
         });
         near.into_iter().chain([turning, holding])
     }
@@ -282,6 +323,16 @@ impl<'s> Problem<'s> {
             |z| Vector3::from(self.residual([z[0], z[1], z[2]])),
         );
         Root { problem: self, convergence }
+    }
+
+    /// The root near a known one of this anchor; none where derivatives from there do not lead to it.
+    fn solve_beside(self, known: &Linearised) -> Option<Root<'s>> {
+        let residual = |z: Vector3<f64>| Vector3::from(self.residual([z[0], z[1], z[2]]));
+        let tolerance = TOLERANCE.at(self.solver.model.resolution());
+        let tolerance = Tolerance { converged: tolerance.converged.min(COMPARABLE), ..tolerance };
+        let start = (known.point, residual(known.point));
+        let convergence = newton::from_near(start, known.inverse, tolerance, residual)?;
+        Some(Root { problem: self, convergence })
     }
 
     fn motion<S: Scalar>(&self, [x, y, turn]: [S; 3]) -> Motion<S> {
@@ -312,7 +363,7 @@ impl Root<'_> {
         let Problem { solver, belt_speed, anchor, .. } = self.problem;
         let z = self.convergence.point;
         let motion = self.problem.motion([z[0], z[1], z[2]]);
-        let [x, y, turn] = [z[0], z[1], z[2]];
+        let turn = z[2];
         let status = if !self.convergence.is_root {
             Status::NotConverged
         } else if solver.model.lifts(&solver.ground, &motion) {
@@ -324,25 +375,22 @@ impl Root<'_> {
         } else {
             Status::Turning
         };
-        let other = x - anchor.sign() / turn;
-        let icrs = (turn > 0.0).then_some(match anchor {
-            Side::Left => Icrs { x_left: x, x_right: other, y },
-            Side::Right => Icrs { x_left: other, x_right: x, y },
-        });
         // A robot that is held, or whose tracks run alike, moves straight.
         let twist = if turn <= 0.0 || belt_speed.left == belt_speed.right {
             Twist { v_x: 0.0, v_y: belt_speed[anchor], w: 0.0 }
         } else {
             motion.twist
         };
+        let inverse = self.convergence.inverse.filter(|_| self.convergence.is_root);
         Solution {
             status,
             track_speed: belt_speed,
             belt_speed,
             twist,
-            icrs,
+            icrs: icrs(anchor, &z),
             residual: self.convergence.residual,
             iterations: self.convergence.iterations,
+            linearised: inverse.map(|inverse| Linearised { anchor, point: z, inverse }),
         }
     }
 }

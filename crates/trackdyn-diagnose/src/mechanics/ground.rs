@@ -1,13 +1,13 @@
 //! Ground that changes with place, heading or time.
 
-use super::{TASK, single};
+use super::{TASK, coarse, single};
 use crate::evidence::{Evidence, Sample};
 use crate::surface::Surface;
 use rayon::prelude::*;
 use trackdyn_core::{PerSide, Pose, Side, Twist, Wrench};
 use trackdyn_motion::{Stationary, Status};
 use trackdyn_physics::effect::Role;
-use trackdyn_physics::{ActiveEffect, Circumstance, Drive, Model, Motion, Vehicle};
+use trackdyn_physics::{ActiveEffect, Circumstance, Drive, Effects, Model, Motion, Vehicle};
 
 /// Where the robot was during a sample.
 fn circumstance(sample: &Sample) -> Circumstance {
@@ -21,23 +21,36 @@ fn circumstance(sample: &Sample) -> Circumstance {
     }
 }
 
-/// Whether the forces hang on where the robot is, where it heads, or when.
-pub fn varies(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> bool {
+/// How an effect acts where, and when, a recording was driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Acts {
+    /// Its place lies elsewhere.
+    Nowhere,
+    /// Everywhere alike.
+    Alike,
+    /// Its forces hang on where the robot is, where it heads, or when.
+    Varying,
+}
+
+/// How an effect acts on this evidence.
+pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Acts {
     const PROBES: usize = 200;
     if evidence.is_steady() {
-        return false;
+        return Acts::Alike;
     }
+    let forces = |model: &Model, at: &Circumstance| probed(model, at, PerSide::new(-0.2, 0.5));
+    let level = Circumstance::default();
     let model = single(vehicle, effect);
-    let forces = |at: &Circumstance| probed(&model, at, PerSide::new(-0.2, 0.5));
     let samples = evidence.samples();
     // A place may be crossed between any two.
     let has_place = effect.card().parameters.iter().any(|p| matches!(p.role, Role::Place { .. }));
     let step = if has_place { 1 } else { (samples.len() / PROBES).max(1) };
-    let mut probes = samples.iter().step_by(step);
-    let Some(first) = probes.next().map(|sample| forces(&circumstance(sample))) else {
-        return false;
-    };
-    probes.any(|sample| forces(&circumstance(sample)) != first)
+    let there = forces(&model, &level);
+    if samples.iter().step_by(step).any(|sample| forces(&model, &circumstance(sample)) != there) {
+        return Acts::Varying;
+    }
+    let without = coarse(vehicle, Effects::none());
+    if has_place && there == forces(&without, &level) { Acts::Nowhere } else { Acts::Alike }
 }
 
 /// Forces in a turn at these belt speeds: by the friction of each side, and all others.
@@ -79,4 +92,48 @@ pub fn by_ground(
             }
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evidence::planned::PlannedRun;
+    use crate::hypothesis::Hypothesis;
+    use crate::mechanics::{Instruments, Mechanics};
+    use nalgebra::Vector3;
+    use trackdyn_core::real;
+    use trackdyn_identify::weighting::SegmentNoise;
+    use trackdyn_physics::VehicleFile;
+    use trackdyn_recording::TrackSample;
+
+    fn moves(hypothesis: &Hypothesis, evidence: &Evidence) -> Vec<Vector3<f64>> {
+        Mechanics::new(hypothesis, evidence).predict(&Instruments::of(hypothesis), evidence)
+    }
+
+    /// A robot that turns thirty metres from where poses are counted from.
+    #[test]
+    fn ground_where_the_robot_never_is_changes_nothing_wherever_poses_are_counted_from() {
+        let file = VehicleFile::auriga_alpha();
+        let filed = Hypothesis::filed(&file);
+        let reading = |k| TrackSample { t: 0.03 * real(k), v_left: -0.2, v_right: 0.5 };
+        let run = PlannedRun {
+            tracks: (0..91).map(reading).collect(),
+            pose: Pose::new(30.0, 0.0, 0.0),
+            blocks: vec![0],
+        };
+        let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3], heading: 0.0 };
+        let evidence = Evidence::planned(&[run], noise, 0.0, |evidence| moves(&filed, evidence));
+        for (x, acts_there) in [(0.0, Acts::Varying), (-50.0, Acts::Nowhere), (30.0, Acts::Varying)]
+        {
+            let patch: ActiveEffect =
+                format!("terrain-patch:x_m={x},radius_m=5").parse().expect("an effect");
+            assert_eq!(acts(&file.vehicle, &patch, &evidence), acts_there, "{x}");
+            let mut with = filed.clone();
+            with.effects.insert(patch);
+            let is_changed = moves(&with, &evidence) != moves(&filed, &evidence);
+            assert_eq!(is_changed, x == 30.0, "{x}");
+        }
+        let resistance: ActiveEffect = "motion-resistance".parse().expect("an effect");
+        assert_eq!(acts(&file.vehicle, &resistance, &evidence), Acts::Alike);
+    }
 }

@@ -49,7 +49,7 @@ impl Spacing {
 }
 
 /// The places of a table's nodes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// ρ_max, the largest tabulated speed, m/s.
     largest: f64,
@@ -89,6 +89,17 @@ impl Table {
     /// sector, or zero.
     pub fn new(grid: Grid, values: &[Option<Vector3<f64>>]) -> Self {
         Self { grid, nodes: filled(values) }
+    }
+
+    /// The values at its nodes.
+    #[cfg(test)]
+    pub fn nodes(&self) -> &[Vector3<f64>] {
+        &self.nodes
+    }
+
+    /// Where its nodes are.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
     }
 
     /// The value at belt speeds.
@@ -131,7 +142,7 @@ fn filled(values: &[Option<Vector3<f64>>]) -> Vec<Vector3<f64>> {
 }
 
 /// Chebyshev nodes of the first kind on [0, 1].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 struct Nodes<const N: usize> {
     at: [f64; N],
     /// 1/Π (x_k − x_j), over all other nodes j.

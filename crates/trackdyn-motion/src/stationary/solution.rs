@@ -1,6 +1,6 @@
 //! What a solve returns.
 
-use super::Near;
+use super::{Linearised, Near};
 use crate::icr::Icrs;
 use trackdyn_core::{PerSide, Side, Twist};
 use trackdyn_physics::Sensor;
@@ -24,6 +24,8 @@ pub struct Solution {
     pub residual: f64,
     /// Newton steps.
     pub iterations: usize,
+    /// Where a search for what a similar model does at these speeds starts; none where no motion or no derivatives were found.
+    pub linearised: Option<Linearised>,
 }
 
 impl Solution {

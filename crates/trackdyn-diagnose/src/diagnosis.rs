@@ -109,20 +109,20 @@ pub struct HeldOut {
 impl HeldOut {
     /// What these errors say against what is claimed, anything at all or physics too; none where that does better than
     /// what it was compared with.
-    fn contradiction(&self, claims: bool, claims_physics: bool) -> Option<&'static str> {
+    fn contradiction(&self, claims: bool, claims_physics: bool) -> Option<String> {
         let Self { before, instruments, after, are_held_out, .. } = *self;
         if !are_held_out {
             None
         } else if claims && after >= before {
-            Some(
-                "What is claimed does not help there: it may be true of the other runs alone, and the vehicle as filed is the \
-                 one to drive on with.",
-            )
+            Some(format!(
+                "What is claimed does not help there: the error is {after:.3} with it and {before:.3} without. It may be true \
+                 of the other runs alone, and the vehicle as filed is the one to drive on with."
+            ))
         } else if claims_physics && after >= instruments {
-            Some(
-                "The physics that is claimed does not help there: encoders, pose sensor and constants at their best do as \
-                 well alone, and it may be true of the other runs only.",
-            )
+            Some(format!(
+                "The physics that is claimed does not help there: the error is {after:.3} with it and {instruments:.3} with \
+                 encoders, pose sensor and constants at their best alone. It may be true of the other runs only."
+            ))
         } else {
             None
         }
@@ -546,7 +546,7 @@ impl Diagnosis {
     }
 
     /// What held-out runs say against what is claimed, as a sentence; none where the corrected model does better there.
-    pub fn contradiction(&self) -> Option<&'static str> {
+    pub fn contradiction(&self) -> Option<String> {
         let claims_physics = self.missing.iter().any(|missing| missing.kind == Kind::Physics);
         self.held_out.contradiction(!self.missing.is_empty(), claims_physics)
     }
@@ -588,11 +588,11 @@ mod tests {
         };
         assert_eq!(errors(1.5, 1.3, 1.1).contradiction(true, true), None);
         let filed = errors(1.2, 1.3, 1.25).contradiction(true, true).expect("the file does better");
-        assert!(filed.contains("vehicle as filed"));
+        assert!(filed.contains("1.250 with it and 1.200 without"), "{filed}");
         // what encoders did wrong is explained, and the physics beside it makes it worse
         let physics =
             errors(3.0, 1.1, 1.2).contradiction(true, true).expect("instruments do better");
-        assert!(physics.contains("physics"));
+        assert!(physics.contains("1.200 with it and 1.100 with encoders"), "{physics}");
         assert_eq!(errors(3.0, 1.1, 1.2).contradiction(true, false), None);
         assert_eq!(errors(1.1, 1.1, 1.1).contradiction(false, false), None);
         let fitted = HeldOut { are_held_out: false, ..errors(1.2, 1.3, 1.25) };

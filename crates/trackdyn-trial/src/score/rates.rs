@@ -196,7 +196,7 @@ fn outside(judged: &[Judged]) -> Vec<Rate> {
             Concealed::is_isolable,
         ),
         flagged(
-            "outside the catalogue, unlike any three effects of it together: flagged as unexplained",
+            "outside the catalogue, unlike any three effects: flagged as unexplained",
             Concealed::is_beyond_others,
         ),
         Rate::of("outside the catalogue: one effect named all the same", names_alone),

@@ -51,7 +51,8 @@ pub fn run(options: &Options) -> Outcome {
         entries.iter().map(of).collect::<Result<_, trackdyn_trial::Error>>()?;
     let named: Vec<(&str, &Score)> = entries.iter().map(Entry::name).zip(&scores).collect();
     prepare_folder(&out)?;
-    let caption = format!("trackdyn {}, {opened}", env!("CARGO_PKG_VERSION"));
+    let caption =
+        format!("trackdyn {}, {opened}{}", env!("CARGO_PKG_VERSION"), undiagnosed(&scores));
     let page = match named.as_slice() {
         [(_, score)] => score::markdown(score),
         _ => score::comparison(&named),
@@ -127,6 +128,15 @@ fn write(
         write_file(&out.join(file), text.as_bytes())?;
     }
     figures::write_confusion(out, (name, score), caption)
+}
+
+/// Of how many cases nothing came back, for a caption; empty where something did of all.
+fn undiagnosed(scores: &[Score]) -> String {
+    let absent: Vec<String> = scores.iter().map(|score| score.absent.to_string()).collect();
+    if scores.iter().all(|score| score.absent == 0) {
+        return String::new();
+    }
+    format!(", not diagnosed: {}", absent.join(" and "))
 }
 
 /// Where the scores of programs go, so that those of others do not replace them.

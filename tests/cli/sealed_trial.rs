@@ -6,6 +6,7 @@
 use crate::trial::KEY;
 use crate::{Run, Workplace};
 use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 const CASES: usize = 20;
 const MAKE: &str =
@@ -57,20 +58,26 @@ fn lines(csv: &str) -> Vec<Line> {
     csv.lines().skip(1).map(line).collect()
 }
 
-/// Diagnoses all cases, half of them by a process beside another.
+/// Diagnoses all cases by two processes at a time, each of which takes the next one.
 fn diagnose(place: &Workplace) {
-    let shard = |shard: &str| {
-        Command::new(env!("CARGO_BIN_EXE_trackdyn"))
-            .args(["trial", "run", "cases", "--shard", shard])
-            .current_dir(place.path())
-            .env("RAYON_NUM_THREADS", "1")
-            .stdout(Stdio::null())
-            .spawn()
-            .expect("the program starts")
+    let next = AtomicUsize::new(1);
+    let work = || {
+        let cases = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
+        for case in cases.take_while(|case| *case <= CASES) {
+            let run = Command::new(env!("CARGO_BIN_EXE_trackdyn"))
+                .args(["trial", "run", "cases", "--shard", &format!("{case}/{CASES}")])
+                .current_dir(place.path())
+                .env("RAYON_NUM_THREADS", "1")
+                .stdout(Stdio::null())
+                .status();
+            assert!(run.expect("the program starts").success());
+        }
     };
-    for mut process in [shard("1/2"), shard("2/2")] {
-        assert!(process.wait().expect("it ends").success());
-    }
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(work);
+        }
+    });
 }
 
 /// Successes and cases of a rate.

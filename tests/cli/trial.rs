@@ -5,7 +5,8 @@ use crate::plan::diagnosis;
 use std::path::Path;
 use std::time::SystemTime;
 
-const MAKE: &str = "trial make --cases 2 --seed 424242 --out cases --key secret/answers.key";
+const MAKE: &str =
+    "trial make --cases 2 --seed 424242 --duration 10 --out cases --key secret/answers.key";
 
 /// A key.
 pub const KEY: &str = "4b6579206f6620612074657374207472696c3a206e6f20736563726574206174";

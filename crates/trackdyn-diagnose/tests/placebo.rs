@@ -79,9 +79,10 @@ fn false_claims(library: &Library, noise: Noise, recordings: u64) -> usize {
     claims.count()
 }
 
+/// Were one recording in twenty claimed, two such tests in a million would pass; the rate itself is for the longer test.
 #[test]
 fn placebos_are_claimed_in_one_recording_of_a_hundred_at_most() {
-    const RECORDINGS: u64 = 200;
+    const RECORDINGS: u64 = 100;
     let library = Library::new(1);
     for noise in Noise::ALL {
         let claims = false_claims(&library, noise, RECORDINGS);
@@ -108,7 +109,7 @@ fn placebos_of_ten_libraries_are_claimed_in_one_recording_of_a_hundred_at_most()
 fn a_placebo_that_is_there_is_claimed() {
     /// Standard deviations by which it stands out, and recordings.
     const Z: f64 = 10.0;
-    const RECORDINGS: u64 = 4;
+    const RECORDINGS: u64 = 2;
     let library = Library::new(1);
     let base: Vec<usize> = (0..library.base.len()).collect();
     let nothing = vec![Vector3::zeros(); library.evidence.samples().len()];

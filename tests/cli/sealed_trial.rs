@@ -5,7 +5,6 @@
 
 use crate::trial::KEY;
 use crate::{Run, Workplace};
-use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 const CASES: usize = 20;
@@ -64,13 +63,9 @@ fn diagnose(place: &Workplace) {
     let work = || {
         let cases = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
         for case in cases.take_while(|case| *case <= CASES) {
-            let run = Command::new(env!("CARGO_BIN_EXE_trackdyn"))
-                .args(["trial", "run", "cases", "--shard", &format!("{case}/{CASES}")])
-                .current_dir(place.path())
-                .env("RAYON_NUM_THREADS", "1")
-                .stdout(Stdio::null())
-                .status();
-            assert!(run.expect("the program starts").success());
+            let shard = format!("trial run cases --shard {case}/{CASES}");
+            let run = place.run_with_threads(&shard, 1);
+            assert_eq!(run.status, 0, "{}", run.stderr);
         }
     };
     std::thread::scope(|scope| {

@@ -165,6 +165,11 @@ mod tests {
     use trackdyn_physics::contact::{Friction, Resolution};
     use trackdyn_physics::{Effects, RunningGear, VehicleFile};
 
+    /// Typical effects by their names, with spaces between.
+    fn effects(ids: &str) -> Effects {
+        ids.split_whitespace().map(|id| id.parse().expect("an effect")).collect()
+    }
+
     /// Effects of every kind that steady motion shows. The root mean square of the table's error must stay
     /// below what laboratory sensors resolve in a hundred segments, 0.5 mm/s at speeds of up to 1 m/s. A belt
     /// that slips comes to stick near straight driving: that kink lies inside a sector, and is smoothed.
@@ -185,9 +190,7 @@ mod tests {
             "hitch-drag",
             "directional-lugs",
         ] {
-            let effects: Effects =
-                id.split_whitespace().map(|text| text.parse().expect("an effect")).collect();
-            let model = Model::new(VehicleFile::auriga_alpha().vehicle, effects);
+            let model = Model::new(VehicleFile::auriga_alpha().vehicle, effects(id));
             let surface = Surface::new(&model, 1.5, None);
             assert!(surface.unsolved() < 0.1, "{id}");
             let solver = Stationary::new(&model, &Circumstance::default());
@@ -225,8 +228,7 @@ mod tests {
         vehicle.friction = Friction { across: 0.53, along: 0.58 };
         for (id, cog) in [("centripetal", [-0.04, -0.003]), ("load-transfer", [-0.005, -0.003])] {
             vehicle.cog = cog;
-            let effects = std::iter::once(id.parse().expect("an effect")).collect();
-            let model = Model::new(vehicle.clone(), effects);
+            let model = Model::new(vehicle.clone(), effects(id));
             let surface = Surface::new(&model, 1.2, None);
             let solver = Stationary::new(&model, &Circumstance::default());
             let (mut squares, mut count) = (0.0, 0.0);
@@ -255,12 +257,10 @@ mod tests {
             "stribeck-friction load-transfer",
             "hitch-drag",
         ] {
-            let effects: Effects =
-                id.split_whitespace().map(|text| text.parse().expect("an effect")).collect();
             let model = |cog| {
                 let mut vehicle = VehicleFile::auriga_alpha().vehicle;
                 vehicle.cog = cog;
-                Model::new(vehicle, effects.clone()).with_resolution(Resolution::Coarse)
+                Model::new(vehicle, effects(id)).with_resolution(Resolution::Coarse)
             };
             let before = Surface::new(&model([0.0, 0.0]), 1.5, None);
             let there = model([-0.02, 0.03]);

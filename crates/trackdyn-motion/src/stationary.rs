@@ -58,13 +58,6 @@ pub struct Linearised {
     inverse: Matrix3<f64>,
 }
 
-impl Linearised {
-    /// The ICRs; none where a track holds the robot.
-    fn icrs(&self) -> Option<Icrs> {
-        icrs(self.anchor, &self.point)
-    }
-}
-
 /// The ICRs of both tracks by that of the anchor and the turn; none where there is no turn.
 fn icrs(anchor: Side, unknowns: &Vector3<f64>) -> Option<Icrs> {
     let [x, y, turn] = [unknowns[0], unknowns[1], unknowns[2]];
@@ -306,7 +299,7 @@ impl<'s> Problem<'s> {
         let near = self.solver.near.map(|near| match near {
             Near::Turning(icrs) => from(icrs),
             Near::Held(_) => holding,
-            Near::Linearised(known) => known.icrs().map_or(holding, from),
+            Near::Linearised(known) => icrs(known.anchor, &known.point).map_or(holding, from),
         });
         near.into_iter().chain([turning, holding])
     }

@@ -49,8 +49,8 @@ pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Ac
     if samples.iter().step_by(step).any(|sample| forces(&model, &circumstance(sample)) != there) {
         return Acts::Varying;
     }
-    let without = coarse(vehicle, Effects::none());
-    if has_place && there == forces(&without, &level) { Acts::Nowhere } else { Acts::Alike }
+    let is_absent = || there == forces(&coarse(vehicle, Effects::none()), &level);
+    if has_place && is_absent() { Acts::Nowhere } else { Acts::Alike }
 }
 
 /// Forces in a turn at these belt speeds: by the friction of each side, and all others.

@@ -24,7 +24,7 @@ pub struct Solution {
     pub residual: f64,
     /// Newton steps.
     pub iterations: usize,
-    /// Where a search for what a similar model does at these speeds starts; none where no motion or no derivatives were found.
+    /// Where a search for what a similar model does at these speeds starts; none where no derivatives were found.
     pub linearised: Option<Linearised>,
 }
 

@@ -132,10 +132,10 @@ fn write(
 
 /// Of how many cases nothing came back, for a caption; empty where something did of all.
 fn undiagnosed(scores: &[Score]) -> String {
-    let absent: Vec<String> = scores.iter().map(|score| score.absent.to_string()).collect();
     if scores.iter().all(|score| score.absent == 0) {
         return String::new();
     }
+    let absent: Vec<String> = scores.iter().map(|score| score.absent.to_string()).collect();
     format!(", not diagnosed: {}", absent.join(" and "))
 }
 

@@ -20,7 +20,7 @@ use nalgebra::Vector3;
 use trackdyn_diagnose::diagnosis::{Diagnosis, Kind, Unseen};
 use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::locate::cells::Cell;
-use trackdyn_diagnose::locate::{Location, icr_columns};
+use trackdyn_diagnose::locate::icr_columns;
 use trackdyn_diagnose::{DiagnosisFile, Evidence};
 use trackdyn_physics::VehicleFile;
 
@@ -75,12 +75,6 @@ impl<'a> Subject<'a> {
     /// The fit before.
     fn fit_before(&self) -> &'a Fit {
         self.diagnosis.fit_before()
-    }
-
-    /// The tests of symmetries before.
-    fn before(&self) -> &'a Location {
-        let diagnosis = self.diagnosis;
-        if self.diagnosis.blames_instruments() { &diagnosis.filed } else { &diagnosis.before }
     }
 
     /// Cells of driving before and after.
@@ -163,7 +157,8 @@ pub fn diagnosis_figures(subject: &Subject) -> Result<Vec<Figure>, Error> {
             file: "isolability.png",
             title: "Which effects this evidence can tell apart",
             reading: "Dark squares off the diagonal are pairs that this way of driving cannot separate: the \
-                      answer would be the same for both. Arrows mark what is claimed.",
+                      answer would be the same for both. Arrows mark what is claimed, by itself or as one of a \
+                      set; clock and sensor, which are fitted beside everything, have no row.",
             png: isolability::draw(subject)?,
         },
         Figure {

@@ -113,19 +113,19 @@ impl Canvas {
         self.glyphs(text, size).1.ceil() as i32
     }
 
-    /// The text, or as much of its beginning as fits, with an ellipsis.
+    /// The text, or as much of its beginning and its end as fits, with an ellipsis between: names of files often begin alike.
     pub fn fitted(&self, text: &str, size: f32, width: i32) -> String {
         if self.text_width(text, size) <= width {
             return text.to_owned();
         }
-        let mut short: Vec<char> = text.chars().collect();
-        loop {
-            short.pop();
-            let candidate: String = short.iter().chain(&['…']).collect();
-            if short.is_empty() || self.text_width(&candidate, size) <= width {
-                return candidate;
-            }
-        }
+        let letters: Vec<char> = text.chars().collect();
+        let with = |kept: usize| -> String {
+            let (first, last) = (kept.div_ceil(2), kept / 2);
+            letters[..first].iter().chain(&['…']).chain(&letters[letters.len() - last..]).collect()
+        };
+        let shorter = (0..letters.len()).rev().map(with);
+        let mut fitting = shorter.skip_while(|text| self.text_width(text, size) > width);
+        fitting.next().unwrap_or_else(|| with(0))
     }
 
     /// The glyphs of a text on a baseline from the origin, and its width.
@@ -174,7 +174,8 @@ mod tests {
         let canvas = Canvas::new(10, 10).expect("a canvas");
         let long = "a name that goes on and on";
         let short = canvas.fitted(long, 20.0, 100);
-        assert!(canvas.text_width(&short, 20.0) <= 100 && short.ends_with('…'));
+        assert!(canvas.text_width(&short, 20.0) <= 100 && short.contains('…'));
+        assert!(long.starts_with(&short[..1]) && long.ends_with(&short[short.len() - 1..]));
         assert_eq!(canvas.fitted(long, 20.0, 1000), long);
         assert_eq!(canvas.fitted("wide", 20.0, 0), "…");
     }

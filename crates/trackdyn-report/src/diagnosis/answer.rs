@@ -143,7 +143,7 @@ fn named(subject: &Subject, missing: &Missing) -> String {
     let lacks = if missing.kind == Kind::Instrument {
         "What encoders or pose sensor do, not the motion, differs from"
     } else {
-        "One thing is missing from"
+        "Missing from"
     };
     format!("{lacks} the model: {} ({}){sizes}.", lower(title(effect)), id(effect))
 }

@@ -11,32 +11,40 @@ use crate::panel::ticks::number;
 use crate::panel::{LABEL_SIZE, Panel, TICK_SIZE};
 use crate::text::{Horizontal, Style, Vertical};
 use trackdyn_core::real;
+use trackdyn_diagnose::Diagnosis;
 use trackdyn_diagnose::locate::{SIGNIFICANT, SymmetryTest};
 
 const TOP: i32 = sheet::TOP + 110;
 const ROW: i32 = 96;
 const LABELS: i32 = 640;
-const PANEL: i32 = 1200;
+const PANEL: i32 = 1020;
+/// Distance of the columns of p.
+const COLUMN: i32 = 215;
+/// Place among the colours of what is taken as the file has it.
+const FILED: usize = 2;
 
 /// Draws one row per symmetry: its statistic per degree of freedom.
 pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
-    let (before, after) = (&subject.before().tests, &subject.diagnosis.after.tests);
-    let count = before.len().max(1);
+    let Diagnosis { filed, before: fitted, after, .. } = subject.diagnosis;
+    let states = [(&filed.tests, FILED), (&fitted.tests, BEFORE), (&after.tests, AFTER)];
+    let count = fitted.tests.len().max(1);
     let height = TOP + rows(count) * ROW + 140 + sheet::FOOT;
     let explanation = "A robot with constant ICRs drives alike in both cases that a symmetry compares. \
-                       Statistic: the departure, squared, per number tested; 1 is what noise does.";
+                       Statistic: the departure, squared, per number tested; 1 is what noise does. A symmetry \
+                       counts as broken where the vehicle as filed, or with clock and sensor fitted, breaks it.";
     let title = "Which symmetries of driving are broken";
     let mut canvas = sheet::sheet(height, title, explanation, subject.caption)?;
-    let [first, second] = [BEFORE, AFTER].map(look::colour);
+    let colours = [FILED, BEFORE, AFTER].map(look::colour);
     let broken = format!("filled: broken (p < {SIGNIFICANT} among all tests)");
     let entries = [
-        (Mark::Disc(first), "before"),
-        (Mark::Disc(second), "after"),
+        (Mark::Disc(colours[0]), "as filed"),
+        (Mark::Disc(colours[1]), "clock and sensor fitted"),
+        (Mark::Disc(colours[2]), "after"),
         (Mark::Disc(INK), broken.as_str()),
         (Mark::Ring(INK), "open: may be chance"),
     ];
-    sheet::legend(&mut canvas, [LABELS, sheet::TOP + 20], &entries);
-    let ratios = before.iter().chain(after).filter_map(ratio);
+    sheet::legend(&mut canvas, [LABELS - 120, sheet::TOP + 20], &entries);
+    let ratios = states.iter().flat_map(|(tests, _)| *tests).filter_map(ratio);
     let (low, high) = ratios.fold((0.3, 10.0), |(low, high): (f64, f64), value| {
         (low.min(0.8 * value).max(0.02), high.max(2.0 * value))
     });
@@ -57,12 +65,12 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     canvas.fill(Area::new(one - 1, TOP, 3, plot.height), FRAME);
     let style = Style::new(TICK_SIZE).colour(GREY).anchor(Horizontal::Centre, Vertical::Baseline);
     canvas.text("noise alone", [one, TOP - 14], &style);
-    let columns = [LABELS + PANEL + 40, LABELS + PANEL + 260];
+    let columns = [0, 1, 2].map(|state| LABELS + PANEL + 40 + state * COLUMN);
     let style = Style::new(LABEL_SIZE).anchor(Horizontal::Left, Vertical::Baseline);
-    for (column, text) in columns.into_iter().zip(["p before", "p after"]) {
+    for (column, text) in columns.into_iter().zip(["p as filed", "p fitted", "p after"]) {
         canvas.text(text, [column, TOP - 14], &style);
     }
-    for (row, test) in before.iter().enumerate() {
+    for (row, test) in fitted.tests.iter().enumerate() {
         let middle = TOP + rows(row) * ROW + ROW / 2;
         let [name, meaning] = symmetry(test.symmetry);
         label_left_of(&mut canvas, name, [LABELS - 24, middle - 17], LABEL_SIZE, INK);
@@ -70,14 +78,14 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
         if row > 0 {
             canvas.fill(Area::new(LABELS, TOP + rows(row) * ROW, PANEL, 1), GRID);
         }
-        let later = after.iter().find(|other| other.symmetry == test.symmetry);
-        let marks = [(Some(test), BEFORE, 0.32), (later, AFTER, 0.68)];
-        for (k, (test, entry, aside)) in marks.into_iter().enumerate() {
+        for (state, (tests, entry)) in states.into_iter().enumerate() {
+            let test = tests.iter().find(|other| other.symmetry == test.symmetry);
+            let aside = [0.22, 0.5, 0.78][state];
             let Some(test) = test else { continue };
             let broken = test.test.p < SIGNIFICANT;
             let colour = if broken { INK } else { GREY };
             let text = probability(test.test.p);
-            label_right_of(&mut canvas, &text, [columns[k], middle], TICK_SIZE, colour);
+            label_right_of(&mut canvas, &text, [columns[state], middle], TICK_SIZE, colour);
             let Some(ratio) = ratio(test) else { continue };
             let at = panel.pixel([ratio.max(low).log10(), real(row) + aside]);
             let foot = [f64::from(one), at[1]];

@@ -19,7 +19,7 @@ const ROW: i32 = 52;
 /// Room for the marker, pixels.
 const MARKER: i32 = 44;
 
-/// Draws a row for each drive, as many as there is room for.
+/// Draws a row for each drive, as many as there is room for, and says how many more there are.
 pub(super) fn draw(
     canvas: &mut Canvas,
     area: Area,
@@ -40,9 +40,10 @@ pub(super) fn draw(
     }
     canvas.fill(Area::new(area.left, area.top + ROW / 2, area.width, 2), FRAME);
     let room = usize::try_from(area.height / ROW - 1).unwrap_or_default();
+    let shown = if drives.len() > room { room.saturating_sub(1) } else { drives.len() };
     let names = area.width - 4 * COLUMN - MARKER;
     let mut row = area.top;
-    for (entry, TrackedDrive { name, journey }) in drives.iter().enumerate().take(room) {
+    for (entry, TrackedDrive { name, journey }) in drives.iter().enumerate().take(shown) {
         row += ROW;
         look::marker(canvas, entry, [f64::from(area.left) + 12.0, f64::from(row)]);
         let name = match journey.ending {
@@ -57,6 +58,10 @@ pub(super) fn draw(
             canvas.text(&length(value), [end(column), row], &right);
         }
         canvas.fill(Area::new(area.left, row + ROW / 2, area.width, 2), GRID);
+    }
+    if drives.len() > shown {
+        let more = format!("and {} more: see the tables", drives.len() - shown);
+        canvas.text(&more, [area.left + MARKER, row + ROW], &left.colour(GREY));
     }
 }
 

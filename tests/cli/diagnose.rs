@@ -179,7 +179,11 @@ fn bad_input_is_refused_and_leaves_nothing() {
         (format!("diagnose drive --vehicle {VEHICLE} --held-out 99"), "run 99"),
         (format!("diagnose drive --vehicle {VEHICLE} --held-out 7-3"), "--held-out 7-3: expected"),
         (format!("diagnose drive --vehicle {VEHICLE} --held-out 0-1"), "at least one run to fit"),
-        (format!("diagnose points.csv --vehicle {VEHICLE}"), "expected at least 30"),
+        (
+            format!("diagnose points.csv --vehicle {VEHICLE}"),
+            "points.csv: 1 steady points: expected",
+        ),
+        (format!("diagnose points.csv --held-out 1 --vehicle {VEHICLE}"), "--held-out 1: a table"),
         (format!("diagnose drive drive --vehicle {VEHICLE}"), "each recording once"),
         (format!("diagnose drive --wheel-radius 0.1 --vehicle {VEHICLE}"), "drive is no bag"),
         (format!("diagnose far --vehicle {VEHICLE}"), "expected at most 5000 m"),

@@ -55,5 +55,6 @@ fn completions_and_manual_are_printed() {
     assert!(bash.status == 0 && bash.stdout.contains("_trackdyn"));
     let manual = place.run("man");
     assert!(manual.status == 0 && manual.stdout.starts_with(".ie"), "{}", manual.stdout);
+    assert!(manual.stdout.contains("\n.TH trackdyn-map 1"), "a page for each command");
     assert_eq!(place.run("--version").stdout, format!("trackdyn {}\n", env!("CARGO_PKG_VERSION")));
 }

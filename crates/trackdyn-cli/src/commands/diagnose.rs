@@ -29,7 +29,7 @@ pub struct Options {
     #[arg(long, value_name = "FILE")]
     vehicle: PathBuf,
     /// Runs to judge the result on, which nothing is fitted or chosen on: a list such as 9-11, or `none`
-    /// [default: every fourth run where there are eight or more]
+    /// [default: every fourth run where there are eight or more, every fourth point of a table]
     #[arg(long, value_name = "RUNS|none")]
     held_out: Option<String>,
     /// Draws of the bootstrap behind the tests
@@ -64,7 +64,8 @@ pub fn run(options: &Options) -> Outcome {
         draws: options.draws as usize,
         seed: options.seed,
     };
-    let diagnosis = diagnose(&subject.evidence, &vehicle, &settings, &|_| progress.advance(1))?;
+    let diagnosis = diagnose(&subject.evidence, &vehicle, &settings, &|_| progress.advance(1))
+        .map_err(|error| about(options, &error))?;
     progress.finish();
     write(&diagnosis, &subject, &vehicle, options)?;
     show(&summary::text(&diagnosis, &subject.evidence, &subject.name))?;
@@ -114,10 +115,17 @@ fn subject(
         if !options.more.is_empty() {
             return Err("a table of steady points is diagnosed alone: expected one".into());
         }
+        let held_out = options.held_out.as_deref();
+        if let Some(list) = held_out.filter(|list| *list != "none") {
+            return Err(format!(
+                "--held-out {list}: a table of steady points has no runs: expected none"
+            )
+            .into());
+        }
         let points = OperatingPoints::read(&table)?;
-        let evidence = Evidence::of_points(&points.points)?;
-        let held_out =
-            every_fourth(evidence.runs().len(), options.held_out.as_deref() == Some("none"));
+        let evidence =
+            Evidence::of_points(&points.points).map_err(|error| about(options, &error))?;
+        let held_out = every_fourth(evidence.runs().len(), held_out.is_some());
         let fingerprint = fingerprint(&std::fs::read(&table)?);
         return Ok(Subject { name: points.name, fingerprint, runs: None, evidence, held_out });
     }
@@ -144,13 +152,14 @@ fn subject(
         Some(list) => {
             let list: RunList =
                 list.parse().map_err(|error| format!("--held-out {list}: {error}"))?;
-            recording.indices_of(&list)?
+            recording.indices_of(&list).map_err(|error| format!("--held-out {list}: {error}"))?
         }
     };
     if held_out.len() == runs {
         return Err("--held-out: expected at least one run to fit".into());
     }
-    let evidence = Evidence::of_recording(&recording, vehicle.vehicle.gauge)?;
+    let evidence = Evidence::of_recording(&recording, vehicle.vehicle.gauge)
+        .map_err(|error| about(options, &error))?;
     Ok(Subject {
         name: recording.name().to_owned(),
         fingerprint: recording.fingerprint().to_owned(),
@@ -158,6 +167,11 @@ fn subject(
         evidence,
         held_out,
     })
+}
+
+/// Why a recording cannot be diagnosed, after its name.
+fn about(options: &Options, error: &trackdyn_diagnose::Error) -> String {
+    format!("{}: {error}", options.recording.recording.display())
 }
 
 /// Every fourth of many runs.

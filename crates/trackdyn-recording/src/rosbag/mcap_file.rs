@@ -36,7 +36,7 @@ pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Option<Warn
         .with_record_length_limit(LONGEST_RECORD);
     let mut reader = LinearReader::new_with_options(options);
     let mut channels = Channels::default();
-    let mut messages = 0;
+    let (mut messages, mut records) = (0, 0);
     while let Some(event) = reader.next_event() {
         let problem = match event {
             Ok(LinearReadEvent::ReadRequest(least)) => {
@@ -47,22 +47,25 @@ pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Option<Warn
                 continue;
             }
             Ok(LinearReadEvent::Record { opcode: op::MESSAGE, data }) => {
+                records += 1;
                 messages += u64::from(show(data, &channels, visitor));
                 continue;
             }
             Ok(LinearReadEvent::Record { opcode, data }) => {
                 match channels.learn(opcode, data, visitor) {
-                    Ok(()) => continue,
+                    Ok(()) => {
+                        records += 1;
+                        continue;
+                    }
                     Err(error) => error,
                 }
             }
             Err(error) => error,
         };
-        if matches!(problem, mcap::McapError::BadMagic) && messages == 0 {
-            let message = problem.to_string();
+        let message = problem.to_string();
+        if records == 0 {
             return Err(Error::Bag { path: path.to_owned(), message });
         }
-        let message = problem.to_string();
         return Ok(Some(Warning::Damaged { path: path.to_owned(), message, messages }));
     }
     Ok(None)

@@ -170,12 +170,13 @@ fn what_is_missing_is_said_with_what_is_there() {
     };
     let text = of(RosbagOptions { pose_topic: Some("/nowhere".into()), ..options() });
     assert!(text.contains("/odom (nav_msgs/msg/Odometry)"), "{text}");
+    assert!(text.contains("--pose-topic") && text.contains("/nowhere is not there"), "{text}");
     let text = of(RosbagOptions { left_joints: vec!["port".into()], ..options() });
     assert!(text.contains("20 messages skipped, because the left joints are not in it"), "{text}");
     let text = of(RosbagOptions { joint_signal: JointSignal::Position, ..options() });
     assert!(text.contains("the joints have no such signal"), "{text}");
     let text = of(RosbagOptions::default());
-    assert!(text.contains("give the radius of wheel or sprocket"), "{text}");
+    assert!(text.contains("expected the radius of wheel or sprocket, --wheel-radius"), "{text}");
 }
 
 #[test]
@@ -232,6 +233,17 @@ fn a_folder_without_metadata_is_read_file_by_file() {
         _ => false,
     });
     assert_eq!(repeats.count(), 3, "all rows of tracks, poses and imu stand there twice");
+}
+
+#[test]
+fn a_text_is_no_bag_however_short() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("notes.mcap");
+    for text in ["hello", "a text that is longer than how a bag begins"] {
+        std::fs::write(&path, text).expect("written");
+        let refused = rosbag::read(&path, &options()).expect_err("refused");
+        assert!(matches!(refused, Error::Bag { .. }), "{refused}");
+    }
 }
 
 #[test]

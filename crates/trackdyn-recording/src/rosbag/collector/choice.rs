@@ -15,6 +15,17 @@ pub(super) struct Sources<'a> {
     pub(super) seen: &'a [Topic],
 }
 
+/// What is looked for.
+struct Wanted<'a> {
+    what: &'static str,
+    /// What it would have to be.
+    kind: &'a str,
+    /// The topic that it has to be of.
+    named: Option<&'a str>,
+    /// By which options a user chooses.
+    options: &'static str,
+}
+
 impl Sources<'_> {
     pub(super) fn tracks(
         &self,
@@ -26,15 +37,13 @@ impl Sources<'_> {
         kinds.extend(skipped.iter().map(|(topic, (count, reason))| {
             format!("{topic}: {count} messages skipped, because {reason}")
         }));
-        let named = self.options.tracks_topic.as_ref();
-        self.only(
-            "track speeds",
-            &kinds.join("; "),
-            named.is_some(),
-            readings,
-            warnings,
-            Clone::clone,
-        )
+        let wanted = Wanted {
+            what: "track speeds",
+            kind: &kinds.join("; "),
+            named: self.options.tracks_topic.as_deref(),
+            options: "--tracks-topic",
+        };
+        self.only(&wanted, readings, warnings, Clone::clone)
     }
 
     pub(super) fn poses(
@@ -42,15 +51,18 @@ impl Sources<'_> {
         poses: BTreeMap<PoseKey, Vec<Stamped<[f64; 3]>>>,
         warnings: &mut Vec<Warning>,
     ) -> Result<Vec<Stamped<[f64; 3]>>, Error> {
-        let kind = "no Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or \
-                    TFMessage of these frames";
-        let named = self.options.pose_topic.is_some();
+        let wanted = Wanted {
+            what: "poses",
+            kind: "no Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or TFMessage of these frames",
+            named: self.options.pose_topic.as_deref(),
+            options: "--pose-topic, --parent-frame or --child-frame",
+        };
         let name = |key: &PoseKey| match key.child.as_str() {
             "" => format!("{} in {:?}", key.topic, key.parent),
             child => format!("{} of {child:?} in {:?}", key.topic, key.parent),
         };
         let odometry = poses.keys().find(|key| self.may_be_odometry(key)).map(name);
-        let chosen = self.only("poses", kind, named, poses, warnings, name)?;
+        let chosen = self.only(&wanted, poses, warnings, name)?;
         warnings.extend(odometry.map(|poses| Warning::OwnOdometry { poses }));
         Ok(chosen)
     }
@@ -71,13 +83,14 @@ impl Sources<'_> {
             (None, 0) => Ok(Vec::new()),
             (None, 2..) => {
                 let names: Vec<&str> = imu.keys().map(String::as_str).collect();
-                let taken = format!("none of {}: name one", names.join(", "));
+                let taken = format!("none of {}, each of which could be it", names.join(", "));
                 warnings.push(Warning::Chosen { what: "imu", taken });
                 Ok(Vec::new())
             }
             (named, _) => {
-                let kind = "no sensor_msgs/Imu";
-                self.only("imu", kind, named.is_some(), imu, warnings, Clone::clone)
+                let (kind, named) = ("no sensor_msgs/Imu", named.as_deref());
+                let wanted = Wanted { what: "imu", kind, named, options: "imu_topic" };
+                self.only(&wanted, imu, warnings, Clone::clone)
             }
         }
     }
@@ -85,13 +98,12 @@ impl Sources<'_> {
     /// The only source there is.
     fn only<K, V>(
         &self,
-        what: &'static str,
-        kind: &str,
-        named: bool,
+        wanted: &Wanted,
         sources: BTreeMap<K, V>,
         warnings: &mut Vec<Warning>,
         name: impl Fn(&K) -> String,
     ) -> Result<V, Error> {
+        let Wanted { what, kind, named, options } = *wanted;
         let refuse = |problem: String| Error::Topic {
             path: self.path.to_owned(),
             what,
@@ -100,12 +112,14 @@ impl Sources<'_> {
         };
         let names: Vec<String> = sources.keys().map(&name).collect();
         if names.len() > 1 {
-            return Err(refuse(format!("several fit, name one: {}", names.join(", "))));
+            return Err(refuse(format!("several fit: {}; choose by {options}", names.join(", "))));
         }
         let Some((key, values)) = sources.into_iter().next() else {
-            return Err(refuse(kind.to_owned()));
+            let absent = named.filter(|name| !self.seen.iter().any(|topic| topic.name == **name));
+            let absent = absent.map(|name| format!("{options} {name} is not there"));
+            return Err(refuse(absent.unwrap_or_else(|| kind.to_owned())));
         };
-        if !named {
+        if named.is_none() {
             warnings.push(Warning::Chosen { what, taken: name(&key) });
         }
         Ok(values)

@@ -94,7 +94,6 @@ impl Location {
 pub struct Residual<'a> {
     /// The evidence.
     pub evidence: &'a Evidence,
-    /// How residuals are measured.
     /// The fit.
     pub fit: &'a Fit,
     /// Derivatives of its prediction by x_l, x_r and y, not whitened.

@@ -329,12 +329,6 @@ impl Normal {
         Some((factor.solve(&right), factor.ln_det()))
     }
 
-    /// Product of a column with the residual, block by block: its score.
-    pub fn scores(&self, column: usize) -> Vec<f64> {
-        let last = self.columns();
-        self.blocks.iter().map(|block| block[(column, last)]).collect()
-    }
-
     /// Products of columns among each other.
     pub fn information(&self, columns: &[usize]) -> DMatrix<f64> {
         DMatrix::from_fn(columns.len(), columns.len(), |a, b| self.total[(columns[a], columns[b])])

@@ -48,8 +48,9 @@ impl Test {
     }
 }
 
-/// Largest part of its own length at which a column counts as explained by others.
-const DEPENDENT: f64 = 1e-9;
+/// Part of the largest eigenvalue of the products of columns, each of length one, up to which a combination of them counts
+/// as nothing.
+const DEPENDENT: f64 = 1e-6;
 
 /// Tests groups of columns of which the base was projected out, all as one family.
 pub fn test(projected: &Normal, groups: &[Vec<usize>], draws: usize, seed: u64) -> Vec<Test> {
@@ -131,7 +132,7 @@ impl Group {
         let eigen = scaled.symmetric_eigen();
         let largest = eigen.eigenvalues.max();
         let kept: Vec<usize> = (0..count)
-            .filter(|&k| eigen.eigenvalues[k] > 1e-6 * largest && largest > DEPENDENT)
+            .filter(|&k| eigen.eigenvalues[k] > DEPENDENT * largest && largest > 0.0)
             .collect();
         // Axes of unit size, as combinations of the columns; one of nothing has no part in them.
         let axes = DMatrix::from_fn(count, kept.len(), |c, k| {

@@ -127,7 +127,7 @@ pub fn cases(trial: &Path) -> Result<Vec<PathBuf>, Error> {
 /// Puts what came back of every case from a program beside its answer.
 ///
 /// # Errors
-/// [`Error::OtherRecording`] where a recording was changed after the answers were sealed; files that
+/// [`Error::OtherFiles`] or [`Error::OtherRecording`] where files were changed after the answers were sealed; files that
 /// cannot be read.
 pub fn judge(trial: &Path, answers: &Answers, entry: &Entry) -> Result<Vec<Judged>, Error> {
     answers.cases.iter().map(|answer| judge_case(trial, answer, entry)).collect()

@@ -36,7 +36,7 @@ enum Small {
 }
 
 impl Instruments {
-    /// Sensors of a preset with noise between half and twice of it. `difficulty` is that of a hard null, beside small errors of
+    /// Sensors of a preset with noise of 0.6 to 1.6 times it. `difficulty` is that of a hard null, beside small errors of
     /// other instruments; a plain null has perfect mounts and clocks.
     pub(crate) fn draw(
         difficulty: Option<Difficulty>,

@@ -23,9 +23,9 @@ const TOGETHER: usize = 3;
 /// smaller sizes are taken in proportion: between z = 10 and 40 laws of the slip speed are anything but linear, and sheared
 /// soil changes the sign of what it shows.
 const CLEAR: f64 = 5.0;
-/// Ratio by which z may differ from the wanted one: what is stated is what the size leaves, not what was wanted.
+/// Logarithm of the ratio of two strengths that count as one: what is stated is the z that the size leaves, not what was wanted.
 const CLOSE_ENOUGH: f64 = 0.15;
-/// Logarithm of that ratio from which on a size that few runs gave is looked for on all of them.
+/// Logarithm of the ratio of z to the wanted one from which on a size that few runs gave is looked for on all of them.
 const FAR_OFF: f64 = 0.5;
 /// Sizes that are tried on few runs.
 const SEARCHES: usize = 5;

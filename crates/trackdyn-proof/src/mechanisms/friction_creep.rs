@@ -16,8 +16,7 @@ impl Described for FrictionCreep {
         id: "friction-creep",
         origin: Origin::Catalogue,
         law: "μ (2/π) atan(π |s|/(2 v))",
-        size: "rises from rest with 1/v, as tanh(|s|/v) and 1 − exp(−|s|/v) do; at |s| = v it \
-               has reached 64 %",
+        size: "rises from rest with 1/v, as the catalogue's law does; at |s| = v it has reached 64 %",
         breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
         parameters: &[Parameter {
             key: "speed_m_per_s",

@@ -122,7 +122,7 @@ fn straight_driving_is_refused_with_what_is_missing() {
 #[test]
 fn the_order_of_runs_and_the_number_of_threads_change_nothing() {
     let place = Workplace::new();
-    drive(&place, "--effect motion-resistance");
+    drive(&place, "--runs 4 --duration 40 --effect motion-resistance");
     let (_, forwards) = diagnosed(&place, "--held-out none");
     let text = place.read("found/diagnosis.toml");
     let arguments = format!("diagnose drive --vehicle {VEHICLE} --out found --held-out none");

@@ -181,7 +181,7 @@ fn bad_input_is_refused_and_leaves_nothing() {
         (format!("diagnose drive --vehicle {VEHICLE} --held-out 0-1"), "at least one run to fit"),
         (
             format!("diagnose points.csv --vehicle {VEHICLE}"),
-            "points.csv: 1 steady points: expected",
+            "points.csv: 1 steady points: expected at least 30",
         ),
         (format!("diagnose points.csv --held-out 1 --vehicle {VEHICLE}"), "--held-out 1: a table"),
         (format!("diagnose drive drive --vehicle {VEHICLE}"), "each recording once"),

@@ -48,7 +48,8 @@ impl Format {
             path: path.to_owned(),
             found: "a file of another kind".to_owned(),
             expected: "a recording folder, a .mcap or .db3 file, or a .tum or .txt trajectory with a \
-                       table of its track speeds; to identify and diagnose, a .csv table of steady operating points too",
+                       table of its track speeds; to identify and diagnose, a .csv table of steady \
+                       operating points too",
         })
     }
 }

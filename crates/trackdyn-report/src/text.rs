@@ -123,9 +123,8 @@ impl Canvas {
             let (first, last) = (kept.div_ceil(2), kept / 2);
             letters[..first].iter().chain(&['…']).chain(&letters[letters.len() - last..]).collect()
         };
-        let shorter = (0..letters.len()).rev().map(with);
-        let mut fitting = shorter.skip_while(|text| self.text_width(text, size) > width);
-        fitting.next().unwrap_or_else(|| with(0))
+        let mut shorter = (0..letters.len()).rev().map(with);
+        shorter.find(|text| self.text_width(text, size) <= width).unwrap_or_else(|| with(0))
     }
 
     /// The glyphs of a text on a baseline from the origin, and its width.

@@ -36,7 +36,7 @@ pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Option<Warn
         .with_record_length_limit(LONGEST_RECORD);
     let mut reader = LinearReader::new_with_options(options);
     let mut channels = Channels::default();
-    let (mut messages, mut records) = (0, 0);
+    let (mut messages, mut has_begun) = (0, false);
     while let Some(event) = reader.next_event() {
         let problem = match event {
             Ok(LinearReadEvent::ReadRequest(least)) => {
@@ -47,23 +47,21 @@ pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Option<Warn
                 continue;
             }
             Ok(LinearReadEvent::Record { opcode: op::MESSAGE, data }) => {
-                records += 1;
+                has_begun = true;
                 messages += u64::from(show(data, &channels, visitor));
                 continue;
             }
             Ok(LinearReadEvent::Record { opcode, data }) => {
+                has_begun = true;
                 match channels.learn(opcode, data, visitor) {
-                    Ok(()) => {
-                        records += 1;
-                        continue;
-                    }
+                    Ok(()) => continue,
                     Err(error) => error,
                 }
             }
             Err(error) => error,
         };
         let message = problem.to_string();
-        if records == 0 {
+        if !has_begun {
             return Err(Error::Bag { path: path.to_owned(), message });
         }
         return Ok(Some(Warning::Damaged { path: path.to_owned(), message, messages }));

@@ -18,6 +18,8 @@ const TOP: i32 = sheet::TOP + 110;
 const ROW: i32 = 96;
 const LABELS: i32 = 640;
 const PANEL: i32 = 1020;
+/// Places of the states in a row.
+const ASIDE: [f64; 3] = [0.22, 0.5, 0.78];
 /// Distance of the columns of p.
 const COLUMN: i32 = 215;
 /// Place among the colours of what is taken as the file has it.
@@ -26,25 +28,26 @@ const FILED: usize = 2;
 /// Draws one row per symmetry: its statistic per degree of freedom.
 pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     let Diagnosis { filed, before: fitted, after, .. } = subject.diagnosis;
-    let states = [(&filed.tests, FILED), (&fitted.tests, BEFORE), (&after.tests, AFTER)];
+    let states = [
+        (&filed.tests, FILED, "as filed", "p as filed"),
+        (&fitted.tests, BEFORE, "clock and sensor fitted", "p fitted"),
+        (&after.tests, AFTER, "after", "p after"),
+    ];
     let count = fitted.tests.len().max(1);
     let height = TOP + rows(count) * ROW + 140 + sheet::FOOT;
     let explanation = "A robot with constant ICRs drives alike in both cases that a symmetry compares. \
                        Statistic: the departure, squared, per number tested; 1 is what noise does. A symmetry \
-                       counts as broken where the vehicle as filed, or with clock and sensor fitted, breaks it.";
+                       counts as broken where the vehicle as filed, or with clock and sensor fitted, breaks it, \
+                       or the corrected one surely does.";
     let title = "Which symmetries of driving are broken";
     let mut canvas = sheet::sheet(height, title, explanation, subject.caption)?;
-    let colours = [FILED, BEFORE, AFTER].map(look::colour);
     let broken = format!("filled: broken (p < {SIGNIFICANT} among all tests)");
-    let entries = [
-        (Mark::Disc(colours[0]), "as filed"),
-        (Mark::Disc(colours[1]), "clock and sensor fitted"),
-        (Mark::Disc(colours[2]), "after"),
-        (Mark::Disc(INK), broken.as_str()),
-        (Mark::Ring(INK), "open: may be chance"),
-    ];
+    let of_states =
+        states.iter().map(|(_, entry, name, _)| (Mark::Disc(look::colour(*entry)), *name));
+    let of_tests = [(Mark::Disc(INK), broken.as_str()), (Mark::Ring(INK), "open: may be chance")];
+    let entries: Vec<(Mark, &str)> = of_states.chain(of_tests).collect();
     sheet::legend(&mut canvas, [LABELS - 120, sheet::TOP + 20], &entries);
-    let ratios = states.iter().flat_map(|(tests, _)| *tests).filter_map(ratio);
+    let ratios = states.iter().flat_map(|(tests, ..)| *tests).filter_map(ratio);
     let (low, high) = ratios.fold((0.3, 10.0), |(low, high): (f64, f64), value| {
         (low.min(0.8 * value).max(0.02), high.max(2.0 * value))
     });
@@ -67,8 +70,8 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     canvas.text("noise alone", [one, TOP - 14], &style);
     let columns = [0, 1, 2].map(|state| LABELS + PANEL + 40 + state * COLUMN);
     let style = Style::new(LABEL_SIZE).anchor(Horizontal::Left, Vertical::Baseline);
-    for (column, text) in columns.into_iter().zip(["p as filed", "p fitted", "p after"]) {
-        canvas.text(text, [column, TOP - 14], &style);
+    for (column, (.., title)) in columns.into_iter().zip(states) {
+        canvas.text(title, [column, TOP - 14], &style);
     }
     for (row, test) in fitted.tests.iter().enumerate() {
         let middle = TOP + rows(row) * ROW + ROW / 2;
@@ -78,10 +81,10 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
         if row > 0 {
             canvas.fill(Area::new(LABELS, TOP + rows(row) * ROW, PANEL, 1), GRID);
         }
-        for (state, (tests, entry)) in states.into_iter().enumerate() {
+        for (state, (tests, entry, ..)) in states.into_iter().enumerate() {
             let test = tests.iter().find(|other| other.symmetry == test.symmetry);
-            let aside = [0.22, 0.5, 0.78][state];
             let Some(test) = test else { continue };
+            let aside = ASIDE[state];
             let broken = test.test.p < SIGNIFICANT;
             let colour = if broken { INK } else { GREY };
             let text = probability(test.test.p);

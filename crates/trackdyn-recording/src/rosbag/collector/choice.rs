@@ -53,7 +53,8 @@ impl Sources<'_> {
     ) -> Result<Vec<Stamped<[f64; 3]>>, Error> {
         let wanted = Wanted {
             what: "poses",
-            kind: "no Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or TFMessage of these frames",
+            kind: "no Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or \
+                   TFMessage of these frames",
             named: self.options.pose_topic.as_deref(),
             options: "--pose-topic, --parent-frame or --child-frame",
         };
@@ -116,7 +117,7 @@ impl Sources<'_> {
         }
         let Some((key, values)) = sources.into_iter().next() else {
             let absent = named.filter(|name| !self.seen.iter().any(|topic| topic.name == **name));
-            let absent = absent.map(|name| format!("{options} {name} is not there"));
+            let absent = absent.map(|name| format!("{name} is not there; choose by {options}"));
             return Err(refuse(absent.unwrap_or_else(|| kind.to_owned())));
         };
         if named.is_none() {

@@ -22,7 +22,9 @@ pub(super) fn run(
         return Err(Error::Topic {
             path: path.to_owned(),
             what: "track speeds",
-            problem: "joints turn in rad/s: expected the radius of wheel or sprocket, --wheel-radius METRES".to_owned(),
+            problem: "joints turn in rad/s: expected the radius of wheel or sprocket, \
+                      --wheel-radius METRES"
+                .to_owned(),
             available: format!("{} readings of the joints", readings.len()),
         });
     };

@@ -164,7 +164,10 @@ pub fn variants(effect: usize, evidence: &Evidence) -> Vec<Variant> {
 
 /// Parts of a typical size at which signatures of laws of the shear stress are taken: such a size may be the scale of a law,
 /// and what it shows then is not in proportion to it.
-const SHEAR_SIZES: [f64; 2] = [1.0, 0.05];
+const SHEAR_SIZES: [f64; 3] = [1.0, 0.2, 0.05];
+
+/// Places at which shapes are tried, in steps from the typical one: where that is an end of the range, as many inside.
+const SHAPES: [[f64; 3]; 3] = [[-1.0, 0.0, 1.0], [-1.0, -0.5, 0.0], [0.0, 0.5, 1.0]];
 
 /// Values of a parameter that are tried.
 fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
@@ -179,7 +182,16 @@ fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
         Role::Size { .. } => vec![parameter.typical],
         Role::Direction => (0..24).map(|k| inside(step * f64::from(k))).collect(),
         Role::Shape => {
-            let tried = [-1.0, 0.0, 1.0].map(|k: f64| inside(parameter.typical * (k * step).exp()));
+            let [both, below, above] = SHAPES;
+            let is_end = |end: f64| parameter.typical == end;
+            let steps = if is_end(high) {
+                below
+            } else if is_end(low) {
+                above
+            } else {
+                both
+            };
+            let tried = steps.map(|k| inside(parameter.typical * (k * step).exp()));
             let mut tried = tried.to_vec();
             tried.dedup();
             tried
@@ -240,7 +252,11 @@ impl<'a> Beside<'a> {
             }
             mechanics.predict(&instruments, self.evidence)
         };
-        Some(with.iter().zip(&base.prediction).map(|(with, without)| with - without).collect())
+        let changes = with.iter().zip(&base.prediction).map(|(with, without)| with - without);
+        let changes: Vec<Vector3<f64>> = changes.collect();
+        // One that is no number would make all that stands beside it in the normal equations none.
+        let are_numbers = changes.iter().flatten().all(|change| change.is_finite());
+        are_numbers.then_some(changes)
     }
 
     /// The signatures of variants, in parallel; those that cannot act are left out. Of an effect that is known to be

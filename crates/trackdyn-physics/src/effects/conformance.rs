@@ -118,6 +118,26 @@ fn hooks_act_at_the_stages_of_the_card_and_nowhere_else() {
     }
 }
 
+/// A belt that stops behind a lag gets slower than numbers that have a reciprocal.
+#[test]
+fn forces_and_their_derivatives_are_finite_however_slow_the_belts_are() {
+    const SLOW: [f64; 7] = [1e-3, 1e-100, 1e-300, 1e-311, 5e-324, 0.0, -1e-311];
+    for effect in all() {
+        let vehicle = VehicleFile::auriga_alpha().vehicle;
+        let model = Model::new(vehicle, Effects::from_iter([effect.clone()]));
+        let ground = model.ground(&ELSEWHERE);
+        let pairs = SLOW.iter().flat_map(|&slow| [0.9, 3.0 * slow].map(|right| (slow, right)));
+        for (left, right) in pairs {
+            let [x, y, turn]: [Dual<3>; 3] = Dual::variables(ICR);
+            let motion = Motion::anchored(PerSide::new(left, right), Side::Left, [x, y], turn);
+            for sum in total(&model, &ground, &motion) {
+                let finite = sum.value.is_finite() && sum.gradient.iter().all(|g| g.is_finite());
+                assert!(finite, "{effect} at {left:e} and {right:e} m/s: {sum:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn derivatives_of_the_balance_equal_difference_quotients() {
     const STEP: f64 = 1e-6;
@@ -173,7 +193,7 @@ fn behaviour(effects: Effects) -> Vec<f64> {
 fn departure(card: &Card, value: impl Fn(&Parameter) -> f64) -> f64 {
     let settings: Vec<_> = card.parameters.iter().map(|p| (p.key, value(p))).collect();
     let effect = ActiveEffect::new(card.id, &settings).expect("values in range");
-    let with = behaviour(Effects::from_iter([effect]));
+    let with = behaviour(Effects::from_iter([effect.clone()]));
     let changes = with.iter().zip(behaviour(Effects::none()));
     changes.map(|(with, without)| (with - without).abs()).fold(0.0, f64::max)
 }

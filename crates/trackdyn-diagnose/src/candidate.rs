@@ -158,16 +158,13 @@ pub fn variants(effect: usize, evidence: &Evidence) -> Vec<Variant> {
             })
             .collect();
     }
-    let all = all.into_iter().flat_map(|values| places::of_extent(parameters, values, evidence));
+    let all = all.into_iter().flat_map(|values| places::of_extent(card, values, evidence));
     all.map(|values| Variant { effect, values }).collect()
 }
 
 /// Parts of a typical size at which signatures of laws of the shear stress are taken: such a size may be the scale of a law,
 /// and what it shows then is not in proportion to it.
 const SHEAR_SIZES: [f64; 3] = [1.0, 0.2, 0.05];
-
-/// Places at which shapes are tried, in steps from the typical one: where that is an end of the range, as many inside.
-const SHAPES: [[f64; 3]; 3] = [[-1.0, 0.0, 1.0], [-1.0, -0.5, 0.0], [0.0, 0.5, 1.0]];
 
 /// Values of a parameter that are tried.
 fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
@@ -181,22 +178,8 @@ fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
         }
         Role::Size { .. } => vec![parameter.typical],
         Role::Direction => (0..24).map(|k| inside(step * f64::from(k))).collect(),
-        Role::Shape => {
-            let [both, below, above] = SHAPES;
-            let is_end = |end: f64| parameter.typical == end;
-            let steps = if is_end(high) {
-                below
-            } else if is_end(low) {
-                above
-            } else {
-                both
-            };
-            let tried = steps.map(|k| inside(parameter.typical * (k * step).exp()));
-            let mut tried = tried.to_vec();
-            tried.dedup();
-            tried
-        }
-        Role::Place { .. } if places::have_extent(of.parameters) => vec![parameter.typical],
+        Role::Shape => shapes(parameter),
+        Role::Place { .. } if of.has_extent() => vec![parameter.typical],
         Role::Place { .. } => {
             let [middle, _] = area(evidence, parameter.role);
             [-3.0, -1.0, 0.0, 1.0, 3.0].map(|place: f64| inside(middle + place * step)).to_vec()
@@ -204,12 +187,29 @@ fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
     }
 }
 
+/// One shape that is tried over the next.
+const SHAPE_STEP: f64 = 2.5;
+
+/// Shapes that are tried: the typical one and one on either side, or as many inside where that is an end of the range.
+fn shapes(parameter: &Parameter) -> Vec<f64> {
+    let [low, high] = parameter.range;
+    let steps = match parameter.typical {
+        typical if typical == high => [-1.0, -0.5, 0.0],
+        typical if typical == low => [0.0, 0.5, 1.0],
+        _ => [-1.0, 0.0, 1.0],
+    };
+    let tried = steps.map(|k| (parameter.typical * (k * SHAPE_STEP.ln()).exp()).clamp(low, high));
+    let mut tried = tried.to_vec();
+    tried.dedup();
+    tried
+}
+
 /// Distance of values that are tried, of a place with this extent, if it has one; of a shape, that of their logarithms.
 fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f64 {
     match parameter.role {
         Role::Size { .. } => 0.0,
         Role::Direction => 15.0,
-        Role::Shape => 2.5_f64.ln(),
+        Role::Shape => SHAPE_STEP.ln(),
         Role::Place { .. } => extent.unwrap_or_else(|| area(evidence, parameter.role)[1]),
     }
 }
@@ -269,5 +269,21 @@ impl<'a> Beside<'a> {
             .into_par_iter()
             .filter_map(|variant| Some((variant.clone(), variant.signatures(self)?)))
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shapes_are_tried_on_both_sides_or_inside_of_an_end() {
+        let tried = |id: &str, key: &str| {
+            let card = CATALOGUE.iter().find(|card| card.id == id).expect("an effect");
+            let parameter = card.parameters.iter().find(|one| one.key == key).expect("a key");
+            shapes(parameter).iter().map(|shape| (1e3 * shape).round() / 1e3).collect::<Vec<_>>()
+        };
+        assert_eq!(tried("terrain-patch", "radius_m"), [0.8, 2.0, 5.0]);
+        assert_eq!(tried("shear-displacement", "residual"), [0.4, 0.632, 1.0]);
     }
 }

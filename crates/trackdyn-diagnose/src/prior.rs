@@ -12,13 +12,13 @@ use trackdyn_physics::{CATALOGUE, Circumstance, Model, Vehicle};
 /// # Panics
 /// Never: an unknown of an effect has a parameter.
 pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> Prior {
-    /// Sizes of several times the typical one are seldom.
+    /// Sizes of several times the typical one are seldom, and so are places as far away that act on the robot from there.
     const SEVERAL: f64 = 3.0;
     match unknown {
         Unknown::Offset(_) => Prior::normal(0.0, 0.5 * hypothesis.vehicle.gauge),
         Unknown::FrictionLevel => Prior::normal(0.0, friction_known(&hypothesis.vehicle)),
         Unknown::Cog(axis) => Prior::normal(0.0, cog_known(&hypothesis.vehicle, axis)),
-        Unknown::Effect(..) => {
+        Unknown::Effect(effect, _) => {
             let parameter = unknown.parameter().expect("an effect's");
             if let Some(deviation) = measured(&hypothesis.vehicle, unknown) {
                 return Prior::normal(neutral(parameter), deviation).within(parameter.range);
@@ -29,7 +29,8 @@ pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> 
                 }
                 Role::Place { .. } => {
                     let [middle, spread] = area(evidence, parameter.role);
-                    Prior::normal(middle, 3.0 * spread.max(1.0))
+                    let far = if CATALOGUE[effect].has_extent() { 1.0 } else { SEVERAL };
+                    Prior::normal(middle, far * spread.max(1.0))
                 }
                 // all alike, wherever it stands
                 Role::Direction => return Prior::even(hypothesis.get(unknown), 360.0),

@@ -88,6 +88,13 @@ impl Card {
     pub fn shears(&self) -> bool {
         self.stages.contains(&Stage::Shear)
     }
+
+    /// Whether it acts where its place is, over an extent that is its shape, and not from there on the robot wherever that is.
+    pub fn has_extent(&self) -> bool {
+        let is_place = |one: &Parameter| matches!(one.role, Role::Place { .. });
+        let is_shape = |one: &Parameter| one.role == Role::Shape;
+        self.parameters.iter().any(is_place) && self.parameters.iter().any(is_shape)
+    }
 }
 
 /// A parameter of an effect.

@@ -18,10 +18,9 @@ const WORTH: f64 = 0.1;
 impl Variant {
     /// The same with a step of what is no size: `share` of half the distance between values that are tried.
     fn moved(&self, parameter: usize, share: f64, beside: &Beside) -> Self {
-        let parameters = CATALOGUE[self.effect].parameters;
-        let card = &parameters[parameter];
-        let extent = extent(parameters, &self.values);
-        let by = share * spacing(card, extent, beside.evidence) / 2.0;
+        let of = &CATALOGUE[self.effect];
+        let card = &of.parameters[parameter];
+        let by = share * spacing(card, extent(of, &self.values), beside.evidence) / 2.0;
         let mut moved = self.clone();
         let value = &mut moved.values[parameter];
         *value = if card.role == Role::Shape { *value * by.exp() } else { *value + by };

@@ -3,28 +3,22 @@
 use crate::evidence::Evidence;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
-use trackdyn_physics::effect::{Parameter, Role};
+use trackdyn_physics::effect::{Card, Role};
 
 /// Places that are tried of each extent. What lies elsewhere is passed seldom.
 const MOST: usize = 40;
 
-/// Whether places have an extent, the shape of an effect; one without may lie far away.
-pub(super) fn have_extent(of: &[Parameter]) -> bool {
-    let is_place = |one: &Parameter| matches!(one.role, Role::Place { .. });
-    of.iter().any(is_place) && of.iter().any(|one| one.role == Role::Shape)
-}
-
 /// The extent of a place, m; none where it has none.
-pub(super) fn extent(of: &[Parameter], values: &[f64]) -> Option<f64> {
-    let shape = of.iter().position(|one| one.role == Role::Shape);
-    shape.filter(|_| have_extent(of)).map(|place| values[place])
+pub(super) fn extent(of: &Card, values: &[f64]) -> Option<f64> {
+    let shape = of.parameters.iter().position(|one| one.role == Role::Shape);
+    shape.filter(|_| of.has_extent()).map(|place| values[place])
 }
 
 /// The same values with every place that is tried of their extent; as they are where they have none.
-pub(super) fn of_extent(of: &[Parameter], values: Vec<f64>, evidence: &Evidence) -> Vec<Vec<f64>> {
+pub(super) fn of_extent(of: &Card, values: Vec<f64>, evidence: &Evidence) -> Vec<Vec<f64>> {
     let Some(extent) = extent(of, &values) else { return vec![values] };
     let placed = |place: [f64; 2]| {
-        let values = values.iter().zip(of).map(|(value, one)| match one.role {
+        let values = values.iter().zip(of.parameters).map(|(value, one)| match one.role {
             Role::Place { axis } => place[axis].clamp(one.range[0], one.range[1]),
             _ => *value,
         });

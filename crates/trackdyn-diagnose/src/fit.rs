@@ -163,9 +163,12 @@ impl Point {
     ) -> Self {
         let prediction = mechanics.predict(&Instruments::of(&hypothesis), evidence);
         let residual = evidence.residual(&prediction);
-        let objective = huber::loss(&residual) + penalty(&hypothesis, unknowns, evidence);
-        let cannot_be = mechanics.failure().is_some() || objective.is_nan();
-        let objective = if cannot_be { f64::INFINITY } else { objective };
+        let objective = if mechanics.failure().is_some() {
+            f64::INFINITY
+        } else {
+            // of ∞ and what is no number, the smaller is ∞
+            (huber::loss(&residual) + penalty(&hypothesis, unknowns, evidence)).min(f64::INFINITY)
+        };
         Self { hypothesis, mechanics, prediction, residual, objective }
     }
 }
@@ -385,8 +388,8 @@ impl Fit {
     ///
     /// −½ minimum − ½ ln det(1 + S J S)
     pub fn ln_evidence(&self) -> f64 {
-        let ln_evidence = -0.5 * (self.objective + self.solution.occam);
-        if ln_evidence.is_nan() { f64::NEG_INFINITY } else { ln_evidence }
+        // of −∞ and what is no number, the larger is −∞
+        (-0.5 * (self.objective + self.solution.occam)).max(f64::NEG_INFINITY)
     }
 }
 

@@ -193,7 +193,7 @@ fn behaviour(effects: Effects) -> Vec<f64> {
 fn departure(card: &Card, value: impl Fn(&Parameter) -> f64) -> f64 {
     let settings: Vec<_> = card.parameters.iter().map(|p| (p.key, value(p))).collect();
     let effect = ActiveEffect::new(card.id, &settings).expect("values in range");
-    let with = behaviour(Effects::from_iter([effect.clone()]));
+    let with = behaviour(Effects::from_iter([effect]));
     let changes = with.iter().zip(behaviour(Effects::none()));
     changes.map(|(with, without)| (with - without).abs()).fold(0.0, f64::max)
 }

@@ -15,8 +15,9 @@
 //! is slow in the driving. It is nearly linear in the logarithms of the variances, and taken to be so. The level is then
 //! set by the median of |z|², which is that of a χ² with three degrees of freedom, less what was fitted.
 //!
-//! Strong physics may leave more than contrasts can take up. Where a hypothesis does explain more, so that a
-//! variance falls, the noise is looked for once more beside it.
+//! Physics may leave more than contrasts can take up, and what is slow in it is then taken for a walk. Where a hypothesis
+//! does explain more, the noise is looked for once more beside it, and stands if what a run adds up to falls: a walk that is
+//! next to nothing in a sample is what hides slow changes.
 //!
 //! What is measured without any model ([`trackdyn_recording::noise`]) is where this starts from. Poses alone
 //! cannot tell the ripple of a drive, which the encoders see, from a walk of the pose; nor can encoders alone
@@ -66,7 +67,7 @@ const LARGEST_STEP: f64 = 1.5;
 /// No walk is smaller than this share of the white noise, in a second.
 const NO_WALK: f64 = 1e-5;
 
-/// By what a variance must be smaller beside a hypothesis for the noise to be another one.
+/// By what the variance of what a run adds up to must be smaller beside a hypothesis for the noise to be another one.
 const SHARPER: f64 = 1.3;
 
 /// The evidence with the noise that the residuals beside a fit show. Tables of steady points keep theirs.
@@ -132,17 +133,25 @@ pub fn sharper(evidence: &Evidence, fit: &Fit) -> Option<Evidence> {
     let before = evidence.noise()?;
     let again = with_remaining_noise(evidence, fit);
     let after = again.noise()?;
-    // What a variance adds to a sample decides: a walk of nearly nothing may be half of that.
-    let duration = evidence.samples().first()?.duration;
-    let added = |noise: &SegmentNoise, k: usize| {
-        let heading = if k == 2 { noise.heading } else { 0.0 };
-        noise.pose[k] + (noise.walk[k] + heading) * duration * SLOW
+    let time = run_time(evidence)?;
+    // A yaw that walks and a heading that wanders are alike in a sample, and not in what a run tells of slow changes.
+    let added = |noise: &SegmentNoise| {
+        let walked: [f64; 3] = std::array::from_fn(|k| noise.pose[k] + noise.walk[k] * time);
+        let [forward, left, yaw] = walked;
+        [forward, left, yaw, noise.pose[2] + noise.heading * time]
     };
-    (0..3).any(|k| added(before, k) > SHARPER * added(after, k)).then_some(again)
+    let is_less =
+        added(before).iter().zip(added(after)).any(|(before, after)| *before > SHARPER * after);
+    is_less.then_some(again)
 }
 
-/// Samples over which slow effects are summed.
-const SLOW: f64 = 10.0;
+/// Mean time of a run that has samples, s; none where there are none.
+fn run_time(evidence: &Evidence) -> Option<f64> {
+    let samples = evidence.samples();
+    let runs = samples.chunk_by(|a, b| a.run == b.run).count();
+    let time: f64 = samples.iter().map(|sample| sample.duration).sum();
+    (runs > 0).then(|| time / real(runs))
+}
 
 /// Samples at whose shared pose the sensor erred: the one that ends there is far off, both together are not.
 fn outlying(evidence: &Evidence, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {

@@ -20,7 +20,7 @@ use rivals::{Rivals, separation};
 use std::cell::LazyCell;
 use support::Change;
 use trackdyn_physics::effect::Role;
-use trackdyn_physics::{CATALOGUE, VehicleFile};
+use trackdyn_physics::{ActiveEffect, CATALOGUE, VehicleFile};
 
 /// Something that was left out, or why it is not claimed.
 #[derive(Clone, Debug)]
@@ -29,6 +29,8 @@ pub struct Verdict {
     pub effect: usize,
     /// All effects that explain it as well, ascending, itself among them.
     pub one_of: Vec<usize>,
+    /// The effect as it was found; none where it stands for a class of constants.
+    pub found: Option<ActiveEffect>,
     /// What speaks for it.
     pub support: Support,
     /// Why it is not claimed; none where it is.
@@ -73,7 +75,8 @@ pub fn judge(
             .or_else(|| rivals.too_many())
             .or_else(as_filed)
             .or_else(|| within_filed(search, &rivals.without, rivals.changed.as_ref()?));
-        Verdict { effect, one_of, support, refused }
+        let found = best.fit.hypothesis.effect(effect).cloned();
+        Verdict { effect, one_of, found, support, refused }
     };
     effects.iter().copied().map(of).collect()
 }
@@ -174,7 +177,8 @@ mod tests {
             let unknown = Unknown::Effect(effect, sizes(effect)[0]);
             let interval = Interval { unknown, value: f64::midpoint(low, high), low, high };
             let support = Support::none();
-            let mut verdicts = [Verdict { effect, one_of: vec![effect], support, refused: None }];
+            let one_of = vec![effect];
+            let mut verdicts = [Verdict { effect, one_of, found: None, support, refused: None }];
             refuse_unsure(&mut verdicts, &[interval]);
             verdicts[0].refused.is_some()
         };

@@ -161,5 +161,5 @@ pub fn judge_constants(
     };
     let one_of: Vec<usize> = constants.class.iter().copied().filter(can).collect();
     let effect = *one_of.first()?;
-    Some(Verdict { effect, one_of, support, refused })
+    Some(Verdict { effect, one_of, found: None, support, refused })
 }

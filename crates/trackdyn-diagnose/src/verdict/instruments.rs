@@ -51,7 +51,8 @@ pub fn judge_instruments(search: &Search, best: &Found, draws: usize, seed: u64)
             ..Support::of_columns(search, fit, &columns, &parts, draws, seed)
         };
         let refused = refusal(&support, *laws);
-        verdicts.push(Verdict { effect, one_of, support, refused });
+        let found = fit.hypothesis.effect(effect).cloned();
+        verdicts.push(Verdict { effect, one_of, found, support, refused });
     }
     verdicts
 }

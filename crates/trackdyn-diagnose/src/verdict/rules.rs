@@ -15,6 +15,8 @@ impl Rules {
     pub const LN_BAYES_FACTOR: f64 = 5.0;
     /// Gain on blocks that were held out, in its standard errors.
     pub const GAIN: f64 = 2.0;
+    /// Blocks of time below which what they show may have happened once: two may meet in one event.
+    pub const ONCE: f64 = 3.0;
     /// Share of resampled recordings that name the same.
     pub const STABLE: f64 = 0.9;
     /// Log-likelihood within which two hypotheses are one answer.

@@ -33,6 +33,8 @@ pub struct Support {
     pub stable: f64,
     /// √ of what the misfit falls by.
     pub z: f64,
+    /// Blocks of time that show it, as many as show it alike.
+    pub blocks: f64,
 }
 
 impl Support {
@@ -45,16 +47,30 @@ impl Support {
             held_out_error: 0.0,
             stable: 0.0,
             z: 0.0,
+            blocks: 0.0,
         }
+    }
+
+    /// Whether all that speaks against it is that the robot met it once: so few blocks of time show it that what happened
+    /// once, whatever it was, would look the same.
+    pub fn is_met_once(&self) -> bool {
+        self.ln_bayes_factor >= Rules::LN_BAYES_FACTOR
+            && self.p >= Rules::P
+            && self.blocks < Rules::ONCE
     }
 
     /// What it lacks of what every claim must reach; none where it lacks nothing.
     pub(crate) fn falls_short(&self) -> Option<String> {
-        let Self { p, ln_bayes_factor, held_out_gain, held_out_error, .. } = *self;
+        let Self { p, ln_bayes_factor, held_out_gain, held_out_error, blocks, .. } = *self;
         if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
             return Some(format!(
                 "ln Bayes factor {ln_bayes_factor:.1}, below {}",
                 Rules::LN_BAYES_FACTOR
+            ));
+        }
+        if self.is_met_once() {
+            return Some(format!(
+                "may have happened once: {blocks:.1} blocks of time show it, and family-wise p = {p:.3}"
             ));
         }
         if p >= Rules::P {
@@ -90,7 +106,8 @@ impl Support {
         let projected = normal.projected(&base, &known);
         let (held_out_gain, held_out_error) = cross_validated(&projected, &known, &groups[0]);
         let p = Self::chance(search, without, own.entry, own_signatures, draws, seed);
-        Self { p, held_out_gain, held_out_error, ..Self::none() }
+        let blocks = shown_by(&projected, &known, &groups[0]);
+        Self { p, held_out_gain, held_out_error, blocks, ..Self::none() }
     }
 
     /// Family-wise probability of chance of a variant, with these signatures, among all that were tried.
@@ -137,7 +154,8 @@ impl Support {
         let projected = normal.projected(&base, &known);
         let p = test(&projected, &[columns.to_vec()], draws, seed)[0].p;
         let (held_out_gain, held_out_error) = cross_validated(&projected, &known, columns);
-        Self { p, held_out_gain, held_out_error, stable: 1.0, ..Self::none() }
+        let blocks = shown_by(&projected, &known, columns);
+        Self { p, held_out_gain, held_out_error, blocks, stable: 1.0, ..Self::none() }
     }
 }
 
@@ -223,6 +241,19 @@ pub(super) fn change(effect: usize, without: &Found, with: &Found) -> Option<Cha
     Some(Change { signature: Signature { unknown, column }, size })
 }
 
+/// Blocks that show what columns change, as many as show it alike. What is free beside them has been projected out.
+///
+/// # Law
+/// (Σ |s_b|²)²/Σ |s_b|⁴, s_b the change of a block's prediction: one where one block shows all of it, n where n show the same.
+fn shown_by(projected: &Normal, known: &[Prior], columns: &[usize]) -> f64 {
+    let factors = projected.fit(columns, known).estimate;
+    let changes =
+        (0..projected.blocks()).map(|block| projected.change_at(block, columns, &factors));
+    let (sum, squares) = changes
+        .fold((0.0, 0.0), |(sum, squares), change| (sum + change, squares + change * change));
+    if squares > 0.0 { sum * sum / squares } else { 0.0 }
+}
+
 /// Gain of log-likelihood by columns on each block, left out of their fit, and its standard error. What is free
 /// beside them has been projected out: where one block alone knows a number of that, leaving it out says nothing of
 /// the columns.
@@ -255,22 +286,31 @@ mod tests {
     use crate::normal::Columns;
     use nalgebra::Vector3;
 
-    /// Gain and its standard error of an effect that has this size in each block, over samples of one block after the other.
-    fn of_sizes(sizes: &[f64]) -> (f64, f64) {
+    /// An effect that has this size in each block and could be seen in those for which that is asked, over samples of one
+    /// block after the other.
+    fn seen(sizes: &[f64], is_seen: impl Fn(usize) -> bool) -> Normal {
         const SAMPLES: usize = 20;
         let blocks: Vec<usize> =
             (0..sizes.len() * SAMPLES).map(|sample| sample / SAMPLES).collect();
-        let column = vec![Vector3::new(0.2, -0.1, 0.0); blocks.len()];
+        let at = |&block: &usize| if is_seen(block) { 1.0 } else { 0.0 };
+        let column: Vec<Vector3<f64>> =
+            blocks.iter().map(|block| Vector3::new(0.2, -0.1, 0.0) * at(block)).collect();
         let residual: Vec<Vector3<f64>> =
             blocks.iter().zip(&column).map(|(&block, value)| value * sizes[block]).collect();
-        let normal = Normal::new(&Columns {
+        Normal::new(&Columns {
             residual: &residual,
             columns: &[column],
             weights: &vec![1.0; blocks.len()],
             blocks: &blocks,
             count: sizes.len(),
-        });
-        cross_validated(&normal, &[Prior::normal(0.0, 1e6)], &[0])
+        })
+    }
+
+    const FREE: [Prior; 1] = [Prior { mean: 0.0, deviation: 1e6, ln_mass: 0.0 }];
+
+    /// Gain and its standard error of an effect that has this size in each block.
+    fn of_sizes(sizes: &[f64]) -> (f64, f64) {
+        cross_validated(&seen(sizes, |_| true), &FREE, &[0])
     }
 
     #[test]
@@ -281,6 +321,31 @@ mod tests {
         // half the size in some blocks is another form, no chance
         let (gain, error) = of_sizes(&[4.0, 2.0, 4.0, 2.0, 4.0, 2.0, 4.0, 2.0, 4.0]);
         assert!(gain > Rules::GAIN * error, "{gain} {error}");
+    }
+
+    #[test]
+    fn blocks_that_show_nothing_do_not_count() {
+        let shown =
+            |is_seen: &dyn Fn(usize) -> bool| shown_by(&seen(&[2.0; 9], is_seen), &FREE, &[0]);
+        assert!((shown(&|_| true) - 9.0).abs() < 1e-9);
+        assert!((shown(&|block| block == 4) - 1.0).abs() < 1e-9);
+        assert!((shown(&|block| block % 3 == 0) - 3.0).abs() < 1e-9);
+        assert!(shown(&|_| false).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_is_strong_and_was_met_once_is_said_to_be_so() {
+        let strong = Support { p: 0.9, ln_bayes_factor: 92.0, blocks: 1.4, ..Support::none() };
+        assert!(strong.is_met_once());
+        let reason = strong.falls_short().expect("a reason");
+        assert!(reason.contains("once: 1.4 blocks"), "{reason}");
+        for other in [
+            Support { blocks: 20.0, ..strong },
+            Support { p: 0.001, ..strong },
+            Support { ln_bayes_factor: 1.0, ..strong },
+        ] {
+            assert!(!other.is_met_once(), "{other:?}");
+        }
     }
 
     #[test]

@@ -8,6 +8,7 @@ use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::locate::cells::Cell;
 use trackdyn_diagnose::proposal::Proposal;
+use trackdyn_diagnose::verdict::Verdict;
 use trackdyn_physics::CATALOGUE;
 
 /// The status in words, and what kind of news it is.
@@ -40,6 +41,8 @@ pub(super) fn parts(subject: &Subject) -> Vec<[String; 2]> {
         )),
         _ => {}
     }
+    let met_once = diagnosis.refused.iter().filter(|verdict| verdict.support.is_met_once());
+    what.extend(met_once.filter_map(|verdict| once(subject, verdict)));
     what.extend(diagnosis.proposed.as_ref().map(proposed));
     let place = if diagnosis.broken.is_empty() {
         "Nowhere: no symmetry of driving is broken beyond chance.".to_owned()
@@ -57,6 +60,25 @@ pub(super) fn parts(subject: &Subject) -> Vec<[String; 2]> {
     ]
     .map(|part| part.map(str::to_owned))
     .to_vec()
+}
+
+/// What is not claimed because the robot met it once.
+fn once(subject: &Subject, verdict: &Verdict) -> Option<String> {
+    let found = verdict.found.as_ref()?;
+    let card = found.card();
+    let values = card.parameters.iter().zip(found.values());
+    let values = values.map(|(parameter, &value)| {
+        format!("{} = {}{}", parameter.key, significant(value, 4), unit(parameter.unit))
+    });
+    Some(format!(
+        "Not claimed, because {} of {} blocks of time show it and whatever happens once would look the same: {} ({}, {}). \
+         Drive there again, and diagnose that.",
+        number(verdict.support.blocks, 1),
+        subject.diagnosis.evidence.blocks(),
+        lower(card.title),
+        card.id,
+        values.collect::<Vec<_>>().join(", ")
+    ))
 }
 
 /// What the claims do not explain.

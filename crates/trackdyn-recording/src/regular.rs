@@ -29,8 +29,8 @@ fn regular(stamps: &[f64]) -> Vec<f64> {
     let doubled = std::iter::successors(Some(NEIGHBOURS), |neighbours| Some(2 * neighbours));
     // twice as many as there are on one side are all that there are on both
     let tried = doubled.take_while(|neighbours| *neighbours < 2 * longest.max(NEIGHBOURS));
-    let foretold = |neighbours: usize| rows.iter().map(|row| row.foretold(neighbours)).sum::<f64>();
-    let best = tried.map(|neighbours| (foretold(neighbours), neighbours));
+    let missed = |neighbours: usize| rows.iter().map(|row| row.missed(neighbours)).sum::<f64>();
+    let best = tried.map(|neighbours| (missed(neighbours), neighbours));
     let best = best.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(NEIGHBOURS, |best| best.1);
     rows.iter().flat_map(|row| row.due(best)).collect()
 }
@@ -111,12 +111,12 @@ impl Row {
     }
 
     /// Sum of the squares by which lines through the others miss each stamp, s².
-    fn foretold(&self, neighbours: usize) -> f64 {
-        let missed = |at: usize| {
+    fn missed(&self, neighbours: usize) -> f64 {
+        let by = |at: usize| {
             let line = self.line(at, neighbours)?;
             Some(((self.off[at] - line.off) / (1.0 - line.own)).powi(2))
         };
-        (0..self.off.len()).filter_map(missed).sum()
+        (0..self.off.len()).filter_map(by).sum()
     }
 
     /// The times at which the samples were due, s.

@@ -136,9 +136,9 @@ pub fn sharper(evidence: &Evidence, fit: &Fit) -> Option<Evidence> {
     let time = run_time(evidence)?;
     // A yaw that walks and a heading that wanders are alike in a sample, and not in what a run tells of slow changes.
     let added = |noise: &SegmentNoise| {
-        let walked: [f64; 3] = std::array::from_fn(|k| noise.pose[k] + noise.walk[k] * time);
-        let [forward, left, yaw] = walked;
-        [forward, left, yaw, noise.pose[2] + noise.heading * time]
+        let ([forward, left, yaw], [x, y, turn]) = (noise.pose, noise.walk);
+        let pairs = [(forward, x), (left, y), (yaw, turn), (yaw, noise.heading)];
+        pairs.map(|(white, walk)| white + walk * time)
     };
     let is_less =
         added(before).iter().zip(added(after)).any(|(before, after)| *before > SHARPER * after);

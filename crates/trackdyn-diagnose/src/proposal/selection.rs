@@ -4,7 +4,7 @@ use crate::diagnosis::Options;
 use crate::hypothesis::Unknown;
 use crate::normal::{Normal, Prior};
 use crate::significance::test;
-use crate::verdict::{Rules, Support, cross_validated};
+use crate::verdict::{Rules, Support};
 use rayon::prelude::*;
 use trackdyn_physics::effect::Term;
 
@@ -102,13 +102,10 @@ impl Library {
         let tests = test(&projected, &groups, options.draws, options.seed);
         let own = family.iter().position(|other| *other == term);
         let columns = own.map_or(&[][..], |own| &groups[own]);
-        let (held_out_gain, held_out_error) = cross_validated(&projected, &self.priors, columns);
         Support {
             p: own.map_or(1.0, |own| tests[own].p),
             ln_bayes_factor: self.ln_evidence(terms) - self.ln_evidence(&others),
-            held_out_gain,
-            held_out_error,
-            ..Support::none()
+            ..Support::of_blocks(&projected, &self.priors, columns)
         }
     }
 }

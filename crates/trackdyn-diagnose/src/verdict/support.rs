@@ -104,10 +104,16 @@ impl Support {
         let (normal, known, groups) = search.normal_of(&without.fit, &[own_signatures]);
         let base: Vec<usize> = (0..without.fit.columns.len()).collect();
         let projected = normal.projected(&base, &known);
-        let (held_out_gain, held_out_error) = cross_validated(&projected, &known, &groups[0]);
         let p = Self::chance(search, without, own.entry, own_signatures, draws, seed);
-        let blocks = shown_by(&projected, &known, &groups[0]);
-        Self { p, held_out_gain, held_out_error, blocks, ..Self::none() }
+        Self { p, ..Self::of_blocks(&projected, &known, &groups[0]) }
+    }
+
+    /// What blocks say for columns: what they gain where they were left out, and how many show it. What is free beside them
+    /// has been projected out.
+    pub(crate) fn of_blocks(projected: &Normal, known: &[Prior], columns: &[usize]) -> Self {
+        let (held_out_gain, held_out_error) = cross_validated(projected, known, columns);
+        let blocks = shown_by(projected, known, columns);
+        Self { held_out_gain, held_out_error, blocks, ..Self::none() }
     }
 
     /// Family-wise probability of chance of a variant, with these signatures, among all that were tried.
@@ -153,9 +159,7 @@ impl Support {
         let base: Vec<usize> = (0..fit.columns.len()).filter(|k| !columns.contains(k)).collect();
         let projected = normal.projected(&base, &known);
         let p = test(&projected, &[columns.to_vec()], draws, seed)[0].p;
-        let (held_out_gain, held_out_error) = cross_validated(&projected, &known, columns);
-        let blocks = shown_by(&projected, &known, columns);
-        Self { p, held_out_gain, held_out_error, blocks, stable: 1.0, ..Self::none() }
+        Self { p, stable: 1.0, ..Self::of_blocks(&projected, &known, columns) }
     }
 }
 

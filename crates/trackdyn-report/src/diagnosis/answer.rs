@@ -10,6 +10,7 @@ use trackdyn_diagnose::locate::cells::Cell;
 use trackdyn_diagnose::proposal::Proposal;
 use trackdyn_diagnose::verdict::Verdict;
 use trackdyn_physics::CATALOGUE;
+use trackdyn_physics::effect::Parameter;
 
 /// The status in words, and what kind of news it is.
 pub(super) fn status(subject: &Subject) -> [&'static str; 2] {
@@ -67,9 +68,7 @@ fn once(subject: &Subject, verdict: &Verdict) -> Option<String> {
     let found = verdict.found.as_ref()?;
     let card = found.card();
     let values = card.parameters.iter().zip(found.values());
-    let values = values.map(|(parameter, &value)| {
-        format!("{} = {}{}", parameter.key, significant(value, 4), unit(parameter.unit))
-    });
+    let values = values.map(|(parameter, &value)| is(parameter, value, 4));
     Some(format!(
         "Not claimed, because {} of {} blocks of time show it and whatever happens once would look the same: {} ({}, {}). \
          Drive there again, and diagnose that.",
@@ -137,10 +136,8 @@ fn named(subject: &Subject, missing: &Missing) -> String {
             let parameter = interval.unknown.parameter()?;
             (effect == missing.verdict.effect).then(|| {
                 format!(
-                    "{} = {}{} (95 % interval {} to {})",
-                    parameter.key,
-                    significant(interval.value, 3),
-                    unit(parameter.unit),
+                    "{} (95 % interval {} to {})",
+                    is(parameter, interval.value, 3),
                     significant(interval.low, 3),
                     significant(interval.high, 3)
                 )
@@ -168,6 +165,11 @@ fn named(subject: &Subject, missing: &Missing) -> String {
         "Missing from"
     };
     format!("{lacks} the model: {} ({}){sizes}.", lower(title(effect)), id(effect))
+}
+
+/// A parameter in a sentence, with so many digits.
+fn is(parameter: &Parameter, value: f64, digits: i32) -> String {
+    format!("{} = {}{}", parameter.key, significant(value, digits), unit(parameter.unit))
 }
 
 /// Names of a few effects, or how many they are.

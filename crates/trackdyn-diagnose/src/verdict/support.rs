@@ -70,7 +70,7 @@ impl Support {
         }
         if self.is_met_once() {
             return Some(format!(
-                "may have happened once: {blocks:.1} blocks of time show it, and family-wise p = {p:.3}"
+                "may have happened once: {blocks:.1} blocks of time show it, p = {p:.3}"
             ));
         }
         if p >= Rules::P {

@@ -135,7 +135,7 @@ fn separations(found: &Diagnosis, effect: usize) -> Vec<(usize, f64)> {
     let tried: Vec<Variant> = std::iter::once(own).chain(others).collect();
     let entries = Beside::new(&base.fit.hypothesis, evidence).signatures(&tried);
     let catalogue = Catalogue { entries };
-    let search = Search { evidence, base, catalogue: &catalogue };
+    let search = Search::new(evidence, base, &catalogue);
     let apart = |rival: usize| {
         let (normal, known, groups) = search.normal(&base.fit, &[0, rival]);
         let free = (0..base.fit.columns.len()).chain(groups[1].iter().copied());

@@ -302,11 +302,11 @@ fn attempt(
     let hypothesis = &base.fit.hypothesis;
     let beside = Beside::new(hypothesis, evidence);
     let mut catalogue = Catalogue { entries: beside.signatures(&tried) };
-    let between = Search { evidence, base: &base, catalogue: &catalogue }.between(&beside);
+    let between = Search::new(evidence, &base, &catalogue).between(&beside);
     catalogue.entries.extend(between);
     progress(STAGES[2]);
 
-    let search = Search { evidence, base: &base, catalogue: &catalogue };
+    let search = Search::new(evidence, &base, &catalogue);
     let screened = search.screen(&search.nothing());
     let found = search.best();
     let again = if is_first { sharper(evidence, &found.fit) } else { None };

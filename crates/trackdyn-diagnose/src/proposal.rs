@@ -120,7 +120,7 @@ fn law(
         .collect();
 
     let catalogue = Catalogue { entries: Vec::new() };
-    let search = Search { evidence, base, catalogue: &catalogue };
+    let search = Search::new(evidence, base, &catalogue);
     let library = library(effect, terms, &search, &best.fit);
     let selected = selection::select(&library, options);
     if selected.is_empty() {

@@ -5,6 +5,8 @@
 //! whole simulator. After each change, every effect of the best hypothesis is left out again and exchanged
 //! for every other one: a search that only adds is fooled by effects that resemble each other.
 
+mod done;
+
 use crate::base::{Base, Calibration, with_vehicle};
 use crate::candidate::{Beside, Signature, Variant};
 use crate::evidence::Evidence;
@@ -12,6 +14,7 @@ use crate::fit::{Fit, Point};
 use crate::hypothesis::{Hypothesis, Unknown, active, beyond_none, unknowns_of};
 use crate::normal::{Normal, Prior};
 use crate::prior::{prior, priors};
+use done::{Done, Key, Step};
 use rayon::prelude::*;
 
 /// Effects that one hypothesis may add.
@@ -100,9 +103,15 @@ pub struct Search<'a> {
     pub base: &'a Base,
     /// The candidates.
     pub catalogue: &'a Catalogue,
+    done: Done,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    /// A search of evidence beside a base.
+    pub fn new(evidence: &'a Evidence, base: &'a Base, catalogue: &'a Catalogue) -> Self {
+        Self { evidence, base, catalogue, done: Done::default() }
+    }
+
     /// The base as a hypothesis that adds nothing.
     pub fn nothing(&self) -> Found {
         let fit = self.base.fit.clone();
@@ -192,7 +201,7 @@ impl Search<'_> {
         let nothing = self.nothing();
         let alone = |variant: &Variant, signatures: &[Signature]| -> f64 {
             let catalogue = Catalogue { entries: vec![(variant.clone(), signatures.to_vec())] };
-            let search = Search { catalogue: &catalogue, ..*self };
+            let search = Search::new(self.evidence, self.base, &catalogue);
             search.screen(&nothing).first().map_or(f64::NEG_INFINITY, |one| one.gain)
         };
         let screened = self.screen(&nothing);
@@ -241,6 +250,11 @@ impl Search<'_> {
 
     /// Refits with more effects.
     pub fn refit(&self, beside: &Found, more: &[Screened]) -> Found {
+        let added = more.iter().map(|one| (one.entry, one.sizes.clone())).collect();
+        self.done.or_else(Key::new(beside, Step::Add(added)), || self.refitted(beside, more))
+    }
+
+    fn refitted(&self, beside: &Found, more: &[Screened]) -> Found {
         let mut effects = beside.effects.clone();
         let mut unknowns = beside.fit.unknowns.clone();
         for one in more {
@@ -338,6 +352,10 @@ impl Search<'_> {
 
     /// The hypothesis without one of its added effects, refitted from there: the base itself may have ended further off.
     pub fn without(&self, found: &Found, effect: usize) -> Found {
+        self.done.or_else(Key::new(found, Step::Leave(effect)), || self.left_out(found, effect))
+    }
+
+    fn left_out(&self, found: &Found, effect: usize) -> Found {
         let effects: Vec<usize> =
             found.effects.iter().copied().filter(|other| *other != effect).collect();
         let is_base = effects.is_empty();

@@ -43,7 +43,7 @@ fn both_ways() -> [Found; 2] {
             entries.reverse();
         }
         let catalogue = Catalogue { entries: entries.clone() };
-        let search = Search { evidence: &evidence, base: &base, catalogue: &catalogue };
+        let search = Search::new(&evidence, &base, &catalogue);
         search.best()
     })
 }

@@ -75,7 +75,7 @@ impl Rival {
                 let tried = variants(effect, driving);
                 let entries = Beside::new(hypothesis, driving).signatures(&tried);
                 let catalogue = Catalogue { entries };
-                let search = Search { evidence: driving, base: &base, catalogue: &catalogue };
+                let search = Search::new(driving, &base, &catalogue);
                 let nothing = search.nothing();
                 let best = search.screen(&nothing).into_iter().next();
                 let found = best.map_or(nothing.clone(), |best| search.refit(&nothing, &[best]));

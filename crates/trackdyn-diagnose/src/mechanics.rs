@@ -228,7 +228,7 @@ impl Mechanics {
         mechanics.sheared = match kept {
             Some(kept) => kept.sheared.clone(),
             None if mechanics.shear.is_empty() => None,
-            None => Some(Arc::new(found.sheared(&mechanics.shear, &mechanics.surface))),
+            None => Some(Arc::new(found.sheared(&mechanics.shear, &mechanics.surface, &case))),
         };
         mechanics.inertia = Some(found);
         mechanics

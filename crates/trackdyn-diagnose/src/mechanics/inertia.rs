@@ -180,10 +180,11 @@ impl InertiaNear {
         Self { shift: None, ..self.clone() }
     }
 
-    /// What laws of the shear stress change in it where it was found, at each reading; `surface` has the stationary motions
-    /// with them.
-    pub fn sheared(&self, laws: &[ActiveEffect], surface: &Surface) -> Vec<Vec<Twist>> {
-        self.at.sheared(laws, surface)
+    /// What laws of the shear stress change in it where it was found, at each reading. `with` has the stationary motions
+    /// of a robot with them, `case` is that robot without.
+    pub fn sheared(&self, laws: &[ActiveEffect], with: &Surface, case: &Case) -> Vec<Vec<Twist>> {
+        let without = Surface::new(case.model, case.largest, Some(&self.at.surface));
+        self.at.sheared(laws, [with, &without])
     }
 
     /// Whether both come from one motion in time.
@@ -300,7 +301,9 @@ struct Inertia {
     steps: Vec<Vec<Step>>,
     /// Speeds of the belts behind it, m/s.
     belts: Vec<Vec<TrackSample>>,
-    /// The stationary twists there without it.
+    /// The stationary motions without it.
+    surface: Surface,
+    /// Their twists at the speeds of the belts.
     steady: Vec<Vec<Twist>>,
     /// The sums of forces in these, which the table of stationary motions leaves, once they were asked for.
     left: OnceLock<Vec<Vec<Vector3<f64>>>>,
@@ -324,7 +327,7 @@ impl Inertia {
         let vehicle = case.vehicle.clone();
         let (model, drive) = (model.clone(), *drive);
         let left = OnceLock::new();
-        Ok(Self { inert, vehicle, model, drive, paths, steps, belts, steady, left })
+        Ok(Self { inert, vehicle, model, drive, paths, steps, belts, surface, steady, left })
     }
 
     /// Whether it was found for the very same.
@@ -372,8 +375,15 @@ impl Inertia {
             && changes.all(|(by, change)| change.abs() <= REACH * size(by, &self.vehicle))
     }
 
-    /// What laws of the shear stress change in the motion in time, at each reading.
-    fn sheared(&self, laws: &[ActiveEffect], surface: &Surface) -> Vec<Vec<Twist>> {
+    /// What laws of the shear stress change in the motion in time, at each reading. What they add to the stationary motion is that
+    /// of a robot that may differ from this one: had it the motion of that robot, it would be asked once more for what numbers of it
+    /// change that are no law's.
+    fn sheared(&self, laws: &[ActiveEffect], [with, without]: [&Surface; 2]) -> Vec<Vec<Twist>> {
+        let added = |reading: &TrackSample| {
+            let [with, without] =
+                [with, without].map(|surface| surface.motion(speeds(reading)).twist(&[0.0; 3]));
+            with - without
+        };
         let mut effects = self.model.effects().clone();
         for law in laws {
             effects.insert(law.clone());
@@ -394,7 +404,8 @@ impl Inertia {
         let runs = self.steps.par_iter().zip(&self.belts).zip(&self.steady).zip(left);
         runs.map(|(((steps, belts), steady), left)| {
             let run = Without { steps, belts, steady, left };
-            sheared::departures([&with, &without], &run, &stationary(surface, belts))
+            let shifts: Vec<Twist> = belts.iter().map(added).collect();
+            sheared::departures([&with, &without], &run, &shifts)
         })
         .collect()
     }

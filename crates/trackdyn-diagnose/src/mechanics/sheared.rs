@@ -59,8 +59,8 @@ struct Known {
 const AGEING: f64 = 1.5;
 
 /// What the laws add to the twist (paper's frame) while each reading of a run holds. `forces` are those with and without
-/// the laws, `steady` is the stationary twist with them at each reading.
-pub fn departures([with, without]: [&Forces; 2], run: &Without, steady: &[Twist]) -> Vec<Twist> {
+/// the laws, `shifts` is what they add to the stationary twist at each reading.
+pub fn departures([with, without]: [&Forces; 2], run: &Without, shifts: &[Twist]) -> Vec<Twist> {
     let still = Twist::zero();
     let mut departures = vec![still; run.belts.len()];
     let mut ended = Vector3::zeros();
@@ -69,10 +69,9 @@ pub fn departures([with, without]: [&Forces; 2], run: &Without, steady: &[Twist]
     for (reading, pair) in run.belts.windows(2).enumerate() {
         let [from, until] = [pair[0].t, pair[1].t];
         let speeds = PerSide::new(pair[0].v_left, pair[0].v_right);
-        let (here, there) = (&steady[reading], &run.steady[reading]);
-        let shift = vector(&(*here - *there));
+        let (here, shift) = (run.steady[reading] + shifts[reading], vector(&shifts[reading]));
         // What the tables and rules of both leave of a stationary motion is no change of it.
-        let rest = with.sum(speeds, here, &still) - run.left[reading];
+        let rest = with.sum(speeds, &here, &still) - run.left[reading];
         let mut sum = Vector3::zeros();
         while let Some(step) = steps.next_if(|step| step.end <= until) {
             let per_second = (GAMMA * step.duration).recip();

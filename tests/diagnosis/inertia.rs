@@ -9,9 +9,11 @@ use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
 use trackdyn_diagnose::{Diagnosis, Evidence};
 use trackdyn_field::ScheduleKind;
 use trackdyn_field::sensors::Preset;
+use trackdyn_identify::weighting::SegmentNoise;
 use trackdyn_motion::Transient;
+use trackdyn_physics::contact::Friction;
 use trackdyn_physics::vehicle::FrictionUncertainty;
-use trackdyn_physics::{ActiveEffect, CATALOGUE, Model};
+use trackdyn_physics::{ActiveEffect, CATALOGUE, Model, RunningGear};
 use trackdyn_tests::concealed::{Drive, INERTIA, diagnosed, named, owned, runs, sensors};
 
 /// What inertia adds is late with belts that lag, without a motion in time of its own for every lag: a hypothesis on the way
@@ -33,6 +35,31 @@ fn what_inertia_adds_is_late_with_the_belts() {
     }
 }
 
+/// A belt jumps with each reading, and on dry friction a body follows in some milliseconds. Steps by readings pass over that: a
+/// robot with little friction under small wheels seemed to have Stribeck's friction, of seven standard deviations.
+#[test]
+fn what_inertia_adds_is_what_small_steps_make_it() {
+    let mut file = owned(&[]);
+    file.vehicle.running_gear =
+        RunningGear::Wheels { contact_length: 0.088, width: 0.094, axles: vec![0.29, -0.29] };
+    file.vehicle.friction = Friction { across: 0.57, along: 0.4 };
+    file.vehicle.gauge = 0.55;
+    file.vehicle.cog = [-0.017, 0.003];
+    let (_, evidence) = by_hand();
+    let hypothesis = Hypothesis::filed(&file);
+    // of a laboratory
+    let [pose, walk] = [4e-3_f64, 1.5e-3].map(|deviation| deviation.powi(2));
+    let yaw = [0.17_f64, 0.07].map(|degrees| degrees.to_radians().powi(2));
+    let noise =
+        SegmentNoise { pose: [pose, pose, yaw[0]], walk: [walk, walk, 0.0], heading: yaw[1] };
+    let evidence = evidence.with_noise(noise);
+    let exact = in_time(&hypothesis, &evidence, (0.002, 1e-5));
+    let off = evidence.white(minus(&predicted(&hypothesis, &evidence), &exact));
+    let off = off.iter().map(Vector3::norm_squared).sum::<f64>().sqrt();
+    println!("off by {off} standard deviations in {} samples", evidence.samples().len());
+    assert!(off < 1.2, "{off} standard deviations");
+}
+
 /// The departure by inertia is found without these laws, and what they change in it from there: that is what
 /// a motion in time with them gives, which takes many times as long.
 #[test]
@@ -43,7 +70,7 @@ fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
         let law: ActiveEffect = law.parse().expect("an effect");
         let [with, without] = [plain.with_effect(law.clone()), plain.clone()].map(|hypothesis| {
             let still = still(&hypothesis);
-            let exact = in_time(&hypothesis, &evidence);
+            let exact = in_time(&hypothesis, &evidence, (0.03, 5e-3));
             [exact, predicted(&hypothesis, &evidence)].map(|moving| minus(&moving, &still))
         });
         let [exact, found] = [0, 1].map(|k| minus(&with[k], &without[k]));
@@ -191,8 +218,12 @@ fn predicted(hypothesis: &Hypothesis, evidence: &Evidence) -> Vec<Vector3<f64>> 
     Mechanics::new(hypothesis, evidence).predict(&Instruments::of(hypothesis), evidence)
 }
 
-/// The motion in time of all that the hypothesis holds, over each sample.
-fn in_time(hypothesis: &Hypothesis, evidence: &Evidence) -> Vec<Vector3<f64>> {
+/// The motion in time of all that the hypothesis holds, over each sample, in steps of this length, s, and tolerance, m/s.
+fn in_time(
+    hypothesis: &Hypothesis,
+    evidence: &Evidence,
+    (step, tolerance): (f64, f64),
+) -> Vec<Vector3<f64>> {
     let model = Model::new(hypothesis.vehicle.clone(), hypothesis.effects.clone());
     let paths: Vec<Trajectory> = evidence
         .tracks()
@@ -200,8 +231,8 @@ fn in_time(hypothesis: &Hypothesis, evidence: &Evidence) -> Vec<Vector3<f64>> {
         .map(|run| {
             let mut path = Trajectory::default();
             let mut robot = Transient::at_rest(&model, run[0].t, Pose::default())
-                .with_step(0.03)
-                .with_tolerance(5e-3);
+                .with_step(step)
+                .with_tolerance(tolerance);
             path.push(robot.moment());
             for pair in run.windows(2) {
                 let speeds = PerSide::new(pair[0].v_left, pair[0].v_right);

@@ -21,12 +21,22 @@ use trackdyn_physics::contact::Resolution;
 use trackdyn_physics::{ActiveEffect, CATALOGUE, Circumstance, Drive, Effects, Model, Vehicle};
 use trackdyn_recording::TrackSample;
 
-/// Longest step of the motion in time, s: readings come more often.
-const STEP: f64 = 0.05;
+/// Longest steps of a motion in time, and the error of the twist from which on one is halved.
+#[derive(Clone, Copy)]
+struct Steps {
+    /// s.
+    longest: f64,
+    /// m/s.
+    tolerance: f64,
+}
 
-/// Error of the twist, m/s, from which on a step is halved. In steps of 30 ms, by readings, inertia came out 2 to 4 % wrong; with
-/// this bound it is what steps of 5 ms make it, to 0.5 %.
-const TOLERANCE: f64 = 5e-3;
+impl Steps {
+    /// What inertia adds is what steps of 2 ms make it, to a standard deviation of laboratory sensors over a quarter of an hour. A belt
+    /// jumps with each reading; on dry friction a body follows in some milliseconds, which one long step passes over, unseen by its error.
+    const FINE: Self = Self { longest: 0.02, tolerance: 2e-3 };
+    /// By readings: seven of these standard deviations, alike with and without a law.
+    const COARSE: Self = Self { longest: 0.05, tolerance: 5e-3 };
+}
 
 /// Slip velocity below which a track sticks, m/s: of no account to sensors, and solved sooner than what keeps a parked robot
 /// in its place for a minute.
@@ -297,8 +307,8 @@ struct Inertia {
     drive: Drive,
     /// Motion in time of each run, by the clock of the encoders.
     paths: Vec<Trajectory>,
-    /// The steps that it was found in.
-    steps: Vec<Vec<Step>>,
+    /// Coarse steps of it, once they were asked for.
+    steps: OnceLock<Vec<Vec<Step>>>,
     /// Speeds of the belts behind it, m/s.
     belts: Vec<Vec<TrackSample>>,
     /// The stationary motions without it.
@@ -321,12 +331,16 @@ impl Inertia {
             .iter()
             .map(|run| smooth(run).iter().map(gained).collect())
             .collect();
-        let runs = belts.par_iter().map(|run| path_in_time(model, &surface, run));
-        let (paths, steps) = runs.collect::<Result<(Vec<_>, Vec<_>), String>>()?;
+        let path = |run: &Vec<TrackSample>| -> Result<Trajectory, String> {
+            let mut path = Trajectory::default();
+            in_time(model, &surface, run, Steps::FINE, &mut path)?;
+            Ok(path)
+        };
+        let paths = belts.par_iter().map(path).collect::<Result<Vec<_>, String>>()?;
         let steady = belts.iter().map(|run| stationary(&surface, run)).collect();
         let vehicle = case.vehicle.clone();
         let (model, drive) = (model.clone(), *drive);
-        let left = OnceLock::new();
+        let (steps, left) = (OnceLock::new(), OnceLock::new());
         Ok(Self { inert, vehicle, model, drive, paths, steps, belts, surface, steady, left })
     }
 
@@ -375,9 +389,8 @@ impl Inertia {
             && changes.all(|(by, change)| change.abs() <= REACH * size(by, &self.vehicle))
     }
 
-    /// What laws of the shear stress change in the motion in time, at each reading. What they add to the stationary motion is that
-    /// of a robot that may differ from this one: had it the motion of that robot, it would be asked once more for what numbers of it
-    /// change that are no law's.
+    /// What laws of the shear stress change in the motion in time, at each reading. What they add to the stationary motion is
+    /// the difference of one robot `with` and `without` them: in what else it differs from this one is the slopes' to say.
     fn sheared(&self, laws: &[ActiveEffect], [with, without]: [&Surface; 2]) -> Vec<Vec<Twist>> {
         let added = |reading: &TrackSample| {
             let [with, without] =
@@ -401,13 +414,23 @@ impl Inertia {
             };
             runs.map(|(belts, steady)| belts.iter().zip(steady).map(sum).collect()).collect()
         });
-        let runs = self.steps.par_iter().zip(&self.belts).zip(&self.steady).zip(left);
+        let steps =
+            self.steps.get_or_init(|| self.belts.iter().map(|run| self.steps(run)).collect());
+        let runs = steps.par_iter().zip(&self.belts).zip(&self.steady).zip(left);
         runs.map(|(((steps, belts), steady), left)| {
             let run = Without { steps, belts, steady, left };
             let shifts: Vec<Twist> = belts.iter().map(added).collect();
             sheared::departures([&with, &without], &run, &shifts)
         })
         .collect()
+    }
+
+    /// Steps of the motion in time over a run, coarse ones where it goes through in these.
+    fn steps(&self, run: &[TrackSample]) -> Vec<Step> {
+        let tried = [Steps::COARSE, Steps::FINE].into_iter();
+        let steps =
+            |steps| in_time(&self.model, &self.surface, run, steps, &mut Trajectory::default());
+        tried.map(steps).find_map(Result::ok).unwrap_or_default()
     }
 
     /// The motion in time less the stationary motion, as a twist over a sample.
@@ -434,27 +457,26 @@ fn stationary(surface: &Surface, belts: &[TrackSample]) -> Vec<Twist> {
     belts.iter().map(|reading| surface.motion(speeds(reading)).twist(&[0.0; 3])).collect()
 }
 
-/// The motion in time over a run, and its steps.
-fn path_in_time(
+/// Follows the motion in time over a run, and gives its steps.
+fn in_time(
     model: &Model,
     surface: &Surface,
     belts: &[TrackSample],
-) -> Result<(Trajectory, Vec<Step>), String> {
-    let mut path = Trajectory::default();
-    let Some(first) = belts.first() else { return Ok((path, Vec::new())) };
+    steps: Steps,
+    path: &mut Trajectory,
+) -> Result<Vec<Step>, String> {
+    let Some(first) = belts.first() else { return Ok(Vec::new()) };
     let start = surface.motion(speeds(first)).twist(&[0.0; 3]);
     let mut robot = Transient::at_rest(model, first.t, Pose::default())
-        .with_step(STEP)
-        .with_tolerance(TOLERANCE)
+        .with_step(steps.longest)
+        .with_tolerance(steps.tolerance)
         .with_creep(CREEP)
         .with_twist(start)
         .with_pull()
         .with_steps();
     path.push(robot.moment());
     for pair in belts.windows(2) {
-        robot
-            .drive(speeds(&pair[0]), pair[1].t, &mut path)
-            .map_err(|stopped| stopped.to_string())?;
+        robot.drive(speeds(&pair[0]), pair[1].t, path).map_err(|stopped| stopped.to_string())?;
     }
-    Ok((path, robot.into_steps()))
+    Ok(robot.into_steps())
 }

@@ -4,7 +4,7 @@
 //! hypothesis the same step leads to the same end.
 
 use super::Found;
-use crate::hypothesis::Hypothesis;
+use crate::hypothesis::{Hypothesis, Unknown};
 use std::sync::{Mutex, PoisonError};
 
 /// All refits of a search.
@@ -15,6 +15,7 @@ pub struct Done(Mutex<Vec<(Key, Found)>>);
 #[derive(PartialEq)]
 pub struct Key {
     from: Hypothesis,
+    unknowns: Vec<Unknown>,
     /// It differs where what inertia adds does.
     objective: f64,
     step: Step,
@@ -32,7 +33,9 @@ pub enum Step {
 impl Key {
     /// That of a step from a hypothesis.
     pub fn new(from: &Found, step: Step) -> Self {
-        Self { from: from.fit.hypothesis.clone(), objective: from.fit.objective, step }
+        let Found { fit, .. } = from;
+        let (from, unknowns) = (fit.hypothesis.clone(), fit.unknowns.clone());
+        Self { from, unknowns, objective: fit.objective, step }
     }
 }
 

@@ -31,10 +31,11 @@ struct Steps {
 }
 
 impl Steps {
-    /// What inertia adds is what steps of 2 ms make it, to a standard deviation of laboratory sensors over a quarter of an hour. A belt
-    /// jumps with each reading; on dry friction a body follows in some milliseconds, which one long step passes over, unseen by its error.
+    /// What inertia adds is what steps of 2 ms make it, to one standard deviation of laboratory sensors in eight minutes of driving. A
+    /// belt jumps with each reading; on dry friction a body follows in some milliseconds, which one long step passes over, unseen by
+    /// its error.
     const FINE: Self = Self { longest: 0.01, tolerance: 1e-3 };
-    /// By readings: seven of these standard deviations, alike with and without a law.
+    /// By readings: nine of these standard deviations, alike with and without a law.
     const COARSE: Self = Self { longest: 0.05, tolerance: 5e-3 };
 }
 

@@ -332,10 +332,8 @@ impl Inertia {
             .iter()
             .map(|run| smooth(run).iter().map(gained).collect())
             .collect();
-        let path = |run: &Vec<TrackSample>| -> Result<Trajectory, String> {
-            let mut path = Trajectory::default();
-            in_time(model, &surface, run, Steps::FINE, &mut path)?;
-            Ok(path)
+        let path = |run: &Vec<TrackSample>| {
+            path_in_time(model, &surface, run, Steps::FINE).map(|(path, _)| path)
         };
         let paths = belts.par_iter().map(path).collect::<Result<Vec<_>, String>>()?;
         let steady = belts.iter().map(|run| stationary(&surface, run)).collect();
@@ -393,10 +391,9 @@ impl Inertia {
     /// What laws of the shear stress change in the motion in time, at each reading. What they add to the stationary motion is
     /// the difference of one robot `with` and `without` them: in what else it differs from this one is the slopes' to say.
     fn sheared(&self, laws: &[ActiveEffect], [with, without]: [&Surface; 2]) -> Vec<Vec<Twist>> {
-        let added = |reading: &TrackSample| {
-            let [with, without] =
-                [with, without].map(|surface| surface.motion(speeds(reading)).twist(&[0.0; 3]));
-            with - without
+        let added = |belts: &[TrackSample]| -> Vec<Twist> {
+            let [with, without] = [with, without].map(|surface| stationary(surface, belts));
+            with.iter().zip(without).map(|(with, without)| *with - without).collect()
         };
         let mut effects = self.model.effects().clone();
         for law in laws {
@@ -407,7 +404,9 @@ impl Inertia {
         let grounds = [&with, &self.model].map(|model| model.ground(&level));
         let with = Forces { model: &with, ground: &grounds[0], creep: CREEP };
         let without = Forces { model: &self.model, ground: &grounds[1], creep: CREEP };
-        // On one thread: another job of the pool, taken up in between, would wait for this one.
+        // Both on one thread: another job of the pool, taken up in between, would wait for this one.
+        let steps =
+            self.steps.get_or_init(|| self.belts.iter().map(|run| self.steps(run)).collect());
         let left = self.left.get_or_init(|| {
             let runs = self.belts.iter().zip(&self.steady);
             let sum = |(belts, twist): (&TrackSample, &Twist)| {
@@ -415,23 +414,19 @@ impl Inertia {
             };
             runs.map(|(belts, steady)| belts.iter().zip(steady).map(sum).collect()).collect()
         });
-        let steps =
-            self.steps.get_or_init(|| self.belts.iter().map(|run| self.steps(run)).collect());
         let runs = steps.par_iter().zip(&self.belts).zip(&self.steady).zip(left);
         runs.map(|(((steps, belts), steady), left)| {
             let run = Without { steps, belts, steady, left };
-            let shifts: Vec<Twist> = belts.iter().map(added).collect();
-            sheared::departures([&with, &without], &run, &shifts)
+            sheared::departures([&with, &without], &run, &added(belts))
         })
         .collect()
     }
 
     /// Steps of the motion in time over a run, coarse ones where it goes through in these.
     fn steps(&self, run: &[TrackSample]) -> Vec<Step> {
-        let tried = [Steps::COARSE, Steps::FINE].into_iter();
-        let steps =
-            |steps| in_time(&self.model, &self.surface, run, steps, &mut Trajectory::default());
-        tried.map(steps).find_map(Result::ok).unwrap_or_default()
+        let path = |steps| path_in_time(&self.model, &self.surface, run, steps);
+        let found = [Steps::COARSE, Steps::FINE].into_iter().map(path).find_map(Result::ok);
+        found.map(|(_, steps)| steps).unwrap_or_default()
     }
 
     /// The motion in time less the stationary motion, as a twist over a sample.
@@ -458,15 +453,15 @@ fn stationary(surface: &Surface, belts: &[TrackSample]) -> Vec<Twist> {
     belts.iter().map(|reading| surface.motion(speeds(reading)).twist(&[0.0; 3])).collect()
 }
 
-/// Follows the motion in time over a run, and gives its steps.
-fn in_time(
+/// The motion in time over a run, and its steps.
+fn path_in_time(
     model: &Model,
     surface: &Surface,
     belts: &[TrackSample],
     steps: Steps,
-    path: &mut Trajectory,
-) -> Result<Vec<Step>, String> {
-    let Some(first) = belts.first() else { return Ok(Vec::new()) };
+) -> Result<(Trajectory, Vec<Step>), String> {
+    let mut path = Trajectory::default();
+    let Some(first) = belts.first() else { return Ok((path, Vec::new())) };
     let start = surface.motion(speeds(first)).twist(&[0.0; 3]);
     let mut robot = Transient::at_rest(model, first.t, Pose::default())
         .with_step(steps.longest)
@@ -477,7 +472,9 @@ fn in_time(
         .with_steps();
     path.push(robot.moment());
     for pair in belts.windows(2) {
-        robot.drive(speeds(&pair[0]), pair[1].t, path).map_err(|stopped| stopped.to_string())?;
+        robot
+            .drive(speeds(&pair[0]), pair[1].t, &mut path)
+            .map_err(|stopped| stopped.to_string())?;
     }
-    Ok(robot.into_steps())
+    Ok((path, robot.into_steps()))
 }

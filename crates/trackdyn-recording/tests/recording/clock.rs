@@ -106,6 +106,28 @@ fn outlying_poses_widen_the_error_and_do_not_hide_the_offset() {
     assert!((hurt.tau - 0.25).abs() < 4.0 * hurt.standard_error, "{hurt:?}");
 }
 
+/// Two readings in three seconds say when the robot turned to a quarter of the time between them.
+#[test]
+fn rare_readings_have_an_offset() {
+    let whole = noisy(0.2, 4).recording().expect("long enough");
+    let runs = whole.runs().iter().cloned().map(|run| {
+        let mut rows = run.into_rows();
+        let mut next = f64::NEG_INFINITY;
+        rows.tracks.samples.retain(|sample| {
+            let is_due = sample.t >= next;
+            if is_due {
+                next = sample.t + 1.5;
+            }
+            is_due
+        });
+        rows
+    });
+    let rare = Recording::new("n", "r", runs.collect(), Source::computed(), Vec::new());
+    let found = clock_offset(&rare.expect("long enough"), &ClockSearch::default());
+    let tau = found.expect("turning").tau;
+    assert!((tau - 0.2).abs() < 1.5 / 4.0, "{tau}");
+}
+
 /// Where no reading came nobody knows what the tracks did: two seconds of every six pull the offset by a fifth of a second if the
 /// last reading is taken to hold on.
 #[test]

@@ -9,7 +9,7 @@
 //! - [`candidate`], [`search`]: the signature of every effect, and which effects explain the evidence.
 //! - [`verdict`], [`uncertainty`], [`isolability`]: what is claimed, how large it is, what is told apart.
 //! - [`proposal`]: the form of a force for what no effect explains.
-//! - [`mod@diagnosis`]: all of it in order; [`document`]: as a file; [`exposure`]: for the eye.
+//! - [`mod@diagnosis`]: all of it in order, and what comes out; [`document`]: as a file; [`exposure`]: for the eye.
 //! - [`mod@plan`]: the driving that would tell apart what is left.
 //!
 //! No effect is known by name here: what an effect does is asked of the simulator.

@@ -1,0 +1,115 @@
+//! Errors before and after, on runs that nothing was fitted or chosen on where there are any.
+
+use super::{Diagnosis, Options, Unseen};
+use crate::evidence::Evidence;
+use crate::fit::Fit;
+use crate::locate::{Residual, excess, icr_columns};
+use crate::noise::without_outliers;
+use trackdyn_core::real;
+
+/// Errors on runs that were held out, in units of the noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldOut {
+    /// Root mean square of the whitened residual before.
+    pub before: f64,
+    /// With nothing but the base fitted: constants, encoders and pose sensor.
+    pub instruments: f64,
+    /// After.
+    pub after: f64,
+    /// What is left when everything that moves ICRs or instruments, model or not, is fitted away.
+    pub noise_floor: f64,
+    /// Whether the runs really were held out; else these are the runs of the fit.
+    pub are_held_out: bool,
+}
+
+impl HeldOut {
+    /// What these errors say against what is claimed, anything at all or physics too; none where that does better than
+    /// what it was compared with.
+    pub(super) fn contradiction(&self, claims: bool, claims_physics: bool) -> Option<String> {
+        let Self { before, instruments, after, are_held_out, .. } = *self;
+        if !are_held_out {
+            None
+        } else if claims && after >= before {
+            Some(format!(
+                "What is claimed does not help there: the error is {after:.3} with it and {before:.3} without. It may be true \
+                 of the other runs alone, and the vehicle as filed is the one to drive on with."
+            ))
+        } else if claims_physics && after >= instruments {
+            Some(format!(
+                "The physics that is claimed does not help there: the error is {after:.3} with it and {instruments:.3} with \
+                 encoders, pose sensor and constants at their best alone. It may be true of the other runs only."
+            ))
+        } else {
+            None
+        }
+    }
+
+    /// Share of the excess over the noise floor that the corrected model explains; none where there is no
+    /// excess.
+    pub fn excess_explained(&self) -> Option<f64> {
+        let excess = self.before.powi(2) - self.noise_floor.powi(2);
+        (excess > 1e-3 * self.noise_floor.powi(2))
+            .then(|| (self.before.powi(2) - self.after.powi(2)) / excess)
+    }
+}
+
+/// The errors on evidence, with the fits to it.
+pub(super) fn errors(
+    evidence: &Evidence,
+    [before, instruments, after]: [&Fit; 3],
+    options: &Options,
+) -> HeldOut {
+    let [before, instruments, error] =
+        [before, instruments, after].map(|fit| excess(evidence, &fit.residual));
+    let icrs = icr_columns(evidence, after);
+    let residual = Residual { evidence, fit: after, icrs: &icrs };
+    let flexible = residual.locate(1, options.seed);
+    let count = real(evidence.measured().max(1));
+    let floor = error * error - flexible.explicable.max(0.0) / count;
+    let noise_floor = floor.max(0.0).sqrt().min(error);
+    HeldOut { before, instruments, after: error, noise_floor, are_held_out: false }
+}
+
+impl Diagnosis {
+    /// Judges it by runs that nothing was fitted or chosen on.
+    pub(super) fn judge_on(&mut self, evidence: &Evidence, options: &Options) {
+        let evidence = evidence.with_scale(self.evidence.scale());
+        let noise = self.evidence.noise();
+        let evidence = noise.map_or_else(|| evidence.clone(), |noise| evidence.with_noise(*noise));
+        let best = &self.best.fit;
+        let evidence = without_outliers(&evidence, &best.on(&evidence));
+        let [before, instruments, after] =
+            [self.fit_before(), &self.base.fit, best].map(|fit| fit.on(&evidence));
+        let errors = errors(&evidence, [&before, &instruments, &after], options);
+        self.held_out = HeldOut { are_held_out: true, ..errors };
+        let (before, after) = (before.residual, after.residual);
+        self.unseen = Some(Unseen { evidence, before, after });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn held_out_runs_contradict_what_does_no_better_than_what_was_there_before() {
+        let errors = |before, instruments, after| HeldOut {
+            before,
+            instruments,
+            after,
+            noise_floor: 1.0,
+            are_held_out: true,
+        };
+        assert_eq!(errors(1.5, 1.3, 1.1).contradiction(true, true), None);
+        let filed = errors(1.2, 1.3, 1.25).contradiction(true, true).expect("the file does better");
+        assert!(filed.contains("1.250 with it and 1.200 without"), "{filed}");
+        // what encoders did wrong is explained, and the physics beside it makes it worse
+        let physics =
+            errors(3.0, 1.1, 1.2).contradiction(true, true).expect("instruments do better");
+        assert!(physics.contains("1.200 with it and 1.100 with encoders"), "{physics}");
+        assert_eq!(errors(3.0, 1.1, 1.2).contradiction(true, false), None);
+        assert_eq!(errors(1.1, 1.1, 1.1).contradiction(false, false), None);
+        let fitted = HeldOut { are_held_out: false, ..errors(1.2, 1.3, 1.25) };
+        assert_eq!(fitted.contradiction(true, true), None);
+    }
+}

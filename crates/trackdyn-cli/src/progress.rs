@@ -1,49 +1,104 @@
 //! Progress of long work, on stderr.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use std::sync::OnceLock;
+use std::io::{IsTerminal, stderr};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Work shorter than this shows nothing.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// A bar that appears where work takes long, and not where stderr is not a terminal.
+/// Time between two lines in a log.
+const BETWEEN_LINES: Duration = Duration::from_secs(30);
+
+/// A bar that appears where work takes long; where stderr is not a terminal, a line now and then.
 pub struct Progress {
     total: u64,
     done: AtomicU64,
     start: Instant,
-    bar: OnceLock<ProgressBar>,
+    shown: Shown,
+}
+
+/// What is shown of it.
+enum Shown {
+    Bar(OnceLock<ProgressBar>),
+    Lines(Mutex<Lines>),
 }
 
 impl Progress {
     /// A bar over `total` items.
     pub fn new(total: usize) -> Self {
-        Self {
-            total: total as u64,
-            done: AtomicU64::new(0),
-            start: Instant::now(),
-            bar: OnceLock::new(),
-        }
+        let shown = if stderr().is_terminal() {
+            Shown::Bar(OnceLock::new())
+        } else {
+            Shown::Lines(Mutex::new(Lines { due: BETWEEN_LINES }))
+        };
+        Self { total: total as u64, done: AtomicU64::new(0), start: Instant::now(), shown }
     }
 
     /// Notes `count` more finished items.
     pub fn advance(&self, count: usize) {
         let done = self.done.fetch_add(count as u64, Ordering::Relaxed) + count as u64;
-        if self.start.elapsed() > PATIENCE {
-            let bar = self.bar.get_or_init(|| {
-                let style = ProgressStyle::with_template("{bar:40} {percent}% {eta} left")
-                    .unwrap_or_else(|_| ProgressStyle::default_bar());
-                ProgressBar::new(self.total).with_style(style).with_elapsed(self.start.elapsed())
-            });
-            bar.set_position(done);
+        let elapsed = self.start.elapsed();
+        match &self.shown {
+            Shown::Bar(bar) if elapsed > PATIENCE => {
+                let bar = bar.get_or_init(|| {
+                    let style = ProgressStyle::with_template("{bar:40} {percent}% {eta} left")
+                        .unwrap_or_else(|_| ProgressStyle::default_bar());
+                    ProgressBar::new(self.total).with_style(style).with_elapsed(elapsed)
+                });
+                bar.set_position(done);
+            }
+            Shown::Bar(_) => {}
+            Shown::Lines(lines) => {
+                let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Some(line) = lines.line(done, self.total, elapsed) {
+                    eprintln!("{line}");
+                }
+            }
         }
     }
 
     /// Removes the bar.
     pub fn finish(&self) {
-        if let Some(bar) = self.bar.get() {
+        if let Shown::Bar(bar) = &self.shown
+            && let Some(bar) = bar.get()
+        {
             bar.finish_and_clear();
         }
+    }
+}
+
+/// Lines of a log.
+struct Lines {
+    /// Time from the start before which there is no further one.
+    due: Duration,
+}
+
+impl Lines {
+    /// The line to be written now, if any; none of work that is done.
+    fn line(&mut self, done: u64, total: u64, elapsed: Duration) -> Option<String> {
+        if elapsed < self.due || done >= total {
+            return None;
+        }
+        self.due = elapsed + BETWEEN_LINES;
+        Some(format!("{done} of {total} done after {} s", elapsed.as_secs()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_log_gets_a_line_now_and_then_while_work_goes_on() {
+        let mut lines = Lines { due: BETWEEN_LINES };
+        let mut at = |done, seconds| lines.line(done, 9, Duration::from_secs(seconds));
+        assert_eq!(at(1, 29), None);
+        assert_eq!(at(2, 31).as_deref(), Some("2 of 9 done after 31 s"));
+        assert_eq!(at(3, 60), None);
+        assert_eq!(at(4, 61).as_deref(), Some("4 of 9 done after 61 s"));
+        assert_eq!(at(9, 100), None);
     }
 }

@@ -165,7 +165,7 @@ pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<Clock
              right are swapped, or the sign of yaw is"
         )));
     }
-    if coarse < search.earliest + COARSE / 2.0 || coarse > search.latest - COARSE * 1.5 {
+    if coarse < search.earliest + COARSE / 2.0 || coarse > search.latest - COARSE / 2.0 {
         return Err(refuse(format!(
             "the best offset, {coarse:.2} s, lies at an end of the search from {} to {} s",
             search.earliest, search.latest

@@ -109,7 +109,7 @@ fn fill<S: Sample>(
 /// # Errors
 /// [`Error::Header`] when the table has runs, and those of the table.
 pub(crate) fn read_single_tracks(path: &Path) -> Result<Series<TrackSample>, Error> {
-    let rows = read_rows::<TrackSample>(path)?;
+    let rows = read_table::<TrackSample>(path)?;
     if rows.has_runs {
         return Err(Error::Header {
             path: path.to_owned(),

@@ -30,7 +30,7 @@ impl Format {
         if place.is_dir() && path.join(folder::MANIFEST).is_file() {
             return Ok(Self::Folder);
         }
-        if rosbag::is_bag(path) {
+        if rosbag::is_bag(path)? {
             return Ok(Self::Rosbag);
         }
         if !place.is_dir() && is_trajectory(path) {

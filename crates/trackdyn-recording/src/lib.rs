@@ -34,6 +34,7 @@ pub mod segment;
 pub mod selection;
 pub mod synthetic;
 pub mod table;
+mod thinned;
 pub mod tum;
 
 pub use blocks::{Blocks, Extent};

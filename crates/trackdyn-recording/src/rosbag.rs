@@ -8,7 +8,7 @@
 //! Positions of joints that wrap after a turn are unwrapped. Where both frames are named and no topic has
 //! their poses, these are composed along a chain of transforms, such as map → odom → base_link.
 
-use crate::recording::{Recording, Source, Warning};
+use crate::recording::{Recording, Source};
 use crate::{Error, Format};
 use std::path::Path;
 
@@ -45,14 +45,10 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     let collected = collector.finish(path)?;
     warnings.extend(collected.warnings);
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let robot = options.robot.clone().unwrap_or_else(|| {
-        warnings.push(Warning::Chosen { what: "robot", taken: "unknown".to_owned() });
-        "unknown".to_owned()
-    });
     let source = Source {
         format: Format::Rosbag,
         path: Some(path.to_owned()),
         epoch_ns: Some(collected.epoch_ns),
     };
-    Recording::new(name, robot, vec![collected.run], source, warnings)
+    Recording::new(name, "unknown", vec![collected.run], source, warnings)
 }

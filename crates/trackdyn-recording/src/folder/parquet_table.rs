@@ -27,6 +27,9 @@ pub(super) fn read_rows<S: Sample>(path: &Path) -> Result<Rows<S>, Error> {
     };
     let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
     let reader = SerializedFileReader::new(file).map_err(refused)?;
+    if reader.num_row_groups() == 0 {
+        return Err(Error::Empty { path: path.to_owned(), message: "no rows".to_owned() });
+    }
     let mut columns: Vec<Column> = Vec::new();
     for group in 0..reader.num_row_groups() {
         let group = reader.get_row_group(group).map_err(refused)?;

@@ -10,7 +10,6 @@ use super::topic::{Layout, Role, STATIC, Topic};
 use crate::Error;
 use crate::recording::Warning;
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::Path;
 
 /// Contents of a bag.
@@ -31,8 +30,6 @@ pub struct TopicSummary {
     pub name: String,
     /// Its type.
     pub kind: String,
-    /// How its messages are encoded.
-    pub encoding: String,
     /// What it can be used for.
     pub role: Option<Role>,
     /// Number of messages.
@@ -143,9 +140,8 @@ impl Seen {
             role: topic.layout().map(Layout::role),
             name: topic.name,
             kind: topic.kind,
-            encoding: topic.encoding,
             messages: self.messages,
-            duration: (last - first) as f64 / 1e9,
+            duration: last.saturating_sub(first) as f64 / 1e9,
             joints: self.joints,
             signals: self.signals,
             frames: self.frames,
@@ -201,22 +197,5 @@ fn suggest(topics: &[TopicSummary]) -> RosbagOptions {
         pose_topic: pose,
         imu_topic: only(of(Role::Imu).collect()),
         ..RosbagOptions::default()
-    }
-}
-
-impl fmt::Display for TopicSummary {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { name, kind, messages, duration, .. } = self;
-        write!(f, "{name}  {kind}  {messages} messages in {duration:.3} s")?;
-        if !self.joints.is_empty() {
-            write!(f, "  joints {} ({})", self.joints.join(", "), self.signals.join(", "))?;
-        }
-        for (parent, child) in &self.frames {
-            match child.as_str() {
-                "" => write!(f, "  in {parent}")?,
-                child => write!(f, "  {child} in {parent}")?,
-            }
-        }
-        Ok(())
     }
 }

@@ -35,7 +35,14 @@ pub(super) enum JointProblem {
     /// It cannot be decoded.
     Cdr(CdrError),
     /// Joints of a side are not in it.
-    Absent(Side),
+    Absent {
+        /// The side.
+        side: Side,
+        /// Its joints; none where any with its name would have done.
+        wanted: Vec<String>,
+        /// The joints of the message.
+        found: Vec<String>,
+    },
     /// It has neither velocities nor positions of the kind wanted.
     NoSignal,
 }
@@ -44,8 +51,16 @@ impl std::fmt::Display for JointProblem {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Cdr(error) => error.fmt(f),
-            Self::Absent(Side::Left) => write!(f, "the left joints are not in it"),
-            Self::Absent(Side::Right) => write!(f, "the right joints are not in it"),
+            Self::Absent { side, wanted, found } => {
+                let (side, found) = (word(*side), found.join(", "));
+                let wanted = match &wanted[..] {
+                    [] => format!("no joint has \"{side}\" in its name"),
+                    wanted => {
+                        format!("not all of the {side} joints ({}) are in it", wanted.join(", "))
+                    }
+                };
+                write!(f, "{wanted}, but {found}")
+            }
             Self::NoSignal => write!(f, "the joints have no such signal"),
         }
     }
@@ -79,11 +94,7 @@ impl Joints {
     fn sign(&self, side: Side, joint: &str) -> Option<f64> {
         let names = &self.names[side];
         if names.is_empty() {
-            let word = match side {
-                Side::Left => "left",
-                Side::Right => "right",
-            };
-            return joint.to_lowercase().contains(word).then_some(1.0);
+            return joint.to_lowercase().contains(word(side)).then_some(1.0);
         }
         names.iter().find_map(|name| match name.strip_prefix('-') {
             Some(reversed) if reversed == joint => Some(-1.0),
@@ -151,6 +162,7 @@ impl Joints {
         if !(if is_position { has_position } else { has_velocity }) {
             return Err(JointProblem::NoSignal);
         }
+        let mut all = names_at.clone();
         let (mut names, mut values) = (names_at, if is_position { positions } else { velocities });
         let mut angles = Vec::new();
         let mut sums = PerSide::new(0.0, 0.0);
@@ -175,7 +187,10 @@ impl Joints {
         }
         for side in Side::BOTH {
             if (found[side] as usize) < self.needed(side) {
-                return Err(JointProblem::Absent(side));
+                let found = (0..count).map(|_| Ok(all.text()?.to_owned()));
+                let found = found.collect::<Result<_, CdrError>>()?;
+                let wanted = self.names[side].clone();
+                return Err(JointProblem::Absent { side, wanted, found });
             }
         }
         let sides = PerSide::from_fn(|side| sums[side] / f64::from(found[side]));
@@ -183,6 +198,14 @@ impl Joints {
             angle.share /= f64::from(found[angle.side]);
         }
         Ok(Reading { sides, angles, is_position })
+    }
+}
+
+/// The name of a side.
+fn word(side: Side) -> &'static str {
+    match side {
+        Side::Left => "left",
+        Side::Right => "right",
     }
 }
 

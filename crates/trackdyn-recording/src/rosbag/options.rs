@@ -5,8 +5,6 @@ use super::topic::STATIC;
 /// Topics, joints and frames; what is left open is taken where the bag leaves no choice.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RosbagOptions {
-    /// Name of the robot.
-    pub robot: Option<String>,
     /// Topic of the `sensor_msgs/JointState`.
     pub tracks_topic: Option<String>,
     /// Joints of the left side; their mean counts, and a `-` before a name reverses its sign.

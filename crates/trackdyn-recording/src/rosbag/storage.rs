@@ -19,8 +19,11 @@ pub(super) trait Visitor {
 }
 
 /// Whether the path is a bag: a file that ends in `.mcap` or `.db3`, or a folder with such files.
-pub(crate) fn is_bag(path: &Path) -> bool {
-    if path.is_dir() { parts(path).is_ok_and(|parts| !parts.is_empty()) } else { is_part(path) }
+///
+/// # Errors
+/// [`Error::Unreadable`].
+pub(crate) fn is_bag(path: &Path) -> Result<bool, Error> {
+    Ok(if path.is_dir() { !parts(path)?.is_empty() } else { is_part(path) })
 }
 
 fn is_part(path: &Path) -> bool {

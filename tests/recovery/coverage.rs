@@ -24,7 +24,7 @@ fn intervals_cover_the_truth() {
 }
 
 #[test]
-#[ignore = "a thousand recordings: cargo test --release -- --ignored"]
+#[ignore = "a thousand recordings: cargo test --release -p trackdyn-tests -- --ignored"]
 fn intervals_cover_93_to_97_percent_of_a_thousand() {
     let shares = coverage(1_000, 10_000);
     println!("{:?}: {shares:?}", Parameters::NAMES);

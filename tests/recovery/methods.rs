@@ -9,7 +9,7 @@ use trackdyn_identify::{
 };
 use trackdyn_recording::Recording;
 use trackdyn_recording::noise::noise;
-use trackdyn_recording::synthetic::Stretch;
+use trackdyn_recording::synthetic::{Stretch, Synthetic};
 
 /// Lever of the cost (17), m.
 const LEVER: f64 = GAUGE / 2.0;
@@ -86,6 +86,22 @@ fn lacking(recording: &Recording, free: Free) -> Option<Doubt> {
 fn straight_driving_shows_no_icr() {
     let straight = record(vec![vec![stretch(60.0, 0.5, 0.5)], vec![stretch(60.0, -0.4, -0.4)]], 6);
     assert_eq!(lacking(&straight, Free::Icrs), Some(Doubt::NoTurning));
+}
+
+/// Speeds as commanded have no noise that driving could be compared with.
+#[test]
+fn straight_driving_at_commanded_speeds_shows_no_icr_either() {
+    let commanded = |left: f64, right: f64| {
+        let schedules = vec![vec![stretch(30.0, left, right)]];
+        let commanded = Synthetic { schedules, yaw_noise: 0.002, ..Synthetic::default() };
+        let commanded = commanded.recording().expect("long enough");
+        [Free::Icrs, Free::IcrsAndAlphas].map(|free| lacking(&commanded, free))
+    };
+    for speed in [0.0, 0.5] {
+        let nothing = [Some(Doubt::NoTurning), Some(Doubt::OneRatio)];
+        assert_eq!(commanded(speed, speed), nothing, "{speed} m/s");
+    }
+    assert_eq!(commanded(0.2, 0.5), [None, Some(Doubt::OneRatio)]);
 }
 
 #[test]

@@ -7,7 +7,10 @@ use crate::doubt::Doubt;
 #[non_exhaustive]
 pub enum Error {
     /// Too little in the recording.
-    #[error("{found} segments: expected at least {needed} for {parameters} parameters")]
+    #[error(
+        "{found} segments: expected at least {needed} for {parameters} parameters, each between two poses that the track \
+         speeds cover by the same clock, in seconds, and of steady driving where --settle asks for it"
+    )]
     TooFewSegments {
         /// Segments of the recording.
         found: usize,

@@ -33,7 +33,7 @@ pub struct SegmentNoise {
 }
 
 /// Less noise of a pose, m and rad, no model explains: poses of a simulator have none, and no covariance without it.
-const LEAST: f64 = 1e-4;
+pub const LEAST: f64 = 1e-4;
 
 impl SegmentNoise {
     /// From what the maker of the recording states of its poses.

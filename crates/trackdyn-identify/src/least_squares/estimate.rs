@@ -88,9 +88,15 @@ impl Estimate {
         let gradient = DVector::from_column_slice(gradient);
         let variance = |of: &DMatrix<f64>| {
             let (rows, _) = gradient.shape();
-            (gradient.transpose() * of.view((0, 0), (rows, rows)) * &gradient)[0].max(0.0)
+            (gradient.transpose() * of.view((0, 0), (rows, rows)) * &gradient)[0]
         };
-        let larger = variance(&self.covariance).max(variance(&self.covariance_of_noise));
+        let variances = [variance(&self.covariance), variance(&self.covariance_of_noise)];
+        // of a number and none, the larger would be the number
+        let larger = if variances.iter().any(|variance| variance.is_nan()) {
+            f64::NAN
+        } else {
+            variances[0].max(variances[1]).max(0.0)
+        };
         Interval::new(value, larger.sqrt(), self.filled_blocks, self.unknowns.count())
     }
 

@@ -29,7 +29,7 @@ const CHANGES: f64 = 1.0;
 /// What the driving of a recording lacks for these parameters; none where it does. `noise` is that of the
 /// recording.
 pub fn lacks(observations: &Observations, noise: &Noise, free: Free) -> Option<Doubt> {
-    let ratio = poorest_excitation(observations, noise, free)?;
+    let ratio = poorest_excitation(observations, noise, free);
     (ratio < EXCITATION).then_some(match free {
         Free::Icrs => Doubt::NoTurning,
         Free::IcrsAndAlphas => Doubt::OneRatio,
@@ -45,11 +45,11 @@ pub fn lacks_nuisance(
     match nuisance {
         Nuisance::LeverArm => Some(Doubt::LeverArm),
         Nuisance::SensorYaw => {
-            let ratio = translation(observations, noise)?;
+            let ratio = translation(observations, noise);
             (ratio < EXCITATION).then_some(Doubt::NoTranslation)
         }
         Nuisance::TimeOffset => {
-            let ratio = changes(observations, noise)?;
+            let ratio = changes(observations, noise);
             (ratio < CHANGES).then_some(Doubt::NoChange)
         }
     }
@@ -67,16 +67,12 @@ pub fn nuisance_doubts(estimate: &Estimate) -> Vec<Doubt> {
         .collect()
 }
 
-/// Variance of (V_r + V_l)/2, as far as V_r − V_l does not explain it, over that of its noise. None without
-/// encoder noise.
+/// Variance of (V_r + V_l)/2, as far as V_r − V_l does not explain it, over that of its noise.
 ///
 /// A point of the body moves with (V_r + V_l)/2 straight ahead plus ω times a vector that the ICRs fix. ψ turns
 /// the first; what it does to the second other ICRs do too.
-fn translation(observations: &Observations, noise: &Noise) -> Option<f64> {
-    let encoder = |side: Side| {
-        noise.encoders[side].map(|noise| noise.deviation.powi(2) * noise.update_interval)
-    };
-    let per_second = f64::midpoint(encoder(Side::Left)?, encoder(Side::Right)?);
+fn translation(observations: &Observations, noise: &Noise) -> f64 {
+    let per_second = variance_per_second(noise);
     let (mut means, mut mixed, mut differences, mut variance) = (0.0, 0.0, 0.0, 0.0);
     for segment in observations.segments() {
         let speed = observations.travelled(segment).map(|distance| distance / segment.duration);
@@ -87,23 +83,44 @@ fn translation(observations: &Observations, noise: &Noise) -> Option<f64> {
         variance += per_second / (2.0 * segment.duration);
     }
     let explained = if differences > 0.0 { mixed * mixed / differences } else { 0.0 };
-    (variance > 0.0).then_some((means - explained) / variance - 1.0)
+    over_noise(means - explained, variance, means)
 }
 
 /// Variance of the change of track speeds from the beginning to the end of segments over that of their noise.
-/// None without encoder noise.
-pub(crate) fn changes(observations: &Observations, noise: &Noise) -> Option<f64> {
-    let variance = |side: Side| noise.encoders[side].map(|noise| 2.0 * noise.deviation.powi(2));
-    let of_noise = variance(Side::Left)? + variance(Side::Right)?;
-    let (mut squares, mut expected) = (0.0, 0.0);
+fn changes(observations: &Observations, noise: &Noise) -> f64 {
+    let variance =
+        |side: Side| noise.encoders[side].map_or(0.0, |noise| 2.0 * noise.deviation.powi(2));
+    let of_noise = variance(Side::Left) + variance(Side::Right);
+    let (mut squares, mut expected, mut speeds) = (0.0, 0.0, 0.0);
     for segment in observations.segments() {
         if let [first, .., last] = observations.pieces(segment) {
             squares +=
                 (last.v_left - first.v_left).powi(2) + (last.v_right - first.v_right).powi(2);
             expected += of_noise;
+            speeds += first.v_left.powi(2) + first.v_right.powi(2);
         }
     }
-    (expected > 0.0).then_some(squares / expected - 1.0)
+    over_noise(squares, expected, speeds)
+}
+
+/// Variance of the mean of an encoder's speeds over a second, m²/s²; zero where its noise was not measured.
+fn variance_per_second(noise: &Noise) -> f64 {
+    let encoder = |side: Side| {
+        noise.encoders[side].map_or(0.0, |noise| noise.deviation.powi(2) * noise.update_interval)
+    };
+    f64::midpoint(encoder(Side::Left), encoder(Side::Right))
+}
+
+/// Variance of driving over that of its noise, which it holds too. Without noise, infinite, unless it is rounding of all the
+/// driving there was.
+fn over_noise(driven: f64, noise: f64, all: f64) -> f64 {
+    if noise > 0.0 {
+        driven / noise - 1.0
+    } else if driven > LOST * all {
+        f64::INFINITY
+    } else {
+        0.0
+    }
 }
 
 /// The parameters of an estimate that are too uncertain for a vehicle with this gauge, m.
@@ -124,12 +141,9 @@ pub(crate) fn too_wide(deviations: &[f64], gauge: f64) -> Vec<Doubt> {
 }
 
 /// Variance of the driving over that of the encoders' noise: of V_r − V_l for the ICRs alone; with α, in the
-/// direction of the (V_l, V_r) plane in which the recording drives least. None without encoder noise.
-fn poorest_excitation(observations: &Observations, noise: &Noise, free: Free) -> Option<f64> {
-    let encoder = |side: Side| {
-        noise.encoders[side].map(|noise| noise.deviation.powi(2) * noise.update_interval)
-    };
-    let per_second = f64::midpoint(encoder(Side::Left)?, encoder(Side::Right)?);
+/// direction of the (V_l, V_r) plane in which the recording drives least.
+fn poorest_excitation(observations: &Observations, noise: &Noise, free: Free) -> f64 {
+    let per_second = variance_per_second(noise);
     let mut moments = Matrix2::zeros();
     let mut variance = 0.0;
     for segment in observations.segments() {
@@ -146,7 +160,7 @@ fn poorest_excitation(observations: &Observations, noise: &Noise, free: Free) ->
         }
         Free::IcrsAndAlphas => moments.symmetric_eigenvalues().min(),
     };
-    (variance > 0.0).then_some(least / variance - 1.0)
+    over_noise(least, variance, moments.trace())
 }
 
 /// The inverse of a normal matrix, by its eigenvalues; directions that are lost get a variance that

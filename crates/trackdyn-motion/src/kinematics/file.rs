@@ -262,6 +262,7 @@ struct Divisors {
     alpha_left: Option<Spanned<f64>>,
     alpha_right: Option<Spanned<f64>>,
     y_icr_m: Spanned<f64>,
+    covariance: Option<Spanned<Vec<Vec<f64>>>>,
     #[serde(default)]
     sector: Vec<SectorDivisors>,
 }
@@ -287,6 +288,11 @@ impl Divisors {
             {
                 return Err(document.value_error(factor.span(), key, "a positive number"));
             }
+        }
+        if let Some(covariance) = &self.covariance
+            && covariance.get_ref().iter().flatten().any(|element| !element.is_finite())
+        {
+            return Err(document.value_error(covariance.span(), "covariance", "finite numbers"));
         }
         for sector in &self.sector {
             separated(document, &sector.x_icr_left_m, &sector.x_icr_right_m)?;

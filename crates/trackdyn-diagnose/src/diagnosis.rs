@@ -140,9 +140,7 @@ pub struct Diagnosis {
     pub left: Vec<Screened>,
     /// Effects that only move constant ICRs.
     pub constants: Vec<usize>,
-    /// What this evidence can tell apart.
-    pub isolability: Isolability,
-    /// The same of all candidates beside the base, what is claimed among them.
+    /// What this evidence can tell apart, of all candidates beside the base, what is claimed among them.
     pub resemblance: Isolability,
     /// The claimed effects, or else the best candidate, against the evidence.
     pub exposures: Vec<Exposure>,
@@ -186,8 +184,10 @@ impl Diagnosis {
 
     /// What held-out runs say against what is claimed, as a sentence; none where the corrected model does better there.
     pub fn contradiction(&self) -> Option<String> {
-        let claims_physics = self.missing.iter().any(|missing| missing.kind == Kind::Physics);
-        self.held_out.contradiction(!self.missing.is_empty(), claims_physics)
+        let claims = |kind: Kind| self.missing.iter().any(|missing| missing.kind == kind);
+        // constants are fitted in what was there before too
+        let [physics, instruments] = [Kind::Physics, Kind::Instrument].map(claims);
+        self.held_out.contradiction(physics || instruments, physics)
     }
 
     /// The fit of what was there before: of the vehicle as filed where encoders or pose sensor are to blame for

@@ -7,7 +7,7 @@ pub enum Error {
     /// Too little driving.
     #[error(
         "{found} segments to learn from: expected at least {needed}, that is, some {:.0} s of driving with poses and \
-         track speeds, in runs that are not held out", 0.3 * real(*.needed)
+         track speeds by the same clock, in seconds, in runs that are not held out", 0.3 * real(*.needed)
     )]
     TooFewSegments {
         /// Segments of the runs that are not held out.
@@ -15,6 +15,11 @@ pub enum Error {
         /// Segments that are needed.
         needed: usize,
     },
+    /// Held-out runs without driving.
+    #[error(
+        "the runs that are held out hold no segment of driving: expected others, or none (--held-out)"
+    )]
+    NothingHeldOut,
     /// Too small a table.
     #[error("{found} steady points: expected at least {needed}")]
     TooFewPoints {

@@ -16,7 +16,7 @@
 //! set by the median of |z|², which is that of a χ² with three degrees of freedom, less what was fitted.
 //!
 //! Physics may leave more than contrasts can take up, and what is slow in it is then taken for a walk. Where a hypothesis
-//! does explain more, the noise is looked for once more beside it, and stands if what a run adds up to falls: a walk that is
+//! does explain more, the noise is looked for once more beside it, and stands if what a run adds up to falls along one axis: a walk that is
 //! next to nothing in a sample is what hides slow changes.
 //!
 //! What is measured without any model ([`trackdyn_recording::noise`]) is where this starts from. Poses alone
@@ -128,7 +128,7 @@ pub fn sentence(noise: &SegmentNoise) -> String {
 }
 
 /// The evidence with the noise beside a hypothesis that explains more than contrasts can; none where this does
-/// not make it smaller.
+/// not make it smaller along any axis.
 pub fn sharper(evidence: &Evidence, fit: &Fit) -> Option<Evidence> {
     let before = evidence.noise()?;
     let again = with_remaining_noise(evidence, fit);

@@ -18,8 +18,7 @@ use crate::fit::{Fit, columns};
 use crate::hypothesis::Unknown;
 use crate::locate::{Location, Residual, excess, icr_columns};
 use crate::mechanics::Instruments;
-use crate::normal::Prior;
-use crate::prior::prior;
+use crate::prior::priors;
 use crate::search::{Catalogue, Found, Search};
 use crate::uncertainty::{Interval, Uncertainty};
 use crate::verdict::{Rules, Support};
@@ -181,16 +180,12 @@ fn library(effect: usize, terms: Vec<Term>, search: &Search, fit: &Fit) -> Libra
     let hypothesis = &fit.hypothesis;
     let prediction = fit.mechanics.predict(&Instruments::of(hypothesis), evidence);
     let more = columns(hypothesis, &fit.mechanics, &prediction, &unknowns, evidence);
-    let known = unknowns.iter().map(|&unknown| {
-        let known = prior(hypothesis, unknown, evidence);
-        Prior { mean: known.mean - hypothesis.get(unknown), ..known }
-    });
-    let (_, mut priors, _) = search.normal(fit, &[]);
-    priors.extend(known);
+    let mut known = priors(hypothesis, &fit.unknowns, evidence);
+    known.extend(priors(hypothesis, &unknowns, evidence));
     let free = fit.columns.len();
     let all: Vec<_> = fit.columns.iter().cloned().chain(more).collect();
     let normal = evidence.normal(&fit.residual, &all);
-    Library { effect, terms, unknowns, normal, priors, free }
+    Library { effect, terms, unknowns, normal, priors: known, free }
 }
 
 /// The best hypothesis with the chosen terms as a force in the simulator, everything fitted anew.

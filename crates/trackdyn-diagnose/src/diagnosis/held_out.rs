@@ -23,7 +23,7 @@ pub struct HeldOut {
 }
 
 impl HeldOut {
-    /// What these errors say against what is claimed, anything at all or physics too; none where that does better than
+    /// What these errors say against what is claimed beside constants, physics or instruments; none where that does better than
     /// what it was compared with.
     pub(super) fn contradiction(&self, claims: bool, claims_physics: bool) -> Option<String> {
         let Self { before, instruments, after, are_held_out, .. } = *self;
@@ -32,12 +32,12 @@ impl HeldOut {
         } else if claims && after >= before {
             Some(format!(
                 "What is claimed does not help there: the error is {after:.3} with it and {before:.3} without. It may be true \
-                 of the other runs alone, and the vehicle as filed is the one to drive on with."
+                 of what it was learned from alone: drive on without it."
             ))
         } else if claims_physics && after >= instruments {
             Some(format!(
                 "The physics that is claimed does not help there: the error is {after:.3} with it and {instruments:.3} with \
-                 encoders, pose sensor and constants at their best alone. It may be true of the other runs only."
+                 encoders, pose sensor and constants at their best alone. It may be true of what it was learned from alone."
             ))
         } else {
             None

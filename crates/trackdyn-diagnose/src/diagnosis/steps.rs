@@ -44,6 +44,9 @@ pub fn diagnose(
     if found < FEWEST && !evidence.is_steady() {
         return Err(Error::TooFewSegments { found, needed: FEWEST });
     }
+    if !options.held_out.is_empty() && unseen.samples().is_empty() {
+        return Err(Error::NothingHeldOut);
+    }
     let base = Base::new(file, &evidence);
     if let Some(reason) = base.as_filed.mechanics.failure() {
         return Err(Error::NoMotion(reason));
@@ -139,10 +142,9 @@ fn attempt(
     let broken = [located.broken(), filed.broken(), left_over].concat();
     let broken: Vec<Symmetry> = BTreeSet::from_iter(broken).into_iter().collect();
     let left = search.screen(&best);
-    let isolability = Isolability::new(&search, &best, &screened);
+    let detectable = Isolability::new(&search, &best, &screened).detectable();
     let resemblance = Isolability::new(&search, &search.nothing(), &screened);
     let exposures = exposures(&search, &best.fit, &missing, &screened, &constants.only);
-    let detectable = isolability.detectable();
     let corrected = corrected(file, &best, friction_level, &missing);
     let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]
         .map(|(fit, icrs)| cells(evidence, &fit.residual, icrs));
@@ -161,7 +163,6 @@ fn attempt(
         screened,
         left,
         constants: constants.only,
-        isolability,
         resemblance,
         exposures,
         detectable,

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_identify::observations::Observations;
 use trackdyn_identify::spin_test;
-use trackdyn_identify::weighting::SegmentNoise;
+use trackdyn_identify::weighting::{LEAST, SegmentNoise};
 use trackdyn_recording::noise::{Noise, noise};
 use trackdyn_recording::{Clock, Recording, SegmentOptions, TrackSample};
 
@@ -16,6 +16,9 @@ const TAU_MARGIN: f64 = 0.15;
 
 /// Largest coordinate of a pose, m: places of the catalogue lie in some kilometres around the origin.
 const FARTHEST: f64 = 5000.0;
+
+/// Readings of the tracks that come more often than this are put together, s: no motion in time takes shorter steps.
+const SHORTEST: f64 = 0.01;
 
 /// Fewer segments than this are no evidence.
 pub const FEWEST: usize = 60;
@@ -35,6 +38,7 @@ impl Evidence {
         if found > FARTHEST {
             return Err(Error::FarFromOrigin { found, largest: FARTHEST });
         }
+        let recording = &*recording.with_readings_every(SHORTEST);
         let clock = Clock::of(recording, None);
         let tau = clock.tau();
         let (recording, measured) = quieter(recording, tau);
@@ -85,6 +89,11 @@ impl Evidence {
                 follows: segment.follows,
             });
         }
+        for (run, tracks) in tracks.iter_mut().enumerate() {
+            if !samples.iter().any(|sample| sample.run == run) {
+                tracks.clear();
+            }
+        }
         Ok(Self {
             whitening: Whitening::of(noise, &samples),
             scale: [1.0; 3],
@@ -111,7 +120,8 @@ fn quieter(recording: &Recording, tau: f64) -> (Cow<'_, Recording>, Noise) {
     // logarithm of the product of the white noise's standard deviations
     let level = |noise: &Noise| -> Option<f64> {
         let poses = noise.moving.as_ref()?;
-        Some([poses.forward, poses.lateral, poses.yaw].map(|axis| axis.white.ln()).iter().sum())
+        let axes = [poses.forward, poses.lateral, poses.yaw];
+        Some(axes.iter().map(|axis| axis.white.max(LEAST).ln()).sum())
     };
     match (level(&as_stamped), level(&as_due)) {
         (Some(stamped), Some(level)) if level < stamped => (Cow::Owned(due), as_due),

@@ -3,6 +3,7 @@
 use crate::diagnosis::Status;
 use crate::document::DiagnosisFile;
 use crate::hypothesis::neutral;
+use std::ops::Range;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_physics::effect::Role;
 use trackdyn_physics::{CATALOGUE, effect::Stage};
@@ -60,12 +61,10 @@ impl Question {
                 };
                 let [low, high] = card.parameters[known].range;
                 if !(low..=high).contains(&parameter.value) {
-                    let start = document.text().find(&format!("\"{}\"", parameter.name));
-                    let start = start.unwrap_or_default();
-                    let until = document.text()[start..].find('}').map_or(start, |end| start + end);
+                    let value = value_after(document.text(), &parameter.name);
                     let key = format!("missing.parameters.{}", parameter.name);
                     let expected = format!("a value from {low} to {high} {}", parameter.unit);
-                    return Err(document.value_error(start..until, key, expected));
+                    return Err(document.value_error(value, key, expected));
                 }
                 values[known] = parameter.value;
             }
@@ -93,6 +92,19 @@ fn wrong(document: &Document, key: &str, value: &str, expected: String) -> Docum
     let quoted = format!("\"{value}\"");
     let start = document.text().find(&quoted).unwrap_or_default();
     document.value_error(start..start + quoted.len(), key, expected)
+}
+
+/// Where the value of the parameter of this name stands.
+fn value_after(text: &str, name: &str) -> Range<usize> {
+    let after = |from: usize, what: &str| {
+        text[from..].find(what).map_or(from, |place| from + place + what.len())
+    };
+    let name = after(0, &format!("\"{name}\""));
+    let start = after(after(name, "value"), "=");
+    let ends = |letter: char| matches!(letter, '\n' | ',' | '}' | '#');
+    let until = text[start..].find(ends).map_or(text.len(), |end| start + end);
+    let value = text[start..until].trim_start();
+    until - value.len()..start + text[start..until].trim_end().len()
 }
 
 /// What can be measured at rest where driving cannot tell an effect from another.

@@ -40,7 +40,7 @@ impl Proposed {
         Some(Size { value: angle.to_degrees() / times, half: half.to_degrees() / times })
     }
 
-    /// The term in a phrase, such as "sideways force of 0.031 ± 0.004 of the weight times
+    /// The term in a phrase, such as "sideways force of 0.0310 ± 0.0040 of the weight times
     /// cos(heading − 40° ± 7°)".
     pub fn phrase(&self, contact_length: f64) -> String {
         let term = &self.term;

@@ -83,7 +83,7 @@ fn of_all_sizes(doses: [Dose; 2]) -> Vec<(Dose, f64)> {
     doses.into_iter().flat_map(|dose| [(dose.clone(), 0.5), (dose, 1.5)]).collect()
 }
 
-/// Places of a drive at equal intervals, m.
+/// The places of poses, m.
 pub(crate) fn places<'a>(poses: impl Iterator<Item = &'a Pose>) -> Vec<[f64; 2]> {
     poses.map(|pose| [pose.x, pose.y]).collect()
 }

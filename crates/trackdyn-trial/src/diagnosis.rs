@@ -115,9 +115,20 @@ impl Diagnosis {
     /// Reads `diagnosis.toml` of a folder.
     ///
     /// # Errors
-    /// [`Error::Document`].
+    /// [`Error::Document`]; [`Error::Option`] of a name that would break a table of scores.
     pub fn read(folder: &Path) -> Result<Self, Error> {
-        Ok(Document::read(&folder.join(FILE))?.parse()?)
+        let diagnosis: Self = Document::read(&folder.join(FILE))?.parse()?;
+        let names = diagnosis.missing.iter().flat_map(Missing::members);
+        let mut names = names.chain(diagnosis.located.broken.iter().map(String::as_str));
+        let breaks = |letter: char| matches!(letter, ',' | '|' | '"') || letter.is_whitespace();
+        match names.find(|name| name.contains(breaks)) {
+            None => Ok(diagnosis),
+            Some(name) => Err(Error::Option {
+                name: FILE,
+                value: name.to_owned(),
+                expected: "names without spaces, commas, quotes and bars",
+            }),
+        }
     }
 }
 

@@ -63,8 +63,7 @@ impl Draft {
             }
             return Ok(Self { folder, key: Key::read(key)?, order: begun });
         }
-        let has_cases = || folder::cases(trial).is_ok_and(|cases| !cases.is_empty());
-        if trial.join(folder::SEALED).exists() || has_cases() {
+        if trial.join(folder::SEALED).exists() || folder::cases(trial).is_ok() {
             return Err(Error::Made { path: trial.to_owned() });
         }
         prepare_folder(trial)?;

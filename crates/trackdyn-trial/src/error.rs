@@ -33,6 +33,12 @@ pub enum Error {
         /// What the system says.
         cause: std::io::Error,
     },
+    /// A folder that is no trial.
+    #[error("{}: no cases: expected a folder of trial make", path.display())]
+    NoCases {
+        /// The folder.
+        path: PathBuf,
+    },
     /// A key that is none.
     #[error("{}: expected 64 hexadecimal digits, the key of a trial", path.display())]
     Key {

@@ -99,7 +99,7 @@ pub fn write_answers(trial: &Path, answers: &Answers, key: &Key) -> Result<Commi
 ///
 /// # Errors
 /// Those of [`seal::open`] and [`Key::read`]; [`Error::File`], [`Error::Document`].
-pub fn open_answers(trial: &Path, key: &Path) -> Result<Answers, Error> {
+pub fn open_answers(trial: &Path, key: &Path) -> Result<(Answers, String), Error> {
     let path = trial.join(SEALED);
     let sealed = fs::read(&path).map_err(Error::file(path))?;
     let commitment: Commitment = Document::read(&trial.join(COMMITMENT))?.parse()?;
@@ -109,7 +109,7 @@ pub fn open_answers(trial: &Path, key: &Path) -> Result<Answers, Error> {
 /// The cases of a trial, in the order of their names.
 ///
 /// # Errors
-/// [`Error::File`].
+/// [`Error::File`], or [`Error::NoCases`].
 pub fn cases(trial: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut found = Vec::new();
     for entry in fs::read_dir(trial).map_err(Error::file(trial))? {
@@ -119,6 +119,9 @@ pub fn cases(trial: &Path) -> Result<Vec<PathBuf>, Error> {
         if is_case && path.join(RECORDING).is_dir() {
             found.push(path);
         }
+    }
+    if found.is_empty() {
+        return Err(Error::NoCases { path: trial.to_owned() });
     }
     found.sort();
     Ok(found)

@@ -107,7 +107,7 @@ fn hexadecimal(bytes: &[u8]) -> String {
 
 fn bytes(text: &str) -> Option<[u8; 32]> {
     let mut bytes = [0; 32];
-    if text.len() != 64 || !text.is_ascii() {
+    if text.len() != 64 || !text.bytes().all(|digit| digit.is_ascii_hexdigit()) {
         return None;
     }
     for (place, byte) in bytes.iter_mut().enumerate() {
@@ -127,8 +127,10 @@ mod tests {
         let (path, key) = (folder.path().join("x.key"), Key::new());
         key.write(&path).expect("written");
         assert!(Key::read(&path).expect("read") == key);
-        std::fs::write(&path, "0123").expect("written");
-        assert!(matches!(Key::read(&path), Err(Error::Key { .. })));
+        for other in ["0123", &"+f".repeat(32)] {
+            std::fs::write(&path, other).expect("written");
+            assert!(matches!(Key::read(&path), Err(Error::Key { .. })), "{other}");
+        }
     }
 
     #[test]

@@ -6,7 +6,6 @@ use crate::error::Error;
 use crate::folder;
 use crate::key::sha256;
 use crate::score::Judged;
-use crate::seal;
 use std::path::{Path, PathBuf};
 use trackdyn_core::output::fingerprint;
 
@@ -33,8 +32,7 @@ impl Opened {
     pub fn open<'a>(trials: impl IntoIterator<Item = (&'a Path, PathBuf)>) -> Result<Self, Error> {
         let mut opened = Self { trials: Vec::new() };
         for (folder, key) in trials {
-            let answers = folder::open_answers(folder, &key)?;
-            let text = seal::text(&answers);
+            let (answers, text) = folder::open_answers(folder, &key)?;
             opened.add(Trial { folder: folder.to_owned(), answers, text })?;
         }
         Ok(opened)

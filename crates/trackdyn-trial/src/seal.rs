@@ -40,11 +40,11 @@ pub fn seal(text: &str, key: &Key) -> (Vec<u8>, Commitment) {
     (sealed, commitment)
 }
 
-/// Opens sealed answers and checks that they are those that were committed to.
+/// Opens sealed answers and checks that they are those that were committed to. With them comes their text.
 ///
 /// # Errors
 /// [`Error::Broken`] where they are not, or the key is another one; [`Error::Document`].
-pub fn open(sealed: &[u8], key: &Key, commitment: &Commitment) -> Result<Answers, Error> {
+pub fn open(sealed: &[u8], key: &Key, commitment: &Commitment) -> Result<(Answers, String), Error> {
     let check = |what, bytes: &[u8], committed: &str, reason| {
         let found = sha256(bytes);
         let committed = committed.to_owned();
@@ -60,7 +60,7 @@ pub fn open(sealed: &[u8], key: &Key, commitment: &Commitment) -> Result<Answers
     let other = "this is the key of another trial, or the commitment was changed";
     check("the opened answers", &plain, &commitment.answers_sha256, other)?;
     let text = String::from_utf8_lossy(&plain).into_owned();
-    Ok(Document::new("answers.sealed (opened)", text).parse()?)
+    Ok((Document::new("answers.sealed (opened)", text.clone()).parse()?, text))
 }
 
 #[cfg(test)]
@@ -82,8 +82,10 @@ mod tests {
     #[test]
     fn sealed_answers_open_with_their_key_only() {
         let key = Key::new();
-        let (sealed, commitment) = seal(&text(&answers()), &key);
-        assert_eq!(open(&sealed, &key, &commitment).expect("opens"), answers());
+        let committed = format!("{}# as it was written then\n", text(&answers()));
+        let (sealed, commitment) = seal(&committed, &key);
+        let opened = open(&sealed, &key, &commitment).expect("opens");
+        assert_eq!(opened, (answers(), committed));
         let other = open(&sealed, &Key::new(), &commitment).expect_err("another key");
         assert!(other.to_string().contains("key of another trial"), "{other}");
         let mut changed = sealed.clone();

@@ -172,6 +172,17 @@ fn bad_input_is_refused_and_leaves_nothing() {
         let lines: Vec<String> = text.lines().map(far).collect();
         place.write(&format!("far/{name}"), &(lines.join("\n") + "\n"));
     }
+    // the second run breaks off as it begins
+    std::fs::create_dir(place.path().join("brief")).expect("a folder");
+    for name in ["recording.toml", "tracks.csv", "poses.csv"] {
+        let text = String::from_utf8(place.read(&format!("drive/{name}"))).expect("text");
+        let stays = |line: &&str| match line.split(',').collect::<Vec<_>>().as_slice() {
+            ["1", t, ..] => t.parse::<f64>().is_ok_and(|t| t < 0.2),
+            _ => true,
+        };
+        let lines: Vec<&str> = text.lines().filter(stays).collect();
+        place.write(&format!("brief/{name}"), &(lines.join("\n") + "\n"));
+    }
     place.write("points.csv", "v_left,v_right,v_forward,v_lateral,yaw_rate\n0.1,0.2,0.15,,0.2\n");
     for (arguments, message) in [
         (format!("diagnose nowhere --vehicle {VEHICLE}"), "nowhere"),
@@ -186,6 +197,7 @@ fn bad_input_is_refused_and_leaves_nothing() {
         (format!("diagnose points.csv --held-out 1 --vehicle {VEHICLE}"), "--held-out 1: a table"),
         (format!("diagnose drive drive --vehicle {VEHICLE}"), "each recording once"),
         (format!("diagnose drive --wheel-radius 0.1 --vehicle {VEHICLE}"), "drive is no bag"),
+        (format!("diagnose brief --held-out 1 --vehicle {VEHICLE}"), "hold no segment of driving"),
         (format!("diagnose far --vehicle {VEHICLE}"), "expected at most 5000 m"),
     ] {
         let before = place.files();

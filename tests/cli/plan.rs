@@ -88,6 +88,19 @@ fn nothing_open_is_nothing_to_plan() {
 }
 
 #[test]
+fn a_size_beyond_its_range_is_shown() {
+    let place = Workplace::new();
+    let table = "[[missing.parameters]]\nname = \"angle_deg\"\nvalue = 720.0\nlow95 = 0.1\nhigh95 = 0.2\nunit = \"deg\"\n\n[fit]";
+    let text = diagnosis("ambiguous", &["slope", "tether"]).replace("parameters = []\n", "");
+    place.write("diagnosis.toml", &text.replace("[fit]", table));
+    place.write("vehicle.corrected.toml", &project_text("configs/vehicles/auriga-alpha.toml"));
+    let run = place.run("plan --diagnosis diagnosis.toml --out out");
+    assert_eq!(run.status, 1, "{}", run.stdout);
+    let shown = "diagnosis.toml:14: missing.parameters.angle_deg = 720.0: expected a value from";
+    assert!(run.stderr.contains(shown), "{}", run.stderr);
+}
+
+#[test]
 fn nonsense_is_refused_and_nothing_written() {
     let cases: [(&str, &[&str], &str, &[&str]); 4] = [
         (

@@ -2,13 +2,14 @@
 
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
+use trackdyn_core::Pose;
 use trackdyn_core::document::Document;
 use trackdyn_physics::effect::{Stage, Symmetry};
 use trackdyn_physics::{ActiveEffect, Circumstance, Effects, Model, VehicleFile};
 use trackdyn_recording::rosbag::{JointSignal, RosbagOptions};
 use trackdyn_recording::{Format, Recording, RunList, tum};
 
-/// The vehicle, its effects and where it stands.
+/// The vehicle and its effects.
 #[derive(Args)]
 pub struct ModelOptions {
     /// Vehicle file (schema trackdyn.vehicle/1) [default: Auriga-alpha, embedded]
@@ -20,16 +21,6 @@ pub struct ModelOptions {
     /// Switch an effect on, with its typical size or this one; repeatable (see `trackdyn effects`)
     #[arg(long = "effect", value_name = "ID[:PARAMETER=VALUE,...]")]
     pub effects: Vec<ActiveEffect>,
-    /// Heading of the robot in the world in degrees, for effects that know directions
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true,
-          value_parser = finite)]
-    pub heading: f64,
-    /// Place of the robot in the world in m, for effects that know places
-    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
-    pub position: Option<[f64; 2]>,
-    /// Time since the start of a recording in s, for effects that know times
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = finite)]
-    pub time: f64,
 }
 
 impl ModelOptions {
@@ -64,29 +55,43 @@ impl ModelOptions {
         }
         Ok(file)
     }
+}
 
-    /// An error where the place, heading or time is given to a command that has its own.
-    ///
-    /// # Errors
-    /// A message that names the options.
-    pub fn refuse(&self, names: &[&str], why: &str) -> Result<(), String> {
-        let given = [
-            ("--heading", self.heading != 0.0),
-            ("--position", self.position.is_some()),
-            ("--time", self.time != 0.0),
-        ];
-        let given = given.into_iter().filter(|(name, given)| *given && names.contains(name));
-        let given: Vec<&str> = given.map(|(name, _)| name).collect();
-        if given.is_empty() { Ok(()) } else { Err(format!("{}: {why}", given.join(", "))) }
+/// Where the robot stands.
+#[derive(Args)]
+pub struct PlaceOptions {
+    /// Heading of the robot in the world in degrees, for effects that know directions
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true,
+          value_parser = finite)]
+    heading: f64,
+    /// Place of the robot in the world in m, for effects that know places
+    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
+    position: Option<[f64; 2]>,
+}
+
+impl PlaceOptions {
+    /// The pose (REP-103).
+    pub fn pose(&self) -> Pose {
+        let [x, y] = self.position.unwrap_or_default();
+        Pose::new(x, y, self.heading.to_radians())
     }
+}
 
+/// Where the robot stands, and when.
+#[derive(Args)]
+pub struct CircumstanceOptions {
+    #[command(flatten)]
+    place: PlaceOptions,
+    /// Time since the start of a recording in s, for effects that know times
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = finite)]
+    time: f64,
+}
+
+impl CircumstanceOptions {
     /// The place, heading and time.
     pub fn circumstance(&self) -> Circumstance {
-        Circumstance {
-            position: self.position.unwrap_or_default(),
-            heading: self.heading.to_radians(),
-            time: self.time,
-        }
+        let Pose { x, y, yaw } = self.place.pose();
+        Circumstance { position: [x, y], heading: yaw, time: self.time }
     }
 }
 
@@ -138,7 +143,7 @@ pub struct RecordingOptions {
     #[arg(long, value_name = "SIGNAL")]
     joint_signal: Option<Signal>,
     /// Bag: belt travel in m per radian of the joints
-    #[arg(long, value_name = "M", value_parser = finite, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", value_parser = positive, allow_negative_numbers = true)]
     wheel_radius: Option<f64>,
     /// Bag: topic of the poses
     #[arg(long, value_name = "TOPIC")]
@@ -327,6 +332,16 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
+/// What is wrong with a drive, in the words of the command line.
+pub fn of_drive(error: &trackdyn_field::Error) -> String {
+    match error {
+        trackdyn_field::Error::Option { name, value, expected } => {
+            format!("--{} {value}: expected {expected}", name.replace('_', "-"))
+        }
+        other => other.to_string(),
+    }
+}
+
 /// Reads a vehicle file.
 ///
 /// # Errors
@@ -367,5 +382,35 @@ pub fn finite(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         _ => Err("expected a finite number".to_owned()),
+    }
+}
+
+/// A whole number from zero on.
+///
+/// # Errors
+/// What was expected.
+pub fn count(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "expected a whole number".to_owned())
+}
+
+/// A finite number above zero.
+///
+/// # Errors
+/// What was expected.
+pub fn positive(text: &str) -> Result<f64, String> {
+    match finite(text) {
+        Ok(value) if value > 0.0 => Ok(value),
+        _ => Err("expected a number above zero".to_owned()),
+    }
+}
+
+/// A finite number from zero on.
+///
+/// # Errors
+/// What was expected.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    match finite(text) {
+        Ok(value) if value >= 0.0 => Ok(value),
+        _ => Err("expected a number from zero on".to_owned()),
     }
 }

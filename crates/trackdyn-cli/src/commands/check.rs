@@ -77,21 +77,24 @@ fn vehicle(
         (Some(file), _) => file.clone(),
         (None, Some(path)) => {
             let folder = options.reference.parent().unwrap_or(std::path::Path::new("."));
-            read_vehicle(&folder.join(path))?
+            read_vehicle(&folder.join(path)).map_err(|error| of_case(options, case, &*error))?
         }
         (None, None) => VehicleFile::auriga_alpha(),
     };
     if let Some(cog) = case.cog {
         file.vehicle.cog = cog;
         file.vehicle.uncertainty.cog = None; // the file's is of the value that this one replaces
-        file.vehicle.check().map_err(|error| {
-            format!("{}: case \"{}\": {error}", options.reference.display(), case.name)
-        })?;
+        file.vehicle.check().map_err(|error| of_case(options, case, &error))?;
     }
     for effect in &case.effects {
         file.effects.insert(effect.clone());
     }
     Ok(file)
+}
+
+/// What is wrong with a case.
+fn of_case(options: &Options, case: &Case, error: &dyn Error) -> String {
+    format!("{}: case \"{}\": {error}", options.reference.display(), case.name)
 }
 
 fn solve(file: &VehicleFile, grid: Grid, case: &Case) -> Result<Statistics, Box<dyn Error>> {

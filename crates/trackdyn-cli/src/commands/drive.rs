@@ -4,7 +4,7 @@ mod document;
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{ModelOptions, finite, in_time, model, note_what_no_sensor_reports};
+use crate::options::{ModelOptions, finite, in_time, model, note_what_no_sensor_reports, of_drive};
 use crate::progress::Progress;
 use crate::stdout::show;
 use clap::{Args, ValueEnum};
@@ -67,8 +67,6 @@ pub struct Drive {
 
 /// Drives, prints the table of errors and writes the files.
 pub fn run(options: &Options) -> Outcome {
-    let why = "a drive begins at the start of its path, at time zero: expected with map, kinematics and simulate";
-    options.model.refuse(&["--heading", "--position", "--time"], why)?;
     let mut file = options.model.vehicle_file()?;
     file.effects = in_time(file.effects, options.quasi_static);
     note_what_no_sensor_reports(&file.effects);
@@ -108,7 +106,8 @@ pub fn run(options: &Options) -> Outcome {
     let model = model(&file);
     let mut drives = Vec::new();
     for (name, fingerprint, steering) in steerings {
-        let journey = follow(&model, &path, &tracker, &*steering, options)?;
+        let journey = follow(&model, &path, &tracker, &*steering, options)
+            .map_err(|error| of_drive(&error))?;
         drives.push(Drive { name, fingerprint, journey });
     }
 

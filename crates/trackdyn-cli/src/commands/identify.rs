@@ -9,7 +9,7 @@ pub use points::lagging_points;
 use crate::commands::Outcome;
 use crate::earlier::remove_earlier;
 use crate::exit::Exit;
-use crate::options::{DrivingOptions, command_line, finite, read_vehicle};
+use crate::options::{DrivingOptions, command_line, not_negative, read_vehicle};
 use crate::progress::Progress;
 use crate::stdout::show;
 use clap::Args;
@@ -31,18 +31,19 @@ pub struct Options {
     #[arg(long, value_name = "FILE")]
     vehicle: PathBuf,
     /// Use only segments before which the tracks ran steadily for this many seconds
-    #[arg(long, value_name = "SECONDS", value_parser = finite, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = not_negative, allow_negative_numbers = true)]
     settle: Option<f64>,
-    /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw
+    /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw (lever-arm only says why no
+    /// recording shows it)
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     fit: Vec<Nuisance>,
     /// Individuals of the genetic algorithm
     #[arg(long, value_name = "N", default_value_t = 100,
-          value_parser = clap::value_parser!(u32).range(4..=100_000))]
+          value_parser = clap::value_parser!(u32).range(4..=100_000), allow_negative_numbers = true)]
     population: u32,
     /// Generations of the genetic algorithm
     #[arg(long, value_name = "N", default_value_t = 200,
-          value_parser = clap::value_parser!(u32).range(1..=100_000))]
+          value_parser = clap::value_parser!(u32).range(1..=100_000), allow_negative_numbers = true)]
     generations: u32,
     /// Seed of the genetic algorithm
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -127,6 +128,9 @@ fn keep(out: &Path, files: impl IntoIterator<Item = Option<KinematicsFile>>) -> 
             written += 1;
         } else {
             remove_earlier(&path, |source| source.recording.is_some())?;
+            if path.exists() {
+                eprintln!("note: {} is none of this run", path.display());
+            }
         }
     }
     Ok(if written > 0 { Exit::Done } else { Exit::NoResult })

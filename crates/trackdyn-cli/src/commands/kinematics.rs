@@ -2,7 +2,9 @@
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{ModelOptions, model, note_what_steady_icrs_leave_out, pair};
+use crate::options::{
+    CircumstanceOptions, ModelOptions, model, note_what_steady_icrs_leave_out, pair,
+};
 use crate::stdout::show;
 use clap::{ArgGroup, Args};
 use std::error::Error;
@@ -30,6 +32,8 @@ pub struct Options {
     kinematics: Option<PathBuf>,
     #[command(flatten)]
     model: ModelOptions,
+    #[command(flatten)]
+    circumstance: CircumstanceOptions,
 }
 
 /// Standard deviation of an ICR over the map, m, from which on its mean is not all that there is to say.
@@ -59,7 +63,7 @@ fn parameters(options: &Options) -> Result<KinematicsFile, Box<dyn Error>> {
     note_what_steady_icrs_leave_out(&vehicle.effects);
     let grid = Grid::new(21, Grid::PAPER_SPEED)?;
     let model = model(&vehicle);
-    let map = IcrMap::solve(&model, grid, &options.model.circumstance(), &|_| ());
+    let map = IcrMap::solve(&model, grid, &options.circumstance.circumstance(), &|_| ());
     let statistics = map
         .statistics()
         .ok_or("the vehicle does not turn at any pair of track speeds: it has no ICRs")?;

@@ -5,7 +5,9 @@ mod summary;
 use crate::commands::Outcome;
 use crate::earlier::remove_earlier;
 use crate::exit::Exit;
-use crate::options::{ModelOptions, command_line, model, note_what_steady_icrs_leave_out};
+use crate::options::{
+    CircumstanceOptions, ModelOptions, command_line, count, model, note_what_steady_icrs_leave_out,
+};
 use crate::progress::Progress;
 use crate::stdout::show;
 use clap::Args;
@@ -20,8 +22,10 @@ use trackdyn_physics::VehicleFile;
 pub struct Options {
     #[command(flatten)]
     model: ModelOptions,
+    #[command(flatten)]
+    circumstance: CircumstanceOptions,
     /// Speeds per track
-    #[arg(long, value_name = "N", default_value_t = 21, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 21, value_parser = count, allow_negative_numbers = true)]
     grid: usize,
     /// Largest track speed in m/s
     #[arg(long, value_name = "SPEED", default_value_t = Grid::PAPER_SPEED,
@@ -41,7 +45,7 @@ pub fn run(options: &Options) -> Outcome {
     note_what_steady_icrs_leave_out(&file.effects);
     let model = model(&file);
     let progress = Progress::new(grid.points() * grid.points());
-    let map = IcrMap::solve(&model, grid, &options.model.circumstance(), &|pairs| {
+    let map = IcrMap::solve(&model, grid, &options.circumstance.circumstance(), &|pairs| {
         progress.advance(pairs);
     });
     progress.finish();

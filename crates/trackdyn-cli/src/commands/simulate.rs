@@ -5,7 +5,7 @@ mod ground;
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{ModelOptions, finite, in_time, model};
+use crate::options::{ModelOptions, PlaceOptions, count, finite, in_time, model, of_drive};
 use crate::progress::Progress;
 use crate::stdout::show;
 use clap::{Args, ValueEnum};
@@ -26,14 +26,16 @@ use trackdyn_recording::{Recording, Source, UncheckedRun, folder};
 pub struct Options {
     #[command(flatten)]
     model: ModelOptions,
+    #[command(flatten)]
+    place: PlaceOptions,
     /// What the tracks do: manual, validation, designed, square, or a file t,v_left,v_right
     #[arg(long, value_name = "NAME|FILE", default_value = "manual")]
     schedule: String,
     /// Runs of a schedule that is generated [default: what is usual for it]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     runs: Option<usize>,
-    /// Time of each run of a schedule that is generated, s: a square or a plan that has begun is driven to its end [default: as
-    /// long as the schedule takes]
+    /// Time of each run of a schedule that is generated, s, with a second at rest before and after: a square or a plan that has
+    /// begun is driven to its end [default: as long as the schedule takes]
     #[arg(long, value_name = "SECONDS", value_parser = finite)]
     duration: Option<f64>,
     /// Largest track speed of a schedule that is generated, m/s [default: 1]
@@ -49,7 +51,8 @@ pub struct Options {
     /// no code with it
     #[arg(long, value_enum, default_value_t = Ground::Own)]
     ground: Ground,
-    /// Independent ground: a mechanism outside the catalogue of effects; repeatable
+    /// Independent ground: a mechanism of it, those outside the catalogue of effects among them (listed in
+    /// docs/theory/independent-ground.md); repeatable
     #[arg(long = "mechanism", value_name = "ID[:PARAMETER=VALUE,...]")]
     mechanisms: Vec<ActiveMechanism>,
     /// Longest step of the integration, s
@@ -74,10 +77,6 @@ enum Ground {
 
 /// Simulates, prints what was driven and writes the recording.
 pub fn run(options: &Options) -> Outcome {
-    options.model.refuse(
-        &["--time"],
-        "a drive has the times of its schedule: expected with map and kinematics",
-    )?;
     let mut file = options.model.vehicle_file()?;
     file.effects = in_time(file.effects, options.quasi_static);
     if options.ground == Ground::Own && !options.mechanisms.is_empty() {
@@ -117,7 +116,7 @@ pub fn run(options: &Options) -> Outcome {
     write_file(&options.out.join("vehicle.toml"), file.to_toml().as_bytes())?;
     write_file(&options.out.join("sensors.toml"), sensors.to_toml().as_bytes())?;
     folder::write(&recording, &options.out)?;
-    show(&document::summary(&file, &sensors, &recording, &runs))?;
+    show(&document::summary(&file, &sensors, &recording, &runs, options))?;
     eprintln!("wrote the recording, truth.csv and simulation.toml to {}", options.out.display());
     Ok(Exit::Done)
 }
@@ -210,7 +209,7 @@ fn scheduled(
     let icr_distance = icrs.map_or(usual.icr_distance, |icrs| icrs.x_right - icrs.x_left);
     let (runs, seed, duration) = (options.runs, options.seed, options.duration);
     let schedule = ScheduleOptions { runs, seed, fastest, duration, icr_distance, ..usual };
-    Ok(schedules::load(&options.schedule, &schedule)?)
+    Ok(schedules::load(&options.schedule, &schedule).map_err(|error| of_drive(&error))?)
 }
 
 /// The sensors of a name or a file.

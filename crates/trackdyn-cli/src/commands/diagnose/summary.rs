@@ -69,7 +69,9 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
         let _ = writeln!(text, "form     {}", form(proposal));
     }
     let fit = &diagnosis.held_out;
-    let on = if fit.are_held_out { "held-out runs" } else { "the runs of the fit" };
+    let of = if diagnosis.evidence.is_steady() { "points" } else { "runs" };
+    let on =
+        if fit.are_held_out { format!("held-out {of}") } else { format!("the {of} of the fit") };
     let explained = fit.excess_explained();
     let share = explained.map_or("no excess".to_owned(), |share| {
         format!("{:.1} % of the excess explained", 100.0 * share)

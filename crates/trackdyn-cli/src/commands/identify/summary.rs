@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 use trackdyn_identify::identification::Fit;
-use trackdyn_identify::{Estimate, Free, Identification, Parameters};
+use trackdyn_identify::{Estimate, Free, Identification, Nuisance, Parameters};
 use trackdyn_physics::Vehicle;
 use trackdyn_recording::{Clock, Interval, Recording};
 
@@ -20,7 +20,7 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) ->
         vehicle.name,
         vehicle.gauge
     );
-    clock(&mut text, &found.clock);
+    clock(&mut text, found);
     noise(&mut text, found);
     match &found.spin_test {
         Ok(spin) => {
@@ -43,9 +43,13 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) ->
     text
 }
 
-fn clock(text: &mut String, clock: &Clock) {
-    let _ = match clock {
-        Clock::Given(tau) => writeln!(text, "  clock      poses {tau:.3} s late, as given"),
+fn clock(text: &mut String, found: &Identification) {
+    let fits = found.fits.iter().filter_map(|fit| fit.least_squares.as_ref().ok());
+    let mut fitted = fits.flat_map(|estimate| &estimate.unknowns.nuisances);
+    let start =
+        if fitted.any(|one| *one == Nuisance::TimeOffset) { ", where tau starts" } else { "" };
+    let _ = match &found.clock {
+        Clock::Given(tau) => writeln!(text, "  clock      poses {tau:.3} s late, as given{start}"),
         Clock::Estimated(offset) => writeln!(
             text,
             "  clock      poses {:.3} s late (standard error {:.3} s)",

@@ -50,11 +50,16 @@ pub fn summary(
     sensors: &Sensors,
     recording: &Recording,
     runs: &[Driven],
+    options: &Options,
 ) -> String {
     let mut text = format!("{}, sensors: {}\n", file.vehicle.name, sensors.name);
     let effects: Vec<String> = file.effects.iter().map(ToString::to_string).collect();
     let effects = if effects.is_empty() { "none".to_owned() } else { effects.join("\n          ") };
-    let _ = writeln!(text, "effects   {effects}\n");
+    let _ = writeln!(text, "effects   {effects}");
+    for mechanism in &options.mechanisms {
+        let _ = writeln!(text, "ground    {mechanism}");
+    }
+    text.push('\n');
     let _ = writeln!(text, "run      time     path  readings  poses");
     for (run, driven) in recording.runs().iter().zip(runs) {
         let _ = writeln!(

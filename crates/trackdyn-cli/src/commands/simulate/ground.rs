@@ -1,7 +1,7 @@
 //! The two simulators.
 
 use super::Options;
-use trackdyn_core::{Plant, Pose, Schedule, Trajectory};
+use trackdyn_core::{Plant, Schedule, Trajectory};
 use trackdyn_motion::Transient;
 use trackdyn_physics::{ActiveEffect, Model, VehicleFile};
 use trackdyn_proof::{ActiveMechanism, MECHANISMS, Robot, Setup};
@@ -9,15 +9,11 @@ use trackdyn_proof::{ActiveMechanism, MECHANISMS, Robot, Setup};
 /// The motion of the hull, and the path that the pose sensor takes it to be.
 type Motion = (Trajectory, Trajectory);
 
-fn start(options: &Options) -> Pose {
-    let here = options.model.circumstance();
-    Pose::new(here.position[0], here.position[1], here.heading)
-}
-
 /// Moves the robot by the laws of the catalogue.
 pub fn own(model: &Model, schedule: &Schedule, options: &Options) -> Result<Motion, String> {
     let [start_time, _] = schedule.span();
-    let mut robot = Transient::at_rest(model, start_time, start(options)).with_step(options.step);
+    let mut robot =
+        Transient::at_rest(model, start_time, options.place.pose()).with_step(options.step);
     let path = robot.follow(schedule).map_err(|stopped| stopped.to_string())?;
     let reported = model.sensor().reported_path(&path);
     Ok((path, reported))
@@ -36,7 +32,7 @@ pub fn independent(
     let [start_time, _] = schedule.span();
     let setup = Setup {
         seed: options.seed,
-        start: start(options),
+        start: options.place.pose(),
         start_time,
         longest_step: options.step,
         ..Setup::default()

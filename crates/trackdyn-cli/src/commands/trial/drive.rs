@@ -58,8 +58,9 @@ struct Visit<'a> {
 
 /// Drives on where diagnoses are ambiguous, and scores what comes of it.
 pub fn run(options: &Options) -> Exited {
+    folder::cases(&options.trial)?;
     let key = key_to_open(options.key.as_deref(), &options.trial)?;
-    let answers = folder::open_answers(&options.trial, &key)?;
+    let (answers, _) = folder::open_answers(&options.trial, &key)?;
     let judged = folder::judge(&options.trial, &answers, &Entry::default())?;
     let open: Vec<&Judged> = judged.iter().filter(|case| !open_sets(case).is_empty()).collect();
     if open.is_empty() {

@@ -68,6 +68,10 @@ fn bad_schedules_and_worlds_are_refused_and_leave_nothing() {
         ("simulate --sensors wild", "perfect, laboratory, field"),
         ("simulate --step 5", "between 0.00001 and 0.1 s"),
         ("simulate --effect tether:pull=3", "tension_n"),
+        (
+            "simulate --ground independent --mechanism slope:angle_deg=1,angle_deg=2",
+            "slope.angle_deg: given twice",
+        ),
         ("simulate --time 5", "unexpected argument '--time'"),
         ("drive --heading 90", "unexpected argument '--heading'"),
         ("drive --path path.csv", "path.csv:3:2: y = \"nan\""),
@@ -79,6 +83,29 @@ fn bad_schedules_and_worlds_are_refused_and_leave_nothing() {
     }
     let inputs = ["path.csv", "short.csv", "text.csv"].map(PathBuf::from);
     assert_eq!(place.files(), inputs, "nothing is written");
+}
+
+/// Friction that drifts begins to with the recording, whatever its clock shows; stamps are those of the schedule.
+#[test]
+fn laws_that_know_the_time_begin_with_the_recording() {
+    let place = Workplace::new();
+    let last = |start: i32| -> Vec<f64> {
+        let row = |(t, speeds): (i32, &str)| format!("{},{speeds}\n", start + t);
+        let rows = [(0, "0.2,0.6"), (2, "0.5,0.1"), (4, "0,0"), (5, "0,0")].map(row).concat();
+        place.write("schedule.csv", &format!("t,v_left,v_right\n{rows}"));
+        let run = place.run(
+            "simulate --schedule schedule.csv --effect friction-drift:rate_1_per_s=0.01 --sensors perfect --out drive",
+        );
+        assert_eq!(run.status, 0, "{}", run.stderr);
+        let text = String::from_utf8(place.read("drive/truth.csv")).expect("text");
+        let last = text.lines().last().expect("rows");
+        last.split(',').take(5).map(|cell| cell.parse().expect("a number")).collect()
+    };
+    let [early, late] = [last(0), last(1_000_000)];
+    assert!((late[1] - early[1] - 1e6).abs() < 1e-6, "{early:?} {late:?}");
+    for (early, late) in early.iter().zip(&late).skip(2) {
+        assert!((early - late).abs() < 1e-6, "{early} {late}");
+    }
 }
 
 /// A simulation writes the vehicle that it moved, with what was switched on: not over its owner's file.

@@ -1,6 +1,6 @@
 //! Files of an earlier run that would be taken for this one's.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_motion::kinematics::{KinematicsFile, Source};
 
@@ -14,6 +14,18 @@ pub fn remove_earlier(path: &Path, is_own: impl FnOnce(&Source) -> bool) -> Resu
     if file.is_some_and(|file| is_own(&file.source)) {
         std::fs::remove_file(path).map_err(|cause| format!("{}: {cause}", path.display()))?;
         eprintln!("removed {}, of an earlier run: this one determines none", path.display());
+    }
+    Ok(())
+}
+
+/// Removes those of these files that are there, where a file that each run of a command writes shows that there was one.
+///
+/// # Errors
+/// A file that cannot be removed.
+pub fn remove_of(written: &Path, files: impl IntoIterator<Item = PathBuf>) -> Result<(), String> {
+    for file in files.into_iter().filter(|file| written.exists() && file.exists()) {
+        std::fs::remove_file(&file).map_err(|cause| format!("{}: {cause}", file.display()))?;
+        eprintln!("removed {}, of an earlier run", file.display());
     }
     Ok(())
 }

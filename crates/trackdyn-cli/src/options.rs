@@ -328,7 +328,7 @@ fn time(text: &str) -> Result<[f64; 2], String> {
 fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.abs() <= 3600.0 => Ok(value),
-        _ => Err("expected a number of seconds, such as 0.25".to_owned()),
+        _ => Err("expected a number of seconds, such as 0.25, within an hour".to_owned()),
     }
 }
 

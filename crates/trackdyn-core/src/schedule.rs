@@ -88,6 +88,12 @@ impl Schedule {
         self.commands[after.saturating_sub(1)].speeds
     }
 
+    /// The same so much later, s.
+    pub fn later(mut self, by: f64) -> Self {
+        self.commands.iter_mut().for_each(|command| command.t += by);
+        self
+    }
+
     /// The stretches of constant speed: (start, end, speeds).
     pub fn stretches(&self) -> impl Iterator<Item = (f64, f64, PerSide<f64>)> + '_ {
         self.commands.windows(2).map(|pair| (pair[0].t, pair[1].t, pair[0].speeds))

@@ -33,6 +33,12 @@ impl Trajectory {
         self.moments.push(moment);
     }
 
+    /// The same so much later, s.
+    pub fn later(mut self, by: f64) -> Self {
+        self.moments.iter_mut().for_each(|moment| moment.t += by);
+        self
+    }
+
     /// The moments, in time order.
     pub fn moments(&self) -> &[Moment] {
         &self.moments

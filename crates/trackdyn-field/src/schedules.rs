@@ -104,6 +104,9 @@ impl ScheduleKind {
     /// [`Error::Option`].
     pub fn generate(self, options: &ScheduleOptions) -> Result<Vec<ScheduledRun>, Error> {
         options.check()?;
+        if self == Self::Square {
+            options.check_square()?;
+        }
         let first: i64 = match self {
             // the hand goes on where the nine paths end
             Self::Validation => 9,

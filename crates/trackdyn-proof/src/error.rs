@@ -32,6 +32,14 @@ pub enum Error {
         /// The value that was given.
         value: f64,
     },
+    /// A parameter given twice.
+    #[error("{}.{}: given twice", sheet.id, parameter.key)]
+    RepeatedParameter {
+        /// The mechanism.
+        sheet: &'static Sheet,
+        /// Its parameter.
+        parameter: &'static Parameter,
+    },
     /// Text that does not name a mechanism.
     #[error("\"{0}\": expected ID or ID:PARAMETER=VALUE,...")]
     Malformed(String),

@@ -3,6 +3,7 @@
 mod document;
 
 use crate::commands::Outcome;
+use crate::earlier::remove_of;
 use crate::exit::Exit;
 use crate::options::{ModelOptions, finite, in_time, model, note_what_no_sensor_reports, of_drive};
 use crate::progress::Progress;
@@ -82,7 +83,12 @@ pub fn run(options: &Options) -> Outcome {
         let document = Document::read(path)?;
         let parameters = KinematicsFile::from_document(&document)?;
         if index == 0 {
+            // forward in both frames, on the middle line
             point = [parameters.y_icr_m, 0.0];
+            if point[0].abs() > Tracker::FARTHEST {
+                let (name, y, most) = (path.display(), point[0], Tracker::FARTHEST);
+                return Err(format!("{name}: y_icr_m = {y}: expected at most {most} m from the middle, to follow a path with").into());
+            }
         }
         let print = fingerprint(document.text().as_bytes());
         steerings.push((path.display().to_string(), Some(print), Box::new(parameters)));
@@ -128,6 +134,9 @@ pub fn run(options: &Options) -> Outcome {
         let table = options.out.join(format!("cross_track_{index}.csv"));
         write_file(&table, drive.journey.cross_track_csv().as_bytes())?;
     }
+    let table = |index: usize| options.out.join(format!("cross_track_{index}.csv"));
+    let further = (drives.len()..).map(table).take_while(|table| table.exists());
+    remove_of(&options.out.join("drive.toml"), further)?;
     write_file(&options.out.join("path.csv"), path.to_csv().as_bytes())?;
     let text = document::text(&file, &path, &tracker, &drives)?;
     write_file(&options.out.join("drive.toml"), text.as_bytes())?;

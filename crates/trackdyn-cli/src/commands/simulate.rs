@@ -90,16 +90,21 @@ pub fn run(options: &Options) -> Outcome {
     refuse_other(&options.out)?;
     prepare_folder(&options.out)?;
 
+    // Laws that know the time begin where the recording begins, whatever its clock shows.
+    let starts = schedules.iter().map(|run| run.schedule.span()[0]);
+    let origin = starts.fold(f64::INFINITY, f64::min).floor();
     let progress = Progress::new(schedules.len());
-    let runs: Vec<Driven> = schedules
+    let runs: Vec<Result<Driven, String>> = schedules
         .par_iter()
         .map(|run| {
-            let driven = Driven::new(&file, &model, run, options, &sensors);
+            let driven = Driven::new(&file, &model, run, origin, options, &sensors);
             progress.advance(1);
             driven
         })
-        .collect::<Result<_, _>>()?;
+        .collect();
     progress.finish();
+    // of several errors that of the first run, on any number of threads
+    let runs: Vec<Driven> = runs.into_iter().collect::<Result<_, _>>()?;
 
     let name = format!("simulated {}", file.vehicle.name);
     let observed = runs.iter().map(|run| run.observed.clone()).collect();
@@ -155,15 +160,18 @@ impl Driven {
         file: &VehicleFile,
         model: &Model,
         run: &ScheduledRun,
+        origin: f64,
         options: &Options,
         sensors: &Sensors,
     ) -> Result<Self, String> {
         let ScheduledRun { id, schedule } = run;
+        let from_origin = schedule.clone().later(-origin);
         let motion = match options.ground {
-            Ground::Own => ground::own(model, schedule, options),
-            Ground::Independent => ground::independent(file, schedule, options),
+            Ground::Own => ground::own(model, &from_origin, options),
+            Ground::Independent => ground::independent(file, &from_origin, options),
         };
         let (path, poses) = motion.map_err(|error| format!("run {id}: {error}"))?;
+        let (path, poses) = (path.later(origin), poses.later(origin));
         let encoders = as_commanded(schedule, &path);
         let views = Views { encoders: &encoders, body: &path, poses: &poses };
         let observed = sensors

@@ -24,7 +24,7 @@ pub struct ScheduleOptions {
     pub seed: u64,
     /// Largest track speed, m/s.
     pub fastest: f64,
-    /// Time of each run, s; where absent, until the path or the plan is driven.
+    /// Time of each run, s, with a second at rest before and after a drive by hand; where absent, until the path or the plan is driven.
     pub duration: Option<f64>,
     /// Time between commands, s.
     pub interval: f64,
@@ -78,6 +78,15 @@ impl ScheduleOptions {
         if self.acceleration.is_nan() || self.acceleration < least {
             return fail("acceleration", self.acceleration, format!("at least {least} m/s²"));
         }
+        Ok(())
+    }
+
+    /// Checks what squares are made of.
+    ///
+    /// # Errors
+    /// [`Error::Option`].
+    pub fn check_square(&self) -> Result<(), Error> {
+        let fail = |name, value: f64, expected: String| Err(Error::option(name, &value, expected));
         for (name, value, most) in
             [("side", self.side, 1e4), ("icr_distance", self.icr_distance, 100.0)]
         {
@@ -85,6 +94,7 @@ impl ScheduleOptions {
                 return fail(name, value, format!("a positive length in m, at most {most}"));
             }
         }
+        let longest = MOST_COMMANDS * self.interval;
         if 4.0 * self.side / self.fastest > longest {
             return fail("side", self.side, format!("a square driven within {longest} s"));
         }

@@ -94,7 +94,7 @@ impl Ramp {
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "options limit times to a day and intervals to a millisecond"
+    reason = "options limit the number of commands"
 )]
 fn intervals(duration: f64, interval: f64) -> usize {
     (duration / interval).ceil().max(1.0) as usize

@@ -34,7 +34,7 @@ fn jitter(key: &'static str, value: f64, interval: f64) -> Result<(), Problem> {
 /// Standard deviations, strengths and delays.
 fn not_negative<const N: usize>(values: [(&'static str, f64); N]) -> Result<(), Problem> {
     values.into_iter().try_for_each(|(key, value)| {
-        holds((0.0..=1e6).contains(&value), key, value, "a number from 0 on")
+        holds((0.0..=1e6).contains(&value), key, value, "a number from 0 to 1e6")
     })
 }
 
@@ -80,7 +80,7 @@ impl PoseSensor {
             ("pose.walk.yaw_rad_per_sqrt_s", self.walk.yaw),
         ])?;
         if let Some(memory) = self.walk.memory {
-            holds(memory > 0.0 && memory <= 1e6, "pose.walk.memory_s", memory, "a positive time")?;
+            holds(memory > 0.0 && memory <= 1e6, "pose.walk.memory_s", memory, "a positive time, at most 1e6 s")?;
         }
         self.outlier.check()?;
         self.dropout.check()

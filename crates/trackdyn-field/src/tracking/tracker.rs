@@ -68,6 +68,9 @@ impl Default for Tracker {
 }
 
 impl Tracker {
+    /// Farthest point of the robot that follows a path, m from the middle.
+    pub const FARTHEST: f64 = 100.0;
+
     /// Checks the values.
     ///
     /// # Errors
@@ -92,8 +95,9 @@ impl Tracker {
             }
         }
         for (name, value) in [("point forward", self.point[0]), ("point left", self.point[1])] {
-            if !(-100.0..=100.0).contains(&value) {
-                return Err(Error::option(name, &value, "-100 to 100 m"));
+            if !(-Self::FARTHEST..=Self::FARTHEST).contains(&value) {
+                let expected = format!("at most {} m from the middle", Self::FARTHEST);
+                return Err(Error::option(name, &value, expected));
             }
         }
         Ok(())

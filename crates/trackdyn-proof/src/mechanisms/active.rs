@@ -17,14 +17,14 @@ impl ActiveMechanism {
     /// leave out.
     ///
     /// # Errors
-    /// Unknown mechanism or parameter, or a value outside its physical range.
+    /// Unknown mechanism or parameter, one that is given twice, or a value outside its physical range.
     pub fn new(id: &str, settings: &[(&str, f64)]) -> Result<Self, Error> {
         let index = MECHANISMS
             .iter()
             .position(|sheet| sheet.id == id)
             .ok_or_else(|| Error::UnknownMechanism(id.to_owned()))?;
         let sheet = &MECHANISMS[index];
-        let mut values: Vec<f64> = sheet.parameters.iter().map(|p| p.typical).collect();
+        let mut values = vec![None; sheet.parameters.len()];
         for &(key, value) in settings {
             let place = sheet.parameters.iter().position(|parameter| parameter.key == key);
             let place =
@@ -34,8 +34,12 @@ impl ActiveMechanism {
             if !(low..=high).contains(&value) {
                 return Err(Error::OutOfRange { sheet, parameter, value });
             }
-            values[place] = value;
+            if values[place].replace(value).is_some() {
+                return Err(Error::RepeatedParameter { sheet, parameter });
+            }
         }
+        let values = values.into_iter().zip(sheet.parameters);
+        let values = values.map(|(value, parameter)| value.unwrap_or(parameter.typical)).collect();
         Ok(Self { index, values })
     }
 
@@ -65,9 +69,12 @@ impl std::str::FromStr for ActiveMechanism {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Error> {
-        let (id, settings) = text.split_once(':').unwrap_or((text, ""));
-        let settings = settings.split(',').filter(|setting| !setting.is_empty());
+        let (id, settings) = match text.split_once(':') {
+            Some((id, settings)) => (id, settings.split(',').collect()),
+            None => (text, Vec::new()),
+        };
         let settings = settings
+            .into_iter()
             .map(|setting| {
                 let (key, value) = setting.split_once('=')?;
                 Some((key.trim(), value.trim().parse().ok()?))

@@ -61,7 +61,9 @@ pub fn summary(
     }
     text.push('\n');
     let _ = writeln!(text, "run      time     path  readings  poses");
-    for (run, driven) in recording.runs().iter().zip(runs) {
+    // runs without readings are none of the recording's
+    let of = |id| runs.iter().find(|driven| driven.id == id);
+    for (run, driven) in recording.runs().iter().filter_map(|run| Some((run, of(run.id())?))) {
         let _ = writeln!(
             text,
             "{:3}  {:6.1} s  {:5.1} m  {:8}  {:5}",

@@ -35,6 +35,7 @@ pub fn independent(
         start: options.place.pose(),
         start_time,
         longest_step: options.step,
+        shortest_step: Setup::default().shortest_step.min(options.step),
         ..Setup::default()
     };
     let mut robot =

@@ -12,6 +12,8 @@ const SAMPLE: i32 = 64;
 const GAPS: [i32; 2] = [14, 46];
 /// Distance between lines, pixels.
 const LINE: i32 = 40;
+/// Lines at most.
+const LINES: usize = 2;
 /// Longest name, pixels.
 const LONGEST: i32 = 420;
 
@@ -22,12 +24,23 @@ pub(crate) fn draw<'a>(
     first: &'a str,
     names: impl Iterator<Item = &'a str>,
 ) {
-    let mut at = [area.left, area.top + LINE / 2];
-    for (entry, name) in std::iter::once(first).chain(names).enumerate() {
+    let style = Style::new(SIZE).anchor(Horizontal::Left, Vertical::Middle);
+    let names: Vec<&str> = std::iter::once(first).chain(names).collect();
+    let (mut at, mut line) = ([area.left, area.top + LINE / 2], 1);
+    for (entry, name) in names.iter().enumerate() {
         let name = canvas.fitted(name, SIZE, LONGEST);
         let width = SAMPLE + GAPS[0] + canvas.text_width(&name, SIZE);
-        if at[0] + width > area.right() {
-            at = [area.left, at[1] + LINE];
+        let left = names.len() - entry;
+        let more = format!("and {left} more");
+        // the last line keeps room for saying how many have none
+        let room =
+            if line == LINES && left > 1 { GAPS[1] + canvas.text_width(&more, SIZE) } else { 0 };
+        if at[0] + width + room > area.right() && entry > 0 {
+            if line == LINES {
+                canvas.text(&more, at, &style);
+                return;
+            }
+            (at, line) = ([area.left, at[1] + LINE], line + 1);
         }
         let [left, row] = at.map(f64::from);
         let right = left + f64::from(SAMPLE);
@@ -38,7 +51,6 @@ pub(crate) fn draw<'a>(
                 look::marker(canvas, entry, [f64::midpoint(left, right), row]);
             }
         }
-        let style = Style::new(SIZE).anchor(Horizontal::Left, Vertical::Middle);
         canvas.text(&name, [at[0] + SAMPLE + GAPS[0], at[1]], &style);
         at[0] += width + GAPS[1];
     }

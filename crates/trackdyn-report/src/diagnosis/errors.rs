@@ -135,14 +135,18 @@ fn group(canvas: &mut Canvas, area: Area, bars: &Bars, floor: f64) {
             if bars.places.len() <= 4 {
                 let style = Style::new(20.0).anchor(Horizontal::Centre, Vertical::Baseline);
                 let middle = bar.left + bar.width / 2;
-                canvas.text(&number(*value, 3), [middle, bar.top - 8], &style);
+                let decimals = if *value < 10.0 { 3 } else { 1 };
+                canvas.text(&number(*value, decimals), [middle, bar.top - 8], &style);
             }
         }
         let column = px(panel.pixel([real(place) + 0.5, 0.0])[0]);
         let size = if bars.places.len() > 10 { 18.0 } else { TICK_SIZE };
         let style = Style::new(size).anchor(Horizontal::Centre, Vertical::Top);
-        if place % 2 == 0 || bars.places.len() <= CROWDED {
-            canvas.text(name, [column, area.bottom() + 16], &style);
+        let each = if bars.places.len() <= CROWDED { 1 } else { 2 };
+        if place % each == 0 {
+            let room = px(panel.pixel([real(each), 0.0])[0]) - px(panel.pixel([0.0, 0.0])[0]);
+            let name = canvas.fitted(name, size, room - 10);
+            canvas.text(&name, [column, area.bottom() + 16], &style);
         }
     }
     let row = px(panel.pixel([0.0, floor])[1]);

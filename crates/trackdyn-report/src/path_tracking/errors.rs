@@ -12,6 +12,9 @@ use trackdyn_field::tracking::CrossTrack;
 const LARGE: f64 = 1.0;
 
 /// Draws the errors of all drives.
+/// Least room above and below, in the unit of the axis: what is smaller is rounding.
+const LEAST: f64 = 0.01;
+
 pub(super) fn draw(canvas: &mut Canvas, area: Area, drives: &[TrackedDrive]) -> Result<(), Error> {
     let errors = || drives.iter().flat_map(|drive| &drive.journey.cross_track);
     let is_large = errors().any(|error| error.offset.abs() >= LARGE);
@@ -25,7 +28,7 @@ pub(super) fn draw(canvas: &mut Canvas, area: Area, drives: &[TrackedDrive]) -> 
     let [low, high] = errors()
         .fold([0.0_f64; 2], |[low, high], error| [low.min(shown(error)), high.max(shown(error))]);
     let way = errors().map(|error| error.travelled).fold(0.0, f64::max);
-    let room = if high > low { 0.08 * (high - low) } else { 1.0 };
+    let room = (0.08 * (high - low)).max(LEAST);
     let panel = Panel {
         plot: area,
         x: [0.0, if way > 0.0 { 1.03 * way } else { 1.0 }],

@@ -43,6 +43,11 @@ fn mistakes_in_a_reference_name_their_line() {
         ("tolerance = 1e-3", "tolerance = -1", "bad.toml:6: eccentricity"),
         ("grid = 5", "grid = 1", "bad.toml:2: grid = 1: expected 2 to 2001"),
         ("[case.expect]", "effects = [\"slop\"]\n[case.expect]", "bad.toml:5: effects = \"slop\""),
+        (
+            "[case.expect]",
+            "effects = [\"slope\", \"slope:angle_deg=2\"]\n[case.expect]",
+            "bad.toml:5: effects = \"slope:angle_deg=2\": expected each effect once",
+        ),
         ("value = 0.0984", "valeu = 0.0984", "bad.toml:6:"),
         ("grid = 5", "grid = 5\nmax_speed_m_s = nan", "bad.toml:3: max_speed_m_s = nan: expected"),
         ("[case.expect]", "cog_m = [0.0]\n[case.expect]", "bad.toml:5: cog_m = [0.0]: expected 2"),

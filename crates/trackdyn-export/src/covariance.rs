@@ -113,13 +113,18 @@ impl Residuals {
         let span = span.ok_or_else(missing)?;
         let errors = span.set.iter().find(|errors| errors.name == set.name).ok_or_else(missing)?;
         let number = |key, value| checked(document, key, value);
+        let duration = number("mean_duration_s", &span.mean_duration_s)?;
+        if duration == 0.0 {
+            let place = span.mean_duration_s.span();
+            return Err(document.value_error(place, "mean_duration_s", "a time above zero").into());
+        }
         #[expect(clippy::cast_precision_loss, reason = "a number of runs")]
         let runs = file.runs.len().max(1) as f64;
         Ok(Self {
             source: document.name().to_owned(),
             held_out: set.held_out,
             pieces: span.count,
-            duration: number("mean_duration_s", &span.mean_duration_s)?,
+            duration,
             motion: [
                 number("along_m.rms.value", &errors.along_m.rms.value)?,
                 number("across_m.rms.value", &errors.across_m.rms.value)?,

@@ -1,5 +1,7 @@
 //! Where the robot is, from laser scans: the localisation of the paper's section 5.3.
 //!
+//! It validates: parameters that are identified from it are compared with those from true poses.
+//!
 //! - [`room`]: walls and furniture, and the world file that holds them.
 //! - [`scanner`]: a simulated planar laser, which turns a room and a motion into [`scan`]s.
 //! - [`mod@reference`]: a scan as straight lines with covariance.

@@ -107,7 +107,7 @@ impl Reference {
         *self.line_of_beam.get(self.beam_at(bearing)?)?
     }
 
-    /// Indices of the lines within `window` rad of a bearing.
+    /// Indices of the lines within `window` rad of a bearing, not across the seam of a scan all round.
     pub(crate) fn lines_around(&self, bearing: f64, window: f64) -> std::ops::Range<usize> {
         let Some(beam) = self.beam_at(bearing) else { return 0..0 };
         let reach = to_index(window / self.angle_step);

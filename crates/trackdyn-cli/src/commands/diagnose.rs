@@ -89,15 +89,17 @@ fn write(
         ..Source::default()
     };
     let file = DiagnosisFile::new(diagnosis, &source);
-    let corrected = format!(
-        "# {} as a diagnosis of {} corrects it (trackdyn {}, vehicle {}, recording {}).\n{}",
+    let head = format!(
+        "{} as a diagnosis of {} corrects it (trackdyn {}, vehicle {}, recording {}).",
         vehicle.vehicle.name,
         subject.name,
         env!("CARGO_PKG_VERSION"),
         fingerprint(vehicle.to_toml().as_bytes()),
         subject.fingerprint,
-        diagnosis.corrected.to_toml()
     );
+    // a name may hold a line break, which would end the comment
+    let head = head.replace(char::is_control, " ");
+    let corrected = format!("# {head}\n{}", diagnosis.corrected.to_toml());
     for (name, text) in [("diagnosis.toml", file.to_toml()), ("vehicle.corrected.toml", corrected)]
     {
         let path = options.out.join(name);
@@ -126,7 +128,9 @@ fn subject(
         let evidence =
             Evidence::of_points(&points.points).map_err(|error| about(options, &error))?;
         let held_out = every_fourth(evidence.runs().len(), held_out.is_some());
-        let fingerprint = fingerprint(&std::fs::read(&table)?);
+        let read = std::fs::read(&table);
+        let read = read.map_err(|cause| format!("{}: {cause}", table.display()))?;
+        let fingerprint = fingerprint(&read);
         return Ok(Subject { name: points.name, fingerprint, runs: None, evidence, held_out });
     }
     let mut recordings = vec![options.recording.read()?];

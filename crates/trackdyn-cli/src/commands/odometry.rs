@@ -6,11 +6,13 @@ mod runs_table;
 mod summary;
 
 use crate::commands::Outcome;
+use crate::earlier::remove_of;
 use crate::exit::Exit;
 use crate::options::{DrivingOptions, command_line};
 use crate::stdout::show;
 use clap::Args;
 use inputs::Inputs;
+use std::collections::BTreeSet;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use trackdyn_core::output::{prepare_folder, write_file};
@@ -81,7 +83,7 @@ fn write(
     let picture = trackdyn_report::odometry(result, inputs.recording.name(), &caption)?;
     write_file(&out.join("odometry.png"), &picture)?;
     write_file(&out.join("runs.csv"), runs_table::text(result).as_bytes())?;
-    let count = trajectories(&out.join("trajectories"), result)?;
+    let count = trajectories(&out.join("trajectories"), &out.join("odometry.toml"), result)?;
     let document = document::text(inputs, clock, result, &command_line())?;
     write_file(&out.join("odometry.toml"), document.as_bytes())?;
     eprintln!(
@@ -92,17 +94,28 @@ fn write(
 }
 
 /// Writes recorded and predicted paths; returns how many.
-fn trajectories(folder: &Path, result: &Comparison) -> Result<usize, Box<dyn Error>> {
+///
+/// Those of an earlier run, which `written` shows, go where this one has none.
+fn trajectories(
+    folder: &Path,
+    written: &Path,
+    result: &Comparison,
+) -> Result<usize, Box<dyn Error>> {
     prepare_folder(folder)?;
-    let mut count = 0;
+    let mut files = BTreeSet::new();
     for path in &result.paths {
         let predicted = result.sets.iter().zip(&path.trajectories);
         let named = predicted.map(|(set, trajectory)| (set.name(), &trajectory.poses));
         for (name, poses) in std::iter::once(("recorded", &path.recorded)).chain(named) {
             let file = folder.join(format!("{name}-run{}.tum", path.run));
             write_file(&file, tum::text(&path.stamps, poses).as_bytes())?;
-            count += 1;
+            files.insert(file);
         }
     }
-    Ok(count)
+    let there = std::fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
+    let is_other = |file: &PathBuf| {
+        file.extension().is_some_and(|extension| extension == "tum") && !files.contains(file)
+    };
+    remove_of(written, there.filter(is_other))?;
+    Ok(files.len())
 }

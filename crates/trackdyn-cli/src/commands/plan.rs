@@ -3,6 +3,7 @@
 mod summary;
 
 use crate::commands::Outcome;
+use crate::earlier::remove_of;
 use crate::exit::Exit;
 use crate::options::{command_line, finite, read_vehicle};
 use crate::progress::Progress;
@@ -43,11 +44,18 @@ pub struct Options {
     out: PathBuf,
 }
 
+/// Removes the plan of an earlier run, where this one has none.
+fn remove_earlier(options: &Options) -> Result<(), String> {
+    let [plan, schedule] = ["plan.toml", "plan.csv"].map(|name| options.out.join(name));
+    remove_of(&plan, [schedule, plan.clone()])
+}
+
 /// Plans, prints what the plan separates, and writes it.
 pub fn run(options: &Options) -> Outcome {
     let document = Document::read(&options.diagnosis)?;
     let questions = Question::of(&document)?;
     if questions.is_empty() {
+        remove_earlier(options)?;
         show("nothing to plan: the diagnosis leaves nothing open between several effects\n")?;
         return Ok(Exit::Done);
     }
@@ -67,6 +75,7 @@ pub fn run(options: &Options) -> Outcome {
     })?;
     let Some(schedule) = plan.schedule() else {
         show(&summary::text(&plan))?;
+        remove_earlier(options)?;
         eprintln!("wrote nothing: there is nothing to drive");
         return Ok(Exit::Done);
     };

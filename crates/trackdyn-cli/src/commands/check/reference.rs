@@ -138,7 +138,14 @@ impl CaseTable {
                     .parse::<ActiveEffect>()
                     .map_err(|error| document.value_error(text.span(), "effects", error.expected()))
             })
-            .collect::<Result<_, _>>()?;
+            .collect::<Result<Vec<ActiveEffect>, DocumentError>>()?;
+        let twice = effects.iter().enumerate().find(|(place, effect)| {
+            effects[..*place].iter().any(|other| other.card().id == effect.card().id)
+        });
+        if let Some((place, _)) = twice {
+            let expected = "each effect once, with all its parameters";
+            return Err(document.value_error(self.effects[place].span(), "effects", expected));
+        }
         if self.expect.get_ref().is_empty() {
             let keys = QUANTITIES.map(|quantity| quantity.key).join(", ");
             let expected = format!("at least one of {keys}: nothing would be checked");

@@ -1,11 +1,15 @@
 //! The report of a diagnosis and its figures.
 
 use super::Subject;
+use crate::earlier::remove_of;
 use std::path::Path;
 use trackdyn_core::output::{fingerprint, write_file};
 use trackdyn_diagnose::{Diagnosis, DiagnosisFile};
 use trackdyn_physics::VehicleFile;
 use trackdyn_report::{diagnosis_figures, diagnosis_html};
+
+/// The one figure that not every diagnosis has.
+const PATH: &str = "path.png";
 
 /// Writes report.html and its figures.
 pub fn write(
@@ -35,6 +39,10 @@ pub fn write(
         write_file(&folder.join(figure.file), &figure.png)?;
     }
     let report = folder.join("report.html");
+    // points have no path
+    if figures.iter().all(|figure| figure.file != PATH) {
+        remove_of(&report, [folder.join(PATH)])?;
+    }
     write_file(&report, diagnosis_html(&subject, &figures)?.as_bytes())?;
     eprintln!("wrote {} and {} figures beside it", report.display(), figures.len());
     Ok(())

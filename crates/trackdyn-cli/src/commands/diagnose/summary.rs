@@ -7,7 +7,7 @@ use trackdyn_diagnose::locate::SURE;
 use trackdyn_diagnose::noise;
 use trackdyn_diagnose::place::words;
 use trackdyn_diagnose::proposal::Proposal;
-use trackdyn_diagnose::uncertainty::Level;
+use trackdyn_diagnose::uncertainty::{Interval, Level};
 use trackdyn_diagnose::{Diagnosis, Evidence, Status};
 use trackdyn_physics::CATALOGUE;
 use trackdyn_physics::effect::Symmetry;
@@ -128,14 +128,27 @@ fn nothing(diagnosis: &Diagnosis) -> String {
         .filter_map(|one| {
             let card = &CATALOGUE[one.effect];
             let parameter = &card.parameters[one.parameter];
-            Some(format!("{} {:.2e} {}", card.id, one.size?, parameter.unit))
+            Some(format!("{} {:.2e}{}", card.id, one.size?, unit(parameter.unit)))
         })
-        .take(LIMITS)
         .collect();
-    format!(
-        "nothing; the smallest that this recording would have shown: {}, ...",
-        limits.join(", ")
-    )
+    match limits.len() {
+        0 => "nothing, and no effect of a physical size would have shown".to_owned(),
+        count => {
+            let more = if count > LIMITS { ", ..." } else { "" };
+            let shown = limits[..count.min(LIMITS)].join(", ");
+            format!("nothing; the smallest that this recording would have shown: {shown}{more}")
+        }
+    }
+}
+
+/// A unit behind a number; nothing for pure numbers.
+fn unit(unit: &str) -> String {
+    if unit == "1" { String::new() } else { format!(" {unit}") }
+}
+
+/// Decimals of a number that is known to so much: four, or what shows two digits of that.
+fn decimals(half: f64) -> usize {
+    (4_u8..9).find(|&decimals| half >= 10.0_f64.powi(1 - i32::from(decimals))).unwrap_or(9).into()
 }
 
 fn line(missing: &Missing) -> String {
@@ -153,14 +166,10 @@ fn line(missing: &Missing) -> String {
         .iter()
         .filter_map(|interval| {
             let parameter = interval.unknown.parameter()?;
-            let unit = match parameter.unit {
-                "1" => String::new(),
-                unit => format!(" {unit}"),
-            };
-            Some(format!(
-                "{} = {:.4} [{:.4}, {:.4}]{unit}",
-                parameter.key, interval.value, interval.low, interval.high
-            ))
+            let Interval { value, low, high, .. } = interval;
+            let (unit, digits) = (unit(parameter.unit), decimals((high - low) / 2.0));
+            let key = parameter.key;
+            Some(format!("{key} = {value:.digits$} [{low:.digits$}, {high:.digits$}]{unit}"))
         })
         .collect();
     let names: Vec<&str> = verdict.one_of.iter().map(id).collect();

@@ -42,9 +42,13 @@ impl Room {
     }
 
     /// Copies a file or a folder in, under a name.
-    pub fn bring(&self, from: &Path, name: &str) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// What is to be copied, and why it cannot be.
+    pub fn bring(&self, from: &Path, name: &str) -> Result<(), String> {
         let to = self.0.path().join(name);
-        if from.is_dir() { copy(from, &to) } else { fs::copy(from, to).map(drop) }
+        let brought = if from.is_dir() { copy(from, &to) } else { fs::copy(from, to).map(drop) };
+        brought.map_err(|cause| format!("{}: {cause}", from.display()))
     }
 
     /// Where the process writes to.
@@ -71,7 +75,14 @@ impl Room {
     }
 
     /// Puts what was written in the place of a folder, whole.
-    pub fn take(&self, place: &Path) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// The folder, and why it cannot be put there.
+    pub fn take(&self, place: &Path) -> Result<(), String> {
+        self.move_to(place).map_err(|cause| format!("{}: {cause}", place.display()))
+    }
+
+    fn move_to(&self, place: &Path) -> io::Result<()> {
         let name = place.file_name().unwrap_or_default().to_string_lossy();
         let partial = place.with_file_name(format!(".{name}"));
         let remove = |old: &Path| if old.exists() { fs::remove_dir_all(old) } else { Ok(()) };

@@ -13,7 +13,7 @@ const LARGE: f64 = 1.0;
 
 /// Draws the errors of all drives.
 /// Least room above and below, in the unit of the axis: what is smaller is rounding.
-const LEAST: f64 = 0.01;
+const LEAST: f64 = 0.1;
 
 pub(super) fn draw(canvas: &mut Canvas, area: Area, drives: &[TrackedDrive]) -> Result<(), Error> {
     let errors = || drives.iter().flat_map(|drive| &drive.journey.cross_track);

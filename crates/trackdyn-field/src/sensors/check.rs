@@ -80,7 +80,12 @@ impl PoseSensor {
             ("pose.walk.yaw_rad_per_sqrt_s", self.walk.yaw),
         ])?;
         if let Some(memory) = self.walk.memory {
-            holds(memory > 0.0 && memory <= 1e6, "pose.walk.memory_s", memory, "a positive time, at most 1e6 s")?;
+            holds(
+                memory > 0.0 && memory <= 1e6,
+                "pose.walk.memory_s",
+                memory,
+                "a positive time, at most 1e6 s",
+            )?;
         }
         self.outlier.check()?;
         self.dropout.check()

@@ -142,7 +142,7 @@ fn durations_and_steps_are_as_asked_for() {
 #[test]
 fn options_that_make_no_sense_are_refused() {
     let refused = |options: ScheduleOptions| {
-        ScheduleKind::Manual.generate(&options).expect_err("refused").to_string()
+        ScheduleKind::Square.generate(&options).expect_err("refused").to_string()
     };
     let default = ScheduleOptions::default;
     for (name, options) in [
@@ -156,6 +156,9 @@ fn options_that_make_no_sense_are_refused() {
     ] {
         assert!(refused(options).starts_with(name), "{name}");
     }
+    // a drive by hand has no sides
+    let by_hand = ScheduleOptions { side: f64::INFINITY, icr_distance: 360.0, ..default() };
+    ScheduleKind::Manual.generate(&by_hand).expect("it drives");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use trackdyn_field::sensors::{Preset, Sensors};
 use trackdyn_motion::{Stationary, Status};
 use trackdyn_physics::effect::{Card, Role};
 use trackdyn_physics::{ActiveEffect, CATALOGUE, Circumstance, Model, Vehicle};
-use trackdyn_proof::MECHANISMS;
+use trackdyn_proof::sheet_of;
 use trackdyn_tests::concealed::{Drive, diagnosed, members, owned, runs, sensors};
 
 /// The effect that all these sensors have: their poses come late.
@@ -101,7 +101,7 @@ impl Setting {
     /// Key and value of the parameters that the ground knows, sizes at this part of the setting's.
     fn values(&self, part: f64) -> Vec<(&'static str, f64)> {
         let Some(card) = self.card else { return Vec::new() };
-        let sheet = MECHANISMS.iter().find(|sheet| sheet.id == card.id);
+        let sheet = sheet_of(card.id);
         let parameters = card.parameters.iter().filter_map(|parameter| {
             let known = sheet?.parameters.iter().find(|other| other.key == parameter.key)?;
             let none = neutral(parameter);

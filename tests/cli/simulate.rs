@@ -85,7 +85,7 @@ fn bad_schedules_and_worlds_are_refused_and_leave_nothing() {
     assert_eq!(place.files(), inputs, "nothing is written");
 }
 
-/// Friction that drifts begins to with the recording, whatever its clock shows; stamps are those of the schedule.
+/// Friction begins to drift as the recording begins, whatever its clock shows; stamps are those of the schedule.
 #[test]
 fn laws_that_know_the_time_begin_with_the_recording() {
     let place = Workplace::new();

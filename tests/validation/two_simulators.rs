@@ -6,7 +6,7 @@ use trackdyn_motion::Transient;
 use trackdyn_physics::{
     ActiveEffect, CATALOGUE, Effects, Model, RunningGear, Vehicle, VehicleFile,
 };
-use trackdyn_proof::{ActiveMechanism, MECHANISMS, Robot, Setup};
+use trackdyn_proof::{ActiveMechanism, Robot, Setup, sheet_of};
 
 /// Least cosine between what both simulators make of an effect. Where the laws are the same it is 1.000; a hull that leans
 /// with a delay has 0.99.
@@ -72,7 +72,7 @@ fn independent(vehicle: &Vehicle, effects: &[ActiveEffect]) -> Trajectory {
         .iter()
         .map(|effect| {
             let id = effect.card().id;
-            let sheet = MECHANISMS.iter().find(|sheet| sheet.id == id).expect("the same names");
+            let sheet = sheet_of(id).expect("the same names");
             // a shape of ours may be a constant of theirs
             let stated = effect.stated().map(|(parameter, value)| (parameter.key, value));
             let theirs = |key: &str| sheet.parameters.iter().any(|parameter| parameter.key == key);

@@ -38,14 +38,15 @@ impl ModelOptions {
             file.vehicle.uncertainty.cog = None; // the file's is of the value that this one replaces
             file.vehicle.check().map_err(|error| format!("--cog: {error}"))?;
         }
-        for (place, effect) in self.effects.iter().enumerate() {
+        if let Some(place) = repeated(&self.effects) {
+            let id = self.effects[place].card().id;
+            return Err(format!(
+                "--effect {id}: given twice: expected once, with all its parameters"
+            )
+            .into());
+        }
+        for effect in &self.effects {
             let id = effect.card().id;
-            if self.effects[..place].iter().any(|other| other.card().id == id) {
-                return Err(format!(
-                    "--effect {id}: given twice: expected once, with all its parameters"
-                )
-                .into());
-            }
             if file.effects.get(id).is_some() {
                 eprintln!(
                     "note: --effect {effect} replaces the vehicle file's, all its parameters"
@@ -55,6 +56,14 @@ impl ModelOptions {
         }
         Ok(file)
     }
+}
+
+/// Place of the first effect that is there before it already.
+pub fn repeated(effects: &[ActiveEffect]) -> Option<usize> {
+    let is_there = |place: &usize| {
+        effects[..*place].iter().any(|other| other.card().id == effects[*place].card().id)
+    };
+    (0..effects.len()).find(is_there)
 }
 
 /// Where the robot stands.

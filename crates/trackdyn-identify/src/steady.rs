@@ -19,7 +19,7 @@ pub use lagging::{Lagging, lagging};
 
 use crate::doubt::Doubt;
 use crate::error::Error;
-use crate::least_squares::covariance::{jackknife, with_deviations};
+use crate::least_squares::covariance::{jackknife, larger_deviation, with_deviations};
 use crate::least_squares::{Loss, inverse, too_wide};
 use crate::parameters::{Free, Parameters};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
@@ -151,11 +151,7 @@ impl SteadyEstimate {
     /// The larger standard deviation by both covariances: the jackknife knows nothing of a parameter that
     /// no residual tells of.
     fn deviation(&self, variance: impl Fn(&DMatrix<f64>) -> f64) -> f64 {
-        let variances = [variance(&self.covariance), variance(&self.covariance_of_scatter)];
-        if variances.iter().any(|variance| variance.is_nan()) {
-            return f64::NAN;
-        }
-        variances[0].max(variances[1]).max(0.0).sqrt()
+        larger_deviation([&self.covariance, &self.covariance_of_scatter].map(variance))
     }
 
     /// The parameters that are too uncertain for a vehicle with this gauge, m.

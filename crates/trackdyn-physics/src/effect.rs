@@ -116,6 +116,13 @@ pub struct Parameter {
     pub typical: f64,
 }
 
+impl Parameter {
+    /// Its unit as it stands behind a number; nothing for pure numbers.
+    pub fn unit_behind(&self) -> String {
+        if self.unit == "1" { String::new() } else { format!(" {}", self.unit) }
+    }
+}
+
 /// What a parameter does in the law of its effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {

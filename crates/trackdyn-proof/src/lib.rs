@@ -22,6 +22,6 @@ pub mod robot;
 pub mod sheet;
 
 pub use error::Error;
-pub use mechanisms::{ActiveMechanism, MECHANISMS};
+pub use mechanisms::{ActiveMechanism, MECHANISMS, sheet_of};
 pub use robot::{Robot, Setup};
 pub use sheet::{Invariance, Origin, Parameter, Sheet};

@@ -9,6 +9,11 @@ pub use active::ActiveMechanism;
 use crate::mechanism::{Described, Mechanism};
 use crate::sheet::Sheet;
 
+/// The sheet of the mechanism with an id.
+pub fn sheet_of(id: &str) -> Option<&'static Sheet> {
+    MECHANISMS.iter().find(|sheet| sheet.id == id)
+}
+
 mechanisms! {
     friction_anisotropy::FrictionAnisotropy,
     cog_shift::CogShift,

@@ -5,8 +5,8 @@
 //!
 //! v̄ = Σ v_k h_k / Σ h_k,   h_k the time that reading k holds
 
+use crate::gaps::usual_interval;
 use crate::recording::{Recording, Run, TrackSample, UncheckedRun};
-use crate::robust::median;
 use std::borrow::Cow;
 use trackdyn_core::real;
 
@@ -17,35 +17,37 @@ impl Recording {
     /// The same recording with as many readings of the tracks put together as usually fit into this time, s. Its fingerprint
     /// is that of the recording.
     pub fn with_readings_every(&self, interval: f64) -> Cow<'_, Self> {
+        let usual = |run: &Run| usual_interval(run.tracks().iter().map(|reading| reading.t));
+        let usual: Vec<f64> = self.runs().iter().map(usual).collect();
+        let counts = self.runs().iter().zip(&usual);
         let counts: Vec<usize> =
-            self.runs().iter().map(|run| fitting(run.tracks(), interval)).collect();
+            counts.map(|(run, usual)| fitting(run.tracks().len(), *usual, interval)).collect();
         if counts.iter().all(|count| *count == 1) {
             return Cow::Borrowed(self);
         }
-        let thinned = |(run, &count): (&Run, &usize)| {
+        let thinned = |((run, &usual), &count): ((&Run, &f64), &usize)| {
             if count == 1 {
                 return run.clone();
             }
             let mut rows: UncheckedRun = run.clone().into_rows();
             let firsts: Vec<usize> = (0..run.tracks().len()).step_by(count).collect();
             rows.tracks = rows.tracks.part(&firsts);
-            rows.tracks.samples = together(run.tracks(), count);
+            rows.tracks.samples = together(run.tracks(), usual, count);
             Run::new(rows, &mut Vec::new())
         };
-        Cow::Owned(self.with_runs(self.runs().iter().zip(&counts).map(thinned).collect()))
+        let runs = self.runs().iter().zip(&usual).zip(&counts).map(thinned);
+        Cow::Owned(self.with_runs(runs.collect()))
     }
 }
 
-/// How many readings usually fit into a time, s; one at least.
-fn fitting(readings: &[TrackSample], time: f64) -> usize {
-    let usual = usual_interval(readings);
+/// How many of some readings fit into a time, s, at their usual interval; one at least.
+fn fitting(readings: usize, usual: f64, time: f64) -> usize {
     let fits = |count: &usize| real(*count) * usual <= time * (1.0 + ROUNDING);
-    (1..=readings.len()).take_while(fits).last().unwrap_or(1)
+    (1..=readings).take_while(fits).last().unwrap_or(1)
 }
 
-/// The readings with so many of them in a row put together.
-fn together(readings: &[TrackSample], count: usize) -> Vec<TrackSample> {
-    let usual = usual_interval(readings);
+/// The readings with so many of them in a row put together; the last one holds for the usual interval, s.
+fn together(readings: &[TrackSample], usual: f64, count: usize) -> Vec<TrackSample> {
     let held = |k: usize| readings.get(k + 1).map_or(usual, |next| next.t - readings[k].t);
     let group = |group: &[usize]| {
         let time: f64 = group.iter().map(|&k| held(k)).sum();
@@ -60,12 +62,6 @@ fn together(readings: &[TrackSample], count: usize) -> Vec<TrackSample> {
     };
     let indices: Vec<usize> = (0..readings.len()).collect();
     indices.chunks(count).map(group).collect()
-}
-
-/// Median time between two readings, s; infinite where there are fewer.
-fn usual_interval(readings: &[TrackSample]) -> f64 {
-    let mut intervals: Vec<f64> = readings.windows(2).map(|pair| pair[1].t - pair[0].t).collect();
-    median(&mut intervals).unwrap_or(f64::INFINITY)
 }
 
 #[cfg(test)]

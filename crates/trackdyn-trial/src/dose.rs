@@ -5,7 +5,7 @@ use crate::random::{log_uniform, sign, uniform};
 use rand::RngExt;
 use rand::seq::IndexedRandom;
 use rand_chacha::ChaCha8Rng;
-use trackdyn_proof::{ActiveMechanism, MECHANISMS, Sheet};
+use trackdyn_proof::{ActiveMechanism, Sheet, sheet_of};
 
 /// A parameter that goes with the strength.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -229,7 +229,7 @@ impl Dose {
 /// # Panics
 /// For an id that no mechanism has.
 pub(crate) fn sheet(id: &str) -> &'static Sheet {
-    match MECHANISMS.iter().find(|sheet| sheet.id == id) {
+    match sheet_of(id) {
         Some(sheet) => sheet,
         None => panic!("no mechanism {id}"),
     }
@@ -251,6 +251,7 @@ mod tests {
     use crate::key::Root;
     use crate::plan::INSTRUMENTS;
     use crate::random::{Purpose, stream};
+    use trackdyn_proof::MECHANISMS;
 
     #[test]
     fn every_mechanism_has_a_dose_that_grows_from_nothing_to_its_largest() {

@@ -96,6 +96,7 @@ pub fn write_answers(trial: &Path, answers: &Answers, key: &Key) -> Result<Commi
 }
 
 /// Opens the answers of a trial with the key in a file.
+/// With them comes their text.
 ///
 /// # Errors
 /// Those of [`seal::open`] and [`Key::read`]; [`Error::File`], [`Error::Document`].

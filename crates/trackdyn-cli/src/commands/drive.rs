@@ -130,11 +130,10 @@ pub fn run(options: &Options) -> Outcome {
     let caption = format!("trackdyn {}, vehicle and effects {vehicle}", env!("CARGO_PKG_VERSION"));
     let picture = path_tracking(&path, &tracked, point, &title, &caption)?;
     write_file(&options.out.join("drive.png"), &picture)?;
-    for (index, drive) in drives.iter().enumerate() {
-        let table = options.out.join(format!("cross_track_{index}.csv"));
-        write_file(&table, drive.journey.cross_track_csv().as_bytes())?;
-    }
     let table = |index: usize| options.out.join(format!("cross_track_{index}.csv"));
+    for (index, drive) in drives.iter().enumerate() {
+        write_file(&table(index), drive.journey.cross_track_csv().as_bytes())?;
+    }
     let further = (drives.len()..).map(table).take_while(|table| table.exists());
     remove_of(&options.out.join("drive.toml"), further)?;
     write_file(&options.out.join("path.csv"), path.to_csv().as_bytes())?;

@@ -129,7 +129,7 @@ fn keep(out: &Path, files: impl IntoIterator<Item = Option<KinematicsFile>>) -> 
         } else {
             remove_earlier(&path, |source| source.recording.is_some())?;
             if path.exists() {
-                eprintln!("note: {} is none of this run", path.display());
+                eprintln!("note: {} is not of this recording, and stays", path.display());
             }
         }
     }

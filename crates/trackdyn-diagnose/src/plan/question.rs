@@ -3,10 +3,34 @@
 use crate::diagnosis::Status;
 use crate::document::DiagnosisFile;
 use crate::hypothesis::neutral;
-use std::ops::Range;
+use serde::Deserialize;
+use toml::Spanned;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_physics::effect::Role;
 use trackdyn_physics::{CATALOGUE, effect::Stage};
+
+/// What of a diagnosis file is asked, with its places.
+#[derive(Deserialize)]
+struct Stated {
+    status: Spanned<String>,
+    #[serde(default)]
+    missing: Vec<StatedMissing>,
+}
+
+/// The same of something that was left out.
+#[derive(Deserialize)]
+struct StatedMissing {
+    effect: Spanned<String>,
+    one_of: Vec<Spanned<String>>,
+    parameters: Vec<StatedParameter>,
+}
+
+/// The same of a parameter.
+#[derive(Deserialize)]
+struct StatedParameter {
+    name: Spanned<String>,
+    value: Spanned<f64>,
+}
 
 /// Effects that explain a recording alike.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,47 +50,50 @@ impl Question {
     /// A [`DocumentError`] that points at a word that is none of the schema's, an id that is not in the
     /// catalogue, or a parameter that its effect does not have.
     pub fn of(document: &Document) -> Result<Vec<Self>, DocumentError> {
-        let file = DiagnosisFile::from_document(document)?;
-        if !Status::ALL.iter().any(|status| status.name() == file.status) {
+        DiagnosisFile::from_document(document)?;
+        let file: Stated = document.parse()?;
+        if !Status::ALL.iter().any(|status| status.name() == file.status.get_ref()) {
             let names = Status::ALL.map(|status| format!("\"{}\"", status.name())).join(", ");
-            return Err(wrong(document, "status", &file.status, names));
+            return Err(document.value_error(file.status.span(), "status", names));
         }
         let mut questions = Vec::new();
         for missing in &file.missing {
-            let mut members = Vec::new();
-            for id in &missing.one_of {
-                members.push(place(document, "missing.one_of", id)?);
-            }
+            let members = missing.one_of.iter();
+            let members = members.map(|id| place(document, "missing.one_of", id));
+            let mut members: Vec<usize> = members.collect::<Result<_, _>>()?;
             let effect = place(document, "missing.effect", &missing.effect)?;
             if !members.contains(&effect) {
-                let expected = format!("one of {}", missing.one_of.join(", "));
-                return Err(wrong(document, "missing.effect", &missing.effect, expected));
+                let ids: Vec<&str> =
+                    missing.one_of.iter().map(|id| id.get_ref().as_str()).collect();
+                let expected = format!("one of {}", ids.join(", "));
+                return Err(document.value_error(
+                    missing.effect.span(),
+                    "missing.effect",
+                    expected,
+                ));
             }
             members.sort_unstable();
             members.dedup();
             let card = &CATALOGUE[effect];
             let typical = |p: &trackdyn_physics::effect::Parameter| p.typical;
             let mut values: Vec<f64> = card.parameters.iter().map(typical).collect();
-            for parameter in &missing.parameters {
-                let known = card.parameters.iter().position(|p| p.key == parameter.name);
+            for StatedParameter { name, value } in &missing.parameters {
+                let known = card.parameters.iter().position(|p| p.key == name.get_ref());
                 let Some(known) = known else {
                     let keys: Vec<&str> = card.parameters.iter().map(|p| p.key).collect();
                     let expected = format!("a parameter of {}: {}", card.id, keys.join(", "));
-                    return Err(wrong(
-                        document,
-                        "missing.parameters.name",
-                        &parameter.name,
-                        expected,
-                    ));
+                    let key = "missing.parameters.name";
+                    return Err(document.value_error(name.span(), key, expected));
                 };
-                let [low, high] = card.parameters[known].range;
-                if !(low..=high).contains(&parameter.value) {
-                    let value = value_after(document.text(), &parameter.name);
-                    let key = format!("missing.parameters.{}", parameter.name);
-                    let expected = format!("a value from {low} to {high} {}", parameter.unit);
-                    return Err(document.value_error(value, key, expected));
+                let parameter = &card.parameters[known];
+                let [low, high] = parameter.range;
+                if !(low..=high).contains(value.get_ref()) {
+                    let key = format!("missing.parameters.{}", parameter.key);
+                    let unit = parameter.unit_behind();
+                    let expected = format!("a value from {low} to {high}{unit}");
+                    return Err(document.value_error(value.span(), key, expected));
                 }
-                values[known] = parameter.value;
+                values[known] = *value.get_ref();
             }
             // Sizes of none are no question.
             let sizes = card.parameters.iter().zip(&values);
@@ -81,30 +108,11 @@ impl Question {
     }
 }
 
-fn place(document: &Document, key: &str, id: &str) -> Result<usize, DocumentError> {
-    CATALOGUE.iter().position(|card| card.id == id).ok_or_else(|| {
-        wrong(document, key, id, "an effect of the catalogue (see `trackdyn effects`)".to_owned())
-    })
-}
-
-/// The error of a text value, where it first stands.
-fn wrong(document: &Document, key: &str, value: &str, expected: String) -> DocumentError {
-    let quoted = format!("\"{value}\"");
-    let start = document.text().find(&quoted).unwrap_or_default();
-    document.value_error(start..start + quoted.len(), key, expected)
-}
-
-/// Where the value of the parameter of this name stands.
-fn value_after(text: &str, name: &str) -> Range<usize> {
-    let after = |from: usize, what: &str| {
-        text[from..].find(what).map_or(from, |place| from + place + what.len())
-    };
-    let name = after(0, &format!("\"{name}\""));
-    let start = after(after(name, "value"), "=");
-    let ends = |letter: char| matches!(letter, '\n' | ',' | '}' | '#');
-    let until = text[start..].find(ends).map_or(text.len(), |end| start + end);
-    let value = text[start..until].trim_start();
-    until - value.len()..start + text[start..until].trim_end().len()
+/// The place of an effect in the catalogue.
+fn place(document: &Document, key: &str, id: &Spanned<String>) -> Result<usize, DocumentError> {
+    let found = CATALOGUE.iter().position(|card| card.id == id.get_ref());
+    let expected = "an effect of the catalogue (see `trackdyn effects`)";
+    found.ok_or_else(|| document.value_error(id.span(), key, expected))
 }
 
 /// What can be measured at rest where driving cannot tell an effect from another.

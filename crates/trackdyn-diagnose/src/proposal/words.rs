@@ -96,7 +96,7 @@ fn half(pair: &[Interval]) -> f64 {
 }
 
 /// Decimals that show an uncertainty with one or two digits.
-fn decimals(half: f64) -> usize {
+pub fn decimals(half: f64) -> usize {
     if half <= 0.0 || !half.is_finite() {
         return 4;
     }

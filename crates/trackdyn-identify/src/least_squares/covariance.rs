@@ -23,6 +23,12 @@ pub fn jackknife(curvature: &DMatrix<f64>, parts: &[(DMatrix<f64>, DVector<f64>)
     scatter * ((blocks - 1.0) / blocks)
 }
 
+/// The larger standard deviation of two variances; no number where one of them is none.
+pub fn larger_deviation([one, other]: [f64; 2]) -> f64 {
+    // of a number and none, `max` is the number
+    if one.is_nan() || other.is_nan() { f64::NAN } else { one.max(other).max(0.0).sqrt() }
+}
+
 /// A covariance with these standard deviations and the correlations of another one, row by row.
 pub fn with_deviations(of: &DMatrix<f64>, deviations: &[f64]) -> Vec<Vec<f64>> {
     let factor = |k: usize| {

@@ -1,7 +1,7 @@
 //! What a fit says: values, intervals, and what they are worth.
 
 use super::Unknowns;
-use super::covariance::with_deviations;
+use super::covariance::{larger_deviation, with_deviations};
 use crate::parameters::{COUNT, Parameters};
 use crate::sensor::{Nuisance, Sensor};
 use nalgebra::{DMatrix, DVector};
@@ -90,14 +90,8 @@ impl Estimate {
             let (rows, _) = gradient.shape();
             (gradient.transpose() * of.view((0, 0), (rows, rows)) * &gradient)[0]
         };
-        let variances = [variance(&self.covariance), variance(&self.covariance_of_noise)];
-        // of a number and none, the larger would be the number
-        let larger = if variances.iter().any(|variance| variance.is_nan()) {
-            f64::NAN
-        } else {
-            variances[0].max(variances[1]).max(0.0)
-        };
-        Interval::new(value, larger.sqrt(), self.filled_blocks, self.unknowns.count())
+        let variances = [&self.covariance, &self.covariance_of_noise].map(variance);
+        Interval::new(value, larger_deviation(variances), self.filled_blocks, self.unknowns.count())
     }
 
     /// The covariance of the free kinematic parameters, with the standard deviations of their intervals.

@@ -77,10 +77,8 @@ impl EffectError {
             }
             Self::OutOfRange { parameter, .. } => {
                 let [low, high] = parameter.range;
-                let unit = if parameter.unit == "1" { "" } else { parameter.unit };
-                format!("{}, between {low} and {high} {unit}", parameter.meaning)
-                    .trim_end()
-                    .to_owned()
+                let unit = parameter.unit_behind();
+                format!("{}, between {low} and {high}{unit}", parameter.meaning)
             }
             Self::Repeated { .. } => "each parameter once".to_owned(),
             Self::Malformed { .. } => {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use trackdyn_physics::CATALOGUE;
 use trackdyn_physics::effect::{Parameter, Role};
-use trackdyn_proof::{ActiveMechanism, Error, MECHANISMS, Origin, Robot, Setup};
+use trackdyn_proof::{ActiveMechanism, Error, MECHANISMS, Origin, Robot, Setup, sheet_of};
 
 use crate::turn::{auriga, typical};
 
@@ -40,7 +40,7 @@ fn sheets_are_complete() {
 fn effects_of_the_catalogue_have_their_names_and_parameters_here() {
     // A form has no mechanism.
     for card in CATALOGUE.iter().filter(|card| !card.is_form()) {
-        let sheet = MECHANISMS.iter().find(|sheet| sheet.id == card.id);
+        let sheet = sheet_of(card.id);
         let sheet = sheet.unwrap_or_else(|| panic!("no mechanism {}", card.id));
         assert_eq!(sheet.origin, Origin::Catalogue, "{}", card.id);
         let (theirs, constants): (Vec<&Parameter>, Vec<&Parameter>) =

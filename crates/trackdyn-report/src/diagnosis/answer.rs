@@ -1,7 +1,7 @@
 //! The answer in a paragraph: what, where, how much, and so what.
 
 use super::Subject;
-use super::words::{id, ids, significant, symmetry, unit};
+use super::words::{id, ids, significant, symmetry};
 use crate::panel::ticks::number;
 use trackdyn_diagnose::Status;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
@@ -169,7 +169,7 @@ fn named(subject: &Subject, missing: &Missing) -> String {
 
 /// A parameter in a sentence, with so many digits.
 fn is(parameter: &Parameter, value: f64, digits: i32) -> String {
-    format!("{} = {}{}", parameter.key, significant(value, digits), unit(parameter.unit))
+    format!("{} = {}{}", parameter.key, significant(value, digits), parameter.unit_behind())
 }
 
 /// Names of a few effects, or how many they are.

@@ -1,7 +1,7 @@
 //! All candidates: what speaks for each, and why it lost.
 
 use super::Subject;
-use super::words::{id, ids, significant, unit};
+use super::words::{id, ids, significant};
 use crate::panel::ticks::number;
 use trackdyn_diagnose::candidate;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
@@ -193,7 +193,7 @@ fn sizes(subject: &Subject, one: &Screened) -> String {
 
 /// A parameter with a value of so many digits, and its unit.
 fn shown(parameter: &Parameter, value: f64, digits: i32) -> String {
-    format!("{} {}{}", parameter.key, significant(value, digits), unit(parameter.unit))
+    format!("{} {}{}", parameter.key, significant(value, digits), parameter.unit_behind())
 }
 
 /// All numbers of an effect as they were fitted.

@@ -2,7 +2,7 @@
 
 use super::base64::base64;
 use super::candidates::{Outcome, candidates};
-use super::words::{id, ids, probability, significant, unit};
+use super::words::{id, ids, probability, significant};
 use super::{Figure, Subject, answer};
 use crate::Error;
 use crate::panel::ticks::number;
@@ -262,9 +262,9 @@ fn limits(subject: &Subject) -> Vec<Limit> {
                 meaning: format!("{}: {}", parameter.key, parameter.meaning),
                 size: one.size.map_or_else(
                     || "no physical size would show".to_owned(),
-                    |size| format!("{}{}", significant(size, 3), unit(parameter.unit)),
+                    |size| format!("{}{}", significant(size, 3), parameter.unit_behind()),
                 ),
-                typical: format!("{}{}", significant(typical, 3), unit(parameter.unit)),
+                typical: format!("{}{}", significant(typical, 3), parameter.unit_behind()),
             }
         })
         .collect()

@@ -48,11 +48,6 @@ pub(super) fn significant(value: f64, digits: i32) -> String {
     number(value, usize::try_from(digits - 1 - exponent).unwrap_or(0))
 }
 
-/// A unit behind a number; nothing for pure numbers.
-pub(super) fn unit(unit: &str) -> String {
-    if unit == "1" { String::new() } else { format!(" {unit}") }
-}
-
 /// A probability of chance.
 pub(super) fn probability(p: f64) -> String {
     if p < 0.001 { "below 0.001".to_owned() } else { number(p, 3) }

@@ -11,10 +11,10 @@ use trackdyn_field::tracking::CrossTrack;
 /// nothing.
 const LARGE: f64 = 1.0;
 
-/// Draws the errors of all drives.
 /// Least room above and below, in the unit of the axis: what is smaller is rounding.
 const LEAST: f64 = 0.1;
 
+/// Draws the errors of all drives.
 pub(super) fn draw(canvas: &mut Canvas, area: Area, drives: &[TrackedDrive]) -> Result<(), Error> {
     let errors = || drives.iter().flat_map(|drive| &drive.journey.cross_track);
     let is_large = errors().any(|error| error.offset.abs() >= LARGE);

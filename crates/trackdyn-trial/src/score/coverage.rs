@@ -5,7 +5,7 @@ use super::verdict::Judged;
 use crate::diagnosis::{Missing, Size};
 use crate::plan::INSTRUMENTS;
 use std::collections::BTreeMap;
-use trackdyn_proof::{MECHANISMS, Sheet};
+use trackdyn_proof::sheet_of;
 
 /// How often 95 % intervals hold the true sizes, effect by effect in the order of their ids.
 pub fn coverage(judged: &[Judged]) -> Vec<Rate> {
@@ -53,15 +53,11 @@ fn covered(case: &Judged, claim: &Missing) -> Vec<bool> {
 
 /// Whether a size of the independent ground is that of the catalogue: the sheet says so.
 fn means_the_same(id: &str) -> bool {
-    INSTRUMENTS.contains(&id) || sheet(id).is_some_and(|sheet| sheet.size.starts_with("the same"))
+    INSTRUMENTS.contains(&id)
+        || sheet_of(id).is_some_and(|sheet| sheet.size.starts_with("the same"))
 }
 
 fn is_direction(id: &str, key: &str) -> bool {
-    let parameters = sheet(id).map_or(&[][..], |sheet| sheet.parameters);
+    let parameters = sheet_of(id).map_or(&[][..], |sheet| sheet.parameters);
     parameters.iter().any(|p| p.key == key && p.unit == "deg" && p.range[1] >= 180.0)
-}
-
-/// The sheet of a mechanism; none of one that answers of another version name.
-fn sheet(id: &str) -> Option<&'static Sheet> {
-    MECHANISMS.iter().find(|sheet| sheet.id == id)
 }

@@ -3,7 +3,7 @@
 use crate::answer::{Answer, Concealed};
 use crate::diagnosis::{Diagnosis, Missing, Status};
 use crate::plan::{CONSTANTS, INSTRUMENTS, Stratum};
-use trackdyn_proof::MECHANISMS;
+use trackdyn_proof::sheet_of;
 
 /// What came back of a case.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,7 +90,7 @@ impl Judged {
         let errors = self.answer.shown_errors();
         let errors = errors.iter().map(|error| error.mechanism.as_str());
         let known = errors.chain(self.owner_errors.iter().copied());
-        let sheets = known.filter_map(|id| MECHANISMS.iter().find(|sheet| sheet.id == id));
+        let sheets = known.filter_map(sheet_of);
         let letters =
             sheets.flat_map(|sheet| sheet.breaks).map(|broken| broken.letter().to_string());
         self.answer.concealed.iter().flat_map(|c| c.breaks.clone()).chain(letters).collect()

@@ -1,5 +1,6 @@
 //! Reference files, schema `trackdyn.reference/1`.
 
+use crate::options::repeated;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -139,10 +140,7 @@ impl CaseTable {
                     .map_err(|error| document.value_error(text.span(), "effects", error.expected()))
             })
             .collect::<Result<Vec<ActiveEffect>, DocumentError>>()?;
-        let twice = effects.iter().enumerate().find(|(place, effect)| {
-            effects[..*place].iter().any(|other| other.card().id == effect.card().id)
-        });
-        if let Some((place, _)) = twice {
+        if let Some(place) = repeated(&effects) {
             let expected = "each effect once, with all its parameters";
             return Err(document.value_error(self.effects[place].span(), "effects", expected));
         }

@@ -7,6 +7,7 @@ use trackdyn_diagnose::locate::SURE;
 use trackdyn_diagnose::noise;
 use trackdyn_diagnose::place::words;
 use trackdyn_diagnose::proposal::Proposal;
+use trackdyn_diagnose::proposal::words::decimals;
 use trackdyn_diagnose::uncertainty::{Interval, Level};
 use trackdyn_diagnose::{Diagnosis, Evidence, Status};
 use trackdyn_physics::CATALOGUE;
@@ -14,6 +15,9 @@ use trackdyn_physics::effect::Symmetry;
 
 /// Effects whose limits are printed where nothing is missing.
 const LIMITS: usize = 6;
+
+/// Decimals of a size at least.
+const DECIMALS: usize = 4;
 
 /// The text of a diagnosis.
 pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
@@ -128,7 +132,7 @@ fn nothing(diagnosis: &Diagnosis) -> String {
         .filter_map(|one| {
             let card = &CATALOGUE[one.effect];
             let parameter = &card.parameters[one.parameter];
-            Some(format!("{} {:.2e}{}", card.id, one.size?, unit(parameter.unit)))
+            Some(format!("{} {:.2e}{}", card.id, one.size?, parameter.unit_behind()))
         })
         .collect();
     match limits.len() {
@@ -139,16 +143,6 @@ fn nothing(diagnosis: &Diagnosis) -> String {
             format!("nothing; the smallest that this recording would have shown: {shown}{more}")
         }
     }
-}
-
-/// A unit behind a number; nothing for pure numbers.
-fn unit(unit: &str) -> String {
-    if unit == "1" { String::new() } else { format!(" {unit}") }
-}
-
-/// Decimals of a number that is known to so much: four, or what shows two digits of that.
-fn decimals(half: f64) -> usize {
-    (4_u8..9).find(|&decimals| half >= 10.0_f64.powi(1 - i32::from(decimals))).unwrap_or(9).into()
 }
 
 fn line(missing: &Missing) -> String {
@@ -167,8 +161,8 @@ fn line(missing: &Missing) -> String {
         .filter_map(|interval| {
             let parameter = interval.unknown.parameter()?;
             let Interval { value, low, high, .. } = interval;
-            let (unit, digits) = (unit(parameter.unit), decimals((high - low) / 2.0));
-            let key = parameter.key;
+            let digits = decimals((high - low) / 2.0).max(DECIMALS);
+            let (key, unit) = (parameter.key, parameter.unit_behind());
             Some(format!("{key} = {value:.digits$} [{low:.digits$}, {high:.digits$}]{unit}"))
         })
         .collect();

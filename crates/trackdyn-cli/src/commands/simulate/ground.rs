@@ -4,7 +4,7 @@ use super::Options;
 use trackdyn_core::{Plant, Schedule, Trajectory};
 use trackdyn_motion::Transient;
 use trackdyn_physics::{ActiveEffect, Model, VehicleFile};
-use trackdyn_proof::{ActiveMechanism, MECHANISMS, Robot, Setup};
+use trackdyn_proof::{ActiveMechanism, Robot, Setup, sheet_of};
 
 /// The motion of the hull, and the path that the pose sensor takes it to be.
 type Motion = (Trajectory, Trajectory);
@@ -49,7 +49,7 @@ pub fn independent(
 /// they are.
 fn mechanism_of(effect: &ActiveEffect) -> Result<ActiveMechanism, String> {
     let card = effect.card();
-    let sheet = MECHANISMS.iter().find(|sheet| sheet.id == card.id);
+    let sheet = sheet_of(card.id);
     let has = |key: &str| {
         sheet.is_none_or(|sheet| sheet.parameters.iter().any(|parameter| parameter.key == key))
     };

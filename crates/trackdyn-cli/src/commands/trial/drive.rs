@@ -58,6 +58,7 @@ struct Visit<'a> {
 
 /// Drives on where diagnoses are ambiguous, and scores what comes of it.
 pub fn run(options: &Options) -> Exited {
+    // a folder that is no trial is said to be none before a key is looked for
     folder::cases(&options.trial)?;
     let key = key_to_open(options.key.as_deref(), &options.trial)?;
     let (answers, _) = folder::open_answers(&options.trial, &key)?;

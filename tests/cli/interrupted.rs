@@ -18,15 +18,15 @@ fn files_in(place: &Workplace, folder: &str) -> Vec<PathBuf> {
 mod signals {
     use super::{drive, files_in};
     use crate::Workplace;
+    use std::os::unix::process::ExitStatusExt;
     use std::process::{Child, Command, ExitStatus, Stdio};
     use std::time::{Duration, Instant};
 
-    const DIAGNOSE: [&str; 6] =
-        ["diagnose", "drive", "--vehicle", "drive/vehicle.toml", "--out", "found"];
+    const DIAGNOSE: &str = "diagnose drive --vehicle drive/vehicle.toml --out found";
 
-    fn start(place: &Workplace) -> Child {
+    fn start(place: &Workplace, command: &str) -> Child {
         Command::new(env!("CARGO_BIN_EXE_trackdyn"))
-            .args(DIAGNOSE)
+            .args(command.split_whitespace())
             .current_dir(place.path())
             .stdout(Stdio::null())
             .stderr(Stdio::null())
@@ -57,7 +57,7 @@ mod signals {
         // Seconds of computing lie between the folder and the first file.
         drive(&place, "--runs 27");
         let before = place.files();
-        let mut child = start(&place);
+        let mut child = start(&place, DIAGNOSE);
         wait_until(|| place.path().join("found").exists());
         let status = interrupt(&mut child);
         assert!(!status.success(), "it was done already: {status}");
@@ -68,7 +68,7 @@ mod signals {
     fn files_of_a_diagnosis_that_is_broken_off_while_it_writes_are_whole() {
         let place = Workplace::new();
         drive(&place, "--runs 2");
-        let mut child = start(&place);
+        let mut child = start(&place, DIAGNOSE);
         wait_until(|| place.path().join("found/diagnosis.toml").exists());
         interrupt(&mut child);
         for file in files_in(&place, "found") {
@@ -83,6 +83,25 @@ mod signals {
                 Some("png") => assert!(bytes.ends_with(b"IEND\xaeB`\x82"), "{name}"),
                 Some("html") => assert!(bytes.trim_ascii_end().ends_with(b"</html>"), "{name}"),
                 _ => panic!("{name} is none of a diagnosis"),
+            }
+        }
+    }
+
+    #[test]
+    fn a_signal_ends_the_program_between_two_files() {
+        // Some of these moments are in the middle of one of the 41 files.
+        for milliseconds in 0..30 {
+            let place = Workplace::new();
+            let command = "simulate --quasi-static --runs 40 --duration 5 --out drive";
+            let mut child = start(&place, command);
+            wait_until(|| !files_in(&place, "drive").is_empty());
+            std::thread::sleep(Duration::from_millis(milliseconds));
+            let status = interrupt(&mut child);
+            let is_by_signal = status.signal() == Some(2);
+            assert!(is_by_signal || status.success(), "{status}");
+            for file in files_in(&place, "drive") {
+                let name = file.file_name().expect("a name").to_string_lossy().into_owned();
+                assert!(!name.starts_with('.'), "{name} is half written");
             }
         }
     }

@@ -8,6 +8,7 @@ mod arguments;
 mod commands;
 mod earlier;
 mod exit;
+mod interrupt;
 mod options;
 mod progress;
 mod stdout;
@@ -28,6 +29,10 @@ fn main() -> ExitCode {
             return exit.into();
         }
     };
+    if let Err(error) = interrupt::end_between_files() {
+        eprintln!("error: Ctrl-C cannot be waited for: {error}");
+        return Exit::BadInput.into();
+    }
     match arguments.command.run() {
         Ok(exit) => exit.into(),
         Err(error) => {

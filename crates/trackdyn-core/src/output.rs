@@ -3,6 +3,10 @@
 use sha2::{Digest, Sha256};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{PoisonError, RwLock, RwLockWriteGuard};
+
+/// Held by everyone who writes a file, and alone by who is about to end the program.
+static WRITING: RwLock<()> = RwLock::new(());
 
 /// A file that could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -24,6 +28,7 @@ pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
+    let _writing = WRITING.read().unwrap_or_else(PoisonError::into_inner);
     let write = || -> io::Result<()> {
         let mut temporary = tempfile::Builder::new()
             .prefix(".trackdyn-")
@@ -34,6 +39,13 @@ pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
         Ok(())
     };
     write().map_err(|cause| OutputError { path: path.to_owned(), cause })
+}
+
+/// Waits until no file is being written, and lets none be begun while what it gives is kept.
+///
+/// For ends that run no destructors, such as a signal's: inside [`write_file`] they would leave its temporary file.
+pub fn files_at_rest() -> RwLockWriteGuard<'static, ()> {
+    WRITING.write().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Makes a folder and its parents where they are missing, and makes sure that files can be written
@@ -73,6 +85,7 @@ fn permissions() -> std::fs::Permissions {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::time::Duration;
 
     #[test]
     fn writing_replaces_the_whole_file_and_leaves_nothing_else() {
@@ -82,6 +95,24 @@ mod tests {
         write_file(&path, b"short").expect("written");
         assert_eq!(std::fs::read(&path).expect("readable"), b"short");
         assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), 1);
+    }
+
+    #[test]
+    fn no_file_is_begun_while_files_rest() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("a.toml");
+        let (written, wait) = std::sync::mpsc::channel();
+        let rest = files_at_rest();
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                write_file(&path, b"text").expect("written");
+                written.send(()).expect("someone waits");
+            });
+            wait.recv_timeout(Duration::from_millis(50)).expect_err("files rest");
+            assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), 0);
+            drop(rest);
+            wait.recv().expect("written at last");
+        });
     }
 
     #[test]

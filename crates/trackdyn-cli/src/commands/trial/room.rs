@@ -3,11 +3,13 @@
 //! What the process gets is copied in, what it wrote is taken out when it has ended: neither its
 //! arguments nor its working folder lead to anything else.
 
+use crate::interrupt::Undo;
 use std::error::Error;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
@@ -31,14 +33,22 @@ pub struct Program {
 }
 
 /// A folder for one process.
-pub struct Room(TempDir);
+pub struct Room {
+    folder: TempDir,
+    _removed: Undo,
+}
 
 impl Room {
     /// An empty room.
     pub fn new() -> io::Result<Self> {
-        let room = tempfile::Builder::new().prefix("trackdyn-").tempdir()?;
-        fs::create_dir(room.path().join(OUT))?;
-        Ok(Self(room))
+        let folder = tempfile::Builder::new().prefix("trackdyn-").tempdir()?;
+        fs::create_dir(folder.path().join(OUT))?;
+        let path = folder.path().to_owned();
+        let removed = Undo::new(move || {
+            // The program ends: there is nobody left to tell.
+            let _ = fs::remove_dir_all(path);
+        });
+        Ok(Self { folder, _removed: removed })
     }
 
     /// Copies a file or a folder in, under a name.
@@ -46,14 +56,14 @@ impl Room {
     /// # Errors
     /// What is to be copied, and why it cannot be.
     pub fn bring(&self, from: &Path, name: &str) -> Result<(), String> {
-        let to = self.0.path().join(name);
+        let to = self.folder.path().join(name);
         let brought = if from.is_dir() { copy(from, &to) } else { fs::copy(from, to).map(drop) };
         brought.map_err(|cause| format!("{}: {cause}", from.display()))
     }
 
     /// Where the process writes to.
     pub fn out(&self) -> PathBuf {
-        self.0.path().join(OUT)
+        self.folder.path().join(OUT)
     }
 
     /// Runs a program here until it ends, and says why it failed; nothing where it did not.
@@ -68,7 +78,7 @@ impl Room {
             Some(status) => format!("ended with {status}"),
             None => format!("was ended after {} s", program.limit.as_secs()),
         };
-        let words = fs::read(self.0.path().join(TALK)).unwrap_or_default();
+        let words = fs::read(self.folder.path().join(TALK)).unwrap_or_default();
         let words = String::from_utf8_lossy(&words);
         let start = words.char_indices().rev().nth(LAST_WORDS).map_or(0, |(place, _)| place);
         Ok(Some(format!("the process {how}\n{}", &words[start..])))
@@ -102,21 +112,29 @@ impl Room {
         command
             .args(program.first)
             .args(arguments)
-            .current_dir(&self.0)
+            .current_dir(&self.folder)
             .env_clear()
             .stdin(Stdio::null())
             .stdout(Stdio::null())
-            .stderr(File::create(self.0.path().join(TALK))?);
+            .stderr(File::create(self.folder.path().join(TALK))?);
         for name in ["PATH", "RAYON_NUM_THREADS"] {
             if let Some(value) = std::env::var_os(name) {
                 command.env(name, value);
             }
         }
         let started = Instant::now();
-        let mut process = command
+        let process = command
             .spawn()
             .map_err(|cause| format!("{}: cannot be run: {cause}", program.path.display()))?;
+        let process = Arc::new(Mutex::new(process));
+        let also = Arc::clone(&process);
+        let _ended = Undo::new(move || {
+            let mut process = also.lock().unwrap_or_else(PoisonError::into_inner);
+            // It may have ended by itself.
+            let _ = process.kill().and_then(|()| process.wait());
+        });
         loop {
+            let mut process = process.lock().unwrap_or_else(PoisonError::into_inner);
             if let Some(status) = process.try_wait()? {
                 return Ok(Some(status));
             }
@@ -125,6 +143,7 @@ impl Room {
                 process.wait()?;
                 return Ok(None);
             }
+            drop(process);
             std::thread::sleep(LOOK);
         }
     }

@@ -124,8 +124,9 @@ impl Panel {
     /// [`Error::Axes`].
     pub fn frame(&self, canvas: &mut Canvas, labels: &Labels, grid: bool) -> Result<(), Error> {
         let Area { left, top, width, height } = self.plot;
-        let x = Axis { range: self.x, ticks: self.ticks_across(canvas) };
-        let y = Axis { range: self.y, ticks: Ticks::along(self.y, height, 60) };
+        let x = Axis::new(self.x, self.ticks_across(canvas));
+        let y = Axis::new(self.y, Ticks::along(self.y, height, 60));
+        let (x_label, y_label) = (x.label(labels.x), y.label(labels.y));
         {
             let root = Brush(canvas).into_drawing_area();
             let corner = (left - LEFT, top);
@@ -142,8 +143,8 @@ impl Panel {
                 .set_all_tick_mark_size(8)
                 .label_style(font(TICK_SIZE, GREY))
                 .axis_desc_style(font(LABEL_SIZE, INK))
-                .x_desc(labels.x)
-                .y_desc(labels.y)
+                .x_desc(x_label)
+                .y_desc(y_label)
                 .draw()?;
         }
         let title = Style::new(TITLE_SIZE).anchor(Horizontal::Left, Vertical::Baseline);
@@ -155,6 +156,7 @@ impl Panel {
     /// Ticks along x, as many as there is room for their numbers.
     fn ticks_across(&self, canvas: &Canvas) -> Ticks {
         const GAP: f64 = 18.0;
+        let origin = ticks::origin(self.x);
         let mut spacing = 40;
         let mut denser: Option<Ticks> = None;
         loop {
@@ -162,7 +164,8 @@ impl Panel {
             let widest = ticks
                 .values
                 .iter()
-                .map(|&value| canvas.text_width(&ticks::number(value, ticks.decimals), TICK_SIZE))
+                .map(|value| ticks::number(value - origin, ticks.decimals))
+                .map(|number| canvas.text_width(&number, TICK_SIZE))
                 .max();
             if widest.is_none_or(|widest| ticks.step * self.scale() >= f64::from(widest) + GAP) {
                 // One number alone does not tell the scale

@@ -52,11 +52,43 @@ impl Ticks {
     }
 }
 
+/// What the numbers along a range are counted from: zero, or a round number below them all where they would
+/// be long and alike, as the coordinates of a map are.
+#[expect(clippy::cast_possible_truncation, reason = "a length has a few hundred digits at most")]
+pub(super) fn origin([low, high]: [f64; 2]) -> f64 {
+    const FAR: f64 = 1e4;
+    let length = high - low;
+    let is_far = low.abs().max(high.abs()) >= FAR.max(10.0 * length);
+    if !(is_far && length > 0.0) {
+        return 0.0;
+    }
+    let unit = 10.0_f64.powi(length.log10().ceil() as i32).max(1.0);
+    (low / unit).floor() * unit
+}
+
 /// A range with its ticks: an axis of a chart of `plotters`.
 #[derive(Clone, Debug)]
 pub(super) struct Axis {
-    pub(super) range: [f64; 2],
-    pub(super) ticks: Ticks,
+    range: [f64; 2],
+    ticks: Ticks,
+    origin: f64,
+}
+
+impl Axis {
+    /// The axis of a range, with numbers at these ticks.
+    pub(super) fn new(range: [f64; 2], ticks: Ticks) -> Self {
+        Self { range, ticks, origin: origin(range) }
+    }
+
+    /// Its label, with what its numbers are counted from.
+    pub(super) fn label(&self, quantity: &str) -> String {
+        let sign = if self.origin < 0.0 { '+' } else { '−' };
+        if self.origin == 0.0 {
+            quantity.to_owned()
+        } else {
+            format!("{quantity} {sign} {}", number(self.origin.abs(), 0))
+        }
+    }
 }
 
 impl Ranged for Axis {
@@ -80,7 +112,7 @@ impl Ranged for Axis {
 
 impl ValueFormatter<f64> for Axis {
     fn format_ext(&self, value: &f64) -> String {
-        number(*value, self.ticks.decimals)
+        number(*value - self.origin, self.ticks.decimals)
     }
 }
 
@@ -114,6 +146,20 @@ mod tests {
     fn an_axis_without_extent_has_no_ticks() {
         assert!(Ticks::along([1.0, 1.0], 300, 90).values.is_empty());
         assert!(Ticks::along([f64::NAN, 1.0], 300, 90).values.is_empty());
+    }
+
+    #[test]
+    fn far_numbers_are_counted_from_a_round_one_below_them() {
+        assert_eq!(origin([-3.0, 12_000.0]), 0.0);
+        assert_eq!(origin([9_000.0, 9_001.0]), 0.0);
+        assert_eq!(origin([4_432_187.0, 4_432_215.5]), 4_432_100.0);
+        assert_eq!(origin([-20_010.2, -20_010.1]), -20_011.0);
+        let axis = |range| Axis::new(range, Ticks::along(range, 390, 60));
+        let far = axis([4_432_187.0, 4_432_215.5]);
+        assert_eq!(far.label("y (m)"), "y (m) − 4432100");
+        assert_eq!(far.format_ext(&4_432_190.0), "90");
+        assert_eq!(axis([-20_010.2, -20_010.1]).label("y (m)"), "y (m) + 20011");
+        assert_eq!(axis([-1.0, 1.0]).label("y (m)"), "y (m)");
     }
 
     #[test]

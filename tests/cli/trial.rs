@@ -157,6 +157,36 @@ fn a_process_that_fails_is_recorded_and_can_be_run_again() {
     assert!(!place.path().join("cases/case-0002/failure.tool.txt").exists());
 }
 
+#[cfg(unix)]
+#[test]
+fn a_trial_that_is_broken_off_ends_its_process_and_leaves_no_room() {
+    use std::os::unix::process::ExitStatusExt;
+    let place = trial();
+    let (rooms, pid) = (place.path().join("rooms"), place.path().join("pid"));
+    std::fs::create_dir(&rooms).expect("a folder");
+    let slow = tool(&place, &format!("echo $$ > {}\nexec sleep 60", pid.display()));
+    let mut process = std::process::Command::new(env!("CARGO_BIN_EXE_trackdyn"))
+        .args(["trial", "run", "cases", "--program", &slow])
+        .current_dir(place.path())
+        .env("TMPDIR", &rooms)
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let number = || std::fs::read_to_string(&pid).unwrap_or_default();
+    while !number().ends_with('\n') && process.try_wait().expect("a process").is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    let kill = |signal: &str, id: &str| {
+        let sent = std::process::Command::new("kill").args([signal, id]).output();
+        sent.expect("kill").status.success()
+    };
+    assert!(kill("-0", number().trim()) && rooms.read_dir().expect("readable").count() == 1);
+    assert!(kill("-INT", &process.id().to_string()));
+    assert_eq!(process.wait().expect("it ends").signal(), Some(2));
+    assert!(!kill("-0", number().trim()), "the process of the case goes on");
+    assert_eq!(rooms.read_dir().expect("readable").count(), 0);
+}
+
 /// The files of a trial's cases with their bytes, and the hash of its answers.
 fn made(place: &Workplace, folder: &str) -> (Vec<(String, Vec<u8>)>, String) {
     let names = place.files().into_iter().map(|file| file.display().to_string());
@@ -316,6 +346,8 @@ fn what_a_diagnosis_leaves_open_is_driven_for() {
     // what was driven is not driven again
     assert_eq!(place.run("trial drive cases --duration 20 --out driven").stdout, run.stdout);
     assert!(first == read() && !place.path().join("driven/case-0002").exists());
+    let run = place.run("trial drive cases --duration 30 --out driven");
+    assert!(run.status == 1 && run.stderr.contains("expected --duration 20"), "{}", run.stderr);
 }
 
 #[test]

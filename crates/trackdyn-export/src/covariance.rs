@@ -22,6 +22,9 @@ const UNKNOWN: f64 = 1e6;
 /// Least variance, m² and rad²: zero is certainty.
 const LEAST: f64 = 1e-12;
 
+/// Most that is taken for a residual, a time or a distance, in m, rad and s.
+const MOST: f64 = 1e9;
+
 /// Root mean squares of what odometry with one parameter set got wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Residuals {
@@ -49,7 +52,7 @@ pub struct Residuals {
 #[derive(Deserialize)]
 struct File {
     runs: Vec<i64>,
-    distance_m: f64,
+    distance_m: Spanned<f64>,
     set: Vec<Set>,
     span: Vec<Span>,
 }
@@ -131,7 +134,7 @@ impl Residuals {
                 number("yaw_rad.rms.value", &errors.yaw_rad.rms.value)?,
             ],
             runs: file.runs.len(),
-            distance: file.distance_m / runs,
+            distance: number("distance_m", &file.distance_m)? / runs,
             end_position: number("end_position_rms_m", &set.end_position_rms_m)?,
             end_yaw: number("end_yaw_rms_rad", &set.end_yaw_rms_rad)?,
         })
@@ -162,13 +165,13 @@ impl Residuals {
     }
 }
 
-/// A number that is not negative.
+/// A number that is not negative, and whose square is a variance.
 fn checked(document: &Document, key: &str, value: &Spanned<f64>) -> Result<f64, DocumentError> {
     let number = *value.get_ref();
-    if number >= 0.0 && number.is_finite() {
+    if (0.0..=MOST).contains(&number) {
         return Ok(number);
     }
-    Err(document.value_error(value.span(), key, "a number that is not negative"))
+    Err(document.value_error(value.span(), key, &format!("a number from 0 to {MOST:e}")))
 }
 
 #[cfg(test)]

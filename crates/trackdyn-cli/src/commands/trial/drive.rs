@@ -10,10 +10,12 @@ use crate::exit::Exit;
 use crate::progress::Progress;
 use crate::stdout::show;
 use clap::Args;
+use serde::{Deserialize, Serialize};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use trackdyn_core::Schedule;
+use trackdyn_core::document::Document;
 use trackdyn_core::output::{prepare_folder, write_file};
 use trackdyn_trial::driving::HELD_OUT;
 use trackdyn_trial::revisit::revisit;
@@ -25,6 +27,8 @@ use trackdyn_trial::{Answers, Diagnosis, Entry, diagnosis, folder};
 const AGAIN: &str = "again";
 const PLAN: &str = "plan";
 const SCHEDULE: &str = "plan.csv";
+/// What was asked for.
+const ASKED: &str = "asked.toml";
 /// What a diagnosis leaves for a plan.
 const CORRECTED: &str = "vehicle.corrected.toml";
 
@@ -45,6 +49,13 @@ pub struct Options {
     /// Folder for plans, recordings, diagnoses and scores [default: DIR/driven]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+}
+
+/// What the results in a folder hang on.
+#[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Asked {
+    /// Time of the planned driving, s.
+    duration_s: u32,
 }
 
 /// Where a case is and where what comes of it goes.
@@ -69,6 +80,7 @@ pub fn run(options: &Options) -> Exited {
         return Ok(Exit::NoResult);
     }
     let out = options.out.clone().unwrap_or_else(|| options.trial.join("driven"));
+    take_up(&out, Asked { duration_s: options.duration })?;
     let progress = Progress::new(open.len());
     let mut revisited = Vec::with_capacity(open.len());
     for judged in open {
@@ -85,6 +97,27 @@ pub fn run(options: &Options) -> Exited {
     show(&page)?;
     eprintln!("wrote plans, recordings, diagnoses and scores to {}", out.display());
     Ok(Exit::Done)
+}
+
+/// Begins a folder of results, or goes on with it where the same was asked for.
+fn take_up(out: &Path, asked: Asked) -> Result<(), Box<dyn Error>> {
+    let path = out.join(ASKED);
+    if path.exists() {
+        let before: Asked = Document::read(&path)?.parse()?;
+        if before != asked {
+            return Err(format!(
+                "{}: the plans here are for {} s: expected --duration {}, or another folder by --out",
+                out.display(),
+                before.duration_s,
+                before.duration_s,
+            )
+            .into());
+        }
+        return Ok(());
+    }
+    prepare_folder(out)?;
+    write_file(&path, toml::to_string(&asked)?.as_bytes())?;
+    Ok(())
 }
 
 impl Visit<'_> {

@@ -104,7 +104,10 @@ fn a_small_sealed_trial() {
         assert!(!secrets.iter().any(|secret| holds(secret)), "{}", file.display());
     }
 
+    // no diagnosis can open them: the key is nowhere while they run
+    std::fs::remove_file(place.path().join("secret/answers.key")).expect("the key was there");
     diagnose(&place);
+    place.write("secret/answers.key", KEY);
     done(place.run("trial score cases --key secret/answers.key --out score"));
     let (opened, rates) = (text("score/answers.toml"), text("score/rates.csv"));
     let cases = lines(&text("score/cases.csv"));

@@ -14,11 +14,6 @@ use trackdyn_recording::{Recording, Run};
 use trackdyn_tests::concealed::{diagnosed, members, named, recording};
 use trackdyn_tests::{real_recording, vehicle};
 
-/// A recording with every run altered.
-fn altered(of: &Recording, change: impl Fn(&mut UncheckedRun)) -> Recording {
-    recording(of.runs().iter().map(|run| changed(run, &change)).collect())
-}
-
 fn changed(run: &Run, change: impl Fn(&mut UncheckedRun)) -> UncheckedRun {
     let mut rows = UncheckedRun {
         id: run.id(),
@@ -48,53 +43,81 @@ fn said(diagnosis: &Diagnosis) -> Vec<BTreeSet<&'static str>> {
     named(diagnosis).into_iter().map(|(_, members)| members).collect()
 }
 
-/// The Warthog on asphalt as it was recorded, and what is said of it; none where the recording is not at hand.
-static ASPHALT: LazyLock<Option<(Recording, Diagnosis)>> = LazyLock::new(|| {
-    let real = real_recording("warthog-asphalt-a")?;
-    let diagnosis = diagnosed(&real, &vehicle("warthog")).expect("turns");
-    Some((real, diagnosis))
-});
+/// A recording as it was made, and what is said of it.
+struct Real {
+    vehicle: &'static str,
+    recording: Recording,
+    diagnosis: Diagnosis,
+}
+
+impl Real {
+    /// None where the recording is not at hand.
+    fn new(name: &str, vehicle: &'static str) -> Option<Self> {
+        let recording = real_recording(name)?;
+        let diagnosis = diagnosed(&recording, &self::vehicle(vehicle)).expect("turns");
+        Some(Self { vehicle, recording, diagnosis })
+    }
+
+    /// What is said where every run is altered.
+    fn altered(&self, change: impl Fn(&mut UncheckedRun)) -> Diagnosis {
+        let runs = self.recording.runs().iter().map(|run| changed(run, &change)).collect();
+        diagnosed(&recording(runs), &vehicle(self.vehicle)).expect("turns")
+    }
+}
+
+static ASPHALT: LazyLock<Option<Real>> =
+    LazyLock::new(|| Real::new("warthog-asphalt-a", "warthog"));
+static HUSKY: LazyLock<Option<Real>> = LazyLock::new(|| Real::new("husky-tile", "husky-a200"));
+
+/// Those that are at hand.
+fn reals() -> impl Iterator<Item = &'static Real> {
+    [&ASPHALT, &HUSKY].into_iter().filter_map(|real| real.as_ref())
+}
 
 /// Altered: stamps of the poses, 0.08 s later. Real: all else.
 #[test]
 fn poses_that_come_later_are_found() {
     const LATER: f64 = 0.08;
-    let Some((real, before)) = &*ASPHALT else { return };
-    let hidden = altered(real, |run| {
-        run.poses.samples.iter_mut().for_each(|pose| pose.t += LATER);
-    });
-    let after = &diagnosed(&hidden, &vehicle("warthog")).expect("turns");
-    // In windows of two seconds wheels that follow late, poses that come late and a body that is slow to turn look alike: which of them
-    // is named differs between both diagnoses. What is there beside constants and instruments does not.
-    let late = [("time-offset", "delay_s"), ("drivetrain-lag", "time_constant_s")];
-    println!("{:?}, then {:?}", said(before), said(after));
-    let [before, after] = [before, after].map(|diagnosis| fitted(&diagnosis.base.fit, &late));
-    let (found, deviation) = (after.0 - before.0, after.1.hypot(before.1));
-    println!("{found:.3} ± {deviation:.3} s later");
-    assert!((found - LATER).abs() < 2.6 * deviation && deviation < LATER / 2.0, "{found}");
+    for real in reals() {
+        let before = &real.diagnosis;
+        let after = &real.altered(|run| {
+            run.poses.samples.iter_mut().for_each(|pose| pose.t += LATER);
+        });
+        // Wheels that follow late, poses that come late and a body that is slow to turn look alike in windows of two
+        // seconds: which of them is named differs between both diagnoses. What is there beside constants and
+        // instruments does not.
+        let late = [("time-offset", "delay_s"), ("drivetrain-lag", "time_constant_s")];
+        println!("{}: {:?}, then {:?}", real.vehicle, said(before), said(after));
+        let [before, after] = [before, after].map(|diagnosis| fitted(&diagnosis.base.fit, &late));
+        let (found, deviation) = (after.0 - before.0, after.1.hypot(before.1));
+        println!("{found:.3} ± {deviation:.3} s later");
+        assert!((found - LATER).abs() < 2.6 * deviation && deviation < LATER / 2.0, "{found}");
+    }
 }
 
 /// Altered: speeds of the left wheels, as if they were 4 % larger than their encoders think. Real: all else.
 #[test]
 fn a_larger_wheel_on_one_side_is_found() {
     const THINKS: f64 = 0.96;
-    let Some((real, before)) = &*ASPHALT else { return };
-    let hidden = altered(real, |run| {
-        run.tracks.samples.iter_mut().for_each(|reading| reading.v_left *= THINKS);
-    });
-    let after = diagnosed(&hidden, &vehicle("warthog")).expect("turns");
-    let gain = |diagnosis: &Diagnosis| fitted(&diagnosis.best.fit, &[("encoder-scale", "left")]).0;
-    let found = gain(&after) / gain(before);
-    println!("{found:.4} times: {:?}, then {:?}", said(before), said(&after));
-    assert!((found * THINKS - 1.0).abs() < 0.005, "{found}");
-    assert!(said(&after).iter().any(|one| one.contains("encoder-scale")));
+    for real in reals() {
+        let before = &real.diagnosis;
+        let after = &real.altered(|run| {
+            run.tracks.samples.iter_mut().for_each(|reading| reading.v_left *= THINKS);
+        });
+        let gain =
+            |diagnosis: &Diagnosis| fitted(&diagnosis.best.fit, &[("encoder-scale", "left")]).0;
+        let found = gain(after) / gain(before);
+        println!("{}: {found:.4} times: {:?}, then {:?}", real.vehicle, said(before), said(after));
+        assert!((found * THINKS - 1.0).abs() < 0.005, "{found}");
+        assert!(said(after).iter().any(|one| one.contains("encoder-scale")));
+    }
 }
 
 /// Altered: every second window is one of gravel. Real: both halves. That there are two grounds is not found: what
 /// holds is no more than that something is missing.
 #[test]
 fn gravel_among_asphalt_is_not_found() {
-    let Some((asphalt, _)) = &*ASPHALT else { return };
+    let Some(Real { recording: asphalt, .. }) = &*ASPHALT else { return };
     let Some(gravel) = real_recording("warthog-gravel") else { return };
     let file = vehicle("warthog");
     let pairs = asphalt.runs().iter().zip(gravel.runs()).enumerate();

@@ -1,5 +1,6 @@
 //! Means and medians over cases.
 
+use super::interval;
 use super::verdict::Judged;
 use crate::answer::Concealed;
 use crate::diagnosis::Fit;
@@ -16,8 +17,12 @@ pub struct Mean {
     pub name: &'static str,
     /// Mean.
     pub mean: f64,
+    /// Its interval of 95 %.
+    pub mean_interval: Option<[f64; 2]>,
     /// Median.
     pub median: f64,
+    /// Its interval of 95 %.
+    pub median_interval: Option<[f64; 2]>,
     /// Cases that have it.
     pub cases: usize,
 }
@@ -29,7 +34,14 @@ impl Mean {
         let cases = values.len();
         let (low, high) = (values.get(cases.wrapping_sub(1) / 2)?, values.get(cases / 2)?);
         let mean = values.iter().sum::<f64>() / real(cases);
-        Some(Self { name, mean, median: f64::midpoint(*low, *high), cases })
+        Some(Self {
+            name,
+            mean,
+            mean_interval: interval::of_mean(&values),
+            median: f64::midpoint(*low, *high),
+            median_interval: interval::of_median(&values),
+            cases,
+        })
     }
 }
 

@@ -3,6 +3,7 @@
 use super::Score;
 use super::coverage;
 use super::interval::clopper_pearson;
+use super::means::Mean;
 use super::power::PowerBin;
 use super::rates::Rate;
 use super::resolution::{self, Outcome, Revisited};
@@ -14,14 +15,18 @@ use trackdyn_core::real;
 pub fn markdown(score: &Score) -> String {
     let mut text = String::from("# Scores of the trial\n\n");
     let _ = writeln!(text, "{} cases diagnosed, {} not yet.", score.judged.len(), score.absent);
-    text.push_str("Intervals: 95 %, Clopper and Pearson.\n\n## Rates\n\n");
+    text.push_str("Intervals: 95 %; of rates by Clopper and Pearson, of means by their standard errors, of medians by ranks.\n\n");
+    text.push_str("## Rates\n\n");
     rate_table(&mut text, &score.rates);
-    text.push_str("\n## Means\n\n| what | cases | mean | median |\n|---|---|---|---|\n");
-    for mean in &score.means {
+    text.push_str("\n## Means\n\n| what | cases | mean | interval | median | interval |\n");
+    text.push_str("|---|---|---|---|---|---|\n");
+    for Mean { name, mean, mean_interval, median, median_interval, cases } in &score.means {
+        let [around_mean, around_median] = [mean_interval, median_interval].map(|interval| {
+            interval.map_or_else(String::new, |[low, high]| format!("{low:.3} to {high:.3}"))
+        });
         let _ = writeln!(
             text,
-            "| {} | {} | {:.3} | {:.3} |",
-            mean.name, mean.cases, mean.mean, mean.median
+            "| {name} | {cases} | {mean:.3} | {around_mean} | {median:.3} | {around_median} |"
         );
     }
     text.push_str(

@@ -1,5 +1,7 @@
 //! Why a recording cannot be diagnosed.
 
+use trackdyn_core::real;
+
 /// Evidence that does not bear a diagnosis.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -7,13 +9,16 @@ pub enum Error {
     /// Too little driving.
     #[error(
         "{found} segments to learn from: expected at least {needed}, that is, some {:.0} s of driving with poses and \
-         track speeds by the same clock, in seconds, in runs that are not held out", 0.3 * real(*.needed)
+         track speeds by the same clock, in seconds, in runs that are not held out",
+        .each * real(*.needed)
     )]
     TooFewSegments {
         /// Segments of the runs that are not held out.
         found: usize,
         /// Segments that are needed.
         needed: usize,
+        /// Mean duration of a segment, s.
+        each: f64,
     },
     /// Held-out runs without driving.
     #[error(
@@ -65,4 +70,14 @@ pub enum Error {
     },
 }
 
-use trackdyn_core::real;
+impl Error {
+    /// Too few segments, of these durations, s.
+    pub(crate) fn too_few_segments(durations: impl Iterator<Item = f64>, needed: usize) -> Self {
+        // The duration that readings and poses of ten a second give.
+        const USUAL: f64 = 0.3;
+        let durations: Vec<f64> = durations.collect();
+        let found = durations.len();
+        let mean = durations.iter().sum::<f64>() / real(found);
+        Self::TooFewSegments { found, needed, each: if found == 0 { USUAL } else { mean } }
+    }
+}

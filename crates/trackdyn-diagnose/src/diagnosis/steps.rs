@@ -42,7 +42,8 @@ pub fn diagnose(
     let (mut unseen, mut evidence) = (evidence.of_runs(&held_out), evidence.of_runs(&seen));
     let found = evidence.samples().len();
     if found < FEWEST && !evidence.is_steady() {
-        return Err(Error::TooFewSegments { found, needed: FEWEST });
+        let durations = evidence.samples().iter().map(|sample| sample.duration);
+        return Err(Error::too_few_segments(durations, FEWEST));
     }
     if !options.held_out.is_empty() && unseen.samples().is_empty() {
         return Err(Error::NothingHeldOut);

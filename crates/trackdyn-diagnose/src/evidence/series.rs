@@ -51,7 +51,8 @@ impl Evidence {
         };
         let observations = Observations::new(recording, &options).at(tau);
         if observations.len() < FEWEST {
-            return Err(Error::TooFewSegments { found: observations.len(), needed: FEWEST });
+            let durations = observations.segments().iter().map(|segment| segment.duration);
+            return Err(Error::too_few_segments(durations, FEWEST));
         }
         let gap = spin_test(&observations, gauge).map_or(1.5 * gauge, |spin| spin.gap);
         let stated = recording.stated_noise().map(SegmentNoise::stated);

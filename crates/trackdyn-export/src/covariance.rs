@@ -171,7 +171,7 @@ fn checked(document: &Document, key: &str, value: &Spanned<f64>) -> Result<f64, 
     if (0.0..=MOST).contains(&number) {
         return Ok(number);
     }
-    Err(document.value_error(value.span(), key, &format!("a number from 0 to {MOST:e}")))
+    Err(document.value_error(value.span(), key, format!("a number from 0 to {MOST:e}")))
 }
 
 #[cfg(test)]

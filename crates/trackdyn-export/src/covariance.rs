@@ -194,6 +194,35 @@ pub(crate) mod tests {
         }
     }
 
+    /// An odometry file with one segment of these figures.
+    fn file(distance: &str, end: &str, along: &str) -> Document {
+        let text = format!(
+            "schema = \"{SCHEMA}\"\nruns = [0]\ndistance_m = {distance}\n\
+             [[set]]\nname = \"a\"\nfingerprint = \"f\"\nheld_out = true\n\
+             end_position_rms_m = {end}\nend_yaw_rms_rad = 0.1\n\
+             [[span]]\nkind = \"segment\"\ncount = 100\nmean_duration_s = 0.3\n\
+             [[span.set]]\nname = \"a\"\nalong_m.rms.value = {along}\n\
+             across_m.rms.value = 0.01\nyaw_rad.rms.value = 0.01\n"
+        );
+        Document::new("odometry.toml", text)
+    }
+
+    #[test]
+    fn residuals_are_numbers_whose_squares_are_variances() {
+        let read = |document: &Document| Residuals::from_document(document, "f");
+        let residuals = read(&file("12.5", "0.6", "0.02")).expect("fine");
+        assert_eq!((residuals.distance, residuals.end_position), (12.5, 0.6));
+        for (document, key) in [
+            (file("-1.0", "0.6", "0.02"), "distance_m = -1.0"),
+            (file("nan", "0.6", "0.02"), "distance_m = nan"),
+            (file("12.5", "1e200", "0.02"), "end_position_rms_m = 1e200"),
+            (file("12.5", "0.6", "-inf"), "along_m.rms.value = -inf"),
+        ] {
+            let error = read(&document).expect_err(key).to_string();
+            assert!(error.contains(key) && error.contains("expected a number from 0"), "{error}");
+        }
+    }
+
     #[test]
     fn messages_with_independent_errors_add_up_to_the_residual() {
         let drive = EquivalentDrive { point: [0.0, 0.0], ..drive() };

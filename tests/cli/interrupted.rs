@@ -18,6 +18,7 @@ fn files_in(place: &Workplace, folder: &str) -> Vec<PathBuf> {
 mod signals {
     use super::{drive, files_in};
     use crate::Workplace;
+    use crate::trial::{tool, trial};
     use std::os::unix::process::ExitStatusExt;
     use std::process::{Child, Command, ExitStatus, Stdio};
     use std::time::{Duration, Instant};
@@ -25,20 +26,22 @@ mod signals {
     const DIAGNOSE: &str = "diagnose drive --vehicle drive/vehicle.toml --out found";
 
     fn start(place: &Workplace, command: &str) -> Child {
-        Command::new(env!("CARGO_BIN_EXE_trackdyn"))
-            .args(command.split_whitespace())
-            .current_dir(place.path())
+        place
+            .command(command)
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()
             .expect("the program starts")
     }
 
+    /// Sends a signal to a process; whether there is one. `-0` only asks.
+    fn kill(signal: &str, id: &str) -> bool {
+        Command::new("kill").args([signal, id]).output().expect("kill").status.success()
+    }
+
     /// Presses Ctrl-C; gives how the process ended.
     fn interrupt(child: &mut Child) -> ExitStatus {
-        let id = child.id().to_string();
-        let sent = Command::new("kill").args(["-INT", &id]).status().expect("kill");
-        assert!(sent.success());
+        assert!(kill("-INT", &child.id().to_string()));
         child.wait().expect("an end")
     }
 
@@ -104,6 +107,26 @@ mod signals {
                 assert!(!name.starts_with('.'), "{name} is half written");
             }
         }
+    }
+
+    #[test]
+    fn a_trial_that_is_broken_off_ends_its_process_and_leaves_no_room() {
+        let place = trial();
+        let (rooms, pid) = (place.path().join("rooms"), place.path().join("pid"));
+        std::fs::create_dir(&rooms).expect("a folder");
+        let slow = tool(&place, &format!("echo $$ > {}\nexec sleep 60", pid.display()));
+        let mut process = place
+            .command(&format!("trial run cases --program {slow}"))
+            .env("TMPDIR", &rooms)
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program starts");
+        let number = || std::fs::read_to_string(&pid).unwrap_or_default();
+        wait_until(|| number().ends_with('\n'));
+        assert!(kill("-0", number().trim()) && rooms.read_dir().expect("readable").count() == 1);
+        assert_eq!(interrupt(&mut process).signal(), Some(2));
+        assert!(!kill("-0", number().trim()), "the process of the case goes on");
+        assert_eq!(rooms.read_dir().expect("readable").count(), 0);
     }
 }
 

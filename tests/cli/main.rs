@@ -53,10 +53,16 @@ impl Workplace {
         self.run_with_threads(arguments, 2)
     }
 
+    /// `trackdyn` with these arguments, to be started here.
+    fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_trackdyn"));
+        command.args(arguments.split_whitespace()).current_dir(self.path());
+        command
+    }
+
     fn run_with_threads(&self, arguments: &str, threads: u32) -> Run {
-        let output = Command::new(env!("CARGO_BIN_EXE_trackdyn"))
-            .args(arguments.split_whitespace())
-            .current_dir(self.path())
+        let output = self
+            .command(arguments)
             .env("RAYON_NUM_THREADS", threads.to_string())
             .output()
             .expect("the program starts");

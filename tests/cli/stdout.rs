@@ -2,14 +2,13 @@
 
 use crate::Workplace;
 use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::process::{Output, Stdio};
 
 /// Runs `trackdyn` with this for stdout, or with a pipe that nobody reads.
 fn run(place: &Workplace, arguments: &str, stdout: Option<Stdio>) -> Output {
     let is_closed = stdout.is_none();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_trackdyn"))
-        .args(arguments.split_whitespace())
-        .current_dir(place.path())
+    let mut child = place
+        .command(arguments)
         .stdout(stdout.unwrap_or_else(Stdio::piped))
         .stderr(Stdio::piped())
         .spawn()
@@ -60,10 +59,9 @@ fn a_path_that_is_no_text_is_a_path() {
     use std::ffi::OsStr;
     use std::os::unix::ffi::OsStrExt;
     let place = Workplace::new();
-    let output = Command::new(env!("CARGO_BIN_EXE_trackdyn"))
-        .args(["map", "--grid", "3", "--out"])
+    let output = place
+        .command("map --grid 3 --out")
         .arg(OsStr::from_bytes(b"nu\xff"))
-        .current_dir(place.path())
         .output()
         .expect("the program starts");
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));

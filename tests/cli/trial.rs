@@ -12,7 +12,7 @@ const MAKE: &str =
 pub const KEY: &str = "4b6579206f6620612074657374207472696c3a206e6f20736563726574206174";
 
 /// Two nulls, which take the least time.
-fn trial() -> Workplace {
+pub fn trial() -> Workplace {
     let place = Workplace::new();
     std::fs::create_dir(place.path().join("secret")).expect("a folder");
     place.write("secret/answers.key", KEY);
@@ -27,7 +27,7 @@ fn text(place: &Workplace, name: &str) -> String {
 
 /// A program in the place of the diagnosis, called `tool`, with this body; `$7` is the folder for what it writes.
 #[cfg(unix)]
-fn tool(place: &Workplace, body: &str) -> String {
+pub fn tool(place: &Workplace, body: &str) -> String {
     use std::os::unix::fs::PermissionsExt;
     place.write("tool.sh", &format!("#!/bin/sh\n{body}\n"));
     let path = place.path().join("tool.sh");
@@ -157,36 +157,6 @@ fn a_process_that_fails_is_recorded_and_can_be_run_again() {
     assert!(!place.path().join("cases/case-0002/failure.tool.txt").exists());
 }
 
-#[cfg(unix)]
-#[test]
-fn a_trial_that_is_broken_off_ends_its_process_and_leaves_no_room() {
-    use std::os::unix::process::ExitStatusExt;
-    let place = trial();
-    let (rooms, pid) = (place.path().join("rooms"), place.path().join("pid"));
-    std::fs::create_dir(&rooms).expect("a folder");
-    let slow = tool(&place, &format!("echo $$ > {}\nexec sleep 60", pid.display()));
-    let mut process = std::process::Command::new(env!("CARGO_BIN_EXE_trackdyn"))
-        .args(["trial", "run", "cases", "--program", &slow])
-        .current_dir(place.path())
-        .env("TMPDIR", &rooms)
-        .stderr(std::process::Stdio::null())
-        .spawn()
-        .expect("the program starts");
-    let number = || std::fs::read_to_string(&pid).unwrap_or_default();
-    while !number().ends_with('\n') && process.try_wait().expect("a process").is_none() {
-        std::thread::sleep(std::time::Duration::from_millis(1));
-    }
-    let kill = |signal: &str, id: &str| {
-        let sent = std::process::Command::new("kill").args([signal, id]).output();
-        sent.expect("kill").status.success()
-    };
-    assert!(kill("-0", number().trim()) && rooms.read_dir().expect("readable").count() == 1);
-    assert!(kill("-INT", &process.id().to_string()));
-    assert_eq!(process.wait().expect("it ends").signal(), Some(2));
-    assert!(!kill("-0", number().trim()), "the process of the case goes on");
-    assert_eq!(rooms.read_dir().expect("readable").count(), 0);
-}
-
 /// The files of a trial's cases with their bytes, and the hash of its answers.
 fn made(place: &Workplace, folder: &str) -> (Vec<(String, Vec<u8>)>, String) {
     let names = place.files().into_iter().map(|file| file.display().to_string());
@@ -203,9 +173,8 @@ fn an_interrupted_trial_is_taken_up_and_is_the_same_as_any_other() {
     place.write("whole.key", KEY);
     place.write("cases.key", KEY);
     assert_eq!(place.run_with_threads(&format!("{MAKE} whole"), 1).status, 0);
-    let mut process = std::process::Command::new(env!("CARGO_BIN_EXE_trackdyn"))
-        .args(format!("{MAKE} cases").split_whitespace())
-        .current_dir(place.path())
+    let mut process = place
+        .command(&format!("{MAKE} cases"))
         .stderr(std::process::Stdio::null())
         .spawn()
         .expect("the program starts");

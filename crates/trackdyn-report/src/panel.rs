@@ -7,6 +7,7 @@ use crate::brush::Brush;
 use crate::canvas::{Area, Canvas};
 use crate::colour::{FRAME, GREY, GRID, INK, Rgb};
 use crate::text::{Horizontal, Style, Vertical};
+use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
 use ticks::{Axis, Ticks};
 
@@ -124,7 +125,7 @@ impl Panel {
     /// [`Error::Axes`].
     pub fn frame(&self, canvas: &mut Canvas, labels: &Labels, grid: bool) -> Result<(), Error> {
         let Area { left, top, width, height } = self.plot;
-        let x = Axis::new(self.x, self.ticks_across(canvas));
+        let x = self.axis_across(canvas);
         let y = Axis::new(self.y, Ticks::along(self.y, height, 60));
         let (x_label, y_label) = (x.label(labels.x), y.label(labels.y));
         {
@@ -153,29 +154,25 @@ impl Panel {
         Ok(())
     }
 
-    /// Ticks along x, as many as there is room for their numbers.
-    fn ticks_across(&self, canvas: &Canvas) -> Ticks {
+    /// The axis along x, with as many numbers as there is room for.
+    fn axis_across(&self, canvas: &Canvas) -> Axis {
         const GAP: f64 = 18.0;
-        let origin = ticks::origin(self.x);
         let mut spacing = 40;
         let mut denser: Option<Ticks> = None;
         loop {
-            let ticks = Ticks::along(self.x, self.plot.width, spacing);
-            let widest = ticks
-                .values
-                .iter()
-                .map(|value| ticks::number(value - origin, ticks.decimals))
-                .map(|number| canvas.text_width(&number, TICK_SIZE))
-                .max();
-            if widest.is_none_or(|widest| ticks.step * self.scale() >= f64::from(widest) + GAP) {
+            let axis = Axis::new(self.x, Ticks::along(self.x, self.plot.width, spacing));
+            let Ticks { values, step, .. } = &axis.ticks;
+            let widths =
+                values.iter().map(|value| canvas.text_width(&axis.format_ext(value), TICK_SIZE));
+            if widths.max().is_none_or(|widest| step * self.scale() >= f64::from(widest) + GAP) {
                 // One number alone does not tell the scale
                 return match denser {
-                    Some(denser) if ticks.values.len() < 2 => denser.every_second(),
-                    _ => ticks,
+                    Some(denser) if values.len() < 2 => Axis::new(self.x, denser.every_second()),
+                    _ => axis,
                 };
             }
             spacing += spacing / 4;
-            denser = Some(ticks);
+            denser = Some(axis.ticks);
         }
     }
 

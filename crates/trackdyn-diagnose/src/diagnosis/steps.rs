@@ -40,8 +40,7 @@ pub fn diagnose(
         (0..evidence.runs().len()).map(|run| options.held_out.contains(&run)).collect();
     let seen: Vec<bool> = held_out.iter().map(|held_out| !held_out).collect();
     let (mut unseen, mut evidence) = (evidence.of_runs(&held_out), evidence.of_runs(&seen));
-    let found = evidence.samples().len();
-    if found < FEWEST && !evidence.is_steady() {
+    if evidence.samples().len() < FEWEST && !evidence.is_steady() {
         let durations = evidence.samples().iter().map(|sample| sample.duration);
         return Err(Error::too_few_segments(durations, FEWEST));
     }

@@ -55,7 +55,7 @@ impl Ticks {
 /// What the numbers along a range are counted from: zero, or a round number below them all where they would
 /// be long and alike, as the coordinates of a map are.
 #[expect(clippy::cast_possible_truncation, reason = "a length has a few hundred digits at most")]
-pub(super) fn origin([low, high]: [f64; 2]) -> f64 {
+fn origin([low, high]: [f64; 2]) -> f64 {
     const FAR: f64 = 1e4;
     let length = high - low;
     let is_far = low.abs().max(high.abs()) >= FAR.max(10.0 * length);
@@ -70,7 +70,7 @@ pub(super) fn origin([low, high]: [f64; 2]) -> f64 {
 #[derive(Clone, Debug)]
 pub(super) struct Axis {
     range: [f64; 2],
-    ticks: Ticks,
+    pub(super) ticks: Ticks,
     origin: f64,
 }
 

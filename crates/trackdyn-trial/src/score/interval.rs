@@ -1,6 +1,7 @@
 //! Intervals of rates and of middles.
 
 use statrs::distribution::{Beta, Binomial, ContinuousCDF, DiscreteCDF};
+use statrs::statistics::Statistics;
 use trackdyn_core::real;
 
 /// Chance that an interval lies above what it is an interval of, and that it lies below.
@@ -24,10 +25,8 @@ pub fn clopper_pearson(successes: usize, cases: usize) -> Option<[f64; 2]> {
 
 /// The interval of 95 % of a mean by its standard error, which holds for many cases. None for fewer than two.
 pub fn of_mean(values: &[f64]) -> Option<[f64; 2]> {
-    let cases = real(values.len());
-    let mean = values.iter().sum::<f64>() / cases;
-    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-    let reach = 1.96 * (squares / (cases - 1.0) / cases).sqrt();
+    let (mean, deviation) = (values.mean(), values.std_dev());
+    let reach = 1.96 * deviation / real(values.len()).sqrt();
     (values.len() > 1).then_some([mean - reach, mean + reach])
 }
 

@@ -143,7 +143,10 @@ fn options_of_the_command_line() {
     for (arguments, part) in [
         ("map --grid 0", "grid = 0: expected 2 to 2001 points per track"),
         ("map --grid 1000000", "grid = 1000000"),
-        ("map --grid -3", "--grid"),
+        ("map --grid -3", "invalid value '-3' for '--grid <N>': expected a whole number"),
+        ("simulate --duration -5", "duration -5: expected"),
+        ("trial make --cases -1 --seed 1 --out x", "invalid value '-1' for '--cases <N>'"),
+        ("plan --diagnosis x --fastest -1", "invalid value '-1' for '--fastest"),
         ("map --speed 0", "speed = 0: expected a positive largest track speed"),
         ("map --speed nan", "speed = NaN"),
         ("map --speed 1e308", "at most 1000"),

@@ -25,6 +25,20 @@ fn a_number_that_left_its_tolerance_fails() {
     assert!(run.stdout.contains("MISS") && run.stdout.contains("0 of 1 values"), "{}", run.stdout);
 }
 
+/// No sideways push turns a robot of which one track carries nearly all; the cases beside it keep their rows.
+#[test]
+fn a_case_that_does_not_turn_misses_and_costs_no_other() {
+    let place = Workplace::new();
+    let held = "[[case]]\nname = \"held\"\ncog_m = [0.2, 0.0]\n[case.expect]\n\
+                eccentricity = { value = 0.0, tolerance = 1.0 }\n\
+                turning_pairs = { value = 0, tolerance = 0 }\n";
+    place.write("two.toml", &format!("{REFERENCE}{held}"));
+    let run = place.run("check two.toml");
+    assert_eq!(run.status, 1, "{}", run.stderr);
+    assert!(run.stderr.contains("\"held\": no motion turns"), "{}", run.stderr);
+    assert!(run.stdout.contains("2 of 3 values within tolerance"), "{}", run.stdout);
+}
+
 #[test]
 fn another_vehicle_can_be_checked() {
     let place = Workplace::new();

@@ -194,11 +194,15 @@ fn bad_input_is_refused_and_leaves_nothing() {
             format!("diagnose points.csv --vehicle {VEHICLE}"),
             "points.csv: 1 steady points: expected at least 30",
         ),
+        (
+            format!("diagnose points.csv --wheel-radius 0.1 --vehicle {VEHICLE}"),
+            "--wheel-radius: points.csv holds steady points",
+        ),
         (format!("diagnose points.csv --held-out 1 --vehicle {VEHICLE}"), "--held-out 1: a table"),
         (format!("diagnose drive drive --vehicle {VEHICLE}"), "each recording once"),
         (format!("diagnose drive --wheel-radius 0.1 --vehicle {VEHICLE}"), "drive is no bag"),
         (format!("diagnose brief --held-out 1 --vehicle {VEHICLE}"), "hold no segment of driving"),
-        (format!("diagnose far --vehicle {VEHICLE}"), "expected at most 5000 m"),
+        (format!("diagnose far --vehicle {VEHICLE}"), "expected at most 1000 m"),
     ] {
         let before = place.files();
         let run = place.run(&format!("{arguments} --out found"));

@@ -39,7 +39,7 @@ fn sessions_of_the_readme_are_fresh() {
 }
 
 #[test]
-fn vehicles_and_references_are_valid() {
+fn vehicles_are_valid() {
     let place = Workplace::new();
     for entry in std::fs::read_dir(crate::project_file("configs/vehicles")).expect("vehicles") {
         let path = entry.expect("an entry").path();

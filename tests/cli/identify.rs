@@ -183,6 +183,7 @@ fn mistakes_are_named() {
     let vehicle = vehicle();
     std::fs::create_dir(place.path().join("empty")).expect("made");
     record(&place, vec![random_steps(10, 2.0, 0.8, 1)]);
+    place.write("points.csv", "v_left,v_right,v_forward,v_lateral,yaw_rate\n0.1,0.2,0.15,0,0.1\n");
     for (arguments, part) in [
         (format!("identify missing --vehicle {vehicle}"), "missing"),
         (format!("identify empty --vehicle {vehicle}"), "recording.toml"),
@@ -198,6 +199,14 @@ fn mistakes_are_named() {
             "--time: no run has track speeds",
         ),
         (format!("identify rec --vehicle {vehicle} --time 3,2"), "the beginning and the end in s"),
+        (
+            format!("identify points.csv --vehicle {vehicle} --tracks nowhere.csv"),
+            "--tracks: points.csv holds steady points",
+        ),
+        (
+            format!("identify points.csv --vehicle {vehicle} --wheel-radius 0.1 --tau 0"),
+            "--wheel-radius, --tau: points.csv holds steady points",
+        ),
         ("inspect empty".to_owned(), "recording.toml"),
     ] {
         let run = place.run(&arguments);

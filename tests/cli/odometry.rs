@@ -129,6 +129,30 @@ fn parameters_of_the_same_runs_are_not_held_out() {
     }
 }
 
+/// Neither another circumference of the wheels nor a missing IMU makes the same drive another one.
+#[test]
+fn the_same_drive_read_otherwise_is_not_held_out() {
+    let place = workplace(&synthetic());
+    let fit = place.run("identify recording --vehicle robot.toml --generations 1");
+    assert_eq!(fit.status, 0, "{}", fit.stderr);
+    let tracks = String::from_utf8(place.read("recording/tracks.csv")).expect("text");
+    let faster = |line: &str| match line.rsplit_once(',') {
+        Some((rest, last)) => match last.parse::<f64>() {
+            Ok(speed) => format!("{rest},{}\n", 1.01 * speed),
+            Err(_) => format!("{line}\n"),
+        },
+        None => panic!("{line}"),
+    };
+    let other: String = tracks.lines().map(faster).collect();
+    place.write("recording/tracks.csv", &other);
+    let replay = "odometry recording --vehicle robot.toml --kinematics out/kinematics.toml";
+    let run = place.run(&format!("{replay} --out replay"));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let text = String::from_utf8(place.read("replay/odometry.toml")).expect("text");
+    let document: toml::Table = text.parse().expect("TOML");
+    assert_eq!(document["set"][1]["held_out"].as_bool(), Some(false), "{text}");
+}
+
 #[test]
 fn another_time_of_the_same_runs_is_held_out() {
     let place = workplace(&synthetic());

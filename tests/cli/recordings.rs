@@ -215,7 +215,7 @@ fn operating_points_that_do_not_do_are_refused() {
         ("identify bad.csv", "bad.csv:2:2: v_right = \"x\": expected a finite number"),
         (
             "identify floor.csv --tau 0.1",
-            "--tau: floor.csv holds steady points, which have no runs and no time",
+            "--tau: floor.csv holds steady points: expected with recordings of motion only",
         ),
         (
             "identify floor.csv --runs 1 --time 0,1 --settle 1 --fit time-offset",

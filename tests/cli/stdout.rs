@@ -1,4 +1,4 @@
-//! Results behind a closed pipe or on a full disk: no panic, and nothing that was asked for is lost.
+//! Results and talk behind a closed pipe or on a full disk: no panic, and nothing that was asked for is lost.
 
 use crate::Workplace;
 use std::path::PathBuf;
@@ -48,6 +48,22 @@ fn a_full_disk_is_an_error_and_costs_no_file() {
         let stderr = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{command}: {stderr}");
         assert!(stderr.contains("error: stdout: "), "{command}: {stderr}");
+        assert_eq!(place.files(), files.iter().map(PathBuf::from).collect::<Vec<_>>());
+    }
+}
+
+/// Notes and errors that nobody hears cost neither a file nor the status.
+#[cfg(target_os = "linux")]
+#[test]
+fn talk_on_a_full_disk_is_dropped() {
+    let map = ["out/icr_map.png", "out/kinematics.toml"];
+    for (command, status, files) in
+        [("map --grid 3 --out out", 0, &map[..]), ("map --grid 0 --out out", 1, &[])]
+    {
+        let place = Workplace::new();
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("a full disk");
+        let run = place.command(command).stderr(full).output().expect("the program starts");
+        assert_eq!(run.status.code(), Some(status), "{command}");
         assert_eq!(place.files(), files.iter().map(PathBuf::from).collect::<Vec<_>>());
     }
 }

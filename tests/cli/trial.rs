@@ -105,6 +105,18 @@ fn a_diagnosis_reaches_nothing_of_the_trial_and_is_scored_by_the_sealed_answers(
     }
     let run = place.run(&format!("trial run cases --program {spy}"));
     assert!(run.stdout.contains("0 diagnosed now, 0 failed, 2 before"), "{}", run.stdout);
+    assert!(!run.stderr.contains("within reach"), "{}", run.stderr);
+
+    // a key where a process may look for it is said to be there, and of what is not sealed yet nothing is diagnosed
+    place.write("cases.key", KEY);
+    let run = place.run(&format!("trial run cases --program {spy}"));
+    assert!(run.status == 0 && run.stderr.contains("cases.key is within reach"), "{}", run.stderr);
+    std::fs::remove_file(place.path().join("cases.key")).expect("removed");
+    let (there, away) = (place.path().join("cases/commitment.txt"), place.path().join("away"));
+    std::fs::rename(&there, &away).expect("moved");
+    let run = place.run(&format!("trial run cases --retry --program {spy}"));
+    assert!(run.status == 1 && run.stderr.contains("commitment.txt"), "{}", run.stderr);
+    std::fs::rename(away, there).expect("moved back");
 
     // the key is not where it would be looked for
     let run = place.run("trial score cases --name tool");
@@ -148,9 +160,23 @@ fn a_process_that_fails_is_recorded_and_can_be_run_again() {
     assert!(run.stdout.contains("tool: 1 cases: 0 diagnosed now, 1 failed"), "{}", run.stdout);
     let failure = text(&place, "cases/case-0002/failure.tool.txt");
     assert!(failure.contains("exit status: 3") && failure.contains("last words"), "{failure}");
-    let slow = tool(&place, "sleep 20");
+    // what the process has started ends with it
+    let pid = place.path().join("pid");
+    let slow = tool(&place, &format!("sleep 20 &\necho $! > {}\nwait", pid.display()));
     let run = place.run(&format!("trial run cases --shard 2/2 --retry --limit 1 --program {slow}"));
     assert!(run.stderr.contains("ended after 1 s"), "{}", run.stderr);
+    let started = text(&place, "pid");
+    let state = std::fs::read_to_string(format!("/proc/{}/stat", started.trim()));
+    assert!(state.is_err() || state.is_ok_and(|state| state.contains(") Z ")), "it goes on");
+    // links and pipes stay behind
+    let odd = "echo 'status = \"ambiguous\"' > $7/diagnosis.toml\n\
+               ln -s . $7/loop\nln -s nowhere $7/dangling\nmkfifo $7/pipe";
+    let odd = tool(&place, odd);
+    let run = place.run(&format!("trial run cases --shard 2/2 --retry --limit 20 --program {odd}"));
+    assert!(run.stdout.contains("1 diagnosed now"), "{}{}", run.stdout, run.stderr);
+    let taken = place.path().join("cases/case-0002/diagnosis.tool");
+    assert!(taken.join("diagnosis.toml").exists() && !taken.join("loop").exists());
+    std::fs::remove_dir_all(taken).expect("removed");
     let works = tool(&place, "echo 'status = \"ambiguous\"' > $7/diagnosis.toml");
     let run = place.run(&format!("trial run cases --retry --program {works}"));
     assert!(run.stdout.contains("2 diagnosed now"), "{}", run.stdout);
@@ -323,6 +349,9 @@ fn what_a_diagnosis_leaves_open_is_driven_for() {
 fn a_trial_is_not_made_twice_and_its_key_not_into_its_folder() {
     let place = Workplace::new();
     let run = place.run("trial make --cases 1 --seed 1 --out cases --key cases/answers.key");
+    assert!(run.status == 1 && run.stderr.contains("outside"), "{}", run.stderr);
+    std::fs::create_dir(place.path().join("sub")).expect("a folder");
+    let run = place.run("trial make --cases 1 --seed 1 --out cases --key sub/../cases/x.key");
     assert!(run.status == 1 && run.stderr.contains("outside"), "{}", run.stderr);
     std::fs::create_dir(place.path().join("cases")).expect("a folder");
     place.write("cases/answers.sealed", "");

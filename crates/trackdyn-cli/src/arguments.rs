@@ -2,7 +2,7 @@
 
 use crate::commands;
 use crate::commands::Outcome;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 /// Kinematics of tracked and skid-steer robots: simulate the ICRs of the tracks, check them, use them.
 #[derive(Parser)]
@@ -11,6 +11,26 @@ pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+}
+
+impl Arguments {
+    /// Reads the command line of this process.
+    ///
+    /// # Errors
+    /// Help or version where these were asked for, or what was expected.
+    pub fn read() -> Result<Self, clap::Error> {
+        let command = with_negative_numbers(Self::command());
+        Self::from_arg_matches(&command.try_get_matches()?)
+    }
+}
+
+/// An option takes what looks like a negative number for its value, and says what it expects in its place.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let command = command.mut_args(|arg| {
+        let is_option = arg.get_action().takes_values() && !arg.is_positional();
+        if is_option { arg.allow_negative_numbers(true) } else { arg }
+    });
+    command.mut_subcommands(with_negative_numbers)
 }
 
 /// The commands, one file each in `commands`.

@@ -1,5 +1,6 @@
 //! Files of an earlier run that would be taken for this one's.
 
+use crate::stderr::say;
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_motion::kinematics::{KinematicsFile, Source};
@@ -13,7 +14,10 @@ pub fn remove_earlier(path: &Path, is_own: impl FnOnce(&Source) -> bool) -> Resu
     let file = file.and_then(|document| KinematicsFile::from_document(&document).ok());
     if file.is_some_and(|file| is_own(&file.source)) {
         std::fs::remove_file(path).map_err(|cause| format!("{}: {cause}", path.display()))?;
-        eprintln!("removed {}, of an earlier run: this one determines none", path.display());
+        say(format_args!(
+            "removed {}, of an earlier run: this one determines none",
+            path.display()
+        ));
     }
     Ok(())
 }
@@ -25,7 +29,7 @@ pub fn remove_earlier(path: &Path, is_own: impl FnOnce(&Source) -> bool) -> Resu
 pub fn remove_of(written: &Path, files: impl IntoIterator<Item = PathBuf>) -> Result<(), String> {
     for file in files.into_iter().filter(|file| written.exists() && file.exists()) {
         std::fs::remove_file(&file).map_err(|cause| format!("{}: {cause}", file.display()))?;
-        eprintln!("removed {}, of an earlier run", file.display());
+        say(format_args!("removed {}, of an earlier run", file.display()));
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 //!
 //! Results go to stdout, talk and progress to stderr. Exit status: see [`exit::Exit`].
 
-#![warn(clippy::print_stdout)]
+#![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod arguments;
 mod commands;
@@ -11,16 +11,17 @@ mod exit;
 mod interrupt;
 mod options;
 mod progress;
+mod stderr;
 mod stdout;
 mod tables;
 
 use arguments::Arguments;
-use clap::Parser;
 use exit::Exit;
 use std::process::ExitCode;
+use stderr::say;
 
 fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
+    let arguments = match Arguments::read() {
         Ok(arguments) => arguments,
         Err(message) => {
             let exit = if message.use_stderr() { Exit::BadInput } else { Exit::Done };
@@ -30,13 +31,13 @@ fn main() -> ExitCode {
         }
     };
     if let Err(error) = interrupt::end_between_files() {
-        eprintln!("error: Ctrl-C cannot be waited for: {error}");
+        say(format_args!("error: Ctrl-C cannot be waited for: {error}"));
         return Exit::BadInput.into();
     }
     match arguments.command.run() {
         Ok(exit) => exit.into(),
         Err(error) => {
-            eprintln!("error: {error}");
+            say(format_args!("error: {error}"));
             Exit::BadInput.into()
         }
     }

@@ -1,5 +1,6 @@
 //! Options that several commands share.
 
+use crate::stderr::say;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trackdyn_core::Pose;
@@ -48,9 +49,9 @@ impl ModelOptions {
         for effect in &self.effects {
             let id = effect.card().id;
             if file.effects.get(id).is_some() {
-                eprintln!(
+                say(format_args!(
                     "note: --effect {effect} replaces the vehicle file's, all its parameters"
-                );
+                ));
             }
             file.effects.insert(effect.clone());
         }
@@ -112,7 +113,10 @@ pub fn in_time(effects: Effects, quasi_static: bool) -> Effects {
 /// Notes which effects do nothing where no pose sensor reports.
 pub fn note_what_no_sensor_reports(effects: &Effects) {
     for card in effects.iter().map(ActiveEffect::card).filter(|c| c.stages == [Stage::Sense]) {
-        eprintln!("note: {} is of a pose sensor, and none reports here: it does nothing", card.id);
+        say(format_args!(
+            "note: {} is of a pose sensor, and none reports here: it does nothing",
+            card.id
+        ));
     }
 }
 
@@ -121,10 +125,10 @@ pub fn note_what_no_sensor_reports(effects: &Effects) {
 pub fn note_what_steady_icrs_leave_out(effects: &Effects) {
     for card in effects.iter().map(ActiveEffect::card) {
         if card.stages == [Stage::Sense] || card.breaks == [Symmetry::Transient] {
-            eprintln!(
+            say(format_args!(
                 "note: {} does not change the steady motion of the hull: these ICRs are without it",
                 card.id
-            );
+            ));
         }
     }
 }
@@ -152,7 +156,7 @@ pub struct RecordingOptions {
     #[arg(long, value_name = "SIGNAL")]
     joint_signal: Option<Signal>,
     /// Bag: belt travel in m per radian of the joints
-    #[arg(long, value_name = "M", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", value_parser = positive)]
     wheel_radius: Option<f64>,
     /// Bag: topic of the poses
     #[arg(long, value_name = "TOPIC")]
@@ -200,9 +204,15 @@ impl RecordingOptions {
             None => trackdyn_recording::read(path, &self.rosbag())?,
         };
         for warning in recording.warnings() {
-            eprintln!("note: {warning}");
+            say(format_args!("note: {warning}"));
         }
         Ok(recording)
+    }
+
+    /// The options given, all of which are about recordings of motion.
+    pub fn given(&self) -> Vec<&'static str> {
+        let tracks = self.tracks.as_ref().map(|_| "--tracks");
+        tracks.into_iter().chain(self.of_bags()).collect()
     }
 
     /// The options given that only bags have something to say to.
@@ -313,7 +323,8 @@ impl DrivingOptions {
             ("--time", self.time.is_some()),
             ("--tau", self.tau.is_some()),
         ];
-        options.into_iter().filter_map(|(name, given)| given.then_some(name)).collect()
+        let own = options.into_iter().filter_map(|(name, given)| given.then_some(name));
+        self.recording.given().into_iter().chain(own).collect()
     }
 
     /// The time of each run that is taken, s; none: all of it.

@@ -1,5 +1,6 @@
 //! Progress of long work, on stderr.
 
+use crate::stderr::say;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -54,7 +55,7 @@ impl Progress {
             Shown::Lines(lines) => {
                 let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
                 if let Some(line) = lines.line(done, self.total, elapsed) {
-                    eprintln!("{line}");
+                    say(format_args!("{line}"));
                 }
             }
         }

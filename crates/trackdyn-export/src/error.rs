@@ -4,8 +4,8 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A radius that scales joint angles to nothing, backwards or to no number.
-    #[error("wheel-radius = {value}: expected a positive number of m")]
+    /// A radius that no drive has.
+    #[error("wheel-radius = {value}: expected a radius of 1e-6 to 1e4 m")]
     WheelRadius {
         /// The radius, m.
         value: f64,
@@ -48,6 +48,14 @@ pub enum Error {
         residuals: String,
         /// Fingerprint of the kinematics file.
         fingerprint: String,
+    },
+    /// A place that is no part of a robot.
+    #[error("contact-centre = {x},{y}: expected at most 1e4 m in size")]
+    ContactCentre {
+        /// Forward of the base frame, m.
+        x: f64,
+        /// Left of it, m.
+        y: f64,
     },
     /// Two frames of a chain are one.
     #[error("{first} = {name}, {second} = {name}: expected two different frames")]

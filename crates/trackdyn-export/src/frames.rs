@@ -1,5 +1,6 @@
 //! The frame at which the robot is an ideal differential drive, and the robot's own.
 
+use crate::number::LARGEST;
 use crate::{EquivalentDrive, Error, Name};
 use trackdyn_core::Pose;
 
@@ -21,8 +22,12 @@ impl Frames {
     /// (forward, left).
     ///
     /// # Errors
-    /// [`Error::SameFrame`].
+    /// [`Error::SameFrame`], [`Error::ContactCentre`].
     pub fn new(odom: Name, icr: Name, base: Name, contact_centre: [f64; 2]) -> Result<Self, Error> {
+        let [x, y] = contact_centre;
+        if ![x, y].iter().all(|coordinate| (-LARGEST..=LARGEST).contains(coordinate)) {
+            return Err(Error::ContactCentre { x, y });
+        }
         let chain = [("odom-frame", &odom), ("icr-frame", &icr), ("base-frame", &base)];
         for (a, b) in [(0, 1), (0, 2), (1, 2)] {
             if chain[a].1 == chain[b].1 {

@@ -3,6 +3,7 @@
 mod controller;
 mod launch;
 
+use crate::number::LARGEST;
 use crate::{EquivalentDrive, Error, Frames, Name, NodeName, Provenance, Residuals, TextFile};
 
 /// What a kinematics file does not know of the robot's drive.
@@ -20,7 +21,7 @@ impl Wheels {
     /// # Errors
     /// [`Error::WheelRadius`], [`Error::WheelCount`], [`Error::Repeated`].
     pub fn new(radius: f64, left: Vec<Name>, right: Vec<Name>) -> Result<Self, Error> {
-        if !(radius > 0.0 && radius.is_finite()) {
+        if !(1e-6..=LARGEST).contains(&radius) {
             return Err(Error::WheelRadius { value: radius });
         }
         if left.len() != right.len() || left.is_empty() {

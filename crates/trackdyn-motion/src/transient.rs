@@ -327,7 +327,7 @@ impl Plant for Transient<'_> {
             if self.state.lifts && !self.may_pull {
                 let reason =
                     "part of the contact lifts off the ground, for the load shifts too far; \
-                              gentler speeds, or a lower centre of gravity, keep it down"
+                              gentler changes of speed, or a lower centre of gravity, keep it down"
                         .to_owned();
                 return Err(Stopped { t: end, reason });
             }

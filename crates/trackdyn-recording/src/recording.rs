@@ -30,6 +30,7 @@ pub struct Recording {
     source: Source,
     warnings: Vec<Warning>,
     fingerprint: String,
+    pose_fingerprint: String,
 }
 
 /// Pose noise as the maker of the recording states it.
@@ -102,6 +103,7 @@ impl Recording {
         kept.sort_by_key(Run::id);
         warnings.extend(warning::gather(cleanings).into_iter().map(Warning::Cleaned));
         let fingerprint = content::fingerprint(&kept);
+        let pose_fingerprint = content::pose_fingerprint(&kept);
         Ok(Self {
             name,
             robot: robot.into(),
@@ -110,6 +112,7 @@ impl Recording {
             source,
             warnings,
             fingerprint,
+            pose_fingerprint,
         })
     }
 
@@ -157,6 +160,11 @@ impl Recording {
     /// Fingerprint of the cleaned numbers: the same samples have the same one in every format.
     pub fn fingerprint(&self) -> &str {
         &self.fingerprint
+    }
+
+    /// Fingerprint of the poses alone: the same drive has the same one without its IMU, and at another belt travel per radian.
+    pub fn pose_fingerprint(&self) -> &str {
+        &self.pose_fingerprint
     }
 
     /// Time covered by the readings, summed over the runs, s.

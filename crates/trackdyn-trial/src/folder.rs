@@ -103,8 +103,15 @@ pub fn write_answers(trial: &Path, answers: &Answers, key: &Key) -> Result<Commi
 pub fn open_answers(trial: &Path, key: &Path) -> Result<(Answers, String), Error> {
     let path = trial.join(SEALED);
     let sealed = fs::read(&path).map_err(Error::file(path))?;
-    let commitment: Commitment = Document::read(&trial.join(COMMITMENT))?.parse()?;
-    seal::open(&sealed, &Key::read(key)?, &commitment)
+    seal::open(&sealed, &Key::read(key)?, &commitment(trial)?)
+}
+
+/// What is committed to: there as soon as the trial is complete.
+///
+/// # Errors
+/// [`Error::Document`].
+pub fn commitment(trial: &Path) -> Result<Commitment, Error> {
+    Ok(Document::read(&trial.join(COMMITMENT))?.parse()?)
 }
 
 /// The cases of a trial, in the order of their names.

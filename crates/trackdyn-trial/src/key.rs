@@ -29,12 +29,13 @@ impl Key {
         Ok(Self(bytes))
     }
 
-    /// Writes the key file.
+    /// Writes the key file, which nobody but its owner reads.
     ///
     /// # Errors
-    /// [`Error::Output`].
+    /// [`Error::Output`], [`Error::File`].
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        Ok(write_file(path, format!("{}\n", hexadecimal(&self.0)).as_bytes())?)
+        write_file(path, format!("{}\n", hexadecimal(&self.0)).as_bytes())?;
+        keep_private(path).map_err(Error::file(path))
     }
 
     /// What a trial with this seed and key is drawn from: SHA-256 of both.
@@ -43,11 +44,17 @@ impl Key {
         Root(digest.chain_update(self.0).finalize().into())
     }
 
-    /// Adds the key's stream to bytes; twice gives them back.
-    pub(crate) fn apply(&self, bytes: &[u8]) -> Vec<u8> {
-        let mut stream = vec![0; bytes.len()];
-        ChaCha20Rng::from_seed(self.0).fill_bytes(&mut stream);
-        bytes.iter().zip(stream).map(|(byte, key)| byte ^ key).collect()
+    /// Adds the stream of this key and a text's hash to bytes; twice gives them back.
+    ///
+    /// Texts under one key have streams of their own: no sealed file opens another one.
+    pub(crate) fn apply(&self, hash: &str, bytes: &[u8]) -> Vec<u8> {
+        let digest = Sha256::new().chain_update("trackdyn seal").chain_update(self.0);
+        add_stream(digest.chain_update(hash).finalize().into(), bytes)
+    }
+
+    /// Adds the stream of the key alone, as the first forty sealed trials did.
+    pub(crate) fn apply_alone(&self, bytes: &[u8]) -> Vec<u8> {
+        add_stream(self.0, bytes)
     }
 }
 
@@ -91,6 +98,24 @@ impl TryFrom<String> for Root {
     fn try_from(text: String) -> Result<Self, Self::Error> {
         bytes(&text).map(Self).ok_or("expected 64 hexadecimal digits")
     }
+}
+
+/// Adds a ChaCha20 stream to bytes.
+fn add_stream(seed: [u8; 32], bytes: &[u8]) -> Vec<u8> {
+    let mut stream = vec![0; bytes.len()];
+    ChaCha20Rng::from_seed(seed).fill_bytes(&mut stream);
+    bytes.iter().zip(stream).map(|(byte, key)| byte ^ key).collect()
+}
+
+#[cfg(unix)]
+fn keep_private(path: &Path) -> std::io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o600))
+}
+
+#[cfg(not(unix))]
+fn keep_private(_: &Path) -> std::io::Result<()> {
+    Ok(())
 }
 
 /// SHA-256, hexadecimal.

@@ -6,7 +6,8 @@
 //! hash is that of the answers themselves and not of the sealed file only, so that no second key can
 //! open it to other answers.
 //!
-//! The cipher is the ChaCha20 stream under a key of 256 bits that is used once.
+//! The cipher is the ChaCha20 stream under a key of 256 bits and the hash of the answers, so that a key that is used for two
+//! trials opens neither by the other.
 
 use crate::answer::Answers;
 use crate::error::Error;
@@ -34,10 +35,10 @@ pub fn text(answers: &Answers) -> String {
 
 /// Seals a text: the sealed bytes, and the commitment to both.
 pub fn seal(text: &str, key: &Key) -> (Vec<u8>, Commitment) {
-    let sealed = key.apply(text.as_bytes());
-    let commitment =
-        Commitment { answers_sha256: sha256(text.as_bytes()), sealed_sha256: sha256(&sealed) };
-    (sealed, commitment)
+    let answers_sha256 = sha256(text.as_bytes());
+    let sealed = key.apply(&answers_sha256, text.as_bytes());
+    let sealed_sha256 = sha256(&sealed);
+    (sealed, Commitment { answers_sha256, sealed_sha256 })
 }
 
 /// Opens sealed answers and checks that they are those that were committed to. With them comes their text.
@@ -56,10 +57,13 @@ pub fn open(sealed: &[u8], key: &Key, commitment: &Commitment) -> Result<(Answer
     };
     let changed = "the file was changed after it was sealed";
     check("answers.sealed", sealed, &commitment.sealed_sha256, changed)?;
-    let plain = key.apply(sealed);
+    let committed = &commitment.answers_sha256;
+    let opened = [key.apply(committed, sealed), key.apply_alone(sealed)];
+    let [plain, _] = &opened;
+    let plain = opened.iter().find(|text| sha256(text) == *committed).unwrap_or(plain);
     let other = "this is the key of another trial, or the commitment was changed";
-    check("the opened answers", &plain, &commitment.answers_sha256, other)?;
-    let text = String::from_utf8_lossy(&plain).into_owned();
+    check("the opened answers", plain, committed, other)?;
+    let text = String::from_utf8_lossy(plain).into_owned();
     Ok((Document::new("answers.sealed (opened)", text.clone()).parse()?, text))
 }
 
@@ -93,6 +97,25 @@ mod tests {
         let error = open(&changed, &key, &commitment).expect_err("changed");
         assert!(error.to_string().contains("changed after it was sealed"), "{error}");
         assert!(!sealed.windows(4).any(|part| part == b"seed"));
+    }
+
+    #[test]
+    fn a_key_used_twice_opens_neither_trial_by_the_other() {
+        let key = Key::new();
+        let texts = [text(&answers()), text(&Answers { seed: 78, ..answers() })];
+        let [first, second] = texts.each_ref().map(|text| seal(text, &key).0);
+        let stream = first.iter().zip(texts[0].bytes()).map(|(sealed, plain)| sealed ^ plain);
+        let opened: Vec<u8> = second.iter().zip(stream).map(|(byte, key)| byte ^ key).collect();
+        assert_ne!(opened, texts[1].as_bytes());
+    }
+
+    #[test]
+    fn answers_sealed_by_the_key_alone_still_open() {
+        let (key, text) = (Key::new(), text(&answers()));
+        let sealed = key.apply_alone(text.as_bytes());
+        let commitment =
+            Commitment { answers_sha256: sha256(text.as_bytes()), sealed_sha256: sha256(&sealed) };
+        assert_eq!(open(&sealed, &key, &commitment).expect("opens"), (answers(), text));
     }
 
     #[test]

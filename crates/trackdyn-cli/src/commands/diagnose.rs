@@ -7,6 +7,7 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{RecordingOptions, command_line, read_vehicle};
 use crate::progress::Progress;
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
@@ -104,7 +105,7 @@ fn write(
     {
         let path = options.out.join(name);
         write_file(&path, text.as_bytes())?;
-        eprintln!("wrote {}", path.display());
+        say(format_args!("wrote {}", path.display()));
     }
     report::write(diagnosis, subject, vehicle, &file, &options.out)
 }
@@ -116,6 +117,13 @@ fn subject(
     if let Some(table) = OperatingPoints::file_of(&options.recording.recording) {
         if !options.more.is_empty() {
             return Err("a table of steady points is diagnosed alone: expected one".into());
+        }
+        if let Some(option) = options.recording.given().first() {
+            let name = table.display();
+            return Err(format!(
+                "{option}: {name} holds steady points: expected with recordings of motion only"
+            )
+            .into());
         }
         let held_out = options.held_out.as_deref();
         if let Some(list) = held_out.filter(|list| *list != "none") {

@@ -7,6 +7,7 @@ use crate::earlier::remove_of;
 use crate::exit::Exit;
 use crate::options::{ModelOptions, finite, in_time, model, note_what_no_sensor_reports, of_drive};
 use crate::progress::Progress;
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -35,12 +36,10 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = Knows::Truth)]
     estimate: Knows,
     /// Speed on open ground, m/s
-    #[arg(long, value_name = "SPEED", default_value_t = Tracker::default().speed, value_parser = finite,
-          allow_negative_numbers = true)]
+    #[arg(long, value_name = "SPEED", default_value_t = Tracker::default().speed, value_parser = finite)]
     speed: f64,
     /// Look-ahead of the path tracker, m
-    #[arg(long, value_name = "M", default_value_t = Tracker::default().look_ahead, value_parser = finite,
-          allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", default_value_t = Tracker::default().look_ahead, value_parser = finite)]
     look_ahead: f64,
     /// Leave inertia out: the robot is at its stationary motion at once
     #[arg(long)]
@@ -140,7 +139,7 @@ pub fn run(options: &Options) -> Outcome {
     let text = document::text(&file, &path, &tracker, &drives)?;
     write_file(&options.out.join("drive.toml"), text.as_bytes())?;
     show(&document::summary(&path, &tracker, &drives))?;
-    eprintln!("wrote drive.toml, drive.png and tables to {}", options.out.display());
+    say(format_args!("wrote drive.toml, drive.png and tables to {}", options.out.display()));
     let arrived = drives.iter().all(|drive| drive.journey.ending == Ending::Arrived);
     Ok(if arrived { Exit::Done } else { Exit::NoResult })
 }

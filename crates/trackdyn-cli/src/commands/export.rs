@@ -3,6 +3,7 @@
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{command_line, pair};
+use crate::stderr::say;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 use trackdyn_core::document::Document;
@@ -37,7 +38,7 @@ struct Ros2Options {
     #[command(flatten)]
     frames: FrameOptions,
     /// Belt travel in m per radian of the wheel joint: the pitch radius of the sprocket
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M")]
     wheel_radius: f64,
     /// Wheel joint on the left; repeatable
     #[arg(long, value_name = "JOINT", default_value = "left_wheel_joint")]
@@ -54,7 +55,7 @@ struct Ros2Options {
     residuals: Option<PathBuf>,
     /// Rate in Hz at which the controller publishes, for the covariances
     #[arg(long, value_name = "HZ", default_value_t = Published::DEFAULT_RATE,
-          requires = "residuals", allow_negative_numbers = true)]
+          requires = "residuals")]
     publish_rate: f64,
 }
 
@@ -73,11 +74,11 @@ impl Ros2Options {
                 }
             })?;
         if !residuals.held_out {
-            eprintln!(
+            say(format_args!(
                 "warning: the residuals in {} are of runs that the kinematics were fitted to: covariances \
                  come out too small (replay others, with --runs or --time)",
                 residuals.source
-            );
+            ));
         }
         Ok(Some(Published::new(residuals, self.publish_rate).map_err(option)?))
     }
@@ -156,11 +157,11 @@ pub fn run(options: &Options) -> Outcome {
     let exported = export(&options.target, &drive, &provenance)?;
 
     if drive.sectors > 0 {
-        eprintln!(
+        say(format_args!(
             "warning: {} is piecewise with {} sectors; the constants of the whole map stand for all of them",
             document.name(),
             drive.sectors
-        );
+        ));
     }
     prepare_folder(&files.out)?;
     let mut written = Vec::new();
@@ -169,7 +170,7 @@ pub fn run(options: &Options) -> Outcome {
         write_file(&path, text.as_bytes())?;
         written.push(path.display().to_string());
     }
-    eprintln!("wrote {}", written.join(" and "));
+    say(format_args!("wrote {}", written.join(" and ")));
     Ok(Exit::Done)
 }
 

@@ -11,6 +11,7 @@ use crate::earlier::remove_earlier;
 use crate::exit::Exit;
 use crate::options::{DrivingOptions, command_line, not_negative, read_vehicle};
 use crate::progress::Progress;
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -31,7 +32,7 @@ pub struct Options {
     #[arg(long, value_name = "FILE")]
     vehicle: PathBuf,
     /// Use only segments before which the tracks ran steadily for this many seconds
-    #[arg(long, value_name = "SECONDS", value_parser = not_negative, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = not_negative)]
     settle: Option<f64>,
     /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw (lever-arm only says why no
     /// recording shows it)
@@ -39,11 +40,11 @@ pub struct Options {
     fit: Vec<Nuisance>,
     /// Individuals of the genetic algorithm
     #[arg(long, value_name = "N", default_value_t = 100,
-          value_parser = clap::value_parser!(u32).range(4..=100_000), allow_negative_numbers = true)]
+          value_parser = clap::value_parser!(u32).range(4..=100_000))]
     population: u32,
     /// Generations of the genetic algorithm
     #[arg(long, value_name = "N", default_value_t = 200,
-          value_parser = clap::value_parser!(u32).range(1..=100_000), allow_negative_numbers = true)]
+          value_parser = clap::value_parser!(u32).range(1..=100_000))]
     generations: u32,
     /// Seed of the genetic algorithm
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -103,12 +104,12 @@ pub fn run(options: &Options) -> Outcome {
     let document = document::text(&recording, &vehicle, &source, &found)?;
     let path = options.out.join("identification.toml");
     write_file(&path, document.as_bytes())?;
-    eprintln!("wrote {}", path.display());
+    say(format_args!("wrote {}", path.display()));
     if identify_options.nuisances.contains(&Nuisance::SensorYaw) {
-        eprintln!(
+        say(format_args!(
             "note: no kinematics file holds the yaw of the sensor's mount: before odometry and export with these \
              parameters, turn the sensor by it, or the frame of the poses"
-        );
+        ));
     }
     let files = found.fits.iter().map(|fit| file(fit, gauge, &source));
     let exit = keep(&options.out, files)?;
@@ -124,12 +125,12 @@ fn keep(out: &Path, files: impl IntoIterator<Item = Option<KinematicsFile>>) -> 
         let path = out.join(name);
         if let Some(file) = file {
             write_file(&path, file.to_toml().as_bytes())?;
-            eprintln!("wrote {}", path.display());
+            say(format_args!("wrote {}", path.display()));
             written += 1;
         } else {
             remove_earlier(&path, |source| source.recording.is_some())?;
             if path.exists() {
-                eprintln!("note: {} is not of this recording, and stays", path.display());
+                say(format_args!("note: {} is not of this recording, and stays", path.display()));
             }
         }
     }
@@ -143,6 +144,7 @@ fn source(recording: &Recording, vehicle: &VehicleFile, options: &Options) -> So
         version: env!("CARGO_PKG_VERSION").to_owned(),
         vehicle: vehicle.vehicle.name.clone(),
         fingerprint: recording.fingerprint().to_owned(),
+        pose_fingerprint: Some(recording.pose_fingerprint().to_owned()),
         recording: Some(recording.name().to_owned()),
         runs: Some(recording.run_list().to_string()),
         time_s: options.driving.time(),

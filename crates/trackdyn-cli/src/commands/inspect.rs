@@ -4,6 +4,7 @@ use crate::commands::Outcome;
 use crate::commands::identify::lagging_points;
 use crate::exit::Exit;
 use crate::options::tracks_of;
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
@@ -97,7 +98,7 @@ fn bag(options: &Options) -> Result<String, trackdyn_recording::Error> {
     }
     let _ = writeln!(text, "\nsuggested:{}", suggestion(&inspection.suggested));
     for warning in &inspection.warnings {
-        eprintln!("note: {warning}");
+        say(format_args!("note: {warning}"));
     }
     Ok(text)
 }
@@ -161,7 +162,7 @@ fn runs(recording: &Recording) -> String {
         Err(reason) => writeln!(text, "{reason}"),
     };
     for warning in recording.warnings() {
-        eprintln!("note: {warning}");
+        say(format_args!("note: {warning}"));
     }
     text
 }

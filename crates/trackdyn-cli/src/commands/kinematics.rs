@@ -5,6 +5,7 @@ use crate::exit::Exit;
 use crate::options::{
     CircumstanceOptions, ModelOptions, model, note_what_steady_icrs_leave_out, pair,
 };
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::{ArgGroup, Args};
 use std::error::Error;
@@ -71,11 +72,11 @@ fn parameters(options: &Options) -> Result<KinematicsFile, Box<dyn Error>> {
     let spread = spread.into_iter().fold(0.0, f64::max);
     // a piecewise map has the ICRs of each sector
     if sectors.is_empty() && spread > NOTABLE {
-        eprintln!(
+        say(format_args!(
             "note: the ICRs of this vehicle go with the speeds, by {:.1} mm up to {} m/s: these are their means",
             1e3 * spread,
             Grid::PAPER_SPEED
-        );
+        ));
     }
     Ok(KinematicsFile::of_map(&statistics, &sectors, Source::default())
         .with_alpha(model.drive().gain))

@@ -9,6 +9,7 @@ use crate::options::{
     CircumstanceOptions, ModelOptions, command_line, count, model, note_what_steady_icrs_leave_out,
 };
 use crate::progress::Progress;
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
@@ -25,11 +26,10 @@ pub struct Options {
     #[command(flatten)]
     circumstance: CircumstanceOptions,
     /// Speeds per track
-    #[arg(long, value_name = "N", default_value_t = 21, value_parser = count, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 21, value_parser = count)]
     grid: usize,
     /// Largest track speed in m/s
-    #[arg(long, value_name = "SPEED", default_value_t = Grid::PAPER_SPEED,
-          allow_negative_numbers = true)]
+    #[arg(long, value_name = "SPEED", default_value_t = Grid::PAPER_SPEED)]
     speed: f64,
     /// Folder for kinematics.toml and icr_map.png
     #[arg(long, value_name = "DIR", default_value = "out")]
@@ -61,14 +61,14 @@ pub fn run(options: &Options) -> Outcome {
     let Some(statistics) = statistics else {
         remove_earlier(&parameters, |source| source.grid.is_some())?;
         show(&summary)?;
-        eprintln!("wrote {}; no kinematics.toml, for no motion turns", picture.display());
+        say(format_args!("wrote {}; no kinematics.toml, for no motion turns", picture.display()));
         return Ok(Exit::NoResult);
     };
     let contents =
         KinematicsFile::of_map(&statistics, &map.sectors(), source).with_alpha(model.drive().gain);
     write_file(&parameters, contents.to_toml().as_bytes())?;
     show(&summary)?;
-    eprintln!("wrote {} and {}", parameters.display(), picture.display());
+    say(format_args!("wrote {} and {}", parameters.display(), picture.display()));
     Ok(Exit::Done)
 }
 

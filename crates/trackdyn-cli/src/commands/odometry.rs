@@ -9,6 +9,7 @@ use crate::commands::Outcome;
 use crate::earlier::remove_of;
 use crate::exit::Exit;
 use crate::options::{DrivingOptions, command_line};
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use inputs::Inputs;
@@ -45,22 +46,22 @@ pub fn run(options: &Options) -> Outcome {
     let result = Comparison::new(&part, inputs.sets(), clock.tau()).map_err(named)?;
     prepare_folder(&options.out)?;
     if let Some(reason) = clock.reason() {
-        eprintln!("note: {reason}; the clock offset is taken as 0 (set it with --tau)");
+        say(format_args!("note: {reason}; the clock offset is taken as 0 (set it with --tau)"));
     }
     for file in &inputs.files {
         if !inputs.is_held_out(file, &result) {
-            eprintln!(
+            say(format_args!(
                 "note: {} was fitted to some of these runs, which makes its errors look smaller (choose \
                  others with --runs or --time)",
                 file.path.display()
-            );
+            ));
         }
     }
     if !result.left_out.is_empty() {
-        eprintln!(
+        say(format_args!(
             "note: {} runs left out, whose poses lie outside the time of their track speeds",
             result.left_out.len()
-        );
+        ));
     }
     write(options, &inputs, &clock, &result)?;
     show(&summary::text(&inputs, &clock, &result))?;
@@ -86,10 +87,10 @@ fn write(
     let count = trajectories(&out.join("trajectories"), &out.join("odometry.toml"), result)?;
     let document = document::text(inputs, clock, result, &command_line())?;
     write_file(&out.join("odometry.toml"), document.as_bytes())?;
-    eprintln!(
+    say(format_args!(
         "wrote odometry.toml, runs.csv, odometry.png and {count} trajectories to {}",
         out.display()
-    );
+    ));
     Ok(())
 }
 

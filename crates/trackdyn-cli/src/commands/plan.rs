@@ -7,6 +7,7 @@ use crate::earlier::remove_of;
 use crate::exit::Exit;
 use crate::options::{command_line, finite, read_vehicle};
 use crate::progress::Progress;
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
@@ -76,7 +77,7 @@ pub fn run(options: &Options) -> Outcome {
     let Some(schedule) = plan.schedule() else {
         show(&summary::text(&plan))?;
         remove_earlier(options)?;
-        eprintln!("wrote nothing: there is nothing to drive");
+        say(format_args!("wrote nothing: there is nothing to drive"));
         return Ok(Exit::Done);
     };
     let source = Source {
@@ -92,7 +93,7 @@ pub fn run(options: &Options) -> Outcome {
     for (name, text) in [("plan.csv", csv), ("plan.toml", toml)] {
         let path = options.out.join(name);
         write_file(&path, text.as_bytes())?;
-        eprintln!("wrote {}", path.display());
+        say(format_args!("wrote {}", path.display()));
     }
     show(&summary::text(&plan))?;
     Ok(Exit::Done)

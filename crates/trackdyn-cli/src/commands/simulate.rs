@@ -7,6 +7,7 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{ModelOptions, PlaceOptions, count, finite, in_time, model, of_drive};
 use crate::progress::Progress;
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
@@ -32,7 +33,7 @@ pub struct Options {
     #[arg(long, value_name = "NAME|FILE", default_value = "manual")]
     schedule: String,
     /// Runs of a schedule that is generated [default: what is usual for it]
-    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = count)]
     runs: Option<usize>,
     /// Time of each run of a schedule that is generated, s, with a second at rest before and after: a square or a plan that has
     /// begun is driven to its end [default: as long as the schedule takes]
@@ -111,7 +112,7 @@ pub fn run(options: &Options) -> Outcome {
     let recording =
         Recording::new(name, &file.vehicle.name, observed, Source::computed(), Vec::new())?;
     for warning in recording.warnings() {
-        eprintln!("note: {warning}");
+        say(format_args!("note: {warning}"));
     }
     // It comes first: it says that all others may be replaced.
     let text = document::text(&file, &sensors, &recording, options)?;
@@ -122,7 +123,10 @@ pub fn run(options: &Options) -> Outcome {
     write_file(&options.out.join("sensors.toml"), sensors.to_toml().as_bytes())?;
     folder::write(&recording, &options.out)?;
     show(&document::summary(&file, &sensors, &recording, &runs, options))?;
-    eprintln!("wrote the recording, truth.csv and simulation.toml to {}", options.out.display());
+    say(format_args!(
+        "wrote the recording, truth.csv and simulation.toml to {}",
+        options.out.display()
+    ));
     Ok(Exit::Done)
 }
 

@@ -24,6 +24,9 @@ pub struct Source {
     pub vehicle: String,
     /// Fingerprint of the vehicle file with its effects, or of the recording.
     pub fingerprint: String,
+    /// Fingerprint of the poses of the recording, which tells driving that was fitted from other driving.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pose_fingerprint: Option<String>,
     /// Name of the recording, where the numbers come from one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<String>,

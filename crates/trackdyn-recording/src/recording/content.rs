@@ -17,6 +17,17 @@ pub(super) fn fingerprint(runs: &[Run]) -> String {
     output::fingerprint(&bytes)
 }
 
+/// Fingerprint of ids and poses: of the driving, however its track speeds are read.
+pub(super) fn pose_fingerprint(runs: &[Run]) -> String {
+    let mut bytes = Vec::new();
+    let mut row = Vec::new();
+    for run in runs {
+        bytes.extend(run.id().to_le_bytes());
+        push(run.pose_series(), &mut row, &mut bytes);
+    }
+    output::fingerprint(&bytes)
+}
+
 fn push<S: Sample>(series: &Series<S>, row: &mut Vec<f64>, bytes: &mut Vec<u8>) {
     bytes.extend((series.samples.len() as u64).to_le_bytes());
     for sample in &series.samples {

@@ -50,18 +50,19 @@ pub struct Expected {
 pub struct Quantity {
     key: &'static str,
     of: fn(&Statistics) -> f64,
+    of_none: f64,
 }
 
 /// The quantities that can be checked, under their names in `kinematics.toml`; and how many pairs of speeds turn.
 const QUANTITIES: [Quantity; 8] = [
-    Quantity { key: "x_icr_left_m", of: |s| s.mean.x_left },
-    Quantity { key: "x_icr_right_m", of: |s| s.mean.x_right },
-    Quantity { key: "y_icr_m", of: |s| s.mean.y },
-    Quantity { key: "steering_efficiency", of: |s| s.steering_efficiency },
-    Quantity { key: "eccentricity", of: |s| s.eccentricity },
-    Quantity { key: "mean_steering_efficiency", of: |s| s.mean_steering_efficiency },
-    Quantity { key: "mean_eccentricity", of: |s| s.mean_eccentricity },
-    Quantity { key: "turning_pairs", of: |s| real(s.count) },
+    Quantity::mean("x_icr_left_m", |s| s.mean.x_left),
+    Quantity::mean("x_icr_right_m", |s| s.mean.x_right),
+    Quantity::mean("y_icr_m", |s| s.mean.y),
+    Quantity::mean("steering_efficiency", |s| s.steering_efficiency),
+    Quantity::mean("eccentricity", |s| s.eccentricity),
+    Quantity::mean("mean_steering_efficiency", |s| s.mean_steering_efficiency),
+    Quantity::mean("mean_eccentricity", |s| s.mean_eccentricity),
+    Quantity { key: "turning_pairs", of: |s| real(s.count), of_none: 0.0 },
 ];
 
 impl Quantity {
@@ -70,9 +71,14 @@ impl Quantity {
         self.key
     }
 
-    /// Its value in a map.
-    pub fn of(&self, statistics: &Statistics) -> f64 {
-        (self.of)(statistics)
+    /// A mean, which is no number where nothing turns.
+    const fn mean(key: &'static str, of: fn(&Statistics) -> f64) -> Self {
+        Self { key, of, of_none: f64::NAN }
+    }
+
+    /// Its value in a map; none: of one in which no motion turns.
+    pub fn of(&self, statistics: Option<&Statistics>) -> f64 {
+        statistics.map_or(self.of_none, self.of)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::Subject;
 use crate::earlier::remove_of;
+use crate::stderr::say;
 use std::path::Path;
 use trackdyn_core::output::{fingerprint, write_file};
 use trackdyn_diagnose::{Diagnosis, DiagnosisFile};
@@ -44,6 +45,6 @@ pub fn write(
         remove_of(&report, [folder.join(PATH)])?;
     }
     write_file(&report, diagnosis_html(&subject, &figures)?.as_bytes())?;
-    eprintln!("wrote {} and {} figures beside it", report.display(), figures.len());
+    say(format_args!("wrote {} and {} figures beside it", report.display(), figures.len()));
     Ok(())
 }

@@ -82,8 +82,8 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
     });
     let _ = writeln!(
         text,
-        "fit      on {on}: {:.3} before, {:.3} after, noise floor {:.3} ({share})",
-        fit.before, fit.after, fit.noise_floor
+        "fit      on {on}: {:.3} before, {:.3} with instruments and constants alone, {:.3} after, noise floor {:.3} ({share})",
+        fit.before, fit.instruments, fit.after, fit.noise_floor
     );
     if let Some(sentence) = diagnosis.contradiction() {
         let _ = writeln!(text, "         {sentence}");

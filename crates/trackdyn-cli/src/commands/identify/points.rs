@@ -27,9 +27,10 @@ pub fn run(path: &Path, vehicle: &VehicleFile, options: &Options) -> Outcome {
     let given = options.of_motion();
     if !given.is_empty() {
         let (given, name) = (given.join(", "), path.display());
-        return Err(
-            format!("{given}: {name} holds steady points, which have no runs and no time").into()
-        );
+        return Err(format!(
+            "{given}: {name} holds steady points: expected with recordings of motion only"
+        )
+        .into());
     }
     let table = OperatingPoints::read(path)?;
     prepare_folder(&options.out)?;

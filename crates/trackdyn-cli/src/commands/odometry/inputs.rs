@@ -78,7 +78,11 @@ impl Inputs {
         let fitted = file.source.runs.as_ref().and_then(|runs| runs.parse::<RunList>().ok());
         let [from, until] = self.time.unwrap_or(ALL);
         let [fitted_from, fitted_until] = file.source.time_s.unwrap_or(ALL);
-        file.source.fingerprint != self.recording.fingerprint()
+        let is_other = match &file.source.pose_fingerprint {
+            Some(poses) => poses != self.recording.pose_fingerprint(),
+            None => file.source.fingerprint != self.recording.fingerprint(),
+        };
+        is_other
             || fitted.is_some_and(|fitted| !fitted.overlaps(&replayed))
             || from >= fitted_until
             || until <= fitted_from

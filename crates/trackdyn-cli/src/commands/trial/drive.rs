@@ -8,6 +8,7 @@ use super::room::{OUT, Program, Room};
 use crate::commands::Outcome as Exited;
 use crate::exit::Exit;
 use crate::progress::Progress;
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use serde::{Deserialize, Serialize};
@@ -41,10 +42,10 @@ pub struct Options {
     #[arg(long, value_name = "FILE")]
     key: Option<PathBuf>,
     /// Time of the planned driving, s
-    #[arg(long, value_name = "SECONDS", default_value_t = 60)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=3600))]
     duration: u32,
     /// Time after which a process is ended and counts as failed, s
-    #[arg(long, value_name = "SECONDS", default_value_t = 3600)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 3600, value_parser = clap::value_parser!(u64).range(1..))]
     limit: u64,
     /// Folder for plans, recordings, diagnoses and scores [default: DIR/driven]
     #[arg(long, value_name = "DIR")]
@@ -52,8 +53,10 @@ pub struct Options {
 }
 
 /// What the results in a folder hang on.
-#[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(PartialEq, Serialize, Deserialize)]
 struct Asked {
+    /// The trial: SHA-256 of its answers.
+    answers_sha256: String,
     /// Time of the planned driving, s.
     duration_s: u32,
 }
@@ -80,7 +83,8 @@ pub fn run(options: &Options) -> Exited {
         return Ok(Exit::NoResult);
     }
     let out = options.out.clone().unwrap_or_else(|| options.trial.join("driven"));
-    take_up(&out, Asked { duration_s: options.duration })?;
+    let answers_sha256 = folder::commitment(&options.trial)?.answers_sha256;
+    take_up(&out, &Asked { answers_sha256, duration_s: options.duration })?;
     let progress = Progress::new(open.len());
     let mut revisited = Vec::with_capacity(open.len());
     for judged in open {
@@ -95,16 +99,23 @@ pub fn run(options: &Options) -> Exited {
     write_file(&out.join("driven.md"), page.as_bytes())?;
     write_file(&out.join("rates.csv"), rates_csv(&rates(&revisited)).as_bytes())?;
     show(&page)?;
-    eprintln!("wrote plans, recordings, diagnoses and scores to {}", out.display());
-    Ok(Exit::Done)
+    say(format_args!("wrote plans, recordings, diagnoses and scores to {}", out.display()));
+    let is_failure = |case: &Revisited| matches!(case.outcome, Outcome::Failed(_));
+    Ok(if revisited.iter().all(is_failure) { Exit::NoResult } else { Exit::Done })
 }
 
 /// Begins a folder of results, or goes on with it where the same was asked for.
-fn take_up(out: &Path, asked: Asked) -> Result<(), Box<dyn Error>> {
+fn take_up(out: &Path, asked: &Asked) -> Result<(), Box<dyn Error>> {
     let path = out.join(ASKED);
     if path.exists() {
         let before: Asked = Document::read(&path)?.parse()?;
-        if before != asked {
+        if before.answers_sha256 != asked.answers_sha256 {
+            let name = out.display();
+            return Err(
+                format!("{name}: of another trial: expected another folder by --out").into()
+            );
+        }
+        if before.duration_s != asked.duration_s {
             return Err(format!(
                 "{}: the plans here are for {} s: expected --duration {}, or another folder by --out",
                 out.display(),
@@ -116,7 +127,7 @@ fn take_up(out: &Path, asked: Asked) -> Result<(), Box<dyn Error>> {
         return Ok(());
     }
     prepare_folder(out)?;
-    write_file(&path, toml::to_string(&asked)?.as_bytes())?;
+    write_file(&path, toml::to_string(asked)?.as_bytes())?;
     Ok(())
 }
 
@@ -151,7 +162,9 @@ impl Visit<'_> {
         let room = Room::new()?;
         let before = Entry::default().diagnosis(&self.case);
         for name in [diagnosis::FILE, CORRECTED] {
-            room.bring(&before.join(name), name)?;
+            if let Err(reason) = room.bring(&before.join(name), name) {
+                return Ok(Some(reason));
+            }
         }
         let answer = &self.judged.answer;
         let numbers = [

@@ -80,8 +80,8 @@ const RATES: Texts = Texts {
 
 const COVERAGE: Texts = Texts {
     title: "Intervals that hold the true size",
-    explanation: "Of every effect that is rightly named by itself: how many of the stated intervals of 95 % hold \
-                  the true value, over its parameters. Dashed: 95 %, where all should lie.",
+    explanation: "Of every effect that is rightly named by itself and has one law in both simulators (where it has two, its \
+                  size is another number): how many of the stated intervals of 95 % hold the true value. Dashed: 95 %.",
     of: "intervals",
     wanted: Some(0.95),
 };

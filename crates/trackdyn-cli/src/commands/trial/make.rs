@@ -5,9 +5,11 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::finite;
 use crate::progress::Progress;
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use rayon::prelude::*;
+use std::io;
 use std::path::{Path, PathBuf};
 use trackdyn_trial::driving::RUN_TIME;
 use trackdyn_trial::{Case, Draft, Error, Order, PlannedCase, Stratum, plan};
@@ -34,7 +36,8 @@ pub struct Options {
     /// Folder for the cases, the sealed answers and the commitment to them
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// File for the key to the answers; with one that is there its trial is made once more [default: beside DIR, NAME.key]
+    /// File for the key to the answers; one that is there is taken, and with the number, the seed and the duration that it was
+    /// used with the same trial is made once more [default: beside DIR, NAME.key]
     #[arg(long, value_name = "FILE")]
     key: Option<PathBuf>,
 }
@@ -56,7 +59,7 @@ pub fn run(options: &Options) -> Outcome {
     let open: Vec<_> = all.filter(|(number, _)| !draft.has(*number)).collect();
     let progress = Progress::new(planned.len());
     if open.len() < planned.len() {
-        eprintln!("{} of {} cases were there", planned.len() - open.len(), planned.len());
+        say(format_args!("{} of {} cases were there", planned.len() - open.len(), planned.len()));
         progress.advance(planned.len() - open.len());
     }
     let make = |(number, planned): &(u64, &PlannedCase)| {
@@ -78,7 +81,7 @@ pub fn run(options: &Options) -> Outcome {
         commitment.answers_sha256,
         commitment.sealed_sha256
     ))?;
-    eprintln!("wrote {} and the key to {}", options.out.display(), key.display());
+    say(format_args!("wrote {} and the key to {}", options.out.display(), key.display()));
     Ok(Exit::Done)
 }
 
@@ -92,9 +95,21 @@ fn run_time(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Where a path leads, of which the end need not be there.
+fn real(path: &Path) -> io::Result<PathBuf> {
+    match (path.canonicalize(), path.parent(), path.file_name()) {
+        (Err(_), Some(parent), Some(name)) => Ok(real(parent)?.join(name)),
+        (found, _, _) => found,
+    }
+}
+
 /// A key in the trial's own folder would go wherever the recordings go.
 fn refuse_inside(key: &Path, trial: &Path) -> Result<(), Box<dyn std::error::Error>> {
-    let (key, trial) = (std::path::absolute(key)?, std::path::absolute(trial)?);
+    let real = |path: &Path| {
+        let found = std::path::absolute(path).and_then(|path| real(&path));
+        found.map_err(|cause| format!("{}: {cause}", path.display()))
+    };
+    let (key, trial) = (real(key)?, real(trial)?);
     if key.starts_with(&trial) {
         return Err(format!(
             "--key {}: expected a file outside {}",

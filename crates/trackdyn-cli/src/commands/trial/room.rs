@@ -8,7 +8,7 @@ use std::error::Error;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
@@ -117,6 +117,7 @@ impl Room {
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(File::create(self.folder.path().join(TALK))?);
+        lead_a_group(&mut command);
         for name in ["PATH", "RAYON_NUM_THREADS"] {
             if let Some(value) = std::env::var_os(name) {
                 command.env(name, value);
@@ -131,7 +132,7 @@ impl Room {
         let _ended = Undo::new(move || {
             let mut process = also.lock().unwrap_or_else(PoisonError::into_inner);
             // It may have ended by itself.
-            let _ = process.kill().and_then(|()| process.wait());
+            let _ = end(&mut process);
         });
         loop {
             let mut process = process.lock().unwrap_or_else(PoisonError::into_inner);
@@ -139,8 +140,7 @@ impl Room {
                 return Ok(Some(status));
             }
             if started.elapsed() > program.limit {
-                process.kill()?;
-                process.wait()?;
+                end(&mut process)?;
                 return Ok(None);
             }
             drop(process);
@@ -149,16 +149,41 @@ impl Room {
     }
 }
 
-/// Copies the files of a folder and of those in it.
+/// The process and those that it starts are a group, which ends together.
+#[cfg(unix)]
+fn lead_a_group(command: &mut Command) {
+    use std::os::unix::process::CommandExt;
+    command.process_group(0);
+}
+
+#[cfg(not(unix))]
+fn lead_a_group(_: &mut Command) {}
+
+/// Ends a process and what it has started.
+#[cfg(unix)]
+fn end(process: &mut Child) -> io::Result<()> {
+    use rustix::process::{Pid, Signal, kill_process_group};
+    kill_process_group(Pid::from_child(process), Signal::KILL)?;
+    process.wait().map(drop)
+}
+
+/// Ends a process.
+#[cfg(not(unix))]
+fn end(process: &mut Child) -> io::Result<()> {
+    process.kill()?;
+    process.wait().map(drop)
+}
+
+/// Copies the files of a folder and of those in it. Links and pipes, which lead out of it, stay behind.
 fn copy(from: &Path, to: &Path) -> io::Result<()> {
     fs::create_dir_all(to)?;
     for entry in fs::read_dir(from)? {
-        let path = entry?.path();
-        let target = to.join(path.file_name().unwrap_or_default());
-        if path.is_dir() {
-            copy(&path, &target)?;
-        } else {
-            fs::copy(&path, &target)?;
+        let entry = entry?;
+        let (kind, target) = (entry.file_type()?, to.join(entry.file_name()));
+        if kind.is_dir() {
+            copy(&entry.path(), &target)?;
+        } else if kind.is_file() {
+            fs::copy(entry.path(), target)?;
         }
     }
     Ok(())

@@ -1,9 +1,11 @@
 //! `trackdyn trial run`: a process per case, which sees nothing of the trial.
 
+use super::key_file;
 use super::room::{OUT, Program, Room};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::progress::Progress;
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::error::Error;
@@ -32,7 +34,7 @@ pub struct Options {
     name: Option<Entry>,
     /// Time after which a process is ended and counts as failed, s
     #[arg(long, value_name = "SECONDS", default_value_t = 3600,
-          value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
+          value_parser = clap::value_parser!(u64).range(1..))]
     limit: u64,
     /// Run cases again whose process failed
     #[arg(long)]
@@ -64,6 +66,8 @@ pub fn run(options: &Options) -> Outcome {
     let entry = entry(options)?;
     let program = program(options)?;
     let cases = folder::cases(&options.trial)?;
+    folder::commitment(&options.trial)?;
+    note_a_key_within_reach(&options.trial);
     let Shard { index, of } = options.shard.unwrap_or(Shard { index: 1, of: 1 });
     let mine: Vec<&PathBuf> = cases.iter().skip(index - 1).step_by(of).collect();
     let is_done =
@@ -75,7 +79,7 @@ pub fn run(options: &Options) -> Outcome {
         if let Some(reason) = diagnose(case, &entry, &program)? {
             failed += 1;
             let name = case.file_name().unwrap_or_default().to_string_lossy();
-            eprintln!("{name}: {}", reason.lines().next().unwrap_or_default());
+            say(format_args!("{name}: {}", reason.lines().next().unwrap_or_default()));
             write_file(&entry.failure(case), reason.as_bytes())?;
         }
         progress.advance(1);
@@ -91,6 +95,18 @@ pub fn run(options: &Options) -> Outcome {
         mine.len(),
     ))?;
     Ok(if failed > 0 && diagnosed == 0 { Exit::NoResult } else { Exit::Done })
+}
+
+/// A process is free to look for what it was not given: rooms keep the answers from an honest one only.
+fn note_a_key_within_reach(trial: &Path) {
+    if let Ok(key) = key_file(None, trial)
+        && key.exists()
+    {
+        say(format_args!(
+            "note: {} is within reach of the processes that diagnose: for a proof keep it elsewhere meanwhile",
+            key.display()
+        ));
+    }
 }
 
 /// The program as asked for, or this one.
@@ -136,7 +152,9 @@ fn diagnose(
     }
     let text = format!("seconds = {seconds:.3}\n");
     write_file(&room.out().join("run.toml"), text.as_bytes())?;
-    room.take(&entry.diagnosis(case))?;
+    if let Err(reason) = room.take(&entry.diagnosis(case)) {
+        return Ok(Some(reason));
+    }
     let failure = entry.failure(case);
     if failure.exists() {
         fs::remove_file(failure)?;

@@ -3,6 +3,7 @@
 use super::{figures, key_to_open};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -68,10 +69,10 @@ pub fn run(options: &Options) -> Outcome {
         write_file(&out.join(name), text.as_bytes())?;
     }
     show(&page)?;
-    eprintln!(
+    say(format_args!(
         "the commitment holds; wrote tables, figures and the opened answers to {}",
         out.display()
-    );
+    ));
     Ok(Exit::Done)
 }
 

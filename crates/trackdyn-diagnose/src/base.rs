@@ -147,7 +147,7 @@ fn own_share(fit: &Fit, base: usize) -> f64 {
         blocks: &vec![0; samples],
         count: 1,
     });
-    let flat = vec![Prior::normal(0.0, 1e9); fit.columns.len()];
+    let flat = vec![Prior::flat(); fit.columns.len()];
     let before: Vec<usize> = (0..base).collect();
     let projected = normal.projected(&before, &flat);
     (base..fit.columns.len())

@@ -103,15 +103,15 @@ pub struct Unseen {
     pub after: Vec<Vector3<f64>>,
 }
 
-/// The smallest size of an effect that this evidence could have shown.
+/// The smallest change of an effect's size that this evidence could have shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detectable {
     /// Place of the effect in the catalogue.
     pub effect: usize,
     /// Place of the size among its parameters.
     pub parameter: usize,
-    /// Distance of the size from none at which it would stand out five standard deviations; none where no
-    /// physical size would.
+    /// How far the size would have to be off to stand out five standard deviations: from none, from the filed one where the vehicle file
+    /// has the effect, from the fitted one where the best hypothesis adds it. None where no physical size would.
     pub size: Option<f64>,
 }
 

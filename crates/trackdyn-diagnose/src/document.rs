@@ -110,9 +110,12 @@ pub struct SupportTable {
     pub held_out_gain: f64,
 }
 
-/// Errors on held-out runs, in units of the noise.
+/// Errors on held-out runs, in units of the noise; on those of the fit where none were held out.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct FitTable {
+    /// Whether runs were held out; older files do not say.
+    #[serde(default)]
+    pub are_held_out: bool,
     /// Before.
     pub held_out_before: f64,
     /// With nothing but the base fitted, constants, encoders and pose sensor; older files have none.
@@ -160,6 +163,7 @@ impl DiagnosisFile {
             proposed: diagnosis.proposed.as_ref().map_or_else(Vec::new, proposed::terms),
             proposal: diagnosis.proposed.as_ref().map(proposed::law),
             fit: FitTable {
+                are_held_out: held_out.are_held_out,
                 held_out_before: rounded(held_out.before),
                 held_out_instruments: rounded(held_out.instruments),
                 held_out_after: rounded(held_out.after),

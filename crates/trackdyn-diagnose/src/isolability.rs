@@ -20,7 +20,7 @@ pub struct Isolability {
     pub cosines: DMatrix<f64>,
     /// z of each effect at its typical size beside the other one.
     pub separation: DMatrix<f64>,
-    /// Unit size of each size parameter: z per unit.
+    /// Each size parameter, with z per unit of it.
     sizes: Vec<(Unknown, f64)>,
 }
 

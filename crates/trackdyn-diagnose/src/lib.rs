@@ -1,6 +1,7 @@
 //! Which physics: what a model of a tracked robot lacks, from its recordings.
 //!
 //! - [`evidence`]: what was seen, drives and tables of steady motion alike, and what its residuals weigh.
+//! - [`noise`]: how noisy that is, from what driving cannot explain.
 //! - [`hypothesis`]: a vehicle with effects; [`mechanics`], [`surface`]: what it predicts of the evidence.
 //! - [`huber`], [`prior`]: what residuals far out weigh, and what is known of its unknowns beforehand.
 //! - [`fit`], [`normal`]: its unknowns at their best, and normal equations by blocks.
@@ -10,7 +11,7 @@
 //! - [`verdict`], [`uncertainty`], [`isolability`]: what is claimed, how large it is, what is told apart.
 //! - [`proposal`]: the form of a force for what no effect explains.
 //! - [`mod@diagnosis`]: all of it in order, and what comes out; [`document`]: as a file; [`exposure`]: for the eye.
-//! - [`mod@plan`]: the driving that would tell apart what is left.
+//! - [`mod@plan`]: the driving that would tell apart what is left; [`error`]: why none of it can be done.
 //!
 //! No effect is known by name here: what an effect does is asked of the simulator.
 

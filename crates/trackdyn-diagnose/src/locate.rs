@@ -115,7 +115,7 @@ impl Residual<'_> {
         }
         let normal = evidence.normal(residual, &columns);
         let base: Vec<usize> = (0..fitted.len()).collect();
-        let flat = vec![Prior::normal(0.0, 1e9); columns.len()];
+        let flat = vec![Prior::flat(); columns.len()];
         let mut projected = normal.projected(&base, &flat);
         for (contrasts, own) in groups.iter().filter(|(contrasts, _)| !contrasts.beside.is_empty())
         {

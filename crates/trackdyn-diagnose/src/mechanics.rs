@@ -29,7 +29,7 @@ use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::Arc;
 use trackdyn_core::frames::ros_twist_from_paper;
-use trackdyn_core::{PerSide, Pose, Twist};
+use trackdyn_core::{Pose, Twist};
 use trackdyn_motion::Transient;
 use trackdyn_physics::contact::Resolution;
 use trackdyn_physics::effect::Stage;
@@ -307,9 +307,7 @@ impl Mechanics {
 /// The stationary motion at each reading of each run.
 fn steady(surface: &Surface, drive: &Drive, tracks: &[Vec<TrackSample>]) -> Vec<Vec<Steady>> {
     let belts = lagging(tracks, drive.time_constant);
-    let motion = |reading: &TrackSample| {
-        surface.motion(drive.driven(PerSide::new(reading.v_left, reading.v_right)))
-    };
+    let motion = |reading: &TrackSample| surface.motion(drive.driven(reading.speeds()));
     belts.par_iter().map(|run| run.iter().map(motion).collect()).collect()
 }
 

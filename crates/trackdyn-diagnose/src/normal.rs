@@ -66,6 +66,11 @@ impl Prior {
         Self { mean, deviation, ln_mass: 0.0 }
     }
 
+    /// Nothing is known: of no unknown is the scale anywhere near as large.
+    pub fn flat() -> Self {
+        Self::normal(0.0, 1e9)
+    }
+
     /// The same within a range.
     pub fn within(self, [low, high]: [f64; 2]) -> Self {
         let below = |end: f64| {
@@ -374,7 +379,7 @@ mod tests {
         assert!((ln_det - (a * c - b * b).ln()).abs() < 1e-9, "{ln_det}");
         assert_eq!(factors.len(), 2);
         // what all of a column is explained by leaves nothing at all of it, in no block and no product
-        let flat = [Prior::normal(0.0, 1e9); 4];
+        let flat = [Prior::flat(); 4];
         let projected = normal.projected(&[0, 1], &flat);
         assert_eq!((0..=4).map(|k| projected.product(2, k).abs()).fold(0.0, f64::max), 0.0);
         // min over θ of |c − C θ|² + (θ/s)² = |c|² − (c·C)²/(|C|² + 1/s²)

@@ -33,7 +33,7 @@ pub const DECIDED: f64 = 3.0;
 /// went before the plan. What the plan is said to separate takes nothing of it as known.
 const KNOWN: f64 = 0.05;
 
-/// A manoeuvre, or two, must add this much z² per second to be worth driving.
+/// A manoeuvre, or two, must add this much z² per second, of the open pairs together by their weights, to be worth driving.
 const WORTH: f64 = 1e-3;
 
 /// Rounds in which manoeuvres are exchanged for better ones.
@@ -42,7 +42,7 @@ const EXCHANGES: usize = 3;
 /// How to plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Largest track speed, m/s.
+    /// Largest track speed, m/s, above zero.
     pub fastest: f64,
     /// Longest time of all manoeuvres together, s.
     pub duration: f64,

@@ -45,10 +45,14 @@ pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> 
 fn friction_known(vehicle: &Vehicle) -> f64 {
     /// A coefficient that was not measured is known to a third.
     const GUESSED: f64 = 0.3;
+    /// What is known exactly.
+    const EXACT: f64 = 1e-4;
     let friction = &vehicle.uncertainty.friction;
     match (friction.across, friction.along) {
         (Some(across), Some(along)) => {
-            (across / vehicle.friction.across).hypot(along / vehicle.friction.along) / 2.0
+            let both =
+                (across / vehicle.friction.across).hypot(along / vehicle.friction.along) / 2.0;
+            both.max(EXACT)
         }
         _ => GUESSED,
     }
@@ -114,4 +118,21 @@ pub fn priors(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Evidence
             Prior { mean: known.mean - hypothesis.get(unknown), ..known }
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trackdyn_physics::VehicleFile;
+
+    #[test]
+    fn what_is_exact_leaves_a_finite_weight() {
+        let mut vehicle = VehicleFile::auriga_alpha().vehicle;
+        vehicle.uncertainty.friction.across = Some(0.0);
+        vehicle.uncertainty.friction.along = Some(0.0);
+        vehicle.uncertainty.cog = Some([0.0; 2]);
+        for deviation in [friction_known(&vehicle), cog_known(&vehicle, 0)] {
+            assert!(deviation > 0.0 && deviation < 1e-3, "{deviation}");
+        }
+    }
 }

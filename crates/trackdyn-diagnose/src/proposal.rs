@@ -137,7 +137,11 @@ fn law(
         && still.iter().all(|symmetry| left_over.contains(symmetry))
         && held_out.after < held_out.before
         && found.ln_evidence - best.ln_evidence >= Rules::LN_BAYES_FACTOR
-        && !found.fit.unknowns.iter().any(|&unknown| at_limit(&found.fit, unknown, effect));
+        && !found
+            .fit
+            .unknowns
+            .iter()
+            .any(|&unknown| unknown.is_of(effect) && found.fit.is_at_limit(unknown));
     if !sound {
         return None;
     }
@@ -228,14 +232,4 @@ fn contact_length(vehicle: &Vehicle) -> f64 {
     let model = Model::new(vehicle.clone(), Effects::none());
     let [rear, front] = model.footprint().ends;
     front - rear
-}
-
-/// Whether a coefficient ended at the limit of its range.
-fn at_limit(fit: &Fit, unknown: Unknown, effect: usize) -> bool {
-    let Some(parameter) = unknown.parameter().filter(|_| unknown.is_of(effect)) else {
-        return false;
-    };
-    let [low, high] = parameter.range;
-    let value = fit.hypothesis.get(unknown);
-    (value - low).min(high - value) <= 1e-6 * (high - low)
 }

@@ -115,9 +115,7 @@ fn at_limit(fit: &Fit, unknown: Unknown, effect: usize) -> Option<String> {
     let parameter = unknown.parameter()?;
     let is_size = matches!(parameter.role, Role::Size { .. });
     let value = fit.hypothesis.get(unknown);
-    let [low, high] = parameter.range;
-    let at = (value - low).min(high - value) <= 1e-6 * (high - low);
-    (unknown.is_of(effect) && is_size && at)
+    (unknown.is_of(effect) && is_size && fit.is_at_limit(unknown))
         .then(|| format!("{} = {value} lies at the limit of what is physical", parameter.key))
 }
 

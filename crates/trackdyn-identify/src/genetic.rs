@@ -66,6 +66,9 @@ fn ranges(gauge: f64) -> [[f64; 2]; COUNT] {
 /// Evolves the parameters. `progress` is told each finished generation.
 ///
 /// The same seed gives the same result on any number of threads: only costs are computed in parallel.
+///
+/// # Panics
+/// Without a population.
 pub fn genetic(
     observations: &Observations,
     gauge: f64,
@@ -76,7 +79,7 @@ pub fn genetic(
 ) -> GeneticEstimate {
     let ranges = ranges(gauge);
     let count = free.count();
-    let bits = BITS * count_bits(count);
+    let bits = BITS * narrow(count);
     let decode = |chromosome: u64| decode(chromosome, count, &ranges);
     let cost = Cost::new(observations, lever);
     // A place of the form takes as long as a cost.
@@ -134,7 +137,7 @@ pub fn genetic(
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "at most five parameters")]
-fn count_bits(count: usize) -> u32 {
+fn narrow(count: usize) -> u32 {
     count as u32
 }
 
@@ -143,7 +146,7 @@ fn decode(chromosome: u64, count: usize, ranges: &[[f64; 2]; COUNT]) -> Paramete
     let mut parameters = [0.0, 0.0, 0.0, 1.0, 1.0];
     for (k, (parameter, [low, high])) in parameters.iter_mut().zip(ranges).enumerate().take(count) {
         let largest = (1_u64 << BITS) - 1;
-        let gray = (chromosome >> (BITS * count_bits(k))) & largest;
+        let gray = (chromosome >> (BITS * narrow(k))) & largest;
         let mut binary = gray;
         for shift in [1, 2, 4, 8] {
             binary ^= binary >> shift;

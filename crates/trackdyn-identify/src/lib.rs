@@ -1,6 +1,7 @@
 //! Which numbers: the kinematic parameters of a tracked robot from its recordings.
 //!
 //! - [`observations`]: what a recording shows, segment by segment.
+//! - [`parameters`]: the numbers; [`doubt`]: why a recording does not determine them.
 //! - [`prediction`]: what a kinematic model makes of the same track speeds, with its derivatives.
 //! - [`sensor`]: clock and mount of the pose sensor, which can be fitted beside.
 //! - [`weighting`]: how much a residual counts: the cost (17), or the noise that was measured.

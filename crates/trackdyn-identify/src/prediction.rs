@@ -5,7 +5,7 @@ mod lanes;
 mod series;
 
 pub use lanes::Lanes;
-pub(crate) use series::arc;
+pub(crate) use series::{any_arc, arc};
 
 use crate::observations::Piece;
 use crate::parameters::{COUNT, Parameters};

@@ -91,6 +91,7 @@ pub fn fit_points(
     let mut parameters = *start;
     let mut size = f64::INFINITY;
     let mut scatter = [None; CHANNELS];
+    let mut done = 0;
     for iterations in 1..=MAX_ITERATIONS {
         let rows: Vec<Row> = points.iter().map(|point| Row::at(point, &parameters)).collect();
         if iterations <= SCATTER_ITERATIONS {
@@ -134,8 +135,9 @@ pub fn fit_points(
             parameters.0[k] += step[k];
         }
         size = step.amax();
+        done = iterations;
     }
-    Err(Error::NotConverged { iterations: MAX_ITERATIONS, step: size })
+    Err(Error::NotConverged { iterations: done, step: size })
 }
 
 impl SteadyEstimate {

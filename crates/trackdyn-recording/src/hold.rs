@@ -72,10 +72,8 @@ pub fn held(
     end: f64,
     tau: f64,
 ) -> impl Iterator<Item = Held> + '_ {
-    pieces(tracks, start, end, tau).map(|(index, duration)| {
-        let TrackSample { v_left, v_right, .. } = tracks[index];
-        Held { duration, speeds: PerSide::new(v_left, v_right) }
-    })
+    pieces(tracks, start, end, tau)
+        .map(|(index, duration)| Held { duration, speeds: tracks[index].speeds() })
 }
 
 /// Distance that each track runs between two times of the pose clock, m.

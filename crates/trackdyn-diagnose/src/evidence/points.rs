@@ -3,9 +3,8 @@
 use super::{Evidence, Sample, Whitening};
 use crate::error::Error;
 use nalgebra::Vector3;
-use trackdyn_core::{PerSide, Pose, real};
-use trackdyn_recording::operating_points::line_triples;
-use trackdyn_recording::robust::deviation_about_zero;
+use trackdyn_core::{PerSide, Pose};
+use trackdyn_recording::operating_points::scatter;
 use trackdyn_recording::{OperatingPoint, TrackSample};
 
 /// Time that stands for an instant, s.
@@ -13,9 +12,6 @@ const INSTANT: f64 = 1e-6;
 
 /// Fewer points than this are no evidence.
 const FEWEST: usize = 30;
-
-/// Triples of neighbours that a scatter needs.
-const FEWEST_TRIPLES: usize = 10;
 
 /// Blocks that a table is cut into.
 const BLOCKS: usize = 48;
@@ -91,20 +87,4 @@ impl Evidence {
             ),
         })
     }
-}
-
-/// Standard deviation of a channel, from neighbours on lines of one track speed. None without enough of them.
-fn scatter(points: &[OperatingPoint], channel: Channel) -> Option<f64> {
-    // The ICRs may jump where a track changes its direction.
-    let jumps = |[x, y, z]: [f64; 3]| x * y < 0.0 || y * z < 0.0 || x.abs().min(z.abs()) < 1e-9;
-    let triples = line_triples(points, channel).into_iter();
-    let smooth = triples.filter(|triple| !jumps(triple.across));
-    let mut off: Vec<f64> = smooth.map(|triple| triple.off).collect();
-    if off.len() < FEWEST_TRIPLES {
-        return None;
-    }
-    let rms = (off.iter().map(|off| off * off).sum::<f64>() / real(off.len())).sqrt();
-    let median = deviation_about_zero(&mut off)?;
-    // Where most readings are rounded away the median says nothing.
-    Some(if median > 0.0 { median } else { rms }).filter(|scatter| *scatter > 0.0)
 }

@@ -14,8 +14,8 @@ use trackdyn_recording::{Clock, Recording, SegmentOptions, TrackSample};
 /// How far a fitted clock offset may go beyond the one that the recording shows by itself, s.
 const TAU_MARGIN: f64 = 0.15;
 
-/// Largest coordinate of a pose, m: places of the catalogue lie in some kilometres around the origin.
-const FARTHEST: f64 = 5000.0;
+/// Largest coordinate of a pose, m: no place of the catalogue lies farther from the origin, an anchor of a tether for one.
+const FARTHEST: f64 = 1000.0;
 
 /// Readings of the tracks that come more often than this are put together, s: no motion in time takes shorter steps.
 const SHORTEST: f64 = 0.01;

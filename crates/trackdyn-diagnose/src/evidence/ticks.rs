@@ -49,11 +49,14 @@ fn step(speeds: impl Iterator<Item = f64>) -> f64 {
 }
 
 fn speed(reading: &TrackSample, side: Side) -> f64 {
-    PerSide::new(reading.v_left, reading.v_right)[side]
+    reading.speeds()[side]
 }
 
 /// A stretch of readings at even intervals (s), whose speeds come in `step`s (m/s), with even speeds.
 fn between_ticks(stretch: &[TrackSample], interval: f64, step: PerSide<f64>) -> Vec<TrackSample> {
+    if interval <= 0.0 {
+        return stretch.to_vec(); // a single reading, of a steady point
+    }
     let of = |side: Side| {
         let travel = stretch.iter().scan(0.0, |travel, reading| {
             *travel += speed(reading, side) * interval;
@@ -147,6 +150,12 @@ mod tests {
     use super::*;
 
     const INTERVAL: f64 = 0.05;
+
+    #[test]
+    fn a_steady_point_stays_as_it_is() {
+        let point = vec![TrackSample { t: 0.0, v_left: 0.3, v_right: -0.1 }];
+        assert_eq!(smoothed(std::slice::from_ref(&point), PerSide::new(0.01, 0.01)), [point]);
+    }
 
     /// Travel at the readings of ramps between speeds, m.
     fn travel(k: i32) -> f64 {

@@ -163,7 +163,7 @@ impl InertiaNear {
         }
         let nearly = |by: Unknown, change: f64| match by {
             Unknown::Cog(_) => change.abs() < CLOSE * case.vehicle.gauge,
-            _ => change.abs() <= within.unknown * size(by, case.vehicle) && !is_of(by, inert),
+            _ => change.abs() <= within.unknown * size(by, case.vehicle) && !needs_slope(by, inert),
         };
         let mut shift: Option<Vec<Twist>> = None;
         for (by, change) in self.at.changes(case.vehicle, case.model.effects()) {
@@ -277,8 +277,8 @@ fn size(by: Unknown, vehicle: &Vehicle) -> f64 {
     }
 }
 
-/// Whether a number is one of these effects.
-fn is_of(by: Unknown, effects: &[ActiveEffect]) -> bool {
+/// Whether a change of a number, however small, has to be known by its slope: it is one of these effects, or of none.
+fn needs_slope(by: Unknown, effects: &[ActiveEffect]) -> bool {
     let card = by.card();
     card.is_none_or(|card| effects.iter().any(|effect| effect.card().id == card.id))
 }
@@ -325,7 +325,7 @@ impl Inertia {
         let Case { model, largest, drive, evidence, .. } = *case;
         let surface = Surface::new(model, largest, None);
         let gained = |reading: &TrackSample| {
-            let PerSide { left, right } = drive.driven(speeds(reading));
+            let PerSide { left, right } = drive.driven(reading.speeds());
             TrackSample { t: reading.t, v_left: left, v_right: right }
         };
         let belts: Vec<Vec<TrackSample>> = lagging(evidence.tracks(), drive.time_constant)
@@ -410,7 +410,7 @@ impl Inertia {
         let left = self.left.get_or_init(|| {
             let runs = self.belts.iter().zip(&self.steady);
             let sum = |(belts, twist): (&TrackSample, &Twist)| {
-                without.sum(speeds(belts), twist, &Twist::zero())
+                without.sum(belts.speeds(), twist, &Twist::zero())
             };
             runs.map(|(belts, steady)| belts.iter().zip(steady).map(sum).collect()).collect()
         });
@@ -443,14 +443,9 @@ impl Inertia {
     }
 }
 
-/// Speeds of the belts at a reading, m/s.
-fn speeds(reading: &TrackSample) -> PerSide<f64> {
-    PerSide::new(reading.v_left, reading.v_right)
-}
-
 /// The stationary twist at each reading of a run.
 fn stationary(surface: &Surface, belts: &[TrackSample]) -> Vec<Twist> {
-    belts.iter().map(|reading| surface.motion(speeds(reading)).twist(&[0.0; 3])).collect()
+    belts.iter().map(|reading| surface.motion(reading.speeds()).twist(&[0.0; 3])).collect()
 }
 
 /// The motion in time over a run, and its steps.
@@ -462,7 +457,7 @@ fn path_in_time(
 ) -> Result<(Trajectory, Vec<Step>), String> {
     let mut path = Trajectory::default();
     let Some(first) = belts.first() else { return Ok((path, Vec::new())) };
-    let start = surface.motion(speeds(first)).twist(&[0.0; 3]);
+    let start = surface.motion(first.speeds()).twist(&[0.0; 3]);
     let mut robot = Transient::at_rest(model, first.t, Pose::default())
         .with_step(steps.longest)
         .with_tolerance(steps.tolerance)
@@ -473,7 +468,7 @@ fn path_in_time(
     path.push(robot.moment());
     for pair in belts.windows(2) {
         robot
-            .drive(speeds(&pair[0]), pair[1].t, &mut path)
+            .drive(pair[0].speeds(), pair[1].t, &mut path)
             .map_err(|stopped| stopped.to_string())?;
     }
     Ok((path, robot.into_steps()))

@@ -22,7 +22,7 @@
 //! where a track nearly sticks a law may be steep, and the whole step lead far away.
 
 use nalgebra::{Matrix3, Vector3};
-use trackdyn_core::{PerSide, Twist, real};
+use trackdyn_core::{Twist, real};
 use trackdyn_motion::Forces;
 use trackdyn_motion::newton::{self, Convergence, Tolerance};
 use trackdyn_motion::transient::{GAMMA, Instant, Step};
@@ -68,7 +68,7 @@ pub fn departures([with, without]: [&Forces; 2], run: &Without, shifts: &[Twist]
     let mut steps = run.steps.iter().peekable();
     for (reading, pair) in run.belts.windows(2).enumerate() {
         let [from, until] = [pair[0].t, pair[1].t];
-        let speeds = PerSide::new(pair[0].v_left, pair[0].v_right);
+        let speeds = pair[0].speeds();
         let (here, shift) = (run.steady[reading] + shifts[reading], vector(&shifts[reading]));
         // What the tables and rules of both leave of a stationary motion is no change of it.
         let rest = with.sum(speeds, &here, &still) - run.left[reading];

@@ -40,17 +40,9 @@ impl Manoeuvre {
     pub fn duration(&self) -> f64 {
         INTERVAL * real(self.speeds.len())
     }
-
-    /// The largest change of a track's speed from one command to the next, per interval, m/s².
-    pub fn sharpest(&self) -> f64 {
-        let changes = self.speeds.windows(2).map(|pair| {
-            (pair[1].left - pair[0].left).abs().max((pair[1].right - pair[0].right).abs())
-        });
-        changes.fold(0.0, f64::max) / INTERVAL
-    }
 }
 
-/// The menu up to track speeds of `fastest` (m/s). `gap` is the distance between the ICRs, x_r − x_l, by which
+/// The menu up to track speeds of `fastest` (m/s, above zero). `gap` is the distance between the ICRs, x_r − x_l, by which
 /// turns are measured, m.
 pub fn menu(fastest: f64, gap: f64) -> Vec<Manoeuvre> {
     let mut menu = Vec::new();

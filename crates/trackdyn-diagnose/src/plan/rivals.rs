@@ -5,7 +5,7 @@ use crate::base::{Base, Calibration, OFFSETS};
 use crate::candidate::{Beside, variants};
 use crate::evidence::Evidence;
 use crate::fit::Fit;
-use crate::hypothesis::{Hypothesis, Unknown, active, unknowns_of};
+use crate::hypothesis::{Hypothesis, Unknown, active, typical, unknowns_of};
 use crate::mechanics::{Instruments, Mechanics, is_instrument};
 use crate::search::{Catalogue, Search};
 use nalgebra::Vector3;
@@ -57,11 +57,7 @@ impl Rival {
         let vehicle = &self.hypothesis.vehicle;
         let instruments: Vec<usize> = (0..CATALOGUE.len())
             .filter(|effect| !question.members.contains(effect))
-            .filter(|&effect| {
-                let parameters = CATALOGUE[effect].parameters.iter();
-                let typical: Vec<f64> = parameters.map(|parameter| parameter.typical).collect();
-                is_instrument(vehicle, &active(effect, &typical))
-            })
+            .filter(|&effect| is_instrument(vehicle, &typical(effect)))
             .collect();
         let mut nuisances = OFFSETS.to_vec();
         nuisances.extend(instruments.iter().copied().flat_map(unknowns_of));

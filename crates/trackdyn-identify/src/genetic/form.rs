@@ -14,8 +14,8 @@
 use super::chebyshev::{Axis, Surface, places};
 use crate::observations::{Observation, Observations, Piece};
 use crate::parameters::{COUNT, Free, Parameters};
-use crate::prediction::arc;
 use crate::prediction::batch::{Batch, LANES, Lane};
+use crate::prediction::{any_arc, arc};
 use rayon::prelude::*;
 
 /// Σ|P|², Σ|E|², Re Σ ō P, Σ ō E and Σ P̄ E, with the observed position o; the last two have two parts each.
@@ -58,7 +58,11 @@ impl Form {
                 let turn = turn(free, place);
                 let mut sums = [[0.0; LANES]; FACTORS];
                 for batch in &batches {
-                    add(batch, turn, &mut sums);
+                    if batch.is_within_series(turn) {
+                        add(batch, turn, &mut sums, arc);
+                    } else {
+                        add(batch, turn, &mut sums, any_arc);
+                    }
                 }
                 sums.map(|lanes| lanes.iter().sum())
             })
@@ -119,7 +123,12 @@ fn axes(observations: &Observations, free: Free, ranges: &[[f64; 2]; COUNT]) -> 
 }
 
 /// Adds what the segments of a batch contribute to the factors.
-fn add(batch: &Batch, [a, b]: [f64; 2], sums: &mut [Lane; FACTORS]) {
+fn add(
+    batch: &Batch,
+    [a, b]: [f64; 2],
+    sums: &mut [Lane; FACTORS],
+    arc: impl Fn(f64) -> (f64, f64),
+) {
     let (mut ahead, mut aside) = ([0.0; LANES], [0.0; LANES]);
     let (mut cos, mut sin) = ([1.0; LANES], [0.0; LANES]);
     for [left, right] in &batch.pieces {

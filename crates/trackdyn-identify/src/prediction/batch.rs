@@ -1,5 +1,6 @@
 //! Segments side by side, for the compiler to put into vector registers.
 
+use super::series::REACH;
 use crate::observations::{Observations, Piece};
 
 /// Segments that are computed side by side.
@@ -15,6 +16,8 @@ pub struct Batch {
     pub pieces: Vec<[Lane; 2]>,
     /// Observed motion: forward (m), left (m), yaw (rad).
     pub observed: [Lane; 3],
+    /// The longest distances that the left and the right track run in a piece, m.
+    longest: [f64; 2],
 }
 
 impl Batch {
@@ -33,8 +36,19 @@ impl Batch {
             let observed = |channel: usize| {
                 std::array::from_fn(|lane| segments.get(lane).map_or(0.0, |s| s.motion[channel]))
             };
-            Self { pieces: (0..longest).map(ways).collect(), observed: [0, 1, 2].map(observed) }
+            let pieces: Vec<[Lane; 2]> = (0..longest).map(ways).collect();
+            let longest = [0, 1].map(|side: usize| {
+                let ways = pieces.iter().flat_map(|piece| piece[side]);
+                ways.fold(0.0, |most: f64, way| most.max(way.abs()))
+            });
+            Self { pieces, observed: [0, 1, 2].map(observed), longest }
         });
         batches.collect()
+    }
+
+    /// Whether no piece turns by more than the series of an arc reach where the tracks turn the robot by these angles
+    /// per metre, rad/m. Readings of fast robots at less than one a second may.
+    pub fn is_within_series(&self, [left, right]: [f64; 2]) -> bool {
+        left.abs() * self.longest[0] + right.abs() * self.longest[1] <= REACH
     }
 }

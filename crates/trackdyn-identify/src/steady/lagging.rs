@@ -10,8 +10,7 @@
 //! constant track speed, against the straight line through these.
 
 use trackdyn_recording::OperatingPoint;
-use trackdyn_recording::operating_points::line_triples;
-use trackdyn_recording::robust::deviation_about_zero;
+use trackdyn_recording::operating_points::scatter;
 
 /// A shortfall of this many standard deviations is none of chance: of a hundred thousand pairs of points
 /// one exceeds 4.4, and the worst of many pairs is what is looked at.
@@ -37,9 +36,7 @@ pub fn lagging(points: &[OperatingPoint]) -> Vec<Lagging> {
         .enumerate()
         .filter_map(|(index, point)| Some((index, point, point.yaw_rate?)))
         .collect();
-    let Some(scatter) = scatter(points).filter(|scatter| *scatter > 0.0) else {
-        return Vec::new();
-    };
+    let Some(scatter) = scatter(points, |point| point.yaw_rate) else { return Vec::new() };
     let mut found = Vec::new();
     for &(index, point, rate) in &turning {
         let sense = (point.v_right - point.v_left).signum();
@@ -57,11 +54,4 @@ pub fn lagging(points: &[OperatingPoint]) -> Vec<Lagging> {
         }
     }
     found
-}
-
-/// Standard deviation of yaw rates, rad/s; none without neighbours on lines of one track speed.
-fn scatter(points: &[OperatingPoint]) -> Option<f64> {
-    let triples = line_triples(points, |point| point.yaw_rate);
-    let mut off: Vec<f64> = triples.iter().map(|triple| triple.off).collect();
-    deviation_about_zero(&mut off)
 }

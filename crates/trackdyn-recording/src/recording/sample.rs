@@ -4,7 +4,7 @@
 //! dropping a row moves the row. Columns that the tool does not know stand beside, one array each.
 
 use std::fmt::Debug;
-use trackdyn_core::Pose;
+use trackdyn_core::{PerSide, Pose};
 
 /// One row of a series: a time stamp and what was measured then.
 pub trait Sample: Copy + Debug + PartialEq {
@@ -54,6 +54,13 @@ pub struct TrackSample {
     pub v_left: f64,
     /// Speed of the right track, m/s.
     pub v_right: f64,
+}
+
+impl TrackSample {
+    /// The speeds of both tracks, m/s.
+    pub fn speeds(&self) -> PerSide<f64> {
+        PerSide::new(self.v_left, self.v_right)
+    }
 }
 
 /// Pose of the robot in the frame of its run.

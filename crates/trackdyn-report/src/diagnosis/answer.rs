@@ -1,7 +1,7 @@
 //! The answer in a paragraph: what, where, how much, and so what.
 
 use super::Subject;
-use super::words::{id, ids, significant, symmetry};
+use super::words::{id, ids, significant, symmetry, with_interval};
 use crate::panel::ticks::number;
 use trackdyn_diagnose::Status;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
@@ -68,7 +68,7 @@ fn once(subject: &Subject, verdict: &Verdict) -> Option<String> {
     let found = verdict.found.as_ref()?;
     let card = found.card();
     let values = card.parameters.iter().zip(found.values());
-    let values = values.map(|(parameter, &value)| is(parameter, value, 4));
+    let values = values.map(|(parameter, &value)| is(parameter, value));
     Some(format!(
         "Not claimed, because {} of {} blocks of time show it and whatever happens once would look the same: {} ({}, {}). \
          Drive there again, and diagnose that.",
@@ -135,12 +135,9 @@ fn named(subject: &Subject, missing: &Missing) -> String {
             let Unknown::Effect(effect, _) = interval.unknown else { return None };
             let parameter = interval.unknown.parameter()?;
             (effect == missing.verdict.effect).then(|| {
-                format!(
-                    "{} (95 % interval {} to {})",
-                    is(parameter, interval.value, 3),
-                    significant(interval.low, 3),
-                    significant(interval.high, 3)
-                )
+                let [value, low, high] = with_interval(interval);
+                let (key, unit) = (parameter.key, parameter.unit_behind());
+                format!("{key} = {value}{unit} (95 % interval {low} to {high})")
             })
         })
         .collect();
@@ -167,9 +164,9 @@ fn named(subject: &Subject, missing: &Missing) -> String {
     format!("{lacks} the model: {} ({}){sizes}.", lower(title(effect)), id(effect))
 }
 
-/// A parameter in a sentence, with so many digits.
-fn is(parameter: &Parameter, value: f64, digits: i32) -> String {
-    format!("{} = {}{}", parameter.key, significant(value, digits), parameter.unit_behind())
+/// A parameter in a sentence.
+fn is(parameter: &Parameter, value: f64) -> String {
+    format!("{} = {}{}", parameter.key, significant(value, 4), parameter.unit_behind())
 }
 
 /// Names of a few effects, or how many they are.

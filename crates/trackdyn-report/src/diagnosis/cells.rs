@@ -115,7 +115,23 @@ fn interval(canvas: &mut Canvas, panel: &Panel, entry: usize, of: (f64, f64), ro
     }
     let column = |value: f64| panel.pixel([value, row])[0].clamp(-1e5, 1e5);
     let at = panel.pixel([value, row]);
+    let [low, high] = panel.x;
+    if !(low..=high).contains(&value) {
+        return beyond(canvas, panel, entry, [value, HALF * deviation], at[1]);
+    }
     let ends = [column(value - HALF * deviation), column(value + HALF * deviation)];
     sheet::whisker(canvas, ends, at[1], look::colour(entry));
     look::marker(canvas, entry, at);
+}
+
+/// An estimate beyond the frame, and half its interval, mm: in words at the edge.
+fn beyond(canvas: &mut Canvas, panel: &Panel, entry: usize, [value, half]: [f64; 2], middle: f64) {
+    let words = format!("{} ± {}", number(value, 0), number(half, 0));
+    let (text, at, side) = if value < 0.0 {
+        (format!("← {words}"), panel.plot.left + 8, Horizontal::Left)
+    } else {
+        (format!("{words} →"), panel.plot.right() - 8, Horizontal::Right)
+    };
+    let style = Style::new(18.0).colour(look::colour(entry)).anchor(side, Vertical::Middle);
+    canvas.text(&text, [at, px(middle)], &style);
 }

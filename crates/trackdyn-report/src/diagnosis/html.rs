@@ -2,7 +2,7 @@
 
 use super::base64::base64;
 use super::candidates::{Outcome, candidates};
-use super::words::{id, ids, probability, significant};
+use super::words::{id, ids, probability, significant, with_interval};
 use super::{Figure, Subject, answer};
 use crate::Error;
 use crate::panel::ticks::number;
@@ -161,12 +161,13 @@ fn missing(subject: &Subject) -> Vec<Missing> {
             let support = &missing.verdict.support;
             let parameters = missing.parameters.iter().filter_map(|interval| {
                 let parameter = interval.unknown.parameter()?;
+                let [value, low, high] = with_interval(interval);
                 Some(Parameter {
                     key: parameter.key.to_owned(),
                     meaning: parameter.meaning.to_owned(),
-                    value: significant(interval.value, 4),
-                    low: significant(interval.low, 4),
-                    high: significant(interval.high, 4),
+                    value,
+                    low,
+                    high,
                     unit: if parameter.unit == "1" { "–" } else { parameter.unit }.to_owned(),
                 })
             });

@@ -36,9 +36,9 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     let count = fitted.tests.len().max(1);
     let height = TOP + rows(count) * ROW + 140 + sheet::FOOT;
     let explanation = "A robot with constant ICRs drives alike in both cases that a symmetry compares. \
-                       Statistic: the departure, squared, per number tested; 1 is what noise does. A symmetry \
-                       counts as broken where the vehicle as filed, or with clock and sensor fitted, breaks it, \
-                       or the corrected one surely does.";
+                       Statistic: squared departure per number tested; noise makes 1 within a block of time, \
+                       and p compares blocks. Broken: by the vehicle as filed or with clock and sensor fitted, \
+                       or surely by the corrected one.";
     let title = "Which symmetries of driving are broken";
     let mut canvas = sheet::sheet(height, title, explanation, subject.caption)?;
     let broken = format!("filled: broken (p < {SIGNIFICANT} among all tests)");

@@ -32,8 +32,8 @@ struct Spot {
 /// Draws the mean residual of each channel and the size of all, before and after.
 pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     let explanation = "What the model leaves unexplained of the motion, by the speeds of the left and the \
-                       right track, in standard deviations of the noise. White: nothing; the same scale \
-                       above and below.";
+                       right track, in standard deviations of the noise; the same scale above and below. White: \
+                       nothing, or not driven. Of all cells the largest 2 % share the last colour.";
     let title = "Where observation and model differ";
     let mut canvas = sheet::sheet(HEIGHT, title, explanation, subject.caption)?;
     let views = subject.views();

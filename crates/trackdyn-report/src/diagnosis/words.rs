@@ -1,6 +1,7 @@
 //! Words and numbers of a diagnosis.
 
 use crate::panel::ticks::number;
+use trackdyn_diagnose::uncertainty::Interval;
 use trackdyn_physics::CATALOGUE;
 use trackdyn_physics::effect::Symmetry;
 
@@ -48,6 +49,21 @@ pub(super) fn significant(value: f64, digits: i32) -> String {
     number(value, usize::try_from(digits - 1 - exponent).unwrap_or(0))
 }
 
+/// An estimate and the ends of its interval, to two digits of half of it: a gain that is 1.0023 is not 1.
+pub(super) fn with_interval(interval: &Interval) -> [String; 3] {
+    /// More decimals than these are read as powers of ten.
+    const MOST: usize = 7;
+    let numbers = [interval.value, interval.low, interval.high];
+    #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent")]
+    let decimals = (1.0 - ((interval.high - interval.low) / 2.0).log10().floor()) as i32;
+    let decimals = usize::try_from(decimals).unwrap_or(0);
+    if numbers.iter().all(|value| value.is_finite()) && decimals <= MOST {
+        numbers.map(|value| number(value, decimals))
+    } else {
+        numbers.map(|value| significant(value, 4))
+    }
+}
+
 /// A probability of chance.
 pub(super) fn probability(p: f64) -> String {
     if p < 0.001 { "below 0.001".to_owned() } else { number(p, 3) }
@@ -55,11 +71,24 @@ pub(super) fn probability(p: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::significant;
+    use super::{Interval, significant, with_interval};
+    use trackdyn_diagnose::hypothesis::Unknown;
 
     #[test]
     fn numbers_keep_their_significant_digits() {
         let texts = [0.0, 1.007_98, -0.001_234, 10_839.35, 2.4e-7].map(|v| significant(v, 3));
         assert_eq!(texts, ["0", "1.01", "−0.00123", "10839", "2.40e−7"]);
+    }
+
+    #[test]
+    fn intervals_show_what_they_are_of() {
+        let of = |value, low, high| {
+            with_interval(&Interval { unknown: Unknown::FrictionLevel, value, low, high })
+        };
+        assert_eq!(of(0.999_79, 0.999_74, 1.000_93), ["0.99979", "0.99974", "1.00093"]);
+        assert_eq!(of(242.0, 237.0, 247.0), ["242.0", "237.0", "247.0"]);
+        assert_eq!(of(1234.0, 234.0, 2234.0), ["1234", "234", "2234"]);
+        assert_eq!(of(2e-9, 1e-9, 3e-9), ["2.000e−9", "1.000e−9", "3.000e−9"]);
+        assert_eq!(of(1.0, 1.0, 1.0), ["1.000", "1.000", "1.000"]);
     }
 }

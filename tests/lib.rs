@@ -76,9 +76,10 @@ pub fn random_vehicle(random: &mut ChaCha8Rng, support: f64) -> Vehicle {
 /// # Panics
 /// Where the recording cannot be read, or the folder that `TRACKDYN_DATA` names does not have it.
 pub fn real_recording(name: &str) -> Option<Recording> {
+    let named = std::env::var_os("TRACKDYN_DATA").map(PathBuf::from);
+    let is_named = named.is_some();
     let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
-    let folder = std::env::var_os("TRACKDYN_DATA").map_or_else(beside, PathBuf::from).join(name);
-    let is_named = std::env::var_os("TRACKDYN_DATA").is_some();
+    let folder = named.unwrap_or_else(beside).join(name);
     assert!(folder.is_dir() || !is_named, "TRACKDYN_DATA: {} is not there", folder.display());
     if !folder.is_dir() {
         println!("skipped: {name} is not there (TRACKDYN_DATA names the folder of recordings)");

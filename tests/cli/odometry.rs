@@ -1,6 +1,6 @@
 //! `trackdyn odometry`.
 
-use crate::{Workplace, project_text};
+use crate::{Run, Workplace, project_text};
 use trackdyn_core::PerSide;
 use trackdyn_recording::folder;
 use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
@@ -113,23 +113,27 @@ fn runs_and_clock_offset_can_be_chosen() {
     assert_eq!(runs, [Some(1), Some(3)]);
 }
 
+/// Replays the fitted kinematics, and reads what comes of it.
+fn replayed(place: &Workplace, options: &str) -> (Run, toml::Table) {
+    let replay = "odometry recording --vehicle robot.toml --kinematics out/kinematics.toml";
+    let run = place.run(&format!("{replay} {options}"));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    (run, document(place))
+}
+
 #[test]
 fn parameters_of_the_same_runs_are_not_held_out() {
     let place = workplace(&synthetic());
     let fit = place.run("identify recording --vehicle robot.toml --generations 1 --runs 0-1");
     assert_eq!(fit.status, 0, "{}", fit.stderr);
     for (options, held_out) in [("--runs 2-3", true), ("--runs 1-3", false), ("", false)] {
-        let replay = "odometry recording --vehicle robot.toml --kinematics out/kinematics.toml";
-        let run = place.run(&format!("{replay} --out replay {options}"));
-        assert_eq!(run.status, 0, "{}", run.stderr);
-        let text = String::from_utf8(place.read("replay/odometry.toml")).expect("text");
-        let document: toml::Table = text.parse().expect("TOML");
-        assert_eq!(document["set"][1]["held_out"].as_bool(), Some(held_out), "{options}: {text}");
+        let (run, document) = replayed(&place, options);
+        assert_eq!(document["set"][1]["held_out"].as_bool(), Some(held_out), "{options}");
         assert_eq!(run.stderr.contains("fitted to some of these runs"), !held_out);
     }
 }
 
-/// Neither another circumference of the wheels nor a missing IMU makes the same drive another one.
+/// Another circumference of the wheels makes no other drive of it.
 #[test]
 fn the_same_drive_read_otherwise_is_not_held_out() {
     let place = workplace(&synthetic());
@@ -145,12 +149,8 @@ fn the_same_drive_read_otherwise_is_not_held_out() {
     };
     let other: String = tracks.lines().map(faster).collect();
     place.write("recording/tracks.csv", &other);
-    let replay = "odometry recording --vehicle robot.toml --kinematics out/kinematics.toml";
-    let run = place.run(&format!("{replay} --out replay"));
-    assert_eq!(run.status, 0, "{}", run.stderr);
-    let text = String::from_utf8(place.read("replay/odometry.toml")).expect("text");
-    let document: toml::Table = text.parse().expect("TOML");
-    assert_eq!(document["set"][1]["held_out"].as_bool(), Some(false), "{text}");
+    let (_, document) = replayed(&place, "");
+    assert_eq!(document["set"][1]["held_out"].as_bool(), Some(false));
 }
 
 #[test]
@@ -159,12 +159,8 @@ fn another_time_of_the_same_runs_is_held_out() {
     let fit = "identify recording --vehicle robot.toml --generations 1 --time 0,20";
     assert_eq!(place.run(fit).status, 0);
     for (time, held_out) in [("20,40", true), ("10,40", false)] {
-        let replay = "odometry recording --vehicle robot.toml --kinematics out/kinematics.toml";
-        let run = place.run(&format!("{replay} --out replay --time {time}"));
-        assert_eq!(run.status, 0, "{}", run.stderr);
-        let text = String::from_utf8(place.read("replay/odometry.toml")).expect("text");
-        let document: toml::Table = text.parse().expect("TOML");
-        assert_eq!(document["set"][1]["held_out"].as_bool(), Some(held_out), "{time}: {text}");
+        let (_, document) = replayed(&place, &format!("--time {time}"));
+        assert_eq!(document["set"][1]["held_out"].as_bool(), Some(held_out), "{time}");
         assert!(document["source"]["time_s"].is_array());
     }
 }

@@ -271,6 +271,18 @@ pub fn tracks_of<'a>(
     }
 }
 
+/// Refuses options of recordings of motion for a table of steady points, which has no runs and no time.
+///
+/// # Errors
+/// The options given, where there are any.
+pub fn refuse_for_points(given: &[&str], table: &Path) -> Result<(), String> {
+    if given.is_empty() {
+        return Ok(());
+    }
+    let (given, name) = (given.join(", "), table.display());
+    Err(format!("{given}: {name} holds steady points: expected with recordings of motion only"))
+}
+
 /// Which part of a recording counts, and how late its poses are.
 #[derive(Args)]
 pub struct DrivingOptions {

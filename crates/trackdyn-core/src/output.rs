@@ -24,21 +24,34 @@ pub struct OutputError {
 /// # Errors
 /// [`OutputError`]; the old file is then untouched.
 pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
+    write(path, contents, tempfile::Builder::new().permissions(permissions()))
+}
+
+/// The same of a file that nobody but its owner reads, as temporary files are.
+///
+/// # Errors
+/// As [`write_file`].
+pub fn write_private(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
+    write(path, contents, &mut tempfile::Builder::new())
+}
+
+fn write(
+    path: &Path,
+    contents: &[u8],
+    builder: &mut tempfile::Builder<'_, '_>,
+) -> Result<(), OutputError> {
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
     let _writing = WRITING.read().unwrap_or_else(PoisonError::into_inner);
-    let write = || -> io::Result<()> {
-        let mut temporary = tempfile::Builder::new()
-            .prefix(".trackdyn-")
-            .permissions(permissions())
-            .tempfile_in(folder)?;
+    let mut replace = || -> io::Result<()> {
+        let mut temporary = builder.prefix(".trackdyn-").tempfile_in(folder)?;
         temporary.write_all(contents)?;
         temporary.persist(path).map_err(|failure| failure.error)?;
         Ok(())
     };
-    write().map_err(|cause| OutputError { path: path.to_owned(), cause })
+    replace().map_err(|cause| OutputError { path: path.to_owned(), cause })
 }
 
 /// Waits until no file is being written, and lets none be begun while what it gives is kept.
@@ -95,6 +108,18 @@ mod tests {
         write_file(&path, b"short").expect("written");
         assert_eq!(std::fs::read(&path).expect("readable"), b"short");
         assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_private_file_is_its_owners() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let mode = |path: &Path| std::fs::metadata(path).expect("there").permissions().mode();
+        let [private, other] = ["x.key", "x.toml"].map(|name| folder.path().join(name));
+        write_private(&private, b"0123").expect("written");
+        write_file(&other, b"0123").expect("written");
+        assert_eq!([mode(&private), mode(&other)].map(|mode| mode & 0o777), [0o600, 0o644]);
     }
 
     #[test]

@@ -180,17 +180,6 @@ fn penalty(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Evidence) -
 }
 
 impl Fit {
-    /// Whether a number of an effect ended at the limit of its physical range.
-    pub fn is_at_limit(&self, unknown: Unknown) -> bool {
-        /// Part of the range that is rounding.
-        const ROUNDING: f64 = 1e-6;
-        let value = self.hypothesis.get(unknown);
-        unknown.parameter().is_some_and(|parameter| {
-            let [low, high] = parameter.range;
-            (value - low).min(high - value) <= ROUNDING * (high - low)
-        })
-    }
-
     /// Fits the unknowns of a hypothesis, from its numbers on. `before` is the mechanics of a hypothesis that
     /// resembles it ([`Mechanics::beside`]).
     pub fn new(
@@ -201,6 +190,17 @@ impl Fit {
     ) -> Self {
         let start = Point::new(start, unknowns, evidence, before);
         Self::from_point(start, unknowns, evidence)
+    }
+
+    /// Whether a number of an effect ended at the limit of its physical range.
+    pub fn is_at_limit(&self, unknown: Unknown) -> bool {
+        /// Part of the range that is rounding.
+        const ROUNDING: f64 = 1e-6;
+        let value = self.hypothesis.get(unknown);
+        unknown.parameter().is_some_and(|parameter| {
+            let [low, high] = parameter.range;
+            (value - low).min(high - value) <= ROUNDING * (high - low)
+        })
     }
 
     /// Fits the unknowns of a hypothesis from this point on.

@@ -133,15 +133,12 @@ fn law(
     let still = after.left_over(form);
     // A law that leaves most of it, breaks what was whole, or fails where nothing was fitted, is none.
     let remains = remainder(&after, &left_over) / remainder(&diagnosis.after, &left_over);
+    let at_limit = |&unknown: &Unknown| unknown.is_of(effect) && found.fit.is_at_limit(unknown);
     let sound = remains < MOST_LEFT
         && still.iter().all(|symmetry| left_over.contains(symmetry))
         && held_out.after < held_out.before
         && found.ln_evidence - best.ln_evidence >= Rules::LN_BAYES_FACTOR
-        && !found
-            .fit
-            .unknowns
-            .iter()
-            .any(|&unknown| unknown.is_of(effect) && found.fit.is_at_limit(unknown));
+        && !found.fit.unknowns.iter().any(at_limit);
     if !sound {
         return None;
     }

@@ -139,7 +139,7 @@ impl OperatingPoints {
 mod tests {
     use super::*;
 
-    /// A line at one speed of the right track, whose yaw rates are straight but for one point and jump where the left track turns back.
+    /// A line at one speed of the right track, whose yaw rates lie in turn on both sides of a straight line, and jump where the left track turns back.
     fn line(count: i32) -> Vec<OperatingPoint> {
         let point = |k: i32| {
             let v_left = 0.1 * f64::from(k) - 0.55;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use std::path::Path;
-use trackdyn_core::output::write_file;
+use trackdyn_core::output::write_private;
 
 /// The key of a trial.
 #[derive(Clone, PartialEq, Eq)]
@@ -32,10 +32,9 @@ impl Key {
     /// Writes the key file, which nobody but its owner reads.
     ///
     /// # Errors
-    /// [`Error::Output`], [`Error::File`].
+    /// [`Error::Output`].
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        write_file(path, format!("{}\n", hexadecimal(&self.0)).as_bytes())?;
-        keep_private(path).map_err(Error::file(path))
+        Ok(write_private(path, format!("{}\n", hexadecimal(&self.0)).as_bytes())?)
     }
 
     /// What a trial with this seed and key is drawn from: SHA-256 of both.
@@ -105,17 +104,6 @@ fn add_stream(seed: [u8; 32], bytes: &[u8]) -> Vec<u8> {
     let mut stream = vec![0; bytes.len()];
     ChaCha20Rng::from_seed(seed).fill_bytes(&mut stream);
     bytes.iter().zip(stream).map(|(byte, key)| byte ^ key).collect()
-}
-
-#[cfg(unix)]
-fn keep_private(path: &Path) -> std::io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o600))
-}
-
-#[cfg(not(unix))]
-fn keep_private(_: &Path) -> std::io::Result<()> {
-    Ok(())
 }
 
 /// SHA-256, hexadecimal.

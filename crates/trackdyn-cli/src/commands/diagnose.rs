@@ -5,7 +5,7 @@ mod summary;
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{RecordingOptions, command_line, read_vehicle};
+use crate::options::{RecordingOptions, command_line, read_vehicle, refuse_for_points};
 use crate::progress::Progress;
 use crate::stderr::say;
 use crate::stdout::show;
@@ -118,13 +118,7 @@ fn subject(
         if !options.more.is_empty() {
             return Err("a table of steady points is diagnosed alone: expected one".into());
         }
-        if let Some(option) = options.recording.given().first() {
-            let name = table.display();
-            return Err(format!(
-                "{option}: {name} holds steady points: expected with recordings of motion only"
-            )
-            .into());
-        }
+        refuse_for_points(&options.recording.given(), &table)?;
         let held_out = options.held_out.as_deref();
         if let Some(list) = held_out.filter(|list| *list != "none") {
             return Err(format!(

@@ -20,8 +20,7 @@ impl Cost {
 
     /// The cost at these parameters, m².
     pub fn at(&self, parameters: &Parameters) -> f64 {
-        let [x_l, x_r, _, alpha_l, alpha_r] = parameters.0;
-        let turn = [alpha_l, alpha_r].map(|alpha| alpha / (x_r - x_l));
+        let turn = parameters.turns();
         let of = |batch: &Batch| {
             if batch.is_within_series(turn) {
                 cost(batch, parameters, self.lever, arc)
@@ -106,10 +105,9 @@ mod tests {
                     x * x + y * y + (0.2 * yaw).powi(2)
                 })
                 .sum();
-            let [x_l, x_r, _, alpha_l, alpha_r] = parameters.0;
-            let turn = [alpha_l, alpha_r].map(|alpha| alpha / (x_r - x_l));
             let cost = Cost::new(&observations, 0.2);
-            let within = cost.batches.iter().all(|batch| batch.is_within_series(turn));
+            let within =
+                cost.batches.iter().all(|batch| batch.is_within_series(parameters.turns()));
             assert_eq!(within, is_within_series);
             let fast = cost.at(&parameters);
             assert!((fast / plain - 1.0).abs() < 1e-9, "{fast} {plain}");

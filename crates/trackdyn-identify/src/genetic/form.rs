@@ -79,8 +79,8 @@ impl Form {
 
     /// The cost at parameters within the ranges, m².
     pub(super) fn at(&self, parameters: &Parameters) -> f64 {
-        let [x_l, x_r, y, alpha_l, alpha_r] = parameters.0;
-        let turn = [alpha_l / (x_r - x_l), alpha_r / (x_r - x_l)];
+        let [x_l, _, y, alpha_l, _] = parameters.0;
+        let turn = parameters.turns();
         let place = if self.free == Free::Icrs { [turn[0], 0.0] } else { turn };
         let [p, e, op, oe, oe_i, pe, pe_i] = self.factors.at(place);
         // |o − α_l P + z E|², z = x_l + i y

@@ -6,34 +6,34 @@ use trackdyn_core::output;
 /// Fingerprint of ids, samples and further columns; the name, the robot and the format do not
 /// count.
 pub(super) fn fingerprint(runs: &[Run]) -> String {
-    let mut bytes = Vec::new();
-    let mut row = Vec::new();
-    for run in runs {
-        bytes.extend(run.id().to_le_bytes());
-        push(run.track_series(), &mut row, &mut bytes);
-        push(run.pose_series(), &mut row, &mut bytes);
-        push(run.imu_series(), &mut row, &mut bytes);
-    }
-    output::fingerprint(&bytes)
+    fingerprint_of(runs, |run, bytes| {
+        push(run.track_series(), bytes);
+        push(run.pose_series(), bytes);
+        push(run.imu_series(), bytes);
+    })
 }
 
 /// Fingerprint of ids and poses: of the driving, however its track speeds are read.
 pub(super) fn pose_fingerprint(runs: &[Run]) -> String {
+    fingerprint_of(runs, |run, bytes| push(run.pose_series(), bytes))
+}
+
+fn fingerprint_of(runs: &[Run], push_series: impl Fn(&Run, &mut Vec<u8>)) -> String {
     let mut bytes = Vec::new();
-    let mut row = Vec::new();
     for run in runs {
         bytes.extend(run.id().to_le_bytes());
-        push(run.pose_series(), &mut row, &mut bytes);
+        push_series(run, &mut bytes);
     }
     output::fingerprint(&bytes)
 }
 
-fn push<S: Sample>(series: &Series<S>, row: &mut Vec<f64>, bytes: &mut Vec<u8>) {
+fn push<S: Sample>(series: &Series<S>, bytes: &mut Vec<u8>) {
+    let mut row = Vec::new();
     bytes.extend((series.samples.len() as u64).to_le_bytes());
     for sample in &series.samples {
         row.clear();
-        sample.push_columns(row);
-        for value in row.iter() {
+        sample.push_columns(&mut row);
+        for value in &row {
             push_number(*value, bytes);
         }
     }

@@ -1,6 +1,7 @@
 //! Words and numbers of a diagnosis.
 
 use crate::panel::ticks::number;
+use trackdyn_diagnose::proposal::words::decimals;
 use trackdyn_diagnose::uncertainty::Interval;
 use trackdyn_physics::CATALOGUE;
 use trackdyn_physics::effect::Symmetry;
@@ -51,14 +52,12 @@ pub(super) fn significant(value: f64, digits: i32) -> String {
 
 /// An estimate and the ends of its interval, to two digits of half of it: a gain that is 1.0023 is not 1.
 pub(super) fn with_interval(interval: &Interval) -> [String; 3] {
-    /// More decimals than these are read as powers of ten.
-    const MOST: usize = 7;
+    /// Smaller ones are read as powers of ten.
+    const LEAST: f64 = 1e-6;
     let numbers = [interval.value, interval.low, interval.high];
-    #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent")]
-    let decimals = (1.0 - ((interval.high - interval.low) / 2.0).log10().floor()) as i32;
-    let decimals = usize::try_from(decimals).unwrap_or(0);
-    if numbers.iter().all(|value| value.is_finite()) && decimals <= MOST {
-        numbers.map(|value| number(value, decimals))
+    let half = (interval.high - interval.low) / 2.0;
+    if half >= LEAST && numbers.iter().all(|value| value.is_finite()) {
+        numbers.map(|value| number(value, decimals(half)))
     } else {
         numbers.map(|value| significant(value, 4))
     }

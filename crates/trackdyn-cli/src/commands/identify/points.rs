@@ -2,7 +2,7 @@
 
 use super::Options;
 use crate::commands::Outcome;
-use crate::options::command_line;
+use crate::options::{command_line, refuse_for_points};
 use crate::stdout::show;
 use std::fmt::Write;
 use std::path::Path;
@@ -24,14 +24,7 @@ const WORST: usize = 5;
 /// # Errors
 /// A message that names the file, line and column.
 pub fn run(path: &Path, vehicle: &VehicleFile, options: &Options) -> Outcome {
-    let given = options.of_motion();
-    if !given.is_empty() {
-        let (given, name) = (given.join(", "), path.display());
-        return Err(format!(
-            "{given}: {name} holds steady points: expected with recordings of motion only"
-        )
-        .into());
-    }
+    refuse_for_points(&options.of_motion(), path)?;
     let table = OperatingPoints::read(path)?;
     prepare_folder(&options.out)?;
     let gauge = vehicle.vehicle.gauge;

@@ -53,7 +53,7 @@ pub struct Options {
 }
 
 /// What the results in a folder hang on.
-#[derive(PartialEq, Serialize, Deserialize)]
+#[derive(Serialize, Deserialize)]
 struct Asked {
     /// The trial: SHA-256 of its answers.
     answers_sha256: String,

@@ -8,8 +8,8 @@ use std::error::Error;
 use std::time::Instant;
 use trackdyn_diagnose::diagnosis::STAGES;
 use trackdyn_diagnose::{Evidence, Options, diagnose};
-use trackdyn_field::sensors::Preset;
-use trackdyn_field::{ScheduleKind, ScheduleOptions};
+use trackdyn_drive::sensors::Preset;
+use trackdyn_drive::{ScheduleKind, ScheduleOptions};
 use trackdyn_recording::Recording;
 use trackdyn_tests::concealed::{Drive, named, owned, sensors};
 

@@ -4,7 +4,7 @@ mod paper_case;
 
 use divan::{Bencher, black_box};
 use paper_case::PaperCase;
-use trackdyn_identify::genetic::Cost;
+use trackdyn_estimate::genetic::Cost;
 
 fn main() {
     divan::main();

@@ -13,8 +13,8 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 use std::time::Instant;
-use trackdyn_identify::genetic::Cost;
-use trackdyn_identify::{Observations, Parameters};
+use trackdyn_estimate::genetic::Cost;
+use trackdyn_estimate::{Observations, Parameters};
 
 /// Timings per method.
 const REPEATS: usize = 5;

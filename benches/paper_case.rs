@@ -1,13 +1,13 @@
 //! A recording as long as the paper's: 1807 segments of nine readings of 30 ms, with noise.
 
 use trackdyn_core::PerSide;
-use trackdyn_identify::genetic::GeneticEstimate;
-use trackdyn_identify::least_squares::Loss;
-use trackdyn_identify::weighting::SegmentNoise;
-use trackdyn_identify::{
+use trackdyn_estimate::genetic::GeneticEstimate;
+use trackdyn_estimate::least_squares::Loss;
+use trackdyn_estimate::weighting::SegmentNoise;
+use trackdyn_estimate::{
     Estimate, Free, GeneticOptions, Observations, Parameters, Weighting, genetic, least_squares,
 };
-use trackdyn_motion::Kinematics;
+use trackdyn_model::Kinematics;
 use trackdyn_recording::SegmentOptions;
 use trackdyn_recording::noise::noise;
 use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};

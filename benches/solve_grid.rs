@@ -7,8 +7,8 @@ use std::error::Error;
 use std::io::{BufWriter, Write};
 use std::time::Instant;
 use trackdyn_core::PerSide;
-use trackdyn_motion::{Grid, Solution, Stationary, Status};
-use trackdyn_physics::{Circumstance, Model, VehicleFile};
+use trackdyn_model::{Circumstance, Model, VehicleFile};
+use trackdyn_model::{Grid, Solution, Stationary, Status};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

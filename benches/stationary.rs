@@ -2,8 +2,8 @@
 
 use divan::{Bencher, black_box};
 use trackdyn_core::PerSide;
-use trackdyn_motion::Stationary;
-use trackdyn_physics::{Circumstance, Effects, Model, VehicleFile};
+use trackdyn_model::Stationary;
+use trackdyn_model::{Circumstance, Effects, Model, VehicleFile};
 
 fn main() {
     divan::main();

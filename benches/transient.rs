@@ -2,9 +2,9 @@
 
 use divan::{Bencher, black_box};
 use trackdyn_core::{Plant, Pose};
-use trackdyn_field::{ScheduleKind, ScheduleOptions};
-use trackdyn_motion::Transient;
-use trackdyn_physics::{Effects, Model, VehicleFile};
+use trackdyn_drive::{ScheduleKind, ScheduleOptions};
+use trackdyn_model::Transient;
+use trackdyn_model::{Effects, Model, VehicleFile};
 
 fn main() {
     divan::main();

@@ -9,12 +9,12 @@ use std::f64::consts::PI;
 use trackdyn_core::{Plant, Pose, Trajectory};
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::{Diagnosis, Error, Evidence, Options, diagnose};
-use trackdyn_field::schedules::as_commanded;
-use trackdyn_field::sensors::{PoseFrame, Preset, Sensors, Views};
-use trackdyn_field::{ScheduleKind, ScheduleOptions, ScheduledRun};
-use trackdyn_physics::{CATALOGUE, Effects, Vehicle, VehicleFile};
-use trackdyn_proof::{ActiveMechanism, Robot, Setup};
+use trackdyn_drive::schedules::as_commanded;
+use trackdyn_drive::sensors::{PoseFrame, Preset, Sensors, Views};
+use trackdyn_drive::{ScheduleKind, ScheduleOptions, ScheduledRun};
+use trackdyn_model::{CATALOGUE, Effects, Vehicle, VehicleFile};
 use trackdyn_recording::{Recording, Source, UncheckedRun};
+use trackdyn_second_simulator::{ActiveMechanism, Robot, Setup};
 
 /// Half the width of the square in which runs start, m.
 const START: f64 = 1.5;

@@ -6,8 +6,8 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
-use trackdyn_physics::contact::Friction;
-use trackdyn_physics::{Effects, Model, RunningGear, Uncertainty, Vehicle, VehicleFile};
+use trackdyn_model::contact::Friction;
+use trackdyn_model::{Effects, Model, RunningGear, Uncertainty, Vehicle, VehicleFile};
 use trackdyn_recording::Recording;
 use trackdyn_recording::rosbag::RosbagOptions;
 

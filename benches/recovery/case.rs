@@ -5,12 +5,12 @@ use trackdyn_core::PerSide;
 use trackdyn_diagnose::Diagnosis;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::neutral;
-use trackdyn_field::ScheduleKind;
-use trackdyn_field::sensors::{Preset, Sensors};
-use trackdyn_motion::{Stationary, Status};
-use trackdyn_physics::effect::{Card, Role};
-use trackdyn_physics::{ActiveEffect, CATALOGUE, Circumstance, Model, Vehicle};
-use trackdyn_proof::sheet_of;
+use trackdyn_drive::ScheduleKind;
+use trackdyn_drive::sensors::{Preset, Sensors};
+use trackdyn_model::effect::{Card, Role};
+use trackdyn_model::{ActiveEffect, CATALOGUE, Circumstance, Model, Vehicle};
+use trackdyn_model::{Stationary, Status};
+use trackdyn_second_simulator::sheet_of;
 use trackdyn_tests::concealed::{Drive, diagnosed, members, owned, runs, sensors};
 
 /// The effect that all these sensors have: their poses come late.

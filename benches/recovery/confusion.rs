@@ -3,8 +3,8 @@
 use crate::case::{CLOCK, CONSTANTS, NOTHING};
 use crate::table::{Table, ids, is_refusal};
 use std::fmt::Write;
-use trackdyn_physics::CATALOGUE;
-use trackdyn_physics::effect::Symmetry;
+use trackdyn_model::CATALOGUE;
+use trackdyn_model::effect::Symmetry;
 
 /// Column of answers that nothing of the catalogue explains.
 const UNEXPLAINED: &str = "unexplained";

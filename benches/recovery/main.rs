@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 use table::Table;
 use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_field::ScheduleKind;
+use trackdyn_drive::ScheduleKind;
 
 const USAGE: &str =
     "usage: recovery --out DIR [--only ID,ID,...] [--driving manual|designed] [--runs N]";

@@ -36,7 +36,7 @@ fn vehicle() -> String {
 }
 
 fn fixture(name: &str) -> String {
-    let fixtures = project_file("crates/trackdyn-recording/tests/fixtures");
+    let fixtures = project_file("tests/fixtures/recordings");
     fixtures.join(name).display().to_string()
 }
 

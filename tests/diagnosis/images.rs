@@ -6,9 +6,9 @@ use std::sync::LazyLock;
 use trackdyn_core::Pose;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
-use trackdyn_field::ScheduleKind;
-use trackdyn_field::sensors::Preset;
-use trackdyn_physics::{CATALOGUE, VehicleFile};
+use trackdyn_drive::ScheduleKind;
+use trackdyn_drive::sensors::Preset;
+use trackdyn_model::{CATALOGUE, VehicleFile};
 use trackdyn_recording::{Recording, UncheckedRun};
 use trackdyn_tests::concealed::{Drive, members, named, owned, recording, runs, sensors};
 

@@ -7,13 +7,13 @@ use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::hypothesis::{Hypothesis, Unknown, neutral};
 use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
 use trackdyn_diagnose::{Diagnosis, Evidence};
-use trackdyn_field::ScheduleKind;
-use trackdyn_field::sensors::Preset;
-use trackdyn_identify::weighting::SegmentNoise;
-use trackdyn_motion::Transient;
-use trackdyn_physics::contact::Friction;
-use trackdyn_physics::vehicle::FrictionUncertainty;
-use trackdyn_physics::{ActiveEffect, CATALOGUE, Model, RunningGear};
+use trackdyn_drive::ScheduleKind;
+use trackdyn_drive::sensors::Preset;
+use trackdyn_estimate::weighting::SegmentNoise;
+use trackdyn_model::Transient;
+use trackdyn_model::contact::Friction;
+use trackdyn_model::vehicle::FrictionUncertainty;
+use trackdyn_model::{ActiveEffect, CATALOGUE, Model, RunningGear};
 use trackdyn_tests::concealed::{Drive, INERTIA, diagnosed, named, owned, runs, sensors};
 
 /// What inertia adds is late with belts that lag, without a motion in time of its own for every lag: a hypothesis on the way

@@ -5,8 +5,8 @@ use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::prior::prior;
 use trackdyn_diagnose::uncertainty::Interval;
 use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
-use trackdyn_field::ScheduleKind;
-use trackdyn_field::sensors::Preset;
+use trackdyn_drive::ScheduleKind;
+use trackdyn_drive::sensors::Preset;
 use trackdyn_tests::concealed::{Drive, members, owned, runs, sensors};
 
 /// Other ground in one place: neither its place nor its radius acts in proportion.

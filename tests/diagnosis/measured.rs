@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 use trackdyn_diagnose::diagnosis::Kind;
-use trackdyn_field::ScheduleKind;
-use trackdyn_field::sensors::Preset;
-use trackdyn_physics::VehicleFile;
+use trackdyn_drive::ScheduleKind;
+use trackdyn_drive::sensors::Preset;
+use trackdyn_model::VehicleFile;
 use trackdyn_recording::Recording;
 use trackdyn_tests::concealed::{Drive, diagnosed, named, owned, runs, sensors};
 

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use trackdyn_diagnose::Status;
 use trackdyn_diagnose::diagnosis::Kind;
-use trackdyn_field::ScheduleKind;
-use trackdyn_field::sensors::{Preset, Sensors, Walk};
+use trackdyn_drive::ScheduleKind;
+use trackdyn_drive::sensors::{Preset, Sensors, Walk};
 use trackdyn_recording::StatedNoise;
 use trackdyn_tests::concealed::{Drive, diagnosed, members, owned, runs, sensors};
 

@@ -5,10 +5,10 @@ use trackdyn_core::{Command, PerSide, Schedule};
 use trackdyn_diagnose::Diagnosis;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::document::separate_by;
-use trackdyn_field::ScheduledRun;
-use trackdyn_field::sensors::Preset;
-use trackdyn_motion::Stationary;
-use trackdyn_physics::{Circumstance, Effects, Model, Vehicle};
+use trackdyn_drive::ScheduledRun;
+use trackdyn_drive::sensors::Preset;
+use trackdyn_model::Stationary;
+use trackdyn_model::{Circumstance, Effects, Model, Vehicle};
 use trackdyn_tests::concealed::{Drive, diagnosed, members, named, owned, sensors};
 
 /// Time between commands, s.

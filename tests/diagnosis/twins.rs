@@ -9,9 +9,9 @@ use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::hypothesis::neutral;
 use trackdyn_diagnose::search::{Catalogue, Search};
 use trackdyn_diagnose::verdict::Rules;
-use trackdyn_field::sensors::{Preset, Sensors};
-use trackdyn_field::{ScheduleKind, ScheduleOptions, ScheduledRun};
-use trackdyn_physics::CATALOGUE;
+use trackdyn_drive::sensors::{Preset, Sensors};
+use trackdyn_drive::{ScheduleKind, ScheduleOptions, ScheduledRun};
+use trackdyn_model::CATALOGUE;
 use trackdyn_tests::concealed::{Drive, diagnosed, named, owned, runs, sensors};
 
 /// Effects that only move the constant ICRs, whatever is driven.

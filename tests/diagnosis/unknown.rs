@@ -1,9 +1,9 @@
 //! Laws that the catalogue does not have are located all the same.
 
 use trackdyn_diagnose::{Diagnosis, Status};
-use trackdyn_field::ScheduleKind;
-use trackdyn_field::sensors::Preset;
-use trackdyn_physics::effect::Symmetry;
+use trackdyn_drive::ScheduleKind;
+use trackdyn_drive::sensors::Preset;
+use trackdyn_model::effect::Symmetry;
 use trackdyn_tests::concealed::{Drive, diagnosed, owned, runs, sensors};
 
 fn diagnosis(law: &str, kind: ScheduleKind) -> Diagnosis {

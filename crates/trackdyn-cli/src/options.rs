@@ -5,8 +5,8 @@ use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trackdyn_core::Pose;
 use trackdyn_core::document::Document;
-use trackdyn_physics::effect::{Stage, Symmetry};
-use trackdyn_physics::{ActiveEffect, Circumstance, Effects, Model, VehicleFile};
+use trackdyn_model::effect::{Stage, Symmetry};
+use trackdyn_model::{ActiveEffect, Circumstance, Effects, Model, VehicleFile};
 use trackdyn_recording::rosbag::{JointSignal, RosbagOptions};
 use trackdyn_recording::{Format, Recording, RunList, tum};
 
@@ -365,9 +365,9 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 /// What is wrong with a drive, in the words of the command line.
-pub fn of_drive(error: &trackdyn_field::Error) -> String {
+pub fn of_drive(error: &trackdyn_drive::Error) -> String {
     match error {
-        trackdyn_field::Error::Option { name, value, expected } => {
+        trackdyn_drive::Error::Option { name, value, expected } => {
             format!("--{} {value}: expected {expected}", name.replace('_', "-"))
         }
         other => other.to_string(),

@@ -14,10 +14,8 @@ use crate::normal::{Columns, Normal, Prior};
 use crate::prior::prior;
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::PerSide;
-use trackdyn_motion::{Icrs, Stationary};
-use trackdyn_physics::{
-    ActiveEffect, CATALOGUE, Circumstance, Effects, Model, Vehicle, VehicleFile,
-};
+use trackdyn_model::{ActiveEffect, CATALOGUE, Circumstance, Effects, Model, Vehicle, VehicleFile};
+use trackdyn_model::{Icrs, Stationary};
 
 /// Part of an instrument's signature that must be its own for it to be free beside the others.
 const OWN: f64 = 0.02;

@@ -14,8 +14,8 @@ use crate::prior::area;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
-use trackdyn_physics::effect::{Card, Parameter, Role};
-use trackdyn_physics::{ActiveEffect, CATALOGUE};
+use trackdyn_model::effect::{Card, Parameter, Role};
+use trackdyn_model::{ActiveEffect, CATALOGUE};
 
 /// An effect with one choice of what is no size.
 #[derive(Clone, Debug, PartialEq)]

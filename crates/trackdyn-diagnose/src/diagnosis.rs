@@ -21,8 +21,8 @@ use crate::search::{Found, Screened};
 use crate::uncertainty::{Interval, Level};
 use crate::verdict::Verdict;
 use nalgebra::Vector3;
-use trackdyn_physics::VehicleFile;
-use trackdyn_physics::effect::Symmetry;
+use trackdyn_model::VehicleFile;
+use trackdyn_model::effect::Symmetry;
 
 /// How to diagnose.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use trackdyn_core::document::{Document, DocumentError};
-use trackdyn_motion::kinematics::Source;
-use trackdyn_physics::CATALOGUE;
-use trackdyn_physics::effect::{Card, Symmetry};
+use trackdyn_model::CATALOGUE;
+use trackdyn_model::effect::{Card, Symmetry};
+use trackdyn_model::kinematics::Source;
 
 const SCHEMA: &str = "trackdyn.diagnosis/1";
 

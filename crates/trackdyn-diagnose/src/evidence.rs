@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose};
-use trackdyn_identify::weighting::{Seen, SegmentNoise, Weighting, Whitener};
+use trackdyn_estimate::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 use trackdyn_recording::TrackSample;
 use trackdyn_recording::regular::regularise;
 use trackdyn_recording::robust::deviation_about_zero;

@@ -12,7 +12,7 @@ use crate::normal::{Prior, Solution};
 use crate::prior::priors;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
-use trackdyn_physics::effect::Role;
+use trackdyn_model::effect::Role;
 
 /// Iterations of a fit.
 const ITERATIONS: usize = 6;
@@ -428,7 +428,7 @@ fn spread(solution: &Solution, free: &[usize], priors: &[Prior]) -> Solution {
 mod tests {
     use super::*;
     use crate::hypothesis::unknowns_of;
-    use trackdyn_physics::{CATALOGUE, VehicleFile};
+    use trackdyn_model::{CATALOGUE, VehicleFile};
 
     /// A quotient over no step at all would be no number.
     #[test]

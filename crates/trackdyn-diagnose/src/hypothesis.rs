@@ -1,7 +1,7 @@
 //! A hypothesis: a vehicle, effects with their sizes, and a constant offset of the ICRs.
 
-use trackdyn_physics::effect::{Card, Parameter, Role};
-use trackdyn_physics::{ActiveEffect, CATALOGUE, Effects, Vehicle, VehicleFile};
+use trackdyn_model::effect::{Card, Parameter, Role};
+use trackdyn_model::{ActiveEffect, CATALOGUE, Effects, Vehicle, VehicleFile};
 
 /// What is supposed.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use crate::diagnosis::Detectable;
 use crate::hypothesis::{Unknown, neutral};
 use crate::search::{Found, Screened, Search};
 use nalgebra::DMatrix;
-use trackdyn_physics::CATALOGUE;
+use trackdyn_model::CATALOGUE;
 
 /// Standard deviations by which an effect must stand out to be detectable.
 pub const DETECTED: f64 = 5.0;
@@ -75,7 +75,7 @@ impl Isolability {
         for (k, &unknown) in best.fit.unknowns.iter().enumerate() {
             let Unknown::Effect(_, _) = unknown else { continue };
             let is_size = unknown.parameter().is_some_and(|parameter| {
-                matches!(parameter.role, trackdyn_physics::effect::Role::Size { .. })
+                matches!(parameter.role, trackdyn_model::effect::Role::Size { .. })
             });
             if is_size {
                 sizes.push((unknown, best.fit.solution.covariance[(k, k)].sqrt().recip()));

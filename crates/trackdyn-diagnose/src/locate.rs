@@ -22,7 +22,7 @@ use crate::normal::Prior;
 use crate::significance::{Test, test};
 use nalgebra::Vector3;
 use trackdyn_core::real;
-use trackdyn_physics::effect::Symmetry;
+use trackdyn_model::effect::Symmetry;
 use waves::strongest_wave;
 
 /// Derivatives of a prediction by x_l, x_r and y, not whitened.

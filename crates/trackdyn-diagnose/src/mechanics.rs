@@ -30,10 +30,10 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{Pose, Twist};
-use trackdyn_motion::Transient;
-use trackdyn_physics::contact::Resolution;
-use trackdyn_physics::effect::Stage;
-use trackdyn_physics::{ActiveEffect, Drive, Effects, Model, Sensor, Vehicle};
+use trackdyn_model::Transient;
+use trackdyn_model::contact::Resolution;
+use trackdyn_model::effect::Stage;
+use trackdyn_model::{ActiveEffect, Drive, Effects, Model, Sensor, Vehicle};
 use trackdyn_recording::TrackSample;
 use trackdyn_recording::hold::pieces;
 

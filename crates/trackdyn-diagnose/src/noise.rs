@@ -35,7 +35,7 @@ use crate::fit::Fit;
 use flexible::Flexible;
 use nalgebra::{Cholesky, SMatrix, SVector, Vector3};
 use trackdyn_core::{Pose, real};
-use trackdyn_identify::weighting::SegmentNoise;
+use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_recording::robust::{MEDIAN_OF_CHI_SQUARE, median};
 
 /// Degrees of freedom of the heavy-tailed likelihood.

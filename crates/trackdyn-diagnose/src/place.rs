@@ -5,7 +5,7 @@ use crate::evidence::{Evidence, Sample};
 use crate::huber;
 use crate::locate::{Location, Manoeuvre, Wave};
 use trackdyn_core::real;
-use trackdyn_physics::effect::Symmetry;
+use trackdyn_model::effect::Symmetry;
 
 /// Channels in words, in the order of a motion.
 pub const CHANNELS: [&str; 3] = ["longitudinal", "lateral", "yaw"];

@@ -21,9 +21,9 @@ use nalgebra::DMatrix;
 use rivals::Rival;
 use separation::{Pair, products, shares, squared};
 use trackdyn_core::{Command, PerSide, Pose, Schedule, real};
-use trackdyn_identify::weighting::SegmentNoise;
-use trackdyn_motion::Stationary;
-use trackdyn_physics::{Circumstance, Model, VehicleFile};
+use trackdyn_estimate::weighting::SegmentNoise;
+use trackdyn_model::Stationary;
+use trackdyn_model::{Circumstance, Model, VehicleFile};
 use trackdyn_recording::TrackSample;
 
 /// z from which on two rivals count as told apart.

@@ -3,9 +3,9 @@
 use crate::evidence::Evidence;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, typical_size};
 use crate::normal::Prior;
-use trackdyn_physics::contact::Friction;
-use trackdyn_physics::effect::Role;
-use trackdyn_physics::{CATALOGUE, Circumstance, Model, Vehicle};
+use trackdyn_model::contact::Friction;
+use trackdyn_model::effect::Role;
+use trackdyn_model::{CATALOGUE, Circumstance, Model, Vehicle};
 
 /// What is known of an unknown beforehand, as standard deviation around no effect.
 ///
@@ -123,7 +123,7 @@ pub fn priors(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Evidence
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trackdyn_physics::VehicleFile;
+    use trackdyn_model::VehicleFile;
 
     #[test]
     fn what_is_exact_leaves_a_finite_weight() {

@@ -24,8 +24,8 @@ use crate::uncertainty::{Interval, Uncertainty};
 use crate::verdict::{Rules, Support};
 use selection::{Library, Selected};
 use trackdyn_core::real;
-use trackdyn_physics::effect::{Symmetry, Term};
-use trackdyn_physics::{CATALOGUE, Effects, Model, Vehicle};
+use trackdyn_model::effect::{Symmetry, Term};
+use trackdyn_model::{CATALOGUE, Effects, Model, Vehicle};
 
 /// A law that is proposed for what no effect explains.
 #[derive(Clone)]

@@ -15,9 +15,9 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use table::{Grid, Spacing, Table};
 use trackdyn_core::{PerSide, Side, Twist, real};
-use trackdyn_motion::{Icrs, Near, Stationary, Status};
-use trackdyn_physics::effect::Symmetry;
-use trackdyn_physics::{Circumstance, Model};
+use trackdyn_model::effect::Symmetry;
+use trackdyn_model::{Circumstance, Model};
+use trackdyn_model::{Icrs, Near, Stationary, Status};
 
 /// A table of stationary motions.
 #[derive(Clone, Debug)]
@@ -162,8 +162,8 @@ fn moved(twist: Vector3<f64>, [left, right, y]: &[f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trackdyn_physics::contact::{Friction, Resolution};
-    use trackdyn_physics::{Effects, RunningGear, VehicleFile};
+    use trackdyn_model::contact::{Friction, Resolution};
+    use trackdyn_model::{Effects, RunningGear, VehicleFile};
 
     /// Typical effects by their names, with spaces between.
     fn effects(ids: &str) -> Effects {
@@ -280,7 +280,7 @@ mod tests {
         let speeds = PerSide::new(0.3, 0.8);
         let icrs = |offset: [f64; 3]| {
             let twist = surface.motion(speeds).twist(&offset);
-            trackdyn_motion::Icrs::of_motion(speeds, &twist).expect("turns").to_array()
+            trackdyn_model::Icrs::of_motion(speeds, &twist).expect("turns").to_array()
         };
         let (before, after) = (icrs([0.0; 3]), icrs([0.01, -0.02, 0.03]));
         for (k, by) in [0.01, -0.02, 0.03].into_iter().enumerate() {

@@ -19,8 +19,8 @@ use crate::uncertainty::Interval;
 use rivals::{Rivals, separation};
 use std::cell::LazyCell;
 use support::Change;
-use trackdyn_physics::effect::Role;
-use trackdyn_physics::{ActiveEffect, CATALOGUE, VehicleFile};
+use trackdyn_model::effect::Role;
+use trackdyn_model::{ActiveEffect, CATALOGUE, VehicleFile};
 
 /// Something that was left out, or why it is not claimed.
 #[derive(Clone, Debug)]

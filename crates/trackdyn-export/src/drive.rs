@@ -3,8 +3,8 @@
 use trackdyn_core::PerSide;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::frames::ros_from_paper;
-use trackdyn_motion::icr::Icrs;
-use trackdyn_motion::kinematics::KinematicsFile;
+use trackdyn_model::icr::Icrs;
+use trackdyn_model::kinematics::KinematicsFile;
 
 /// The ideal differential drive that a tracked robot is, seen midway between the ICRs of its tracks.
 ///

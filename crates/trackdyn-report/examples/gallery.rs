@@ -5,11 +5,11 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use trackdyn_core::output;
-use trackdyn_motion::{Grid, IcrMap};
-use trackdyn_physics::contact::Friction;
-use trackdyn_physics::{
+use trackdyn_model::contact::Friction;
+use trackdyn_model::{
     Circumstance, Effects, Model, RunningGear, Uncertainty, Vehicle, VehicleFile,
 };
+use trackdyn_model::{Grid, IcrMap};
 
 type Anything = Box<dyn std::error::Error>;
 

@@ -22,7 +22,7 @@ use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::locate::cells::Cell;
 use trackdyn_diagnose::locate::icr_columns;
 use trackdyn_diagnose::{DiagnosisFile, Evidence};
-use trackdyn_physics::VehicleFile;
+use trackdyn_model::VehicleFile;
 
 pub use html::diagnosis_html;
 

@@ -13,9 +13,9 @@ use crate::colour_bar;
 use cloud::Cloud;
 use heat_map::HeatMap;
 use trackdyn_core::{PerSide, Side};
-use trackdyn_motion::IcrMap;
-use trackdyn_motion::map::Statistics;
-use trackdyn_physics::Model;
+use trackdyn_model::IcrMap;
+use trackdyn_model::Model;
+use trackdyn_model::map::Statistics;
 
 const WIDTH: u16 = 2400;
 const HEIGHT: u16 = 1350;

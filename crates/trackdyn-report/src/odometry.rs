@@ -10,8 +10,8 @@ use crate::colour::GREY;
 use crate::legend;
 use crate::panel::ticks::number;
 use crate::text::{Horizontal, Style, Vertical};
-use trackdyn_odometry::comparison::SetErrors;
-use trackdyn_odometry::{Comparison, ParameterSet};
+use trackdyn_estimate::odometry::comparison::SetErrors;
+use trackdyn_estimate::odometry::{Comparison, ParameterSet};
 
 const WIDTH: u16 = 2400;
 const HEIGHT: u16 = 1350;
@@ -29,7 +29,7 @@ struct Quantity {
     unit: &'static str,
     /// Shown per SI unit.
     scale: f64,
-    of: fn(&SetErrors) -> &trackdyn_odometry::comparison::Component,
+    of: fn(&SetErrors) -> &trackdyn_estimate::odometry::comparison::Component,
 }
 
 /// A replay as a picture: a recorded path with the predicted ones, as in Figs 8-12; how errors grow
@@ -95,8 +95,8 @@ fn heading(canvas: &mut Canvas, result: &Comparison, name: &str, caption: &str) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trackdyn_motion::{Icrs, Kinematics};
-    use trackdyn_odometry::ParameterSet;
+    use trackdyn_estimate::odometry::ParameterSet;
+    use trackdyn_model::{Icrs, Kinematics};
     use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
     fn result(duration: f64, sets: usize) -> Comparison {

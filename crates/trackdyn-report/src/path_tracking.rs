@@ -9,7 +9,7 @@ use crate::colour::GREY;
 use crate::panel::ticks::number;
 use crate::text::{Horizontal, Style, Vertical};
 use crate::{Error, legend};
-use trackdyn_field::{Journey, Path};
+use trackdyn_drive::{Journey, Path};
 
 const WIDTH: u16 = 2400;
 const HEIGHT: u16 = 1350;

@@ -13,9 +13,9 @@ use std::error::Error;
 use std::fmt::Write;
 use std::path::PathBuf;
 use trackdyn_core::document::Document;
-use trackdyn_motion::map::Statistics;
-use trackdyn_motion::{Grid, IcrMap, Status};
-use trackdyn_physics::{Circumstance, VehicleFile};
+use trackdyn_model::map::Statistics;
+use trackdyn_model::{Circumstance, VehicleFile};
+use trackdyn_model::{Grid, IcrMap, Status};
 
 /// Options of `trackdyn check`.
 #[derive(Args)]

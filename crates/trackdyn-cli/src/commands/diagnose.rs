@@ -14,8 +14,8 @@ use std::path::PathBuf;
 use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
 use trackdyn_diagnose::diagnosis::STAGES;
 use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, diagnose};
-use trackdyn_motion::kinematics::Source;
-use trackdyn_physics::VehicleFile;
+use trackdyn_model::VehicleFile;
+use trackdyn_model::kinematics::Source;
 use trackdyn_recording::{OperatingPoints, Recording, RunList};
 
 /// Options of `trackdyn diagnose`.

@@ -14,11 +14,11 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use trackdyn_core::document::Document;
 use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
-use trackdyn_field::tracking::{DriveOptions, Estimate};
-use trackdyn_field::{Ending, Journey, Path, Steering, Tracker, drive};
-use trackdyn_motion::kinematics::KinematicsFile;
-use trackdyn_motion::{Kinematics, Transient};
-use trackdyn_physics::Model;
+use trackdyn_drive::tracking::{DriveOptions, Estimate};
+use trackdyn_drive::{Ending, Journey, Path, Steering, Tracker, drive};
+use trackdyn_model::Model;
+use trackdyn_model::kinematics::KinematicsFile;
+use trackdyn_model::{Kinematics, Transient};
 use trackdyn_report::{TrackedDrive, path_tracking};
 
 /// Options of `trackdyn drive`.
@@ -150,7 +150,7 @@ fn follow(
     tracker: &Tracker,
     steering: &dyn Steering,
     options: &Options,
-) -> Result<Journey, trackdyn_field::Error> {
+) -> Result<Journey, trackdyn_drive::Error> {
     const PARTS: usize = 1000;
     let mut robot = Transient::at_rest(model, 0.0, path.start());
     let estimate = match options.estimate {

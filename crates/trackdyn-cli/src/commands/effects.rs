@@ -5,8 +5,8 @@ use crate::exit::Exit;
 use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
-use trackdyn_physics::effect::{Card, Parameter, Symmetry, Term};
-use trackdyn_physics::{ActiveEffect, CATALOGUE};
+use trackdyn_model::effect::{Card, Parameter, Symmetry, Term};
+use trackdyn_model::{ActiveEffect, CATALOGUE};
 
 /// Options of `trackdyn effects`.
 #[derive(Args)]
@@ -102,7 +102,7 @@ fn card(card: &Card) -> String {
 
 fn markdown() -> String {
     let mut text = "# Effects\n\n\
-        Physics beyond the base model, each in one file of `crates/trackdyn-physics/src/effects`. This page \
+        Physics beyond the base model, each in one file of `crates/trackdyn-model/src/effects`. This page \
         is printed by `trackdyn effects --markdown`.\n\n\
         An effect *breaks* a symmetry when the ICRs change under it: **S** all speeds scaled, **R** all \
         speeds reversed, **P** another manoeuvre, **M** left and right exchanged, **H** another heading, \

@@ -16,11 +16,11 @@ use crate::stdout::show;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_identify::genetic::GeneticOptions;
-use trackdyn_identify::identification::{self, Fit};
-use trackdyn_identify::{Free, Nuisance, identify};
-use trackdyn_motion::kinematics::{KinematicsFile, Source};
-use trackdyn_physics::VehicleFile;
+use trackdyn_estimate::genetic::GeneticOptions;
+use trackdyn_estimate::identification::{self, Fit};
+use trackdyn_estimate::{Free, Nuisance, identify};
+use trackdyn_model::VehicleFile;
+use trackdyn_model::kinematics::{KinematicsFile, Source};
 use trackdyn_recording::{OperatingPoints, Recording};
 
 /// Options of `trackdyn identify`.

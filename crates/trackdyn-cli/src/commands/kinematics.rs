@@ -14,8 +14,8 @@ use std::path::PathBuf;
 use trackdyn_core::document::Document;
 use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{PerSide, Twist};
-use trackdyn_motion::kinematics::{KinematicsFile, Source};
-use trackdyn_motion::{Grid, IcrMap, Kinematics};
+use trackdyn_model::kinematics::{KinematicsFile, Source};
+use trackdyn_model::{Grid, IcrMap, Kinematics};
 
 /// Options of `trackdyn kinematics`.
 #[derive(Args)]

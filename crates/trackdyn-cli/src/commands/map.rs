@@ -14,9 +14,9 @@ use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
 use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
-use trackdyn_motion::kinematics::{GridSource, KinematicsFile, Source};
-use trackdyn_motion::{Grid, IcrMap, Status};
-use trackdyn_physics::VehicleFile;
+use trackdyn_model::VehicleFile;
+use trackdyn_model::kinematics::{GridSource, KinematicsFile, Source};
+use trackdyn_model::{Grid, IcrMap, Status};
 
 /// Options of `trackdyn map`.
 #[derive(Args)]

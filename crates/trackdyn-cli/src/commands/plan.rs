@@ -15,9 +15,9 @@ use trackdyn_core::document::Document;
 use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
 use trackdyn_diagnose::plan::{Options as PlanOptions, Question, STAGES};
 use trackdyn_diagnose::{Error, PlanFile, plan};
-use trackdyn_field::schedules::{self, ScheduledRun};
-use trackdyn_motion::kinematics::Source;
-use trackdyn_physics::VehicleFile;
+use trackdyn_drive::schedules::{self, ScheduledRun};
+use trackdyn_model::VehicleFile;
+use trackdyn_model::kinematics::Source;
 
 /// Options of `trackdyn plan`.
 #[derive(Args)]

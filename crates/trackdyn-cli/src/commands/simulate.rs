@@ -14,13 +14,13 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use trackdyn_core::output::{prepare_folder, write_file};
 use trackdyn_core::{PerSide, Trajectory};
-use trackdyn_field::schedules::{self, ScheduleKind, ScheduleOptions, ScheduledRun, as_commanded};
-use trackdyn_field::sensors::{Preset, Sensors, Views};
-use trackdyn_field::truth;
-use trackdyn_motion::{Stationary, Transient};
-use trackdyn_physics::{Circumstance, Model, VehicleFile};
-use trackdyn_proof::ActiveMechanism;
+use trackdyn_drive::schedules::{self, ScheduleKind, ScheduleOptions, ScheduledRun, as_commanded};
+use trackdyn_drive::sensors::{Preset, Sensors, Views};
+use trackdyn_drive::truth;
+use trackdyn_model::{Circumstance, Model, VehicleFile};
+use trackdyn_model::{Stationary, Transient};
 use trackdyn_recording::{Recording, Source, UncheckedRun, folder};
+use trackdyn_second_simulator::ActiveMechanism;
 
 /// Options of `trackdyn simulate`.
 #[derive(Args)]

@@ -3,8 +3,8 @@
 use super::places::extent;
 use super::{Beside, Signature, Variant, spacing};
 use rayon::prelude::*;
-use trackdyn_physics::CATALOGUE;
-use trackdyn_physics::effect::Role;
+use trackdyn_model::CATALOGUE;
+use trackdyn_model::effect::Role;
 
 /// Rounds of a search.
 const ROUNDS: usize = 6;

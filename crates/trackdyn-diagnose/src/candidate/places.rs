@@ -3,7 +3,7 @@
 use crate::evidence::Evidence;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
-use trackdyn_physics::effect::{Card, Role};
+use trackdyn_model::effect::{Card, Role};
 
 /// Places that are tried of each extent. What lies elsewhere is passed seldom.
 const MOST: usize = 40;
@@ -49,8 +49,8 @@ mod tests {
     use crate::evidence::planned::{PlannedRun, READINGS};
     use nalgebra::Vector3;
     use trackdyn_core::Pose;
-    use trackdyn_identify::weighting::SegmentNoise;
-    use trackdyn_physics::CATALOGUE;
+    use trackdyn_estimate::weighting::SegmentNoise;
+    use trackdyn_model::CATALOGUE;
     use trackdyn_recording::TrackSample;
 
     const NOISE: SegmentNoise = SegmentNoise { pose: [1e-6; 3], walk: [0.0; 3], heading: 0.0 };

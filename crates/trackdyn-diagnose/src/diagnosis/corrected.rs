@@ -5,7 +5,7 @@ use crate::base::correct_constants;
 use crate::hypothesis::with_friction;
 use crate::search::Found;
 use crate::uncertainty::Level;
-use trackdyn_physics::VehicleFile;
+use trackdyn_model::VehicleFile;
 
 /// The vehicle that explains the evidence: the filed one, with what is claimed and the level of friction where it
 /// surely differs. Where the constant ICRs were wrong, friction ratio and centre of gravity stand for all that could

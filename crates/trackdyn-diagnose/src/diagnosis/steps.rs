@@ -20,8 +20,8 @@ use crate::verdict::{
     Constants, Rules, Verdict, judge, judge_constants, judge_instruments, refuse_unsure,
 };
 use std::collections::BTreeSet;
-use trackdyn_physics::VehicleFile;
-use trackdyn_physics::effect::Symmetry;
+use trackdyn_model::VehicleFile;
+use trackdyn_model::effect::Symmetry;
 
 /// Stages that progress is reported of.
 pub const STAGES: [&str; 6] = ["base", "location", "signatures", "search", "verdicts", "limits"];

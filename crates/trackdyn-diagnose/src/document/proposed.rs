@@ -3,8 +3,8 @@
 use super::{ParameterTable, SupportTable, rounded};
 use crate::proposal::Proposal;
 use serde::{Deserialize, Serialize};
-use trackdyn_physics::CATALOGUE;
-use trackdyn_physics::effect::Symmetry;
+use trackdyn_model::CATALOGUE;
+use trackdyn_model::effect::Symmetry;
 
 /// A term of a proposed law.
 #[derive(Clone, Debug, Deserialize, Serialize)]

@@ -3,7 +3,7 @@
 use super::{Evidence, Sample, Whitening};
 use nalgebra::Vector3;
 use trackdyn_core::{PerSide, Pose};
-use trackdyn_identify::weighting::SegmentNoise;
+use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_recording::TrackSample;
 use trackdyn_recording::hold::{held, travelled};
 

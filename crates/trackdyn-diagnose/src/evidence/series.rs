@@ -5,9 +5,9 @@ use crate::error::Error;
 use nalgebra::Vector3;
 use std::borrow::Cow;
 use trackdyn_core::{PerSide, Pose};
-use trackdyn_identify::observations::Observations;
-use trackdyn_identify::spin_test;
-use trackdyn_identify::weighting::{LEAST, SegmentNoise};
+use trackdyn_estimate::observations::Observations;
+use trackdyn_estimate::spin_test;
+use trackdyn_estimate::weighting::{LEAST, SegmentNoise};
 use trackdyn_recording::noise::{Noise, noise};
 use trackdyn_recording::{Clock, Recording, SegmentOptions, TrackSample};
 
@@ -70,7 +70,7 @@ impl Evidence {
             let first = run.poses().partition_point(|pose| pose.t < segment.start);
             let travelled = observations.travelled(segment);
             let pieces = observations.pieces(segment);
-            let change = |speed: fn(&trackdyn_identify::observations::Piece) -> f64| {
+            let change = |speed: fn(&trackdyn_estimate::observations::Piece) -> f64| {
                 let (first, last) =
                     (pieces.first().map_or(0.0, speed), pieces.last().map_or(0.0, speed));
                 (last - first) / segment.duration

@@ -8,7 +8,7 @@ use super::{IcrColumns, past};
 use crate::evidence::{Evidence, Sample};
 use nalgebra::Vector3;
 use trackdyn_core::{PerSide, Side};
-use trackdyn_physics::effect::Symmetry;
+use trackdyn_model::effect::Symmetry;
 use trackdyn_recording::hold::held;
 
 /// Ratio of the slower to the faster track, from −1 (spin) to 1 (straight), beyond which driving counts as
@@ -267,7 +267,7 @@ pub(super) mod tests {
     use super::*;
     use crate::evidence::planned::{PlannedRun, READINGS};
     use trackdyn_core::Pose;
-    use trackdyn_identify::weighting::SegmentNoise;
+    use trackdyn_estimate::weighting::SegmentNoise;
     use trackdyn_recording::TrackSample;
 
     /// Two runs through the same speeds of the left track, one per sample, the right one at 0.3 m/s.

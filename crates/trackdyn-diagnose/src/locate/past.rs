@@ -4,7 +4,7 @@ use super::contrasts::Contrasts;
 use crate::evidence::Evidence;
 use nalgebra::Vector3;
 use trackdyn_core::PerSide;
-use trackdyn_physics::effect::Symmetry;
+use trackdyn_model::effect::Symmetry;
 use trackdyn_recording::hold::held;
 
 /// Times in which the past is forgotten, s.

@@ -5,9 +5,9 @@ use crate::evidence::{Evidence, Sample};
 use crate::surface::Surface;
 use rayon::prelude::*;
 use trackdyn_core::{PerSide, Pose, Side, Twist, Wrench};
-use trackdyn_motion::{Stationary, Status};
-use trackdyn_physics::effect::Role;
-use trackdyn_physics::{ActiveEffect, Circumstance, Drive, Effects, Model, Motion, Vehicle};
+use trackdyn_model::effect::Role;
+use trackdyn_model::{ActiveEffect, Circumstance, Drive, Effects, Model, Motion, Vehicle};
+use trackdyn_model::{Stationary, Status};
 
 /// Where the robot was during a sample.
 fn circumstance(sample: &Sample) -> Circumstance {
@@ -102,8 +102,8 @@ mod tests {
     use crate::mechanics::{Instruments, Mechanics};
     use nalgebra::Vector3;
     use trackdyn_core::real;
-    use trackdyn_identify::weighting::SegmentNoise;
-    use trackdyn_physics::VehicleFile;
+    use trackdyn_estimate::weighting::SegmentNoise;
+    use trackdyn_model::VehicleFile;
     use trackdyn_recording::TrackSample;
 
     fn moves(hypothesis: &Hypothesis, evidence: &Evidence) -> Vec<Vector3<f64>> {

@@ -15,10 +15,10 @@ use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
-use trackdyn_motion::transient::Step;
-use trackdyn_motion::{Forces, Transient};
-use trackdyn_physics::contact::Resolution;
-use trackdyn_physics::{ActiveEffect, CATALOGUE, Circumstance, Drive, Effects, Model, Vehicle};
+use trackdyn_model::contact::Resolution;
+use trackdyn_model::transient::Step;
+use trackdyn_model::{ActiveEffect, CATALOGUE, Circumstance, Drive, Effects, Model, Vehicle};
+use trackdyn_model::{Forces, Transient};
 use trackdyn_recording::TrackSample;
 
 /// Longest steps of a motion in time, and the error of the twist from which on one is halved.

@@ -9,7 +9,7 @@
 //! G(û + D, û̇ + (D − D_b)/(γ h)) = G₀(û, û̇) = 0
 //! ```
 //!
-//! D_b from the stages before, as û has it from its own ([`transient`](trackdyn_motion::transient)). The first stage begins at D as it is in
+//! D_b from the stages before, as û has it from its own ([`transient`](trackdyn_model::transient)). The first stage begins at D as it is in
 //! stationary motion, the second at that of the first, and both with the derivatives of the stage before, by Broyden's method;
 //! a step that, by what the last ones left, ends in balance is taken without a look. Where that leads nowhere, it begins with the
 //! derivatives of the stage itself, which are
@@ -23,9 +23,9 @@
 
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Twist, real};
-use trackdyn_motion::Forces;
-use trackdyn_motion::newton::{self, Convergence, Tolerance};
-use trackdyn_motion::transient::{GAMMA, Instant, Step};
+use trackdyn_model::Forces;
+use trackdyn_model::newton::{self, Convergence, Tolerance};
+use trackdyn_model::transient::{GAMMA, Instant, Step};
 use trackdyn_recording::TrackSample;
 
 /// Shares of a step of Newton's method, the first of which that comes nearer to a balance of forces is taken.

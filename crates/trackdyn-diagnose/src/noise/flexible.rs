@@ -9,7 +9,7 @@ use crate::mechanics::{Instruments, Mechanics};
 use crate::normal::{Columns, Normal};
 use nalgebra::Vector3;
 use rayon::prelude::*;
-use trackdyn_identify::weighting::SegmentNoise;
+use trackdyn_estimate::weighting::SegmentNoise;
 
 /// The residual of a fit, and all that driving could explain of it. Nothing is white.
 pub(super) struct Flexible {

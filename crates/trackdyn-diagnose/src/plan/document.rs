@@ -2,8 +2,8 @@
 
 use super::{Answer, Options, Plan, measurement, rounded};
 use serde::Serialize;
-use trackdyn_motion::kinematics::Source;
-use trackdyn_physics::CATALOGUE;
+use trackdyn_model::CATALOGUE;
+use trackdyn_model::kinematics::Source;
 
 /// A plan file.
 #[derive(Clone, Debug, Serialize)]

@@ -6,8 +6,8 @@ use crate::hypothesis::neutral;
 use serde::Deserialize;
 use toml::Spanned;
 use trackdyn_core::document::{Document, DocumentError};
-use trackdyn_physics::effect::Role;
-use trackdyn_physics::{CATALOGUE, effect::Stage};
+use trackdyn_model::effect::Role;
+use trackdyn_model::{CATALOGUE, effect::Stage};
 
 /// What of a diagnosis file is asked, with its places.
 #[derive(Deserialize)]
@@ -75,7 +75,7 @@ impl Question {
             members.sort_unstable();
             members.dedup();
             let card = &CATALOGUE[effect];
-            let typical = |p: &trackdyn_physics::effect::Parameter| p.typical;
+            let typical = |p: &trackdyn_model::effect::Parameter| p.typical;
             let mut values: Vec<f64> = card.parameters.iter().map(typical).collect();
             for StatedParameter { name, value } in &missing.parameters {
                 let known = card.parameters.iter().position(|p| p.key == name.get_ref());
@@ -97,7 +97,7 @@ impl Question {
             }
             // Sizes of none are no question.
             let sizes = card.parameters.iter().zip(&values);
-            let is_there = |(parameter, value): (&trackdyn_physics::effect::Parameter, &f64)| {
+            let is_there = |(parameter, value): (&trackdyn_model::effect::Parameter, &f64)| {
                 matches!(parameter.role, Role::Size { .. }) && *value != neutral(parameter)
             };
             if members.len() > 1 && sizes.into_iter().any(is_there) {

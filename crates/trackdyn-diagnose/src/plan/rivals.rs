@@ -9,7 +9,7 @@ use crate::hypothesis::{Hypothesis, Unknown, active, typical, unknowns_of};
 use crate::mechanics::{Instruments, Mechanics, is_instrument};
 use crate::search::{Catalogue, Search};
 use nalgebra::Vector3;
-use trackdyn_physics::{CATALOGUE, VehicleFile};
+use trackdyn_model::{CATALOGUE, VehicleFile};
 
 /// One of the members of a class.
 #[derive(Clone)]

@@ -2,7 +2,7 @@
 
 use super::*;
 use trackdyn_core::document::Document;
-use trackdyn_physics::CATALOGUE;
+use trackdyn_model::CATALOGUE;
 
 /// The question of a diagnosis that names the first of these members, at this size.
 fn question(members: &[&str], parameters: &str) -> Vec<Question> {

@@ -6,7 +6,7 @@ use crate::normal::{Normal, Prior};
 use crate::significance::test;
 use crate::verdict::{Rules, Support};
 use rayon::prelude::*;
-use trackdyn_physics::effect::Term;
+use trackdyn_model::effect::Term;
 
 /// Terms that a law may have.
 const MOST_TERMS: usize = 3;

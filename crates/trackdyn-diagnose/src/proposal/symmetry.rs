@@ -1,7 +1,7 @@
 //! Which terms the symmetries of the evidence admit.
 
 use crate::locate::Location;
-use trackdyn_physics::effect::{Symmetry, Term};
+use trackdyn_model::effect::{Symmetry, Term};
 
 /// Family-wise probability above which evidence clearly keeps a symmetry.
 const CLEAR: f64 = 0.1;

@@ -2,7 +2,7 @@
 
 use super::Proposed;
 use crate::uncertainty::Interval;
-use trackdyn_physics::effect::Pairing;
+use trackdyn_model::effect::Pairing;
 
 /// A number with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,11 +110,11 @@ mod tests {
     use super::*;
     use crate::hypothesis::Unknown;
     use crate::verdict::Support;
-    use trackdyn_physics::CATALOGUE;
+    use trackdyn_model::CATALOGUE;
 
     /// The term of a key, with these coefficients ± 0.004.
     fn proposed(key: &str, values: &[f64]) -> Proposed {
-        let form = CATALOGUE.iter().position(trackdyn_physics::effect::Card::is_form);
+        let form = CATALOGUE.iter().position(trackdyn_model::effect::Card::is_form);
         let effect = form.expect("a form");
         let terms = CATALOGUE[effect].terms();
         let term = terms.into_iter().find(|term| term.key == key).expect("a term");

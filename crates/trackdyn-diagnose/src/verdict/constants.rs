@@ -8,8 +8,8 @@ use crate::prior::measured;
 use crate::search::{Found, Search};
 use std::collections::BTreeMap;
 use trackdyn_core::real;
-use trackdyn_physics::effect::Symmetry;
-use trackdyn_physics::{CATALOGUE, VehicleFile};
+use trackdyn_model::effect::Symmetry;
+use trackdyn_model::{CATALOGUE, VehicleFile};
 
 /// Share of its own beyond constant ICRs below which an effect is of their class.
 const NOTHING_ELSE: f64 = 0.03;

@@ -9,8 +9,8 @@ use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::locate::cells::Cell;
 use trackdyn_diagnose::proposal::Proposal;
 use trackdyn_diagnose::verdict::Verdict;
-use trackdyn_physics::CATALOGUE;
-use trackdyn_physics::effect::Parameter;
+use trackdyn_model::CATALOGUE;
+use trackdyn_model::effect::Parameter;
 
 /// The status in words, and what kind of news it is.
 pub(super) fn status(subject: &Subject) -> [&'static str; 2] {

@@ -7,8 +7,8 @@ use trackdyn_diagnose::candidate;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::search::Screened;
-use trackdyn_physics::CATALOGUE;
-use trackdyn_physics::effect::{Parameter, Role};
+use trackdyn_model::CATALOGUE;
+use trackdyn_model::effect::{Parameter, Role};
 
 /// Gain of ln evidence below which nothing is kept.
 const WORTH: f64 = 3.0;

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::document::separate_by;
 use trackdyn_diagnose::verdict::Rules;
-use trackdyn_physics::CATALOGUE;
+use trackdyn_model::CATALOGUE;
 
 const NAME: &str = "report.html";
 

@@ -13,7 +13,7 @@ use trackdyn_core::Pose;
 use trackdyn_diagnose::Evidence;
 use trackdyn_diagnose::hypothesis::Hypothesis;
 use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
-use trackdyn_physics::VehicleFile;
+use trackdyn_model::VehicleFile;
 
 const HEIGHT: i32 = 1380;
 const PATHS: Area = Area::new(158, sheet::TOP + 130, 960, 900);

@@ -3,8 +3,8 @@
 use crate::panel::ticks::number;
 use trackdyn_diagnose::proposal::words::decimals;
 use trackdyn_diagnose::uncertainty::Interval;
-use trackdyn_physics::CATALOGUE;
-use trackdyn_physics::effect::Symmetry;
+use trackdyn_model::CATALOGUE;
+use trackdyn_model::effect::Symmetry;
 
 /// Channels of a motion.
 pub(super) const CHANNELS: [&str; 3] = ["forward", "left", "yaw"];

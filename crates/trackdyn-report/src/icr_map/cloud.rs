@@ -4,7 +4,7 @@ use crate::canvas::Canvas;
 use crate::colour::{DARK_PLASMA, LAST};
 use crate::panel::Panel;
 use trackdyn_core::Side;
-use trackdyn_motion::IcrMap;
+use trackdyn_model::IcrMap;
 
 /// The ICRs of one track.
 #[derive(Clone, Debug)]

@@ -5,9 +5,9 @@ use crate::canvas::Canvas;
 use crate::colour::{GREY, INK};
 use crate::panel::ticks::number;
 use crate::text::Style;
-use trackdyn_motion::IcrMap;
-use trackdyn_motion::map::Statistics;
-use trackdyn_physics::Model;
+use trackdyn_model::IcrMap;
+use trackdyn_model::Model;
+use trackdyn_model::map::Statistics;
 
 /// Draws the title and the two lines below it, and the caption at the foot.
 pub(super) fn draw(

@@ -5,7 +5,7 @@ use crate::canvas::{Area, Canvas};
 use crate::colour::{LAST, Rgb, VIRIDIS};
 use crate::colour_bar;
 use crate::panel::{Labels, Panel};
-use trackdyn_motion::{IcrMap, Status};
+use trackdyn_model::{IcrMap, Status};
 
 /// Side of a map, pixels.
 const SIDE: i32 = 370;
@@ -17,7 +17,7 @@ const CONSTANT: f64 = 1e-6;
 /// One coordinate over the speeds.
 pub(super) struct HeatMap<'m> {
     map: &'m IcrMap,
-    /// Position in [`trackdyn_motion::Icrs::NAMES`].
+    /// Position in [`trackdyn_model::Icrs::NAMES`].
     coordinate: usize,
     /// Smallest and largest value, m; none where the robot never turns.
     extremes: Option<[f64; 2]>,
@@ -134,8 +134,8 @@ pub(super) fn gap(status: Status, column: i32, row: i32) -> Rgb {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trackdyn_motion::Grid;
-    use trackdyn_physics::{Circumstance, Effects, Model, VehicleFile};
+    use trackdyn_model::Grid;
+    use trackdyn_model::{Circumstance, Effects, Model, VehicleFile};
 
     const CORNER: [i32; 2] = [150, 60];
 

@@ -6,8 +6,8 @@ use crate::colour::{FRAME, GREY, INK, VIRIDIS};
 use crate::panel::ticks::number;
 use crate::text::{Horizontal, Style, Vertical};
 use trackdyn_core::Side;
-use trackdyn_motion::map::Statistics;
-use trackdyn_motion::{IcrMap, Status};
+use trackdyn_model::map::Statistics;
+use trackdyn_model::{IcrMap, Status};
 
 const SIZE: f32 = 25.0;
 /// Distance between lines, pixels.

@@ -7,8 +7,8 @@ use crate::colour::{INK, Rgb, WHITE};
 use crate::panel::{Labels, Panel};
 use crate::text::{Horizontal, Style, Vertical};
 use trackdyn_core::{PerSide, Side};
-use trackdyn_motion::map::Statistics;
-use trackdyn_physics::Model;
+use trackdyn_model::Model;
+use trackdyn_model::map::Statistics;
 
 /// Inside of the hull.
 pub(super) const HULL: Rgb = [240, 241, 243];

@@ -6,7 +6,7 @@ use crate::canvas::{Area, Canvas};
 use crate::colour::FRAME;
 use crate::panel::{Labels, Panel};
 use trackdyn_core::{PerSide, Side};
-use trackdyn_motion::map::Statistics;
+use trackdyn_model::map::Statistics;
 
 /// Smallest half extent, m: rounding must not look like a spread.
 const LEAST: f64 = 0.5e-3;

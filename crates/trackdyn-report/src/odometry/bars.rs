@@ -7,7 +7,7 @@ use crate::look;
 use crate::panel::ticks::{Ticks, number};
 use crate::panel::{LABEL_SIZE, Panel, TICK_SIZE, TITLE_SIZE};
 use crate::text::{Horizontal, Style, Vertical};
-use trackdyn_odometry::Comparison;
+use trackdyn_estimate::odometry::Comparison;
 
 /// Share of its place that a group of bars fills.
 const FILLED: f64 = 0.8;

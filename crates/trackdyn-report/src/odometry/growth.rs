@@ -5,8 +5,8 @@ use crate::Error;
 use crate::canvas::{Area, Canvas};
 use crate::look;
 use crate::panel::{Labels, Panel};
-use trackdyn_odometry::comparison::SpanErrors;
-use trackdyn_odometry::{Comparison, Span};
+use trackdyn_estimate::odometry::comparison::SpanErrors;
+use trackdyn_estimate::odometry::{Comparison, Span};
 
 /// Distance between neighbouring parameter sets at one length, pixels, where there are few: whiskers that lie
 /// on each other cannot be read.

@@ -7,8 +7,8 @@ use crate::look;
 use crate::panel::ticks::number;
 use crate::panel::{Labels, Panel};
 use trackdyn_core::Pose;
-use trackdyn_odometry::Comparison;
-use trackdyn_odometry::comparison::Path;
+use trackdyn_estimate::odometry::Comparison;
+use trackdyn_estimate::odometry::comparison::Path;
 
 /// Longer paths cross themselves too often to be followed: only their beginning is shown, m.
 const LONGEST: f64 = 15.0;

@@ -5,7 +5,7 @@ use crate::canvas::{Area, Canvas};
 use crate::colour::INK;
 use crate::panel::{Labels, Panel};
 use crate::{Error, look};
-use trackdyn_field::tracking::CrossTrack;
+use trackdyn_drive::tracking::CrossTrack;
 
 /// Where errors reach this, m, they are shown as distances: the side of a leg that is far away says
 /// nothing.

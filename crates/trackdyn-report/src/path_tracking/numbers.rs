@@ -7,8 +7,8 @@ use crate::look;
 use crate::panel::ticks::number;
 use crate::panel::{TICK_SIZE, TITLE_SIZE};
 use crate::text::{Horizontal, Style, Vertical};
-use trackdyn_field::tracking::Summary;
-use trackdyn_field::{Ending, Path};
+use trackdyn_drive::tracking::Summary;
+use trackdyn_drive::{Ending, Path};
 
 /// Names of the columns of numbers.
 const COLUMNS: [&str; 4] = ["rms", "largest", "from the end", "belief off by"];

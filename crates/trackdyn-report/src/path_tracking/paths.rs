@@ -6,7 +6,7 @@ use crate::colour::{INK, WHITE};
 use crate::panel::{Labels, Panel};
 use crate::{Error, look};
 use trackdyn_core::Pose;
-use trackdyn_field::Path;
+use trackdyn_drive::Path;
 
 /// Draws all of them.
 pub(super) fn draw(

@@ -7,9 +7,9 @@ use std::path::PathBuf;
 use toml::Spanned;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::real;
-use trackdyn_motion::Grid;
-use trackdyn_motion::map::{GridError, Statistics};
-use trackdyn_physics::ActiveEffect;
+use trackdyn_model::ActiveEffect;
+use trackdyn_model::Grid;
+use trackdyn_model::map::{GridError, Statistics};
 
 const SCHEMA: &str = "trackdyn.reference/1";
 

@@ -6,7 +6,7 @@ use crate::stderr::say;
 use std::path::Path;
 use trackdyn_core::output::{fingerprint, write_file};
 use trackdyn_diagnose::{Diagnosis, DiagnosisFile};
-use trackdyn_physics::VehicleFile;
+use trackdyn_model::VehicleFile;
 use trackdyn_report::{diagnosis_figures, diagnosis_html};
 
 /// The one figure that not every diagnosis has.

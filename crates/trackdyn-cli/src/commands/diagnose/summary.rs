@@ -10,8 +10,8 @@ use trackdyn_diagnose::proposal::Proposal;
 use trackdyn_diagnose::proposal::words::decimals;
 use trackdyn_diagnose::uncertainty::{Interval, Level};
 use trackdyn_diagnose::{Diagnosis, Evidence, Status};
-use trackdyn_physics::CATALOGUE;
-use trackdyn_physics::effect::Symmetry;
+use trackdyn_model::CATALOGUE;
+use trackdyn_model::effect::Symmetry;
 
 /// Effects whose limits are printed where nothing is missing.
 const LIMITS: usize = 6;

@@ -5,8 +5,8 @@ use crate::tables::Head;
 use serde::Serialize;
 use std::fmt::Write;
 use trackdyn_core::output::fingerprint;
-use trackdyn_field::{Ending, Path, Tracker};
-use trackdyn_physics::VehicleFile;
+use trackdyn_drive::{Ending, Path, Tracker};
+use trackdyn_model::VehicleFile;
 
 #[derive(Serialize)]
 struct File<'a> {

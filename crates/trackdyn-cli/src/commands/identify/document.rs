@@ -3,10 +3,10 @@
 use crate::tables::{ClockTable, rounded};
 use serde::Serialize;
 use trackdyn_core::output::fingerprint;
-use trackdyn_identify::identification::Fit;
-use trackdyn_identify::{Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest};
-use trackdyn_motion::kinematics::Source;
-use trackdyn_physics::VehicleFile;
+use trackdyn_estimate::identification::Fit;
+use trackdyn_estimate::{Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest};
+use trackdyn_model::VehicleFile;
+use trackdyn_model::kinematics::Source;
 use trackdyn_recording::noise::Component;
 use trackdyn_recording::{Interval, Recording};
 

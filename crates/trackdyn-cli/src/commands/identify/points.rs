@@ -8,12 +8,12 @@ use std::fmt::Write;
 use std::path::Path;
 use trackdyn_core::document::Document;
 use trackdyn_core::output::{fingerprint, prepare_folder};
-use trackdyn_identify::least_squares::Loss;
-use trackdyn_identify::steady::{SteadyEstimate, lagging};
-use trackdyn_identify::{Doubt, Error, Free, Parameters, fit_points};
-use trackdyn_motion::Kinematics;
-use trackdyn_motion::kinematics::{KinematicsFile, Source};
-use trackdyn_physics::VehicleFile;
+use trackdyn_estimate::least_squares::Loss;
+use trackdyn_estimate::steady::{SteadyEstimate, lagging};
+use trackdyn_estimate::{Doubt, Error, Free, Parameters, fit_points};
+use trackdyn_model::Kinematics;
+use trackdyn_model::VehicleFile;
+use trackdyn_model::kinematics::{KinematicsFile, Source};
 use trackdyn_recording::{OperatingPoint, OperatingPoints};
 
 /// Points with the largest residuals that are shown.

@@ -1,9 +1,9 @@
 //! The result of an identification as text.
 
 use std::fmt::Write;
-use trackdyn_identify::identification::Fit;
-use trackdyn_identify::{Estimate, Free, Identification, Nuisance, Parameters};
-use trackdyn_physics::Vehicle;
+use trackdyn_estimate::identification::Fit;
+use trackdyn_estimate::{Estimate, Free, Identification, Nuisance, Parameters};
+use trackdyn_model::Vehicle;
 use trackdyn_recording::{Clock, Interval, Recording};
 
 /// One screen: the recording, its clock and noise, the methods side by side.

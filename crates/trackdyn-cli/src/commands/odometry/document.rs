@@ -4,8 +4,8 @@ use super::inputs::Inputs;
 use super::summary::end;
 use crate::tables::{ClockTable, rounded};
 use serde::Serialize;
-use trackdyn_odometry::comparison::{Component, SpanErrors};
-use trackdyn_odometry::{Comparison, Estimate, ParameterSet, Span};
+use trackdyn_estimate::odometry::comparison::{Component, SpanErrors};
+use trackdyn_estimate::odometry::{Comparison, Estimate, ParameterSet, Span};
 use trackdyn_recording::Clock;
 
 #[derive(Serialize)]
@@ -165,12 +165,14 @@ fn of_span<'a>(result: &'a Comparison, errors: &SpanErrors) -> SpanTable<'a> {
         Span::Duration(length) => ("duration", None, Some(length)),
     };
     let of_set =
-        |(set, errors): (&'a ParameterSet, &trackdyn_odometry::comparison::SetErrors)| ErrorTable {
-            name: set.name(),
-            along_m: of_component(&errors.along),
-            across_m: of_component(&errors.across),
-            yaw_rad: of_component(&errors.yaw),
-            position_m: of_component(&errors.position),
+        |(set, errors): (&'a ParameterSet, &trackdyn_estimate::odometry::comparison::SetErrors)| {
+            ErrorTable {
+                name: set.name(),
+                along_m: of_component(&errors.along),
+                across_m: of_component(&errors.across),
+                yaw_rad: of_component(&errors.yaw),
+                position_m: of_component(&errors.position),
+            }
         };
     SpanTable {
         kind,

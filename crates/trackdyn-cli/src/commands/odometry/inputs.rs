@@ -6,9 +6,9 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_core::output::fingerprint;
-use trackdyn_motion::Kinematics;
-use trackdyn_motion::kinematics::{KinematicsFile, Source};
-use trackdyn_odometry::{Comparison, ParameterSet};
+use trackdyn_estimate::odometry::{Comparison, ParameterSet};
+use trackdyn_model::Kinematics;
+use trackdyn_model::kinematics::{KinematicsFile, Source};
 use trackdyn_recording::{Recording, RunList};
 
 /// Files, read and checked.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use trackdyn_diagnose::Plan;
 use trackdyn_diagnose::plan::menu::Manoeuvre;
 use trackdyn_diagnose::plan::{Answer, DECIDED, Separation, measurements};
-use trackdyn_physics::CATALOGUE;
+use trackdyn_model::CATALOGUE;
 
 /// The text of a plan.
 pub fn text(plan: &Plan) -> String {

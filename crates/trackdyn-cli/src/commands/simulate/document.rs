@@ -5,8 +5,8 @@ use crate::tables::Head;
 use serde::Serialize;
 use std::fmt::Write;
 use trackdyn_core::output::fingerprint;
-use trackdyn_field::Sensors;
-use trackdyn_physics::VehicleFile;
+use trackdyn_drive::Sensors;
+use trackdyn_model::VehicleFile;
 use trackdyn_recording::Recording;
 
 #[derive(Serialize)]

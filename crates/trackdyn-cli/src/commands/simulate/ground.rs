@@ -2,9 +2,9 @@
 
 use super::Options;
 use trackdyn_core::{Plant, Schedule, Trajectory};
-use trackdyn_motion::Transient;
-use trackdyn_physics::{ActiveEffect, Model, VehicleFile};
-use trackdyn_proof::{ActiveMechanism, Robot, Setup, sheet_of};
+use trackdyn_model::Transient;
+use trackdyn_model::{ActiveEffect, Model, VehicleFile};
+use trackdyn_second_simulator::{ActiveMechanism, Robot, Setup, sheet_of};
 
 /// The motion of the hull, and the path that the pose sensor takes it to be.
 type Motion = (Trajectory, Trajectory);

@@ -15,14 +15,14 @@ use serde::{Deserialize, Serialize};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use trackdyn_blind_trial::driving::HELD_OUT;
+use trackdyn_blind_trial::revisit::revisit;
+use trackdyn_blind_trial::score::resolution::{open_sets, rates};
+use trackdyn_blind_trial::score::{Judged, Outcome, Revisited, rates_csv, resolution_markdown};
+use trackdyn_blind_trial::{Answers, Diagnosis, Entry, diagnosis, folder};
 use trackdyn_core::Schedule;
 use trackdyn_core::document::Document;
 use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_trial::driving::HELD_OUT;
-use trackdyn_trial::revisit::revisit;
-use trackdyn_trial::score::resolution::{open_sets, rates};
-use trackdyn_trial::score::{Judged, Outcome, Revisited, rates_csv, resolution_markdown};
-use trackdyn_trial::{Answers, Diagnosis, Entry, diagnosis, folder};
 
 /// The recording of the new driving, and the plan for it.
 const AGAIN: &str = "again";
@@ -190,7 +190,7 @@ impl Visit<'_> {
         if !path.exists() {
             return Ok(None);
         }
-        let runs = trackdyn_field::schedules::read(&path)?;
+        let runs = trackdyn_drive::schedules::read(&path)?;
         Ok(runs.into_iter().next().map(|run| run.schedule))
     }
 

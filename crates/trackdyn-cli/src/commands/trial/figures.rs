@@ -1,12 +1,12 @@
 //! Scores as figures.
 
 use std::path::Path;
+use trackdyn_blind_trial::Score;
+use trackdyn_blind_trial::oracle::{DETECTABLE, DISTINCT};
+use trackdyn_blind_trial::score::interval::clopper_pearson;
+use trackdyn_blind_trial::score::{PowerBin, Rate, distinct};
 use trackdyn_core::output::write_file;
 use trackdyn_report::{Entrant, Matrix, Power, Share, Shares, confusion, power, shares};
-use trackdyn_trial::Score;
-use trackdyn_trial::oracle::{DETECTABLE, DISTINCT};
-use trackdyn_trial::score::interval::clopper_pearson;
-use trackdyn_trial::score::{PowerBin, Rate, distinct};
 
 /// Scores with the names of their programs.
 pub type Named<'a> = [(&'a str, &'a Score)];

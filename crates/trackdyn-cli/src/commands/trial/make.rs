@@ -11,8 +11,8 @@ use clap::Args;
 use rayon::prelude::*;
 use std::io;
 use std::path::{Path, PathBuf};
-use trackdyn_trial::driving::RUN_TIME;
-use trackdyn_trial::{Case, Draft, Error, Order, PlannedCase, Stratum, plan};
+use trackdyn_blind_trial::driving::RUN_TIME;
+use trackdyn_blind_trial::{Case, Draft, Error, Order, PlannedCase, Stratum, plan};
 
 /// Most cases.
 const MOST: i64 = 9999;

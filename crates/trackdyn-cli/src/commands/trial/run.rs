@@ -13,9 +13,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::time::{Duration, Instant};
+use trackdyn_blind_trial::driving::HELD_OUT;
+use trackdyn_blind_trial::{Diagnosis, Entry, folder};
 use trackdyn_core::output::write_file;
-use trackdyn_trial::driving::HELD_OUT;
-use trackdyn_trial::{Diagnosis, Entry, folder};
 
 /// Options of `trackdyn trial run`.
 #[derive(Args)]

@@ -7,8 +7,8 @@ use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::{Path, PathBuf};
+use trackdyn_blind_trial::{Entry, Opened, Score, folder, score};
 use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_trial::{Entry, Opened, Score, folder, score};
 
 /// Options of `trackdyn trial score`.
 #[derive(Args)]
@@ -49,7 +49,7 @@ pub fn run(options: &Options) -> Outcome {
     };
     let of = |entry| Ok(Score::of(opened.judge(entry)?));
     let scores: Vec<Score> =
-        entries.iter().map(of).collect::<Result<_, trackdyn_trial::Error>>()?;
+        entries.iter().map(of).collect::<Result<_, trackdyn_blind_trial::Error>>()?;
     let named: Vec<(&str, &Score)> = entries.iter().map(Entry::name).zip(&scores).collect();
     prepare_folder(&out)?;
     let caption =

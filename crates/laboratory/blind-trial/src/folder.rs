@@ -1,0 +1,231 @@
+//! The folder of a trial.
+//!
+//! ```text
+//! DIR/answers.sealed
+//! DIR/commitment.txt
+//! DIR/case-0001/vehicle.toml
+//! DIR/case-0001/recording/{recording.toml,tracks.csv,poses.csv}
+//! ```
+//!
+//! What a diagnosis writes goes to `DIR/case-0001/diagnosis`, and why a process failed to
+//! `DIR/case-0001/failure.txt`; those of another program NAME to `diagnosis.NAME` and `failure.NAME.txt`. Names, layout, rounding and stamps of the files are the same in all cases.
+
+use crate::answer::{Answer, Answers};
+use crate::case::Case;
+use crate::diagnosis::Diagnosis;
+use crate::entry::Entry;
+use crate::error::Error;
+use crate::key::Key;
+use crate::score::{Judged, Reply};
+use crate::seal::{self, Commitment};
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+use trackdyn_core::document::Document;
+use trackdyn_core::output::{fingerprint, write_file};
+use trackdyn_model::{Vehicle, VehicleFile};
+use trackdyn_recording::folder;
+
+/// The sealed answers.
+pub const SEALED: &str = "answers.sealed";
+/// The published hashes.
+pub const COMMITMENT: &str = "commitment.txt";
+/// The recording of a case.
+pub const RECORDING: &str = "recording";
+/// The vehicle of a case.
+pub const VEHICLE: &str = "vehicle.toml";
+/// What this project's own diagnosis of a case wrote.
+pub const DIAGNOSIS: &str = "diagnosis";
+/// Stamp of all files: 1 December 2005, when the paper's issue had appeared, s of Unix time.
+const STAMP: u64 = 1_133_395_200;
+
+/// Writes what a diagnosis gets of a case to a folder.
+///
+/// # Errors
+/// [`Error::Output`], [`Error::Recording`].
+pub(crate) fn write_case(home: &Path, case: &Case) -> Result<(), Error> {
+    folder::write(&case.recording, &home.join(RECORDING))?;
+    Ok(write_file(&home.join(VEHICLE), case.vehicle.to_toml().as_bytes())?)
+}
+
+/// Copies what a diagnosis gets of a case from one folder to another, all with the same stamp.
+///
+/// # Errors
+/// [`Error::File`].
+pub(crate) fn copy_case(from: &Path, to: &Path) -> Result<(), Error> {
+    let recording = to.join(RECORDING);
+    fs::create_dir(&recording).map_err(Error::file(&recording))?;
+    for (source, copy) in files(from).iter().zip(files(to)) {
+        fs::copy(source, copy).map_err(Error::file(source))?;
+    }
+    files(to).iter().chain([&recording, &to.to_owned()]).try_for_each(|path| stamp(path))
+}
+
+/// Makes a folder of this name: filled under another one, and renamed when it is complete.
+///
+/// # Errors
+/// Those of `fill`; [`Error::File`].
+pub(crate) fn place(
+    parent: &Path,
+    name: &str,
+    fill: impl FnOnce(&Path) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let partial = parent.join(format!(".{name}"));
+    if partial.exists() {
+        fs::remove_dir_all(&partial).map_err(Error::file(&partial))?;
+    }
+    fs::create_dir(&partial).map_err(Error::file(&partial))?;
+    fill(&partial)?;
+    let complete = parent.join(name);
+    fs::rename(&partial, &complete).map_err(Error::file(complete))
+}
+
+/// Seals the answers into the folder of a trial, and publishes the commitment.
+///
+/// # Errors
+/// [`Error::Output`].
+///
+/// # Panics
+/// Never: hashes are TOML.
+pub fn write_answers(trial: &Path, answers: &Answers, key: &Key) -> Result<Commitment, Error> {
+    let (sealed, commitment) = seal::seal(&seal::text(answers), key);
+    write_file(&trial.join(SEALED), &sealed)?;
+    let text = toml::to_string(&commitment).expect("texts are TOML");
+    write_file(&trial.join(COMMITMENT), text.as_bytes())?;
+    Ok(commitment)
+}
+
+/// Opens the answers of a trial with the key in a file.
+/// With them comes their text.
+///
+/// # Errors
+/// Those of [`seal::open`] and [`Key::read`]; [`Error::File`], [`Error::Document`].
+pub fn open_answers(trial: &Path, key: &Path) -> Result<(Answers, String), Error> {
+    let path = trial.join(SEALED);
+    let sealed = fs::read(&path).map_err(Error::file(path))?;
+    seal::open(&sealed, &Key::read(key)?, &commitment(trial)?)
+}
+
+/// What is committed to: there as soon as the trial is complete.
+///
+/// # Errors
+/// [`Error::Document`].
+pub fn commitment(trial: &Path) -> Result<Commitment, Error> {
+    Ok(Document::read(&trial.join(COMMITMENT))?.parse()?)
+}
+
+/// The cases of a trial, in the order of their names.
+///
+/// # Errors
+/// [`Error::File`], or [`Error::NoCases`].
+pub fn cases(trial: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(trial).map_err(Error::file(trial))? {
+        let path = entry.map_err(Error::file(trial))?.path();
+        let is_case =
+            path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("case-"));
+        if is_case && path.join(RECORDING).is_dir() {
+            found.push(path);
+        }
+    }
+    if found.is_empty() {
+        return Err(Error::NoCases { path: trial.to_owned() });
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// Puts what came back of every case from a program beside its answer.
+///
+/// # Errors
+/// [`Error::OtherFiles`] or [`Error::OtherRecording`] where files were changed after the answers were sealed; files that
+/// cannot be read.
+pub fn judge(trial: &Path, answers: &Answers, entry: &Entry) -> Result<Vec<Judged>, Error> {
+    answers.cases.iter().map(|answer| judge_case(trial, answer, entry)).collect()
+}
+
+fn judge_case(trial: &Path, answer: &Answer, entry: &Entry) -> Result<Judged, Error> {
+    let home = trial.join(&answer.id);
+    if !answer.files.is_empty() {
+        let found = fingerprint_of(&home)?;
+        if found != answer.files {
+            let (case, sealed) = (answer.id.clone(), answer.files.clone());
+            return Err(Error::OtherFiles { case, found, sealed });
+        }
+    }
+    let recording = folder::read(&home.join(RECORDING))?;
+    if recording.fingerprint() != answer.recording {
+        return Err(Error::OtherRecording {
+            case: answer.id.clone(),
+            found: recording.fingerprint().to_owned(),
+            sealed: answer.recording.clone(),
+        });
+    }
+    let owned = VehicleFile::from_document(&Document::read(&home.join(VEHICLE))?)?;
+    let truth = Document::new(format!("{}, sealed vehicle", answer.id), &answer.vehicle);
+    let truth = VehicleFile::from_document(&truth)?;
+    let reply = if entry.has_diagnosed(&home) {
+        match Diagnosis::read(&entry.diagnosis(&home)) {
+            Ok(diagnosis) => Reply::Diagnosed(Box::new(diagnosis)),
+            Err(error) => Reply::Failed(error.to_string()),
+        }
+    } else if entry.has_failed(&home) {
+        let failure = entry.failure(&home);
+        Reply::Failed(fs::read_to_string(&failure).map_err(Error::file(failure))?)
+    } else {
+        Reply::Absent
+    };
+    let owner_errors = owner_errors(&owned.vehicle, &truth.vehicle);
+    let outside = outside(&home)?;
+    Ok(Judged { answer: answer.clone(), owner_errors, outside, reply })
+}
+
+/// The files that a diagnosis gets of a case.
+fn files(home: &Path) -> [PathBuf; 4] {
+    let recording = home.join(RECORDING);
+    let [manifest, tracks, poses] =
+        ["recording.toml", "tracks.csv", "poses.csv"].map(|name| recording.join(name));
+    [manifest, tracks, poses, home.join(VEHICLE)]
+}
+
+/// Fingerprint of the files that a diagnosis gets of a case.
+///
+/// # Errors
+/// [`Error::File`].
+pub(crate) fn fingerprint_of(home: &Path) -> Result<String, Error> {
+    let mut bytes = Vec::new();
+    for path in files(home) {
+        bytes.extend(fs::read(&path).map_err(Error::file(path))?);
+    }
+    Ok(fingerprint(&bytes))
+}
+
+/// Sizes (bytes) and stamps (s of Unix time) of the files of a case.
+fn outside(home: &Path) -> Result<Vec<f64>, Error> {
+    let mut shown = Vec::new();
+    for path in files(home) {
+        let file = fs::metadata(&path).map_err(Error::file(&path))?;
+        let stamp = file.modified().map_err(Error::file(&path))?;
+        let stamp = stamp.duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
+        #[expect(clippy::cast_precision_loss, reason = "sizes stay far below 2⁵³")]
+        shown.extend([file.len() as f64, stamp.as_secs_f64()]);
+    }
+    Ok(shown)
+}
+
+/// Effects of the class of constants by which a vehicle file is off.
+fn owner_errors(owned: &Vehicle, truth: &Vehicle) -> Vec<&'static str> {
+    let mut errors = Vec::new();
+    if owned.cog != truth.cog {
+        errors.push("cog-shift");
+    }
+    if owned.friction != truth.friction {
+        errors.push("friction-anisotropy");
+    }
+    errors
+}
+
+fn stamp(path: &Path) -> Result<(), Error> {
+    let time = SystemTime::UNIX_EPOCH + Duration::from_secs(STAMP);
+    File::open(path).and_then(|file| file.set_modified(time)).map_err(Error::file(path))
+}

@@ -1,0 +1,199 @@
+//! The instruments of a case: how good they are, and what the recording says of that.
+
+use crate::ground::Driven;
+use crate::plan::Difficulty;
+use crate::random::{happens, log_uniform, normal, sign, uniform};
+use rand_chacha::ChaCha8Rng;
+use trackdyn_drive::sensors::{PoseFrame, Preset, Sensors, Walk};
+use trackdyn_estimate::weighting::SegmentNoise;
+use trackdyn_recording::StatedNoise;
+use trackdyn_second_simulator::ActiveMechanism;
+
+/// Sensors, their mounting, and what is said of them.
+#[derive(Clone, Debug)]
+pub(crate) struct Instruments {
+    /// The sensors.
+    pub(crate) sensors: Sensors,
+    /// Errors that are mechanisms of the catalogue: mount, scale, clock, drift.
+    pub(crate) errors: Vec<ActiveMechanism>,
+    /// What the recording states: all do, for a line more would tell a recording from others.
+    pub(crate) stated: StatedNoise,
+}
+
+/// Instruments of most cases are slightly off, whether something is concealed or not.
+const OFTEN: [(f64, Small); 3] = [
+    (0.35, Small::EncoderScale(0.005)),
+    (0.3, Small::LeverArm(0.05)),
+    (0.2, Small::SensorYaw(0.5)),
+];
+
+/// Small errors with their standard deviations: 1, m, degrees.
+#[derive(Clone, Copy)]
+enum Small {
+    EncoderScale(f64),
+    LeverArm(f64),
+    SensorYaw(f64),
+}
+
+impl Instruments {
+    /// Sensors of a preset with noise of 0.6 to 1.6 times it. `difficulty` is that of a hard null, beside small errors of
+    /// other instruments; a plain null has perfect mounts and clocks.
+    pub(crate) fn draw(
+        difficulty: Option<Difficulty>,
+        is_plain: bool,
+        gauge: f64,
+        random: &mut ChaCha8Rng,
+    ) -> Self {
+        let preset = if happens(random, 0.65) { Preset::Laboratory } else { Preset::Field };
+        let mut sensors = preset.sensors();
+        sensors.imu = None;
+        // places and headings must be those of one world
+        sensors.pose.frame = PoseFrame::World;
+        let factor = log_uniform(random, 0.6, 1.6);
+        let pose = &mut sensors.pose;
+        pose.white.position *= factor;
+        pose.white.yaw *= factor;
+        pose.walk.position *= factor;
+        pose.walk.yaw *= factor;
+        // what is written down of a walk, and what the oracle whitens by, has no memory
+        pose.walk.memory = None;
+        if is_plain {
+            sensors.pose.delay -= sensors.clock_offset();
+        }
+        let pose = &mut sensors.pose;
+        // drawn whether used or not, so that what follows does not hang on it
+        let small = OFTEN.map(|(share, small)| {
+            let (used, first, second) = (happens(random, share), normal(random), normal(random));
+            (used && !is_plain).then(|| small.error(first, second, gauge))
+        });
+        let mut errors = Vec::new();
+        let mut stated = StatedNoise { position: pose.white.position, yaw: pose.white.yaw };
+        match difficulty {
+            Some(Difficulty::NoiseStatement) => {
+                let factor = 2.0_f64.powf(sign(random));
+                stated =
+                    StatedNoise { position: stated.position * factor, yaw: stated.yaw * factor };
+            }
+            Some(Difficulty::Outliers) => {
+                pose.outlier.share = uniform(random, 0.02, 0.05);
+                let size = uniform(random, 10.0, 40.0);
+                pose.outlier.position = size * pose.white.position;
+                pose.outlier.yaw = size * pose.white.yaw;
+            }
+            Some(Difficulty::ColouredNoise) => {
+                let memory = log_uniform(random, 0.5, 5.0);
+                // a lasting standard deviation of one to three times the white one
+                let size = uniform(random, 1.0, 3.0) * (2.0 / memory).sqrt();
+                pose.walk = Walk {
+                    position: size * pose.white.position,
+                    yaw: size * pose.white.yaw,
+                    memory: Some(memory),
+                };
+            }
+            Some(other) => errors.extend(of_difficulty(other, gauge, random)),
+            None => {}
+        }
+        for error in small.into_iter().flatten() {
+            let is_there = |other: &ActiveMechanism| other.sheet().id == error.sheet().id;
+            if !errors.iter().any(is_there) {
+                errors.push(error);
+            }
+        }
+        Self { sensors, errors, stated }
+    }
+
+    /// The noise that the recording truly has, for segments of a robot that moves like this with a
+    /// distance `gap` (m) between the ICRs.
+    ///
+    /// # Law
+    /// White noise of a pose, and what jitter of its stamp and of the encoders' makes of the speeds;
+    /// travel is known to a tick, q²/12 at each end of a segment and each side; the walk per second.
+    pub(crate) fn noise(&self, driven: &[Driven], gap: f64) -> SegmentNoise {
+        let [speed, rate] = mean_squares(driven);
+        let (pose, encoder) = (&self.sensors.pose, &self.sensors.encoder);
+        let jitter = pose.jitter.powi(2) + encoder.jitter.powi(2);
+        let tick = encoder.tick.powi(2) / 12.0;
+        let (position, yaw) = (pose.white.position.powi(2), pose.white.yaw.powi(2));
+        let walk = pose.walk.position.powi(2);
+        SegmentNoise {
+            pose: [
+                position + speed * jitter + tick / 2.0,
+                position,
+                yaw + rate * jitter + 2.0 * tick / gap.powi(2),
+            ],
+            walk: [walk, walk, 0.0],
+            heading: pose.walk.yaw.powi(2),
+        }
+    }
+
+    /// Share of the time in which poses are there.
+    pub(crate) fn presence(&self) -> f64 {
+        1.0 - self.sensors.pose.dropout.share
+    }
+}
+
+impl Small {
+    fn error(self, first: f64, second: f64, gauge: f64) -> ActiveMechanism {
+        match self {
+            Self::EncoderScale(size) => scale(1.0 + size * first, 1.0 + size * second),
+            Self::LeverArm(size) => {
+                lever(size * gauge / 0.42 * first, size * gauge / 0.42 * second)
+            }
+            Self::SensorYaw(size) => mechanism("sensor-yaw", &[("yaw_deg", size * first)]),
+        }
+    }
+}
+
+fn of_difficulty(
+    difficulty: Difficulty,
+    gauge: f64,
+    random: &mut ChaCha8Rng,
+) -> Vec<ActiveMechanism> {
+    let mut signed = |low: f64, high: f64| sign(random) * uniform(random, low, high);
+    match difficulty {
+        Difficulty::LeverArm => {
+            vec![lever(gauge * signed(0.1, 0.5), gauge * signed(0.1, 0.5))]
+        }
+        Difficulty::EncoderScale => vec![scale(1.0 + signed(0.01, 0.04), 1.0 + signed(0.01, 0.04))],
+        Difficulty::ClockAndYaw => vec![
+            mechanism("time-offset", &[("delay_s", signed(0.03, 0.15))]),
+            mechanism("sensor-yaw", &[("yaw_deg", signed(0.5, 3.0))]),
+        ],
+        Difficulty::HeadingDrift => {
+            vec![mechanism("heading-drift", &[("rate_deg_per_s", signed(0.05, 0.4))])]
+        }
+        Difficulty::NoiseStatement | Difficulty::Outliers | Difficulty::ColouredNoise => Vec::new(),
+    }
+}
+
+fn scale(left: f64, right: f64) -> ActiveMechanism {
+    mechanism("encoder-scale", &[("left", left), ("right", right)])
+}
+
+fn lever(x: f64, y: f64) -> ActiveMechanism {
+    mechanism("sensor-lever-arm", &[("x_m", x), ("y_m", y)])
+}
+
+/// A mechanism whose parameters are in range.
+pub(crate) fn mechanism(id: &str, settings: &[(&str, f64)]) -> ActiveMechanism {
+    let settings: Vec<_> =
+        settings.iter().map(|(key, value)| (*key, (value * 1e5).round() / 1e5)).collect();
+    match ActiveMechanism::new(id, &settings) {
+        Ok(active) => active,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// Mean squares of forward speed (m²/s²) and yaw rate (rad²/s²).
+fn mean_squares(driven: &[Driven]) -> [f64; 2] {
+    let (mut time, mut sums) = (0.0, [0.0; 2]);
+    for run in driven {
+        for pair in run.body.moments().windows(2) {
+            let dt = pair[1].t - pair[0].t;
+            time += dt;
+            sums[0] += dt * pair[1].twist.v_x.powi(2);
+            sums[1] += dt * pair[1].twist.w.powi(2);
+        }
+    }
+    sums.map(|sum| if time > 0.0 { sum / time } else { 0.0 })
+}

@@ -1,0 +1,67 @@
+//! What cannot be simulated.
+
+use crate::mechanisms::MECHANISMS;
+use crate::sheet::{Parameter, Sheet};
+use trackdyn_model::VehicleError;
+
+/// A robot that cannot be built.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// No mechanism of this id.
+    #[error("no mechanism \"{0}\": expected one of {ids}", ids = ids())]
+    UnknownMechanism(String),
+    /// No such parameter.
+    #[error("{} has no parameter \"{key}\"; it has {}", sheet.id, sheet.keys())]
+    UnknownParameter {
+        /// The mechanism.
+        sheet: &'static Sheet,
+        /// The key that was given.
+        key: String,
+    },
+    /// A value outside its physical range.
+    #[error(
+        "{}.{} = {value}: expected {} to {} {}",
+        sheet.id, parameter.key, parameter.range[0], parameter.range[1], parameter.unit
+    )]
+    OutOfRange {
+        /// The mechanism.
+        sheet: &'static Sheet,
+        /// Its parameter.
+        parameter: &'static Parameter,
+        /// The value that was given.
+        value: f64,
+    },
+    /// A parameter given twice.
+    #[error("{}.{}: given twice", sheet.id, parameter.key)]
+    RepeatedParameter {
+        /// The mechanism.
+        sheet: &'static Sheet,
+        /// Its parameter.
+        parameter: &'static Parameter,
+    },
+    /// Text that does not name a mechanism.
+    #[error("\"{0}\": expected ID or ID:PARAMETER=VALUE,...")]
+    Malformed(String),
+    /// The same mechanism twice.
+    #[error("{0} is switched on twice")]
+    Repeated(&'static str),
+    /// A vehicle that cannot be.
+    #[error(transparent)]
+    Vehicle(#[from] VehicleError),
+    /// A setting of the simulation that cannot be.
+    #[error("{key} = {value}: expected {expected}")]
+    Setup {
+        /// Its name.
+        key: &'static str,
+        /// Its value.
+        value: f64,
+        /// What was expected.
+        expected: &'static str,
+    },
+}
+
+/// The ids of all mechanisms.
+fn ids() -> String {
+    MECHANISMS.iter().map(|sheet| sheet.id).collect::<Vec<_>>().join(", ")
+}

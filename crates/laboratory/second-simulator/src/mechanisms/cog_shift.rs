@@ -1,0 +1,36 @@
+//! Ballast that shifts the centre of gravity.
+
+use crate::mechanism::{Described, Mechanism};
+use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use trackdyn_model::Vehicle;
+
+/// A payload that nobody entered in the vehicle file.
+#[derive(Clone, Copy, Debug)]
+pub struct CogShift {
+    shift: [f64; 2],
+}
+
+impl Described for CogShift {
+    const SHEET: Sheet = Sheet {
+        id: "cog-shift",
+        origin: Origin::Catalogue,
+        law: "(x_c, y_c) + (x, y)",
+        size: "the same: the weight and the inertia move together",
+        breaks: &[Invariance::Mirror],
+        parameters: &[
+            Parameter { key: "x_m", unit: "m", range: [-1.0, 1.0], typical: 0.02 },
+            Parameter { key: "y_m", unit: "m", range: [-2.0, 2.0], typical: 0.03 },
+        ],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { shift: [values[0], values[1]] }
+    }
+}
+
+impl Mechanism for CogShift {
+    fn build(&self, vehicle: &mut Vehicle) {
+        vehicle.cog[0] += self.shift[0];
+        vehicle.cog[1] += self.shift[1];
+    }
+}

@@ -1,0 +1,175 @@
+//! All that a recording says of the kinematic parameters: the methods side by side.
+
+use crate::doubt::Doubt;
+use crate::error::Error;
+use crate::genetic::{GeneticEstimate, GeneticOptions, genetic};
+use crate::least_squares::{
+    Estimate, Loss, Unknowns, doubts, estimate_at, lacks, lacks_nuisance, least_squares,
+    nuisance_doubts,
+};
+use crate::observations::Observations;
+use crate::parameters::{Free, Parameters};
+use crate::sensor::Nuisance;
+use crate::spin_test::{SpinTest, spin_test};
+use crate::weighting::{SegmentNoise, Weighting};
+use trackdyn_model::Kinematics;
+use trackdyn_recording::noise::{Noise, noise};
+use trackdyn_recording::{Clock, Recording, SegmentOptions};
+
+/// How to identify.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Gauge of the vehicle, m.
+    pub gauge: f64,
+    /// Clock offset of the poses, s; none: estimated.
+    pub tau: Option<f64>,
+    /// Time for which the tracks must have run steadily before a segment counts, s; none: all count.
+    pub settle: Option<f64>,
+    /// Properties of the pose sensor to fit beside the kinematic parameters.
+    pub nuisances: Vec<Nuisance>,
+    /// The genetic algorithm.
+    pub genetic: GeneticOptions,
+}
+
+/// The parameters with one choice of what is free.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// Which parameters are free.
+    pub free: Free,
+    /// The genetic algorithm's, by the cost (17).
+    pub genetic: GeneticEstimate,
+    /// The same with the uncertainty that the cost (17) has there.
+    pub genetic_estimate: Estimate,
+    /// Least squares by the noise, or why not.
+    pub least_squares: Result<Estimate, Error>,
+    /// Why the recording does not determine them; empty where it does.
+    pub doubts: Vec<Doubt>,
+    /// Why properties of the sensor that were asked for are not fitted.
+    pub refused: Vec<Doubt>,
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Identification {
+    /// Clock offset.
+    pub clock: Clock,
+    /// Noise of the recording.
+    pub noise: Noise,
+    /// Whether the weights come from that noise; else all segments count alike.
+    pub weighted_by_noise: bool,
+    /// Segments.
+    pub segments: usize,
+    /// Lever that turns yaw errors into distances in the cost (17): half the gauge, m.
+    pub lever: f64,
+    /// The spin test, or why not.
+    pub spin_test: Result<SpinTest, Error>,
+    /// With the ICRs free, and with the ICRs and α free.
+    pub fits: [Fit; 2],
+}
+
+/// How far a fitted clock offset may go from its start, s: two readings at 20 Hz.
+const TAU_MARGIN: f64 = 0.1;
+
+/// Times that segments are cut anew where the clock offset runs to its margin.
+const CUTS: usize = 5;
+
+/// Runs all methods on a recording. `progress` is told each finished generation of the genetic algorithm,
+/// which runs twice.
+///
+/// # Errors
+/// Too few segments.
+pub fn identify(
+    recording: &Recording,
+    options: &Options,
+    progress: &dyn Fn(usize),
+) -> Result<Identification, Error> {
+    let clock = Clock::of(recording, options.tau);
+    let tau = clock.tau();
+    let tau_margin =
+        if options.nuisances.contains(&Nuisance::TimeOffset) { TAU_MARGIN } else { 0.0 };
+    let segments = SegmentOptions { tau, tau_margin, ..SegmentOptions::default() };
+    let observations = cut(recording, &segments, options);
+    let needed = 4 * Free::IcrsAndAlphas.count();
+    if observations.len() < needed {
+        let parameters = Free::IcrsAndAlphas.count();
+        return Err(Error::TooFewSegments { found: observations.len(), needed, parameters });
+    }
+    let noise = noise(recording, tau);
+    let lever = options.gauge / 2.0;
+    let spin_test = spin_test(&observations, options.gauge);
+    // Only the weights of the encoders' noise hang on it, and they need no more than its size.
+    let gap = spin_test.as_ref().map_or(1.5 * options.gauge, |spin| spin.gap);
+    let stated = recording.stated_noise().map(SegmentNoise::stated);
+    let known = SegmentNoise::measured(&noise, gap).or(stated);
+    let weighted_by_noise = known.is_some();
+    let weighting = known.map_or(Weighting::Distance { lever }, Weighting::Noise);
+
+    let fits = [Free::Icrs, Free::IcrsAndAlphas].map(|free| {
+        let genetic =
+            genetic(&observations, options.gauge, lever, free, &options.genetic, progress);
+        let by_distance = Weighting::Distance { lever };
+        let genetic_estimate =
+            estimate_at(&observations, &genetic.parameters, free, &by_distance, Loss::Squares);
+        let cut = |tau: f64| cut(recording, &SegmentOptions { tau, ..segments }, options);
+        let (least_squares, refused) = if let Some(doubt) = lacks(&observations, &noise, free) {
+            (Err(Error::NotDetermined(doubt)), Vec::new())
+        } else {
+            fit_with_sensor(&observations, &cut, &noise, free, &weighting, options)
+        };
+        let doubts =
+            least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
+        Fit { free, genetic, genetic_estimate, least_squares, doubts, refused }
+    });
+    let segments = observations.len();
+    Ok(Identification { clock, noise, weighted_by_noise, segments, lever, spin_test, fits })
+}
+
+/// The segments at the clock offset of the segment options.
+fn cut(recording: &Recording, segments: &SegmentOptions, options: &Options) -> Observations {
+    match options.settle {
+        Some(settle) => Observations::steady(recording, segments, settle),
+        None => Observations::new(recording, segments),
+    }
+}
+
+/// Least squares with those of the wanted properties of the sensor that the recording shows, and why not
+/// with the others.
+fn fit_with_sensor(
+    observations: &Observations,
+    cut: &dyn Fn(f64) -> Observations,
+    noise: &Noise,
+    free: Free,
+    weighting: &Weighting,
+    options: &Options,
+) -> (Result<Estimate, Error>, Vec<Doubt>) {
+    let start = Parameters::of(&Kinematics::ideal(options.gauge));
+    let mut unknowns = Unknowns::from(free);
+    let mut refused = Vec::new();
+    for &nuisance in &options.nuisances {
+        match lacks_nuisance(observations, noise, nuisance) {
+            Some(doubt) => refused.push(doubt),
+            None => unknowns.nuisances.push(nuisance),
+        }
+    }
+    loop {
+        let fit = |observations: &Observations| {
+            least_squares(observations, &start, &unknowns, weighting, Loss::Huber)
+        };
+        let mut fitted = fit(observations);
+        for _ in 0..CUTS {
+            // Readings are at hand up to the margin: where the offset reaches it, segments are cut anew.
+            let Err(Error::ClockLeaves { tau, .. }) = fitted else { break };
+            fitted = fit(&cut(tau));
+        }
+        let wide = fitted.as_ref().map_or(Vec::new(), nuisance_doubts);
+        if wide.is_empty() {
+            return (fitted, refused);
+        }
+        let is_wide = |nuisance: &Nuisance| {
+            let of = |doubt: &Doubt| matches!(doubt, Doubt::WideNuisance { nuisance: n, .. } if n == nuisance);
+            wide.iter().any(of)
+        };
+        unknowns.nuisances.retain(|nuisance| !is_wide(nuisance));
+        refused.extend(wide);
+    }
+}

@@ -1,0 +1,39 @@
+//! Which numbers: the kinematic parameters of a tracked robot from its recordings.
+//!
+//! - [`observations`]: what a recording shows, segment by segment.
+//! - [`parameters`]: the numbers; [`doubt`]: why a recording does not determine them.
+//! - [`prediction`]: what a kinematic model makes of the same track speeds, with its derivatives.
+//! - [`sensor`]: clock and mount of the pose sensor, which can be fitted beside.
+//! - [`weighting`]: how much a residual counts: the cost (17), or the noise that was measured.
+//! - [`mod@spin_test`], [`mod@genetic`], [`mod@least_squares`]: three ways to the parameters.
+//! - [`steady`]: the parameters from a table of steady operating points.
+//! - [`identification`]: all of them on one recording.
+//! - [`odometry`]: where the robot would be if its parameters were true, against where it was.
+//!
+//! Residual = observed − predicted, in the frame of the segment's first pose (REP-103).
+
+pub mod doubt;
+pub mod error;
+pub mod genetic;
+pub mod identification;
+pub mod least_squares;
+pub mod observations;
+pub mod odometry;
+pub mod parameters;
+pub mod prediction;
+pub mod sensor;
+pub mod spin_test;
+pub mod steady;
+pub mod weighting;
+
+pub use doubt::Doubt;
+pub use error::Error;
+pub use genetic::{GeneticOptions, genetic};
+pub use identification::{Identification, identify};
+pub use least_squares::{Estimate, Unknowns, least_squares};
+pub use observations::Observations;
+pub use parameters::{Free, Parameters};
+pub use sensor::{Nuisance, Sensor};
+pub use spin_test::{SpinTest, spin_test};
+pub use steady::{SteadyEstimate, fit_points};
+pub use weighting::Weighting;

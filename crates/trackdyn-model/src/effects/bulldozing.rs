@@ -1,0 +1,56 @@
+//! Soil pushed aside by tracks that slip sideways.
+
+use crate::contact::ShearStress;
+use crate::effect::{Card, Effect, Parameter, Role, Stage};
+use crate::pipeline::Site;
+use trackdyn_core::Scalar;
+
+/// Sine of the angle of the slip to the track within which the wall of soil changes sides. A force that jumped there could
+/// not balance one that is less than the jump: a robot that speeds up straight ahead would not move at all.
+const CHANGES_SIDES: f64 = 0.01;
+
+/// A resistance to lateral slip that knows its sign alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bulldozing {
+    coefficient: f64,
+}
+
+impl Effect for Bulldozing {
+    const CARD: Card = Card {
+        id: "bulldozing",
+        title: "Soil pushed aside by a slipping track",
+        law: "τ_x = −μ_b p s_x/√(s_x² + (0.01 |s|)²), beside friction",
+        assumes: "The wall of soil grows with the local load and stands up at once; its size does \
+                  not depend on how fast it is pushed.",
+        shows: "Like more friction across, but where the slip is mostly along the track it does \
+                not fade: the ICRs move outwards. It moves the constant ICRs and nothing else: \
+                with the centre of gravity, the friction ratio and their like it forms the class \
+                that ICRs alone cannot split.",
+        breaks: &[],
+        stages: &[Stage::Shear],
+        parameters: &[Parameter {
+            key: "coefficient",
+            symbol: "μ_b",
+            unit: "1",
+            meaning: "lateral resistance over normal pressure",
+            role: Role::Size { neutral: 0.0 },
+            range: [0.0, 1.0],
+            typical: 0.1,
+        }],
+        sources: &[
+            "Hegedus, A simplified method for the determination of bulldozing resistance, LLRL report 61, 1960",
+            "Steeds, Tracked vehicles, Automobile Engineer 40, 1950",
+        ],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { coefficient: values[0] }
+    }
+
+    fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
+        // τ_x = −μ_b p s_x/√(s_x² + (ε |s|)²)
+        let [across, _] = site.slip_direction();
+        let side = across / (across * across + CHANGES_SIDES * CHANGES_SIDES).sqrt();
+        stress.added[0] += site.normal_pressure() * side * -self.coefficient;
+    }
+}

@@ -1,0 +1,90 @@
+//! Friction that needs slip to build up.
+
+use crate::contact::ShearStress;
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
+use crate::pipeline::Site;
+use trackdyn_core::Scalar;
+
+/// Rubber or soil that creeps before it slides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrictionCreep {
+    speed: f64,
+    sharpness: f64,
+}
+
+impl Effect for FrictionCreep {
+    const CARD: Card = Card {
+        id: "friction-creep",
+        title: "Friction that is reached only above a slip speed",
+        law: "τ = −[μ] p (1 − (1 + |s|/(n v_c))^−n) s/|s|",
+        assumes: "Viscous creep at small slip, Coulomb friction at large slip; the same in both \
+                  directions. Friction is full soon above v_c where n is large, as 1 − exp(−|s|/v_c) \
+                  is, and comes slowly, as 1/|s|, where n = 1.",
+        shows: "Slow turns see less friction near the ICRs, which move outwards; fast turns do \
+                not.",
+        breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
+        stages: &[Stage::Shear],
+        parameters: &[
+            Parameter {
+                key: "speed_m_per_s",
+                symbol: "v_c",
+                unit: "m/s",
+                meaning: "slip speed at which friction would be full if it rose on as from rest",
+                role: Role::Size { neutral: 0.0 },
+                range: [1e-5, 2.0],
+                typical: 0.03,
+            },
+            Parameter {
+                key: "sharpness",
+                symbol: "n",
+                unit: "1",
+                meaning: "power of the slip speed with which the rest of friction comes",
+                role: Role::Shape,
+                range: [1.0, 20.0],
+                typical: 20.0,
+            },
+        ],
+        sources: &["Persson, Sliding Friction, 2000", "Dahl, AIAA Journal 14(12), 1976"],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { speed: values[0], sharpness: values[1] }
+    }
+
+    fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
+        stress.scale(self.mobilised(site.slip_speed()));
+    }
+}
+
+impl FrictionCreep {
+    /// Part of full friction at a slip speed, m/s.
+    fn mobilised<S: Scalar>(&self, slip_speed: S) -> S {
+        let Self { speed, sharpness } = *self;
+        // 1 − (1 + |s|/(n v_c))^−n
+        let ratio = slip_speed * (1.0 / (sharpness * speed));
+        -(ratio.ln_1p() * -sharpness).exp_m1()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trackdyn_core::Dual;
+
+    #[test]
+    fn friction_comes_at_once_or_slowly() {
+        let part = |sharpness: f64, slip_speed: f64| -> f64 {
+            FrictionCreep { speed: 0.02, sharpness }.mobilised(slip_speed)
+        };
+        // a hyperbola, and nearly an exponential
+        assert!((part(1.0, 0.06) - 0.75).abs() < 1e-12);
+        assert!((part(20.0, 0.02) - (1.0 - (-1.0_f64).exp())).abs() < 0.01);
+        for sharpness in [1.0, 3.0, 20.0] {
+            assert!((part(sharpness, 2e-8) - 1e-6).abs() < 1e-11, "alike from rest");
+            let quotient = (part(sharpness, 0.0301) - part(sharpness, 0.0299)) / 2e-4;
+            let creep = FrictionCreep { speed: 0.02, sharpness };
+            let slope = creep.mobilised(Dual::<1>::variable(0.03, 0)).gradient[0];
+            assert!((slope / quotient - 1.0).abs() < 1e-5, "{slope} and {quotient}");
+        }
+    }
+}

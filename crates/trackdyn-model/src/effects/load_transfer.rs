@@ -1,0 +1,53 @@
+//! Load transfer of a centre of gravity above the ground.
+
+use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
+use crate::pipeline::Situation;
+use trackdyn_core::Scalar;
+
+/// The weight leans outwards in a turn, and downhill on a slope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadTransfer {
+    cog_height: f64,
+}
+
+impl Effect for LoadTransfer {
+    const CARD: Card = Card {
+        id: "load-transfer",
+        title: "Load transfer of a centre of gravity above the ground",
+        law: "(x_p, y_p) = (x_c, y_c) + h (g_along − a)/g_normal, a = ω × v_cog + dv_cog/dt",
+        assumes: "No suspension: the load shifts at once. dv_cog/dt \
+                  counts where inertia does. The pressure stays linear along the track; \
+                  where it would turn negative the patch lifts and the motion is reported so.",
+        shows: "Fast turns: the outer track gains load, so its ICR comes closer.",
+        breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
+        stages: &[Stage::Load],
+        parameters: &[Parameter {
+            key: "cog_height_m",
+            symbol: "h",
+            unit: "m",
+            meaning: "height of the centre of gravity above the ground",
+            role: Role::Size { neutral: 0.0 },
+            range: [0.0, 5.0],
+            typical: 0.3,
+        }],
+        sources: &[
+            "Balance of moments about the ground plane; Wong, Theory of Ground Vehicles, ch. 6",
+        ],
+    };
+
+    fn from_values(values: &[f64]) -> Self {
+        Self { cog_height: values[0] }
+    }
+
+    fn load<S: Scalar>(&self, situation: &Situation<S>, centre_of_pressure: &mut [S; 2]) {
+        let ground = situation.ground;
+        let (steady, transient) =
+            (situation.steady_acceleration(), situation.transient_acceleration());
+        for (axis, centre) in centre_of_pressure.iter_mut().enumerate() {
+            let a = steady[axis] + transient[axis];
+            // Δ(x_p, y_p) = h (g_along − a)/g_normal
+            *centre +=
+                (-a + ground.gravity_along[axis]) * (self.cog_height / ground.gravity_normal);
+        }
+    }
+}

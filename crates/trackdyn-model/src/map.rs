@@ -1,0 +1,76 @@
+//! The ICR map: stationary motions over a grid of track speeds.
+
+mod grid;
+mod sector;
+mod statistics;
+
+pub use grid::{Grid, GridError};
+pub use sector::Sector;
+pub use statistics::Statistics;
+
+use crate::stationary::{Solution, Stationary, Status};
+use crate::{Circumstance, Model};
+use rayon::prelude::*;
+use trackdyn_core::PerSide;
+
+/// Stationary motions for every pair of track speeds of a grid.
+#[derive(Clone, Debug)]
+pub struct IcrMap {
+    /// The speeds.
+    pub grid: Grid,
+    /// One solution per pair, V_l outermost, both ascending.
+    pub solutions: Vec<Solution>,
+    /// Gauge of the vehicle, m.
+    pub gauge: f64,
+}
+
+impl IcrMap {
+    /// Solves every pair, in parallel. `progress` is told the number of pairs of each finished row.
+    ///
+    /// Each pair is solved on its own from a cold start, so the map does not depend on the number of
+    /// threads.
+    pub fn solve(
+        model: &Model,
+        grid: Grid,
+        circumstance: &Circumstance,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Self {
+        let solver = Stationary::new(model, circumstance);
+        let speeds = grid.speeds();
+        let rows: Vec<Vec<Solution>> = speeds
+            .par_iter()
+            .map(|&left| {
+                let row =
+                    speeds.iter().map(|&right| solver.solve(PerSide::new(left, right))).collect();
+                progress(speeds.len());
+                row
+            })
+            .collect();
+        Self { grid, solutions: rows.concat(), gauge: model.vehicle().gauge }
+    }
+
+    /// The solutions in which the robot turns: only these define ICRs that a motion shows.
+    pub fn turning(&self) -> impl Iterator<Item = &Solution> {
+        self.solutions.iter().filter(|solution| solution.status == Status::Turning)
+    }
+
+    /// Number of solutions of each kind, in the order of [`Status::NAMES`].
+    pub fn counts(&self) -> [usize; 5] {
+        let mut counts = [0; 5];
+        for solution in &self.solutions {
+            counts[solution.status.index()] += 1;
+        }
+        counts
+    }
+
+    /// Means and spreads over the turning motions; none where the robot never turns.
+    pub fn statistics(&self) -> Option<Statistics> {
+        Statistics::of(self.turning().filter_map(|solution| solution.icrs), self.gauge)
+    }
+
+    /// Means and spreads by the signs of V_l, V_r and |V_r| − |V_l| (sec. 4.1), where these explain
+    /// nine tenths of the variance of one of x_l, x_r, y; empty otherwise.
+    pub fn sectors(&self) -> Vec<Sector> {
+        sector::sectors(self)
+    }
+}

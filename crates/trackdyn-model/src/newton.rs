@@ -1,0 +1,233 @@
+//! Newton's method for a few equations, damped so that each step reduces the residual.
+
+use crate::contact::Resolution;
+use nalgebra::{SMatrix, SVector};
+use trackdyn_core::Dual;
+
+/// When a point counts as a root.
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerance {
+    /// Residual at which the iteration stops.
+    pub converged: f64,
+    /// Residual up to which a point counts as a root when rounding keeps it from `converged`.
+    pub rounding: f64,
+}
+
+impl Tolerance {
+    /// For friction that has half the digits.
+    const COARSE: Self = Self { converged: 1e-8, rounding: 1e-7 };
+
+    /// The same for friction of this resolution: no root is finer.
+    pub fn at(self, resolution: Resolution) -> Self {
+        if resolution == Resolution::Fine { self } else { Self::COARSE }
+    }
+}
+
+/// Residual below which one more step of a quadratic method is expected to be the last, so that
+/// its derivatives are not asked for.
+const NEARLY: f64 = 1e-6;
+
+const MAX_ITERATIONS: usize = 80;
+
+/// Share of the predicted decrease of the residual's norm that a step must bring.
+const SUFFICIENT_DECREASE: f64 = 1e-4;
+
+/// Smallest fraction of a Newton step that is tried: where less is needed, there is no root near, and another start is
+/// tried sooner.
+const SMALLEST_STEP: f64 = 1e-3;
+
+/// Residual and Jacobian at a point.
+pub struct Evaluation<const N: usize> {
+    residual: SVector<f64, N>,
+    jacobian: SMatrix<f64, N, N>,
+}
+
+impl<const N: usize> Evaluation<N> {
+    /// From the residual in dual numbers whose derivatives are by the unknowns.
+    #[inline]
+    pub fn of_dual(residual: [Dual<N>; N]) -> Self {
+        Self {
+            residual: SVector::from(residual.map(|r| r.value)),
+            jacobian: SMatrix::from_fn(|row, column| residual[row].gradient[column]),
+        }
+    }
+}
+
+/// Where the iteration ended.
+#[derive(Clone, Copy, Debug)]
+pub struct Convergence<const N: usize> {
+    /// The last point.
+    pub point: SVector<f64, N>,
+    /// Norm of the residual there.
+    pub residual: f64,
+    /// Newton steps taken.
+    pub iterations: usize,
+    /// Whether the point is a root to rounding.
+    pub is_root: bool,
+    /// Inverse of the Jacobian near the point, where it was asked for and has one.
+    pub inverse: Option<SMatrix<f64, N, N>>,
+}
+
+/// What a step without derivatives must leave of the residual at most.
+const LEFT: f64 = 0.6;
+
+/// Iterates from a `start` near a root without derivatives, by Broyden's method; none where that does not lead there.
+///
+/// `value` is the residual there, `inverse` that of a Jacobian not far from here. Each step corrects it by what the
+/// residual changed along the step:
+/// B ← B + (s − B y) sᵀB/(sᵀB y).
+#[inline]
+pub fn from_near<const N: usize>(
+    (start, value): (SVector<f64, N>, SVector<f64, N>),
+    inverse: SMatrix<f64, N, N>,
+    tolerance: Tolerance,
+    residual: impl Fn(SVector<f64, N>) -> SVector<f64, N>,
+) -> Option<Convergence<N>> {
+    let (mut point, mut value, mut inverse) = (start, value, inverse);
+    let mut norm = value.norm();
+    let mut iterations = 0;
+    if norm.is_nan() {
+        return None;
+    }
+    while norm > tolerance.converged {
+        let step = -(inverse * value);
+        point += step;
+        let next = residual(point);
+        let next_norm = next.norm();
+        iterations += 1;
+        if next_norm.is_nan() || next_norm > LEFT * norm {
+            return None;
+        }
+        let mapped = inverse * (next - value);
+        let along = step.transpose() * inverse;
+        inverse += (step - mapped) * along / step.dot(&mapped);
+        (value, norm) = (next, next_norm);
+    }
+    let inverse = Some(inverse).filter(|inverse| inverse.iter().all(|value| value.is_finite()));
+    Some(Convergence { point, residual: norm, iterations, is_root: true, inverse })
+}
+
+/// Iterates from `start`. `evaluate` gives residual and Jacobian, `residual` the residual alone; no step
+/// moves the first two unknowns by more than `longest_step`.
+#[inline]
+pub fn solve<const N: usize>(
+    start: SVector<f64, N>,
+    longest_step: f64,
+    tolerance: Tolerance,
+    evaluate: impl Fn(SVector<f64, N>) -> Evaluation<N>,
+    residual: impl Fn(SVector<f64, N>) -> SVector<f64, N>,
+) -> Convergence<N> {
+    let mut point = start;
+    let mut at = evaluate(point);
+    let mut norm = at.residual.norm();
+    let mut iterations = 0;
+    let mut inverse = None;
+    let ended = |point, norm: f64, iterations, inverse| Convergence {
+        point,
+        residual: norm,
+        iterations,
+        is_root: norm <= tolerance.rounding,
+        inverse,
+    };
+    while norm > tolerance.converged && iterations < MAX_ITERATIONS {
+        let Some(here) = at.jacobian.try_inverse() else { break };
+        inverse = Some(here);
+        let step = -(here * at.residual);
+        if norm < NEARLY {
+            let last = point + step;
+            let last_norm = residual(last).norm();
+            if last_norm <= tolerance.converged {
+                return ended(last, last_norm, iterations + 1, inverse);
+            }
+        }
+        let mut fraction = (longest_step / step.fixed_rows::<2>(0).norm()).min(1.0);
+        let accepted = loop {
+            let trial = point + step * fraction;
+            let next = evaluate(trial);
+            let next_norm = next.residual.norm();
+            if next_norm <= (1.0 - SUFFICIENT_DECREASE * fraction) * norm {
+                break Some((trial, next, next_norm));
+            }
+            fraction *= 0.5;
+            if fraction < SMALLEST_STEP {
+                break None;
+            }
+        };
+        let Some((trial, next, next_norm)) = accepted else { break };
+        (point, at, norm) = (trial, next, next_norm);
+        iterations += 1;
+    }
+    ended(point, norm, iterations, inverse)
+}
+
+/// The first end that is a root, else the one with the least residual; later ones are not sought.
+pub fn first_root<E, const N: usize>(
+    ends: impl Iterator<Item = E>,
+    convergence: impl Fn(&E) -> &Convergence<N>,
+) -> Option<E> {
+    let mut best: Option<E> = None;
+    for end in ends {
+        let Convergence { residual, is_root, .. } = *convergence(&end);
+        if is_root {
+            return Some(end);
+        }
+        if best.as_ref().is_none_or(|best| residual < convergence(best).residual) {
+            best = Some(end);
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix3, Vector3};
+
+    const EXACT: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11 };
+
+    fn quadratic(root: Vector3<f64>) -> impl Fn(Vector3<f64>) -> Evaluation<3> {
+        move |z| {
+            let d = z - root;
+            Evaluation {
+                residual: d + d.component_mul(&d) * 0.3,
+                jacobian: Matrix3::from_diagonal(&d.map(|d| 1.0 + 0.6 * d)),
+            }
+        }
+    }
+
+    #[test]
+    fn finds_a_root_quadratically() {
+        let root = Vector3::new(1.0, -2.0, 0.5);
+        let f = quadratic(root);
+        let found = solve(Vector3::zeros(), 10.0, EXACT, &f, |z| f(z).residual);
+        assert!(found.is_root && found.iterations <= 8);
+        assert!((found.point - root).norm() < 1e-12);
+    }
+
+    #[test]
+    fn finds_a_near_root_without_derivatives_and_leaves_a_far_one() {
+        let root = Vector3::new(1.0, -2.0, 0.5);
+        let f = |z| quadratic(root)(z).residual;
+        let begin = |distance: f64| {
+            let start = root + Vector3::repeat(distance);
+            // the Jacobian of another place
+            from_near((start, f(start)), Matrix3::identity() * 0.9, EXACT, f)
+        };
+        let found = begin(0.1).expect("it is near");
+        assert!(found.is_root && (found.point - root).norm() < 1e-12, "{found:?}");
+        assert!(begin(10.0).is_none() && begin(f64::NAN).is_none());
+        let start = root + Vector3::repeat(0.1);
+        let away = from_near((start, f(start)), -Matrix3::identity(), EXACT, f);
+        assert!(away.is_none());
+    }
+
+    #[test]
+    fn says_so_where_there_is_no_root() {
+        let f = |z: Vector3<f64>| Evaluation {
+            residual: Vector3::new(1.0 + z[0] * z[0], z[1], z[2]),
+            jacobian: Matrix3::from_diagonal(&Vector3::new(2.0 * z[0], 1.0, 1.0)),
+        };
+        let found = solve(Vector3::new(0.7, 0.1, 0.1), 10.0, EXACT, f, |z| f(z).residual);
+        assert!(!found.is_root && found.residual >= 1.0);
+    }
+}

@@ -1,0 +1,19 @@
+//! What passes between the stages that effects hook into.
+//!
+//! ```text
+//! encoder speeds -> drive -> belt speeds, place, heading, time
+//!   -> ground (friction per side, gravity) -> load (pressure) -> shear (friction) -> wrench
+//!   -> motion of the body -> sense -> reported motion
+//! ```
+
+mod drive;
+mod ground;
+mod motion;
+mod sensor;
+mod situation;
+
+pub use drive::Drive;
+pub use ground::{Circumstance, Ground};
+pub use motion::Motion;
+pub use sensor::Sensor;
+pub use situation::{Site, Situation};

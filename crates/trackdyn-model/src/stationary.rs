@@ -1,0 +1,389 @@
+//! The stationary motion at a pair of track speeds.
+//!
+//! # Law
+//! Find the twist at which all forces on the body balance, eqs (14)-(15).
+//!
+//! # Unknowns
+//! The ICR (x, y) of one track, the *anchor*, and the turn t = w/(V_r − V_l) = 1/(x_r − x_l). All three
+//! stay finite: at small speed differences, where the twist degenerates, and at t → 0, where the other
+//! track's ICR runs to infinity.
+//!
+//! # When a robot does not turn
+//! A track with much more load than the other can hold the robot: it sticks, the robot drives straight
+//! at its speed, and the other track slips. No slip direction exists on the sticking track, so the
+//! balance has no solution with t > 0. The residual is continued to t < 0 by multiplying the force of
+//! the slipping track and all forces beside friction by 1 − L t: there, a root says that the anchor breaks loose only under so much
+//! more force, that is, that it holds. One Newton iteration thus decides between turning and holding.
+
+mod solution;
+
+pub use solution::{Solution, Status};
+
+use crate::icr::Icrs;
+use crate::newton::{self, Convergence, Evaluation, Tolerance};
+use crate::{Balance, Circumstance, Ground, Model, Motion};
+use nalgebra::{Matrix3, Vector3};
+use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
+
+/// Speed, m/s, of the spin that stands for the limit of slow driving.
+const CREEP: f64 = 1e-6;
+
+/// Residual over the weight, and change of belt speeds over the faster one at which speed and traction agree.
+const TOLERANCE: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11 };
+
+/// Residual at which a search beside a known motion stops at the latest: what differs between the two is asked for.
+const COMPARABLE: f64 = 1e-10;
+
+/// Turns between belt speeds and traction after which the search is given up.
+const MOST_TURNS: usize = 100;
+
+/// A motion that is nearly the wanted one: where a search starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Near {
+    /// It turns, with these ICRs.
+    Turning(Icrs),
+    /// The track of this side holds the robot.
+    Held(Side),
+    /// It was found for a model that resembles this one.
+    Linearised(Linearised),
+}
+
+/// A motion with what a small force would change in it: a search from there takes no derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linearised {
+    anchor: Side,
+    /// The unknowns.
+    point: Vector3<f64>,
+    /// Inverse of the derivative of the residual by them.
+    inverse: Matrix3<f64>,
+}
+
+/// The ICRs of both tracks by that of the anchor and the turn; none where there is no turn.
+fn icrs(anchor: Side, unknowns: &Vector3<f64>) -> Option<Icrs> {
+    let [x, y, turn] = [unknowns[0], unknowns[1], unknowns[2]];
+    let other = x - anchor.sign() / turn;
+    (turn > 0.0).then_some(match anchor {
+        Side::Left => Icrs { x_left: x, x_right: other, y },
+        Side::Right => Icrs { x_left: other, x_right: x, y },
+    })
+}
+
+/// Solver for the stationary motions of one model at one place, heading and time.
+#[derive(Clone, Debug)]
+pub struct Stationary<'m> {
+    model: &'m Model,
+    ground: Ground,
+    /// Force and moment that count as 1 in the residual, N and N·m.
+    scale: [f64; 2],
+    /// Where searches start first.
+    near: Option<Near>,
+}
+
+impl<'m> Stationary<'m> {
+    /// The solver for a model.
+    ///
+    /// Solves one slow spin: without effects all motions share its ICRs (the constancy theorem), and
+    /// with effects it is a good start for any of them.
+    pub fn new(model: &'m Model, circumstance: &Circumstance) -> Self {
+        let mut solver = Self::from_start(model, circumstance, None);
+        let spin = solver.solve_belts(PerSide::new(-CREEP, CREEP));
+        solver.near = spin.near();
+        solver
+    }
+
+    /// The solver that starts from this motion in place of the slow spin.
+    pub fn from_start(model: &'m Model, circumstance: &Circumstance, near: Option<Near>) -> Self {
+        let weight = model.vehicle().weight();
+        let scale = [weight, weight * model.vehicle().gauge];
+        Self { model, ground: model.ground(circumstance), scale, near }
+    }
+
+    /// The same solver with this motion as its first start, where one is known.
+    pub fn starting_at(&self, near: Option<Near>) -> Self {
+        Self { near: near.or(self.near), ..self.clone() }
+    }
+
+    /// The stationary motion at the track speeds that the encoders show, m/s.
+    ///
+    /// No pair of speeds knows of another, so the order of solves does not matter. The result carries
+    /// its status; read it before the numbers.
+    ///
+    /// Where belts slip on their sprockets, speeds and traction are found in turns: Coulomb's friction knows speeds by
+    /// their ratios alone, so the next traction hardly differs.
+    pub fn solve(&self, track_speed: PerSide<f64>) -> Solution {
+        let driven = self.model.drive().driven(track_speed);
+        let mut solution = self.solve_belts(driven);
+        if self.model.drive().slip_per_traction != 0.0 {
+            solution = self.slipping(driven, solution);
+            solution.icrs = solution.icrs.and_then(|_| Icrs::of_motion(driven, &solution.twist));
+        }
+        Solution { track_speed, ..solution }
+    }
+
+    /// The motion of belts that slip on sprockets of these speeds, m/s, sought from that of belts that do not.
+    fn slipping(&self, driven: PerSide<f64>, firm: Solution) -> Solution {
+        let settled = TOLERANCE.at(self.model.resolution()).converged;
+        let tolerance = settled * driven.left.abs().max(driven.right.abs());
+        let mut solution = firm;
+        let (mut share, mut last) = (1.0, PerSide::new(0.0, 0.0));
+        let mut may_be_straight = true;
+        for _ in 0..MOST_TURNS {
+            let Some(traction) = self.traction(&solution) else { break };
+            let belts = solution.belt_speed;
+            let next = self.model.drive().belt_speed(driven, traction);
+            let step = PerSide::from_fn(|side| next[side] - belts[side]);
+            let change = step.left.abs().max(step.right.abs());
+            if change <= tolerance {
+                return solution;
+            }
+            // Traction that turns the robot the other way than it turns comes before traction that does not turn it.
+            if may_be_straight && difference(&next) * difference(&belts) <= 0.0 {
+                if let Some(straight) = self.straight(driven) {
+                    return straight;
+                }
+                may_be_straight = false;
+            }
+            // What turns back is met half-way.
+            if step.left * last.left + step.right * last.right < 0.0 {
+                share *= 0.5;
+            }
+            last = step;
+            let belts = PerSide::from_fn(|side| belts[side] + share * step[side]);
+            solution = self.starting_at(solution.near()).solve_belts(belts);
+        }
+        Solution { status: Status::NotConverged, ..solution }
+    }
+
+    /// The straight motion behind sprockets of these speeds, m/s, where traction takes up their difference; none where
+    /// it does not.
+    ///
+    /// # Law
+    /// Both tracks stick: κ T/N = (V_d − V)/|V_d| with one V on both sides, and T_l + T_r + F = 0, F the load along
+    /// the tracks. They hold where friction in a vanishing turn, to the left and to the right, would turn the robot
+    /// back.
+    fn straight(&self, driven: PerSide<f64>) -> Option<Solution> {
+        if driven.left == 0.0 || driven.right == 0.0 {
+            return None; // a belt that stands has no slip to stand with the other
+        }
+        let slip = self.model.drive().slip_per_traction;
+        let rolling = PerSide::from_fn(|_| f64::midpoint(driven.left, driven.right));
+        let rolling = Motion::anchored(rolling, Side::Left, [0.0, 0.0], 0.0);
+        let Balance { load, normal_load, .. } = self.model.balance(&self.ground, &rolling);
+        let weight = PerSide::from_fn(|side| normal_load[side] / driven[side].abs());
+        let sum = weight.left * driven.left + weight.right * driven.right;
+        // V = (Σ N V_d/|V_d| + κ F)/Σ N/|V_d|
+        let speed = (sum + slip * load.force_y) / (weight.left + weight.right);
+        let departing = |difference: f64| {
+            let belts = PerSide::new(speed - difference / 2.0, speed + difference / 2.0);
+            self.solve_belts(belts)
+        };
+        let left = departing(CREEP * speed.abs());
+        let right = departing(-CREEP * speed.abs());
+        let turns = |solution| {
+            Some(difference(&self.model.drive().belt_speed(driven, self.traction(solution)?)))
+        };
+        let holds = turns(&left)? <= 0.0 && turns(&right)? >= 0.0;
+        let lifts = [&left, &right].iter().any(|end| end.status == Status::Lifts);
+        holds.then(|| Solution {
+            status: if lifts { Status::Lifts } else { Status::Straight },
+            belt_speed: PerSide::new(speed, speed),
+            twist: Twist { v_x: 0.0, v_y: speed, w: 0.0 },
+            icrs: None,
+            residual: left.residual.max(right.residual),
+            ..left
+        })
+    }
+
+    /// Traction of each side over its normal load, forward positive; none where no motion was found.
+    fn traction(&self, solution: &Solution) -> Option<PerSide<f64>> {
+        let anchor = match solution.status {
+            Status::NotConverged => return None,
+            Status::Holds(side) => side,
+            Status::Turning | Status::Straight | Status::Lifts => Side::Left,
+        };
+        let motion = match solution.icrs {
+            Some(Icrs { x_left, x_right, y }) => {
+                let turn = 1.0 / (x_right - x_left);
+                Motion::anchored(solution.belt_speed, Side::Left, [x_left, y], turn)
+            }
+            None => Motion::anchored(solution.belt_speed, anchor, [0.0, 0.0], 0.0),
+        };
+        let balance = self.model.balance(&self.ground, &motion);
+        let mut traction = balance.friction.map(|wrench| wrench.force_y);
+        if let Status::Holds(side) = solution.status {
+            // What holds the robot balances all else.
+            let held = -balance.load.force_y - traction[side.other()];
+            traction = match side {
+                Side::Left => PerSide::new(held, traction.right),
+                Side::Right => PerSide::new(traction.left, held),
+            };
+        }
+        Some(PerSide::from_fn(|side| traction[side] / balance.normal_load[side]))
+    }
+
+    /// The stationary motion at these speeds of the belts, m/s.
+    ///
+    /// # Panics
+    /// Never: at least four starts are tried.
+    fn solve_belts(&self, belt_speed: PerSide<f64>) -> Solution {
+        let first = match self.near {
+            Some(Near::Held(side)) => side,
+            Some(Near::Linearised(known)) => {
+                let problem = Problem { solver: self, belt_speed, anchor: known.anchor };
+                if let Some(end) = problem.solve_beside(&known) {
+                    return end.solution();
+                }
+                known.anchor
+            }
+            _ => self.better_anchor(),
+        };
+        let problems =
+            [first, first.other()].map(|anchor| Problem { solver: self, belt_speed, anchor });
+        let ends =
+            problems.iter().flat_map(|problem| problem.starts().map(|start| problem.solve(start)));
+        newton::first_root(ends, |end| &end.convergence)
+            .expect("several starts were tried")
+            .solution()
+    }
+
+    /// The side with more grip: it holds on longer.
+    fn better_anchor(&self) -> Side {
+        let vehicle = self.model.vehicle();
+        let grip = |side: Side| {
+            let share = 0.5 + side.sign() * vehicle.cog[0] / vehicle.gauge;
+            share * self.ground.friction[side].along
+        };
+        if grip(Side::Right) > grip(Side::Left) { Side::Right } else { Side::Left }
+    }
+}
+
+/// By how much the right belt is faster, m/s.
+fn difference(belt_speed: &PerSide<f64>) -> f64 {
+    belt_speed.right - belt_speed.left
+}
+
+/// One pair of speeds, anchored at one track.
+#[derive(Clone, Copy)]
+struct Problem<'s> {
+    solver: &'s Stationary<'s>,
+    belt_speed: PerSide<f64>,
+    anchor: Side,
+}
+
+/// Where Newton's iteration ended.
+struct Root<'s> {
+    problem: Problem<'s>,
+    convergence: Convergence<3>,
+}
+
+impl<'s> Problem<'s> {
+    /// Starting points, the most promising first.
+    fn starts(&self) -> impl Iterator<Item = Vector3<f64>> {
+        let model = self.solver.model;
+        let (gauge, cog_y) = (model.vehicle().gauge, model.vehicle().cog[1]);
+        let outwards = self.anchor.sign();
+        // Both tracks turn about points a quarter of the contact length outside their centre-lines.
+        let [rear, front] = model.footprint().ends;
+        let x = gauge / 2.0 + (front - rear) / 4.0;
+        let turning = Vector3::new(outwards * x, cog_y, 0.5 / x);
+        // The anchor breaks loose under twice the other track's friction, whose lever is the gauge.
+        let x = gauge / 2.0 + model.footprint().gyration_squared / gauge;
+        let holding = Vector3::new(outwards * x, cog_y, -1.0 / gauge);
+        let from = |icrs: Icrs| {
+            let x = match self.anchor {
+                Side::Left => icrs.x_left,
+                Side::Right => icrs.x_right,
+            };
+            Vector3::new(x, icrs.y, 1.0 / (icrs.x_right - icrs.x_left))
+        };
+        let near = self.solver.near.map(|near| match near {
+            Near::Turning(icrs) => from(icrs),
+            Near::Held(_) => holding,
+            Near::Linearised(known) => icrs(known.anchor, &known.point).map_or(holding, from),
+        });
+        near.into_iter().chain([turning, holding])
+    }
+
+    fn solve(self, start: Vector3<f64>) -> Root<'s> {
+        let model = self.solver.model;
+        let [rear, front] = model.footprint().ends;
+        let half_size = model.vehicle().gauge.hypot(front - rear) / 2.0;
+        let convergence = newton::solve(
+            start,
+            half_size,
+            TOLERANCE.at(model.resolution()),
+            |z| Evaluation::of_dual(self.residual(Dual::variables(z.into()))),
+            |z| Vector3::from(self.residual([z[0], z[1], z[2]])),
+        );
+        Root { problem: self, convergence }
+    }
+
+    /// The root near a known one of this anchor; none where derivatives from there do not lead to it.
+    fn solve_beside(self, known: &Linearised) -> Option<Root<'s>> {
+        let residual = |z: Vector3<f64>| Vector3::from(self.residual([z[0], z[1], z[2]]));
+        let tolerance = TOLERANCE.at(self.solver.model.resolution());
+        let tolerance = Tolerance { converged: tolerance.converged.min(COMPARABLE), ..tolerance };
+        let start = (known.point, residual(known.point));
+        let convergence = newton::from_near(start, known.inverse, tolerance, residual)?;
+        Some(Root { problem: self, convergence })
+    }
+
+    fn motion<S: Scalar>(&self, [x, y, turn]: [S; 3]) -> Motion<S> {
+        let turn = if turn.value() > 0.0 { turn } else { S::from(0.0) };
+        Motion::anchored(self.belt_speed, self.anchor, [x, y], turn)
+    }
+
+    /// Force over weight and moment over weight times gauge.
+    #[inline]
+    fn residual<S: Scalar>(&self, z: [S; 3]) -> [S; 3] {
+        let balance = self.solver.model.balance(&self.solver.ground, &self.motion(z));
+        // What the track that is held has to bear: a root at a multiple of it above one proves that it bears once as much.
+        let mut borne = balance.load;
+        borne += balance.friction[self.anchor.other()];
+        if z[2].value() <= 0.0 {
+            let excess = -z[2] * self.solver.model.vehicle().gauge + 1.0;
+            borne = borne.scaled(excess);
+        }
+        let mut sum = balance.friction[self.anchor];
+        sum += borne;
+        let [force, moment] = self.solver.scale;
+        [sum.force_x * force.recip(), sum.force_y * force.recip(), sum.moment * moment.recip()]
+    }
+}
+
+impl Root<'_> {
+    fn solution(&self) -> Solution {
+        let Problem { solver, belt_speed, anchor, .. } = self.problem;
+        let z = self.convergence.point;
+        let motion = self.problem.motion([z[0], z[1], z[2]]);
+        let turn = z[2];
+        let status = if !self.convergence.is_root {
+            Status::NotConverged
+        } else if solver.model.lifts(&solver.ground, &motion) {
+            Status::Lifts
+        } else if belt_speed.left == belt_speed.right {
+            Status::Straight
+        } else if turn <= 0.0 {
+            Status::Holds(anchor)
+        } else {
+            Status::Turning
+        };
+        // A robot that is held, or whose tracks run alike, moves straight.
+        let twist = if turn <= 0.0 || belt_speed.left == belt_speed.right {
+            Twist { v_x: 0.0, v_y: belt_speed[anchor], w: 0.0 }
+        } else {
+            motion.twist
+        };
+        let inverse = self.convergence.inverse.filter(|_| self.convergence.is_root);
+        Solution {
+            status,
+            track_speed: belt_speed,
+            belt_speed,
+            twist,
+            icrs: icrs(anchor, &z),
+            residual: self.convergence.residual,
+            iterations: self.convergence.iterations,
+            linearised: inverse.map(|inverse| Linearised { anchor, point: z, inverse }),
+        }
+    }
+}

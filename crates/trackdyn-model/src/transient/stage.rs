@@ -1,0 +1,202 @@
+//! One stage of a step: the balance of forces at the end of a short time.
+
+use crate::newton::{self, Convergence, Evaluation, Tolerance};
+use crate::{Balance, Ground, Model, Motion};
+use nalgebra::{SMatrix, SVector, Vector3};
+use trackdyn_core::{Dual, PerSide, Scalar, Twist};
+
+/// Residual over the weight: 10⁻⁹ of gravity is far below what moves a robot.
+const TOLERANCE: Tolerance = Tolerance { converged: 1e-11, rounding: 1e-9 };
+
+/// Unknowns of belts that follow their sprockets: the departure from straight driving at the left belt's speed.
+const FIRM: usize = 3;
+
+/// Unknowns of belts that slip on them: the traction of both sides over their normal load beside it.
+const SLIPPING: usize = 5;
+
+/// What is held fixed while the twist is sought.
+pub struct Stage<'a> {
+    pub model: &'a Model,
+    pub ground: &'a Ground,
+    /// Speeds of the sprockets, m/s.
+    pub driven: PerSide<f64>,
+    /// Twist from which the acceleration counts, paper's frame.
+    pub base: Twist,
+    /// One over the time from there, 1/s; zero where there is no inertia.
+    pub per_second: f64,
+    /// Slip velocity ε below which a track sticks, m/s.
+    pub creep: f64,
+}
+
+/// A motion from which the search starts.
+pub struct Start {
+    pub twist: Twist,
+    /// Speeds of the belts that went with it, m/s.
+    pub belt_speed: PerSide<f64>,
+    /// Traction over normal load, forward positive.
+    pub traction: PerSide<f64>,
+    /// What is known of the Jacobian there.
+    pub inverse: Inverse,
+}
+
+/// Where the forces balance.
+pub struct Balanced {
+    pub motion: Motion,
+    /// Traction over normal load, forward positive, of belts that slip on their sprockets; else zero.
+    pub traction: PerSide<f64>,
+    pub inverse: Inverse,
+}
+
+/// Inverse of the Jacobian of a balance.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Inverse {
+    #[default]
+    Unknown,
+    Firm(SMatrix<f64, FIRM, FIRM>),
+    Slipping(SMatrix<f64, SLIPPING, SLIPPING>),
+}
+
+impl Stage<'_> {
+    /// Finds the motion in which the forces balance; none where the search ends elsewhere.
+    pub fn solve(&self, start: &Start) -> Option<Balanced> {
+        if self.model.drive().slip_per_traction == 0.0 {
+            let known = if let Inverse::Firm(known) = start.inverse { Some(known) } else { None };
+            self.balanced(&self.search(start, PerSide::default(), known), Inverse::Firm)
+        } else {
+            let known =
+                if let Inverse::Slipping(known) = start.inverse { Some(known) } else { None };
+            self.balanced(&self.search(start, start.traction, known), Inverse::Slipping)
+        }
+    }
+
+    fn balanced<const N: usize>(
+        &self,
+        found: &Convergence<N>,
+        inverse: impl Fn(SMatrix<f64, N, N>) -> Inverse,
+    ) -> Option<Balanced> {
+        let z = found.point.into();
+        let inverse = found.inverse.map_or(Inverse::Unknown, inverse);
+        let motion = self.motion(&z);
+        found.is_root.then(|| Balanced { motion, traction: traction(&z), inverse })
+    }
+
+    /// Starts from where the search is told to; then from tracks that stick.
+    fn search<const N: usize>(
+        &self,
+        start: &Start,
+        traction: PerSide<f64>,
+        inverse: Option<SMatrix<f64, N, N>>,
+    ) -> Convergence<N> {
+        let PerSide { left, right } = self.model.drive().belt_speed(self.driven, traction);
+        let Twist { v_x, v_y, w } = start.twist;
+        let stays = Vector3::new(v_x, v_y - left, w);
+        let follows = Vector3::new(v_x, v_y - start.belt_speed.left, w);
+        let at = |departure: Vector3<f64>| {
+            let unknowns =
+                [departure[0], departure[1], departure[2], traction.left, traction.right];
+            SVector::<f64, N>::from_fn(|row, _| unknowns[row])
+        };
+        let tolerance = TOLERANCE.at(self.model.resolution());
+        let residual = |z: SVector<f64, N>| SVector::from(self.residual::<f64, N>(z.into()));
+        let near = inverse.and_then(|inverse| {
+            let start = at(follows);
+            newton::from_near((start, residual(start)), inverse, tolerance, residual)
+        });
+        if let Some(near) = near {
+            return near;
+        }
+        // Stick in the direction in which the robot slid before; of a robot that did not, held back.
+        let slid = follows.norm();
+        let sticks = if slid > 0.0 {
+            follows * (self.creep / slid.max(self.creep))
+        } else {
+            Vector3::new(0.0, -self.creep * left.signum(), 0.0)
+        };
+        let other = Vector3::new(0.0, right - left, 0.0);
+        let starts = [follows, stays, sticks, self.turning(right - left), other + sticks];
+        let ends = starts.into_iter().map(|start| {
+            newton::solve(
+                at(start),
+                f64::INFINITY,
+                tolerance,
+                |z| Evaluation::of_dual(self.residual(Dual::variables(z.into()))),
+                residual,
+            )
+        });
+        newton::first_root(ends, |end| end).expect("several starts were tried")
+    }
+
+    /// A turn at this difference of the belt speeds, about a point a quarter of the contact length outside the slower
+    /// track's centre-line.
+    fn turning(&self, difference: f64) -> Vector3<f64> {
+        let [rear, front] = self.model.footprint().ends;
+        let x = self.model.vehicle().gauge / 2.0 + (front - rear) / 4.0;
+        // w = (V_r − V_l)/(x_r − x_l), eq. (9)
+        let w = difference / (2.0 * x);
+        Vector3::new(w * self.model.vehicle().cog[1], difference / 2.0, w)
+    }
+
+    /// The motion at these unknowns.
+    fn motion<S: Scalar, const N: usize>(&self, z: &[S; N]) -> Motion<S> {
+        let [v_x, v_y, w] = std::array::from_fn(|k| z[k]);
+        let belt_speed = self.model.drive().belt_speed(self.driven, traction(z));
+        let Twist { v_x: base_x, v_y: base_y, w: base_w } = self.base;
+        let per_second = self.per_second;
+        // u̇ = (u − u_b)/(γ h)
+        let acceleration = Twist {
+            v_x: (v_x - base_x) * per_second,
+            v_y: (v_y + (belt_speed.left - base_y)) * per_second,
+            w: (w - base_w) * per_second,
+        };
+        let departure = Twist { v_x, v_y, w };
+        Motion::departing(belt_speed, departure, acceleration, self.model.extent())
+    }
+
+    /// Force over weight and moment over weight times gauge; of belts that slip, what the friction of each side is off
+    /// its traction too, over the weight.
+    #[inline]
+    fn residual<S: Scalar, const N: usize>(&self, z: [S; N]) -> [S; N] {
+        let motion = self.motion(&z);
+        let balance = gripping(self.model, self.ground, &motion, self.creep);
+        let sum = balance.sum();
+        let force = self.model.vehicle().weight().recip();
+        let moment = force / self.model.vehicle().gauge;
+        let traction = traction(&z);
+        // T − (T/N) N
+        let off = PerSide::from_fn(|side| {
+            (balance.friction[side].force_y - traction[side] * balance.normal_load[side]) * force
+        });
+        let rows =
+            [sum.force_x * force, sum.force_y * force, sum.moment * moment, off.left, off.right];
+        std::array::from_fn(|row| rows[row])
+    }
+}
+
+/// Traction of each side over its normal load among the unknowns; zero where it is none of them.
+#[inline]
+fn traction<S: Scalar, const N: usize>(z: &[S; N]) -> PerSide<S> {
+    let at = |k: usize| z.get(k).copied().unwrap_or(S::from(0.0));
+    PerSide::new(at(FIRM), at(FIRM + 1))
+}
+
+/// The forces on the body with the friction of tracks that stick below the slip velocity `creep`, m/s.
+#[inline]
+pub fn gripping<S: Scalar>(
+    model: &Model,
+    ground: &Ground,
+    motion: &Motion<S>,
+    creep: f64,
+) -> Balance<S> {
+    let balance = model.balance(ground, motion);
+    let friction = PerSide::from_fn(|side| {
+        balance.friction[side].scaled(grip(motion.slip[side].speed, creep))
+    });
+    Balance { friction, ..balance }
+}
+
+/// Share of its friction that a side with the root mean square slip σ (m/s) has.
+#[inline]
+fn grip<S: Scalar>(slip: S, creep: f64) -> S {
+    // σ/√(σ² + ε²)
+    slip / (slip * slip + creep * creep).sqrt()
+}

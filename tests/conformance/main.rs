@@ -1,4 +1,0 @@
-//! What the project promises of its own structure and catalogue.
-
-mod arrows;
-mod parity;

@@ -1,0 +1,6 @@
+//! What the project promises of its own structure and catalogue.
+
+mod arrows;
+mod circles;
+mod crates;
+mod parity;

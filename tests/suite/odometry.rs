@@ -1,0 +1,4 @@
+//! Dead reckoning and pose errors, against known truth and another program.
+
+mod evo;
+mod known_truth;

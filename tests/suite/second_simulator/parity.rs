@@ -1,0 +1,162 @@
+//! Which invariances each mechanism breaks, measured in time and compared with its sheet.
+
+use crate::second_simulator::turn::{Turn, auriga, distance, typical};
+use rayon::prelude::*;
+use trackdyn_core::{PerSide, Plant, Pose, Trajectory};
+use trackdyn_second_simulator::{ActiveMechanism, Invariance, MECHANISMS, Robot, Setup};
+
+/// Change of an ICR, m, that breaks an invariance: what a spin test can see.
+const BROKEN: f64 = 1e-3;
+
+/// Change that the shoes' draw and the shoes that come and go may cause in the base case, m: a hundredth of a
+/// shoe.
+const INTACT: f64 = 2.5e-4;
+
+/// Arc, counter-rotation and spin, m/s.
+const PATTERNS: [(f64, f64); 3] = [(0.4, 1.0), (-0.4, 1.0), (-1.0, 1.0)];
+
+/// Headings at which a direction of the world shows: none along an axis of the robot.
+const HEADINGS: [f64; 2] = [0.6, 1.9];
+
+/// A machine on the mirror's plane, forward of the middle, under mechanisms.
+struct Subject {
+    active: Vec<ActiveMechanism>,
+    setup: Setup,
+    at: f64,
+}
+
+impl Subject {
+    fn new(active: Vec<ActiveMechanism>) -> Self {
+        Self { active, setup: Setup::default(), at: 20.0 }
+    }
+
+    fn icrs(&self, speeds: (f64, f64), target: Pose) -> [f64; 3] {
+        let vehicle = auriga([0.0, 0.04]);
+        Turn {
+            vehicle: &vehicle,
+            active: &self.active,
+            setup: &self.setup,
+            speeds,
+            target,
+            at: self.at,
+        }
+        .icrs()
+    }
+
+    /// ICRs of the patterns at the headings.
+    fn bases(&self) -> [[[f64; 3]; 3]; 2] {
+        HEADINGS.map(|yaw| PATTERNS.map(|pattern| self.icrs(pattern, Pose::new(0.0, 0.0, yaw))))
+    }
+
+    /// Largest change of an ICR from `bases` under the transformation of an invariance, m.
+    fn change(&self, invariance: Invariance, bases: &[[[f64; 3]; 3]; 2]) -> f64 {
+        let mut worst = 0.0_f64;
+        for (heading, at_heading) in HEADINGS.into_iter().zip(bases) {
+            let at = Pose::new(0.0, 0.0, heading);
+            for (k, (left, right)) in PATTERNS.into_iter().enumerate() {
+                let other = match invariance {
+                    Invariance::SpeedScale => self.icrs((0.25 * left, 0.25 * right), at),
+                    Invariance::Reversal => self.icrs((-left, -right), at),
+                    Invariance::Manoeuvre => at_heading[0],
+                    Invariance::Mirror => {
+                        let [x_left, x_right, y] = self.icrs((right, left), at);
+                        [-x_right, -x_left, y]
+                    }
+                    Invariance::Heading => bases[0][k],
+                    Invariance::Place => self.icrs((left, right), Pose::new(1.3, -2.6, heading)),
+                    Invariance::Time => {
+                        let (active, setup) = (self.active.clone(), self.setup.clone());
+                        Self { active, setup, at: 120.0 }.icrs((left, right), at)
+                    }
+                    Invariance::Transient | Invariance::Straight => unreachable!("not of turns"),
+                };
+                worst = worst.max(distance(at_heading[k], other));
+            }
+        }
+        worst
+    }
+
+    /// How far equal speeds lead off the line of the start in a way of 1 m, m.
+    fn strays(&self) -> f64 {
+        let robot = Robot::new(&auriga([0.0, 0.04]), &self.active, &self.setup);
+        let mut robot = robot.expect("a robot");
+        let mut way = Trajectory::default();
+        for until in [1.0, 3.0] {
+            robot.drive(PerSide::new(0.5, 0.5), until, &mut way).expect("a motion");
+        }
+        let reported = robot.report(&way);
+        let [_, end] = reported.span().expect("a motion");
+        reported.pose_at(end - 2.0).relative(&reported.pose_at(end)).y.abs()
+    }
+
+    /// What a turn that starts and ends lacks against the steady one in its middle part, in m of the belt:
+    /// yaw at a stamp over that at the same way of the encoders.
+    fn lags(&self) -> f64 {
+        let robot = Robot::new(&auriga([0.0, 0.04]), &self.active, &self.setup);
+        let mut robot = robot.expect("a robot");
+        let mut way = Trajectory::default();
+        way.push(robot.moment());
+        robot.drive(PerSide::new(0.0, 0.0), 1.0, &mut way).expect("a motion");
+        robot.drive(PerSide::new(-0.5, 0.5), 4.0, &mut way).expect("a motion");
+        let reported = robot.report(&way);
+        // a heading that drifts at rest does so in the turn
+        let drift = (reported.pose_at(0.9).yaw - reported.pose_at(0.2).yaw) / 0.7;
+        let yaw = |t| reported.pose_at(t).yaw - drift * t;
+        let rate = (yaw(3.8) - yaw(2.8)) / 1.0;
+        // the belt's way at which the steady turn would have begun
+        let began = 2.8 - (yaw(2.8) - yaw(0.2)) / rate;
+        0.5 * (began - 1.0).abs()
+    }
+}
+
+#[test]
+fn the_base_case_breaks_nothing() {
+    let subject = Subject::new(Vec::new());
+    let bases = subject.bases();
+    for invariance in &Invariance::ALL[..7] {
+        let change = subject.change(*invariance, &bases);
+        println!("{}: {:.2} mm", invariance.letter(), 1e3 * change);
+        assert!(change < INTACT, "{}: {change} m", invariance.letter());
+    }
+    assert!(subject.strays() < 1e-5 && subject.lags() < 1e-4);
+}
+
+#[test]
+fn every_mechanism_breaks_what_its_sheet_says() {
+    println!(
+        "worst change of an ICR, mm; way off the line in 1 m, mm; belt's way lost at a start, mm"
+    );
+    println!("{:24}{}", "", Invariance::ALL.map(|i| format!("{:>8}", i.letter())).concat());
+    let measured: Vec<[f64; Invariance::ALL.len()]> = MECHANISMS
+        .par_iter()
+        .map(|sheet| {
+            let subject = Subject::new(typical(&[sheet.id]));
+            let bases = subject.bases();
+            Invariance::ALL.map(|invariance| match invariance {
+                Invariance::Straight => subject.strays(),
+                Invariance::Transient => subject.lags(),
+                _ => subject.change(invariance, &bases),
+            })
+        })
+        .collect();
+    let mut wrong = Vec::new();
+    for (sheet, changes) in MECHANISMS.iter().zip(measured) {
+        println!(
+            "{:24}{}",
+            sheet.id,
+            changes.map(|change| format!("{:8.2}", 1e3 * change)).concat()
+        );
+        for (invariance, change) in Invariance::ALL.into_iter().zip(changes) {
+            let breaks = sheet.breaks.contains(&invariance);
+            // what depends on heading, place or time changes during the turn that shows transients
+            let moves = [Invariance::Heading, Invariance::Place, Invariance::Time]
+                .iter()
+                .any(|of| sheet.breaks.contains(of));
+            let hidden = invariance == Invariance::Transient && moves;
+            if breaks != (change > BROKEN) && !hidden {
+                wrong.push(format!("{} {}: {change:.2e} m", sheet.id, invariance.letter()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "sheets and measurement differ: {wrong:#?}");
+}

@@ -53,7 +53,7 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = Ground::Own)]
     ground: Ground,
     /// Independent ground: a mechanism of it, those outside the catalogue of effects among them (listed in
-    /// docs/theory/independent-ground.md); repeatable
+    /// docs/theory/second-simulator.md); repeatable
     #[arg(long = "mechanism", value_name = "ID[:PARAMETER=VALUE,...]")]
     mechanisms: Vec<ActiveMechanism>,
     /// Longest step of the integration, s

@@ -1,16 +1,16 @@
 //! A recording as long as the paper's: 1807 segments of nine readings of 30 ms, with noise.
 
 use trackdyn_core::PerSide;
+use trackdyn_estimate::SegmentOptions;
 use trackdyn_estimate::genetic::GeneticEstimate;
 use trackdyn_estimate::least_squares::Loss;
+use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_estimate::{
     Estimate, Free, GeneticOptions, Observations, Parameters, Weighting, genetic, least_squares,
 };
 use trackdyn_model::Kinematics;
-use trackdyn_recording::SegmentOptions;
-use trackdyn_recording::noise::noise;
-use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 
 const SEGMENTS: usize = 1807;
 

@@ -2,8 +2,8 @@
 
 use crate::{Workplace, project_file};
 use trackdyn_core::PerSide;
+use trackdyn_estimate::synthetic::{Stretch, Synthetic, random_steps};
 use trackdyn_recording::folder;
-use trackdyn_recording::synthetic::{Stretch, Synthetic, random_steps};
 
 /// Writes a recording of Auriga-alpha's size into the folder `rec`.
 fn record(place: &Workplace, schedules: Vec<Vec<Stretch>>) {

@@ -2,8 +2,8 @@
 
 use crate::{Workplace, project_file};
 use std::fmt::Write;
+use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_recording::folder;
-use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
 /// A recording folder `rec`, and the same as the trajectory `walk.tum` and the table `tracks.csv`.
 fn record(place: &Workplace) {

@@ -9,7 +9,7 @@ use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
-use trackdyn_recording::recording::UncheckedRun;
+use trackdyn_recording::UncheckedRun;
 use trackdyn_recording::{Recording, Run};
 use trackdyn_tests::concealed::{diagnosed, members, named, recording};
 use trackdyn_tests::{real_recording, vehicle};

@@ -3,8 +3,8 @@
 use crate::options::command_line;
 use serde::Serialize;
 use trackdyn_core::output::fingerprint;
+use trackdyn_estimate::Clock;
 use trackdyn_model::VehicleFile;
-use trackdyn_recording::Clock;
 
 /// Head of a document: what it is, and the vehicle it was made from.
 #[derive(Serialize)]

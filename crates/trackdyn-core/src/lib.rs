@@ -9,6 +9,7 @@ pub mod frames;
 pub mod output;
 pub mod plant;
 pub mod pose;
+pub mod robust;
 pub mod scalar;
 pub mod schedule;
 pub mod side;

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use trackdyn_core::real;
-use trackdyn_recording::Interval as Student;
+use trackdyn_estimate::Interval as Student;
 
 /// A fitted parameter with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]

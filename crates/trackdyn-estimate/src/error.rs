@@ -63,4 +63,12 @@ pub enum Error {
         /// Largest change of a parameter in the last one, m or 1.
         step: f64,
     },
+    /// The recording does not hold what an estimate needs.
+    #[error("{what} cannot be estimated: {reason}")]
+    NotEstimable {
+        /// The quantity.
+        what: &'static str,
+        /// What is missing, with numbers.
+        reason: String,
+    },
 }

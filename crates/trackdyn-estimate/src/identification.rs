@@ -7,14 +7,15 @@ use crate::least_squares::{
     Estimate, Loss, Unknowns, doubts, estimate_at, lacks, lacks_nuisance, least_squares,
     nuisance_doubts,
 };
+use crate::noise::{Noise, noise};
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
 use crate::sensor::Nuisance;
 use crate::spin_test::{SpinTest, spin_test};
 use crate::weighting::{SegmentNoise, Weighting};
+use crate::{Clock, SegmentOptions};
 use trackdyn_model::Kinematics;
-use trackdyn_recording::noise::{Noise, noise};
-use trackdyn_recording::{Clock, Recording, SegmentOptions};
+use trackdyn_recording::Recording;
 
 /// How to identify.
 #[derive(Clone, Debug, PartialEq)]

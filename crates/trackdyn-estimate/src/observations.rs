@@ -1,12 +1,11 @@
 //! What a recording shows, segment by segment.
 
+use crate::{Blocks, Extent, Segment, SegmentOptions, segments};
 use std::ops::Range;
 use std::sync::Arc;
 use trackdyn_core::PerSide;
 use trackdyn_recording::hold::{held, travelled};
-use trackdyn_recording::{
-    Blocks, Extent, Recording, Run, Segment, SegmentOptions, TrackSample, segments,
-};
+use trackdyn_recording::{Recording, Run, TrackSample};
 
 /// Change of a track speed over the faster one's up to which driving is steady.
 const STEADY: f64 = 0.1;

@@ -1,9 +1,9 @@
 //! The spin test: χ from turning on the spot, eq. (16).
 
+use crate::Interval;
 use crate::error::Error;
 use crate::observations::Observations;
 use std::ops::Range;
-use trackdyn_recording::Interval;
 
 /// Yaw that a spin test needs in all, rad: half a turn.
 const NEEDED: f64 = std::f64::consts::PI;

@@ -17,6 +17,7 @@ mod row;
 pub use groups::Grouping;
 pub use lagging::{Lagging, lagging};
 
+use crate::Interval;
 use crate::doubt::Doubt;
 use crate::error::Error;
 use crate::least_squares::covariance::{jackknife, larger_deviation, with_deviations};
@@ -25,8 +26,8 @@ use crate::parameters::{Free, Parameters};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use row::{Row, observed};
 use trackdyn_core::real;
-use trackdyn_recording::robust::deviation_about_zero;
-use trackdyn_recording::{Interval, OperatingPoint};
+use trackdyn_core::robust::deviation_about_zero;
+use trackdyn_recording::OperatingPoint;
 
 /// Channels of a point: forward (m/s), left (m/s), yaw rate (rad/s).
 pub const CHANNELS: usize = 3;

@@ -1,10 +1,10 @@
 //! How much a residual counts.
 
+use crate::noise::Noise;
 use crate::observations::{Observation, Observations};
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, RowVector3, Vector3};
 use trackdyn_core::Side;
 use trackdyn_recording::StatedNoise;
-use trackdyn_recording::noise::Noise;
 
 /// The metric in which residuals are summed.
 #[derive(Clone, Debug)]

@@ -1,23 +1,9 @@
-//! The formats of recordings.
+//! Which format a path holds, and its reader.
 
-use crate::recording::Recording;
+use crate::recording::{Format, Recording};
 use crate::rosbag::{self, RosbagOptions};
 use crate::{Error, folder};
 use std::path::Path;
-
-/// Where a recording can come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Format {
-    /// A folder with `recording.toml` and CSV files.
-    Folder,
-    /// A rosbag2: a `.mcap` or `.db3` file, or the folder around them.
-    Rosbag,
-    /// A trajectory of the TUM benchmark and a CSV of track speeds.
-    Tum,
-    /// Computed.
-    Memory,
-}
 
 impl Format {
     /// The format of a file or folder that holds all of a recording.

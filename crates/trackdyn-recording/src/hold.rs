@@ -8,7 +8,7 @@
 //! Stamps that are meant to be the same differ where they are rounded. What would hold for no longer than
 //! that is not a reading of its own: its time goes to its neighbour.
 
-use crate::recording::TrackSample;
+use crate::sample::TrackSample;
 use std::ops::Range;
 use trackdyn_core::{PerSide, Pose, Twist};
 

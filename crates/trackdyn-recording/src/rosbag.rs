@@ -25,6 +25,7 @@ mod options;
 mod sqlite_file;
 mod storage;
 mod topic;
+mod visitor;
 
 pub use inspection::{Inspection, TopicSummary, inspect};
 pub(crate) use message::yaw_of_quaternion;

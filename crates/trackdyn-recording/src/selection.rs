@@ -1,6 +1,7 @@
 //! Parts of a recording: what is fitted on one part is judged on another.
 
-use crate::recording::{Recording, Sample, Series, Source, UncheckedRun};
+use crate::recording::{Recording, Source, UncheckedRun};
+use crate::sample::{Sample, Series};
 use crate::{Error, Run};
 use std::fmt;
 use std::str::FromStr;
@@ -159,15 +160,30 @@ fn expected(runs: &[Run]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{Synthetic, random_steps};
+    use crate::sample::{PoseSample, TrackSample};
+    use trackdyn_core::Pose;
 
     fn list(text: &str) -> RunList {
         text.parse().expect("a list")
     }
 
     fn recording() -> Recording {
-        let schedules = (0..12).map(|run| random_steps(2, 2.0, 1.0, run)).collect();
-        Synthetic { schedules, ..Synthetic::default() }.recording().expect("runs")
+        let run = |id: i64| {
+            let v = 0.1 * f64::from(u8::try_from(id).expect("a dozen"));
+            let reading = |k: u8| TrackSample { t: 0.05 * f64::from(k), v_left: v, v_right: v };
+            let pose = |k: u8| {
+                let t = 0.1 * f64::from(k);
+                PoseSample { t, pose: Pose::new(v * t, 0.0, 0.0) }
+            };
+            UncheckedRun {
+                id,
+                tracks: (0..=80).map(reading).collect::<Vec<_>>().into(),
+                poses: (0..=40).map(pose).collect::<Vec<_>>().into(),
+                imu: Series::default(),
+            }
+        };
+        let runs = (0..12).map(run).collect();
+        Recording::new("steady", "robot", runs, Source::computed(), Vec::new()).expect("runs")
     }
 
     #[test]

@@ -6,9 +6,9 @@ use trackdyn_diagnose::evidence::Evidence;
 use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::search::{Catalogue, Found, Search};
 
+use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_model::{Effects, VehicleFile};
 use trackdyn_recording::Recording;
-use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
 /// A drive with constant ICRs: the lugs that its owner believes in do not grip more one way than the other.
 fn recording() -> Recording {

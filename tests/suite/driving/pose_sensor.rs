@@ -6,8 +6,8 @@ use trackdyn_drive::sensors::{
     Dropout, Encoder, Mount, Outlier, PoseFrame, PoseSensor, Preset, StampAt, Walk, White,
 };
 use trackdyn_drive::{ScheduleKind, ScheduleOptions, Sensors};
-use trackdyn_recording::clock::{ClockSearch, clock_offset};
-use trackdyn_recording::noise::noise;
+use trackdyn_estimate::clock::{ClockSearch, clock_offset};
+use trackdyn_estimate::noise::noise;
 use trackdyn_recording::{PoseSample, Recording};
 
 /// Driving with rests, some twelve minutes in three runs.

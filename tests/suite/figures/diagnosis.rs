@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 use trackdyn_core::PerSide;
 use trackdyn_diagnose::diagnosis::HeldOut;
 use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, Options, diagnose};
+use trackdyn_estimate::synthetic::{ConstantIcr, Synthetic, random_steps};
 use trackdyn_model::Stationary;
 use trackdyn_model::kinematics::Source;
 use trackdyn_model::{Circumstance, Effects, Model, VehicleFile};
 use trackdyn_recording::OperatingPoint;
-use trackdyn_recording::synthetic::{ConstantIcr, Synthetic, random_steps};
 use trackdyn_report::{Figure, Subject, diagnosis_figures, diagnosis_html};
 
 /// Pixels that stay white at the left, the right and the top of every figure.

@@ -1,10 +1,11 @@
 //! Replays of synthetic recordings, whose parameters and noise are known.
 
 use trackdyn_core::PerSide;
+use trackdyn_estimate::clock;
 use trackdyn_estimate::odometry::{Comparison, Error, ParameterSet, Span};
+use trackdyn_estimate::synthetic::{Stretch, Synthetic, random_steps};
 use trackdyn_model::{Icrs, Kinematics};
-use trackdyn_recording::synthetic::{Stretch, Synthetic, random_steps};
-use trackdyn_recording::{Recording, clock};
+use trackdyn_recording::Recording;
 
 const POSITION_NOISE: f64 = 0.004;
 const YAW_NOISE: f64 = 0.003;
@@ -72,7 +73,7 @@ fn a_gauge_that_is_too_small_turns_too_far_and_drift_is_constant() {
     // Truth: x_r − x_l = 0.5 m; replayed with 0.4 m, every turn is predicted 1.25 times too large.
     let speeds = PerSide::new(0.45, 0.55);
     let schedules = vec![vec![Stretch { duration: 100.0, speeds }]];
-    let kinematics = trackdyn_recording::synthetic::ConstantIcr {
+    let kinematics = trackdyn_estimate::synthetic::ConstantIcr {
         x_left: -0.25,
         x_right: 0.25,
         y: 0.0,

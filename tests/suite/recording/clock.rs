@@ -1,9 +1,10 @@
 //! The clock offset of synthetic recordings, over seeds.
 
 use trackdyn_core::PerSide;
-use trackdyn_recording::clock::{ClockSearch, clock_offset};
-use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
-use trackdyn_recording::{Error, Recording, Source};
+use trackdyn_estimate::Error;
+use trackdyn_estimate::clock::{ClockSearch, clock_offset};
+use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
+use trackdyn_recording::{Recording, Source};
 
 /// Noise as in lidar odometry of a small robot: 5 mm, 2 mrad, 5 % of the speed.
 fn noisy(tau: f64, seed: u64) -> Synthetic {

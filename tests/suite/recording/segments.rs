@@ -3,11 +3,9 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use trackdyn_core::{PerSide, Pose};
-use trackdyn_recording::synthetic::{Stretch, Synthetic, random_steps};
-use trackdyn_recording::{
-    PoseSample, Recording, Segment, SegmentOptions, Series, Source, TrackSample, UncheckedRun,
-    hold, segments,
-};
+use trackdyn_estimate::synthetic::{Stretch, Synthetic, random_steps};
+use trackdyn_estimate::{Segment, SegmentOptions, segments};
+use trackdyn_recording::{PoseSample, Recording, Series, Source, TrackSample, UncheckedRun, hold};
 
 fn cut(recording: &Recording, options: &SegmentOptions) -> Vec<Segment> {
     let found = segments(recording, options);

@@ -2,16 +2,17 @@
 
 use crate::recovery::{GAUGE, TRUTH, shares, start};
 use trackdyn_core::{PerSide, Pose};
+use trackdyn_estimate::SegmentOptions;
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::identification::{Options, identify};
 use trackdyn_estimate::least_squares::{Loss, lacks_nuisance};
+use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_estimate::{
     Doubt, Estimate, Free, Nuisance, Observations, Parameters, Unknowns, Weighting, least_squares,
 };
-use trackdyn_recording::noise::noise;
-use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
-use trackdyn_recording::{Recording, SegmentOptions, Source};
+use trackdyn_recording::{Recording, Source};
 
 /// True clock offset, s: a reading and two thirds.
 const TAU: f64 = 0.05;

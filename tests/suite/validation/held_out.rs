@@ -7,7 +7,8 @@ use crate::validation::recordings::identified;
 use trackdyn_estimate::identification::Fit;
 use trackdyn_estimate::odometry::comparison::{Component, SetErrors};
 use trackdyn_estimate::odometry::{Comparison, Estimate, ParameterSet};
-use trackdyn_recording::{Clock, Interval, RunList};
+use trackdyn_estimate::{Clock, Interval};
+use trackdyn_recording::RunList;
 use trackdyn_tests::real_recording;
 
 /// Recording, gauge (m), runs that are fitted to, runs that are judged on.

@@ -9,8 +9,8 @@ use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use trackdyn_recording::clock::{ClockSearch, clock_offset};
-use trackdyn_recording::format::Format;
+use trackdyn_estimate::clock::{ClockSearch, clock_offset};
+use trackdyn_recording::Format;
 use trackdyn_recording::rosbag::{self, RosbagOptions};
 use trackdyn_recording::{OperatingPoint, OperatingPoints, Recording, folder, tum};
 

@@ -17,8 +17,8 @@ use std::collections::BTreeSet;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use trackdyn_core::output::{prepare_folder, write_file};
+use trackdyn_estimate::Clock;
 use trackdyn_estimate::odometry::{Comparison, tum};
-use trackdyn_recording::Clock;
 
 /// Options of `trackdyn odometry`.
 #[derive(Args)]

@@ -73,9 +73,9 @@ fn cost(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SegmentOptions;
     use crate::prediction::predict;
-    use trackdyn_recording::SegmentOptions;
-    use trackdyn_recording::synthetic::{Synthetic, random_steps};
+    use crate::synthetic::{Synthetic, random_steps};
 
     #[test]
     fn fast_cost_equals_the_plain_sum() {

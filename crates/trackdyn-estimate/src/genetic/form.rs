@@ -192,10 +192,10 @@ impl Yaw {
 mod tests {
     use super::super::{Cost, ranges};
     use super::*;
+    use crate::SegmentOptions;
+    use crate::synthetic::{Synthetic, random_steps};
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
-    use trackdyn_recording::SegmentOptions;
-    use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
     fn observations(pose_interval: f64) -> Observations {
         let noisy = Synthetic {

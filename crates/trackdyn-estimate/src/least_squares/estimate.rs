@@ -4,8 +4,8 @@ use super::Unknowns;
 use super::covariance::{larger_deviation, with_deviations};
 use crate::parameters::{COUNT, Parameters};
 use crate::sensor::{Nuisance, Sensor};
+use crate::{Blocks, Interval};
 use nalgebra::{DMatrix, DVector};
-use trackdyn_recording::{Blocks, Interval};
 
 /// Fitted parameters.
 #[derive(Clone, Debug)]

@@ -2,13 +2,13 @@
 
 use crate::doubt::Doubt;
 use crate::least_squares::Estimate;
+use crate::noise::Noise;
 use crate::observations::Observations;
 use crate::parameters::Free;
 use crate::sensor::Nuisance;
 use faer::Mat;
 use nalgebra::{DMatrix, Matrix2, Vector2};
 use trackdyn_core::Side;
-use trackdyn_recording::noise::Noise;
 
 /// Ratio of eigenvalues below which a direction is lost in rounding.
 const LOST: f64 = 1e-13;

@@ -9,7 +9,8 @@ pub use path::{Path, PathErrors};
 pub use span::{SetErrors, SpanErrors};
 
 use crate::odometry::{Error, ParameterSet, Span, Stretch, replay, stretch};
-use trackdyn_recording::{Blocks, Recording, SegmentOptions};
+use crate::{Blocks, SegmentOptions};
+use trackdyn_recording::Recording;
 
 /// The replays of runs with several parameter sets, and their errors.
 #[derive(Clone, Debug, PartialEq)]

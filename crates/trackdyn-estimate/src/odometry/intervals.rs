@@ -1,6 +1,6 @@
 //! Statistics of sums over blocks of a recording, with the intervals that leaving out one block each gives ([`Interval`]).
 
-use trackdyn_recording::Interval;
+use crate::Interval;
 
 /// Fewer blocks have no interval.
 pub const FEWEST: usize = 5;

@@ -64,9 +64,9 @@ pub fn replay(run: &Run, set: &ParameterSet, tau: f64) -> Result<DeadReckoning, 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::synthetic::{ConstantIcr, Stretch, Synthetic};
     use trackdyn_core::PerSide;
     use trackdyn_recording::Recording;
-    use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic};
 
     fn recording(speeds: PerSide<f64>, tau: f64) -> Recording {
         let kinematics =

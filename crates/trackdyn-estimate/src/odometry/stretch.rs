@@ -1,7 +1,8 @@
 //! Pieces of a run over which motion is compared.
 
+use crate::{Segment, SegmentOptions, segments};
 use trackdyn_core::Pose;
-use trackdyn_recording::{Recording, Segment, SegmentOptions, hold, segments};
+use trackdyn_recording::{Recording, hold};
 
 /// How long a piece is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,8 +129,8 @@ pub fn joined(segments: &[Stretch], span: Span) -> Vec<Stretch> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::synthetic::{Stretch as Drive, Synthetic};
     use trackdyn_core::PerSide;
-    use trackdyn_recording::synthetic::{Stretch as Drive, Synthetic};
 
     fn pieces(span: Span) -> Vec<Stretch> {
         let drive = |left, right| Drive { duration: 6.0, speeds: PerSide::new(left, right) };

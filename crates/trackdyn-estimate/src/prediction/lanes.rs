@@ -127,8 +127,8 @@ fn predicted(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trackdyn_recording::SegmentOptions;
-    use trackdyn_recording::synthetic::{Synthetic, random_steps};
+    use crate::SegmentOptions;
+    use crate::synthetic::{Synthetic, random_steps};
 
     #[test]
     fn lanes_are_the_single_segments() {

@@ -9,8 +9,8 @@
 //! The scatter of yaw rates, found without a model: of each point between its neighbours on a line of
 //! constant track speed, against the straight line through these.
 
+use crate::noise::scatter;
 use trackdyn_recording::OperatingPoint;
-use trackdyn_recording::operating_points::scatter;
 
 /// A shortfall of this many standard deviations is none of chance: of a hundred thousand pairs of points
 /// one exceeds 4.4, and the worst of many pairs is what is looked at.

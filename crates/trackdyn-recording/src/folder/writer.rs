@@ -2,7 +2,8 @@
 
 use super::{MANIFEST, Manifest};
 use crate::Error;
-use crate::recording::{Cells, Recording, Run, Sample, Series};
+use crate::recording::{Recording, Run};
+use crate::sample::{Cells, Sample, Series};
 use std::fmt::Write;
 use std::io::ErrorKind;
 use std::path::Path;

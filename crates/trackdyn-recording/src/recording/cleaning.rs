@@ -1,12 +1,14 @@
 //! Rows that cannot be used as they are.
 
 use super::warning::{Cleaning, Finding};
-use super::{PoseSample, Sample, Series, Stream, TrackSample};
-use crate::gaps::GAP;
 use crate::hold::travelled;
-use crate::robust::median;
+use crate::sample::{PoseSample, Sample, Series, Stream, TrackSample};
 use std::f64::consts::{PI, TAU};
 use trackdyn_core::PerSide;
+use trackdyn_core::robust::median;
+
+/// An interval of more than this many medians is a gap: nobody knows what happened in it.
+pub const MIN_GAP_RATIO: f64 = 5.0;
 
 /// An interval below this part of the median one is too short for two separate measurements.
 const CROWDED: f64 = 0.1;
@@ -101,7 +103,7 @@ fn intervals<S: Sample>(samples: &[S], mut report: impl FnMut(Finding, usize, f6
         report(finding(longest), count, first);
     };
     of(&|length| length < CROWDED * usual, &|_| Finding::Crowded);
-    of(&|length| length > GAP * usual, &|longest| Finding::Gap { longest });
+    of(&|length| length > MIN_GAP_RATIO * usual, &|longest| Finding::Gap { longest });
 }
 
 /// Adds whole turns so that yaw never jumps by more than half a turn.
@@ -130,7 +132,7 @@ pub(super) fn unwrap_yaw(poses: &mut [PoseSample], run: i64, cleanings: &mut Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recording::{Cells, Column};
+    use crate::sample::{Cells, Column};
     use trackdyn_core::Pose;
 
     fn tracks(stamps: &[f64]) -> Series<TrackSample> {

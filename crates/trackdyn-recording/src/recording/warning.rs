@@ -1,6 +1,6 @@
 //! What was done to a recording on its way in.
 
-use super::Stream;
+use crate::sample::Stream;
 use std::fmt;
 use std::path::PathBuf;
 

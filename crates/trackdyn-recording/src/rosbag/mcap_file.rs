@@ -1,7 +1,7 @@
 //! `.mcap` files, read as a stream.
 
-use super::storage::Visitor;
 use super::topic::Topic;
+use super::visitor::Visitor;
 use crate::Error;
 use crate::recording::Warning;
 use crate::table::unreadable;

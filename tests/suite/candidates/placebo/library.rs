@@ -12,8 +12,8 @@ use trackdyn_diagnose::evidence::{Evidence, Sample};
 use trackdyn_diagnose::locate::{IcrColumns, icr_columns};
 use trackdyn_diagnose::normal::{Normal, Prior};
 use trackdyn_diagnose::prior::priors;
+use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_model::{CATALOGUE, VehicleFile};
-use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
 /// Placebos in a library.
 pub const PLACEBOS: usize = 20;

@@ -3,11 +3,12 @@
 use super::robot::auriga_without_alpha;
 use crate::validation::map_statistics;
 use trackdyn_core::PerSide;
+use trackdyn_estimate::SegmentOptions;
 use trackdyn_estimate::identification::{Identification, Options, identify};
 use trackdyn_estimate::odometry::ParameterSet;
 use trackdyn_estimate::{Estimate, GeneticOptions, Observations, spin_test};
 use trackdyn_model::{Icrs, Kinematics};
-use trackdyn_recording::{Recording, SegmentOptions, Source, TrackSample, UncheckedRun};
+use trackdyn_recording::{Recording, Source, TrackSample, UncheckedRun};
 
 /// Gauge of Auriga-alpha, m.
 pub const GAUGE: f64 = 0.42;

@@ -3,12 +3,13 @@
 use crate::tables::{ClockTable, rounded};
 use serde::Serialize;
 use trackdyn_core::output::fingerprint;
+use trackdyn_estimate::Interval;
 use trackdyn_estimate::identification::Fit;
+use trackdyn_estimate::noise::Component;
 use trackdyn_estimate::{Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest};
 use trackdyn_model::VehicleFile;
 use trackdyn_model::kinematics::Source;
-use trackdyn_recording::noise::Component;
-use trackdyn_recording::{Interval, Recording};
+use trackdyn_recording::Recording;
 
 #[derive(Serialize)]
 struct File<'a> {

@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 use trackdyn_estimate::identification::Fit;
+use trackdyn_estimate::{Clock, Interval};
 use trackdyn_estimate::{Estimate, Free, Identification, Nuisance, Parameters};
 use trackdyn_model::Vehicle;
-use trackdyn_recording::{Clock, Interval, Recording};
+use trackdyn_recording::Recording;
 
 /// One screen: the recording, its clock and noise, the methods side by side.
 pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) -> String {

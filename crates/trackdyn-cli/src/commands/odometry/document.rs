@@ -4,9 +4,9 @@ use super::inputs::Inputs;
 use super::summary::end;
 use crate::tables::{ClockTable, rounded};
 use serde::Serialize;
+use trackdyn_estimate::Clock;
 use trackdyn_estimate::odometry::comparison::{Component, SpanErrors};
 use trackdyn_estimate::odometry::{Comparison, Estimate, ParameterSet, Span};
-use trackdyn_recording::Clock;
 
 #[derive(Serialize)]
 struct File<'a> {

@@ -1,10 +1,11 @@
 //! One run with all its predicted paths.
 
+use crate::Extent;
 use crate::odometry::pose_error::{self, Delta, Statistics};
 use crate::odometry::{DeadReckoning, Residual};
 use trackdyn_core::Pose;
 use trackdyn_core::pose::wrap_angle;
-use trackdyn_recording::{Extent, Run, hold};
+use trackdyn_recording::{Run, hold};
 
 /// A run: what was recorded and what each parameter set predicts, pose by pose.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,10 +2,10 @@
 
 use super::{Component, Method, PoseNoise};
 use crate::gaps::Gaps;
-use crate::hold::travelled;
-use crate::recording::{PoseSample, Recording, Run};
-use crate::robust::{MEDIAN_OF_CHI_SQUARE, median};
+use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median};
 use trackdyn_core::{PerSide, Pose, Side, real};
+use trackdyn_recording::hold::travelled;
+use trackdyn_recording::{PoseSample, Recording, Run};
 
 /// Steps between the poses of a triple.
 const STEPS: [usize; 4] = [1, 2, 4, 8];

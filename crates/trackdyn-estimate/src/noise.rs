@@ -16,12 +16,15 @@
 //! 1139); difference-based variance in regression: Gasser, Sroka and Jennen-Steinmetz, Biometrika 73
 //! (1986), 625-633.
 
-use crate::recording::Recording;
 use std::fmt;
 use trackdyn_core::{PerSide, Side};
+use trackdyn_recording::Recording;
 
 mod encoder;
+mod scatter;
 mod triples;
+
+pub use scatter::scatter;
 
 /// Noise of a recording; what the recording cannot show is absent.
 #[derive(Clone, Debug, PartialEq)]

@@ -159,7 +159,7 @@ impl<S> From<Vec<S>> for Series<S> {
 
 impl<S: Sample> Series<S> {
     /// These rows, in this order.
-    pub(crate) fn part(&self, rows: &[usize]) -> Self {
+    pub fn part(&self, rows: &[usize]) -> Self {
         let column =
             |column: &Column| Column { name: column.name.clone(), cells: column.cells.part(rows) };
         Self {

@@ -6,38 +6,36 @@
 //! v̄ = Σ v_k h_k / Σ h_k,   h_k the time that reading k holds
 
 use crate::gaps::usual_interval;
-use crate::recording::{Recording, Run, TrackSample, UncheckedRun};
 use std::borrow::Cow;
 use trackdyn_core::real;
+use trackdyn_recording::{Recording, Run, TrackSample, UncheckedRun};
 
 /// Part of an interval that is rounding.
 const ROUNDING: f64 = 1e-6;
 
-impl Recording {
-    /// The same recording with as many readings of the tracks put together as usually fit into this time, s. Its fingerprint
-    /// is that of the recording.
-    pub fn with_readings_every(&self, interval: f64) -> Cow<'_, Self> {
-        let usual = |run: &Run| usual_interval(run.tracks().iter().map(|reading| reading.t));
-        let usual: Vec<f64> = self.runs().iter().map(usual).collect();
-        let counts = self.runs().iter().zip(&usual);
-        let counts: Vec<usize> =
-            counts.map(|(run, usual)| fitting(run.tracks().len(), *usual, interval)).collect();
-        if counts.iter().all(|count| *count == 1) {
-            return Cow::Borrowed(self);
-        }
-        let thinned = |((run, &usual), &count): ((&Run, &f64), &usize)| {
-            if count == 1 {
-                return run.clone();
-            }
-            let mut rows: UncheckedRun = run.clone().into_rows();
-            let firsts: Vec<usize> = (0..run.tracks().len()).step_by(count).collect();
-            rows.tracks = rows.tracks.part(&firsts);
-            rows.tracks.samples = together(run.tracks(), usual, count);
-            Run::new(rows, &mut Vec::new())
-        };
-        let runs = self.runs().iter().zip(&usual).zip(&counts).map(thinned);
-        Cow::Owned(self.with_runs(runs.collect()))
+/// A recording in which as many readings of the tracks are put together as usually fit into this
+/// time, s. The fingerprint stays.
+pub fn with_readings_every(recording: &Recording, interval: f64) -> Cow<'_, Recording> {
+    let runs = recording.runs();
+    let usual = |run: &Run| usual_interval(run.tracks().iter().map(|reading| reading.t));
+    let usual: Vec<f64> = runs.iter().map(usual).collect();
+    let counts = runs.iter().zip(&usual);
+    let counts: Vec<usize> =
+        counts.map(|(run, usual)| fitting(run.tracks().len(), *usual, interval)).collect();
+    if counts.iter().all(|count| *count == 1) {
+        return Cow::Borrowed(recording);
     }
+    let thinned = |((run, &usual), &count): ((&Run, &f64), &usize)| {
+        if count == 1 {
+            return run.clone();
+        }
+        let mut rows: UncheckedRun = run.clone().into_rows();
+        let firsts: Vec<usize> = (0..run.tracks().len()).step_by(count).collect();
+        rows.tracks = rows.tracks.part(&firsts);
+        rows.tracks.samples = together(run.tracks(), usual, count);
+        Run::new(rows, &mut Vec::new())
+    };
+    Cow::Owned(recording.with_runs(runs.iter().zip(&usual).zip(&counts).map(thinned).collect()))
 }
 
 /// How many of some readings fit into a time, s, at their usual interval; one at least.
@@ -67,9 +65,9 @@ fn together(readings: &[TrackSample], usual: f64, count: usize) -> Vec<TrackSamp
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hold::travelled;
-    use crate::recording::{PoseSample, Source};
     use trackdyn_core::Pose;
+    use trackdyn_recording::hold::travelled;
+    use trackdyn_recording::{PoseSample, Source};
 
     /// A run whose encoders report at these times, s.
     fn recording(stamps: &[f64]) -> Recording {
@@ -97,7 +95,7 @@ mod tests {
             .collect();
         let stamps: Vec<f64> = stamps.into_iter().filter(|t| !(0.2..0.25).contains(t)).collect();
         let dense = recording(&stamps);
-        let thinned = dense.with_readings_every(0.01);
+        let thinned = with_readings_every(&dense, 0.01);
         let [before, after] = [&dense, &*thinned].map(|one| one.runs()[0].tracks());
         assert!(after.len() < before.len() / 9, "{} of {}", after.len(), before.len());
         for pair in after.windows(2) {
@@ -113,9 +111,9 @@ mod tests {
         for interval in [0.01, 0.05, 3.0] {
             let stamps: Vec<f64> = (0..40).map(|k| interval * f64::from(k)).collect();
             let rare = recording(&stamps);
-            assert!(matches!(rare.with_readings_every(0.01), Cow::Borrowed(_)), "{interval}");
+            assert!(matches!(with_readings_every(&rare, 0.01), Cow::Borrowed(_)), "{interval}");
         }
         let alone = recording(&[0.0]);
-        assert!(matches!(alone.with_readings_every(0.01), Cow::Borrowed(_)));
+        assert!(matches!(with_readings_every(&alone, 0.01), Cow::Borrowed(_)));
     }
 }

@@ -2,11 +2,9 @@
 //!
 //! Within them nobody knows what the tracks did: the last reading holds on, and is wrong.
 
-use crate::recording::TrackSample;
-use crate::robust::median;
-
-/// Intervals beyond this many medians are gaps.
-pub const GAP: f64 = 5.0;
+use trackdyn_core::robust::median;
+use trackdyn_recording::TrackSample;
+use trackdyn_recording::recording::MIN_GAP_RATIO;
 
 /// The gaps between the readings of a run.
 #[derive(Clone, Debug, Default)]
@@ -16,9 +14,12 @@ pub struct Gaps {
 }
 
 impl Gaps {
-    /// Intervals of more than [`GAP`] medians.
+    /// Intervals of more than [`MIN_GAP_RATIO`] medians.
     pub fn of(tracks: &[TrackSample]) -> Self {
-        Self::longer_than(GAP * usual_interval(tracks.iter().map(|sample| sample.t)), tracks)
+        Self::longer_than(
+            MIN_GAP_RATIO * usual_interval(tracks.iter().map(|sample| sample.t)),
+            tracks,
+        )
     }
 
     /// Intervals longer than this, s.

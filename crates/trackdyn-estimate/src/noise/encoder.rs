@@ -1,9 +1,9 @@
 //! Noise of encoder speeds.
 
 use super::{EncoderNoise, Method};
-use crate::recording::{Recording, TrackSample};
-use crate::robust::{deviation_about_zero, median};
 use trackdyn_core::Side;
+use trackdyn_core::robust::{deviation_about_zero, median};
+use trackdyn_recording::{Recording, TrackSample};
 
 /// Fewer triples than this say nothing.
 const FEWEST: usize = 30;

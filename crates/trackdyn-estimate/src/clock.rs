@@ -14,7 +14,7 @@
 //! # Assumes
 //! k may be any constant: no kinematic model is needed. A belt that lags behind its encoder shows as
 //! a clock offset just so; the two are told apart elsewhere, if at all. τ goes with readings that
-//! are held ([`hold`](crate::hold)): where a reading stands for the time before or around its stamp,
+//! are held ([`hold`](trackdyn_recording::hold)): where a reading stands for the time before or around its stamp,
 //! the delay itself is a whole or half an interval of the readings longer.
 //!
 //! # Sources
@@ -22,8 +22,8 @@
 //! ed., chapter 5 and section 14.1.
 
 use crate::Error;
-use crate::recording::Recording;
 use trackdyn_core::real;
+use trackdyn_recording::Recording;
 
 mod intervals;
 mod moments;
@@ -51,7 +51,7 @@ impl Default for ClockSearch {
 /// The clock offset of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClockOffset {
-    /// τ, s: positive where poses are late ([`hold`](crate::hold)).
+    /// τ, s: positive where poses are late ([`hold`](trackdyn_recording::hold)).
     pub tau: f64,
     /// Standard error of τ, s, by leaving out blocks of time: correlated and uneven noise is in it.
     pub standard_error: f64,

@@ -10,9 +10,9 @@
 //! Stone, Journal of the Royal Statistical Society B 36(2), 1974 (leaving one out); Cleveland, Journal of the American
 //! Statistical Association 74(368), 1979 (lines through neighbours).
 
-use crate::recording::{Recording, Run, UncheckedRun};
 use std::ops::Range;
 use trackdyn_core::real;
+use trackdyn_recording::{Recording, Run, UncheckedRun};
 
 /// Fewest samples on either side that tell when a sample was due; then twice as many, and so on.
 const NEIGHBOURS: usize = 5;
@@ -128,16 +128,14 @@ impl Row {
     }
 }
 
-impl Recording {
-    /// The same recording with poses at the times at which they were due. Its fingerprint is that of the recording.
-    pub fn with_regular_poses(&self) -> Self {
-        let regular = |run: &Run| {
-            let mut rows: UncheckedRun = run.clone().into_rows();
-            regularise(&mut rows.poses.samples, |pose| &mut pose.t);
-            Run::new(rows, &mut Vec::new())
-        };
-        self.with_runs(self.runs().iter().map(regular).collect())
-    }
+/// A recording with its poses at the times at which they were due. The fingerprint stays.
+pub fn with_regular_poses(recording: &Recording) -> Recording {
+    let regular = |run: &Run| {
+        let mut rows: UncheckedRun = run.clone().into_rows();
+        regularise(&mut rows.poses.samples, |pose| &mut pose.t);
+        Run::new(rows, &mut Vec::new())
+    };
+    recording.with_runs(recording.runs().iter().map(regular).collect())
 }
 
 #[cfg(test)]

@@ -1,13 +1,12 @@
 //! Recordings with known truth, for tests and examples.
 
-use crate::Error;
-use crate::recording::{
-    PoseSample, Recording, Series, Source, StatedNoise, TrackSample, UncheckedRun,
-};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use trackdyn_core::{PerSide, Pose, Twist, frames, real};
+use trackdyn_recording::{
+    PoseSample, Recording, Series, Source, StatedNoise, TrackSample, UncheckedRun,
+};
 
 /// Constant centres of rotation, in the paper's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,7 +64,7 @@ pub struct Synthetic {
     pub position_noise: f64,
     /// Standard deviation of the yaw of a pose, rad.
     pub yaw_noise: f64,
-    /// Clock offset of the poses against the encoders, s ([`hold`](crate::hold)).
+    /// Clock offset of the poses against the encoders, s ([`hold`](trackdyn_recording::hold)).
     pub tau: f64,
     /// Seed of the noise.
     pub seed: u64,
@@ -105,8 +104,8 @@ impl Synthetic {
     /// the runs before it.
     ///
     /// # Errors
-    /// [`Error::Empty`] when the schedules are too short for two poses.
-    pub fn recording(&self) -> Result<Recording, Error> {
+    /// [`Error::Empty`](trackdyn_recording::Error::Empty) when the schedules are too short for two poses.
+    pub fn recording(&self) -> Result<Recording, trackdyn_recording::Error> {
         let runs = self.schedules.iter().enumerate();
         let runs = runs.map(|(index, schedule)| self.run(index, schedule)).collect();
         let recording =

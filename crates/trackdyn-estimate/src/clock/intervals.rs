@@ -1,10 +1,11 @@
 //! Pose intervals and what the encoders did in them.
 
 use super::regression::{Fit, Sums};
-use crate::gaps::{GAP, Gaps, usual_interval};
-use crate::hold::holding;
-use crate::recording::{Recording, Run, TrackSample};
-use crate::robust::median;
+use crate::gaps::{Gaps, usual_interval};
+use trackdyn_core::robust::median;
+use trackdyn_recording::hold::holding;
+use trackdyn_recording::recording::MIN_GAP_RATIO;
+use trackdyn_recording::{Recording, Run, TrackSample};
 
 /// The pose intervals of all runs.
 pub(super) struct Intervals {
@@ -65,7 +66,7 @@ impl Intervals {
 impl RunIntervals {
     fn new(run: &Run) -> Self {
         let poses = run.poses();
-        let longest = GAP * usual_interval(poses.iter().map(|sample| sample.t));
+        let longest = MIN_GAP_RATIO * usual_interval(poses.iter().map(|sample| sample.t));
         let turns = poses.windows(2).filter(|pair| pair[1].t - pair[0].t <= longest);
         let turns = turns
             .map(|pair| Turn {

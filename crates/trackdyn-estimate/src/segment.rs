@@ -4,11 +4,12 @@
 //! at the first pose that is late enough would pick late stamps, and segments would look longer than they
 //! are: by half a percent in runs of two seconds whose stamps are those of readings 0.05 s apart.
 
-use crate::gaps::{GAP, Gaps, usual_interval};
-use crate::hold::{holding, readings};
-use crate::recording::{Recording, Run};
+use crate::gaps::{Gaps, usual_interval};
 use std::ops::Range;
 use trackdyn_core::{Pose, real};
+use trackdyn_recording::hold::{holding, readings};
+use trackdyn_recording::recording::MIN_GAP_RATIO;
+use trackdyn_recording::{Recording, Run};
 
 /// How to cut a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +22,7 @@ pub struct SegmentOptions {
     pub longest_pose_interval: Option<f64>,
     /// A longer interval between two readings is not bridged, s; none: five times the run's median.
     pub longest_track_interval: Option<f64>,
-    /// Clock offset of the poses against the encoders, s ([`hold`](crate::hold)).
+    /// Clock offset of the poses against the encoders, s ([`hold`](trackdyn_recording::hold)).
     pub tau: f64,
     /// Readings must also be there for clock offsets that differ from `tau` by this much, s.
     pub tau_margin: f64,
@@ -103,13 +104,16 @@ impl<'a> Cut<'a> {
     fn new(index: usize, run: &'a Run, options: &'a SegmentOptions) -> Self {
         let pose_interval = usual_interval(run.poses().iter().map(|sample| sample.t));
         let track_interval = usual_interval(run.tracks().iter().map(|sample| sample.t));
-        let longest_track = options.longest_track_interval.unwrap_or(GAP * track_interval);
+        let longest_track =
+            options.longest_track_interval.unwrap_or(MIN_GAP_RATIO * track_interval);
         let wanted = options.minimum_duration.max(real(options.minimum_readings) * track_interval);
         Self {
             index,
             run,
             options,
-            longest_pose_interval: options.longest_pose_interval.unwrap_or(GAP * pose_interval),
+            longest_pose_interval: options
+                .longest_pose_interval
+                .unwrap_or(MIN_GAP_RATIO * pose_interval),
             pose_intervals: intervals_in(wanted, pose_interval),
             gaps: Gaps::longer_than(longest_track, run.tracks()),
         }

@@ -1,5 +1,5 @@
-//! Time and memory of a diagnosis: of a recording as long as the paper's, of four and of sixteen times as
-//! long, with nothing concealed and with load transfer.
+//! Time and memory of a diagnosis: of a recording as long as the paper's, of four and of sixteen
+//! times as long, with nothing concealed and with load transfer.
 //!
 //! `diagnose_speed [--longest N]` prints a table; N is 1, 4 or 16 (default 16).
 
@@ -13,7 +13,8 @@ use trackdyn_drive::{ScheduleKind, ScheduleOptions};
 use trackdyn_recording::Recording;
 use trackdyn_tests::concealed::{Drive, named, owned, sensors};
 
-/// Runs of the paper, and the time of each that gives its 1807 segments, three poses of 0.1 s each, s.
+/// Runs of the paper, and the time of each that gives its 1807 segments, three poses of 0.1 s each,
+/// s.
 const RUNS: usize = 9;
 const RUN_TIME: f64 = 60.3;
 

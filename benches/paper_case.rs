@@ -28,8 +28,8 @@ pub struct PaperCase {
 
 impl PaperCase {
     pub fn new() -> Self {
-        // 139 steps, each 13 segments long, and a halt of one reading: the last segment's speeds must be
-        // known to its end.
+        // 139 steps, each 13 segments long, and a halt of one reading: the last segment's speeds
+        // must be known to its end.
         let mut schedule = random_steps(139, 3.51, 0.8, 1);
         schedule.push(Stretch { duration: 0.03, speeds: PerSide::default() });
         let synthetic = Synthetic {

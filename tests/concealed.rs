@@ -39,8 +39,8 @@ struct Driven {
 }
 
 impl Drive {
-    /// Drives a vehicle with what is concealed (`id:key=value`) and with Newton's law, each run from a
-    /// place and a heading that are drawn.
+    /// Drives a vehicle with what is concealed (`id:key=value`) and with Newton's law, each run
+    /// from a place and a heading that are drawn.
     ///
     /// # Errors
     /// What no mechanism is, and a robot that tips over.
@@ -118,7 +118,8 @@ pub fn runs(kind: ScheduleKind, count: usize, seed: u64) -> Vec<ScheduledRun> {
     kind.generate(&options).expect("a schedule")
 }
 
-/// Sensors of a preset whose poses are those of one world: places and headings mean the same in all runs.
+/// Sensors of a preset whose poses are those of one world: places and headings mean the same in all
+/// runs.
 pub fn sensors(preset: Preset) -> Sensors {
     let mut sensors = preset.sensors();
     sensors.imu = None;

@@ -34,8 +34,8 @@ pub fn uniform(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * random.random::<f64>()
 }
 
-/// A vehicle of any proportion: μ_x/μ_y from 0.2 to 5, contact from e⁻² to e² gauges long, tracks or
-/// two to four axles, the centre of gravity anywhere up to `support` of the tipping limit.
+/// A vehicle of any proportion: μ_x/μ_y from 0.2 to 5, contact from e⁻² to e² gauges long, tracks
+/// or two to four axles, the centre of gravity anywhere up to `support` of the tipping limit.
 pub fn random_vehicle(random: &mut ChaCha8Rng, support: f64) -> Vehicle {
     let mu_y = uniform(random, 0.1, 1.5);
     let ratio = uniform(random, 0.2_f64.ln(), 5.0_f64.ln()).exp();
@@ -70,8 +70,9 @@ pub fn random_vehicle(random: &mut ChaCha8Rng, support: f64) -> Vehicle {
     vehicle
 }
 
-/// A public recording of a real robot, which the project does not carry: `TRACKDYN_DATA` names their folder, else it is
-/// `../shared/data` beside the checkout. None, and a note, where it is not at hand.
+/// A public recording of a real robot, which the project does not carry: `TRACKDYN_DATA` names
+/// their folder, else it is `../shared/data` beside the checkout. None, and a note, where it is not
+/// at hand.
 ///
 /// # Panics
 /// Where the recording cannot be read, or the folder that `TRACKDYN_DATA` names does not have it.

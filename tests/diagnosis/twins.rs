@@ -41,8 +41,8 @@ fn id(concealed: &str) -> &str {
     concealed.split(':').next().expect("an id")
 }
 
-/// Slow driving, in which the centripetal force (a fortieth of the friction's range) moves no ICR: nothing
-/// but three numbers can be told.
+/// Slow driving, in which the centripetal force (a fortieth of the friction's range) moves no ICR:
+/// nothing but three numbers can be told.
 fn slow() -> Vec<ScheduledRun> {
     let options = ScheduleOptions {
         runs: Some(4),
@@ -54,7 +54,8 @@ fn slow() -> Vec<ScheduledRun> {
     ScheduleKind::Manual.generate(&options).expect("a schedule")
 }
 
-/// What is named beside the clock, where that is not one answer with all of the class; none where it is.
+/// What is named beside the clock, where that is not one answer with all of the class; none where
+/// it is.
 fn split(concealed: &str) -> Option<String> {
     let found = diagnosis_of(&slow(), concealed, &sensors(Preset::Laboratory));
     let beside_clock = named(&found).into_iter().filter(|(_, m)| !m.contains("time-offset"));
@@ -80,8 +81,8 @@ fn every_member_of_the_class_of_constants_is_one_answer() {
     assert!(split.is_empty(), "{split:#?}");
 }
 
-/// At speed the centripetal force, which the owner knows, tells a little more than three numbers: whatever
-/// that leaves of the class, the truth is in it.
+/// At speed the centripetal force, which the owner knows, tells a little more than three numbers:
+/// whatever that leaves of the class, the truth is in it.
 #[test]
 #[ignore = "eight drives: cargo test --release -p trackdyn-tests --test diagnosis -- --ignored"]
 fn at_speed_the_truth_is_in_the_class_of_constants() {
@@ -98,8 +99,8 @@ fn at_speed_the_truth_is_in_the_class_of_constants() {
 
 /// What a diagnosis names beyond what its evidence can tell apart.
 ///
-/// A single name is too much where it is not the truth, or where another effect is closer than the rules
-/// allow: by the signatures beside the base, its own at the size that was found.
+/// A single name is too much where it is not the truth, or where another effect is closer than the
+/// rules allow: by the signatures beside the base, its own at the size that was found.
 fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
     let found = diagnosis(concealed, &sensors(preset));
     let truth = id(concealed);
@@ -121,8 +122,8 @@ fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
     wrong
 }
 
-/// Every variant of every other candidate, with the part of an effect's signature, at the size that was found, that
-/// neither it nor the base can stand for, in standard deviations.
+/// Every variant of every other candidate, with the part of an effect's signature, at the size that
+/// was found, that neither it nor the base can stand for, in standard deviations.
 fn separations(found: &Diagnosis, effect: usize) -> Vec<(usize, f64)> {
     let Diagnosis { base, evidence, best, .. } = found;
     let active = best.fit.hypothesis.effect(effect).expect("what is named is there");
@@ -184,8 +185,8 @@ fn in_time() -> Sensors {
     sensors
 }
 
-/// A lag of the drivetrain far below the time of a change of speed, and a clock that is late, differ by
-/// less than poses err in a short drive.
+/// A lag of the drivetrain far below the time of a change of speed, and a clock that is late,
+/// differ by less than poses err in a short drive.
 #[test]
 fn a_lag_and_a_late_clock_are_one_answer() {
     /// Delay of either, s.
@@ -195,8 +196,8 @@ fn a_lag_and_a_late_clock_are_one_answer() {
     let mut split = Vec::new();
     for concealed in ["drivetrain-lag:time_constant_s", "time-offset:delay_s"] {
         let found = diagnosis(&format!("{concealed}={LATE}"), &in_time());
-        // The part of a lag that a clock, which is free, cannot stand for goes as the square of its time:
-        // 1/(1 + s T) − exp(−s T) = (s T)²/2 + …
+        // The part of a lag that a clock, which is free, cannot stand for goes as the square of its
+        // time: 1/(1 + s T) − exp(−s T) = (s T)²/2 + …
         let of = &found.resemblance;
         let place = of.effects.iter().position(|effect| *effect == lag);
         let apart = place.map(|place| of.detection[place] * (LATE / typical).powi(2));

@@ -63,7 +63,8 @@ fn fit(recording: &Recording, free: Free) -> Result<Estimate, Error> {
     least_squares(&observe(recording), &start(), &free.into(), &weighting, Loss::Huber)
 }
 
-/// Shares of `count` draws, with the seeds from `seed` on, in which each of N intervals holds the truth.
+/// Shares of `count` draws, with the seeds from `seed` on, in which each of N intervals holds the
+/// truth.
 fn shares<const N: usize>(
     count: u32,
     seed: u64,

@@ -10,7 +10,8 @@ use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_model::{Effects, VehicleFile};
 use trackdyn_recording::Recording;
 
-/// A drive with constant ICRs: the lugs that its owner believes in do not grip more one way than the other.
+/// A drive with constant ICRs: the lugs that its owner believes in do not grip more one way than
+/// the other.
 fn recording() -> Recording {
     let synthetic = Synthetic {
         schedules: (0..6).map(|run| random_steps(14, 1.98, 0.8, 400 + run)).collect(),

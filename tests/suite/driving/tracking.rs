@@ -114,8 +114,8 @@ fn the_ideal_drive_circles_wide_by_what_geometry_says() {
     let steady = journey.cross_track.iter().filter(|error| (9.0..18.0).contains(&error.along));
     let offsets: Vec<f64> = steady.map(|error| error.offset).collect();
     // The point runs on a circle of radius ρ about the same centre, its goal L away on the path:
-    // Δ_y = (L² + ρ² − R²)/(2 ρ). The ideal drive asks for ω/v = Δ_y/(L²/2 + p_x Δ_x) and sets the tracks
-    // G/2 apart; they turn the hull with x_r − x_l and move its middle with (x_r + x_l)/2:
+    // Δ_y = (L² + ρ² − R²)/(2 ρ). The ideal drive asks for ω/v = Δ_y/(L²/2 + p_x Δ_x) and sets the
+    // tracks G/2 apart; they turn the hull with x_r − x_l and move its middle with (x_r + x_l)/2:
     // ρ = (v/ω)(x_r − x_l)/G − (x_r + x_l)/2.
     let look_ahead = tracker.look_ahead;
     let residual = |rho: f64| {

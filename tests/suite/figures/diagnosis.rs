@@ -100,7 +100,8 @@ impl Case {
     }
 }
 
-/// Names of the elements that are open at the end of a page, or the first that is closed out of turn.
+/// Names of the elements that are open at the end of a page, or the first that is closed out of
+/// turn.
 fn unclosed(html: &str) -> Vec<String> {
     const EMPTY: [&str; 4] = ["meta", "br", "img", "!DOCTYPE"];
     let style = html.find("<style>").expect("a style")..html.find("</style>").expect("its end");

@@ -41,8 +41,8 @@ fn true_parameters_leave_noise() {
     // Twelve runs, each cut into four blocks.
     assert_eq!(segments.blocks, 48);
     let [ideal, truth] = segments.sets[..] else { panic!("two sets") };
-    // An increment has the noise of two poses; yaw noise of the first turns the motion in a segment,
-    // up to 0.3 m, so that along and across may have some more. 5 %: 2400 segments, and τ.
+    // An increment has the noise of two poses; yaw noise of the first turns the motion in a
+    // segment, up to 0.3 m, so that along and across may have some more. 5 %: 2400 segments, and τ.
     let yaw = truth.yaw.rms.value / (YAW_NOISE * 2.0_f64.sqrt());
     assert!((yaw - 1.0).abs() < 0.05, "{yaw}");
     for component in [truth.along, truth.across] {
@@ -87,7 +87,8 @@ fn a_gauge_that_is_too_small_turns_too_far_and_drift_is_constant() {
     let yaw = &metre.sets[0].yaw;
     assert!((yaw.mean.value + 0.05 * metre.mean_duration).abs() < 1e-9, "{yaw:?}");
     assert!((yaw.per_metre.expect("it moves").value - 0.1).abs() < 1e-9);
-    // One run is cut into 48 blocks of 2.08 s that all say the same; 47 pieces of 2.1 s begin in 47 of them.
+    // One run is cut into 48 blocks of 2.08 s that all say the same; 47 pieces of 2.1 s begin in 47
+    // of them.
     assert_eq!((result.blocks.count(), metre.blocks), (48, 47));
     assert!(yaw.mean.half_width.expect("blocks") < 1e-9);
     let last = result.paths[0].errors(0).expect("a path").last;

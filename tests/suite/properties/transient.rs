@@ -160,7 +160,8 @@ fn straight_driving_is_straight_and_stops_where_it_should() {
     assert!(end.twist.v_x.abs() < 1e-5 && end.twist.w.abs() < 1e-5, "{end:?}");
 }
 
-/// A full brake shifts the load by μ_y h: beyond l/6 part of the contact lifts, beyond l/2 the robot tips over.
+/// A full brake shifts the load by μ_y h: beyond l/6 part of the contact lifts, beyond l/2 the
+/// robot tips over.
 #[test]
 fn a_high_robot_lifts_and_then_tips_over_its_brakes() {
     let brake = schedule(&[(0.0, 0.8, 0.8), (1.0, 0.0, 0.0), (2.0, 0.0, 0.0)]);
@@ -209,8 +210,8 @@ fn without_inertia_the_robot_is_where_the_stationary_model_says_at_once() {
     }
 }
 
-/// Friction turns over within a slip of micrometres per second, and a belt's speed with it: what the traction was a
-/// moment before says nothing of what it is.
+/// Friction turns over within a slip of micrometres per second, and a belt's speed with it: what
+/// the traction was a moment before says nothing of what it is.
 #[test]
 fn belts_that_slip_drive_straight_after_a_turn() {
     for inertia in [&[][..], &NEWTON] {
@@ -226,8 +227,8 @@ fn belts_that_slip_drive_straight_after_a_turn() {
     }
 }
 
-/// Belts that slip take up a small difference of the sprockets: the robot does not turn. A larger one turns it, and
-/// the motion in time settles to the stationary one on both sides of the edge.
+/// Belts that slip take up a small difference of the sprockets: the robot does not turn. A larger
+/// one turns it, and the motion in time settles to the stationary one on both sides of the edge.
 #[test]
 fn belts_that_slip_do_not_turn_at_a_small_difference() {
     const SLIP: f64 = 0.05;

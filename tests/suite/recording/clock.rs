@@ -129,8 +129,8 @@ fn rare_readings_have_an_offset() {
     assert!((tau - 0.2).abs() < 1.5 / 4.0, "{tau}");
 }
 
-/// Where no reading came nobody knows what the tracks did: two seconds of every six pull the offset by a fifth of a second if the
-/// last reading is taken to hold on.
+/// Where no reading came nobody knows what the tracks did: two seconds of every six pull the offset
+/// by a fifth of a second if the last reading is taken to hold on.
 #[test]
 fn times_without_readings_do_not_count() {
     for seed in 0..5 {

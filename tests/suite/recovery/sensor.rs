@@ -20,8 +20,8 @@ const TAU: f64 = 0.05;
 /// True yaw of the sensor, rad: 2.3 degrees.
 const YAW: f64 = 0.04;
 
-/// Runs like those of the other tests; poses come every 0.097 s, which is no multiple of the readings, as clocks
-/// that run apart have it.
+/// Runs like those of the other tests; poses come every 0.097 s, which is no multiple of the
+/// readings, as clocks that run apart have it.
 fn noisy(schedules: Vec<Vec<Stretch>>, seed: u64) -> Synthetic {
     let [x_left, x_right, y, left, right] = TRUTH;
     Synthetic {
@@ -146,7 +146,8 @@ fn a_lever_arm_moves_the_icrs_and_nothing_else() {
         let moved = mounted.parameters.0[k] - bare.parameters.0[k];
         assert!((moved - shift).abs() < 1e-6, "{}: {moved}", Parameters::NAMES[k]);
     }
-    // Nothing is left that a lever arm could explain: over a thousand segments, less than a micrometre each.
+    // Nothing is left that a lever arm could explain: over a thousand segments, less than a
+    // micrometre each.
     assert!(bare.cost < 1e-9 && mounted.cost < 1e-9, "{} {}", bare.cost, mounted.cost);
 }
 
@@ -209,7 +210,8 @@ fn a_clock_offset_that_is_far_off_is_found_too() {
     assert!((interval.value - TAU).abs() < 4.0 * interval.deviation, "{interval:?}");
 }
 
-/// Shares of `count` recordings whose 95 % interval holds the truth: τ, ψ and the kinematic parameters.
+/// Shares of `count` recordings whose 95 % interval holds the truth: τ, ψ and the kinematic
+/// parameters.
 fn coverage(count: u32, seed: u64) -> [f64; 7] {
     shares(count, seed, |seed| {
         let estimate = fit(&drive(steps(seed), seed), &BOTH, 0.01);

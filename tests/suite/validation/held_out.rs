@@ -1,7 +1,8 @@
 //! Odometry of public recordings with parameters from their other half.
 //!
-//! Goal: identified ICRs beat the ideal drive in yaw on driving that they were not fitted to, by more than the
-//! 95 % interval of the ratio. The table in `docs/validation.md` is what this test computes.
+//! Goal: identified ICRs beat the ideal drive in yaw on driving that they were not fitted to, by
+//! more than the 95 % interval of the ratio. The table in `docs/validation.md` is what this test
+//! computes.
 
 use crate::validation::recordings::identified;
 use trackdyn_estimate::identification::Fit;

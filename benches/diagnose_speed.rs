@@ -61,7 +61,7 @@ fn report(recording: &Recording, concealed: &[&str]) -> Result<(), Box<dyn Error
     let (begun, spent) = (Instant::now(), cpu_seconds());
     let evidence = Evidence::of_recording(recording, file.vehicle.gauge)?;
     let held_out = (3..recording.runs().len()).step_by(4).collect();
-    let options = Options { held_out, draws: 2000, ..Options::default() };
+    let options = Options { held_out, ..Options::default() };
     let stages = RefCell::new((Instant::now(), [0.0; STAGES.len()], 0));
     let diagnosis = diagnose(&evidence, &file, &options, &|name| {
         let (last, seconds, attempts) = &mut *stages.borrow_mut();

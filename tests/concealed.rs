@@ -12,7 +12,7 @@ use trackdyn_diagnose::{Diagnosis, Error, Evidence, Options, diagnose};
 use trackdyn_drive::schedules::as_commanded;
 use trackdyn_drive::sensors::{PoseFrame, Preset, Sensors, Views};
 use trackdyn_drive::{ScheduleKind, ScheduleOptions, ScheduledRun};
-use trackdyn_model::{CATALOGUE, Effects, Vehicle, VehicleFile};
+use trackdyn_model::{Effects, Vehicle, VehicleFile};
 use trackdyn_recording::{Recording, Source, UncheckedRun};
 use trackdyn_second_simulator::{ActiveMechanism, Robot, Setup};
 
@@ -151,7 +151,7 @@ pub fn diagnosed(recording: &Recording, file: &VehicleFile) -> Result<Diagnosis,
 
 /// Members of an answer by their names.
 pub fn members(missing: &Missing) -> BTreeSet<&'static str> {
-    missing.verdict.one_of.iter().map(|&effect| CATALOGUE[effect].id).collect()
+    missing.verdict.one_of.iter().map(|&effect| effect.name()).collect()
 }
 
 /// All that is named, with its kind.

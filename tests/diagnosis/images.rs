@@ -8,7 +8,7 @@ use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
 use trackdyn_drive::ScheduleKind;
 use trackdyn_drive::sensors::Preset;
-use trackdyn_model::{CATALOGUE, VehicleFile};
+use trackdyn_model::VehicleFile;
 use trackdyn_recording::{Recording, UncheckedRun};
 use trackdyn_tests::concealed::{Drive, members, named, owned, recording, runs, sensors};
 
@@ -78,7 +78,7 @@ fn assert_images(
     println!("{:?}", named(one));
     for missing in &one.missing {
         for interval in &missing.parameters {
-            let card = &CATALOGUE[missing.verdict.effect];
+            let card = missing.verdict.effect.card();
             let key = interval.unknown.parameter().expect("of an effect").key;
             let (key, wanted) = image(card.id, key, interval.value);
             let (found, half) = parameter(other, card.id, &key);

@@ -13,7 +13,7 @@ use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_model::Transient;
 use trackdyn_model::contact::Friction;
 use trackdyn_model::vehicle::FrictionUncertainty;
-use trackdyn_model::{ActiveEffect, CATALOGUE, Model, RunningGear};
+use trackdyn_model::{ActiveEffect, Model, RunningGear};
 use trackdyn_tests::concealed::{Drive, INERTIA, diagnosed, named, owned, runs, sensors};
 
 /// What inertia adds is late with belts that lag, without a motion in time of its own for every
@@ -90,7 +90,7 @@ fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
 fn a_law_of_the_slip_speed_takes_no_part_in_what_other_numbers_change() {
     let (plain, evidence) = by_hand();
     let rubber: ActiveEffect = "friction-anisotropy:ratio=0.95".parse().expect("an effect");
-    let ratio = Unknown::Effect(place(&rubber), 0);
+    let ratio = Unknown::Effect(rubber.effect(), 0);
     let plain = plain.with_effect(rubber);
     for law in MILD {
         let here = plain.with_effect(law.parse().expect("an effect"));
@@ -120,7 +120,7 @@ fn signatures_of_laws_of_the_slip_speed_know_the_answer_to_acceleration() {
     let beside = Beside::new(&plain, &evidence);
     for law in MILD.into_iter().chain(STRONG) {
         let law: ActiveEffect = law.parse().expect("an effect");
-        let variant = Variant { effect: place(&law), values: law.values().to_vec() };
+        let variant = Variant { effect: law.effect(), values: law.values().to_vec() };
         let signatures = beside.signatures(std::slice::from_ref(&variant));
         let [(_, signatures)] = &signatures[..] else { panic!("{law}: {}", signatures.len()) };
         let size = variant.values[0] - neutral(&law.card().parameters[0]);
@@ -149,10 +149,6 @@ const MILD: [&str; 4] = [
 /// another one.
 const STRONG: [&str; 2] =
     ["viscous-friction:growth_s_per_m=1.0", "friction-creep:speed_m_per_s=0.05"];
-
-fn place(of: &ActiveEffect) -> usize {
-    CATALOGUE.iter().position(|card| card.id == of.card().id).expect("of the catalogue")
-}
 
 /// Friction that grows with the slip brakes a robot that starts to turn as more friction does.
 /// Where its owner measured friction, that is not its level: the noise stays what it is, and the

@@ -11,7 +11,7 @@ use trackdyn_diagnose::search::{Catalogue, Search};
 use trackdyn_diagnose::verdict::Rules;
 use trackdyn_drive::sensors::{Preset, Sensors};
 use trackdyn_drive::{ScheduleKind, ScheduleOptions, ScheduledRun};
-use trackdyn_model::CATALOGUE;
+use trackdyn_model::EffectId;
 use trackdyn_tests::concealed::{Drive, diagnosed, named, owned, runs, sensors};
 
 /// Effects that only move the constant ICRs, whatever is driven.
@@ -106,7 +106,7 @@ fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
     let truth = id(concealed);
     let mut wrong = Vec::new();
     for missing in found.missing.iter().filter(|missing| missing.kind == Kind::Physics) {
-        let ids: Vec<&str> = missing.verdict.one_of.iter().map(|&e| CATALOGUE[e].id).collect();
+        let ids: Vec<&str> = missing.verdict.one_of.iter().map(|&e| e.name()).collect();
         if !ids.contains(&truth) {
             wrong.push(format!("{concealed}: {ids:?}"));
             continue;
@@ -114,7 +114,7 @@ fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
         let [only] = missing.verdict.one_of[..] else { continue };
         for (other, apart) in separations(&found, only) {
             if apart < Rules::ISOLATED {
-                let other = CATALOGUE[other].id;
+                let other = other.name();
                 wrong.push(format!("{concealed}: {truth} alone, {apart:.1} from {other}"));
             }
         }
@@ -124,11 +124,11 @@ fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
 
 /// Every variant of every other candidate, with the part of an effect's signature, at the size that
 /// was found, that neither it nor the base can stand for, in standard deviations.
-fn separations(found: &Diagnosis, effect: usize) -> Vec<(usize, f64)> {
+fn separations(found: &Diagnosis, effect: EffectId) -> Vec<(EffectId, f64)> {
     let Diagnosis { base, evidence, best, .. } = found;
     let active = best.fit.hypothesis.effect(effect).expect("what is named is there");
     let own = Variant { effect, values: active.values().to_vec() };
-    let parameters = CATALOGUE[effect].parameters;
+    let parameters = effect.card().parameters;
     let sizes = own.sizes().into_iter().map(|k| own.values[k] - neutral(&parameters[k]));
     let sizes = DVector::from_iterator(own.sizes().len(), sizes);
     let others = candidates(&base.instruments, evidence);
@@ -137,7 +137,7 @@ fn separations(found: &Diagnosis, effect: usize) -> Vec<(usize, f64)> {
     let entries = Beside::new(&base.fit.hypothesis, evidence).signatures(&tried);
     let catalogue = Catalogue { entries };
     let search = Search::new(evidence, base, &catalogue);
-    let apart = |rival: usize| {
+    let apart = |rival: EffectId| {
         let (normal, known, groups) = search.normal(&base.fit, &[0, rival]);
         let free = (0..base.fit.columns.len()).chain(groups[1].iter().copied());
         let projected = normal.projected(&free.collect::<Vec<_>>(), &known);
@@ -191,8 +191,8 @@ fn in_time() -> Sensors {
 fn a_lag_and_a_late_clock_are_one_answer() {
     /// Delay of either, s.
     const LATE: f64 = 0.03;
-    let lag = CATALOGUE.iter().position(|card| card.id == "drivetrain-lag").expect("an effect");
-    let typical = CATALOGUE[lag].parameters[0].typical;
+    let lag = EffectId::of("drivetrain-lag").expect("an effect");
+    let typical = lag.card().parameters[0].typical;
     let mut split = Vec::new();
     for concealed in ["drivetrain-lag:time_constant_s", "time-offset:delay_s"] {
         let found = diagnosis(&format!("{concealed}={LATE}"), &in_time());

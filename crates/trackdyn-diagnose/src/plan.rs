@@ -22,6 +22,7 @@ use rivals::Rival;
 use separation::{Pair, products, shares, squared};
 use trackdyn_core::{Command, PerSide, Pose, Schedule, real};
 use trackdyn_estimate::weighting::SegmentNoise;
+use trackdyn_model::EffectId;
 use trackdyn_model::Stationary;
 use trackdyn_model::{Circumstance, Model, VehicleFile};
 use trackdyn_recording::TrackSample;
@@ -95,7 +96,7 @@ pub struct Separation {
     /// Index of the question that it belongs to.
     pub question: usize,
     /// Both, by their places in the catalogue.
-    pub effects: [usize; 2],
+    pub effects: [EffectId; 2],
     /// z over the whole plan.
     pub z: f64,
     /// z over all manoeuvres of the menu, one after the other.

@@ -32,7 +32,7 @@ pub mod transient;
 pub mod vehicle;
 pub mod vehicle_file;
 
-pub use effects::{ActiveEffect, CATALOGUE, EffectError, Effects};
+pub use effects::{ActiveEffect, CATALOGUE, EffectError, EffectId, Effects};
 pub use forces::Forces;
 pub use icr::Icrs;
 pub use kinematics::Kinematics;

@@ -14,6 +14,7 @@ use library::{Library, PLACEBOS};
 use nalgebra::Vector3;
 use noise::Noise;
 use rayon::prelude::*;
+use trackdyn_diagnose::Resampling;
 use trackdyn_diagnose::significance::test;
 use trackdyn_diagnose::verdict::{Rules, cross_validated};
 
@@ -56,7 +57,7 @@ fn claimed(library: &Library, residual: &[Vector3<f64>], seed: u64) -> Vec<usize
         .chain((0..PLACEBOS).map(|placebo| vec![library.candidates.len() + placebo]))
         .map(|group| group.into_iter().map(|column| base.len() + column).collect())
         .collect();
-    let tests = test(&projected, &groups, SIGNS, seed);
+    let tests = test(&projected, &groups, Resampling { draws: SIGNS, seed });
     let of = |placebo: &usize| tests[library.groups.len() + placebo].p;
     passed.into_iter().filter(|placebo| of(placebo) < Rules::P).collect()
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use trackdyn_core::PerSide;
 use trackdyn_diagnose::diagnosis::HeldOut;
-use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, Options, diagnose};
+use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, Options, Resampling, diagnose};
 use trackdyn_estimate::synthetic::{ConstantIcr, Synthetic, random_steps};
 use trackdyn_model::Stationary;
 use trackdyn_model::kinematics::Source;
@@ -25,7 +25,7 @@ struct Case {
 
 impl Case {
     fn new(evidence: &Evidence, vehicle: VehicleFile, held_out: Vec<usize>) -> Self {
-        let options = Options { held_out, draws: 100, seed: 1 };
+        let options = Options { held_out, resampling: Resampling { draws: 100, seed: 1 } };
         let diagnosis = diagnose(evidence, &vehicle, &options, &|_| {}).expect("a diagnosis");
         let source = Source {
             command: "trackdyn diagnose <a&b>".to_owned(),

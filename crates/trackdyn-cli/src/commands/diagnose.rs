@@ -13,7 +13,7 @@ use clap::Args;
 use std::path::PathBuf;
 use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
 use trackdyn_diagnose::diagnosis::STAGES;
-use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, diagnose};
+use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, Resampling, diagnose};
 use trackdyn_model::VehicleFile;
 use trackdyn_model::kinematics::Source;
 use trackdyn_recording::{OperatingPoints, Recording, RunList};
@@ -62,8 +62,7 @@ pub fn run(options: &Options) -> Outcome {
     let progress = Progress::new(2 * STAGES.len());
     let settings = trackdyn_diagnose::Options {
         held_out: subject.held_out.clone(),
-        draws: options.draws as usize,
-        seed: options.seed,
+        resampling: Resampling { draws: options.draws as usize, seed: options.seed },
     };
     let diagnosis = diagnose(&subject.evidence, &vehicle, &settings, &|_| progress.advance(1))
         .map_err(|error| about(options, &error))?;

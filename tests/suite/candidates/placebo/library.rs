@@ -13,7 +13,7 @@ use trackdyn_diagnose::locate::{IcrColumns, icr_columns};
 use trackdyn_diagnose::normal::{Normal, Prior};
 use trackdyn_diagnose::prior::priors;
 use trackdyn_estimate::synthetic::{Synthetic, random_steps};
-use trackdyn_model::{CATALOGUE, VehicleFile};
+use trackdyn_model::{EffectId, VehicleFile};
 
 /// Placebos in a library.
 pub const PLACEBOS: usize = 20;
@@ -54,7 +54,7 @@ impl Library {
         let file = VehicleFile::auriga_alpha();
         let evidence = Evidence::of_recording(&recording, file.vehicle.gauge).expect("enough");
         let Base { fit, instruments, .. } = Base::new(&file, &evidence);
-        let tried: Vec<_> = (0..CATALOGUE.len())
+        let tried: Vec<_> = EffectId::all()
             .filter(|effect| !instruments.contains(effect))
             .flat_map(|effect| variants(effect, &evidence))
             .collect();

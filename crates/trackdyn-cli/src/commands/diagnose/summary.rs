@@ -10,7 +10,7 @@ use trackdyn_diagnose::proposal::Proposal;
 use trackdyn_diagnose::proposal::words::decimals;
 use trackdyn_diagnose::uncertainty::{Interval, Level};
 use trackdyn_diagnose::{Diagnosis, Evidence, Status};
-use trackdyn_model::CATALOGUE;
+use trackdyn_model::EffectId;
 use trackdyn_model::effect::Symmetry;
 
 /// Effects whose limits are printed where nothing is missing.
@@ -49,7 +49,7 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
         let _ = writeln!(text, "friction {}", friction(level));
     }
     for verdict in &diagnosis.refused {
-        let id = CATALOGUE[verdict.effect].id;
+        let id = verdict.effect.name();
         let why = verdict.refused.as_deref().unwrap_or_default();
         let _ = writeln!(text, "refused  {id}: {why}");
     }
@@ -130,7 +130,7 @@ fn nothing(diagnosis: &Diagnosis) -> String {
         .detectable
         .iter()
         .filter_map(|one| {
-            let card = &CATALOGUE[one.effect];
+            let card = one.effect.card();
             let parameter = &card.parameters[one.parameter];
             Some(format!("{} {:.2e}{}", card.id, one.size?, parameter.unit_behind()))
         })
@@ -146,7 +146,7 @@ fn nothing(diagnosis: &Diagnosis) -> String {
 }
 
 fn line(missing: &Missing) -> String {
-    let id = |effect: &usize| CATALOGUE[*effect].id;
+    let id = |effect: &EffectId| effect.name();
     let verdict = &missing.verdict;
     if missing.kind == Kind::Constant {
         let ids: Vec<&str> = verdict.one_of.iter().map(id).collect();

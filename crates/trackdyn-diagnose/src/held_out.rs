@@ -1,11 +1,23 @@
 //! Errors before and after, on runs that nothing was fitted or chosen on where there are any.
 
-use super::{Diagnosis, Options, Unseen};
 use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::locate::{Residual, excess, icr_columns};
 use crate::noise::without_outliers;
+use crate::resampling::Resampling;
+use nalgebra::Vector3;
 use trackdyn_core::real;
+
+/// What is left of runs that nothing was fitted or chosen on.
+#[derive(Clone)]
+pub struct Unseen {
+    /// What they show.
+    pub evidence: Evidence,
+    /// Whitened residuals before.
+    pub before: Vec<Vector3<f64>>,
+    /// After.
+    pub after: Vec<Vector3<f64>>,
+}
 
 /// Errors on runs that were held out, in units of the noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +37,7 @@ pub struct HeldOut {
 impl HeldOut {
     /// What these errors say against what is claimed beside constants, physics or instruments; none where that does better than
     /// what it was compared with.
-    pub(super) fn contradiction(&self, claims: bool, claims_physics: bool) -> Option<String> {
+    pub(crate) fn contradiction(&self, claims: bool, claims_physics: bool) -> Option<String> {
         let Self { before, instruments, after, are_held_out, .. } = *self;
         if !are_held_out {
             None
@@ -54,37 +66,37 @@ impl HeldOut {
 }
 
 /// The errors on evidence, with the fits to it.
-pub(super) fn errors(
+pub(crate) fn errors(
     evidence: &Evidence,
     [before, instruments, after]: [&Fit; 3],
-    options: &Options,
+    resampling: Resampling,
 ) -> HeldOut {
     let [before, instruments, error] =
         [before, instruments, after].map(|fit| excess(evidence, &fit.residual));
     let icrs = icr_columns(evidence, after);
     let residual = Residual { evidence, fit: after, icrs: &icrs };
-    let flexible = residual.locate(1, options.seed);
+    let flexible = residual.locate(resampling.once());
     let count = real(evidence.measured().max(1));
     let floor = error * error - flexible.explicable.max(0.0) / count;
     let noise_floor = floor.max(0.0).sqrt().min(error);
     HeldOut { before, instruments, after: error, noise_floor, are_held_out: false }
 }
 
-impl Diagnosis {
-    /// Judges it by runs that nothing was fitted or chosen on.
-    pub(super) fn judge_on(&mut self, evidence: &Evidence, options: &Options) {
-        let evidence = evidence.with_scale(self.evidence.scale());
-        let noise = self.evidence.noise();
-        let evidence = noise.map_or_else(|| evidence.clone(), |noise| evidence.with_noise(*noise));
-        let best = &self.best.fit;
-        let evidence = without_outliers(&evidence, &best.on(&evidence));
-        let [before, instruments, after] =
-            [self.fit_before(), &self.base.fit, best].map(|fit| fit.on(&evidence));
-        let errors = errors(&evidence, [&before, &instruments, &after], options);
-        self.held_out = HeldOut { are_held_out: true, ..errors };
-        let (before, after) = (before.residual, after.residual);
-        self.unseen = Some(Unseen { evidence, before, after });
-    }
+/// Judges three fits, of what was there before, of the base and of the best hypothesis, by runs that nothing was fitted or
+/// chosen on, in the noise that `seen` has.
+pub(crate) fn judged(
+    unseen: &Evidence,
+    seen: &Evidence,
+    [before, instruments, best]: [&Fit; 3],
+    resampling: Resampling,
+) -> (HeldOut, Unseen) {
+    let unseen = unseen.with_scale(seen.scale());
+    let unseen = seen.noise().map_or_else(|| unseen.clone(), |noise| unseen.with_noise(*noise));
+    let evidence = without_outliers(&unseen, &best.on(&unseen));
+    let [before, instruments, after] = [before, instruments, best].map(|fit| fit.on(&evidence));
+    let errors = errors(&evidence, [&before, &instruments, &after], resampling);
+    let (before, after) = (before.residual, after.residual);
+    (HeldOut { are_held_out: true, ..errors }, Unseen { evidence, before, after })
 }
 
 #[cfg(test)]

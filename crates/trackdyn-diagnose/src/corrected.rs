@@ -1,6 +1,6 @@
 //! The vehicle that a diagnosis leads to.
 
-use super::{Kind, Missing};
+use crate::answer::{Kind, Missing};
 use crate::base::correct_constants;
 use crate::hypothesis::with_friction;
 use crate::search::Found;
@@ -10,7 +10,7 @@ use trackdyn_model::VehicleFile;
 /// The vehicle that explains the evidence: the filed one, with what is claimed and the level of friction where it
 /// surely differs. Where the constant ICRs were wrong, friction ratio and centre of gravity stand for all that could
 /// move them.
-pub(super) fn corrected(
+pub(crate) fn corrected(
     file: &VehicleFile,
     best: &Found,
     friction_level: Option<Level>,

@@ -10,6 +10,7 @@ pub mod output;
 pub mod plant;
 pub mod pose;
 pub mod robust;
+pub mod rounding;
 pub mod scalar;
 pub mod schedule;
 pub mod side;

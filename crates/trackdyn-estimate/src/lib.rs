@@ -18,6 +18,7 @@
 //! - [`prediction`]: what a kinematic model makes of the same track speeds, with its derivatives.
 //! - [`sensor`]: clock and mount of the pose sensor, which can be fitted beside.
 //! - [`weighting`]: how much a residual counts: the cost (17), or the noise that was measured.
+//! - [`gauss_newton`]: robust least squares, whatever the residuals are of.
 //! - [`mod@spin_test`], [`mod@genetic`], [`mod@least_squares`]: three ways to the parameters.
 //! - [`steady`]: the parameters from a table of steady operating points.
 //! - [`identification`]: all of them on one recording.
@@ -30,6 +31,7 @@ pub mod clock;
 pub mod doubt;
 pub mod error;
 pub mod gaps;
+pub mod gauss_newton;
 pub mod genetic;
 pub mod identification;
 pub mod interval;

@@ -12,10 +12,10 @@
 //! reading with Dᵢ, so that white encoder noise drops out.
 //!
 //! # Assumes
-//! k may be any constant: no kinematic model is needed. A belt that lags behind its encoder shows as
-//! a clock offset just so; the two are told apart elsewhere, if at all. τ goes with readings that
-//! are held ([`hold`](trackdyn_recording::hold)): where a reading stands for the time before or around its stamp,
-//! the delay itself is a whole or half an interval of the readings longer.
+//! k may be any constant: no kinematic model is needed. A belt that lags behind its encoder shows
+//! as a clock offset just so; the two are told apart elsewhere, if at all. τ goes with readings
+//! that are held ([`hold`](trackdyn_recording::hold)): where a reading stands for the time before
+//! or around its stamp, the delay itself is a whole or half an interval of the readings longer.
 //!
 //! # Sources
 //! Instrumental variables: Wooldridge, Econometric Analysis of Cross Section and Panel Data, 2nd
@@ -122,13 +122,13 @@ impl Clock {
 }
 
 /// Step of the first search, s.
-const COARSE: f64 = 0.02;
+const SEARCH_STEP: f64 = 0.02;
 
 /// Fewer pose intervals than this say nothing.
-const FEWEST: usize = 20;
+const MIN_INTERVALS: usize = 20;
 
 /// Encoders and poses that correlate less than this do not show the same turning.
-const WEAKEST: f64 = 0.5;
+const MIN_CORRELATION: f64 = 0.5;
 
 /// Estimates the clock offset.
 ///
@@ -138,25 +138,25 @@ const WEAKEST: f64 = 0.5;
 pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<ClockOffset, Error> {
     let refuse = |reason: String| Error::NotEstimable { what: "the clock offset", reason };
     let intervals = Intervals::new(recording);
-    let steps = (0..).map(|step| search.earliest + COARSE * real(step));
+    let steps = (0..).map(|step| search.earliest + SEARCH_STEP * real(step));
     let mut best: Option<(f64, Fit)> = None;
     let mut most = 0;
-    for tau in steps.take_while(|tau| *tau <= search.latest + COARSE / 2.0) {
+    for tau in steps.take_while(|tau| *tau <= search.latest + SEARCH_STEP / 2.0) {
         let fit = intervals.fit(tau);
         most = most.max(fit.count);
         let better = best.is_none_or(|(_, best)| fit.correlation.abs() > best.correlation.abs());
-        if fit.count >= FEWEST && better {
+        if fit.count >= MIN_INTERVALS && better {
             best = Some((tau, fit));
         }
     }
     let Some((coarse, fit)) = best else {
-        return Err(refuse(format!("{most} pose intervals with readings, {FEWEST} needed")));
+        return Err(refuse(format!("{most} pose intervals with readings, {MIN_INTERVALS} needed")));
     };
     let Fit { correlation, count, .. } = fit;
-    if correlation.abs() < WEAKEST {
+    if correlation.abs() < MIN_CORRELATION {
         return Err(refuse(format!(
             "no turning that encoders and poses both show: their best correlation is \
-             {correlation:.2} over {count} pose intervals, {WEAKEST} needed"
+             {correlation:.2} over {count} pose intervals, {MIN_CORRELATION} needed"
         )));
     }
     if correlation < 0.0 {
@@ -165,7 +165,7 @@ pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<Clock
              right are swapped, or the sign of yaw is"
         )));
     }
-    if coarse < search.earliest + COARSE / 2.0 || coarse > search.latest - COARSE / 2.0 {
+    if coarse < search.earliest + SEARCH_STEP / 2.0 || coarse > search.latest - SEARCH_STEP / 2.0 {
         return Err(refuse(format!(
             "the best offset, {coarse:.2} s, lies at an end of the search from {} to {} s",
             search.earliest, search.latest

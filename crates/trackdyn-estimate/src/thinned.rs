@@ -1,7 +1,8 @@
 //! Readings of encoders that report more often than a robot changes its motion.
 //!
 //! # Law
-//! n readings in a row become one, at the stamp of the first and with the speed that runs as far as they did:
+//! n readings in a row become one, at the stamp of the first and with the speed that runs as far as
+//! they did:
 //!
 //! v̄ = Σ v_k h_k / Σ h_k,   h_k the time that reading k holds
 
@@ -11,7 +12,7 @@ use trackdyn_core::real;
 use trackdyn_recording::{Recording, Run, TrackSample, UncheckedRun};
 
 /// Part of an interval that is rounding.
-const ROUNDING: f64 = 1e-6;
+const INTERVAL_ROUNDING: f64 = 1e-6;
 
 /// A recording in which as many readings of the tracks are put together as usually fit into this
 /// time, s. The fingerprint stays.
@@ -40,11 +41,12 @@ pub fn with_readings_every(recording: &Recording, interval: f64) -> Cow<'_, Reco
 
 /// How many of some readings fit into a time, s, at their usual interval; one at least.
 fn fitting(readings: usize, usual: f64, time: f64) -> usize {
-    let fits = |count: &usize| real(*count) * usual <= time * (1.0 + ROUNDING);
+    let fits = |count: &usize| real(*count) * usual <= time * (1.0 + INTERVAL_ROUNDING);
     (1..=readings).take_while(fits).last().unwrap_or(1)
 }
 
-/// The readings with so many of them in a row put together; the last one holds for the usual interval, s.
+/// The readings with so many of them in a row put together; the last one holds for the usual
+/// interval, s.
 fn together(readings: &[TrackSample], usual: f64, count: usize) -> Vec<TrackSample> {
     let held = |k: usize| readings.get(k + 1).map_or(usual, |next| next.t - readings[k].t);
     let group = |group: &[usize]| {

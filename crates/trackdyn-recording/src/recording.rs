@@ -98,7 +98,7 @@ impl Recording {
         })
     }
 
-    /// The same recording with a statement of its pose noise.
+    /// This recording with a statement of its pose noise.
     pub fn with_stated_noise(mut self, noise: Option<StatedNoise>) -> Self {
         self.stated_noise = noise;
         self
@@ -145,7 +145,8 @@ impl Recording {
         &self.fingerprint
     }
 
-    /// Fingerprint of the poses alone: the same drive has the same one without its IMU, and at another belt travel per radian.
+    /// Fingerprint of the poses alone: the same drive has the same one without its IMU, and at
+    /// another belt travel per radian.
     pub fn pose_fingerprint(&self) -> &str {
         &self.pose_fingerprint
     }

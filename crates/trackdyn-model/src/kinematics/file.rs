@@ -28,7 +28,8 @@ pub struct Source {
     pub vehicle: String,
     /// Fingerprint of the vehicle file with its effects, or of the recording.
     pub fingerprint: String,
-    /// Fingerprint of the poses of the recording, which tells driving that was fitted from other driving.
+    /// Fingerprint of the poses of the recording, which tells driving that was fitted from other
+    /// driving.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose_fingerprint: Option<String>,
     /// Name of the recording, where the numbers come from one.
@@ -156,7 +157,8 @@ impl KinematicsFile {
         }
     }
 
-    /// The same with belt speeds per speeds that the encoders show, α; as it is where both are 1.
+    /// This file with α, the belt speeds per speeds that the encoders show; unchanged where both
+    /// are 1.
     pub fn with_alpha(self, alpha: PerSide<f64>) -> Self {
         if alpha == PerSide::new(1.0, 1.0) {
             return self;
@@ -243,8 +245,8 @@ impl KinematicsFile {
         sector.map_or_else(|| self.kinematics(), |sector| self.with_icrs(sector.icrs()))
     }
 
-    /// Track speeds, m/s, for a forward speed and a yaw rate, and the model that gives them: one whose
-    /// sector holds the speeds, else that of the whole map.
+    /// Track speeds, m/s, for a forward speed and a yaw rate, and the model that gives them: one
+    /// whose sector holds the speeds, else that of the whole map.
     pub fn track_speeds(&self, forward: f64, yaw_rate: f64) -> (PerSide<f64>, Kinematics) {
         let of = |kinematics: Kinematics| (kinematics.track_speeds(forward, yaw_rate), kinematics);
         self.sector
@@ -274,7 +276,7 @@ struct Divisors {
     sector: Vec<SectorDivisors>,
 }
 
-/// The same of a sector.
+/// What a sector is divided by.
 #[derive(Deserialize)]
 struct SectorDivisors {
     x_icr_left_m: Spanned<f64>,
@@ -311,14 +313,14 @@ impl Divisors {
 }
 
 /// Distance from which on an ICR is none that a robot turns about, m.
-const FARTHEST: f64 = 1e4;
+const MAX_ICR_DISTANCE: f64 = 1e4;
 
 /// Refuses a coordinate of an ICR that is no place near a robot, m.
 fn near(document: &Document, value: &Spanned<f64>, key: &str) -> Result<(), DocumentError> {
-    if value.get_ref().abs() <= FARTHEST {
+    if value.get_ref().abs() <= MAX_ICR_DISTANCE {
         return Ok(());
     }
-    let expected = format!("a number of m, at most {FARTHEST} from the robot");
+    let expected = format!("a number of m, at most {MAX_ICR_DISTANCE} from the robot");
     Err(document.value_error(value.span(), key, expected))
 }
 

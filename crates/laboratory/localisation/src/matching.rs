@@ -16,7 +16,6 @@ use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::Pose;
 
 mod association;
-pub(crate) mod beam;
 mod descent;
 mod normal;
 mod observable;

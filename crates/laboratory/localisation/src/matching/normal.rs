@@ -8,8 +8,8 @@
 //!
 //! Each δₖ occurs in its own term only, so that it can be eliminated line by line.
 
+use crate::beam;
 use crate::matching::association::{Normals, Pair};
-use crate::matching::beam;
 use crate::reference::Reference;
 use crate::scan::Return;
 use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};

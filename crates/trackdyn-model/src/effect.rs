@@ -24,6 +24,9 @@ pub trait Effect: Copy + Sized {
     /// Whether it is a mechanism or a form.
     const NATURE: Nature = Nature::Mechanism;
 
+    /// Whether it is a part of Newton's second law: all of them together are the law in full.
+    const IS_INERTIA: bool = false;
+
     /// The terms of a form; none of a mechanism.
     fn terms() -> Vec<Term> {
         Vec::new()

@@ -24,4 +24,4 @@ pub mod sheet;
 pub use error::Error;
 pub use mechanisms::{ActiveMechanism, MECHANISMS, sheet_of};
 pub use robot::{Robot, Setup};
-pub use sheet::{Invariance, Origin, Parameter, Sheet};
+pub use sheet::{Origin, Parameter, Sheet, Symmetry};

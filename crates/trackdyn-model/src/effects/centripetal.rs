@@ -34,6 +34,8 @@ impl Effect for Centripetal {
         sources: &["Newton's second law in the body's axes; left out in eqs (14)-(15)"],
     };
 
+    const IS_INERTIA: bool = true;
+
     fn from_values(values: &[f64]) -> Self {
         Self { strength: values[0] }
     }

@@ -13,6 +13,9 @@ macro_rules! catalogue {
         /// What each effect of the catalogue is.
         const NATURES: &[Nature] = &[$(<$module::$effect as Effect>::NATURE),+];
 
+        /// Whether each effect of the catalogue is a part of Newton's second law.
+        const INERTIAL: &[bool] = &[$(<$module::$effect as Effect>::IS_INERTIA),+];
+
         /// The terms of each effect of the catalogue.
         const TERMS: &[fn() -> Vec<Term>] = &[$(<$module::$effect as Effect>::terms),+];
 

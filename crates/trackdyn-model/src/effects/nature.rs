@@ -1,6 +1,6 @@
 //! Mechanisms and forms.
 
-use super::{CATALOGUE, NATURES, TERMS};
+use super::{CATALOGUE, INERTIAL, NATURES, TERMS};
 use crate::effect::{Card, Nature, Parameter, Role, Term};
 
 impl Card {
@@ -12,6 +12,11 @@ impl Card {
     /// Whether it is a form: what no mechanism of the catalogue explains may be described by it.
     pub fn is_form(&self) -> bool {
         self.nature() == Nature::Form
+    }
+
+    /// Whether it is a part of Newton's second law, which owners know without a measurement.
+    pub fn is_inertia(&self) -> bool {
+        self.place().is_some_and(|place| INERTIAL[place])
     }
 
     /// The terms of a form; none of a mechanism.

@@ -47,6 +47,8 @@ impl Effect for YawInertia {
         ],
     };
 
+    const IS_INERTIA: bool = true;
+
     fn from_values(values: &[f64]) -> Self {
         Self { strength: values[0], gyration: values[1] }
     }

@@ -22,7 +22,7 @@ impl ActiveMechanism {
         let index = MECHANISMS
             .iter()
             .position(|sheet| sheet.id == id)
-            .ok_or_else(|| Error::UnknownMechanism(id.to_owned()))?;
+            .ok_or_else(|| Error::UnknownMechanism { id: id.to_owned(), known: ids() })?;
         let sheet = &MECHANISMS[index];
         let mut values = vec![None; sheet.parameters.len()];
         for &(key, value) in settings {
@@ -62,6 +62,11 @@ impl ActiveMechanism {
     pub(crate) fn mechanism(&self) -> Box<dyn Mechanism> {
         from_values(self.index, &self.values)
     }
+}
+
+/// The ids of all mechanisms, separated by commas.
+fn ids() -> String {
+    MECHANISMS.iter().map(|sheet| sheet.id).collect::<Vec<_>>().join(", ")
 }
 
 /// Reads `id` or `id:key=value,key=value`.

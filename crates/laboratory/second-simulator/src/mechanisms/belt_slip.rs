@@ -1,7 +1,7 @@
 //! A belt that slips on its sprocket under load.
 
 use crate::mechanism::{Described, Mechanism, Step};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::{PerSide, Side};
 
 /// Traction over load at which the law equals the linear one.
@@ -24,8 +24,16 @@ impl Described for BeltSlip {
         law: "V = V_shown (1 − q), q' = (λ x √(|x|/0.3) − q)/0.02 s, x = shear force over load, in \
               the sprocket's direction",
         size: "equal to the linear V_shown (1 − λ x) at a traction of 0.3 of the load",
-        breaks: &[Invariance::Manoeuvre],
-        parameters: &[Parameter { key: "slip", unit: "1", range: [0.0, 0.5], typical: 0.1 }],
+        shares_size: false,
+        breaks: &[Symmetry::Manoeuvre],
+        trial: Trial::law(Identifiability::DistinctWhenLarge, 5.0),
+        parameters: &[Parameter {
+            key: "slip",
+            unit: "1",
+            range: [0.0, 0.5],
+            typical: 0.1,
+            draw: Draw::size(0.1),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -1,7 +1,7 @@
 //! Friction that changes in the course of a day.
 
 use crate::mechanism::{Contact, Described, Mechanism, scale_ratio};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Time in which 63 % of the change are done, s.
 const SETTLING: f64 = 120.0;
@@ -18,12 +18,15 @@ impl Described for FrictionDrift {
         origin: Origin::Catalogue,
         law: "f = 1 + r T (1 − exp(−t/T)), T = 120 s, on μ_x/μ_y",
         size: "starts as 1 + r t does, and ends at 1 + r T",
-        breaks: &[Invariance::Time],
+        shares_size: false,
+        breaks: &[Symmetry::Time],
+        trial: Trial::law(Identifiability::Distinct, 5.0),
         parameters: &[Parameter {
             key: "rate_1_per_s",
             unit: "1/s",
             range: [-0.005, 0.005],
             typical: 0.001,
+            draw: Draw::size(0.001).signed(),
         }],
     };
 

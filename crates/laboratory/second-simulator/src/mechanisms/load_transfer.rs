@@ -1,7 +1,7 @@
 //! Load transfer of a hull that leans on its springs.
 
 use crate::mechanism::{Described, Load, Mechanism, Scene, Step};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Scale, Sheet, Symmetry, Trial};
 
 /// Time that the hull takes to lean, s.
 const LEAN_TIME: f64 = 0.06;
@@ -21,12 +21,15 @@ impl Described for LoadTransfer {
               the mass that stands against changes of speed; the load acts at the centre of gravity + q",
         size: "in steady turns the same; the hull takes 0.06 s to lean, the period of a \
                suspension of 2.7 Hz over 2π",
-        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
+        shares_size: false,
+        breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
+        trial: Trial::law(Identifiability::Distinct, 3.0),
         parameters: &[Parameter {
             key: "cog_height_m",
             unit: "m",
             range: [0.0, 5.0],
             typical: 0.3,
+            draw: Draw::size(0.5).times(Scale::Gauge),
         }],
     };
 

@@ -1,7 +1,7 @@
 //! Load that the belt hands on under its rollers.
 
 use crate::mechanism::{Described, Mechanism};
-use crate::sheet::{Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Trial};
 
 /// Five road wheels, the outer ones over the ends of the contact.
 #[derive(Clone, Copy, Debug)]
@@ -16,12 +16,15 @@ impl Described for PressureConcentration {
         law: "k(η) = 1 − κ + κ c(η) (1 + cos 4πη), c = 2 for the end rollers, else 1",
         size: "the second moment of pressure along y exceeds the even one by 0.43 κ/(1 + κ/4); a \
                U-shape 1 + κ_U (3 η² − 1)/2 exceeds it by 0.4 κ_U",
+        shares_size: false,
         breaks: &[],
+        trial: Trial::law(Identifiability::Indistinct, 2.25),
         parameters: &[Parameter {
             key: "concentration",
             unit: "1",
             range: [0.0, 0.95],
             typical: 0.5,
+            draw: Draw::size(0.4),
         }],
     };
 

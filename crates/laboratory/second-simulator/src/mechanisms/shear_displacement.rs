@@ -1,7 +1,7 @@
 //! Soil that must be sheared before it resists, and resists less when it has been.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 use std::f64::consts::E;
 
@@ -33,12 +33,15 @@ impl Described for ShearDisplacement {
               j the way slid",
         size: "K_w = 3.1 K: then both this and 1 − exp(−j/K) of Janosi and Hanamoto are at 63 % \
                where j = K",
-        breaks: &[Invariance::Reversal, Invariance::Manoeuvre, Invariance::Transient],
+        shares_size: false,
+        breaks: &[Symmetry::Reversal, Symmetry::Manoeuvre, Symmetry::Transient],
+        trial: Trial::law(Identifiability::Distinct, 15.0),
         parameters: &[Parameter {
             key: "modulus_m",
             unit: "m",
             range: [0.001, 0.3],
             typical: 0.02,
+            draw: Draw::size(0.02),
         }],
     };
 

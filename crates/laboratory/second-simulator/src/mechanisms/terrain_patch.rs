@@ -1,7 +1,7 @@
 //! A patch of other ground.
 
 use crate::mechanism::{Contact, Described, Mechanism, scale_ratio};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Anchor, Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 use std::f64::consts::PI;
 
@@ -24,12 +24,38 @@ impl Described for TerrainPatch {
         origin: Origin::Catalogue,
         law: "μ_x √f, μ_y/√f inside a regular hexagon",
         size: "the hexagon has the area of a disc of the radius",
-        breaks: &[Invariance::Place],
+        shares_size: false,
+        breaks: &[Symmetry::Place],
+        trial: Trial::law(Identifiability::Distinct, 4.0),
         parameters: &[
-            Parameter { key: "x_m", unit: "m", range: [-10000.0, 10000.0], typical: 0.0 },
-            Parameter { key: "y_m", unit: "m", range: [-10000.0, 10000.0], typical: 0.0 },
-            Parameter { key: "radius_m", unit: "m", range: [0.05, 10000.0], typical: 1.0 },
-            Parameter { key: "ratio", unit: "1", range: [0.2, 5.0], typical: 1.3 },
+            Parameter {
+                key: "x_m",
+                unit: "m",
+                range: [-10000.0, 10000.0],
+                typical: 0.0,
+                draw: Draw::place(0, Anchor::OnPath),
+            },
+            Parameter {
+                key: "y_m",
+                unit: "m",
+                range: [-10000.0, 10000.0],
+                typical: 0.0,
+                draw: Draw::place(1, Anchor::OnPath),
+            },
+            Parameter {
+                key: "radius_m",
+                unit: "m",
+                range: [0.05, 10000.0],
+                typical: 1.0,
+                draw: Draw::shape(0.8, 2.5, &[1.5]),
+            },
+            Parameter {
+                key: "ratio",
+                unit: "1",
+                range: [0.2, 5.0],
+                typical: 1.3,
+                draw: Draw::factor(1.3).signed(),
+            },
         ],
     };
 

@@ -1,7 +1,7 @@
 //! Friction that grows with slip speed, by a power law.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Slip speed at which the law equals the linear one, m/s.
 const EQUAL_AT: f64 = 0.3;
@@ -18,12 +18,15 @@ impl Described for ViscousFriction {
         origin: Origin::Catalogue,
         law: "μ (1 + c v₀ (|s|/v₀)^0.6), v₀ = 0.3 m/s",
         size: "equal to 1 + c |s| at 0.3 m/s; more below, less above",
-        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
+        shares_size: false,
+        breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
+        trial: Trial::law(Identifiability::DistinctWhenLarge, 10.0),
         parameters: &[Parameter {
             key: "growth_s_per_m",
             unit: "s/m",
             range: [0.0, 10.0],
             typical: 0.5,
+            draw: Draw::size(0.5),
         }],
     };
 

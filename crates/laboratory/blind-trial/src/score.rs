@@ -10,6 +10,7 @@ pub mod interval;
 pub mod means;
 mod metadata;
 mod power;
+mod rate;
 pub mod rates;
 mod reach;
 pub mod resolution;
@@ -19,7 +20,7 @@ mod verdict;
 pub use confusion::Confusion;
 pub use means::Mean;
 pub use power::PowerBin;
-pub use rates::Rate;
+pub use rate::Rate;
 pub use reach::Reach;
 pub use resolution::{Outcome, Revisited};
 pub use tables::{

@@ -1,9 +1,9 @@
 //! Whether driving on tells apart what a diagnosis could not.
 
-use super::rates::Rate;
+use super::rate::Rate;
 use super::verdict::Judged;
+use crate::answer::is_constant;
 use crate::diagnosis::{Diagnosis, Missing, Status};
-use crate::plan::CONSTANTS;
 
 /// A case whose diagnosis left something open, and what further driving made of it.
 #[derive(Clone, Debug)]
@@ -31,8 +31,7 @@ pub fn open_sets(case: &Judged) -> Vec<Vec<&str>> {
     let diagnosis = case.diagnosis().filter(|diagnosis| diagnosis.status == Status::Ambiguous);
     let claims = diagnosis.map_or(&[][..], |diagnosis| &diagnosis.missing);
     let sets = claims.iter().map(Missing::members);
-    let is_open =
-        |set: &Vec<&str>| set.len() > 1 && !set.iter().all(|member| CONSTANTS.contains(member));
+    let is_open = |set: &Vec<&str>| set.len() > 1 && !set.iter().all(|id| is_constant(id));
     sets.filter(is_open).collect()
 }
 

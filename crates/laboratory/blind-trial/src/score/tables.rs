@@ -5,7 +5,7 @@ use super::coverage;
 use super::interval::clopper_pearson;
 use super::means::Mean;
 use super::power::PowerBin;
-use super::rates::Rate;
+use super::rate::Rate;
 use super::resolution::{self, Outcome, Revisited};
 use crate::diagnosis::Fit;
 use std::fmt::Write;

@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, Concealed};
 use crate::diagnosis::{Diagnosis, Missing, Status};
-use crate::plan::{CONSTANTS, INSTRUMENTS, Stratum};
+use crate::plan::Stratum;
 use trackdyn_second_simulator::sheet_of;
 
 /// What came back of a case.
@@ -75,7 +75,9 @@ impl Judged {
     }
 
     fn has_absent_law(&self, claim: &Missing) -> bool {
-        let is_law = |id: &str| !CONSTANTS.contains(&id) && !INSTRUMENTS.contains(&id);
+        let is_law = |id: &str| {
+            sheet_of(id).is_none_or(|sheet| !sheet.is_constant() && !sheet.is_instrument())
+        };
         claim.members().iter().any(|member| is_law(member) && !self.is_true(member))
     }
 

@@ -16,6 +16,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use trackdyn_blind_trial::driving::HELD_OUT;
+use trackdyn_blind_trial::entry::DIAGNOSIS;
 use trackdyn_blind_trial::revisit::revisit;
 use trackdyn_blind_trial::score::resolution::{open_sets, rates};
 use trackdyn_blind_trial::score::{Judged, Outcome, Revisited, rates_csv, resolution_markdown};
@@ -135,7 +136,7 @@ impl Visit<'_> {
     /// What came of the case, now or before; a failure is tried again.
     fn outcome(&self) -> Result<Outcome, Box<dyn Error>> {
         prepare_folder(&self.home)?;
-        let written = self.home.join(folder::DIAGNOSIS);
+        let written = self.home.join(DIAGNOSIS);
         if !written.join(diagnosis::FILE).exists() {
             if let Some(reason) = self.plan()? {
                 return Ok(Outcome::Failed(reason));

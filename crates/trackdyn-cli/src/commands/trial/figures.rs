@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use trackdyn_blind_trial::Score;
-use trackdyn_blind_trial::oracle::{DETECTABLE, DISTINCT};
+use trackdyn_blind_trial::oracle::{MIN_DETECTABLE_Z, MIN_DISTINCT_Z};
 use trackdyn_blind_trial::score::interval::clopper_pearson;
 use trackdyn_blind_trial::score::{PowerBin, Rate, distinct};
 use trackdyn_core::output::write_file;
@@ -17,7 +17,7 @@ type Written = Result<(), Box<dyn std::error::Error>>;
 pub fn write(out: &Path, scores: &Named, caption: &str) -> Written {
     let panels = [("named by itself", false), ("truth in a named set", true)];
     let panels = panels.map(|(title, in_set)| {
-        [("z_det", (DETECTABLE, "detectable")), ("z_iso", (DISTINCT, "distinct"))]
+        [("z_det", (MIN_DETECTABLE_Z, "detectable")), ("z_iso", (MIN_DISTINCT_Z, "distinct"))]
             .map(|(z, mark)| (title, in_set, z, mark))
     });
     let limits = scores.first().map_or(Vec::new(), |(_, score)| limits(score));

@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 use trackdyn_blind_trial::driving::HELD_OUT;
+use trackdyn_blind_trial::seal::Commitment;
 use trackdyn_blind_trial::{Diagnosis, Entry, folder};
 use trackdyn_core::output::write_file;
 
@@ -66,8 +67,7 @@ pub fn run(options: &Options) -> Outcome {
     let entry = entry(options)?;
     let program = program(options)?;
     let cases = folder::cases(&options.trial)?;
-    folder::commitment(&options.trial)?;
-    note_a_key_within_reach(&options.trial);
+    note_what_is_within_reach(&options.trial, &folder::commitment(&options.trial)?);
     let Shard { index, of } = options.shard.unwrap_or(Shard { index: 1, of: 1 });
     let mine: Vec<&PathBuf> = cases.iter().skip(index - 1).step_by(of).collect();
     let is_done =
@@ -97,14 +97,16 @@ pub fn run(options: &Options) -> Outcome {
     Ok(if failed > 0 && diagnosed == 0 { Exit::NoResult } else { Exit::Done })
 }
 
-/// A process is free to look for what it was not given: rooms keep the answers from an honest one only.
-fn note_a_key_within_reach(trial: &Path) {
-    if let Ok(key) = key_file(None, trial)
-        && key.exists()
-    {
+/// A process is free to look for what it was not given: rooms keep the answers from an honest one
+/// only.
+fn note_what_is_within_reach(trial: &Path, commitment: &Commitment) {
+    let Ok(key) = key_file(None, trial) else { return };
+    let answers = folder::answers_file(&key, commitment);
+    for file in [key, answers].iter().filter(|file| file.exists()) {
         say(format_args!(
-            "note: {} is within reach of the processes that diagnose: for a proof keep it elsewhere meanwhile",
-            key.display()
+            "note: {} is within reach of the processes that diagnose: for a proof keep it elsewhere \
+             meanwhile",
+            file.display()
         ));
     }
 }

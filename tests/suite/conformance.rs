@@ -1,7 +1,9 @@
 //! What the project promises of its own structure and catalogue.
 
+mod adding_an_effect;
 mod arrows;
 mod circles;
 mod crates;
+mod literals;
 mod parity;
 mod words;

@@ -16,7 +16,8 @@ const NEAR_ANCHOR: f64 = 5.0;
 /// Places on the path that are tried.
 const PLACES_ON_PATH: usize = 2;
 
-/// Effects that stand for one hypothesis; what is spanned by their signatures cannot be told from it.
+/// Effects that stand for one hypothesis; what is spanned by their signatures cannot be told from
+/// it.
 pub(crate) struct Alternative {
     /// The mechanism.
     pub(crate) sheet: &'static Sheet,

@@ -15,8 +15,8 @@ pub const SCHEMA: &str = "trackdyn.answers/1";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Answers {
-    /// A text that nobody guesses, so that the hash of the answers says nothing; it comes of the key.
-    /// Answers that are sealed in `answers.sealed` have none.
+    /// A text that nobody guesses, so that the hash of the answers says nothing; it comes of the
+    /// key. Answers that are sealed in `answers.sealed` have none.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub salt: String,
     /// [`SCHEMA`].
@@ -171,13 +171,14 @@ impl Concealed {
         self.is_detectable() && self.z_iso >= crate::oracle::MIN_DISTINCT_Z && !self.is_constant()
     }
 
-    /// Whether the recording is known to show it beside what three effects of the catalogue together
-    /// may take of it.
+    /// Whether the recording is known to show it beside what three effects of the catalogue
+    /// together may take of it.
     pub fn is_beyond_others(&self) -> bool {
         self.z_beyond.is_some_and(|z| z >= crate::oracle::MIN_DETECTABLE_Z)
     }
 
-    /// Members of the smallest set that the recording allows: it, and all that cannot be told from it.
+    /// Members of the smallest set that the recording allows: it, and all that cannot be told from
+    /// it.
     pub fn smallest_set(&self) -> usize {
         let class = self.class.iter().map(String::as_str).chain([self.mechanism.as_str()]);
         let constants = MECHANISMS.iter().filter(|sheet| self.is_constant() && sheet.is_constant());

@@ -4,8 +4,12 @@ use crate::machine::Machine;
 use crate::random::{log_uniform, sign, uniform};
 use rand::seq::IndexedRandom;
 use rand_chacha::ChaCha8Rng;
+use trackdyn_core::rounding::Digits;
 use trackdyn_second_simulator::sheet::{Anchor, Concealment, Draw, Role, Scale, Trial};
 use trackdyn_second_simulator::{ActiveMechanism, Parameter, Sheet};
+
+/// Digits of the values of a mechanism, so that answers read well.
+const DIGITS: Digits = Digits::Significant(6);
 
 /// A parameter that grows with the strength.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -158,7 +162,7 @@ impl Dose {
             .map(|(key, value)| {
                 let range = self.sheet.parameter(key).map(|parameter| parameter.range);
                 let [low, high] = range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-                (key, significant(value.clamp(low, high)))
+                (key, DIGITS.round(value.clamp(low, high)))
             })
             .collect();
         let active = ActiveMechanism::new(self.sheet.id, &settings);
@@ -184,16 +188,6 @@ pub(crate) fn of(machine: &Machine, scale: Scale) -> f64 {
         Scale::NormalPressure => machine.pressure(),
         Scale::GyrationRadius => machine.gyration,
     }
-}
-
-/// Six significant digits, so that answers read well.
-fn significant(value: f64) -> f64 {
-    if value == 0.0 || !value.is_finite() {
-        return value;
-    }
-    let scale = 10_f64.powf(5.0 - value.abs().log10().floor());
-    let rounded = (value * scale).round() / scale;
-    if rounded.is_finite() { rounded } else { value }
 }
 
 #[cfg(test)]

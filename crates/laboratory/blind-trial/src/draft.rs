@@ -5,9 +5,10 @@
 //! KEY.making/case-0001/{answer.toml, vehicle.toml, recording/...}
 //! ```
 //!
-//! Answers and seed lie with the key, which is drawn first, and never in the trial's folder. That is
-//! filled when all cases are there, in the order of their numbers. So neither its places on the disk
-//! nor the times of its files say how long a case took, and an interrupted trial looks like any other.
+//! Answers and seed lie with the key, which is drawn first, and never in the trial's folder. That
+//! is filled when all cases are there, in the order of their numbers. So neither its places on the
+//! disk nor the times of its files say how long a case took, and an interrupted trial looks like
+//! any other.
 
 use crate::answer::{Answer, Answers, SCHEMA};
 use crate::case::{self, Case};
@@ -36,13 +37,15 @@ pub struct Draft {
 }
 
 impl Draft {
-    /// Begins a trial with the key in a file, or with a new one that is written to it; or takes up what was begun there.
+    /// Begins a trial with the key in a file, or with a new one that is written to it; or takes up
+    /// what was begun there.
     ///
     /// With the key and the order of a trial it is made once more, byte for byte.
     ///
     /// # Errors
     /// [`Error::Made`] where another trial is there already, [`Error::OtherOrder`] where what was
-    /// begun is another trial; [`Error::Output`], [`Error::Document`], [`Error::File`], [`Error::Key`].
+    /// begun is another trial; [`Error::Output`], [`Error::Document`], [`Error::File`],
+    /// [`Error::Key`].
     ///
     /// # Panics
     /// Never: an order is TOML.
@@ -111,11 +114,12 @@ impl Draft {
         })
     }
 
-    /// Writes cases and commitment to the trial's folder and the answers beside the key, and is gone.
+    /// Writes cases and commitment to the trial's folder and the answers beside the key, and is
+    /// gone.
     ///
     /// # Errors
-    /// [`Error::Made`] where a case of another trial is there; [`Error::File`], [`Error::Document`] where one is not
-    /// finished; [`Error::Output`].
+    /// [`Error::Made`] where a case of another trial is there; [`Error::File`], [`Error::Document`]
+    /// where one is not finished; [`Error::Output`].
     pub fn publish(self, trial: &Path) -> Result<(Answers, Commitment), Error> {
         prepare_folder(trial)?;
         let numbers = (0..).take(self.order.cases);

@@ -15,7 +15,8 @@ pub const TRAINING_RUNS: usize = 9;
 pub const HELD_OUT_RUNS: usize = 3;
 /// The held-out runs as the diagnosis is told of them.
 pub const HELD_OUT: &str = "9-11";
-/// Usual time of a run, s: 1807 segments of 0.27 s over nine runs (Martinez et al. 2005, section 5).
+/// Usual time of a run, s: 1807 segments of 0.27 s over nine runs (Martinez et al. 2005, section
+/// 5).
 pub const RUN_TIME: f64 = 54.0;
 /// Half the width of the square in which runs start, m.
 const START_REACH: f64 = 1.5;

@@ -42,8 +42,8 @@ pub enum Error {
     },
     /// Answers that are not where they were put.
     #[error(
-        "{}: not there: expected the answers of SHA-256 {committed}, which trial make puts beside the \
-         key",
+        "{}: not there: expected the answers of SHA-256 {committed}, which trial make puts beside \
+         the key",
         path.display()
     )]
     NoAnswers {
@@ -82,7 +82,8 @@ pub enum Error {
     },
     /// Files that are not those the answers belong to.
     #[error(
-        "{case}: recording and vehicle file have the fingerprint {found}, and the sealed answer {sealed}"
+        "{case}: recording and vehicle file have the fingerprint {found}, and the sealed answer \
+         {sealed}"
     )]
     OtherFiles {
         /// The case.
@@ -103,8 +104,8 @@ pub enum Error {
     },
     /// A trial that was begun, and is another one than is asked for.
     #[error(
-        "{}: begun for {begun}, and asked for {asked}: expected what it was begun for, or a new --out \
-         and --key",
+        "{}: begun for {begun}, and asked for {asked}: expected what it was begun for, or a new \
+         --out and --key",
         folder.display()
     )]
     OtherOrder {

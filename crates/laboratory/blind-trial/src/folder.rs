@@ -91,8 +91,8 @@ pub fn is_made(trial: &Path) -> bool {
     trial.join(COMMITMENT).exists() || trial.join(SEALED).exists()
 }
 
-/// Writes the answers beside the file of the key, where nobody but its owner reads them, and publishes
-/// the commitment in the folder of the trial.
+/// Writes the answers beside the file of the key, where nobody but its owner reads them, and
+/// publishes the commitment in the folder of the trial.
 ///
 /// # Errors
 /// [`Error::Output`].
@@ -169,8 +169,8 @@ pub fn cases(trial: &Path) -> Result<Vec<PathBuf>, Error> {
 /// Puts what came back of every case from a program beside its answer.
 ///
 /// # Errors
-/// [`Error::OtherFiles`] or [`Error::OtherRecording`] where files were changed after the answers were
-/// committed to; files that cannot be read.
+/// [`Error::OtherFiles`] or [`Error::OtherRecording`] where files were changed after the answers
+/// were committed to; files that cannot be read.
 pub fn judge(trial: &Path, answers: &Answers, entry: &Entry) -> Result<Vec<Judged>, Error> {
     answers.cases.iter().map(|answer| judge_case(trial, answer, entry)).collect()
 }

@@ -39,7 +39,8 @@ impl Fineness {
     }
 }
 
-/// Largest clock offset that may be fitted to a signature, s; runs begin and end with a longer rest.
+/// Largest clock offset that may be fitted to a signature, s; runs begin and end with a longer
+/// rest.
 const MAX_CLOCK_OFFSET: f64 = 0.4;
 
 /// A run as it was driven.

@@ -6,6 +6,7 @@ use crate::ground::Driven;
 use crate::machine::Machine;
 use crate::random::{happens, log_uniform, normal, sign, uniform};
 use rand_chacha::ChaCha8Rng;
+use trackdyn_core::rounding::Digits;
 use trackdyn_drive::sensors::{PoseFrame, Preset, Sensors, Walk};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_recording::StatedNoise;
@@ -93,8 +94,9 @@ impl Instruments {
     /// distance `gap` (m) between the ICRs.
     ///
     /// # Law
-    /// White noise of a pose, and what jitter of its stamp and of the encoders' makes of the speeds;
-    /// travel is known to a tick, q²/12 at each end of a segment and each side; the walk per second.
+    /// White noise of a pose, and what jitter of its stamp and of the encoders' makes of the
+    /// speeds; travel is known to a tick, q²/12 at each end of a segment and each side; the walk
+    /// per second.
     pub(crate) fn noise(&self, driven: &[Driven], gap: f64) -> SegmentNoise {
         let [speed, rate] = mean_squares(driven);
         let (pose, encoder) = (&self.sensors.pose, &self.sensors.encoder);
@@ -164,13 +166,13 @@ fn reading(
 }
 
 /// A mechanism whose parameters are in range.
+///
+/// # Panics
+/// Where they are not.
 pub(crate) fn mechanism(id: &str, settings: &[(&str, f64)]) -> ActiveMechanism {
-    let settings: Vec<_> =
-        settings.iter().map(|(key, value)| (*key, (value * 1e5).round() / 1e5)).collect();
-    match ActiveMechanism::new(id, &settings) {
-        Ok(active) => active,
-        Err(error) => panic!("{error}"),
-    }
+    let round = |value: f64| Digits::Decimals(5).round(value);
+    let settings: Vec<_> = settings.iter().map(|(key, value)| (*key, round(*value))).collect();
+    ActiveMechanism::new(id, &settings).expect("keys of a sheet, and values within its ranges")
 }
 
 /// Mean squares of forward speed (m²/s²) and yaw rate (rad²/s²).

@@ -1,9 +1,9 @@
 //! The sealed trial: the proof that a diagnosis finds what was concealed from it.
 //!
-//! - [`mod@plan`]: which cases there are: nulls, singles, pairs, equivalence cases, laws outside the
-//!   catalogue.
-//! - [`case`]: one case: a robot that nobody has seen, driven on the independent ground with something
-//!   concealed, and its recording.
+//! - [`mod@plan`]: which cases there are: nulls, singles, pairs, equivalence cases, laws outside
+//!   the catalogue.
+//! - [`case`]: one case: a robot that nobody has seen, driven on the independent ground with
+//!   something concealed, and its recording.
 //! - [`difficulty`]: what is wrong in a case that conceals nothing.
 //! - [`oracle`]: what could be found of it: z_det and z_iso.
 //! - [`answer`]: what was concealed.
@@ -16,7 +16,8 @@
 //! - [`revisit`]: a case once more, driven by another schedule.
 //! - [`folder`]: the folder of a trial, in which nothing but the recordings tells cases apart.
 //!
-//! The diagnosis is not part of this crate: it is a program that gets a recording and a vehicle file.
+//! The diagnosis is not part of this crate: it is a program that gets a recording and a vehicle
+//! file.
 
 mod alternatives;
 pub mod answer;

@@ -68,8 +68,8 @@ impl Machine {
         self.weight() / area
     }
 
-    /// The vehicle as its owner knows it: geometry and mass right, and √(μ_x μ_y) with them; the ratio
-    /// of friction and the centre of gravity sometimes off.
+    /// The vehicle as its owner knows it: geometry and mass right, and √(μ_x μ_y) with them; the
+    /// ratio of friction and the centre of gravity sometimes off.
     pub(crate) fn as_owned(&self, random: &mut ChaCha8Rng) -> Vehicle {
         let mut vehicle = self.vehicle.clone();
         let (ratio, [x, y]) = (0.08 * normal(random), [normal(random), normal(random)]);

@@ -1,8 +1,8 @@
 //! Answers that were sealed until November 2026: read, and never written again.
 //!
 //! They lie in `answers.sealed` beside the recordings, combined with a ChaCha20 stream. Its seed is
-//! the SHA-256 of the key and the hash of the answers; of the first forty trials it is the key alone.
-//! The commitment holds the hashes of the answers and of the sealed file.
+//! the SHA-256 of the key and the hash of the answers; of the first forty trials it is the key
+//! alone. The commitment holds the hashes of the answers and of the sealed file.
 
 use crate::error::Error;
 use crate::key::{Key, sha256};

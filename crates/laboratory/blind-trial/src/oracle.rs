@@ -22,8 +22,8 @@ pub const MIN_DISTINCT_Z: f64 = 4.0;
 /// names.
 const MAX_ALTERNATIVES: usize = 3;
 /// Smallest z for which a size is searched: above one or two, which the phases of shoes make of any
-/// change. Strengths of smaller sizes are taken in proportion. Larger ones cannot be: between z = 10
-/// and 40 laws of the slip speed are not linear, and sheared soil changes the sign of its trace.
+/// change. Strengths of smaller sizes are taken in proportion. Larger ones cannot be: between z =
+/// 10 and 40 laws of the slip speed are not linear, and sheared soil changes the sign of its trace.
 const MIN_SEARCHED_Z: f64 = 5.0;
 /// Logarithm of the ratio of two strengths that count as one. What is stated is the z that the size
 /// leaves, not the one that was wanted.
@@ -67,7 +67,8 @@ pub(crate) struct Standing {
     pub(crate) z_det: f64,
     /// Length outside the nuisances and the alternative that comes closest.
     pub(crate) z_iso: f64,
-    /// Length outside the nuisances and the three alternatives that take most of it, one after the other.
+    /// Length outside the nuisances and the three alternatives that take most of it, one after the
+    /// other.
     pub(crate) z_beyond: f64,
     /// The alternative that comes closest.
     pub(crate) nearest: &'static str,
@@ -82,14 +83,15 @@ impl Judge<'_> {
         Ok(Sized { dose, strength, signature })
     }
 
-    /// An effect at about the wanted z, with what it really leaves; at its smallest or largest strength where that shows
-    /// more or less; or at `otherwise` where it does not show at all.
+    /// An effect at about the wanted z, with what it really leaves; at its smallest or largest
+    /// strength where that shows more or less; or at `otherwise` where it does not show at all.
     pub(crate) fn sized(&self, dose: Dose, wanted: f64, otherwise: f64) -> Result<Sized, Failure> {
         let few = FEW_RUNS.min(self.runs.len());
         let clear = wanted.max(MIN_SEARCHED_Z);
         let off = |sized: &Sized| (self.z(&sized.signature) / clear).ln().abs();
         let mut best: Option<Sized> = None;
-        // a place may lie off the ways of the first runs, or be grazed by them and crossed by the others
+        // a place may lie off the ways of the first runs, or be grazed by them and crossed by the
+        // others
         for runs in [few, self.runs.len()] {
             if best.as_ref().is_some_and(|best| off(best) < MAX_Z_ERROR) {
                 break;
@@ -116,7 +118,8 @@ impl Judge<'_> {
         self.at(dose, sized.strength * share.max(least).min(1.0))
     }
 
-    /// The strength at which an effect shows with about this z, by what some runs show of it; none where it does not show.
+    /// The strength at which an effect shows with about this z, by what some runs show of it; none
+    /// where it does not show.
     fn strength(&self, dose: &Dose, clear: f64, runs: &[Drive]) -> Result<Option<f64>, Failure> {
         let more_runs = (real(self.runs.len()) / real(runs.len())).sqrt();
         let z = |strength: f64| -> Result<f64, Failure> {
@@ -256,7 +259,8 @@ impl Still<'_> {
     }
 }
 
-/// What the alternatives that take most of a signature leave of it, one after the other, each effect once.
+/// What the alternatives that take most of a signature leave of it, one after the other, each
+/// effect once.
 fn beyond(
     mut space: Subspace,
     signature: &[f64],

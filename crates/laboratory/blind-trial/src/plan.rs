@@ -116,7 +116,8 @@ pub struct PlannedCase {
     pub difficulty: Option<Difficulty>,
 }
 
-/// The cases of a trial in shuffled order; every kind comes up as often as the others of its stratum.
+/// The cases of a trial in shuffled order; every kind comes up as often as the others of its
+/// stratum.
 pub fn plan(cases: usize, root: &Root) -> Vec<PlannedCase> {
     let mut random = stream(root, 0, 0, Purpose::Plan);
     let mut planned = Vec::with_capacity(cases);

@@ -1,4 +1,5 @@
-//! A case once more: the robot, the ground and the instruments of a case, driven by another schedule.
+//! A case once more: the robot, the ground and the instruments of a case, driven by another
+//! schedule.
 
 use crate::answer::{Answer, Answers};
 use crate::case::ATTEMPTS;
@@ -20,8 +21,8 @@ use trackdyn_model::{Vehicle, VehicleFile};
 use trackdyn_recording::Recording;
 use trackdyn_second_simulator::ActiveMechanism;
 
-/// The recording of a case that follows a schedule from the origin, heading along x: everything is as it
-/// was in the case but for the noise, which is drawn anew.
+/// The recording of a case that follows a schedule from the origin, heading along x: everything is
+/// as it was in the case but for the noise, which is drawn anew.
 ///
 /// # Errors
 /// [`Error::Ground`] where there is no such case, or the robot cannot follow; [`Error::Document`].

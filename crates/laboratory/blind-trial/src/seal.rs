@@ -1,9 +1,9 @@
 //! The commitment to answers.
 //!
 //! Commit first, open later: the answers exist before any diagnosis does, and their SHA-256 is
-//! published with the recordings. Whoever opens them afterwards shows that they are unchanged. Until
-//! then they lie elsewhere. The hash gives nothing away, because the answers begin with a salt of 256
-//! bits that comes of the key.
+//! published with the recordings. Whoever opens them afterwards shows that they are unchanged.
+//! Until then they lie elsewhere. The hash gives nothing away, because the answers begin with a
+//! salt of 256 bits that comes of the key.
 
 use crate::answer::Answers;
 use crate::error::Error;

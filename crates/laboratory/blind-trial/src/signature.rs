@@ -28,8 +28,8 @@ pub(crate) struct Bench {
 }
 
 impl Bench {
-    /// The bench of a drive that perfect sensors saw, for a recording with this noise in which poses are
-    /// there for the share `presence` of the time.
+    /// The bench of a drive that perfect sensors saw, for a recording with this noise in which
+    /// poses are there for the share `presence` of the time.
     ///
     /// # Errors
     /// Where constant ICRs cannot be fitted: a robot that hardly turns.
@@ -100,7 +100,8 @@ impl Bench {
         Ok(self.whitened(changed.iter().zip(residuals).map(|(a, b)| a - b).collect()))
     }
 
-    /// Residuals of a drive against the constant ICRs, clock offset and yaw of the sensor that fit it best.
+    /// Residuals of a drive against the constant ICRs, clock offset and yaw of the sensor that fit
+    /// it best.
     ///
     /// # Errors
     /// Where there are none: a robot that hardly turns.
@@ -119,8 +120,8 @@ impl Bench {
     }
 }
 
-/// The constant ICRs that fit best beside a clock offset and a turned sensor, and their residuals. Large
-/// changes of ICRs and clocks are not linear: they have to be fitted, not projected out.
+/// The constant ICRs that fit best beside a clock offset and a turned sensor, and their residuals.
+/// Large changes of ICRs and clocks are not linear: they have to be fitted, not projected out.
 fn fitted(
     observations: &Observations,
     start: &Parameters,
@@ -141,8 +142,8 @@ fn fitted(
     Ok((parameters, residuals.collect()))
 }
 
-/// Derivatives of the motion of constant ICRs, segment by segment, by x_l, x_r, y, α_l, α_r, the clock
-/// offset, the yaw of the sensor and the bias of the gyro.
+/// Derivatives of the motion of constant ICRs, segment by segment, by x_l, x_r, y, α_l, α_r, the
+/// clock offset, the yaw of the sensor and the bias of the gyro.
 fn nuisance_columns(
     observations: &Observations,
     parameters: &Parameters,
@@ -162,7 +163,8 @@ fn nuisance_columns(
     columns
 }
 
-/// Derivative by a constant error of the yaw rate, per rad/s: the way is laid on along the wrong heading.
+/// Derivative by a constant error of the yaw rate, per rad/s: the way is laid on along the wrong
+/// heading.
 fn by_bias(segment: &Observation, parameters: &Parameters, pieces: &[Piece]) -> [f64; 3] {
     let end = |bias: f64| {
         let steps = pieces.iter().map(|piece| {

@@ -20,8 +20,8 @@ pub(crate) struct Beam {
     pub(crate) by_line: Vector2<f64>,
 }
 
-/// Smallest sine of the angle between beam and line: 6 degrees. Below it the range moves by more than
-/// ten times what the line moves, and the law is no longer nearly linear.
+/// Smallest sine of the angle between beam and line: 6 degrees. Below it the range moves by more
+/// than ten times what the line moves, and the law is no longer nearly linear.
 const MIN_SINE_OF_INCIDENCE: f64 = 0.1;
 
 /// The range of a beam; `None` where it grazes the line, or the sensor is behind it.
@@ -30,7 +30,8 @@ pub(crate) fn on_line(line: &Line, pose: &Pose, [u, v]: [f64; 2]) -> Option<Beam
     on_normal(line.angle.sin_cos(), line.distance, pose, pose.yaw.sin_cos(), [u, v])
 }
 
-/// The range of a beam on the line with the sine and cosine of θ, from a sensor with those of its yaw.
+/// The range of a beam on the line with the sine and cosine of θ, from a sensor with those of its
+/// yaw.
 #[inline]
 pub(crate) fn on_normal(
     (n_sin, n_cos): (f64, f64),

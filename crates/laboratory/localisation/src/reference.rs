@@ -22,12 +22,12 @@ pub struct Reference {
     line_of_beam: Vec<Option<usize>>,
 }
 
-/// Number of returns on either end of a piece that do not enter its line: where the piece ends was chosen to
-/// fit best, which biases those next to it.
+/// Number of returns on either end of a piece that do not enter its line: where the piece ends was
+/// chosen to fit best, which biases those next to it.
 const EXCLUDED_END_RETURNS: usize = 1;
 
-/// Smallest number of returns that enter a line. With fewer, direction and offset say little more than the
-/// returns did.
+/// Smallest number of returns that enter a line. With fewer, direction and offset say little more
+/// than the returns did.
 const MIN_RETURNS: usize = 5;
 
 /// Largest standard deviation of the direction of a line, rad: 3 degrees. The law of a match
@@ -94,7 +94,8 @@ impl Reference {
         *self.line_of_beam.get(self.beam_at(bearing)?)?
     }
 
-    /// Indices of the lines within `window` rad of a bearing, not across the seam of a scan all round.
+    /// Indices of the lines within `window` rad of a bearing, not across the seam of a scan all
+    /// round.
     pub(crate) fn lines_around(&self, bearing: f64, window: f64) -> std::ops::Range<usize> {
         let Some(beam) = self.beam_at(bearing) else { return 0..0 };
         let reach = to_index(window / self.angle_step);

@@ -47,7 +47,7 @@ pub enum Error {
     /// Text that does not name a mechanism.
     #[error("\"{0}\": expected ID or ID:PARAMETER=VALUE,...")]
     Malformed(String),
-    /// The same mechanism twice.
+    /// A mechanism that is switched on twice.
     #[error("{0} is switched on twice")]
     Repeated(&'static str),
     /// A vehicle that cannot be.

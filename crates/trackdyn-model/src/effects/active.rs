@@ -64,8 +64,8 @@ impl ActiveEffect {
         &self.values
     }
 
-    /// Parameters with the values that a text has to give: all of a mechanism, and of a form those that it
-    /// has.
+    /// Parameters with the values that a text has to give: all of a mechanism, and of a form those
+    /// that it has.
     pub fn stated(&self) -> impl Iterator<Item = (&'static Parameter, f64)> {
         let card = self.card();
         let values = card.parameters.iter().zip(self.values.iter().copied());

@@ -52,7 +52,9 @@ macro_rules! catalogue {
 
             #[inline]
             fn load<S: Scalar>(&self, situation: &Situation<S>, centre_of_pressure: &mut [S; 2]) {
-                match self { $(Self::$effect(effect) => effect.load(situation, centre_of_pressure)),+ }
+                match self {
+                    $(Self::$effect(effect) => effect.load(situation, centre_of_pressure)),+
+                }
             }
 
             #[inline]

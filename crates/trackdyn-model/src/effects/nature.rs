@@ -24,7 +24,8 @@ impl Card {
         self.place().map_or_else(Vec::new, |place| TERMS[place]())
     }
 
-    /// Value of a parameter that is not given: the typical one, and none of a coefficient of a form.
+    /// Value of a parameter that is not given: the typical one, and none of a coefficient of a
+    /// form.
     pub fn default_of(&self, parameter: &Parameter) -> f64 {
         match parameter.role {
             Role::Size { neutral } if self.is_form() => neutral,

@@ -1,4 +1,5 @@
-//! The oracle against computations of another kind: what fits to noisy recordings really scatter by.
+//! The oracle against computations of another kind: what fits to noisy recordings really scatter
+//! by.
 
 use super::*;
 use crate::alternatives::places;
@@ -30,8 +31,8 @@ struct Stage {
 }
 
 impl Stage {
-    /// Sensors have no jitter and no delay, so that segments of noisy recordings begin where those of the
-    /// noise-free one do.
+    /// Sensors have no jitter and no delay, so that segments of noisy recordings begin where those
+    /// of the noise-free one do.
     fn new(seed: u64) -> Self {
         let random = |purpose| stream(&Root::of_seed(seed), 1, 0, purpose);
         let machine = Machine::draw(&mut random(Purpose::Machine));
@@ -91,8 +92,8 @@ fn difference(a: &Observations, b: &Observations) -> Vec<Vector3<f64>> {
     pairs.map(|(a, b)| Vector3::from(a.motion) - Vector3::from(b.motion)).collect()
 }
 
-/// Columns of the nuisances by quotients of differences: five parameters, clock, yaw of the sensor; and the
-/// bias of a gyro, by which half a segment's turn lies under the way.
+/// Columns of the nuisances by quotients of differences: five parameters, clock, yaw of the sensor;
+/// and the bias of a gyro, by which half a segment's turn lies under the way.
 fn nuisances(stage: &Stage, of: &Observations) -> Vec<DVector<f64>> {
     const STEP: f64 = 1e-4;
     let gauge = stage.machine.vehicle.gauge;
@@ -209,13 +210,14 @@ fn alternatives_together_take_what_each_leaves() {
         .into();
     let axis = |k: usize| (0..5).map(|row| f64::from(row == k)).collect::<Vec<f64>>();
     let columns: Vec<Vec<Vec<f64>>> = (0..5).map(|k| vec![axis(k)]).collect();
-    // the second variant of the first effect may not come beside it: 4, then 2, then 1, and 3 is left with 0.5
+    // the second variant of the first effect may not come beside it: 4, then 2, then 1, and 3 is
+    // left with 0.5
     let left = beyond(Subspace::spanned_by([]), &[4.0, 3.0, 2.0, 1.0, 0.5], &others, &columns);
     assert!((left - 9.25_f64.sqrt()).abs() < 1e-12, "{left}");
 }
 
-/// What is stated is what the size really leaves, in length and in shape: laws of the slip speed are not linear, what
-/// sheared soil shows changes its sign, and phases of shoes show of any size.
+/// What is stated is what the size really leaves, in length and in shape: laws of the slip speed
+/// are not linear, what sheared soil shows changes its sign, and phases of shoes show of any size.
 #[test]
 fn a_size_shows_by_the_z_that_is_stated() {
     const SLIP_SPEED: [&str; 3] = ["stribeck-friction", "viscous-friction", "friction-creep"];
@@ -253,11 +255,13 @@ fn a_size_shows_by_the_z_that_is_stated() {
             }
         });
     }
-    // the least soil can be shows more on sensitive robots, and laws of the slip speed saturate on others: four of five
+    // the least soil can be shows more on sensitive robots, and laws of the slip speed saturate on
+    // others: four of five
     assert!(of_wanted >= 42, "{of_wanted} of 52");
 }
 
-/// A place that the first runs never pass can be told from other effects all the same, by those that do.
+/// A place that the first runs never pass can be told from other effects all the same, by those
+/// that do.
 #[test]
 fn a_patch_stands_where_only_later_runs_pass_it() {
     let stage = Stage::new(21);

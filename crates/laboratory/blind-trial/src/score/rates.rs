@@ -8,8 +8,8 @@ use crate::diagnosis::Status;
 use crate::difficulty::Difficulty;
 use crate::plan::Stratum;
 
-/// All rates of a trial. A process that failed has found nothing; it does not count where false claims
-/// and over-claims are counted.
+/// All rates of a trial. A process that failed has found nothing; it does not count where false
+/// claims and over-claims are counted.
 pub fn rates(judged: &[Judged]) -> Vec<Rate> {
     let mut rates = nulls(judged);
     rates.extend(singles(judged));

@@ -41,8 +41,8 @@ pub(super) struct Tracker<'a> {
     before: (usize, &'a Scan, PoseEstimate),
 }
 
-/// Largest number of earlier keyframes that are tried before a new one is made, nearest first. Those further off share
-/// less.
+/// Largest number of earlier keyframes that are tried before a new one is made, nearest first.
+/// Those further off share less.
 const MAX_KEYFRAMES_TRIED: usize = 3;
 
 impl<'a> Tracker<'a> {

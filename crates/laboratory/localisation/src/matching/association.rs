@@ -16,8 +16,8 @@ pub(super) struct Pair {
     pub(super) hit: usize,
 }
 
-/// Largest distance of a return from its line, in standard deviations. Returns further away belong to
-/// something else; of a normal distribution one in 16 000 lies beyond.
+/// Largest distance of a return from its line, in standard deviations. Returns further away belong
+/// to something else; of a normal distribution one in 16 000 lies beyond.
 const MAX_DEVIATIONS: f64 = 4.0;
 
 /// Largest number of returns that are used to come near: 20 on each of half a dozen lines.

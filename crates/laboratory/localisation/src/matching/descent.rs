@@ -1,8 +1,8 @@
 //! From a start to the best pose.
 //!
-//! First wide: the pose has the covariance of the guess, which shrinks from step to step, and with it
-//! the window in which lines are looked for and the gate. Then close: each return belongs to the line
-//! it looks at. At last the pairs are kept, and the pose is polished on them.
+//! First wide: the pose has the covariance of the guess, which shrinks from step to step, and with
+//! it the window in which lines are looked for and the gate. Then close: each return belongs to the
+//! line it looks at. At last the pairs are kept, and the pose is polished on them.
 
 use crate::PoseEstimate;
 use crate::matching::association::{self, Association, Normals};
@@ -14,16 +14,18 @@ use crate::scan::Return;
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::Pose;
 
-/// Number of wide steps; each halves the deviations, at last to a hundredth of the guess's, about what a match
-/// is exact to.
+/// Number of wide steps; each halves the deviations, at last to a hundredth of the guess's, about
+/// what a match is exact to.
 const WIDE_STEPS: usize = 7;
-/// Largest number of close steps; where pairs still come and go after them, the pose moves by less than its deviation.
+/// Largest number of close steps; where pairs still come and go after them, the pose moves by less
+/// than its deviation.
 const MAX_CLOSE_STEPS: usize = 20;
-/// Largest number of steps on kept pairs. Newton's method gains digits twofold, so that four suffice.
+/// Largest number of steps on kept pairs. Newton's method gains digits twofold, so that four
+/// suffice.
 const MAX_POLISH_STEPS: usize = 10;
 
-/// Largest squared residual per degree of freedom. With 100 returns noise reaches 1.4 in one of 1000
-/// matches; twice the variance leaves room for a range noise that is stated too small by 40 %.
+/// Largest squared residual per degree of freedom. With 100 returns noise reaches 1.4 in one of
+/// 1000 matches; twice the variance leaves room for a range noise that is stated too small by 40 %.
 const MAX_REDUCED_CHI_SQUARE: f64 = 2.0;
 
 struct Problem<'a> {
@@ -74,7 +76,8 @@ impl Problem<'_> {
                 &covariance,
                 self.options.range_noise,
             );
-            // Beside the pairs stands the pose itself, with its covariance: what no pair sees stays.
+            // Beside the pairs stands the pose itself, with its covariance: what no pair sees
+            // stays.
             let mut information = covariance.try_inverse()?;
             let mut gradient = Vector3::zeros();
             for (pair, beam, variance) in pairs {

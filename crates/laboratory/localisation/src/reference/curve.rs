@@ -1,9 +1,9 @@
 //! Chords of curves, which are no lines.
 //!
 //! A round surface is cut into chords that fit as well as straight walls do, but where they end
-//! depends on where the scanner stands: a scan matched against them sticks to them. Chords of a curve
-//! meet, and at small angles: along a chord of length c on a radius R, within noise, the direction
-//! turns by c/R.
+//! depends on where the scanner stands: a scan matched against them sticks to them. Chords of a
+//! curve meet, and at small angles: along a chord of length c on a radius R, within noise, the
+//! direction turns by c/R.
 
 use crate::beam;
 use crate::line::Line;

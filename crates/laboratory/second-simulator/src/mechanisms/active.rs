@@ -13,11 +13,12 @@ pub struct ActiveMechanism {
 }
 
 impl ActiveMechanism {
-    /// The mechanism `id` with `settings` (key, value) and the typical size of every parameter that they
-    /// leave out.
+    /// The mechanism `id` with `settings` (key, value) and the typical size of every parameter that
+    /// they leave out.
     ///
     /// # Errors
-    /// Unknown mechanism or parameter, one that is given twice, or a value outside its physical range.
+    /// Unknown mechanism or parameter, one that is given twice, or a value outside its physical
+    /// range.
     pub fn new(id: &str, settings: &[(&str, f64)]) -> Result<Self, Error> {
         let index = MECHANISMS
             .iter()

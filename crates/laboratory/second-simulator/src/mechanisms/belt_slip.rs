@@ -5,12 +5,13 @@ use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Tr
 use trackdyn_core::{PerSide, Side};
 
 /// Traction over load at which the law equals the linear one.
-const EQUAL_AT: f64 = 0.3;
+const EQUAL_TRACTION_RATIO: f64 = 0.3;
 
 /// Time that the belt takes to stretch, s.
 const STRETCH_TIME: f64 = 0.02;
 
-/// The sprocket loses speed to the belt by a power of the traction, and the belt's stretch delays it.
+/// The sprocket loses speed to the belt by a power of the traction, and the belt's stretch delays
+/// it.
 #[derive(Clone, Copy, Debug)]
 pub struct BeltSlip {
     slip: f64,
@@ -67,7 +68,7 @@ impl BeltSlip {
     /// Part of the speed that is lost under a steady traction over load.
     fn settled(&self, traction: f64) -> f64 {
         // λ x √(|x|/0.3)
-        let slip = self.slip * traction * (traction.abs() / EQUAL_AT).sqrt();
+        let slip = self.slip * traction * (traction.abs() / EQUAL_TRACTION_RATIO).sqrt();
         slip.clamp(-1.0, 1.0)
     }
 }

@@ -16,7 +16,8 @@ impl Described for FrictionCreep {
         id: "friction-creep",
         origin: Origin::Catalogue,
         law: "μ (2/π) atan(π |s|/(2 v))",
-        size: "rises from rest with 1/v, as the catalogue's law does; at |s| = v it has reached 64 %",
+        size: "rises from rest with 1/v, as the catalogue's law does; at |s| = v it has reached 64 \
+               %",
         shares_size: false,
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
         trial: Trial::law(Identifiability::DistinctWhenLarge, 10.0)

@@ -4,7 +4,7 @@ use crate::mechanism::{Contact, Described, Mechanism, scale_ratio};
 use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Time in which 63 % of the change are done, s.
-const SETTLING: f64 = 120.0;
+const SETTLING_TIME: f64 = 120.0;
 
 /// The ratio of frictions goes exponentially to where it stays.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +37,7 @@ impl Described for FrictionDrift {
 
 impl Mechanism for FrictionDrift {
     fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
-        scale_ratio(mu, 1.0 - self.rate * SETTLING * (-contact.scene.t / SETTLING).exp_m1());
+        let time = contact.scene.t;
+        scale_ratio(mu, 1.0 - self.rate * SETTLING_TIME * (-time / SETTLING_TIME).exp_m1());
     }
 }

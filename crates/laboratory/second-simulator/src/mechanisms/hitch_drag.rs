@@ -5,7 +5,7 @@ use crate::sheet::{Draw, Identifiability, Origin, Parameter, Scale, Sheet, Symme
 use trackdyn_core::{Twist, Wrench};
 
 /// Speed of the hitch at which the sled drags with 71 %, m/s.
-const ONSET: f64 = 5e-3;
+const ONSET_SPEED: f64 = 5e-3;
 
 /// The sled's friction acts at the hitch, against its way.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +50,7 @@ impl Mechanism for HitchDrag {
     fn push(&self, scene: &Scene, twist: &Twist, wrench: &mut Wrench) {
         let hitch = [0.0, -self.distance];
         let [v_x, v_y] = twist.velocity_at(hitch);
-        let factor = -self.coefficient * scene.total_weight() / v_x.hypot(v_y).hypot(ONSET);
+        let factor = -self.coefficient * scene.total_weight() / v_x.hypot(v_y).hypot(ONSET_SPEED);
         wrench.add_force([factor * v_x, factor * v_y], hitch);
     }
 }

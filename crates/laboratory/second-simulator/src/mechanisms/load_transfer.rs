@@ -6,7 +6,8 @@ use crate::sheet::{Draw, Identifiability, Origin, Parameter, Scale, Sheet, Symme
 /// Time that the hull takes to lean, s.
 const LEAN_TIME: f64 = 0.06;
 
-/// The weight leans outwards in a turn, back where the robot speeds up, and downhill on a slope, with the hull's own delay.
+/// The weight leans outwards in a turn, back where the robot speeds up, and downhill on a slope,
+/// with the hull's own delay.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadTransfer {
     height: f64,
@@ -17,8 +18,9 @@ impl Described for LoadTransfer {
     const SHEET: Sheet = Sheet {
         id: "load-transfer",
         origin: Origin::Catalogue,
-        law: "q' = (h (g_along − a)/g_normal − q)/0.06 s, a = ω × v_cog + k dv_cog/dt, k the part of \
-              the mass that stands against changes of speed; the load acts at the centre of gravity + q",
+        law: "q' = (h (g_along − a)/g_normal − q)/0.06 s, a = ω × v_cog + k dv_cog/dt, k the part \
+              of the mass that stands against changes of speed; the load acts at the centre of \
+              gravity + q",
         size: "in steady turns the same; the hull takes 0.06 s to lean, the period of a \
                suspension of 2.7 Hz over 2π",
         shares_size: false,

@@ -4,12 +4,12 @@ use crate::mechanism::{Contact, Described, Mechanism};
 use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Belt speed at which the ground resists with 71 %, m/s.
-const ONSET: f64 = 2e-3;
+const ONSET_SPEED: f64 = 2e-3;
 
 /// Force along the track that holds a shoe back, N.
 pub(super) fn resistance(coefficient: f64, contact: &Contact) -> f64 {
     let speed = contact.scene.sprocket[contact.side];
-    -coefficient * contact.load * speed / (speed * speed + ONSET * ONSET).sqrt()
+    -coefficient * contact.load * speed / (speed * speed + ONSET_SPEED * ONSET_SPEED).sqrt()
 }
 
 /// Each shoe pays for the ground it presses in.

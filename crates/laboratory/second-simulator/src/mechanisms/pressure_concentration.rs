@@ -36,7 +36,8 @@ impl Described for PressureConcentration {
 impl Mechanism for PressureConcentration {
     fn bed(&self, y: f64, [rear, front]: [f64; 2], stiffness: &mut f64) {
         let eta = (2.0 * y - rear - front) / (front - rear);
-        // half of an end roller's print lies beyond the contact, and the other half carries its load
+        // half of an end roller's print lies beyond the contact, and the other half carries its
+        // load
         let carries = if eta.abs() > 0.75 { 2.0 } else { 1.0 };
         let print = 1.0 + (4.0 * std::f64::consts::PI * eta).cos();
         *stiffness *= 1.0 - self.share + self.share * carries * print;

@@ -4,8 +4,8 @@ use crate::mechanism::{Contact, Described, Mechanism};
 use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::PerSide;
 
-/// The tension of a steered belt lifts its lugs: it holds less along, by the difference of the track
-/// speeds.
+/// The tension of a steered belt lifts its lugs: it holds less along, by the difference of the
+/// track speeds.
 #[derive(Clone, Copy, Debug)]
 pub struct SteeringGrip {
     loss: f64,

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 /// Half the root of three.
 const SIN_60: f64 = 0.866_025_403_784_438_6;
 /// Normals of the hexagon's sides: at 0, 60 and 120 degrees.
-const NORMALS: [[f64; 2]; 3] = [[1.0, 0.0], [0.5, SIN_60], [-0.5, SIN_60]];
+const SIDE_NORMALS: [[f64; 2]; 3] = [[1.0, 0.0], [0.5, SIN_60], [-0.5, SIN_60]];
 
 /// A hexagon, each shoe on its own side of the border.
 #[derive(Clone, Copy, Debug)]
@@ -70,7 +70,7 @@ impl Mechanism for TerrainPatch {
     fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
         let [x, y] = contact.world();
         let (x, y) = (x - self.centre[0], y - self.centre[1]);
-        let inside = NORMALS.iter().all(|[cos, sin]| (cos * x + sin * y).abs() < self.apothem);
+        let inside = SIDE_NORMALS.iter().all(|[cos, sin]| (cos * x + sin * y).abs() < self.apothem);
         if inside {
             scale_ratio(mu, self.factor);
         }

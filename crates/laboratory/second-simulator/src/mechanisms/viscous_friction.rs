@@ -4,7 +4,7 @@ use crate::mechanism::{Contact, Described, Mechanism};
 use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Slip speed at which the law equals the linear one, m/s.
-const EQUAL_AT: f64 = 0.3;
+const EQUAL_SLIP_SPEED: f64 = 0.3;
 
 /// Rubber and wet soil resist faster slip with more than friction.
 #[derive(Clone, Copy, Debug)]
@@ -37,8 +37,8 @@ impl Described for ViscousFriction {
 
 impl Mechanism for ViscousFriction {
     fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
-        let ratio = contact.slip_speed() / EQUAL_AT;
-        let factor = 1.0 + self.growth * EQUAL_AT * ratio.powf(0.6);
+        let ratio = contact.slip_speed() / EQUAL_SLIP_SPEED;
+        let factor = 1.0 + self.growth * EQUAL_SLIP_SPEED * ratio.powf(0.6);
         *mu = mu.map(|mu| mu * factor);
     }
 }

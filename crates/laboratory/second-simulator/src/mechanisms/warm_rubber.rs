@@ -5,7 +5,7 @@ use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Tr
 use trackdyn_core::{PerSide, Side};
 
 /// Time in which the rubber cools, s.
-const COOLING: f64 = 15.0;
+const COOLING_TIME: f64 = 15.0;
 
 /// Each side remembers the work that slip has done on it.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ impl Mechanism for WarmRubber {
     }
 
     fn advance(&mut self, step: &Step) {
-        let share = -(-step.dt / COOLING).exp_m1();
+        let share = -(-step.dt / COOLING_TIME).exp_m1();
         for side in Side::BOTH {
             // P over the power of the side's weight moving at 1 m/s
             let power = step.heat[side] / step.scene.weight[side];

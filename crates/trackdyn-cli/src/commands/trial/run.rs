@@ -26,8 +26,8 @@ pub struct Options {
     /// Take every N-th case only, from the I-th on (1 to N)
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Program that is called as `PROGRAM RECORDING --vehicle FILE --held-out LIST --out DIR` and writes
-    /// DIR/diagnosis.toml [default: `trackdyn diagnose`]
+    /// Program that is called as `PROGRAM RECORDING --vehicle FILE --held-out LIST --out DIR` and
+    /// writes DIR/diagnosis.toml [default: `trackdyn diagnose`]
     #[arg(long, value_name = "PROGRAM")]
     program: Option<PathBuf>,
     /// Name under which its diagnoses are kept and scored [default: that of the program's file]
@@ -104,8 +104,8 @@ fn note_what_is_within_reach(trial: &Path, commitment: &Commitment) {
     let answers = folder::answers_file(&key, commitment);
     for file in [key, answers].iter().filter(|file| file.exists()) {
         say(format_args!(
-            "note: {} is within reach of the processes that diagnose: for a proof keep it elsewhere \
-             meanwhile",
+            "note: {} is within reach of the processes that diagnose: for a proof keep it \
+             elsewhere meanwhile",
             file.display()
         ));
     }
@@ -132,7 +132,8 @@ fn entry(options: &Options) -> Result<Entry, Box<dyn Error>> {
     }
 }
 
-/// Diagnoses a case in a room of its own, and takes back what was written, or says why there is nothing.
+/// Diagnoses a case in a room of its own, and takes back what was written, or says why there is
+/// nothing.
 fn diagnose(
     case: &Path,
     entry: &Entry,

@@ -40,6 +40,7 @@ pub mod prior;
 pub mod proposal;
 pub mod resampling;
 pub mod search;
+pub mod settings;
 pub mod significance;
 pub mod surface;
 pub mod uncertainty;

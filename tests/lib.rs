@@ -4,8 +4,10 @@ pub mod concealed;
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
+use trackdyn_core::real;
 use trackdyn_model::contact::Friction;
 use trackdyn_model::{Effects, Model, RunningGear, Uncertainty, Vehicle, VehicleFile};
 use trackdyn_recording::Recording;
@@ -97,4 +99,20 @@ pub fn vehicle(name: &str) -> VehicleFile {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs/vehicles");
     let document = Document::read(&folder.join(name).with_extension("toml")).expect(name);
     VehicleFile::from_document(&document).expect(name)
+}
+
+/// Pieces of a whole circle: its polyline lies within R (1 − cos(π/720)), 0.01 mm for 1 m.
+const CIRCLE_PIECES: usize = 720;
+
+/// A circular path from the origin along x, to the left (or right), driven `laps` times, m.
+///
+/// # Panics
+/// Where the radius makes no path.
+pub fn circle(radius: f64, to_the_left: bool, laps: usize) -> trackdyn_drive::Path {
+    let side = if to_the_left { 1.0 } else { -1.0 };
+    let point = |k: usize| {
+        let (sin, cos) = (real(k) / real(CIRCLE_PIECES) * TAU).sin_cos();
+        [radius * sin, side * radius * (1.0 - cos)]
+    };
+    trackdyn_drive::Path::new((0..=laps * CIRCLE_PIECES).map(point).collect()).expect("a circle")
 }

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use trackdyn_core::document::{Document, DocumentError};
+use trackdyn_core::rounding::Digits;
 use trackdyn_model::effect::{Card, Symmetry};
 use trackdyn_model::kinematics::Source;
 
@@ -259,12 +260,7 @@ fn told_by(card: &Card) -> Option<&'static str> {
     })
 }
 
-/// The number to nine significant digits: what is below is rounding.
+/// The number with the digits that the file keeps.
 fn rounded(value: f64) -> f64 {
-    if value == 0.0 || !value.is_finite() {
-        return value;
-    }
-    #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent")]
-    let digits = 10.0_f64.powi(8 - value.abs().log10().floor() as i32);
-    (value * digits).round() / digits
+    Digits::Significant(9).round(value)
 }

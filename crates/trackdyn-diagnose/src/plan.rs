@@ -20,6 +20,7 @@ use menu::{INTERVAL, Manoeuvre, menu};
 use nalgebra::DMatrix;
 use rivals::Rival;
 use separation::{Pair, products, shares, squared};
+use trackdyn_core::rounding::Digits;
 use trackdyn_core::{Command, PerSide, Pose, Schedule, real};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_model::EffectId;
@@ -134,9 +135,9 @@ impl Plan {
     }
 }
 
-/// To six decimals: what is below is rounding.
+/// The number with the digits that files of plans keep.
 fn rounded(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6
+    Digits::Decimals(6).round(value)
 }
 
 /// Plans what separates the members of these classes. `progress` is told of each finished stage.

@@ -3,6 +3,7 @@
 use trackdyn_core::PerSide;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::frames::ros_from_paper;
+use trackdyn_core::rounding::Digits;
 use trackdyn_model::icr::Icrs;
 use trackdyn_model::kinematics::KinematicsFile;
 
@@ -61,7 +62,7 @@ impl EquivalentDrive {
 /// The length to 1e-9 m: files give χ and the ICRs to twelve decimals, and the gauge shall read 0.42 and
 /// not 0.420000000000039. Gauges below that scale keep their digits.
 fn to_nanometres(length: f64) -> f64 {
-    let rounded = (length * 1e9).round() / 1e9;
+    let rounded = Digits::Decimals(9).round(length);
     if rounded > 0.0 { rounded } else { length }
 }
 

@@ -289,15 +289,6 @@ impl<'m> Transient<'m> {
         };
         force(Twist { v_x: 1.0, v_y: 1.0, w: 1.0 }) != force(still)
     }
-
-    /// Kinetic energy of the body with this radius of gyration about its centre of gravity (m), J.
-    pub fn kinetic_energy(&self, gyration: f64) -> f64 {
-        let vehicle = self.model.vehicle();
-        let [v_x, v_y] = self.state.twist.velocity_at(vehicle.cog);
-        let w = self.state.twist.w * gyration;
-        // E = ½ m (v² + r² ω²)
-        0.5 * vehicle.mass * (v_x * v_x + v_y * v_y + w * w)
-    }
 }
 
 impl Plant for Transient<'_> {

@@ -35,7 +35,8 @@ const HERE: Circumstance = Circumstance { position: [0.0, 0.0], heading: 0.0, ti
 fn icrs(model: &Model, (left, right): (f64, f64), circumstance: Circumstance) -> Icrs {
     let solution = Stationary::new(model, &circumstance).solve(PerSide::new(left, right));
     assert_eq!(solution.status, Status::Turning, "{left} {right} {:?}", model.effects());
-    solution.reported_icrs(model.sensor()).expect("a turning robot has ICRs")
+    let reported = model.sensor().reported(&solution.twist);
+    Icrs::of_motion(solution.track_speed, &reported).expect("a turning robot has ICRs")
 }
 
 /// How far the ICRs that encoders and pose sensor show while the speeds grow, from half to full in
@@ -70,7 +71,7 @@ fn distance(a: Icrs, b: Icrs) -> f64 {
 /// How far a straight command leads astray, over its distance; a turn counts over 1 m.
 fn astray(model: &Model, speed: f64) -> f64 {
     let solution = Stationary::new(model, &HERE).solve(PerSide::new(speed, speed));
-    let twist = solution.reported_twist(model.sensor());
+    let twist = model.sensor().reported(&solution.twist);
     (twist.v_x / speed).abs().max((twist.v_y / speed - 1.0).abs()).max((twist.w / speed).abs())
 }
 

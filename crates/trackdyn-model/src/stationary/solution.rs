@@ -1,7 +1,6 @@
 //! What a solve returns.
 
 use super::{Linearised, Near};
-use crate::Sensor;
 use crate::icr::Icrs;
 use trackdyn_core::{PerSide, Side, Twist};
 
@@ -36,16 +35,6 @@ impl Solution {
             Status::Holds(side) => Some(Near::Held(side)),
             Status::Lifts | Status::NotConverged => None,
         }
-    }
-
-    /// The twist that a pose sensor reports of it, in the sensor's axes.
-    pub fn reported_twist(&self, sensor: &Sensor) -> Twist {
-        sensor.reported(&self.twist)
-    }
-
-    /// The ICRs that encoders and pose sensor show of it; none where no yaw rate is reported.
-    pub fn reported_icrs(&self, sensor: &Sensor) -> Option<Icrs> {
-        Icrs::of_motion(self.track_speed, &self.reported_twist(sensor))
     }
 }
 

@@ -7,8 +7,8 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 
 /// A number and its derivatives by N variables.
 ///
-/// Plain arrays without branches, which the stationary balance runs faster than the general dual vectors
-/// of `num-dual` (docs/design.md); the tests compare every operation with these.
+/// Plain arrays without branches, which the stationary balance runs faster than the general dual
+/// vectors of `num-dual` (docs/design.md); the tests compare every operation with these.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<const N: usize> {
     /// The value.

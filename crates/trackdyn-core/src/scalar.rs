@@ -27,8 +27,8 @@ pub trait Scalar:
     /// The value without its derivatives.
     fn value(self) -> f64;
 
-    /// A function of several numbers from its value and its partial derivatives there: the chain rule
-    /// for a derivative that was worked out by hand. `partials[k]` belongs to `arguments[k]`.
+    /// A function of several numbers from its value and its partial derivatives there: the chain
+    /// rule for a derivative that was worked out by hand. `partials[k]` belongs to `arguments[k]`.
     #[must_use]
     fn chain<const K: usize>(value: f64, partials: [f64; K], arguments: [Self; K]) -> Self;
 

@@ -49,7 +49,8 @@ impl Trajectory {
         Some([self.moments.first()?.t, self.moments.last()?.t])
     }
 
-    /// Pose at a time: on the arc of constant twist between two moments; the first or last pose outside.
+    /// Pose at a time: on the arc of constant twist between two moments; the first or last pose
+    /// outside.
     ///
     /// # Panics
     /// Where the trajectory is empty.

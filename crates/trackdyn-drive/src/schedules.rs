@@ -24,8 +24,8 @@ pub struct ScheduledRun {
     pub schedule: Schedule,
 }
 
-/// A driven path with the speeds that were commanded in place of those of the belts: what encoders on
-/// the sprockets see. A step of the command is a step, whatever the steps of the simulation.
+/// A driven path with the speeds that were commanded in place of those of the belts: what encoders
+/// on the sprockets see. A step of the command is a step, whatever the steps of the simulation.
 pub fn as_commanded(schedule: &Schedule, path: &Trajectory) -> Trajectory {
     /// Time after which a new command holds, s: far below what any sensor resolves.
     const AT_ONCE: f64 = 1e-6;

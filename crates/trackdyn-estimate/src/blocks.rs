@@ -1,8 +1,8 @@
 //! Parts of a recording that count as independent.
 //!
 //! Residuals of one run are related: neighbouring segments share a noisy pose, and a robot slips
-//! alike for a while. What is independent are runs, and where there are few, pieces of them that are
-//! long against both. Confidence intervals come from leaving out one block at a time.
+//! alike for a while. What is independent are runs, and where there are few, pieces of them that
+//! are long against both. Confidence intervals come from leaving out one block at a time.
 
 use trackdyn_core::real;
 
@@ -25,8 +25,8 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// From this number of runs on, a run is a block; fewer are cut into about twice as many pieces of
-    /// equal length. With fewer blocks, their scatter is a poor variance.
+    /// From this number of runs on, a run is a block; fewer are cut into about twice as many pieces
+    /// of equal length. With fewer blocks, their scatter is a poor variance.
     pub const ENOUGH_RUNS: usize = 24;
 
     /// Blocks of these runs, whose indices ascend.

@@ -12,10 +12,10 @@
 //! reading with Dᵢ, so that white encoder noise drops out.
 //!
 //! # Assumes
-//! k may be any constant: no kinematic model is needed. A belt that lags behind its encoder shows as
-//! a clock offset just so; the two are told apart elsewhere, if at all. τ goes with readings that
-//! are held ([`hold`](trackdyn_recording::hold)): where a reading stands for the time before or around its stamp,
-//! the delay itself is a whole or half an interval of the readings longer.
+//! k may be any constant: no kinematic model is needed. A belt that lags behind its encoder shows
+//! as a clock offset just so; the two are told apart elsewhere, if at all. τ goes with readings
+//! that are held ([`hold`](trackdyn_recording::hold)): where a reading stands for the time before
+//! or around its stamp, the delay itself is a whole or half an interval of the readings longer.
 //!
 //! # Sources
 //! Instrumental variables: Wooldridge, Econometric Analysis of Cross Section and Panel Data, 2nd

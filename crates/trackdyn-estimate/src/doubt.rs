@@ -25,8 +25,8 @@ pub enum Doubt {
     },
     /// A lever arm of the sensor moves the ICRs and nothing else.
     LeverArm,
-    /// The robot drives on one circle, or turns on the spot: ICRs that are turned about the sensor pass for
-    /// a sensor that is turned.
+    /// The robot drives on one circle, or turns on the spot: ICRs that are turned about the sensor
+    /// pass for a sensor that is turned.
     NoTranslation,
     /// The track speeds hardly change: an offset of the clocks moves nothing.
     NoChange,
@@ -34,7 +34,8 @@ pub enum Doubt {
     NoLateralSpeed,
     /// The tracks run alike: the robot hardly turns, and no ICR shows.
     NoTurning,
-    /// The tracks run at one ratio of speeds, as in a spin or on one arc: ICRs and α cannot be told apart.
+    /// The tracks run at one ratio of speeds, as in a spin or on one arc: ICRs and α cannot be told
+    /// apart.
     OneRatio,
 }
 

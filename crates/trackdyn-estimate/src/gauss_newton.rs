@@ -1,13 +1,13 @@
 //! Robust least squares by Gauss and Newton's method, with control of the step.
 //!
 //! # Law
-//! A step δ solves (Jᵀ W J + λ diag(Jᵀ W J)) δ = Jᵀ W r. Here r is what the prediction leaves of the
-//! observations, J holds the derivatives of the prediction, W the weights of the [`Loss`], and λ is
-//! the damping.
+//! A step δ solves (Jᵀ W J + λ diag(Jᵀ W J)) δ = Jᵀ W r. Here r is what the prediction leaves of
+//! the observations, J holds the derivatives of the prediction, W the weights of the [`Loss`], and
+//! λ is the damping.
 //!
 //! Reweighting comes close from anywhere, but converges slowly in the end. Close to the minimum the
-//! curvature of the loss replaces W on the left: that is Newton's step, to whose matrix outliers add
-//! nothing.
+//! curvature of the loss replaces W on the left: that is Newton's step, to whose matrix outliers
+//! add nothing.
 //!
 //! # Sources
 //! Damping: Marquardt, Journal of the Society for Industrial and Applied Mathematics 11(2), 1963.

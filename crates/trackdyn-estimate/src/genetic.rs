@@ -65,7 +65,8 @@ fn ranges(gauge: f64) -> [[f64; 2]; COUNT] {
 
 /// Evolves the parameters. `progress` is told each finished generation.
 ///
-/// The same seed gives the same result on any number of threads: only costs are computed in parallel.
+/// The same seed gives the same result on any number of threads: only costs are computed in
+/// parallel.
 ///
 /// # Panics
 /// Without a population.

@@ -24,7 +24,8 @@ pub struct Options {
     pub gauge: f64,
     /// Clock offset of the poses, s; none: estimated.
     pub tau: Option<f64>,
-    /// Time for which the tracks must have run steadily before a segment counts, s; none: all count.
+    /// Time for which the tracks must have run steadily before a segment counts, s; none: all
+    /// count.
     pub settle: Option<f64>,
     /// Properties of the pose sensor to fit beside the kinematic parameters.
     pub nuisances: Vec<Nuisance>,
@@ -74,8 +75,8 @@ const TAU_MARGIN: f64 = 0.1;
 /// Times that segments are cut anew where the clock offset runs to its margin.
 const CUTS: usize = 5;
 
-/// Runs all methods on a recording. `progress` is told each finished generation of the genetic algorithm,
-/// which runs twice.
+/// Runs all methods on a recording. `progress` is told each finished generation of the genetic
+/// algorithm, which runs twice.
 ///
 /// # Errors
 /// Too few segments.
@@ -133,8 +134,8 @@ fn cut(recording: &Recording, segments: &SegmentOptions, options: &Options) -> O
     }
 }
 
-/// Least squares with those of the wanted properties of the sensor that the recording shows, and why not
-/// with the others.
+/// Least squares with those of the wanted properties of the sensor that the recording shows, and
+/// why not with the others.
 fn fit_with_sensor(
     observations: &Observations,
     cut: &dyn Fn(f64) -> Observations,
@@ -158,7 +159,8 @@ fn fit_with_sensor(
         };
         let mut fitted = fit(observations);
         for _ in 0..CUTS {
-            // Readings are at hand up to the margin: where the offset reaches it, segments are cut anew.
+            // Readings are at hand up to the margin: where the offset reaches it, segments are cut
+            // anew.
             let Err(Error::ClockLeaves { tau, .. }) = fitted else { break };
             fitted = fit(&cut(tau));
         }

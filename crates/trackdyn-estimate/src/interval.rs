@@ -20,8 +20,9 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Student's interval of a number by the numbers with one block left out each, as many as degrees of freedom and one; none
-    /// with fewer than two. For the mean over blocks of equal size it is Student's interval over the block means.
+    /// Student's interval of a number by the numbers with one block left out each, as many as
+    /// degrees of freedom and one; none with fewer than two. For the mean over blocks of equal size
+    /// it is Student's interval over the block means.
     ///
     /// θ ± t₀.₉₇₅(B − 1) σ, σ² = (B − 1)/B Σ (θ₋ᵦ − θ̄)²
     pub fn of_jackknife(value: f64, without: &[f64]) -> Option<Self> {

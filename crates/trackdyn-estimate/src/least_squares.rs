@@ -54,7 +54,8 @@ impl Unknowns {
 /// Fits the unknowns by Levenberg and Marquardt's method with reweighting.
 ///
 /// # Errors
-/// Too few segments, no convergence, or a clock offset that leaves the margin for which there are readings.
+/// Too few segments, no convergence, or a clock offset that leaves the margin for which there are
+/// readings.
 pub fn least_squares(
     observations: &Observations,
     start: &Parameters,

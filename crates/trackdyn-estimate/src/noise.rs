@@ -7,14 +7,15 @@
 //! Var e = R (1 + λ² + (1 − λ)²) + q T₁ T₂/(T₁ + T₂),  λ = T₁/(T₁ + T₂).
 //!
 //! R is white noise of each pose, q the variance per second of a random walk: slip, rough ground, a
-//! drifting map and, while moving, what the tracks do to the body below the noise of their encoders. With equal intervals, 4 Var e = 6R + 2nQ. R and q come from the variances at n = 1,
-//! 2, 4 and 8 by weighted least squares; variances come from the median of e², so that outliers and
+//! drifting map and, while moving, what the tracks do to the body below the noise of their
+//! encoders. With equal intervals, 4 Var e = 6R + 2nQ. R and q come from the variances at n = 1, 2,
+//! 4 and 8 by weighted least squares; variances come from the median of e², so that outliers and
 //! the few triples with a change of speed in them do not count.
 //!
 //! # Sources
 //! The Allan variance of phase data with white phase noise and white frequency noise (IEEE Std
-//! 1139); difference-based variance in regression: Gasser, Sroka and Jennen-Steinmetz, Biometrika 73
-//! (1986), 625-633.
+//! 1139); difference-based variance in regression: Gasser, Sroka and Jennen-Steinmetz, Biometrika
+//! 73 (1986), 625-633.
 
 use std::fmt;
 use trackdyn_core::{PerSide, Side};

@@ -76,8 +76,8 @@ impl Observations {
         Self::of(recording, options, |_, _| true)
     }
 
-    /// The segments of a recording over which, and for `settle` seconds before, neither track changes its
-    /// speed by more than a tenth of the faster one's.
+    /// The segments of a recording over which, and for `settle` seconds before, neither track
+    /// changes its speed by more than a tenth of the faster one's.
     ///
     /// In between the drivetrain and the slip settle, which is not what constant ICRs describe.
     pub fn steady(recording: &Recording, options: &SegmentOptions, settle: f64) -> Self {
@@ -170,8 +170,8 @@ impl Observations {
         PerSide::new(distance(|piece| piece.v_left), distance(|piece| piece.v_right))
     }
 
-    /// What counts as independent: the runs with segments, from the first to the last one, or pieces of
-    /// them.
+    /// What counts as independent: the runs with segments, from the first to the last one, or
+    /// pieces of them.
     pub fn blocks(&self) -> Blocks {
         let runs = self.segments.chunk_by(|a, b| a.run == b.run);
         Blocks::new(runs.map(|segments| {

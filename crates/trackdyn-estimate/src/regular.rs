@@ -1,14 +1,15 @@
 //! Stamps of samples that come at even intervals and are stamped late by chance.
 //!
 //! # Law
-//! A sample was due where a straight line through the stamps of its neighbours has it. More neighbours average more of what
-//! came late by chance, and follow a clock that wanders less well. As many are taken as foretell a stamp best from the
-//! others: the sum of (r/(1 − h))² is least, r the residual of a stamp and h the part of it that the line took over, which is
-//! the residual of the line without it.
+//! A sample was due where a straight line through the stamps of its neighbours has it. More
+//! neighbours average more of what came late by chance, and follow a clock that wanders less well.
+//! As many are taken as foretell a stamp best from the others: the sum of (r/(1 − h))² is least, r
+//! the residual of a stamp and h the part of it that the line took over, which is the residual of
+//! the line without it.
 //!
 //! # Sources
-//! Stone, Journal of the Royal Statistical Society B 36(2), 1974 (leaving one out); Cleveland, Journal of the American
-//! Statistical Association 74(368), 1979 (lines through neighbours).
+//! Stone, Journal of the Royal Statistical Society B 36(2), 1974 (leaving one out); Cleveland,
+//! Journal of the American Statistical Association 74(368), 1979 (lines through neighbours).
 
 use std::ops::Range;
 use trackdyn_core::real;
@@ -20,8 +21,8 @@ const NEIGHBOURS: usize = 5;
 /// Fewer samples than this in a row have no interval.
 const FEWEST: usize = 4;
 
-/// The times at which samples were due, by a straight line through the stamps (s) of their neighbours; in the order of
-/// the stamps, as many as they.
+/// The times at which samples were due, by a straight line through the stamps (s) of their
+/// neighbours; in the order of the stamps, as many as they.
 fn regular(stamps: &[f64]) -> Vec<f64> {
     let rows: Vec<Row> =
         stretches(stamps).into_iter().map(|(at, _)| Row::new(&stamps[at])).collect();
@@ -43,8 +44,8 @@ pub fn regularise<S>(samples: &mut [S], stamp: impl Fn(&mut S) -> &mut f64) {
     }
 }
 
-/// The samples between gaps, by their indices, and the usual interval, s. Where the interval changes by half or more,
-/// there is a gap, and nothing is known across it.
+/// The samples between gaps, by their indices, and the usual interval, s. Where the interval
+/// changes by half or more, there is a gap, and nothing is known across it.
 pub fn stretches(stamps: &[f64]) -> Vec<(Range<usize>, f64)> {
     let mut intervals: Vec<f64> = stamps.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let middle = intervals.len() / 2;
@@ -67,7 +68,8 @@ struct Row {
     first: f64,
     interval: f64,
     off: Vec<f64>,
-    /// Sums over the first stamps, none to all, of what they are off, and of that times their place.
+    /// Sums over the first stamps, none to all, of what they are off, and of that times their
+    /// place.
     sums: Vec<[f64; 2]>,
 }
 
@@ -93,7 +95,8 @@ impl Row {
         Self { first, interval, off, sums }
     }
 
-    /// The line through a sample and so many on either side, at that sample; none where they have no interval.
+    /// The line through a sample and so many on either side, at that sample; none where they have
+    /// no interval.
     fn line(&self, at: usize, neighbours: usize) -> Option<Line> {
         let near = at.saturating_sub(neighbours)..(at + neighbours + 1).min(self.off.len());
         if near.len() < FEWEST {
@@ -157,7 +160,8 @@ mod tests {
         numbers.map(|number| f64::from(number) / f64::from(u32::MAX / 2) - 1.0)
     }
 
-    /// By what 500 stamps of a clock, each up to 10 ms early or late, are off as they are and as they were due.
+    /// By what 500 stamps of a clock, each up to 10 ms early or late, are off as they are and as
+    /// they were due.
     fn off_by(clock: impl Fn(f64) -> f64) -> [f64; 2] {
         let due: Vec<f64> = (0..500).map(|k| clock(f64::from(k))).collect();
         let stamps: Vec<f64> =
@@ -191,7 +195,8 @@ mod tests {
         }
     }
 
-    /// A line through n samples that come late by chance is off by √(2/n) of that: it has two numbers.
+    /// A line through n samples that come late by chance is off by √(2/n) of that: it has two
+    /// numbers.
     #[test]
     fn a_clock_that_ticks_evenly_is_known_by_all_of_its_samples() {
         let [before, after] = off_by(|k| 3.0 + 0.1 * k);
@@ -199,7 +204,8 @@ mod tests {
         assert!(after < 3.0 * (2.0_f64 / 500.0).sqrt() * before, "{before} {after}");
     }
 
-    /// Of a clock that runs now fast, now slow, by more than its stamps are late, near samples alone tell the time.
+    /// Of a clock that runs now fast, now slow, by more than its stamps are late, near samples
+    /// alone tell the time.
     #[test]
     fn a_clock_that_wanders_is_followed() {
         let [before, after] = off_by(|k| 3.0 + 0.1 * k + 0.2 * (k / 20.0).sin());

@@ -1,8 +1,9 @@
 //! Segments: pieces between two poses with several track readings in them.
 //!
-//! Within a run all segments span the same number of pose intervals. Where stamps of poses are coarse, a cut
-//! at the first pose that is late enough would pick late stamps, and segments would look longer than they
-//! are: by half a percent in runs of two seconds whose stamps are those of readings 0.05 s apart.
+//! Within a run all segments span the same number of pose intervals. Where stamps of poses are
+//! coarse, a cut at the first pose that is late enough would pick late stamps, and segments would
+//! look longer than they are: by half a percent in runs of two seconds whose stamps are those of
+//! readings 0.05 s apart.
 
 use crate::gaps::{Gaps, usual_interval};
 use std::ops::Range;
@@ -16,7 +17,8 @@ use trackdyn_recording::{Recording, Run};
 pub struct SegmentOptions {
     /// A segment lasts at least this long, s, by the median interval of the run's poses.
     pub minimum_duration: f64,
-    /// A segment spans at least this many readings of the tracks, by the median intervals of the run.
+    /// A segment spans at least this many readings of the tracks, by the median intervals of the
+    /// run.
     pub minimum_readings: usize,
     /// A longer interval between two poses is not bridged, s; none: five times the run's median.
     pub longest_pose_interval: Option<f64>,
@@ -78,8 +80,8 @@ pub fn segments(recording: &Recording, options: &SegmentOptions) -> Vec<Segment>
     runs.flat_map(|(index, run)| Cut::new(index, run, options).segments()).collect()
 }
 
-/// A segment that spans its pose intervals in less than this share of the shortest duration takes more of
-/// them: its stamps are crowded.
+/// A segment that spans its pose intervals in less than this share of the shortest duration takes
+/// more of them: its stamps are crowded.
 const SHORT: f64 = 0.5;
 
 /// Pose intervals that last for a time, at least one. Rounding must not add one.

@@ -1,14 +1,14 @@
 //! Parameters from steady operating points: a measured map of ICRs.
 //!
 //! # Law
-//! Eqs (7)-(9) at each point: ω = (α_r V_r − α_l V_l)/(x_r − x_l), forward α_l V_l − ω x_l, to the left −ω y.
-//! Residuals of each channel count by its own scatter, whose size comes from the residuals (1.48 median
-//! absolute deviations), with Huber's loss.
+//! Eqs (7)-(9) at each point: ω = (α_r V_r − α_l V_l)/(x_r − x_l), forward α_l V_l − ω x_l, to the
+//! left −ω y. Residuals of each channel count by its own scatter, whose size comes from the
+//! residuals (1.48 median absolute deviations), with Huber's loss.
 //!
 //! # Assumes
-//! Track speeds are known. Deviations of one point say nothing of those of others, or of those that share
-//! its left track speed, or of those that share its right one: intervals are the widest of the three
-//! jackknifes.
+//! Track speeds are known. Deviations of one point say nothing of those of others, or of those that
+//! share its left track speed, or of those that share its right one: intervals are the widest of
+//! the three jackknifes.
 
 mod groups;
 mod lagging;
@@ -39,8 +39,8 @@ const Y: usize = 2;
 /// Speeds that differ by less than this part of their size are alike: tables round to four digits.
 const ALIKE: f64 = 1e-3;
 
-/// Iterations after which the scatters stay: medians jump from one residual to the next, and would keep
-/// the parameters from settling.
+/// Iterations after which the scatters stay: medians jump from one residual to the next, and would
+/// keep the parameters from settling.
 const SCATTER_ITERATIONS: usize = 20;
 
 /// Changes of parameters are in m or 1. The cost is in units of the scatter, which changes with the
@@ -191,8 +191,8 @@ impl SteadyEstimate {
         })
     }
 
-    /// The larger standard deviation by both covariances: the jackknife knows nothing of a parameter that
-    /// no residual tells of.
+    /// The larger standard deviation by both covariances: the jackknife knows nothing of a
+    /// parameter that no residual tells of.
     fn deviation(&self, variance: impl Fn(&DMatrix<f64>) -> f64) -> f64 {
         larger_deviation([&self.covariance, &self.covariance_of_scatter].map(variance))
     }
@@ -238,8 +238,8 @@ impl SteadyEstimate {
     }
 }
 
-/// What the speeds of a table lack for these parameters; none where it does. How well it determines them is
-/// for the intervals to say.
+/// What the speeds of a table lack for these parameters; none where it does. How well it determines
+/// them is for the intervals to say.
 fn lacks(points: &[OperatingPoint], free: Free) -> Option<Doubt> {
     let moments = points.iter().fold(Matrix2::zeros(), |sum, point| {
         let speeds = Vector2::new(point.v_left, point.v_right);

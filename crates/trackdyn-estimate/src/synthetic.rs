@@ -104,7 +104,8 @@ impl Synthetic {
     /// the runs before it.
     ///
     /// # Errors
-    /// [`Error::Empty`](trackdyn_recording::Error::Empty) when the schedules are too short for two poses.
+    /// [`Error::Empty`](trackdyn_recording::Error::Empty) when the schedules are too short for two
+    /// poses.
     pub fn recording(&self) -> Result<Recording, trackdyn_recording::Error> {
         let runs = self.schedules.iter().enumerate();
         let runs = runs.map(|(index, schedule)| self.run(index, schedule)).collect();

@@ -1,7 +1,8 @@
 //! Readings of encoders that report more often than a robot changes its motion.
 //!
 //! # Law
-//! n readings in a row become one, at the stamp of the first and with the speed that runs as far as they did:
+//! n readings in a row become one, at the stamp of the first and with the speed that runs as far as
+//! they did:
 //!
 //! v̄ = Σ v_k h_k / Σ h_k,   h_k the time that reading k holds
 
@@ -44,7 +45,8 @@ fn fitting(readings: usize, usual: f64, time: f64) -> usize {
     (1..=readings).take_while(fits).last().unwrap_or(1)
 }
 
-/// The readings with so many of them in a row put together; the last one holds for the usual interval, s.
+/// The readings with so many of them in a row put together; the last one holds for the usual
+/// interval, s.
 fn together(readings: &[TrackSample], usual: f64, count: usize) -> Vec<TrackSample> {
     let held = |k: usize| readings.get(k + 1).map_or(usual, |next| next.t - readings[k].t);
     let group = |group: &[usize]| {

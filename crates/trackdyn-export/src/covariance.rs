@@ -9,8 +9,8 @@ use trackdyn_core::document::{Document, DocumentError};
 
 const SCHEMA: &str = "trackdyn.odometry/1";
 
-/// Time over which residuals are taken, s: noise of the recorded poses counts once in it, and it is shorter
-/// than most manoeuvres.
+/// Time over which residuals are taken, s: noise of the recorded poses counts once in it, and it is
+/// shorter than most manoeuvres.
 const HORIZON: f64 = 1.0;
 
 /// Fewer pieces of that time than this are replaced by segments.
@@ -140,12 +140,13 @@ impl Residuals {
         })
     }
 
-    /// Diagonal of the twist's covariance in the frame midway between the ICRs, for messages at a rate, Hz:
-    /// x, y, z ((m/s)²), roll, pitch, yaw ((rad/s)²).
+    /// Diagonal of the twist's covariance in the frame midway between the ICRs, for messages at a
+    /// rate, Hz: x, y, z ((m/s)²), roll, pitch, yaw ((rad/s)²).
     ///
     /// # Law
-    /// σ² = r²/(T Δt): N = T/Δt messages with independent errors σ Δt add up to r² over T. Residuals at a
-    /// point (p_x, p_y) are at most r_along + |p_y| r_yaw and r_across + |p_x| r_yaw.
+    /// σ² = r²/(T Δt): N = T/Δt messages with independent errors σ Δt add up to r² over T.
+    /// Residuals at a point (p_x, p_y) are at most r_along + |p_y| r_yaw and r_across + |p_x|
+    /// r_yaw.
     pub fn twist_diagonal(&self, drive: &EquivalentDrive, rate: f64) -> [f64; 6] {
         let [along, across, yaw] = self.motion;
         let [forward, left] = drive.point;
@@ -155,8 +156,8 @@ impl Residuals {
         [x, y, UNKNOWN, UNKNOWN, UNKNOWN, variance(yaw)]
     }
 
-    /// Diagonal of the pose's covariance at the end of a run of mean length: x, y, z (m²), roll, pitch, yaw
-    /// (rad²).
+    /// Diagonal of the pose's covariance at the end of a run of mean length: x, y, z (m²), roll,
+    /// pitch, yaw (rad²).
     pub fn pose_diagonal(&self) -> [f64; 6] {
         // Two axes share the distance.
         let place = (self.end_position * self.end_position / 2.0).max(LEAST);

@@ -6,9 +6,9 @@ use trackdyn_core::Pose;
 
 /// The chain odometry frame → ICR frame → base frame.
 ///
-/// The ICR frame is the parent of the base frame: an odometry that integrates an ideal differential drive
-/// moves the ICR frame, and a frame has one parent. The base frame must then be the root of the robot's
-/// own tree.
+/// The ICR frame is the parent of the base frame: an odometry that integrates an ideal differential
+/// drive moves the ICR frame, and a frame has one parent. The base frame must then be the root of
+/// the robot's own tree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frames {
     odom: Name,
@@ -18,8 +18,8 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// The names, and the centre of the contact area of both tracks in the base frame, m, in ROS axes
-    /// (forward, left).
+    /// The names, and the centre of the contact area of both tracks in the base frame, m, in ROS
+    /// axes (forward, left).
     ///
     /// # Errors
     /// [`Error::SameFrame`], [`Error::ContactCentre`].
@@ -74,7 +74,8 @@ pub(crate) mod tests {
 
     #[test]
     fn the_transform_is_the_inverse_of_the_offset() {
-        // x = y_ICR and y = −(x_r + x_l)/2 from base to ICR, so the base lies behind and to the left.
+        // x = y_ICR and y = −(x_r + x_l)/2 from base to ICR, so the base lies behind and to the
+        // left.
         let pose = frames().icr_from_base(&drive());
         assert!(
             (pose.x + 0.049_235).abs() < 1e-15 && (pose.y - 0.040_988).abs() < 1e-15,

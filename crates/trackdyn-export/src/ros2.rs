@@ -15,8 +15,8 @@ pub struct Wheels {
 }
 
 impl Wheels {
-    /// Travel of the belt per radian of the wheel joint, m (for a track the pitch radius of its sprocket),
-    /// and names of the wheel joints.
+    /// Travel of the belt per radian of the wheel joint, m (for a track the pitch radius of its
+    /// sprocket), and names of the wheel joints.
     ///
     /// # Errors
     /// [`Error::WheelRadius`], [`Error::WheelCount`], [`Error::Repeated`].
@@ -55,8 +55,8 @@ impl Published {
     }
 }
 
-/// The parameters of a controller of this name, with covariances where residuals are known, and the launch
-/// file.
+/// The parameters of a controller of this name, with covariances where residuals are known, and the
+/// launch file.
 pub fn files(
     drive: &EquivalentDrive,
     frames: &Frames,

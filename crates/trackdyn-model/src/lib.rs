@@ -15,7 +15,8 @@
 //! - [`kinematics`]: what the means are for: equations (7)-(13) with constant ICRs.
 //!
 //! Laws are written over one scalar type, so each has exact derivatives. What pushes never iterates
-//! and knows nothing of how the robot moves. The paper's frame holds throughout: x right, y forward.
+//! and knows nothing of how the robot moves. The paper's frame holds throughout: x right, y
+//! forward.
 
 pub mod contact;
 pub mod effect;

@@ -27,8 +27,8 @@ pub struct IcrMap {
 impl IcrMap {
     /// Solves every pair, in parallel. `progress` is told the number of pairs of each finished row.
     ///
-    /// Each pair is solved on its own from a cold start, so the map does not depend on the number of
-    /// threads.
+    /// Each pair is solved on its own from a cold start, so the map does not depend on the number
+    /// of threads.
     pub fn solve(
         model: &Model,
         grid: Grid,

@@ -32,8 +32,8 @@ const MAX_ITERATIONS: usize = 80;
 /// Share of the predicted decrease of the residual's norm that a step must bring.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 
-/// Smallest fraction of a Newton step that is tried: where less is needed, there is no root near, and another start is
-/// tried sooner.
+/// Smallest fraction of a Newton step that is tried: where less is needed, there is no root near,
+/// and another start is tried sooner.
 const SMALLEST_STEP: f64 = 1e-3;
 
 /// Residual and Jacobian at a point.
@@ -71,7 +71,8 @@ pub struct Convergence<const N: usize> {
 /// What a step without derivatives must leave of the residual at most.
 const LEFT: f64 = 0.6;
 
-/// Iterates from a `start` near a root without derivatives, by Broyden's method; none where that does not lead there.
+/// Iterates from a `start` near a root without derivatives, by Broyden's method; none where that
+/// does not lead there.
 ///
 /// `value` is the residual there, `inverse` that of a Jacobian not far from here. Each step corrects it by what the
 /// residual changed along the step:
@@ -107,8 +108,8 @@ pub fn from_near<const N: usize>(
     Some(Convergence { point, residual: norm, iterations, is_root: true, inverse })
 }
 
-/// Iterates from `start`. `evaluate` gives residual and Jacobian, `residual` the residual alone; no step
-/// moves the first two unknowns by more than `longest_step`.
+/// Iterates from `start`. `evaluate` gives residual and Jacobian, `residual` the residual alone; no
+/// step moves the first two unknowns by more than `longest_step`.
 #[inline]
 pub fn solve<const N: usize>(
     start: SVector<f64, N>,

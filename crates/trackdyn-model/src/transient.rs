@@ -1,24 +1,26 @@
 //! The motion in time.
 //!
 //! # Law
-//! At every moment all forces on the body balance, eqs (14)-(15), inertia among them where the effects
-//! `yaw-inertia` and `centripetal` are on: together they are Newton's second law. Without them the robot
-//! is at its stationary motion at once.
+//! At every moment all forces on the body balance, eqs (14)-(15), inertia among them where the
+//! effects `yaw-inertia` and `centripetal` are on: together they are Newton's second law. Without
+//! them the robot is at its stationary motion at once.
 //!
 //! # Stick and slip
-//! Coulomb friction has no value where a whole track sticks. There, and only there, it is regularised:
-//! the friction wrench of a side is multiplied by σ/√(σ² + ε²), σ the root mean square of its slip
-//! velocity. A wrench of the exact law opposes the slip, so a fraction of it does, and energy never grows
-//! out of nothing. With ε = [`CREEP`], unless another one is asked for, a track that slips at 1 cm/s has friction
-//! exact to 5·10⁻⁹, and a parked robot creeps less than 0.1 mm in a minute up to 80 % of what friction bears.
+//! Coulomb friction has no value where a whole track sticks. There, and only there, it is
+//! regularised: the friction wrench of a side is multiplied by σ/√(σ² + ε²), σ the root mean square
+//! of its slip velocity. A wrench of the exact law opposes the slip, so a fraction of it does, and
+//! energy never grows out of nothing. With ε = [`CREEP`], unless another one is asked for, a track
+//! that slips at 1 cm/s has friction exact to 5·10⁻⁹, and a parked robot creeps less than 0.1 mm in
+//! a minute up to 80 % of what friction bears.
 //!
 //! # Method
-//! The two-stage singly diagonal implicit Runge-Kutta method of order 2 (Alexander 1977), which damps
-//! stiff parts at once. Each stage is one balance of forces with the acceleration (u − u_b)/(γ h): the
-//! same equations as the stationary ones, solved by Broyden's method from the last balance, else by the same Newton iteration with exact
-//! derivatives. Where
-//! belts slip on their sprockets, the traction of both sides is sought with the twist: near straight driving
-//! friction turns over within a small slip, and belts at speeds by an earlier traction would jump to and fro.
+//! The two-stage singly diagonal implicit Runge-Kutta method of order 2 (Alexander 1977), which
+//! damps stiff parts at once. Each stage is one balance of forces with the acceleration (u −
+//! u_b)/(γ h): the same equations as the stationary ones, solved by Broyden's method from the last
+//! balance, else by the same Newton iteration with exact derivatives. Where belts slip on their
+//! sprockets, the traction of both sides is sought with the twist: near straight driving friction
+//! turns over within a small slip, and belts at speeds by an earlier traction would jump to and
+//! fro.
 //!
 //! # Sources
 //! Alexander, SIAM Journal on Numerical Analysis 14(6), 1977.
@@ -51,7 +53,8 @@ pub struct Step {
     pub end: f64,
     /// Its length h, s.
     pub duration: f64,
-    /// Its stages, the second of which is its end. The body moves by 1 − γ of the first twist and γ of the second.
+    /// Its stages, the second of which is its end. The body moves by 1 − γ of the first twist and γ
+    /// of the second.
     pub stages: [Instant; 2],
 }
 
@@ -143,20 +146,21 @@ impl<'m> Transient<'m> {
         Self { longest_step, ..self }
     }
 
-    /// The same with steps halved where the error of the twist, of the yaw rate that of the tracks, is estimated as larger
-    /// than `tolerance`, m/s.
+    /// The same with steps halved where the error of the twist, of the yaw rate that of the tracks,
+    /// is estimated as larger than `tolerance`, m/s.
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
     }
 
-    /// The same with tracks that stick below another slip velocity than [`CREEP`], m/s: larger ones are solved sooner.
+    /// The same with tracks that stick below another slip velocity than [`CREEP`], m/s: larger ones
+    /// are solved sooner.
     pub fn with_creep(self, creep: f64) -> Self {
         Self { creep, ..self }
     }
 
-    /// The same, going on where part of the contact lifts, with a pressure that stays linear and pulls there, until the
-    /// robot tips over. Where the load shifts by 1 + ε times what keeps all of the contact down, forces are off by a part
-    /// of ε².
+    /// The same, going on where part of the contact lifts, with a pressure that stays linear and
+    /// pulls there, until the robot tips over. Where the load shifts by 1 + ε times what keeps all
+    /// of the contact down, forces are off by a part of ε².
     pub fn with_pull(self) -> Self {
         Self { may_pull: true, ..self }
     }
@@ -177,8 +181,8 @@ impl<'m> Transient<'m> {
         self
     }
 
-    /// One step to the time `end` at the speeds `shown` by the encoders, in halves where it does not
-    /// converge, or its error is larger than asked for.
+    /// One step to the time `end` at the speeds `shown` by the encoders, in halves where it does
+    /// not converge, or its error is larger than asked for.
     fn step(&mut self, shown: PerSide<f64>, end: f64, halvings: u32) -> Result<(), Stopped> {
         if let Some((state, stages, error)) = self.advanced(shown, end)
             && (error <= self.tolerance || halvings >= MOST_REFINED)
@@ -198,8 +202,8 @@ impl<'m> Transient<'m> {
         self.step(shown, end, halvings + 1)
     }
 
-    /// The state at the end of a step, its stages, and the estimated error of its twist, m/s; none where no balance is
-    /// found.
+    /// The state at the end of a step, its stages, and the estimated error of its twist, m/s; none
+    /// where no balance is found.
     fn advanced(&self, shown: PerSide<f64>, end: f64) -> Option<(State, [Instant; 2], f64)> {
         let start = self.state;
         let h = end - start.t;
@@ -279,8 +283,8 @@ impl<'m> Transient<'m> {
         Some(State { twist, driven, belt_speed, traction, lifts, tips, inverse, ..*before })
     }
 
-    /// Whether the forces beside friction depend on the acceleration: else the robot is at its stationary
-    /// motion at once.
+    /// Whether the forces beside friction depend on the acceleration: else the robot is at its
+    /// stationary motion at once.
     pub fn feels_inertia(model: &Model) -> bool {
         let still = Twist::zero();
         let force = |acceleration: Twist| {

@@ -32,8 +32,8 @@ pub struct OperatingPoints {
 }
 
 impl OperatingPoints {
-    /// The table that a path stands for: a CSV file, or `operating_points.csv` in a folder that is no
-    /// recording.
+    /// The table that a path stands for: a CSV file, or `operating_points.csv` in a folder that is
+    /// no recording.
     pub fn file_of(path: &Path) -> Option<PathBuf> {
         if path.is_dir() {
             let table = path.join("operating_points.csv");

@@ -145,7 +145,8 @@ impl Recording {
         &self.fingerprint
     }
 
-    /// Fingerprint of the poses alone: the same drive has the same one without its IMU, and at another belt travel per radian.
+    /// Fingerprint of the poses alone: the same drive has the same one without its IMU, and at
+    /// another belt travel per radian.
     pub fn pose_fingerprint(&self) -> &str {
         &self.pose_fingerprint
     }

@@ -85,8 +85,8 @@ impl Recording {
         RunList::new(self.runs().iter().map(Run::id))
     }
 
-    /// The recording of some of its runs only. Its fingerprint is that of the whole: it tells where the
-    /// runs come from.
+    /// The recording of some of its runs only. Its fingerprint is that of the whole: it tells where
+    /// the runs come from.
     ///
     /// # Errors
     /// [`Error::UnknownRun`].
@@ -109,8 +109,8 @@ impl Recording {
         Ok(joined.with_stated_noise(noise))
     }
 
-    /// The recording of a time only, s from the first reading of each run; runs without readings or with
-    /// fewer than two poses in it are left out. Its fingerprint is that of the whole.
+    /// The recording of a time only, s from the first reading of each run; runs without readings or
+    /// with fewer than two poses in it are left out. Its fingerprint is that of the whole.
     ///
     /// # Errors
     /// [`Error::NothingWithin`] where none is left.

@@ -12,8 +12,8 @@ impl Path {
     /// Reads a table `x,y` of points, m.
     ///
     /// # Errors
-    /// [`Error::Recording`] with line and column of a cell that is not a number, and of a point in the
-    /// place of the one before it; [`Error::TooLittle`] for fewer than two points.
+    /// [`Error::Recording`] with line and column of a cell that is not a number, and of a point in
+    /// the place of the one before it; [`Error::TooLittle`] for fewer than two points.
     pub fn read(path: &std::path::Path) -> Result<Self, Error> {
         let mut table = Table::open(path, &["x", "y"])?;
         let columns = ["x", "y"].map(|name| table.column(name).unwrap_or_default());

@@ -4,7 +4,8 @@ use super::Path;
 use crate::Error;
 
 impl Path {
-    /// A square from the origin along x, with corners to the left (or right), driven `laps` times, m.
+    /// A square from the origin along x, with corners to the left (or right), driven `laps` times,
+    /// m.
     ///
     /// # Errors
     /// [`Error::Option`].

@@ -1,10 +1,11 @@
 //! Manoeuvres that set each pattern of track speeds against the others.
 //!
-//! Spins, arcs with tracks of the same and of opposite sign, and straight runs, each both ways, forward
-//! and backward, and turns about either track at rest, forward, at a quarter, half, three quarters and
-//! all of the largest speed: a departure from constant ICRs shows as a difference between patterns, directions or speeds, and every manoeuvre
-//! starts and ends at rest, where inertia and delays show. The order is drawn, so that what drifts with
-//! time is not taken for one of them.
+//! Spins, arcs with tracks of the same and of opposite sign, and straight runs, each both ways,
+//! forward and backward, and turns about either track at rest, forward, at a quarter, half, three
+//! quarters and all of the largest speed: a departure from constant ICRs shows as a difference
+//! between patterns, directions or speeds, and every manoeuvre starts and ends at rest, where
+//! inertia and delays show. The order is drawn, so that what drifts with time is not taken for one
+//! of them.
 
 use super::ScheduleOptions;
 use super::ramp::Ramp;
@@ -39,7 +40,8 @@ const PATTERNS: [(f64, f64); 14] = [
     (1.0, 0.0),
 ];
 
-/// All manoeuvres in the order of this run, again and again until the duration where one is asked for.
+/// All manoeuvres in the order of this run, again and again until the duration where one is asked
+/// for.
 pub(super) fn schedule(options: &ScheduleOptions, run: i64) -> Schedule {
     let mut manoeuvres: Vec<PerSide<f64>> = SPEEDS
         .iter()

@@ -1,10 +1,10 @@
 //! A driver's hand on a joystick.
 //!
-//! The paper identifies from nine paths of about 20 m driven by hand and validates on two (Martinez et
-//! al. 2005, section 5.3); it does not print the speeds. Here the hand has an intention (cruise, curve,
-//! tight turn, reverse) for one and a half to four seconds, the stick follows it as two lags of a
-//! quarter second, and never rests quite: a wander of 2 % with a memory of one second. Throttle and
-//! steering mix to V_l = throttle − steer, V_r = throttle + steer.
+//! The paper identifies from nine paths of about 20 m driven by hand and validates on two (Martinez
+//! et al. 2005, section 5.3); it does not print the speeds. Here the hand has an intention (cruise,
+//! curve, tight turn, reverse) for one and a half to four seconds, the stick follows it as two lags
+//! of a quarter second, and never rests quite: a wander of 2 % with a memory of one second.
+//! Throttle and steering mix to V_l = throttle − steer, V_r = throttle + steer.
 
 use super::ScheduleOptions;
 use super::ramp::Ramp;

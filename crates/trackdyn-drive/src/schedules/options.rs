@@ -24,7 +24,8 @@ pub struct ScheduleOptions {
     pub seed: u64,
     /// Largest track speed, m/s.
     pub fastest: f64,
-    /// Time of each run, s, with a second at rest before and after a drive by hand; where absent, until the path or the plan is driven.
+    /// Time of each run, s, with a second at rest before and after a drive by hand; where absent,
+    /// until the path or the plan is driven.
     pub duration: Option<f64>,
     /// Time between commands, s.
     pub interval: f64,

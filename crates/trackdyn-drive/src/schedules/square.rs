@@ -1,7 +1,7 @@
 //! Squares by dead reckoning: four sides, and four quarter turns on the spot.
 //!
-//! Odd runs turn right: an error of the turns and one of straightness show apart in the two directions
-//! (Borenstein and Feng, IEEE Trans. Robotics and Automation 12(6), 1996, 869-880).
+//! Odd runs turn right: an error of the turns and one of straightness show apart in the two
+//! directions (Borenstein and Feng, IEEE Trans. Robotics and Automation 12(6), 1996, 869-880).
 
 use super::ScheduleOptions;
 use super::ramp::Ramp;

@@ -221,8 +221,9 @@ impl PoseSensor {
     }
 }
 
-/// A sensor that fails and comes back: two states with exponential times, of which the share p and the
-/// mean absence D are given, so that it fails at the rate p/((1 − p) D) and comes back at the rate 1/D.
+/// A sensor that fails and comes back: two states with exponential times, of which the share p and
+/// the mean absence D are given, so that it fails at the rate p/((1 − p) D) and comes back at the
+/// rate 1/D.
 struct Absence {
     dropout: Dropout,
     random: ChaCha8Rng,

@@ -27,12 +27,13 @@ impl Default for DriveOptions {
     }
 }
 
-/// Drives a robot along a path in its world, from where it is. `progress` is told, at each command, the
-/// share of the path that is behind.
+/// Drives a robot along a path in its world, from where it is. `progress` is told, at each command,
+/// the share of the path that is behind.
 ///
 /// # Errors
-/// [`Error::Option`] for values that no tracker has, and for a look-ahead too short for a point that far
-/// behind the ICRs. A robot that stops or strays is no error: the [ending](Ending) says so.
+/// [`Error::Option`] for values that no tracker has, and for a look-ahead too short for a point
+/// that far behind the ICRs. A robot that stops or strays is no error: the [ending](Ending) says
+/// so.
 pub fn drive(
     plant: &mut impl Plant,
     path: &Path,

@@ -38,8 +38,8 @@ pub struct CrossTrack {
     pub t: f64,
     /// Way that the point has gone, m.
     pub travelled: f64,
-    /// Length along the path of the nearest place, m. Places within a look-ahead of where the tracker
-    /// is count: a path may cross itself.
+    /// Length along the path of the nearest place, m. Places within a look-ahead of where the
+    /// tracker is count: a path may cross itself.
     pub along: f64,
     /// Distance to the path, left positive, m.
     pub offset: f64,

@@ -8,8 +8,8 @@ use trackdyn_core::pose::wrap_angle;
 /// The look-ahead shrinks towards the end of a leg, down to this share.
 const SHORTEST: f64 = 0.2;
 
-/// But not below this many times the distance by which the point lags behind the pivot; twice is the
-/// limit of stability.
+/// But not below this many times the distance by which the point lags behind the pivot; twice is
+/// the limit of stability.
 const STABLE: f64 = 3.0;
 
 /// Largest tan θ/2 of a corner that is taken into account, θ = 127°: beyond it lines meet far away.
@@ -112,9 +112,10 @@ impl<'a> Pursuit<'a> {
         cos * (point[0] - last[0]) + sin * (point[1] - last[1])
     }
 
-    /// How far before the end of a leg the tracked point has to stop, so that a turn on the spot by θ
-    /// brings it onto the next leg: the pivot runs beside the path by −p_y and turns where both its
-    /// lines meet, y − p_x − p_y tan θ/2 later than the point. At the end of the path nothing turns.
+    /// How far before the end of a leg the tracked point has to stop, so that a turn on the spot by
+    /// θ brings it onto the next leg: the pivot runs beside the path by −p_y and turns where both
+    /// its lines meet, y − p_x − p_y tan θ/2 later than the point. At the end of the path nothing
+    /// turns.
     fn stop_before(&self, end: f64, pivot: f64) -> f64 {
         if self.leg + 1 == self.legs.len() {
             return 0.0;
@@ -185,8 +186,8 @@ impl<'a> Pursuit<'a> {
     }
 }
 
-/// The rate at which something that is left can still be brought to a stop: √(2 a d), and for the last
-/// bit a fixed part of it per command.
+/// The rate at which something that is left can still be brought to a stop: √(2 a d), and for the
+/// last bit a fixed part of it per command.
 fn approach(left: f64, acceleration: f64, interval: f64) -> f64 {
     (2.0 * acceleration * left).sqrt().min(left / (APPROACH * interval))
 }

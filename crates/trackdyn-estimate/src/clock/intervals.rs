@@ -45,7 +45,8 @@ impl Intervals {
             updates.extend(firsts.windows(2).map(|pair| pair[1] - pair[0]));
         }
         let track_interval = median(&mut intervals).unwrap_or(0.0);
-        // Without noise, speeds change only where they are told to: half a second is enough, unless readings are rarer.
+        // Without noise, speeds change only where they are told to: half a second is enough, unless
+        // readings are rarer.
         let update_interval = median(&mut updates).unwrap_or(0.0).min(0.5).max(track_interval);
         let runs = recording.runs().iter().map(RunIntervals::new).collect();
         Self { runs, track_interval, update_interval }

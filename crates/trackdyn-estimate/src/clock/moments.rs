@@ -105,8 +105,8 @@ impl<'a> Moments<'a> {
 
     /// Standard error by the jackknife over blocks, linear in the parameters: leaving block g out
     /// moves them by Δg = (G − Gg)⁻¹ sg, with G = Σ Z Jᵀ and sg = Σ Z r over the block; the
-    /// covariance is (n − 1)/n Σ Δg Δgᵀ for n blocks. With few blocks the sandwich formula, which has
-    /// G⁻¹ instead, is too small.
+    /// covariance is (n − 1)/n Σ Δg Δgᵀ for n blocks. With few blocks the sandwich formula, which
+    /// has G⁻¹ instead, is too small.
     ///
     /// # Sources
     /// Bell and `McCaffrey`, Survey Methodology 28 (2002), 169-181.

@@ -1,8 +1,8 @@
 //! Smooth functions on a rectangle, as sums of Chebyshev polynomials.
 //!
 //! # Law
-//! A function whose waves run through Ω radians from the middle of an interval to its end is given by
-//! n polynomials up to an error of 2 (Ω/2)ⁿ/n!, the first Bessel coefficient that is left out.
+//! A function whose waves run through Ω radians from the middle of an interval to its end is given
+//! by n polynomials up to an error of 2 (Ω/2)ⁿ/n!, the first Bessel coefficient that is left out.
 //!
 //! # Sources
 //! Trefethen, Approximation Theory and Approximation Practice, 2013, chapters 3 and 8.
@@ -23,8 +23,8 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// From low to high, for functions that wave by at most `frequency` radians per unit; none where they
-    /// wave too fast.
+    /// From low to high, for functions that wave by at most `frequency` radians per unit; none
+    /// where they wave too fast.
     pub(super) fn new([low, high]: [f64; 2], frequency: f64) -> Option<Self> {
         let half = 0.5 * (high - low);
         let quarter = 0.5 * frequency * half;

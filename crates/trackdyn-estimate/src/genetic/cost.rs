@@ -5,8 +5,8 @@ use crate::parameters::Parameters;
 use crate::prediction::batch::{Batch, LANES};
 use crate::prediction::{any_arc, arc};
 
-/// Cost (17) over fixed observations: the squared distance between observed and predicted positions, with
-/// yaw errors turned into distances by a lever, summed over the segments, m².
+/// Cost (17) over fixed observations: the squared distance between observed and predicted
+/// positions, with yaw errors turned into distances by a lever, summed over the segments, m².
 pub struct Cost {
     lever: f64,
     batches: Vec<Batch>,

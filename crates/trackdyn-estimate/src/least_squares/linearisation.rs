@@ -1,4 +1,5 @@
-//! Whitened residuals and their derivatives at a point, and the sums that least squares needs of them.
+//! Whitened residuals and their derivatives at a point, and the sums that least squares needs of
+//! them.
 
 use super::covariance::jackknife;
 use super::identifiability::inverse;

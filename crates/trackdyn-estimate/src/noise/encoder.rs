@@ -12,7 +12,8 @@ const FEWEST: usize = 30;
 const HELD: f64 = 0.5;
 const HELD_READINGS: f64 = 10.0;
 
-/// The noise of one side while its track runs; none of speeds that are told, whose changes are the driving.
+/// The noise of one side while its track runs; none of speeds that are told, whose changes are the
+/// driving.
 pub(super) fn noise(recording: &Recording, side: Side) -> Option<EncoderNoise> {
     let speed = |sample: &TrackSample| match side {
         Side::Left => sample.v_left,

@@ -9,8 +9,8 @@ use trackdyn_recording::OperatingPoint;
 struct LineTriple {
     /// Their other track speed, ascending, m/s.
     across: [f64; 3],
-    /// How far the middle one lies off the straight line through the outer two, in the channel's unit and such
-    /// that it scatters as a single reading does.
+    /// How far the middle one lies off the straight line through the outer two, in the channel's
+    /// unit and such that it scatters as a single reading does.
     off: f64,
 }
 
@@ -44,7 +44,8 @@ fn line_triples(
 /// Triples of neighbours that a scatter needs.
 const FEWEST_TRIPLES: usize = 10;
 
-/// Standard deviation of a channel, in its unit, from neighbours on lines of one track speed; no model enters. None without enough of them.
+/// Standard deviation of a channel, in its unit, from neighbours on lines of one track speed; no
+/// model enters. None without enough of them.
 pub fn scatter(
     points: &[OperatingPoint],
     channel: impl Fn(&OperatingPoint) -> Option<f64>,
@@ -67,7 +68,8 @@ pub fn scatter(
 mod tests {
     use super::*;
 
-    /// A line at one speed of the right track, whose yaw rates lie in turn on both sides of a straight line, and jump where the left track turns back.
+    /// A line at one speed of the right track, whose yaw rates lie in turn on both sides of a
+    /// straight line, and jump where the left track turns back.
     fn line(count: i32) -> Vec<OperatingPoint> {
         let point = |k: i32| {
             let v_left = 0.1 * f64::from(k) - 0.55;

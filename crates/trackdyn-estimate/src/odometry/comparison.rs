@@ -73,8 +73,8 @@ impl Comparison {
         self.spans.iter().find(|errors| errors.span == span)
     }
 
-    /// The spans that show growth, from segments on: distances, or durations where runs are too short
-    /// for two distances with [`Comparison::ENOUGH`] stretches.
+    /// The spans that show growth, from segments on: distances, or durations where runs are too
+    /// short for two distances with [`Comparison::ENOUGH`] stretches.
     pub fn growth(&self) -> Vec<&SpanErrors> {
         let of = |is: fn(&Span) -> bool| -> Vec<&SpanErrors> {
             let often = |errors: &&SpanErrors| errors.count >= Self::ENOUGH;

@@ -1,4 +1,5 @@
-//! Statistics of sums over blocks of a recording, with the intervals that leaving out one block each gives ([`Interval`]).
+//! Statistics of sums over blocks of a recording, with the intervals that leaving out one block
+//! each gives ([`Interval`]).
 
 use crate::Interval;
 

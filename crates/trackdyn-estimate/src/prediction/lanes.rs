@@ -1,13 +1,13 @@
 //! Predictions and derivatives of many segments, side by side.
 //!
 //! # Law
-//! With a = α_l/(x_r − x_l), b = α_r/(x_r − x_l) and the distances L and R that the tracks have run, the
-//! heading is ψ = b R − a L. Forward and left motion, as a complex number, is
+//! With a = α_l/(x_r − x_l), b = α_r/(x_r − x_l) and the distances L and R that the tracks have
+//! run, the heading is ψ = b R − a L. Forward and left motion, as a complex number, is
 //!
 //!   p = α_l P − (x_l + i y) E,  P = ∫ V_l e^{iψ} dt,  E = ∫ ω e^{iψ} dt = sin Ψ + i (1 − cos Ψ),
 //!
-//! so that ∂P/∂a = −i ∫ V_l L e^{iψ} dt and ∂P/∂b = i ∫ V_l R e^{iψ} dt are all that pieces are needed for;
-//! the derivatives by the parameters follow once per segment.
+//! so that ∂P/∂a = −i ∫ V_l L e^{iψ} dt and ∂P/∂b = i ∫ V_l R e^{iψ} dt are all that pieces are
+//! needed for; the derivatives by the parameters follow once per segment.
 
 use super::batch::{Batch, LANES};
 use super::series::{arc, moment};

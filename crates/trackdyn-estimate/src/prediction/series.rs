@@ -1,5 +1,5 @@
-//! Integrals along an arc by their series: the same on every machine, which the system's sines need not be,
-//! and for the compiler to put side by side.
+//! Integrals along an arc by their series: the same on every machine, which the system's sines need
+//! not be, and for the compiler to put side by side.
 
 /// Angle, rad, up to which [`arc`] is exact to 1e-10.
 pub(crate) const REACH: f64 = 2.0;
@@ -28,7 +28,8 @@ pub(crate) fn arc(a: f64) -> (f64, f64) {
     (s, c)
 }
 
-/// The same of any angle, to 1e-10 for each 2 rad: sin 2h = 2 sin h cos h and 1 − cos 2h = 2 sin² h.
+/// The same of any angle, to 1e-10 for each 2 rad: sin 2h = 2 sin h cos h and 1 − cos 2h = 2 sin²
+/// h.
 pub(crate) fn any_arc(a: f64) -> (f64, f64) {
     if a.abs() <= REACH {
         return arc(a);
@@ -85,7 +86,8 @@ mod tests {
             let pairs = [
                 (s, a.sin() / a),
                 (c, 2.0 * (0.5 * a).sin().powi(2) / a),
-                // ∫ u e^{iau} du = (e^{ia} − ∫ e^{iau} du)/(ia): a difference of near numbers, hence the a
+                // ∫ u e^{iau} du = (e^{ia} − ∫ e^{iau} du)/(ia): a difference of near numbers,
+                // hence the a
                 (a * real, a.sin() - c),
                 (a * imaginary, s - a.cos()),
             ];

@@ -1,19 +1,20 @@
 //! Points that turn less than others that are driven less.
 //!
 //! # Law
-//! Whatever the ICRs are, more speed on the outer track and less on the inner one does not turn a robot
-//! more slowly. A point that turns more slowly than one that is so driven less has a track that did not run
-//! as fast as its speed says: a motor that saturates or stalls, or a belt that slips on its sprocket.
+//! Whatever the ICRs are, more speed on the outer track and less on the inner one does not turn a
+//! robot more slowly. A point that turns more slowly than one that is so driven less has a track
+//! that did not run as fast as its speed says: a motor that saturates or stalls, or a belt that
+//! slips on its sprocket.
 //!
 //! # Assumes
-//! The scatter of yaw rates, found without a model: of each point between its neighbours on a line of
-//! constant track speed, against the straight line through these.
+//! The scatter of yaw rates, found without a model: of each point between its neighbours on a line
+//! of constant track speed, against the straight line through these.
 
 use crate::noise::scatter;
 use trackdyn_recording::OperatingPoint;
 
-/// A shortfall of this many standard deviations is none of chance: of a hundred thousand pairs of points
-/// one exceeds 4.4, and the worst of many pairs is what is looked at.
+/// A shortfall of this many standard deviations is none of chance: of a hundred thousand pairs of
+/// points one exceeds 4.4, and the worst of many pairs is what is looked at.
 const CERTAIN: f64 = 5.0;
 
 /// A point that lags.
@@ -29,7 +30,8 @@ pub struct Lagging {
     pub certainty: f64,
 }
 
-/// The points that lag, in their order; none where the table does not show the scatter of yaw rates.
+/// The points that lag, in their order; none where the table does not show the scatter of yaw
+/// rates.
 pub fn lagging(points: &[OperatingPoint]) -> Vec<Lagging> {
     let turning: Vec<(usize, &OperatingPoint, f64)> = points
         .iter()

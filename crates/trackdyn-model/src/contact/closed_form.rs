@@ -23,11 +23,12 @@ use trackdyn_core::{Scalar, Wrench};
 
 /// Distance to the ICR, in half diagonals of the patch, up to which the closed form is used.
 ///
-/// The sum over the edges loses digits with the distance, while the Gauss rule of the far field gains
-/// them as the integrand turns smooth: at this distance both are exact to rounding.
+/// The sum over the edges loses digits with the distance, while the Gauss rule of the far field
+/// gains them as the integrand turns smooth: at this distance both are exact to rounding.
 const REACH: f64 = 6.0;
 
-/// The same where half the digits are enough, which the closed form keeps farther out, at a half to a quarter of the cost.
+/// The same where half the digits are enough, which the closed form keeps farther out, at a half to
+/// a quarter of the cost.
 const REACH_COARSE: f64 = 50.0;
 
 /// Whether the closed form keeps its digits for this patch and slip.
@@ -37,8 +38,8 @@ pub fn applies<S: Scalar>(patch: &Patch, slip: &SlipField<S>, resolution: Resolu
     distance_squared(patch, slip) < reach * reach
 }
 
-/// Squared distance from the centre of the patch to the ICR, in half diagonals of the patch; infinite where
-/// the field does not rotate.
+/// Squared distance from the centre of the patch to the ICR, in half diagonals of the patch;
+/// infinite where the field does not rotate.
 #[inline]
 pub fn distance_squared<S: Scalar>(patch: &Patch, slip: &SlipField<S>) -> f64 {
     let [x, y] = patch.centre();

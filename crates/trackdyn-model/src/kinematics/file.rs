@@ -28,7 +28,8 @@ pub struct Source {
     pub vehicle: String,
     /// Fingerprint of the vehicle file with its effects, or of the recording.
     pub fingerprint: String,
-    /// Fingerprint of the poses of the recording, which tells driving that was fitted from other driving.
+    /// Fingerprint of the poses of the recording, which tells driving that was fitted from other
+    /// driving.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose_fingerprint: Option<String>,
     /// Name of the recording, where the numbers come from one.
@@ -243,8 +244,8 @@ impl KinematicsFile {
         sector.map_or_else(|| self.kinematics(), |sector| self.with_icrs(sector.icrs()))
     }
 
-    /// Track speeds, m/s, for a forward speed and a yaw rate, and the model that gives them: one whose
-    /// sector holds the speeds, else that of the whole map.
+    /// Track speeds, m/s, for a forward speed and a yaw rate, and the model that gives them: one
+    /// whose sector holds the speeds, else that of the whole map.
     pub fn track_speeds(&self, forward: f64, yaw_rate: f64) -> (PerSide<f64>, Kinematics) {
         let of = |kinematics: Kinematics| (kinematics.track_speeds(forward, yaw_rate), kinematics);
         self.sector

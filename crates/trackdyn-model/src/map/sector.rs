@@ -36,7 +36,8 @@ impl Sector {
 /// Share of the variance of a coordinate that a piecewise map leaves within its sectors, at most.
 const WITHIN: f64 = 0.1;
 
-/// The sectors of a map if they explain nine tenths of the variance of x_l, x_r or y; empty otherwise.
+/// The sectors of a map if they explain nine tenths of the variance of x_l, x_r or y; empty
+/// otherwise.
 pub(super) fn sectors(map: &IcrMap) -> Vec<Sector> {
     let Some(whole) = map.statistics() else { return Vec::new() };
     let mut members: BTreeMap<[i8; 3], Vec<Icrs>> = BTreeMap::new();
@@ -59,7 +60,8 @@ pub(super) fn sectors(map: &IcrMap) -> Vec<Sector> {
                 count(&sector.statistics) * sector.statistics.spread.to_array()[k].powi(2)
             })
             .sum();
-        // A mean of each sector takes up as many numbers: of few pairs of speeds it would explain all.
+        // A mean of each sector takes up as many numbers: of few pairs of speeds it would explain
+        // all.
         let free = count(&whole) - real(sectors.len());
         variance > EQUAL.powi(2) && within < WITHIN * variance * free
     });

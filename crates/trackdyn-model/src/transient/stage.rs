@@ -8,10 +8,12 @@ use trackdyn_core::{Dual, PerSide, Scalar, Twist};
 /// Residual over the weight: 10⁻⁹ of gravity is far below what moves a robot.
 const TOLERANCE: Tolerance = Tolerance { converged: 1e-11, rounding: 1e-9 };
 
-/// Unknowns of belts that follow their sprockets: the departure from straight driving at the left belt's speed.
+/// Unknowns of belts that follow their sprockets: the departure from straight driving at the left
+/// belt's speed.
 const FIRM: usize = 3;
 
-/// Unknowns of belts that slip on them: the traction of both sides over their normal load beside it.
+/// Unknowns of belts that slip on them: the traction of both sides over their normal load beside
+/// it.
 const SLIPPING: usize = 5;
 
 /// What is held fixed while the twist is sought.
@@ -42,7 +44,8 @@ pub struct Start {
 /// Where the forces balance.
 pub struct Balanced {
     pub motion: Motion,
-    /// Traction over normal load, forward positive, of belts that slip on their sprockets; else zero.
+    /// Traction over normal load, forward positive, of belts that slip on their sprockets; else
+    /// zero.
     pub traction: PerSide<f64>,
     pub inverse: Inverse,
 }
@@ -105,7 +108,8 @@ impl Stage<'_> {
         if let Some(near) = near {
             return near;
         }
-        // Stick in the direction in which the robot slid before; of a robot that did not, held back.
+        // Stick in the direction in which the robot slid before; of a robot that did not, held
+        // back.
         let slid = follows.norm();
         let sticks = if slid > 0.0 {
             follows * (self.creep / slid.max(self.creep))
@@ -126,8 +130,8 @@ impl Stage<'_> {
         newton::first_root(ends, |end| end).expect("several starts were tried")
     }
 
-    /// A turn at this difference of the belt speeds, about a point a quarter of the contact length outside the slower
-    /// track's centre-line.
+    /// A turn at this difference of the belt speeds, about a point a quarter of the contact length
+    /// outside the slower track's centre-line.
     fn turning(&self, difference: f64) -> Vector3<f64> {
         let [rear, front] = self.model.footprint().ends;
         let x = self.model.vehicle().gauge / 2.0 + (front - rear) / 4.0;
@@ -152,8 +156,8 @@ impl Stage<'_> {
         Motion::departing(belt_speed, departure, acceleration, self.model.extent())
     }
 
-    /// Force over weight and moment over weight times gauge; of belts that slip, what the friction of each side is off
-    /// its traction too, over the weight.
+    /// Force over weight and moment over weight times gauge; of belts that slip, what the friction
+    /// of each side is off its traction too, over the weight.
     #[inline]
     fn residual<S: Scalar, const N: usize>(&self, z: [S; N]) -> [S; N] {
         let motion = self.motion(&z);
@@ -179,7 +183,8 @@ fn traction<S: Scalar, const N: usize>(z: &[S; N]) -> PerSide<S> {
     PerSide::new(at(FIRM), at(FIRM + 1))
 }
 
-/// The forces on the body with the friction of tracks that stick below the slip velocity `creep`, m/s.
+/// The forces on the body with the friction of tracks that stick below the slip velocity `creep`,
+/// m/s.
 #[inline]
 pub fn gripping<S: Scalar>(
     model: &Model,

@@ -2,7 +2,8 @@
 
 use crate::vehicle::VehicleError;
 
-/// Standard deviations of the values of a vehicle that were measured; none where they are not known.
+/// Standard deviations of the values of a vehicle that were measured; none where they are not
+/// known.
 ///
 /// Zero says that a value is exact.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -62,8 +62,9 @@ pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut
     intervals(&series.samples, report);
 }
 
-/// Finds poses that are the one before to the last digit while a track moves: a link that is sent more often than it is
-/// measured says the same again. They stay, for a robot without noise may be stuck.
+/// Finds poses that are the one before to the last digit while a track moves: a link that is sent
+/// more often than it is measured says the same again. They stay, for a robot without noise may be
+/// stuck.
 pub(super) fn held(
     poses: &[PoseSample],
     tracks: &[TrackSample],
@@ -201,7 +202,8 @@ mod tests {
         let samples: Vec<PoseSample> = (0..=100).map(pose).collect();
         let mut cleanings = Vec::new();
         held(&samples, &drive, 0, &mut cleanings);
-        // a robot that stands may say so again; the poses of step 51 on are told three times, the last one twice
+        // a robot that stands may say so again; the poses of step 51 on are told three times, the
+        // last one twice
         assert_eq!(found(&cleanings), [(Finding::Held, 33)]);
         assert!((cleanings[0].t - 1.04).abs() < 1e-9, "{}", cleanings[0].t);
     }

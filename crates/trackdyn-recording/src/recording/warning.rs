@@ -108,7 +108,8 @@ pub enum Finding {
     Repeated,
     /// A pose that is the one before to the last digit while a track moves: it stays.
     Held,
-    /// Stamps closer than a tenth of the median interval: both stay, but one of them is likely wrong.
+    /// Stamps closer than a tenth of the median interval: both stay, but one of them is likely
+    /// wrong.
     Crowded,
     /// An interval of more than five times the median one.
     Gap {

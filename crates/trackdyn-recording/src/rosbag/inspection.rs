@@ -150,8 +150,8 @@ impl Seen {
     }
 }
 
-/// The topic of the poses and their frames: the only Odometry or stamped pose, else the only topic of
-/// transforms, whose chain from the root to the body of the robot is taken.
+/// The topic of the poses and their frames: the only Odometry or stamped pose, else the only topic
+/// of transforms, whose chain from the root to the body of the robot is taken.
 fn suggest_poses(topics: Vec<&TopicSummary>) -> (Option<String>, Option<(String, String)>) {
     let is_tf = |topic: &&TopicSummary| topic.kind.ends_with("/TFMessage");
     let (transforms, direct): (Vec<_>, Vec<_>) = topics.into_iter().partition(is_tf);

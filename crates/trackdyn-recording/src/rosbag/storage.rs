@@ -53,7 +53,8 @@ pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Vec<Warning
     Ok(warnings)
 }
 
-/// The files of a bag: those that `metadata.yaml` lists, there or not, else those in the folder by name.
+/// The files of a bag: those that `metadata.yaml` lists, there or not, else those in the folder by
+/// name.
 fn parts(path: &Path) -> Result<Vec<PathBuf>, Error> {
     if !path.is_dir() {
         return Ok(if is_part(path) { vec![path.to_owned()] } else { Vec::new() });

@@ -27,14 +27,14 @@ pub struct Blocks {
 impl Blocks {
     /// From this number of runs on, a run is a block; fewer are cut into about twice as many pieces
     /// of equal length. With fewer blocks, their scatter is a poor variance.
-    pub const ENOUGH_RUNS: usize = 24;
+    pub const MIN_WHOLE_RUNS: usize = 24;
 
     /// Blocks of these runs, whose indices ascend.
     pub fn new(extents: impl IntoIterator<Item = Extent>) -> Self {
         let extents: Vec<Extent> = extents.into_iter().collect();
         let total: f64 = extents.iter().map(|extent| extent.duration).sum();
-        let piece = total / real(2 * Self::ENOUGH_RUNS);
-        let is_cut = extents.len() < Self::ENOUGH_RUNS && piece > 0.0;
+        let piece = total / real(2 * Self::MIN_WHOLE_RUNS);
+        let is_cut = extents.len() < Self::MIN_WHOLE_RUNS && piece > 0.0;
         let mut first = 0;
         let runs = extents.into_iter().map(|extent| {
             let pieces = if is_cut { pieces(extent.duration / piece) } else { 1 };
@@ -97,8 +97,8 @@ mod tests {
         assert_eq!(few.of(2, 103.5), Some(25));
         assert_eq!(few.of(2, 139.9), Some(35));
         assert_eq!(few.of(4, 100.0), None);
-        let many = runs(Blocks::ENOUGH_RUNS);
-        assert_eq!((many.count(), many.are_pieces()), (Blocks::ENOUGH_RUNS, false));
+        let many = runs(Blocks::MIN_WHOLE_RUNS);
+        assert_eq!((many.count(), many.are_pieces()), (Blocks::MIN_WHOLE_RUNS, false));
         assert_eq!(many.of(5, 120.0), Some(5));
     }
 

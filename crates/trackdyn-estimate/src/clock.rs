@@ -122,13 +122,13 @@ impl Clock {
 }
 
 /// Step of the first search, s.
-const COARSE: f64 = 0.02;
+const SEARCH_STEP: f64 = 0.02;
 
 /// Fewer pose intervals than this say nothing.
-const FEWEST: usize = 20;
+const MIN_INTERVALS: usize = 20;
 
 /// Encoders and poses that correlate less than this do not show the same turning.
-const WEAKEST: f64 = 0.5;
+const MIN_CORRELATION: f64 = 0.5;
 
 /// Estimates the clock offset.
 ///
@@ -138,25 +138,25 @@ const WEAKEST: f64 = 0.5;
 pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<ClockOffset, Error> {
     let refuse = |reason: String| Error::NotEstimable { what: "the clock offset", reason };
     let intervals = Intervals::new(recording);
-    let steps = (0..).map(|step| search.earliest + COARSE * real(step));
+    let steps = (0..).map(|step| search.earliest + SEARCH_STEP * real(step));
     let mut best: Option<(f64, Fit)> = None;
     let mut most = 0;
-    for tau in steps.take_while(|tau| *tau <= search.latest + COARSE / 2.0) {
+    for tau in steps.take_while(|tau| *tau <= search.latest + SEARCH_STEP / 2.0) {
         let fit = intervals.fit(tau);
         most = most.max(fit.count);
         let better = best.is_none_or(|(_, best)| fit.correlation.abs() > best.correlation.abs());
-        if fit.count >= FEWEST && better {
+        if fit.count >= MIN_INTERVALS && better {
             best = Some((tau, fit));
         }
     }
     let Some((coarse, fit)) = best else {
-        return Err(refuse(format!("{most} pose intervals with readings, {FEWEST} needed")));
+        return Err(refuse(format!("{most} pose intervals with readings, {MIN_INTERVALS} needed")));
     };
     let Fit { correlation, count, .. } = fit;
-    if correlation.abs() < WEAKEST {
+    if correlation.abs() < MIN_CORRELATION {
         return Err(refuse(format!(
             "no turning that encoders and poses both show: their best correlation is \
-             {correlation:.2} over {count} pose intervals, {WEAKEST} needed"
+             {correlation:.2} over {count} pose intervals, {MIN_CORRELATION} needed"
         )));
     }
     if correlation < 0.0 {
@@ -165,7 +165,7 @@ pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<Clock
              right are swapped, or the sign of yaw is"
         )));
     }
-    if coarse < search.earliest + COARSE / 2.0 || coarse > search.latest - COARSE / 2.0 {
+    if coarse < search.earliest + SEARCH_STEP / 2.0 || coarse > search.latest - SEARCH_STEP / 2.0 {
         return Err(refuse(format!(
             "the best offset, {coarse:.2} s, lies at an end of the search from {} to {} s",
             search.earliest, search.latest

@@ -73,7 +73,7 @@ pub struct Identification {
 const TAU_MARGIN: f64 = 0.1;
 
 /// Times that segments are cut anew where the clock offset runs to its margin.
-const CUTS: usize = 5;
+const MAX_CUTS: usize = 5;
 
 /// Runs all methods on a recording. `progress` is told each finished generation of the genetic
 /// algorithm, which runs twice.
@@ -158,7 +158,7 @@ fn fit_with_sensor(
             least_squares(observations, &start, &unknowns, weighting, Loss::Huber)
         };
         let mut fitted = fit(observations);
-        for _ in 0..CUTS {
+        for _ in 0..MAX_CUTS {
             // Readings are at hand up to the margin: where the offset reaches it, segments are cut
             // anew.
             let Err(Error::ClockLeaves { tau, .. }) = fitted else { break };
@@ -169,7 +169,10 @@ fn fit_with_sensor(
             return (fitted, refused);
         }
         let is_wide = |nuisance: &Nuisance| {
-            let of = |doubt: &Doubt| matches!(doubt, Doubt::WideNuisance { nuisance: n, .. } if n == nuisance);
+            let of = |doubt: &Doubt| match doubt {
+                Doubt::WideNuisance { nuisance: wide, .. } => wide == nuisance,
+                _ => false,
+            };
             wide.iter().any(of)
         };
         unknowns.nuisances.retain(|nuisance| !is_wide(nuisance));

@@ -8,7 +8,7 @@ use trackdyn_recording::hold::{held, travelled};
 use trackdyn_recording::{Recording, Run, TrackSample};
 
 /// Change of a track speed over the faster one's up to which driving is steady.
-const STEADY: f64 = 0.1;
+const MAX_STEADY_CHANGE: f64 = 0.1;
 
 /// Observed motions and the track speeds that go with them, in flat arrays.
 #[derive(Clone, Debug)]
@@ -97,7 +97,7 @@ impl Observations {
                 let (low, high) = values
                     .iter()
                     .fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
-                high - low <= STEADY * fastest
+                high - low <= MAX_STEADY_CHANGE * fastest
             })
         })
     }

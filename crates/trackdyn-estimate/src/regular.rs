@@ -16,10 +16,10 @@ use trackdyn_core::real;
 use trackdyn_recording::{Recording, Run, UncheckedRun};
 
 /// Fewest samples on either side that tell when a sample was due; then twice as many, and so on.
-const NEIGHBOURS: usize = 5;
+const MIN_NEIGHBOURS: usize = 5;
 
 /// Fewer samples than this in a row have no interval.
-const FEWEST: usize = 4;
+const MIN_SAMPLES: usize = 4;
 
 /// The times at which samples were due, by a straight line through the stamps (s) of their
 /// neighbours; in the order of the stamps, as many as they.
@@ -27,12 +27,12 @@ fn regular(stamps: &[f64]) -> Vec<f64> {
     let rows: Vec<Row> =
         stretches(stamps).into_iter().map(|(at, _)| Row::new(&stamps[at])).collect();
     let longest = rows.iter().map(|row| row.off.len()).max().unwrap_or_default();
-    let doubled = std::iter::successors(Some(NEIGHBOURS), |neighbours| Some(2 * neighbours));
+    let doubled = std::iter::successors(Some(MIN_NEIGHBOURS), |neighbours| Some(2 * neighbours));
     // twice as many as there are on one side are all that there are on both
-    let tried = doubled.take_while(|neighbours| *neighbours < 2 * longest.max(NEIGHBOURS));
+    let tried = doubled.take_while(|neighbours| *neighbours < 2 * longest.max(MIN_NEIGHBOURS));
     let missed = |neighbours: usize| rows.iter().map(|row| row.missed(neighbours)).sum::<f64>();
     let best = tried.map(|neighbours| (missed(neighbours), neighbours));
-    let best = best.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(NEIGHBOURS, |best| best.1);
+    let best = best.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(MIN_NEIGHBOURS, |best| best.1);
     rows.iter().flat_map(|row| row.due(best)).collect()
 }
 
@@ -99,7 +99,7 @@ impl Row {
     /// no interval.
     fn line(&self, at: usize, neighbours: usize) -> Option<Line> {
         let near = at.saturating_sub(neighbours)..(at + neighbours + 1).min(self.off.len());
-        if near.len() < FEWEST {
+        if near.len() < MIN_SAMPLES {
             return None;
         }
         let count = real(near.len());

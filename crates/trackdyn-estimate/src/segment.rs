@@ -82,14 +82,14 @@ pub fn segments(recording: &Recording, options: &SegmentOptions) -> Vec<Segment>
 
 /// A segment that spans its pose intervals in less than this share of the shortest duration takes
 /// more of them: its stamps are crowded.
-const SHORT: f64 = 0.5;
+const MIN_DURATION_SHARE: f64 = 0.5;
 
 /// Pose intervals that last for a time, at least one. Rounding must not add one.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small and positive")]
 fn intervals_in(duration: f64, pose_interval: f64) -> usize {
-    const MOST: f64 = 1e6;
+    const MAX_INTERVALS: f64 = 1e6;
     let intervals = (duration / pose_interval * (1.0 - 1e-9)).ceil();
-    if intervals.is_finite() { intervals.clamp(1.0, MOST) as usize } else { 1 }
+    if intervals.is_finite() { intervals.clamp(1.0, MAX_INTERVALS) as usize } else { 1 }
 }
 
 struct Cut<'a> {
@@ -131,7 +131,7 @@ impl<'a> Cut<'a> {
                 continue;
             }
             let duration = poses[last].t - poses[first].t;
-            let is_short = duration < SHORT * self.options.minimum_duration;
+            let is_short = duration < MIN_DURATION_SHARE * self.options.minimum_duration;
             if last - first < self.pose_intervals || is_short {
                 continue;
             }

@@ -193,7 +193,8 @@ mod tests {
 
     #[test]
     fn a_lever_arm_is_a_shift_of_the_icrs_exactly() {
-        // 0.3 m forward and 0.2 m to the left: the ICRs lie as much further back and to the right of it.
+        // The sensor sits 0.3 m forward and 0.2 m to the left: the ICRs lie as much further back
+        // and to the right of it.
         let [x_l, x_r, y, alpha_l, alpha_r] = PARAMETERS.0;
         let shifted = Parameters([x_l + 0.2, x_r + 0.2, y - 0.3, alpha_l, alpha_r]);
         let [x, y, yaw] = predict(&shifted, &pieces()).motion;

@@ -37,7 +37,7 @@ pub const CHANNELS: usize = 3;
 const Y: usize = 2;
 
 /// Speeds that differ by less than this part of their size are alike: tables round to four digits.
-const ALIKE: f64 = 1e-3;
+const SPEED_ROUNDING: f64 = 1e-3;
 
 /// Iterations after which the scatters stay: medians jump from one residual to the next, and would
 /// keep the parameters from settling.
@@ -255,7 +255,7 @@ fn lacks(points: &[OperatingPoint], free: Free) -> Option<Doubt> {
         Free::IcrsAndAlphas => Doubt::OneRatio,
     };
     // written so that no motion at all is a lack too
-    let enough = least > ALIKE.powi(2) * moments.trace();
+    let enough = least > SPEED_ROUNDING.powi(2) * moments.trace();
     (!enough).then_some(doubt)
 }
 

@@ -12,7 +12,7 @@ use trackdyn_core::real;
 use trackdyn_recording::{Recording, Run, TrackSample, UncheckedRun};
 
 /// Part of an interval that is rounding.
-const ROUNDING: f64 = 1e-6;
+const INTERVAL_ROUNDING: f64 = 1e-6;
 
 /// A recording in which as many readings of the tracks are put together as usually fit into this
 /// time, s. The fingerprint stays.
@@ -41,7 +41,7 @@ pub fn with_readings_every(recording: &Recording, interval: f64) -> Cow<'_, Reco
 
 /// How many of some readings fit into a time, s, at their usual interval; one at least.
 fn fitting(readings: usize, usual: f64, time: f64) -> usize {
-    let fits = |count: &usize| real(*count) * usual <= time * (1.0 + ROUNDING);
+    let fits = |count: &usize| real(*count) * usual <= time * (1.0 + INTERVAL_ROUNDING);
     (1..=readings).take_while(fits).last().unwrap_or(1)
 }
 

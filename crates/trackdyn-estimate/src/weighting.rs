@@ -34,13 +34,13 @@ pub struct SegmentNoise {
 
 /// Less noise of a pose, m and rad, no model explains: poses of a simulator have none, and no
 /// covariance without it.
-pub const LEAST: f64 = 1e-4;
+pub const MIN_POSE_NOISE: f64 = 1e-4;
 
 impl SegmentNoise {
     /// From what the maker of the recording states of its poses.
     pub fn stated(stated: StatedNoise) -> Self {
-        let position = stated.position.max(LEAST).powi(2);
-        let pose = [position, position, stated.yaw.max(LEAST).powi(2)];
+        let position = stated.position.max(MIN_POSE_NOISE).powi(2);
+        let pose = [position, position, stated.yaw.max(MIN_POSE_NOISE).powi(2)];
         Self { pose, walk: [0.0; 3], heading: 0.0 }
     }
 
@@ -59,7 +59,7 @@ impl SegmentNoise {
         let encoders = [both / 4.0, 0.0, both / gap.powi(2)];
         let mut walk = components.map(|component| component.walk.powi(2));
         walk.iter_mut().zip(encoders).for_each(|(walk, encoder)| *walk += encoder);
-        let pose = components.map(|component| component.white.max(LEAST).powi(2));
+        let pose = components.map(|component| component.white.max(MIN_POSE_NOISE).powi(2));
         Some(Self { pose, walk, heading: 0.0 })
     }
 }

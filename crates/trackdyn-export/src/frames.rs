@@ -1,6 +1,6 @@
 //! The frame at which the robot is an ideal differential drive, and the robot's own.
 
-use crate::number::LARGEST;
+use crate::number::MAX_LENGTH;
 use crate::{EquivalentDrive, Error, Name};
 use trackdyn_core::Pose;
 
@@ -25,7 +25,7 @@ impl Frames {
     /// [`Error::SameFrame`], [`Error::ContactCentre`].
     pub fn new(odom: Name, icr: Name, base: Name, contact_centre: [f64; 2]) -> Result<Self, Error> {
         let [x, y] = contact_centre;
-        if ![x, y].iter().all(|coordinate| (-LARGEST..=LARGEST).contains(coordinate)) {
+        if ![x, y].iter().all(|coordinate| (-MAX_LENGTH..=MAX_LENGTH).contains(coordinate)) {
             return Err(Error::ContactCentre { x, y });
         }
         let chain = [("odom-frame", &odom), ("icr-frame", &icr), ("base-frame", &base)];

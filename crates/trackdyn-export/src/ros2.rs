@@ -3,7 +3,7 @@
 mod controller;
 mod launch;
 
-use crate::number::LARGEST;
+use crate::number::MAX_LENGTH;
 use crate::{EquivalentDrive, Error, Frames, Name, NodeName, Provenance, Residuals, TextFile};
 
 /// What a kinematics file does not know of the robot's drive.
@@ -21,7 +21,7 @@ impl Wheels {
     /// # Errors
     /// [`Error::WheelRadius`], [`Error::WheelCount`], [`Error::Repeated`].
     pub fn new(radius: f64, left: Vec<Name>, right: Vec<Name>) -> Result<Self, Error> {
-        if !(1e-6..=LARGEST).contains(&radius) {
+        if !(1e-6..=MAX_LENGTH).contains(&radius) {
             return Err(Error::WheelRadius { value: radius });
         }
         if left.len() != right.len() || left.is_empty() {

@@ -55,7 +55,7 @@ fn gradients(rows: &[Dual<3>; 3]) -> Matrix3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::transient::{CREEP, GAMMA, Instant};
+    use crate::transient::{GAMMA, Instant, STICKING_SLIP_VELOCITY};
     use crate::{ActiveEffect, Circumstance, Effects, VehicleFile};
     use crate::{Stationary, Transient};
     use trackdyn_core::frames::ros_twist_from_paper;
@@ -104,7 +104,7 @@ mod tests {
             texts.iter().map(|text| text.parse::<ActiveEffect>().expect("an effect")).collect();
         let model = Model::new(VehicleFile::auriga_alpha().vehicle, effects);
         let ground = model.ground(&Circumstance::default());
-        let forces = Forces { model: &model, ground: &ground, creep: CREEP };
+        let forces = Forces { model: &model, ground: &ground, creep: STICKING_SLIP_VELOCITY };
         let mut path = Trajectory::default();
         let mut robot =
             Transient::at_rest(&model, 0.0, Pose::default()).with_step(0.03).with_steps();

@@ -27,7 +27,7 @@ use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
 
 /// Speed, m/s, of the spin that stands for the limit of slow driving.
-const CREEP: f64 = 1e-6;
+const SPIN_SPEED: f64 = 1e-6;
 
 /// Residual over the weight, and change of belt speeds over the faster one at which speed and
 /// traction agree.
@@ -35,10 +35,10 @@ const TOLERANCE: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11 };
 
 /// Residual at which a search beside a known motion stops at the latest: what differs between the
 /// two is asked for.
-const COMPARABLE: f64 = 1e-10;
+const MAX_COMPARED_RESIDUAL: f64 = 1e-10;
 
 /// Turns between belt speeds and traction after which the search is given up.
-const MOST_TURNS: usize = 100;
+const MAX_TURNS: usize = 100;
 
 /// A motion that is nearly the wanted one: where a search starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,7 +89,7 @@ impl<'m> Stationary<'m> {
     /// and with effects it is a good start for any of them.
     pub fn new(model: &'m Model, circumstance: &Circumstance) -> Self {
         let mut solver = Self::from_start(model, circumstance, None);
-        let spin = solver.solve_belts(PerSide::new(-CREEP, CREEP));
+        let spin = solver.solve_belts(PerSide::new(-SPIN_SPEED, SPIN_SPEED));
         solver.near = spin.near();
         solver
     }
@@ -131,7 +131,7 @@ impl<'m> Stationary<'m> {
         let mut solution = firm;
         let (mut share, mut last) = (1.0, PerSide::new(0.0, 0.0));
         let mut may_be_straight = true;
-        for _ in 0..MOST_TURNS {
+        for _ in 0..MAX_TURNS {
             let Some(traction) = self.traction(&solution) else { break };
             let belts = solution.belt_speed;
             let next = self.model.drive().belt_speed(driven, traction);
@@ -182,8 +182,8 @@ impl<'m> Stationary<'m> {
             let belts = PerSide::new(speed - difference / 2.0, speed + difference / 2.0);
             self.solve_belts(belts)
         };
-        let left = departing(CREEP * speed.abs());
-        let right = departing(-CREEP * speed.abs());
+        let left = departing(SPIN_SPEED * speed.abs());
+        let right = departing(-SPIN_SPEED * speed.abs());
         let turns = |solution| {
             Some(difference(&self.model.drive().belt_speed(driven, self.traction(solution)?)))
         };
@@ -329,7 +329,8 @@ impl<'s> Problem<'s> {
     fn solve_beside(self, known: &Linearised) -> Option<Root<'s>> {
         let residual = |z: Vector3<f64>| Vector3::from(self.residual([z[0], z[1], z[2]]));
         let tolerance = TOLERANCE.at(self.solver.model.resolution());
-        let tolerance = Tolerance { converged: tolerance.converged.min(COMPARABLE), ..tolerance };
+        let tolerance =
+            Tolerance { converged: tolerance.converged.min(MAX_COMPARED_RESIDUAL), ..tolerance };
         let start = (known.point, residual(known.point));
         let convergence = newton::from_near(start, known.inverse, tolerance, residual)?;
         Some(Root { problem: self, convergence })

@@ -9,9 +9,9 @@
 //! Coulomb friction has no value where a whole track sticks. There, and only there, it is
 //! regularised: the friction wrench of a side is multiplied by σ/√(σ² + ε²), σ the root mean square
 //! of its slip velocity. A wrench of the exact law opposes the slip, so a fraction of it does, and
-//! energy never grows out of nothing. With ε = [`CREEP`], unless another one is asked for, a track
-//! that slips at 1 cm/s has friction exact to 5·10⁻⁹, and a parked robot creeps less than 0.1 mm in
-//! a minute up to 80 % of what friction bears.
+//! energy never grows out of nothing. With ε = [`STICKING_SLIP_VELOCITY`], unless another one is
+//! asked for, a track that slips at 1 cm/s has friction exact to 5·10⁻⁹, and a parked robot creeps
+//! less than 0.1 mm in a minute up to 80 % of what friction bears.
 //!
 //! # Method
 //! The two-stage singly diagonal implicit Runge-Kutta method of order 2 (Alexander 1977), which
@@ -35,16 +35,16 @@ use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{Moment, PerSide, Plant, Pose, Stopped, Trajectory, Twist};
 
 /// Slip velocity ε below which a track sticks, m/s.
-pub const CREEP: f64 = 1e-6;
+pub const STICKING_SLIP_VELOCITY: f64 = 1e-6;
 
 /// Coefficient γ = 1 − 1/√2 of the method: it makes the second stage the end of the step.
 pub const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
 /// Halvings of a step for its error at most.
-const MOST_REFINED: u32 = 2;
+const MAX_REFINEMENTS: u32 = 2;
 
 /// Halvings of a step after which it is given up.
-const MOST_HALVINGS: u32 = 10;
+const MAX_HALVINGS: u32 = 10;
 
 /// A step as it was taken.
 #[derive(Clone, Copy, Debug)]
@@ -133,7 +133,7 @@ impl<'m> Transient<'m> {
             model,
             longest_step: Self::STEP,
             tolerance: f64::INFINITY,
-            creep: CREEP,
+            creep: STICKING_SLIP_VELOCITY,
             has_inertia: Self::feels_inertia(model),
             may_pull: false,
             steps: None,
@@ -152,8 +152,8 @@ impl<'m> Transient<'m> {
         Self { tolerance, ..self }
     }
 
-    /// The same with tracks that stick below another slip velocity than [`CREEP`], m/s: larger ones
-    /// are solved sooner.
+    /// The same with tracks that stick below another slip velocity than [`STICKING_SLIP_VELOCITY`],
+    /// m/s: larger ones are solved sooner.
     pub fn with_creep(self, creep: f64) -> Self {
         Self { creep, ..self }
     }
@@ -185,7 +185,7 @@ impl<'m> Transient<'m> {
     /// not converge, or its error is larger than asked for.
     fn step(&mut self, shown: PerSide<f64>, end: f64, halvings: u32) -> Result<(), Stopped> {
         if let Some((state, stages, error)) = self.advanced(shown, end)
-            && (error <= self.tolerance || halvings >= MOST_REFINED)
+            && (error <= self.tolerance || halvings >= MAX_REFINEMENTS)
         {
             let duration = end - self.state.t;
             self.state = state;
@@ -194,7 +194,7 @@ impl<'m> Transient<'m> {
             }
             return Ok(());
         }
-        if halvings == MOST_HALVINGS {
+        if halvings == MAX_HALVINGS {
             let reason = "no motion balances the forces on the robot".to_owned();
             return Err(Stopped { t: self.state.t, reason });
         }

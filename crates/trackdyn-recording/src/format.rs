@@ -33,9 +33,9 @@ impl Format {
         Err(Error::NotARecording {
             path: path.to_owned(),
             found: "a file of another kind".to_owned(),
-            expected: "a recording folder, a .mcap or .db3 file, or a .tum or .txt trajectory with a \
-                       table of its track speeds; to identify and diagnose, a .csv table of steady \
-                       operating points too",
+            expected: "a recording folder, a .mcap or .db3 file, or a .tum or .txt trajectory with \
+                       a table of its track speeds; to identify and diagnose, a .csv table of \
+                       steady operating points too",
         })
     }
 }

@@ -31,7 +31,7 @@ impl FromStr for RunList {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        const MOST: i64 = 1_000_000;
+        const MAX_RUNS: i64 = 1_000_000;
         let expected = || "expected numbers of runs, such as 7,8,20-29".to_owned();
         let number = |text: &str| text.trim().parse::<i64>().map_err(|_| expected());
         let mut numbers = Vec::new();
@@ -39,7 +39,7 @@ impl FromStr for RunList {
             match part.trim().split_once('-').filter(|(first, _)| !first.is_empty()) {
                 Some((first, last)) => {
                     let (first, last) = (number(first)?, number(last)?);
-                    if !(first..first.saturating_add(MOST)).contains(&last) {
+                    if !(first..first.saturating_add(MAX_RUNS)).contains(&last) {
                         return Err(expected());
                     }
                     numbers.extend(first..=last);

@@ -84,8 +84,8 @@ pub fn run(options: &Options) -> Outcome {
         if index == 0 {
             // forward in both frames, on the middle line
             point = [parameters.y_icr_m, 0.0];
-            if point[0].abs() > Tracker::FARTHEST {
-                let (name, y, most) = (path.display(), point[0], Tracker::FARTHEST);
+            if point[0].abs() > Tracker::MAX_POINT_DISTANCE {
+                let (name, y, most) = (path.display(), point[0], Tracker::MAX_POINT_DISTANCE);
                 return Err(format!("{name}: y_icr_m = {y}: expected at most {most} m from the middle, to follow a path with").into());
             }
         }

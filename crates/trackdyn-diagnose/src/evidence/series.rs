@@ -10,7 +10,7 @@ use trackdyn_estimate::observations::Observations;
 use trackdyn_estimate::regular::with_regular_poses;
 use trackdyn_estimate::spin_test;
 use trackdyn_estimate::thinned::with_readings_every;
-use trackdyn_estimate::weighting::{LEAST, SegmentNoise};
+use trackdyn_estimate::weighting::{MIN_POSE_NOISE, SegmentNoise};
 use trackdyn_estimate::{Clock, SegmentOptions};
 use trackdyn_recording::{Recording, TrackSample};
 
@@ -125,7 +125,7 @@ fn quieter(recording: &Recording, tau: f64) -> (Cow<'_, Recording>, Noise) {
     let level = |noise: &Noise| -> Option<f64> {
         let poses = noise.moving.as_ref()?;
         let axes = [poses.forward, poses.lateral, poses.yaw];
-        Some(axes.iter().map(|axis| axis.white.max(LEAST).ln()).sum())
+        Some(axes.iter().map(|axis| axis.white.max(MIN_POSE_NOISE).ln()).sum())
     };
     match (level(&as_stamped), level(&as_due)) {
         (Some(stamped), Some(level)) if level < stamped => (Cow::Owned(due), as_due),

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use trackdyn_recording::table::Table;
 
 /// Places further away than this are taken for a wrong unit, m.
-const FAR: f64 = 1e7;
+const MAX_PLACE: f64 = 1e7;
 
 impl Path {
     /// Reads a table `x,y` of points, m.
@@ -22,7 +22,7 @@ impl Path {
             let mut point = [0.0; 2];
             for (value, column) in point.iter_mut().zip(columns) {
                 *value = table.finite(column)?;
-                if value.abs() > FAR {
+                if value.abs() > MAX_PLACE {
                     return Err(table.cell_error(column, "at most 10000000 m").into());
                 }
             }

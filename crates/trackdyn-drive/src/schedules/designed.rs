@@ -14,9 +14,9 @@ use rand::seq::SliceRandom;
 use trackdyn_core::{PerSide, Schedule};
 
 /// Time at constant speeds, s: ten segments of 0.27 s.
-const STEADY: f64 = 2.7;
+const STEADY_DURATION: f64 = 2.7;
 /// Standing between manoeuvres, s.
-const REST: f64 = 1.2;
+const REST_DURATION: f64 = 1.2;
 /// Shares of the largest speed.
 const SPEEDS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// Track speeds (left, right) per speed of the faster one.
@@ -54,11 +54,11 @@ pub(super) fn schedule(options: &ScheduleOptions, run: i64) -> Schedule {
     let mut random = stream(options.seed, run, Purpose::Order);
     manoeuvres.shuffle(&mut random);
     let mut ramp = Ramp::new(options);
-    ramp.hold(PerSide::default(), REST);
+    ramp.hold(PerSide::default(), REST_DURATION);
     loop {
         for speeds in &manoeuvres {
-            ramp.hold(*speeds, STEADY);
-            ramp.hold(PerSide::default(), REST);
+            ramp.hold(*speeds, STEADY_DURATION);
+            ramp.hold(PerSide::default(), REST_DURATION);
             if options.duration.is_some_and(|duration| ramp.time() >= duration) {
                 return ramp.finish();
             }

@@ -10,7 +10,7 @@ use trackdyn_core::pose::wrap_angle;
 use trackdyn_core::{Command, PerSide, Plant, Pose, Trajectory, real};
 
 /// Time for which the tracks are held still at the end, s: what rolls on does so within it.
-const SETTLING: f64 = 0.3;
+const SETTLING_TIME: f64 = 0.3;
 
 /// What a drive depends on beside robot, path, tracker and kinematics.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +50,8 @@ pub fn drive(
     let shortest = 2.0 * (constants.icrs.y - tracker.point[0]);
     if tracker.look_ahead <= shortest {
         let expected = format!(
-            "more than {shortest} m, twice the distance by which the tracked point lies behind the ICRs"
+            "more than {shortest} m, twice the distance by which the tracked point lies behind the \
+             ICRs"
         );
         return Err(Error::option("look-ahead", &tracker.look_ahead, expected));
     }
@@ -78,7 +79,7 @@ pub fn drive(
                 let (speeds, _) = steering.track_speeds(forward, yaw_rate);
                 (limited(speeds, tracker.belt_speed), until)
             }
-            None => (PerSide::default(), until + SETTLING),
+            None => (PerSide::default(), until + SETTLING_TIME),
         };
         if wanted.is_none() {
             ending = Some(Ending::Arrived);

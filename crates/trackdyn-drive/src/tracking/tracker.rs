@@ -69,7 +69,7 @@ impl Default for Tracker {
 
 impl Tracker {
     /// Farthest point of the robot that follows a path, m from the middle.
-    pub const FARTHEST: f64 = 100.0;
+    pub const MAX_POINT_DISTANCE: f64 = 100.0;
 
     /// Checks the values.
     ///
@@ -95,8 +95,8 @@ impl Tracker {
             }
         }
         for (name, value) in [("point forward", self.point[0]), ("point left", self.point[1])] {
-            if !(-Self::FARTHEST..=Self::FARTHEST).contains(&value) {
-                let expected = format!("at most {} m from the middle", Self::FARTHEST);
+            if !(-Self::MAX_POINT_DISTANCE..=Self::MAX_POINT_DISTANCE).contains(&value) {
+                let expected = format!("at most {} m from the middle", Self::MAX_POINT_DISTANCE);
                 return Err(Error::option(name, &value, expected));
             }
         }

@@ -5,7 +5,7 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use trackdyn_core::real;
 
 /// Length of a block whose residuals may be correlated, s.
-const BLOCK: f64 = 5.0;
+const BLOCK_DURATION: f64 = 5.0;
 
 /// Pose intervals with their instruments, and where to look for the offset.
 pub(super) struct Moments<'a> {
@@ -36,7 +36,7 @@ pub(super) struct Estimate {
 impl<'a> Moments<'a> {
     /// Instruments for offsets around `coarse`; none where no interval has readings around it.
     pub(super) fn new(intervals: &'a Intervals, coarse: f64) -> Option<Self> {
-        let width = intervals.track_interval + super::COARSE;
+        let width = intervals.track_interval + super::SEARCH_STEP;
         let mut rows = Vec::new();
         for (index, run) in intervals.runs.iter().enumerate() {
             for turn in &run.turns {
@@ -48,13 +48,13 @@ impl<'a> Moments<'a> {
                 }
                 let lag = run.difference(turn, coarse + away);
                 let lead = run.difference(turn, coarse - away);
-                let block = (index, (turn.start / BLOCK).floor());
+                let block = (index, (turn.start / BLOCK_DURATION).floor());
                 let instruments = [lead + lag, turn.end - turn.start, lead - lag];
                 rows.push(Row { run, turn, block, instruments });
             }
         }
         let track_interval = intervals.track_interval;
-        (rows.len() >= super::FEWEST).then_some(Self { rows, coarse, width, track_interval })
+        (rows.len() >= super::MIN_INTERVALS).then_some(Self { rows, coarse, width, track_interval })
     }
 
     pub(super) fn count(&self) -> usize {

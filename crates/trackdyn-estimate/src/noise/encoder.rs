@@ -6,11 +6,11 @@ use trackdyn_core::robust::{deviation_about_zero, median};
 use trackdyn_recording::{Recording, TrackSample};
 
 /// Fewer triples than this say nothing.
-const FEWEST: usize = 30;
+const MIN_TRIPLES: usize = 30;
 
 /// A speed that is held for longer, s, or for more readings, is told, not measured.
-const HELD: f64 = 0.5;
-const HELD_READINGS: f64 = 10.0;
+const MAX_HOLD_TIME: f64 = 0.5;
+const MAX_HOLD_READINGS: f64 = 10.0;
 
 /// The noise of one side while its track runs; none of speeds that are told, whose changes are the
 /// driving.
@@ -45,11 +45,11 @@ pub(super) fn noise(recording: &Recording, side: Side) -> Option<EncoderNoise> {
             intervals.push(t_b - t_a);
         }
     }
-    if residuals.len() < FEWEST {
+    if residuals.len() < MIN_TRIPLES {
         return None;
     }
     let update_interval = median(&mut intervals)?;
-    if update_interval > HELD.min(HELD_READINGS * median(&mut readings)?) {
+    if update_interval > MAX_HOLD_TIME.min(MAX_HOLD_READINGS * median(&mut readings)?) {
         return None;
     }
     let triples = residuals.len();

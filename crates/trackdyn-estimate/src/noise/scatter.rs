@@ -42,7 +42,7 @@ fn line_triples(
 }
 
 /// Triples of neighbours that a scatter needs.
-const FEWEST_TRIPLES: usize = 10;
+const MIN_TRIPLES: usize = 10;
 
 /// Standard deviation of a channel, in its unit, from neighbours on lines of one track speed; no
 /// model enters. None without enough of them.
@@ -55,7 +55,7 @@ pub fn scatter(
     let triples = line_triples(points, channel).into_iter();
     let smooth = triples.filter(|triple| !jumps(triple.across));
     let mut off: Vec<f64> = smooth.map(|triple| triple.off).collect();
-    if off.len() < FEWEST_TRIPLES {
+    if off.len() < MIN_TRIPLES {
         return None;
     }
     let rms = (off.iter().map(|off| off * off).sum::<f64>() / real(off.len())).sqrt();

@@ -11,20 +11,20 @@ use trackdyn_recording::{PoseSample, Recording, Run};
 const STEPS: [usize; 4] = [1, 2, 4, 8];
 
 /// Longer triples show driving, not noise, s.
-const LONGEST: f64 = 2.5;
+const MAX_DURATION: f64 = 2.5;
 
 /// Triples that turn more between two of their poses are left out, rad: the propagation of noise
 /// through [`body_velocity`] is that of small turns.
-const LARGEST_TURN: f64 = 1.0;
+const MAX_TURN: f64 = 1.0;
 
 /// Fewer triples than this say nothing.
-const FEWEST: usize = 30;
+const MIN_TRIPLES: usize = 30;
 
 /// Time after which a robot whose encoders show zero stands, also in late poses, s.
-const SETTLING: f64 = 0.5;
+const SETTLING_TIME: f64 = 0.5;
 
 /// Speeds of the two halves of a triple may differ by this many standard deviations.
-const STEADY: f64 = 2.0;
+const MAX_SPEED_CHANGE: f64 = 2.0;
 
 /// Triples of one number of steps.
 #[derive(Default)]
@@ -108,7 +108,7 @@ fn still(run: &Run) -> Vec<[f64; 2]> {
     });
     stretches
         .filter(|stretch| stretch[0].v_left == 0.0 && stretch[0].v_right == 0.0)
-        .map(|stretch| [stretch[0].t + SETTLING, stretch[stretch.len() - 1].t])
+        .map(|stretch| [stretch[0].t + SETTLING_TIME, stretch[stretch.len() - 1].t])
         .collect()
 }
 
@@ -136,7 +136,7 @@ fn is_steady(
     let moves = Side::BOTH.iter().any(|&side| before[side] != 0.0);
     moves
         && Side::BOTH.iter().all(|&side| {
-            let allowed = deviation[side].unwrap_or(0.0) * STEADY * spread;
+            let allowed = deviation[side].unwrap_or(0.0) * MAX_SPEED_CHANGE * spread;
             // Without noise, rounding of the means is what is left.
             (after[side] - before[side]).abs() <= allowed.max(1e-9)
         })
@@ -151,8 +151,8 @@ fn gather(
         for triple in poses.windows(2 * steps + 1) {
             let triple = [&triple[0], &triple[steps], &triple[2 * steps]];
             let turn = |from: usize| triple[from + 1].pose.yaw - triple[from].pose.yaw;
-            let is_small = turn(0).abs() <= LARGEST_TURN && turn(1).abs() <= LARGEST_TURN;
-            if is_small && triple[2].t - triple[0].t <= LONGEST && accept(triple) {
+            let is_small = turn(0).abs() <= MAX_TURN && turn(1).abs() <= MAX_TURN;
+            if is_small && triple[2].t - triple[0].t <= MAX_DURATION && accept(triple) {
                 group.add(triple);
             }
         }
@@ -161,13 +161,13 @@ fn gather(
 
 fn figures(groups: &[Group; 4], method: Method) -> Option<PoseNoise> {
     let triples = groups[0].count();
-    if triples < FEWEST {
+    if triples < MIN_TRIPLES {
         return None;
     }
     let component = |coordinate: usize| {
         let mut rows = Vec::new();
         for (group, steps) in groups.iter().zip(STEPS) {
-            if group.count() < FEWEST {
+            if group.count() < MIN_TRIPLES {
                 continue;
             }
             let count = real(group.count());

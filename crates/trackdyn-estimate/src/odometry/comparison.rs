@@ -74,10 +74,10 @@ impl Comparison {
     }
 
     /// The spans that show growth, from segments on: distances, or durations where runs are too
-    /// short for two distances with [`Comparison::ENOUGH`] stretches.
+    /// short for two distances with [`Comparison::MIN_STRETCHES`] stretches.
     pub fn growth(&self) -> Vec<&SpanErrors> {
         let of = |is: fn(&Span) -> bool| -> Vec<&SpanErrors> {
-            let often = |errors: &&SpanErrors| errors.count >= Self::ENOUGH;
+            let often = |errors: &&SpanErrors| errors.count >= Self::MIN_STRETCHES;
             self.spans.iter().filter(|errors| is(&errors.span)).filter(often).collect()
         };
         let distances = of(|span| matches!(span, Span::Segment | Span::Distance(_)));
@@ -91,7 +91,7 @@ impl Comparison {
     }
 
     /// Stretches that make a statistic worth showing.
-    pub const ENOUGH: usize = 20;
+    pub const MIN_STRETCHES: usize = 20;
 
     /// Time that was replayed, s.
     pub fn duration(&self) -> f64 {

@@ -4,14 +4,14 @@
 use crate::Interval;
 
 /// Fewer blocks have no interval.
-pub const FEWEST: usize = 5;
+pub const MIN_BLOCKS: usize = 5;
 
 /// A number with its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The number over all blocks.
     pub value: f64,
-    /// Half the width of the interval; none where there are fewer than [`FEWEST`] blocks.
+    /// Half the width of the interval; none where there are fewer than [`MIN_BLOCKS`] blocks.
     pub half_width: Option<f64>,
     /// Whether it is a size, never below zero.
     pub is_size: bool,
@@ -38,7 +38,7 @@ pub(crate) fn estimate<const N: usize>(
         blocks.iter().fold([0.0; N], |total, block| std::array::from_fn(|k| total[k] + block[k]));
     let value = statistic(&total);
     let count = blocks.len();
-    if count < FEWEST {
+    if count < MIN_BLOCKS {
         return Estimate { value, half_width: None, is_size: false };
     }
     let without: Vec<f64> = blocks

@@ -38,11 +38,11 @@ impl Span {
 
     fn is_reached(self, distance: f64, duration: f64) -> bool {
         // Rounding must not lengthen a piece by a segment.
-        const SLACK: f64 = 1.0 - 1e-9;
+        const ROUNDING_SLACK: f64 = 1.0 - 1e-9;
         match self {
             Self::Segment => true,
-            Self::Distance(length) => distance >= length * SLACK,
-            Self::Duration(length) => duration >= length * SLACK,
+            Self::Distance(length) => distance >= length * ROUNDING_SLACK,
+            Self::Duration(length) => duration >= length * ROUNDING_SLACK,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Segments side by side, for the compiler to put into vector registers.
 
-use super::series::REACH;
+use super::series::MAX_SERIES_ANGLE;
 use crate::observations::{Observations, Piece};
 
 /// Segments that are computed side by side.
@@ -50,6 +50,6 @@ impl Batch {
     /// robot by these angles per metre, rad/m. Readings of fast robots at less than one a second
     /// may.
     pub fn is_within_series(&self, [left, right]: [f64; 2]) -> bool {
-        left.abs() * self.longest[0] + right.abs() * self.longest[1] <= REACH
+        left.abs() * self.longest[0] + right.abs() * self.longest[1] <= MAX_SERIES_ANGLE
     }
 }

@@ -17,10 +17,10 @@ use crate::parameters::{COUNT, Parameters};
 use rayon::prelude::*;
 
 /// Batches that one thread takes at least: fewer cost more to hand over than to compute.
-const FEWEST: usize = 64;
+const MIN_BATCHES_PER_THREAD: usize = 64;
 
 /// Angle of a piece, rad, up to which the series are exact to rounding.
-const SERIES: f64 = 0.8;
+const MAX_EXACT_ANGLE: f64 = 0.8;
 
 /// The segments of a recording, to be predicted again and again.
 pub struct Lanes<'a> {
@@ -45,7 +45,7 @@ impl<'a> Lanes<'a> {
             .batches
             .par_iter()
             .zip(self.observations.segments().par_chunks(LANES))
-            .with_min_len(FEWEST)
+            .with_min_len(MIN_BATCHES_PER_THREAD)
             .map(|(batch, segments)| predicted(batch, segments, parameters, self.observations))
             .collect();
         let mut predictions = batches.into_flattened();
@@ -93,7 +93,7 @@ fn predicted(
             sin[lane] = im * cos_a + re * sin_a;
         }
     }
-    if steepest.iter().any(|angle| *angle > SERIES) {
+    if steepest.iter().any(|angle| *angle > MAX_EXACT_ANGLE) {
         return std::array::from_fn(|lane| {
             let segment = segments.get(lane);
             predict(parameters, segment.map_or(&[], |s| observations.pieces(s)))

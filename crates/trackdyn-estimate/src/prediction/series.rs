@@ -2,7 +2,7 @@
 //! not be, and for the compiler to put side by side.
 
 /// Angle, rad, up to which [`arc`] is exact to 1e-10.
-pub(crate) const REACH: f64 = 2.0;
+pub(crate) const MAX_SERIES_ANGLE: f64 = 2.0;
 
 /// sin a/a and (1 − cos a)/a by their series, to rounding up to a = 0.8 and to 1e-10 up to a = 2.
 #[inline]
@@ -31,7 +31,7 @@ pub(crate) fn arc(a: f64) -> (f64, f64) {
 /// The same of any angle, to 1e-10 for each 2 rad: sin 2h = 2 sin h cos h and 1 − cos 2h = 2 sin²
 /// h.
 pub(crate) fn any_arc(a: f64) -> (f64, f64) {
-    if a.abs() <= REACH {
+    if a.abs() <= MAX_SERIES_ANGLE {
         return arc(a);
     }
     let h = 0.5 * a;

@@ -15,7 +15,7 @@ use trackdyn_recording::OperatingPoint;
 
 /// A shortfall of this many standard deviations is none of chance: of a hundred thousand pairs of
 /// points one exceeds 4.4, and the worst of many pairs is what is looked at.
-const CERTAIN: f64 = 5.0;
+const MIN_SHORTFALL: f64 = 5.0;
 
 /// A point that lags.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +51,7 @@ pub fn lagging(points: &[OperatingPoint]) -> Vec<Lagging> {
         let Some(&(than, _, other_rate)) = fastest else { continue };
         let shortfall = sense * (other_rate - rate);
         let certainty = shortfall / (scatter * std::f64::consts::SQRT_2);
-        if point.v_right != point.v_left && certainty > CERTAIN {
+        if point.v_right != point.v_left && certainty > MIN_SHORTFALL {
             found.push(Lagging { point: index, than, shortfall, certainty });
         }
     }

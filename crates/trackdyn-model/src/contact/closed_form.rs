@@ -25,16 +25,16 @@ use trackdyn_core::{Scalar, Wrench};
 ///
 /// The sum over the edges loses digits with the distance, while the Gauss rule of the far field
 /// gains them as the integrand turns smooth: at this distance both are exact to rounding.
-const REACH: f64 = 6.0;
+const MAX_DISTANCE: f64 = 6.0;
 
 /// The same where half the digits are enough, which the closed form keeps farther out, at a half to
 /// a quarter of the cost.
-const REACH_COARSE: f64 = 50.0;
+const MAX_COARSE_DISTANCE: f64 = 50.0;
 
 /// Whether the closed form keeps its digits for this patch and slip.
 #[inline]
 pub fn applies<S: Scalar>(patch: &Patch, slip: &SlipField<S>, resolution: Resolution) -> bool {
-    let reach = if resolution == Resolution::Fine { REACH } else { REACH_COARSE };
+    let reach = if resolution == Resolution::Fine { MAX_DISTANCE } else { MAX_COARSE_DISTANCE };
     distance_squared(patch, slip) < reach * reach
 }
 

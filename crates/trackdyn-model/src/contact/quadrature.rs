@@ -40,14 +40,16 @@ impl Rule {
 /// Distances of the ICR, in half diagonals of the patch, from which on n nodes each way suffice.
 /// Pressure and lever are linear along the track, so the error falls as (2 d)^(2−2n): 10⁻¹⁶ at
 /// these, but for the last, whose ICRs begin where the closed form ends.
-const FAR: [(f64, usize); 6] = [(5000.0, 3), (232.0, 4), (50.0, 5), (20.0, 6), (10.8, 7), (0.0, 8)];
+const NODES_BY_DISTANCE: [(f64, usize); 6] =
+    [(5000.0, 3), (232.0, 4), (50.0, 5), (20.0, 6), (10.8, 7), (0.0, 8)];
 
-/// The rules of [`FAR`].
-static FAR_FIELD: LazyLock<[Rule; FAR.len()]> = LazyLock::new(|| FAR.map(|(_, n)| Rule::new(n, n)));
+/// The rules of [`NODES_BY_DISTANCE`].
+static FAR_FIELD: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
+    LazyLock::new(|| NODES_BY_DISTANCE.map(|(_, n)| Rule::new(n, n)));
 
 /// The same to half the digits, 10⁻⁸: the exponent 2n − 2 is halved.
-static FAR_FIELD_COARSE: LazyLock<[Rule; FAR.len()]> =
-    LazyLock::new(|| FAR.map(|(_, n)| n / 2 + 1).map(|n| Rule::new(n, n)));
+static FAR_FIELD_COARSE: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
+    LazyLock::new(|| NODES_BY_DISTANCE.map(|(_, n)| n / 2 + 1).map(|n| Rule::new(n, n)));
 
 /// Resolves a shear stress that builds up over a percent of the track's length.
 static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(8, 24));
@@ -91,8 +93,8 @@ pub fn far_field_wrench<'p, S: Scalar>(
     let mut wrench = Wrench::zero();
     for patch in patches {
         let distance = distance_squared(patch, slip).sqrt();
-        let reached = FAR.iter().position(|(from, _)| distance >= *from);
-        let rule = &rules[reached.unwrap_or(FAR.len() - 1)];
+        let reached = NODES_BY_DISTANCE.iter().position(|(from, _)| distance >= *from);
+        let rule = &rules[reached.unwrap_or(NODES_BY_DISTANCE.len() - 1)];
         wrench += integrate(rule, &Panels::whole(patch), slip, |site| {
             site.traction(friction, pressure, [unit, unit])
         });
@@ -102,9 +104,9 @@ pub fn far_field_wrench<'p, S: Scalar>(
 
 /// Wrench about the origin of the stress that a shear law adds to the base law.
 ///
-/// `law` gives factor f and added stress at a site. Only the departure f (τ + τ_added) − τ from the base
-/// law is integrated, on panels cut at the ICR: the base law itself stays exact, and a weak effect
-/// has a small error.
+/// `law` gives factor f and added stress at a site. Only the departure f (τ + τ_added) − τ from the
+/// base law is integrated, on panels cut at the ICR: the base law itself stays exact, and a weak
+/// effect has a small error.
 pub fn departure_wrench<S: Scalar>(
     patches: &[Patch],
     friction: Friction,
@@ -203,7 +205,7 @@ struct Panels<S> {
 
 /// Turn of the unit slip over the patch below which the ICR is so far that a cut would run through
 /// the patch faster than digits follow.
-const NO_TURN: f64 = 1e-9;
+const MIN_TURN: f64 = 1e-9;
 
 impl<S: Scalar> Panels<S> {
     /// The whole patch.
@@ -217,7 +219,7 @@ impl<S: Scalar> Panels<S> {
     /// The slip direction jumps there, and its components change sign along the lines through it.
     /// The nodes move with the cuts: the sum stays a smooth function of the motion.
     fn cut(patch: &Patch, slip: &SlipField<S>) -> Self {
-        if slip.rotation.value().abs() * patch.width().hypot(patch.length()) < NO_TURN {
+        if slip.rotation.value().abs() * patch.width().hypot(patch.length()) < MIN_TURN {
             return Self::whole(patch);
         }
         let [icr_x, icr_y] = slip.icr();

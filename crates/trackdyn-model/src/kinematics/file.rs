@@ -312,14 +312,14 @@ impl Divisors {
 }
 
 /// Distance from which on an ICR is none that a robot turns about, m.
-const FARTHEST: f64 = 1e4;
+const MAX_ICR_DISTANCE: f64 = 1e4;
 
 /// Refuses a coordinate of an ICR that is no place near a robot, m.
 fn near(document: &Document, value: &Spanned<f64>, key: &str) -> Result<(), DocumentError> {
-    if value.get_ref().abs() <= FARTHEST {
+    if value.get_ref().abs() <= MAX_ICR_DISTANCE {
         return Ok(());
     }
-    let expected = format!("a number of m, at most {FARTHEST} from the robot");
+    let expected = format!("a number of m, at most {MAX_ICR_DISTANCE} from the robot");
     Err(document.value_error(value.span(), key, expected))
 }
 

@@ -10,11 +10,11 @@ const TOLERANCE: Tolerance = Tolerance { converged: 1e-11, rounding: 1e-9 };
 
 /// Unknowns of belts that follow their sprockets: the departure from straight driving at the left
 /// belt's speed.
-const FIRM: usize = 3;
+const UNKNOWNS_WITHOUT_SLIP: usize = 3;
 
 /// Unknowns of belts that slip on them: the traction of both sides over their normal load beside
 /// it.
-const SLIPPING: usize = 5;
+const UNKNOWNS_WITH_SLIP: usize = 5;
 
 /// What is held fixed while the twist is sought.
 pub struct Stage<'a> {
@@ -55,8 +55,8 @@ pub struct Balanced {
 pub enum Inverse {
     #[default]
     Unknown,
-    Firm(SMatrix<f64, FIRM, FIRM>),
-    Slipping(SMatrix<f64, SLIPPING, SLIPPING>),
+    Firm(SMatrix<f64, UNKNOWNS_WITHOUT_SLIP, UNKNOWNS_WITHOUT_SLIP>),
+    Slipping(SMatrix<f64, UNKNOWNS_WITH_SLIP, UNKNOWNS_WITH_SLIP>),
 }
 
 impl Stage<'_> {
@@ -180,7 +180,7 @@ impl Stage<'_> {
 #[inline]
 fn traction<S: Scalar, const N: usize>(z: &[S; N]) -> PerSide<S> {
     let at = |k: usize| z.get(k).copied().unwrap_or(S::from(0.0));
-    PerSide::new(at(FIRM), at(FIRM + 1))
+    PerSide::new(at(UNKNOWNS_WITHOUT_SLIP), at(UNKNOWNS_WITHOUT_SLIP + 1))
 }
 
 /// The forces on the body with the friction of tracks that stick below the slip velocity `creep`,

@@ -11,10 +11,10 @@ use trackdyn_core::robust::median;
 pub const MIN_GAP_RATIO: f64 = 5.0;
 
 /// An interval below this part of the median one is too short for two separate measurements.
-const CROWDED: f64 = 0.1;
+const MIN_INTERVAL_RATIO: f64 = 0.1;
 
 /// Way of a track, m, that no pose sensor overlooks.
-const STANDING: f64 = 0.005;
+const MAX_STANDING_DISTANCE: f64 = 0.005;
 
 /// Drops rows that are not finite, sorts by time, and keeps the first row of each stamp.
 pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut Vec<Cleaning>) {
@@ -74,7 +74,7 @@ pub(super) fn held(
     let mut repeated = Vec::new();
     for equal in poses.chunk_by(|a, b| a.pose == b.pose) {
         let PerSide { left, right } = travelled(tracks, equal[0].t, equal[equal.len() - 1].t, 0.0);
-        if left.abs().max(right.abs()) > STANDING {
+        if left.abs().max(right.abs()) > MAX_STANDING_DISTANCE {
             repeated.extend(equal[1..].iter().map(|sample| sample.t));
         }
     }
@@ -103,7 +103,7 @@ fn intervals<S: Sample>(samples: &[S], mut report: impl FnMut(Finding, usize, f6
         }
         report(finding(longest), count, first);
     };
-    of(&|length| length < CROWDED * usual, &|_| Finding::Crowded);
+    of(&|length| length < MIN_INTERVAL_RATIO * usual, &|_| Finding::Crowded);
     of(&|length| length > MIN_GAP_RATIO * usual, &|longest| Finding::Gap { longest });
 }
 

@@ -187,14 +187,14 @@ impl fmt::Display for Warning {
             }
             Self::PartMissing { path } => write!(
                 f,
-                "{}: listed in metadata.yaml, and not there or packed (zstd -d unpacks .zstd files); \
-                 what it holds is missing",
+                "{}: listed in metadata.yaml, and not there or packed (zstd -d unpacks .zstd \
+                 files); what it holds is missing",
                 path.display()
             ),
             Self::OwnOdometry { poses } => write!(
                 f,
-                "{poses}: if it comes from the tracks themselves, it agrees with any model of them: poses have \
-                 to come from something else"
+                "{poses}: if it comes from the tracks themselves, it agrees with any model of \
+                 them: poses have to come from something else"
             ),
             Self::MessagesSkipped { topic, count, reason } => {
                 write!(f, "{topic}: {count} messages skipped, the first because {reason}")
@@ -207,8 +207,8 @@ impl fmt::Display for Warning {
             }
             Self::JointJumps { joint, count, t } => write!(
                 f,
-                "{joint}: {count} jumps of its position by more than half a turn that are no wraps, \
-                 left as they are (the first at t = {t} s)"
+                "{joint}: {count} jumps of its position by more than half a turn that are no \
+                 wraps, left as they are (the first at t = {t} s)"
             ),
             Self::Chosen { what, taken } => write!(f, "{what}: took {taken}"),
         }

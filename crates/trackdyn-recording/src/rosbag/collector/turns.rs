@@ -16,7 +16,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Positions of one joint may span this much beyond a turn and still be modulo a turn, rad: single
 /// precision and coarse encoders round them.
-const ROUNDING: f64 = 1e-3;
+const POSITION_ROUNDING: f64 = 1e-3;
 
 /// Adds whole turns to the positions of joints that wrap. `joints` are their names, `seconds` the
 /// time of a stamp.
@@ -74,7 +74,7 @@ impl Steps {
         let values = || angles.iter().map(|&(_, angle)| angle);
         let span =
             values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
-        let within_a_turn = span <= TAU + ROUNDING;
+        let within_a_turn = span <= TAU + POSITION_ROUNDING;
         let mut steps = Self { turns: Vec::new(), wraps: 0, jumps: Vec::new() };
         let (mut turns, mut before) = (0.0, 0.0);
         steps.turns.extend(values().take(1).map(|_| 0.0));

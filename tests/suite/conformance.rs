@@ -4,3 +4,4 @@ mod arrows;
 mod circles;
 mod crates;
 mod parity;
+mod words;

@@ -170,7 +170,7 @@ mod tests {
     use num_dual::{Dual64, DualNum};
     use num_traits::Signed;
 
-    /// The same expression in ours and in num-dual's numbers: every operation of [`Scalar`].
+    /// An expression of every operation of [`Scalar`], for our numbers and those of num-dual.
     macro_rules! expression {
         ($a:expr, $b:expr) => {{
             let (a, b) = ($a, $b);

@@ -27,7 +27,7 @@ pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
     write(path, contents, tempfile::Builder::new().permissions(permissions()))
 }
 
-/// The same of a file that nobody but its owner reads, as temporary files are.
+/// Writes a file as [`write_file`] does, but one that nobody but its owner can read.
 ///
 /// # Errors
 /// As [`write_file`].

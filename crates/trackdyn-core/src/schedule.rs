@@ -89,7 +89,7 @@ impl Schedule {
         self.commands[after.saturating_sub(1)].speeds
     }
 
-    /// The same so much later, s.
+    /// The schedule with all its times shifted, s.
     pub fn later(mut self, by: f64) -> Self {
         self.commands.iter_mut().for_each(|command| command.t += by);
         self

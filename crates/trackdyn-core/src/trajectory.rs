@@ -33,7 +33,7 @@ impl Trajectory {
         self.moments.push(moment);
     }
 
-    /// The same so much later, s.
+    /// The trajectory with all its times shifted, s.
     pub fn later(mut self, by: f64) -> Self {
         self.moments.iter_mut().for_each(|moment| moment.t += by);
         self

@@ -65,7 +65,7 @@ fn ranges(gauge: f64) -> [[f64; 2]; COUNT] {
 
 /// Evolves the parameters. `progress` is told each finished generation.
 ///
-/// The same seed gives the same result on any number of threads: only costs are computed in
+/// The result depends on the seed and not on the number of threads: only costs are computed in
 /// parallel.
 ///
 /// # Panics

@@ -40,7 +40,7 @@ pub struct Fit {
     pub free: Free,
     /// The genetic algorithm's, by the cost (17).
     pub genetic: GeneticEstimate,
-    /// The same with the uncertainty that the cost (17) has there.
+    /// The genetic result as an estimate, with the uncertainty that the cost (17) has there.
     pub genetic_estimate: Estimate,
     /// Least squares by the noise, or why not.
     pub least_squares: Result<Estimate, Error>,

@@ -67,7 +67,7 @@ pub struct Component {
 pub struct EncoderNoise {
     /// Standard deviation of a reading, m/s.
     pub deviation: f64,
-    /// The same per median speed, 1.
+    /// The standard deviation per median speed, 1.
     pub relative: f64,
     /// Median time between readings that differ, s: longer than between stamps where the source
     /// holds its readings.

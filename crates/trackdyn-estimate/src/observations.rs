@@ -123,7 +123,7 @@ impl Observations {
         Self { segments: kept, pieces: Vec::new(), tau, tau_margin, tracks }.at(tau)
     }
 
-    /// The same segments at another clock offset, s: other readings go with the same poses.
+    /// These segments at another clock offset, s: other readings go with their poses.
     pub fn at(&self, tau: f64) -> Self {
         let mut pieces = Vec::with_capacity(self.pieces.len());
         let mut segments = self.segments.clone();

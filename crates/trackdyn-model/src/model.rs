@@ -73,7 +73,7 @@ impl Model {
         Self { vehicle, effects, patches, footprint, extent, drive, sensor, shear_laws, resolution }
     }
 
-    /// The same with the shear stress integrated this finely.
+    /// This model with the shear stress integrated this finely.
     pub fn with_resolution(self, resolution: Resolution) -> Self {
         Self { resolution, ..self }
     }

@@ -17,7 +17,7 @@ impl Tolerance {
     /// For friction that has half the digits.
     const COARSE: Self = Self { converged: 1e-8, rounding: 1e-7 };
 
-    /// The same for friction of this resolution: no root is finer.
+    /// The tolerance for friction of this resolution: a root is no finer than that.
     pub fn at(self, resolution: Resolution) -> Self {
         if resolution == Resolution::Fine { self } else { Self::COARSE }
     }

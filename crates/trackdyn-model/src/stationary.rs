@@ -101,7 +101,7 @@ impl<'m> Stationary<'m> {
         Self { model, ground: model.ground(circumstance), scale, near }
     }
 
-    /// The same solver with this motion as its first start, where one is known.
+    /// This solver with this motion as its first start, where one is known.
     pub fn starting_at(&self, near: Option<Near>) -> Self {
         Self { near: near.or(self.near), ..self.clone() }
     }

@@ -141,31 +141,31 @@ impl<'m> Transient<'m> {
         }
     }
 
-    /// The same with another longest step, s.
+    /// This motion with another longest step, s.
     pub fn with_step(self, longest_step: f64) -> Self {
         Self { longest_step, ..self }
     }
 
-    /// The same with steps halved where the error of the twist, of the yaw rate that of the tracks,
-    /// is estimated as larger than `tolerance`, m/s.
+    /// This motion with steps halved where the estimated error of the twist is larger than
+    /// `tolerance`, m/s; the yaw rate counts by the speeds of the tracks.
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
     }
 
-    /// The same with tracks that stick below another slip velocity than [`STICKING_SLIP_VELOCITY`],
-    /// m/s: larger ones are solved sooner.
+    /// This motion with tracks that stick below another slip velocity than
+    /// [`STICKING_SLIP_VELOCITY`], m/s: larger ones are solved sooner.
     pub fn with_creep(self, creep: f64) -> Self {
         Self { creep, ..self }
     }
 
-    /// The same, going on where part of the contact lifts, with a pressure that stays linear and
-    /// pulls there, until the robot tips over. Where the load shifts by 1 + ε times what keeps all
+    /// This motion, continued where part of the contact lifts until the robot tips over: the
+    /// pressure stays linear, and pulls there. Where the load shifts by 1 + ε times what keeps all
     /// of the contact down, forces are off by a part of ε².
     pub fn with_pull(self) -> Self {
         Self { may_pull: true, ..self }
     }
 
-    /// The same, keeping its steps.
+    /// This motion, keeping its steps.
     pub fn with_steps(self) -> Self {
         Self { steps: Some(Vec::new()), ..self }
     }
@@ -175,7 +175,7 @@ impl<'m> Transient<'m> {
         self.steps.unwrap_or_default()
     }
 
-    /// The same with another twist (paper's frame).
+    /// This motion with another twist (paper's frame).
     pub fn with_twist(mut self, twist: Twist) -> Self {
         self.state.twist = twist;
         self

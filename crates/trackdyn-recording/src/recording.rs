@@ -98,7 +98,7 @@ impl Recording {
         })
     }
 
-    /// The same recording with a statement of its pose noise.
+    /// This recording with a statement of its pose noise.
     pub fn with_stated_noise(mut self, noise: Option<StatedNoise>) -> Self {
         self.stated_noise = noise;
         self

@@ -51,7 +51,7 @@ pub(crate) fn estimate<const N: usize>(
     Estimate { value, half_width, is_size: false }
 }
 
-/// The same of a statistic that is never below zero.
+/// The estimate of a statistic that is never below zero.
 pub(crate) fn size<const N: usize>(
     blocks: &[Sums<N>],
     statistic: impl Fn(&Sums<N>) -> f64,

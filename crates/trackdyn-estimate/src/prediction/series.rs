@@ -28,8 +28,8 @@ pub(crate) fn arc(a: f64) -> (f64, f64) {
     (s, c)
 }
 
-/// The same of any angle, to 1e-10 for each 2 rad: sin 2h = 2 sin h cos h and 1 − cos 2h = 2 sin²
-/// h.
+/// What [`arc`] gives, for any angle and to 1e-10 for each 2 rad: the angle is halved, with
+/// sin 2h = 2 sin h cos h and 1 − cos 2h = 2 sin² h.
 pub(crate) fn any_arc(a: f64) -> (f64, f64) {
     if a.abs() <= MAX_SERIES_ANGLE {
         return arc(a);

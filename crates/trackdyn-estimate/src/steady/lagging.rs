@@ -26,7 +26,7 @@ pub struct Lagging {
     pub than: usize,
     /// By how much that one turns faster, rad/s.
     pub shortfall: f64,
-    /// The same in standard deviations of a difference.
+    /// The shortfall in standard deviations of a difference.
     pub certainty: f64,
 }
 

@@ -27,8 +27,8 @@ use trackdyn_core::{Scalar, Wrench};
 /// gains them as the integrand turns smooth: at this distance both are exact to rounding.
 const MAX_DISTANCE: f64 = 6.0;
 
-/// The same where half the digits are enough, which the closed form keeps farther out, at a half to
-/// a quarter of the cost.
+/// Distance to the ICR, in half diagonals of the patch, up to which the closed form is used where
+/// half the digits are enough. It keeps these farther out, at a half to a quarter of the cost.
 const MAX_COARSE_DISTANCE: f64 = 50.0;
 
 /// Whether the closed form keeps its digits for this patch and slip.

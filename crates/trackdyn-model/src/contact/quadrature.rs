@@ -47,7 +47,7 @@ const NODES_BY_DISTANCE: [(f64, usize); 6] =
 static FAR_FIELD: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
     LazyLock::new(|| NODES_BY_DISTANCE.map(|(_, n)| Rule::new(n, n)));
 
-/// The same to half the digits, 10⁻⁸: the exponent 2n − 2 is halved.
+/// The rules for half the digits, 10⁻⁸: the exponent 2n − 2 is halved.
 static FAR_FIELD_COARSE: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
     LazyLock::new(|| NODES_BY_DISTANCE.map(|(_, n)| n / 2 + 1).map(|n| Rule::new(n, n)));
 
@@ -58,13 +58,13 @@ static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(8, 24));
 /// quarter of the time.
 static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(4, 12));
 
-/// The same for a patch that is hardly longer than wide.
+/// [`COARSE`] for a patch that is hardly longer than wide.
 static COARSE_SHORT: LazyLock<Rule> = LazyLock::new(|| Rule::graded(6, 8));
 
 /// Resolves what a law changes to some hundredths of it, in an eighth of that time again.
 static ROUGH: LazyLock<Rule> = LazyLock::new(|| Rule::graded(1, 5));
 
-/// The same for a patch that is hardly longer than wide.
+/// [`ROUGH`] for a patch that is hardly longer than wide.
 static ROUGH_SHORT: LazyLock<Rule> = LazyLock::new(|| Rule::graded(2, 3));
 
 /// How finely the shear stress is integrated.
@@ -76,7 +76,8 @@ pub enum Resolution {
     /// The base law to eight digits, and what others change to a thousandth: for comparing with
     /// noisy data.
     Coarse,
-    /// The same, but what others change to some hundredths only: for what is a correction itself.
+    /// The base law to eight digits, and what others change to some hundredths: for what is a
+    /// correction itself.
     Rough,
 }
 

@@ -157,7 +157,8 @@ impl KinematicsFile {
         }
     }
 
-    /// The same with belt speeds per speeds that the encoders show, α; as it is where both are 1.
+    /// This file with α, the belt speeds per speeds that the encoders show; unchanged where both
+    /// are 1.
     pub fn with_alpha(self, alpha: PerSide<f64>) -> Self {
         if alpha == PerSide::new(1.0, 1.0) {
             return self;
@@ -275,7 +276,7 @@ struct Divisors {
     sector: Vec<SectorDivisors>,
 }
 
-/// The same of a sector.
+/// What a sector is divided by.
 #[derive(Deserialize)]
 struct SectorDivisors {
     x_icr_left_m: Spanned<f64>,

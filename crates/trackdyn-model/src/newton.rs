@@ -23,8 +23,8 @@ impl Tolerance {
     }
 }
 
-/// Residual below which one more step of a quadratic method is expected to be the last, so that
-/// its derivatives are not asked for.
+/// Residual below which one more step of a quadratic method is expected to be the last: its
+/// derivatives are then not computed.
 const LAST_STEP_RESIDUAL: f64 = 1e-6;
 
 const MAX_ITERATIONS: usize = 80;
@@ -68,7 +68,7 @@ pub struct Convergence<const N: usize> {
     pub inverse: Option<SMatrix<f64, N, N>>,
 }
 
-/// What a step without derivatives must leave of the residual at most.
+/// Largest ratio of the residuals after and before a step without derivatives.
 const MAX_RESIDUAL_RATIO: f64 = 0.6;
 
 /// Iterates from a `start` near a root without derivatives, by Broyden's method; none where that

@@ -204,8 +204,8 @@ struct Panels<S> {
     rows: [Option<[S; 2]>; 2],
 }
 
-/// Turn of the unit slip over the patch below which the ICR is so far that a cut would run through
-/// the patch faster than digits follow.
+/// Smallest turn of the unit slip over the patch at which it is cut at the ICR: below, the ICR is
+/// so far that the place of a cut has no digits.
 const MIN_TURN: f64 = 1e-9;
 
 impl<S: Scalar> Panels<S> {

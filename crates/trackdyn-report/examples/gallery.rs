@@ -1,4 +1,5 @@
-//! Writes figures of ICR maps of all kinds of vehicles into a folder, with the time that each takes.
+//! Writes figures of ICR maps of all kinds of vehicles into a folder, with the time that each
+//! takes.
 //!
 //! `cargo run --release -p trackdyn-report --example gallery -- <folder>`
 
@@ -81,7 +82,8 @@ fn draw(
     let model = Model::new(vehicle.clone(), effects);
     let map = IcrMap::solve(&model, Grid::new(points, 1.0)?, &Circumstance::default(), &|_| {});
     let start = Instant::now();
-    let picture = trackdyn_report::icr_map(&map, &model, &format!("gallery of figures, {name}"))?;
+    let figure = trackdyn_report::icr_map(&map, &model, &format!("gallery of figures, {name}"));
+    let picture = figure.to_png()?;
     println!(
         "{name:14} {:5.1} ms {:5} kB  counts {:?}",
         1e3 * start.elapsed().as_secs_f64(),
@@ -89,5 +91,6 @@ fn draw(
         map.counts(),
     );
     output::write_file(&folder.join(format!("{name}.png")), &picture)?;
+    output::write_file(&folder.join(format!("{name}.svg")), figure.to_svg()?.as_bytes())?;
     Ok(())
 }

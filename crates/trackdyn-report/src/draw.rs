@@ -44,9 +44,8 @@ impl Figure {
     /// # Errors
     /// [`Error`] where axes cannot be laid out.
     pub fn to_svg(&self) -> Result<String, Error> {
-        let mut paper = Svg::new(&self.name);
-        draw(self, &mut paper)?;
-        Ok(paper.file(self.size, &self.title))
+        let svg = self.to_svg_element()?;
+        Ok(svg.replacen("<svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"", 1))
     }
 
     /// An `svg` element for a page of HTML.

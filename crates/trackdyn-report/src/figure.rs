@@ -2,6 +2,7 @@
 
 mod axis;
 mod legend;
+mod matrix;
 mod panel;
 mod scale;
 mod series;
@@ -11,6 +12,7 @@ use serde::Serialize;
 
 pub use axis::{Axis, Ticks};
 pub use legend::{Entry, Legend, Swatch};
+pub use matrix::Matrix;
 pub use panel::{Label, Panel, around, equal_scale};
 pub use scale::{ColourBar, Paint, Scale};
 pub use series::{

@@ -3,8 +3,10 @@
 use super::Subject;
 use super::sheet::{self, rows};
 use super::words::{id, ids};
-use crate::colour::{BLUES, GREY, INK, Rgb, WHITE};
-use crate::figure::{Area, Axis, Boxes, ColourBar, Figure, Label, Paint, Panel, Rule, Scale};
+use crate::colour::{BLUES, GREY, INK, Rgb};
+use crate::figure::{
+    Area, Axis, Boxes, ColourBar, Figure, Label, Matrix, Paint, Panel, Rule, Scale,
+};
 use crate::text::{Horizontal, Style, TITLE_SIZE, Vertical, two_lines};
 use crate::ticks::number;
 use trackdyn_core::real;
@@ -22,9 +24,6 @@ const MAX_BAR: i32 = 640;
 const NAME: f32 = 22.0;
 /// Resemblance from which on its number is written.
 const MIN_WRITTEN: f64 = 0.5;
-/// Resemblance above which its number is white.
-const MIN_DARK: f64 = 0.6;
-
 /// Standard deviations, at a typical size, below which an effect only moves what is fitted anyway.
 const MIN_VISIBLE: f64 = 0.05;
 
@@ -61,28 +60,18 @@ pub(super) fn figure(subject: &Subject) -> Figure {
 
 fn matrix(subject: &Subject, order: &[usize], place: Area) -> Panel {
     let of = &subject.diagnosis.resemblance;
-    let mut panel = Panel::matrix(place, order.len(), order.len());
+    let names: Vec<_> = order.iter().map(|&k| name(subject, of.effects[k])).collect();
+    let pairs = order.iter().flat_map(|&a| order.iter().map(move |&b| (a, b)));
+    let cells = pairs.map(|(a, b)| {
+        let cosine = of.cosines[(a, b)];
+        (cosine, (a != b && cosine >= MIN_WRITTEN).then(|| number(100.0 * cosine, 0)))
+    });
     let scale = Scale::new(BLUES, [0.0, 1.0], "|cosine|");
     let bar = Area::new(place.right() + 40, place.top, 28, 400.min(place.height));
-    panel.colour_bars.push(ColourBar { place: bar, scale: scale.clone() });
-    let (mut boxes, mut values) = (Vec::new(), Vec::new());
-    for (row, &a) in order.iter().enumerate() {
-        let (text, colour) = name(subject, of.effects[a]);
-        let beside = [0.0, real(row) + 0.5];
-        panel.labels.push(Label::left_of(&text, beside, 16, (NAME, colour)));
-        panel.name_column(&text, row, (NAME, colour));
-        for (column, &b) in order.iter().enumerate() {
-            let cosine = of.cosines[(a, b)];
-            boxes.push([[real(column), real(row + 1)], [real(column + 1), real(row)]]);
-            values.push(cosine);
-            if a != b && cosine >= MIN_WRITTEN {
-                let colour = if cosine > MIN_DARK { WHITE } else { INK };
-                let middle = [real(column) + 0.5, real(row) + 0.5];
-                panel.labels.push(Label::on(&number(100.0 * cosine, 0), middle, (18.0, colour)));
-            }
-        }
-    }
-    panel.show_as("|cosine|", Boxes::new(boxes, Paint::Values { values, scale }));
+    let bar = ColourBar { place: bar, scale: scale.clone() };
+    let (rows, columns, cells) = (names.clone(), names, cells.collect());
+    let mut panel = Matrix { rows, columns, sizes: [NAME, 18.0], cells, scale }.panel(place, None);
+    panel.colour_bars.push(bar);
     panel
 }
 

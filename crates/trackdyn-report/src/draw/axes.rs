@@ -184,37 +184,6 @@ impl<P: Paper> DrawingBackend for Brush<'_, P> {
         Ok(())
     }
 
-    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
-        &mut self,
-        path: I,
-        style: &S,
-    ) -> Drawn {
-        let mut path = path.into_iter();
-        let Some(mut from) = path.next() else { return Ok(()) };
-        for to in path {
-            self.draw_line(from, to, style)?;
-            from = to;
-        }
-        Ok(())
-    }
-
-    fn draw_rect<S: BackendStyle>(
-        &mut self,
-        (left, top): BackendCoord,
-        (right, bottom): BackendCoord,
-        style: &S,
-        fill: bool,
-    ) -> Drawn {
-        let area = Area::new(left, top, right - left + 1, bottom - top + 1);
-        let colour = rgb(style.color());
-        if fill {
-            self.paper.fill(area, colour);
-        } else {
-            self.paper.outline(area, style.stroke_width().cast_signed(), colour);
-        }
-        Ok(())
-    }
-
     fn draw_text<S: BackendTextStyle>(
         &mut self,
         text: &str,

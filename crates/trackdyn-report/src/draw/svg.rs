@@ -12,12 +12,12 @@ use std::fmt::Write;
 const FONTS: &str = "DejaVu Sans,Verdana,Geneva,Roboto,Arial,sans-serif";
 
 /// How a shape is drawn. Neighbours that are drawn alike become one element.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, PartialEq)]
 enum Look {
-    /// Filled.
-    Fill(Rgb),
+    /// Filled with a colour or a definition.
+    Fill(String),
     /// Filled without smooth edges, so that neighbours leave no gaps.
-    CrispFill(Rgb),
+    CrispFill(String),
     /// Stroked with round ends, so many tenths of a pixel wide.
     Stroke(Rgb, i64),
 }
@@ -54,33 +54,23 @@ impl Svg {
         }
     }
 
-    /// The text of a file.
-    pub(super) fn file(self, size: [i32; 2], title: &str) -> String {
-        self.tagged(" xmlns=\"http://www.w3.org/2000/svg\"", size, title)
-    }
-
     /// The element of a page.
-    pub(super) fn element(self, size: [i32; 2], title: &str) -> String {
-        self.tagged("", size, title)
-    }
-
-    fn tagged(mut self, attributes: &str, [width, height]: [i32; 2], title: &str) -> String {
+    pub(super) fn element(mut self, [width, height]: [i32; 2], title: &str) -> String {
         self.flush();
         let title = escaped(title);
         // Whole numbers are the centres of pixels
-        let paper = rectangle([-5, -5], [10 * i64::from(width), 10 * i64::from(height)], "#fff");
         format!(
-            "<svg{attributes} role=\"img\" aria-label=\"{title}\" \
-             viewBox=\"-.5 -.5 {width} {height}\" font-family=\"{FONTS}\" fill=\"none\" \
-             stroke-linecap=\"round\" stroke-linejoin=\"round\">\
-             <defs>{}</defs>{paper}{}</svg>",
+            "<svg role=\"img\" aria-label=\"{title}\" viewBox=\"-.5 -.5 {width} {height}\" \
+             font-family=\"{FONTS}\" fill=\"none\" stroke-linecap=\"round\" \
+             stroke-linejoin=\"round\"><defs>{}</defs>\
+             <path fill=\"#fff\" d=\"m-.5-.5h{width}v{height}h-{width}z\"/>{}</svg>",
             self.definitions, self.body
         )
     }
 
     /// Begins an element unless the last one looks alike.
     fn begin(&mut self, look: Look) {
-        if self.look != Some(look) {
+        if self.look.as_ref() != Some(&look) {
             self.flush();
             self.look = Some(look);
         }
@@ -90,12 +80,10 @@ impl Svg {
     fn flush(&mut self) {
         let Some(look) = self.look.take() else { return };
         let attributes = match look {
-            Look::Fill(colour) => format!("fill=\"{}\"", hex(colour)),
-            Look::CrispFill(colour) => {
-                format!("fill=\"{}\" shape-rendering=\"crispEdges\"", hex(colour))
-            }
-            Look::Stroke(colour, tenths) => {
-                format!("stroke=\"{}\" stroke-width=\"{}\"", hex(colour), decimal(tenths))
+            Look::Fill(fill) => format!("fill=\"{fill}\""),
+            Look::CrispFill(fill) => format!("fill=\"{fill}\" shape-rendering=\"crispEdges\""),
+            Look::Stroke(colour, width) => {
+                format!("stroke=\"{}\" stroke-width=\"{}\"", hex(colour), decimal(width))
             }
         };
         let _ = write!(self.body, "<path {attributes} d=\"{}\"/>", self.path);
@@ -136,12 +124,18 @@ impl Svg {
         let _ = write!(self.path, "h{w}v{h}h{}z", decimal(-width));
     }
 
-    /// The identifier of a definition, which `draw` writes.
+    /// Adds whole pixels to the path.
+    fn area(&mut self, Area { left, top, width, height }: Area) {
+        let corner = [left, top].map(|place| 10 * i64::from(place) - 5);
+        self.rectangle(corner, [width, height].map(|size| 10 * i64::from(size)));
+    }
+
+    /// A fill by a definition, which `write` gives from its identifier.
     fn define(&mut self, write: impl FnOnce(&str) -> String) -> String {
         let id = format!("{}-{}", self.name, self.count);
         self.count += 1;
         self.definitions.push_str(&write(&id));
-        id
+        format!("url(#{id})")
     }
 }
 
@@ -165,9 +159,8 @@ impl Paper for Svg {
         if area.width <= 0 || area.height <= 0 {
             return;
         }
-        self.begin(Look::Fill(colour));
-        let [left, top] = [area.left, area.top].map(|place| 10 * i64::from(place) - 5);
-        self.rectangle([left, top], [area.width, area.height].map(|size| 10 * i64::from(size)));
+        self.begin(Look::Fill(hex(colour)));
+        self.area(area);
     }
 
     fn line(&mut self, from: [f64; 2], to: [f64; 2], thickness: f64, colour: Rgb) {
@@ -200,7 +193,7 @@ impl Paper for Svg {
         let head = 5.0 * thickness;
         let neck = [to[0] - head * along[0], to[1] - head * along[1]];
         self.line(from, neck, thickness, colour);
-        self.begin(Look::Fill(colour));
+        self.begin(Look::Fill(hex(colour)));
         let beside = |side: f64| {
             [neck[0] - side * head * along[1], neck[1] + side * head * along[0]].map(tenths)
         };
@@ -226,58 +219,51 @@ impl Paper for Svg {
             place
         };
         let (left, bottom) = (10 * i64::from(area.left) - 5, 10 * i64::from(area.bottom()) - 5);
-        // Upward runs of cells that look alike, look by look
         let mut hatches: Vec<(Hatch, String)> = Vec::new();
+        let mut fill = |cell: &Cell| match *cell {
+            Cell::Value(value) => hex(scale.colours.at(scale.share(value))),
+            Cell::Gap(hatch) => {
+                if let Some((_, fill)) = hatches.iter().find(|(other, _)| *other == hatch) {
+                    return fill.clone();
+                }
+                hatches.push((hatch, self.define(|id| pattern(id, &hatch))));
+                hatches[hatches.len() - 1].1.clone()
+            }
+        };
+        // Upward runs of cells that look alike, look by look
+        let fills: Vec<String> = cells.iter().map(&mut fill).collect();
         let mut runs = Vec::new();
-        for (column, cells) in cells.chunks(count).enumerate() {
+        for (column, fills) in fills.chunks(count).enumerate() {
             let mut row = 0;
-            for run in cells.chunk_by(|a, b| colour(a, scale) == colour(b, scale)) {
+            for run in fills.chunk_by(|a, b| a == b) {
                 let [x, end] = [column, column + 1].map(|cell| edge(cell, area.width));
                 let [y, top] = [row, row + run.len()].map(|cell| edge(cell, area.height));
                 row += run.len();
-                runs.push((colour(&run[0], scale), [left + x, bottom - top], [end - x, top - y]));
+                runs.push((&run[0], [left + x, bottom - top], [end - x, top - y]));
             }
         }
-        runs.sort_by_key(|(look, corner, _)| (look.ok(), corner[0], corner[1]));
-        for (look, corner, size) in runs {
-            match look {
-                Ok(colour) => self.begin(Look::CrispFill(colour)),
-                Err(hatch) => {
-                    let known = hatches.iter().find(|(other, _)| *other == hatch);
-                    let id = if let Some((_, id)) = known {
-                        id.clone()
-                    } else {
-                        let id = self.define(|id| pattern(id, &hatch));
-                        hatches.push((hatch, id.clone()));
-                        id
-                    };
-                    self.flush();
-                    self.body.push_str(&rectangle(corner, size, &format!("url(#{id})")));
-                    continue;
-                }
-            }
+        runs.sort();
+        for (fill, corner, size) in runs {
+            self.begin(Look::CrispFill(fill.clone()));
             self.rectangle(corner, size);
         }
     }
 
     fn ramp(&mut self, area: Area, colours: &ColourMap) {
-        self.flush();
-        let anchors = colours.anchors();
-        let last = trackdyn_core::real(anchors.len() - 1);
-        let id = self.define(|id| {
-            let stops = anchors.iter().enumerate().map(|(k, colour)| {
-                let offset = trackdyn_core::real(k) / last;
-                format!("<stop offset=\"{offset:.3}\" stop-color=\"{}\"/>", hex(*colour))
-            });
-            let stops: String = stops.collect();
+        let last = trackdyn_core::real(colours.anchors().len() - 1);
+        let stops = colours.anchors().iter().enumerate().map(|(k, colour)| {
+            let offset = trackdyn_core::real(k) / last;
+            format!("<stop offset=\"{offset:.3}\" stop-color=\"{}\"/>", hex(*colour))
+        });
+        let stops: String = stops.collect();
+        let fill = self.define(|id| {
             format!(
                 "<linearGradient id=\"{id}\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">{stops}\
                  </linearGradient>"
             )
         });
-        let corner = [area.left, area.top].map(|place| 10 * i64::from(place) - 5);
-        let size = [area.width, area.height].map(|size| 10 * i64::from(size));
-        self.body.push_str(&rectangle(corner, size, &format!("url(#{id})")));
+        self.begin(Look::Fill(fill));
+        self.area(area);
     }
 
     fn text(&mut self, text: &str, [column, row]: [i32; 2], style: &Style) {
@@ -306,14 +292,6 @@ impl Paper for Svg {
     }
 }
 
-/// The colour of a cell, or the pattern of a gap.
-fn colour(cell: &Cell, scale: &Scale) -> Result<Rgb, Hatch> {
-    match *cell {
-        Cell::Value(value) => Ok(scale.colours.at(scale.share(value))),
-        Cell::Gap(hatch) => Err(hatch),
-    }
-}
-
 /// The definition of a pattern of diagonal lines.
 fn pattern(id: &str, hatch: &Hatch) -> String {
     let [period, width] = Hatch::LINES;
@@ -323,42 +301,34 @@ fn pattern(id: &str, hatch: &Hatch) -> String {
     let lines = if hatch.directions > 0 { falling + &rising } else { String::new() };
     // Lines are as wide along a row as in pixels
     let thickness = f64::from(width) * std::f64::consts::FRAC_1_SQRT_2;
-    let paper = rectangle([0, 0], [10 * i64::from(period); 2], &hex(hatch.paper));
     format!(
         "<pattern id=\"{id}\" width=\"{period}\" height=\"{period}\" \
-         patternUnits=\"userSpaceOnUse\">{paper}<path stroke=\"{}\" \
-         stroke-width=\"{thickness:.2}\" stroke-linecap=\"square\" d=\"{lines}\"/></pattern>",
+         patternUnits=\"userSpaceOnUse\">\
+         <path fill=\"{}\" d=\"M0 0h{period}v{period}h-{period}z\"/>\
+         <path stroke=\"{}\" stroke-width=\"{thickness:.2}\" d=\"{lines}\"/></pattern>",
+        hex(hatch.paper),
         hex(hatch.ink)
     )
 }
 
-/// A filled rectangle; lengths are tenths of a pixel.
-fn rectangle(corner: [i64; 2], size: [i64; 2], fill: &str) -> String {
-    let [x, y, width, height] = [corner[0], corner[1], size[0], size[1]].map(decimal);
-    format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{fill}\"/>")
-}
-
 /// Text for SVG. Subscripts are lowered letters, as few fonts have them.
 fn lowered(text: &str, size: f32) -> String {
-    let (mut out, mut is_low) = (String::new(), false);
-    let drop = (SUBSCRIPT_DROP * size).round();
-    let mut letters = text.chars().peekable();
-    while let Some(letter) = letters.next() {
-        if let Some(lower) = subscript(letter) {
-            let small = (SUBSCRIPT_SIZE * size).round();
-            let _ = write!(out, "<tspan dy=\"{drop}\" font-size=\"{small}\">{lower}</tspan>");
-            is_low = true;
-        } else if is_low {
-            // The baseline stays where the last letter left it
-            let mut rest = letter.to_string();
-            while let Some(next) = letters.next_if(|next| subscript(*next).is_none()) {
-                rest.push(next);
-            }
-            let _ = write!(out, "<tspan dy=\"-{drop}\">{}</tspan>", escaped(&rest));
-            is_low = false;
-        } else {
-            out.push_str(&escaped(letter.encode_utf8(&mut [0; 4])));
-        }
+    let (drop, small) = ((SUBSCRIPT_DROP * size).round(), (SUBSCRIPT_SIZE * size).round());
+    let letters: Vec<char> = text.chars().collect();
+    let (mut out, mut was_low) = (String::new(), false);
+    let is_low = |letter: &char| subscript(*letter).is_some();
+    for run in letters.chunk_by(|a, b| is_low(a) == is_low(b)) {
+        let run_is_low = is_low(&run[0]);
+        let letters = run.iter().map(|letter| subscript(*letter).unwrap_or(*letter));
+        let letters = escaped(&letters.collect::<String>());
+        let text = match (run_is_low, was_low) {
+            (true, _) => format!("<tspan dy=\"{drop}\" font-size=\"{small}\">{letters}</tspan>"),
+            // The baseline stays where the last letters left it
+            (false, true) => format!("<tspan dy=\"-{drop}\">{letters}</tspan>"),
+            (false, false) => letters,
+        };
+        out.push_str(&text);
+        was_low = run_is_low;
     }
     out
 }

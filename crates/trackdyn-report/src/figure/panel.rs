@@ -4,7 +4,6 @@ use super::{Area, Axis, ColourBar, Series};
 use crate::colour::{GREY, INK, Rgb};
 use crate::text::{Horizontal, Style, TICK_SIZE, Vertical};
 use serde::Serialize;
-use trackdyn_core::real;
 
 /// Part of the size of the main points by which further ones may extend the shown range.
 const MAX_EXTENSION: f64 = 0.6;
@@ -105,11 +104,6 @@ impl Panel {
         Self { is_framed: false, ..Self::new("", place, x, y) }
     }
 
-    /// Rows and columns of length one, from the upper left corner, without numbers.
-    pub fn matrix(place: Area, columns: usize, rows: usize) -> Self {
-        Self::new("", place, Axis::unmarked([0.0, real(columns)]), Axis::rows(rows))
-    }
-
     /// Pixels per unit along x.
     pub fn scale(&self) -> f64 {
         f64::from(self.place.width) / (self.x.range[1] - self.x.range[0])
@@ -151,14 +145,6 @@ impl Panel {
     pub fn explain_emptiness(&mut self, reason: &str) {
         let [x, y] = [&self.x, &self.y].map(|axis| f64::midpoint(axis.range[0], axis.range[1]));
         self.labels.push(Label::on(reason, [x, y], (TICK_SIZE, GREY)));
-    }
-
-    /// Writes the name of a column of a matrix below it, upwards.
-    pub fn name_column(&mut self, text: &str, column: usize, (size, colour): (f32, Rgb)) {
-        let style = Style { upwards: true, ..Style::new(size) }.colour(colour);
-        let style = style.anchor(Horizontal::Right, Vertical::Middle);
-        let at = [real(column) + 0.5, self.y.range[0]];
-        self.labels.push(Label::new(text, at, style).shifted([0, 16]));
     }
 
     /// Writes a name in ink left of a point.

@@ -1,8 +1,8 @@
 //! What was taken for what.
 
-use crate::colour::{BLUES, GREY, GRID, INK, WHITE};
+use crate::colour::{BLUES, GREY, GRID, INK, Rgb};
 use crate::figure::{
-    Area, Boxes, ColourBar, Figure, Label, Legend, Paint, Panel, Scale, Swatch, entry_colour,
+    self, Area, Boxes, ColourBar, Figure, Legend, Panel, Scale, Swatch, entry_colour,
 };
 use crate::sheet::{self, rows};
 use crate::text::{Horizontal, LABEL_SIZE, Style, Vertical, fitted, two_lines, width};
@@ -23,8 +23,6 @@ const BELOW: i32 = 90;
 /// Largest side of a cell, and room right of the cells.
 const CELL: i32 = 64;
 const RIGHT: i32 = 260;
-/// Share above which the number in a cell is white.
-const MIN_DARK: f64 = 0.6;
 
 /// Counts by what is there (rows) and what was said (columns).
 #[derive(Clone, Debug)]
@@ -74,40 +72,28 @@ pub fn confusion(matrix: &Matrix, program: &str, caption: &str) -> Figure {
 }
 
 /// The cells with their numbers and names.
-fn panel(matrix: &Matrix, area: Area, right: crate::colour::Rgb) -> Panel {
-    let [down, across] = [matrix.rows, matrix.columns].map(|names| names.len().max(1));
-    let mut panel = Panel::matrix(area, across, down);
-    let bar = Area::new(area.right() + 40, TOP, 28, 300.min(area.height.max(120)));
-    let scale = Scale::new(BLUES, [0.0, 1.0], "share of the row");
-    panel.colour_bars.push(ColourBar { place: bar, scale: scale.clone() });
-    let (mut boxes, mut values) = (Vec::new(), Vec::new());
-    for (row, name) in matrix.rows.iter().enumerate() {
-        let name = fitted(name, NAME, LABELS - 130);
-        let beside = [0.0, real(row) + 0.5];
-        panel.labels.push(Label::left_of(&name, beside, 16, (NAME, INK)));
-        let counts = &matrix.counts[row];
+fn panel(matrix: &Matrix, area: Area, right: Rgb) -> Panel {
+    let names = |names: &[String], room| -> Vec<(String, Rgb)> {
+        names.iter().map(|name| (fitted(name, NAME, room), INK)).collect()
+    };
+    let cells = matrix.counts.iter().flat_map(|counts| {
         let all = counts.iter().sum::<usize>().max(1);
-        for (column, count) in counts.iter().enumerate() {
-            let share = real(*count) / real(all);
-            boxes.push(cell(row, column));
-            values.push(share);
-            if *count > 0 {
-                let colour = if share > MIN_DARK { WHITE } else { INK };
-                let middle = [real(column) + 0.5, real(row) + 0.5];
-                panel.labels.push(Label::on(&count.to_string(), middle, (NAME, colour)));
-            }
-        }
-    }
-    panel.show_as("counts", Boxes::new(boxes, Paint::Values { values, scale }).edged(1, GRID));
-    let framed = matrix.right.iter().map(|&[row, column]| cell(row, column)).collect();
-    panel.show_as("as it should be", Boxes::framed(framed, 4, right));
-    for (column, name) in matrix.columns.iter().enumerate() {
-        panel.name_column(&fitted(name, NAME, MAX_NAME), column, (NAME, INK));
-    }
+        let text = |count: usize| (count > 0).then(|| count.to_string());
+        counts.iter().map(move |&count| (real(count) / real(all), text(count)))
+    });
+    let scale = Scale::new(BLUES, [0.0, 1.0], "share of the row");
+    let bar = Area::new(area.right() + 40, TOP, 28, 300.min(area.height.max(120)));
+    let bar = ColourBar { place: bar, scale: scale.clone() };
+    let cells = figure::Matrix {
+        rows: names(matrix.rows, LABELS - 130),
+        columns: names(matrix.columns, MAX_NAME),
+        sizes: [NAME; 2],
+        cells: cells.collect(),
+        scale,
+    };
+    let mut panel = cells.panel(area, Some((1, GRID)));
+    let framed = matrix.right.iter().map(|&[row, column]| figure::Matrix::cell(row, column));
+    panel.show_as("as it should be", Boxes::framed(framed.collect(), 4, right));
+    panel.colour_bars.push(bar);
     panel
-}
-
-/// Corners of a cell.
-fn cell(row: usize, column: usize) -> [[f64; 2]; 2] {
-    [[real(column), real(row + 1)], [real(column + 1), real(row)]]
 }

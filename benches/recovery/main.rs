@@ -79,7 +79,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let confusion = Confusion::of(&table);
     write_file(&out.join("recovery.md"), table.markdown().as_bytes())?;
     write_file(&out.join("confusion.csv"), confusion.csv().as_bytes())?;
-    write_file(&out.join("confusion.png"), &figure::draw(&confusion)?)?;
+    write_file(&out.join("confusion.png"), &figure::of(&confusion).to_small_png()?)?;
     print!("{}", table.summary());
     eprintln!(
         "wrote recovery.csv, recovery.md, confusion.csv and confusion.png to {}",

@@ -1,5 +1,7 @@
 //! Colours.
 
+use serde::Serialize;
+
 /// Red, green, blue.
 pub type Rgb = [u8; 3];
 
@@ -19,7 +21,7 @@ pub const GRID: Rgb = [226, 226, 226];
 pub const LAST: u8 = 254;
 
 /// A map from 0..1 to colours, readable with any kind of colour vision.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ColourMap {
     /// Colours at equal distances, from 0 to 1.
     anchors: &'static [Rgb],
@@ -90,6 +92,11 @@ pub const BLUE_RED: ColourMap = ColourMap {
 };
 
 impl ColourMap {
+    /// Colours at equal distances, from 0 to 1.
+    pub const fn anchors(&self) -> &'static [Rgb] {
+        self.anchors
+    }
+
     /// The colour at a place from 0 to 1; the nearer end outside.
     #[expect(
         clippy::cast_possible_truncation,

@@ -1,7 +1,6 @@
 //! The figures and the report of a diagnosis.
 
 mod answer;
-mod base64;
 mod candidates;
 mod cells;
 mod errors;
@@ -14,7 +13,7 @@ mod plane;
 mod signature;
 mod words;
 
-use crate::Error;
+use crate::figure::Figure;
 use crate::sheet;
 use nalgebra::Vector3;
 use trackdyn_diagnose::diagnosis::{Diagnosis, Kind, Unseen};
@@ -39,18 +38,6 @@ pub struct Subject<'a> {
     pub name: &'a str,
     /// Stands below every figure: what it was made from.
     pub caption: &'a str,
-}
-
-/// A figure of a diagnosis.
-pub struct Figure {
-    /// Name of its file.
-    pub file: &'static str,
-    /// What it shows.
-    pub title: &'static str,
-    /// How to read it.
-    pub reading: &'static str,
-    /// Its bytes.
-    pub png: Vec<u8>,
 }
 
 /// Evidence with whitened residuals before and after.
@@ -107,76 +94,57 @@ impl<'a> Subject<'a> {
 }
 
 /// All figures of a diagnosis, in the order of the report. A table of steady motions has no paths.
-///
-/// The bytes depend on the argument only.
-///
-/// # Errors
-/// [`Error`] where a part cannot be drawn; no result is the cause of one.
-pub fn diagnosis_figures(subject: &Subject) -> Result<Vec<Figure>, Error> {
+pub fn diagnosis_figures(subject: &Subject) -> Vec<Figure> {
     let candidates = candidates::candidates(subject);
     let mut figures = vec![
-        Figure {
-            file: "plane.png",
-            title: "Where observation and model differ",
-            reading: "Each spot is a pair of track speeds: left track to the right, right track upwards, so \
-                      that straight driving lies on the rising diagonal and spins on the falling one. Red: the \
-                      robot moved further forward, further to the left or turned further to the left than \
-                      predicted; blue: less far. What the model lacks shows as a pattern; noise has none.",
-            png: plane::draw(subject)?,
-        },
-        Figure {
-            file: "cells.png",
-            title: "How the centres of rotation move",
-            reading: "Every row is a way of driving. Marks away from zero mean that the robot turns about \
-                      other points there than elsewhere, so constant ICRs cannot describe it.",
-            png: cells::draw(subject)?,
-        },
-        Figure {
-            file: "symmetries.png",
-            title: "Which symmetries of driving are broken",
-            reading: "Each kind of missing physics breaks its own set of symmetries. p is the probability \
-                      that chance alone makes the largest of all these statistics as large; it is counted by blocks of \
-                      time, so that a large departure in few blocks may still be chance.",
-            png: parity::draw(subject)?,
-        },
-        Figure {
-            file: "signatures.png",
-            title: "The effect against the evidence",
-            reading: "If the means follow the line, the effect predicts the sign and the size of what was \
-                      seen, sample by sample. A slope other than one, or a curve, is a hint at another law.",
-            png: signature::draw(subject)?,
-        },
-        Figure {
-            file: "evidence.png",
-            title: "What speaks for each effect",
-            reading: "Screened one by one beside the vehicle as filed. Effects that resemble the right one \
-                      also gain; the search leaves each one out again and exchanges it before it claims any.",
-            png: evidence::draw(subject, &candidates)?,
-        },
-        Figure {
-            file: "isolability.png",
-            title: "Which effects this evidence can tell apart",
-            reading: "Dark squares off the diagonal are pairs that this way of driving cannot separate: the \
-                      answer would be the same for both. Arrows mark what is claimed, by itself or as one of a \
-                      set; clock and sensor, which are fitted beside everything, have no row.",
-            png: isolability::draw(subject)?,
-        },
-        Figure {
-            file: "errors.png",
-            title: "Error against the noise floor",
-            reading: "After the correction the error should lie on the floor, on every channel and in every \
-                      run. What stays above it is unexplained.",
-            png: errors::draw(subject)?,
-        },
+        plane::figure(subject).explained(
+            "Where observation and model differ",
+            "Each spot is a pair of track speeds: left track to the right, right track upwards, so \
+             that straight driving lies on the rising diagonal and spins on the falling one. Red: \
+             the robot moved further forward, further to the left or turned further to the left \
+             than predicted; blue: less far. What the model lacks shows as a pattern; noise has \
+             none.",
+        ),
+        cells::figure(subject).explained(
+            "How the centres of rotation move",
+            "Every row is a way of driving. Marks away from zero mean that the robot turns about \
+             other points there than elsewhere, so constant ICRs cannot describe it.",
+        ),
+        parity::figure(subject).explained(
+            "Which symmetries of driving are broken",
+            "Each kind of missing physics breaks its own set of symmetries. p is the probability \
+             that chance alone makes the largest of all these statistics as large; it is counted \
+             by blocks of time, so that a large departure in few blocks may still be chance.",
+        ),
+        signature::figure(subject).explained(
+            "The effect against the evidence",
+            "If the means follow the line, the effect predicts the sign and the size of what was \
+             seen, sample by sample. A slope other than one, or a curve, is a hint at another law.",
+        ),
+        evidence::figure(subject, &candidates).explained(
+            "What speaks for each effect",
+            "Screened one by one beside the vehicle as filed. Effects that resemble the right one \
+             also gain; the search leaves each one out again and exchanges it before it claims \
+             any.",
+        ),
+        isolability::figure(subject).explained(
+            "Which effects this evidence can tell apart",
+            "Dark squares off the diagonal are pairs that this way of driving cannot separate: the \
+             answer would be the same for both. Arrows mark what is claimed, by itself or as one \
+             of a set; clock and sensor, which are fitted beside everything, have no row.",
+        ),
+        errors::figure(subject).explained(
+            "Error against the noise floor",
+            "After the correction the error should lie on the floor, on every channel and in every \
+             run. What stays above it is unexplained.",
+        ),
     ];
-    if let Some(png) = path::draw(subject)? {
-        figures.push(Figure {
-            file: "path.png",
-            title: "One run replayed",
-            reading: "What the correction is worth in dead reckoning: the path that follows from the track \
-                      speeds alone, without any further observation.",
-            png,
-        });
-    }
-    Ok(figures)
+    figures.extend(path::figure(subject).map(|figure| {
+        figure.explained(
+            "One run replayed",
+            "What the correction is worth in dead reckoning: the path that follows from the track \
+             speeds alone, without any further observation.",
+        )
+    }));
+    figures
 }

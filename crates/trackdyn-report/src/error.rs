@@ -7,9 +7,6 @@ use std::convert::Infallible;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The embedded font is damaged.
-    #[error("the embedded font cannot be read")]
-    Font(#[from] ab_glyph::InvalidFont),
     /// The axes could not be drawn.
     #[error("the axes cannot be drawn: {0}")]
     Axes(String),

@@ -1,24 +1,23 @@
 //! The figure of an ICR map.
 
-mod cloud;
+mod clouds;
 mod heading;
 mod heat_map;
 mod legend;
 mod robot;
 mod zoom;
 
-use crate::Error;
-use crate::canvas::{Area, Canvas};
-use crate::colour_bar;
-use cloud::Cloud;
-use heat_map::HeatMap;
+use crate::figure::{Area, ColourBar, Figure, Label, Panel, Scale};
+use crate::text::{Horizontal, Style, TICK_SIZE, Vertical};
+use clouds::Clouds;
+use heat_map::heat_map;
 use trackdyn_core::{PerSide, Side};
 use trackdyn_model::IcrMap;
 use trackdyn_model::Model;
 use trackdyn_model::map::Statistics;
 
-const WIDTH: u16 = 2400;
-const HEIGHT: u16 = 1350;
+const WIDTH: i32 = 2400;
+const HEIGHT: i32 = 1350;
 /// Left end of all lines of text.
 const LEFT: i32 = 40;
 
@@ -30,32 +29,45 @@ const ZOOM: PerSide<Area> =
 const HEAT_MAPS: [[i32; 2]; 3] = [[1158, 258], [1824, 258], [1158, 800]];
 const LEGEND: Area = Area::new(1740, 768, 620, 512);
 
-/// The ICR map as a picture: the robot from above with the ICRs of both tracks, as in Figs 6-7; both
-/// clouds enlarged; and xₗ, xᵣ and y over the track speeds. `caption` stands below, for what the
-/// figure was made from.
-///
-/// Returns the bytes of a PNG. They depend on the arguments only.
-///
-/// # Errors
-/// [`Error`] where a part cannot be drawn; no map is the cause of one.
-pub fn icr_map(map: &IcrMap, model: &Model, caption: &str) -> Result<Vec<u8>, Error> {
-    let mut canvas = Canvas::new(WIDTH, HEIGHT)?;
+/// The ICR map as a picture: the robot from above with the ICRs of both tracks, as in Figs 6-7;
+/// both clouds enlarged; and xₗ, xᵣ and y over the track speeds. `caption` stands below, for what
+/// the figure was made from.
+pub fn icr_map(map: &IcrMap, model: &Model, caption: &str) -> Figure {
+    let mut figure = Figure::new("icr_map", [WIDTH, HEIGHT]);
     let statistics = map.statistics();
-    heading::draw(&mut canvas, map, model, statistics.as_ref(), caption);
-    let clouds = PerSide::from_fn(|side| Cloud::of(map, side));
-    robot::draw(&mut canvas, model, &clouds, statistics.as_ref())?;
+    heading::write(&mut figure, map, model, statistics.as_ref(), caption);
+    let clouds = Clouds::of(map);
+    let mut robot = robot::panel(model, &clouds, statistics.as_ref());
+    if statistics.is_some() {
+        robot.labels.push(bar_label(&robot));
+        robot.colour_bars.push(ColourBar { place: SPEED_BAR, scale: clouds.scale.clone() });
+    }
+    figure.panels.push(robot);
     if let Some(statistics) = &statistics {
-        colour_bar::of_speed(&mut canvas, SPEED_BAR, map.grid.max_speed());
         let half = zoom::half_extent(&clouds, statistics);
         for side in Side::BOTH {
-            zoom::draw(&mut canvas, ZOOM[side], &clouds[side], side, statistics, half)?;
+            figure.panels.push(zoom::panel(ZOOM[side], &clouds, side, statistics, half));
         }
     }
     for (k, corner) in HEAT_MAPS.into_iter().enumerate() {
-        HeatMap::new(map, k).draw(&mut canvas, corner)?;
+        figure.panels.push(heat_map(map, k, corner));
     }
-    legend::draw(&mut canvas, LEGEND, map, statistics.as_ref());
-    canvas.to_png()
+    figure.panels.extend(legend::panels(LEGEND, map, statistics.as_ref()));
+    figure
+}
+
+/// What the colours of clouds mean, right of their bar.
+fn bar_label(robot: &Panel) -> Label {
+    let style = Style { upwards: true, ..Style::new(TICK_SIZE) };
+    let style = style.anchor(Horizontal::Centre, Vertical::Bottom);
+    let middle = [robot.x.range[1], f64::midpoint(robot.y.range[0], robot.y.range[1])];
+    let right = SPEED_BAR.right() + 98 - ROBOT.right();
+    Label::new("larger track speed, max(|Vₗ|, |Vᵣ|)", middle, style).shifted([right, 0])
+}
+
+/// A scale of metres.
+fn metres(colours: crate::colour::ColourMap, range: [f64; 2]) -> Scale {
+    Scale::new(colours, range, "m")
 }
 
 /// The place of one track's ICR of the mean.

@@ -4,24 +4,21 @@ mod bars;
 mod growth;
 mod paths;
 
-use crate::Error;
-use crate::canvas::{Area, Canvas};
 use crate::colour::GREY;
-use crate::legend;
-use crate::panel::ticks::number;
-use crate::text::{Horizontal, Style, Vertical};
+use crate::figure::{Area, Figure, Legend};
+use crate::sheet::{self, LEFT, RIGHT};
+use crate::text::{Style, fitted};
+use crate::ticks::number;
 use trackdyn_estimate::odometry::comparison::SetErrors;
 use trackdyn_estimate::odometry::{Comparison, ParameterSet};
 
-const WIDTH: u16 = 2400;
-const HEIGHT: u16 = 1350;
-/// Left end of all lines of text.
-const LEFT: i32 = 40;
-
-const LEGEND: Area = Area::new(LEFT, 120, 2320, 70);
+const HEIGHT: i32 = 1350;
+const LEGEND: [i32; 2] = [LEFT, 140];
 const PATHS: Area = Area::new(LEFT + 118, 270, 940, 900);
 const GROWTH: [Area; 2] = [Area::new(1290, 270, 440, 360), Area::new(1900, 270, 440, 360)];
 const BARS: [Area; 2] = [Area::new(1290, 840, 620, 330), Area::new(2070, 840, 270, 330)];
+/// Longest name in the legend, pixels.
+const MAX_NAME: i32 = 420;
 
 /// A quantity of the errors and how it is shown.
 struct Quantity {
@@ -33,44 +30,37 @@ struct Quantity {
 }
 
 /// A replay as a picture: a recorded path with the predicted ones, as in Figs 8-12; how errors grow
-/// with distance or time; and errors over segments. `name` is that of the recording, `caption` stands
-/// below, for what the figure was made from.
-///
-/// Returns the bytes of a PNG. They depend on the arguments only.
-///
-/// # Errors
-/// [`Error`] where a part cannot be drawn; no result is the cause of one.
-pub fn odometry(result: &Comparison, name: &str, caption: &str) -> Result<Vec<u8>, Error> {
-    let mut canvas = Canvas::new(WIDTH, HEIGHT)?;
-    heading(&mut canvas, result, name, caption);
-    let names = result.sets.iter().map(ParameterSet::name);
-    legend::draw(&mut canvas, LEGEND, "recorded", names);
-    paths::draw(&mut canvas, PATHS, result)?;
+/// with distance or time; and errors over segments. `name` is that of the recording, `caption`
+/// stands below, for what the figure was made from.
+pub fn odometry(result: &Comparison, name: &str, caption: &str) -> Figure {
+    let mut figure = Figure::new("odometry", [sheet::WIDTH, HEIGHT]);
+    heading(&mut figure, result, name, caption);
+    figure.legends.push(legend("recorded", result.sets.iter().map(ParameterSet::name)));
+    figure.panels.extend(paths::panel(PATHS, result));
+    let yaw = |name| Quantity { name, unit: "°", scale: 1.0_f64.to_degrees(), of: |set| &set.yaw };
     let position = Quantity {
         name: "Growth of the error of place",
         unit: "m",
         scale: 1.0,
         of: |set| &set.position,
     };
-    let yaw = Quantity {
-        name: "Growth of the error of yaw",
-        unit: "°",
-        scale: 1.0_f64.to_degrees(),
-        of: |set| &set.yaw,
-    };
-    for (area, quantity) in GROWTH.into_iter().zip([position, yaw]) {
-        growth::draw(&mut canvas, area, result, &quantity)?;
+    for (area, quantity) in GROWTH.into_iter().zip([position, yaw("Growth of the error of yaw")]) {
+        figure.panels.push(growth::panel(area, result, &quantity));
     }
     let along = Quantity { name: "along", unit: "mm", scale: 1e3, of: |set| &set.along };
     let across = Quantity { name: "across", unit: "mm", scale: 1e3, of: |set| &set.across };
-    let yaw = Quantity { name: "yaw", unit: "°", scale: 1.0_f64.to_degrees(), of: |set| &set.yaw };
-    bars::draw(&mut canvas, BARS[0], result, &[along, across]);
-    bars::draw(&mut canvas, BARS[1], result, &[yaw]);
-    canvas.to_png()
+    figure.panels.extend(bars::panel(BARS[0], result, &[along, across]));
+    figure.panels.extend(bars::panel(BARS[1], result, &[yaw("yaw")]));
+    figure
 }
 
-fn heading(canvas: &mut Canvas, result: &Comparison, name: &str, caption: &str) {
-    let style = |size| Style::new(size).anchor(Horizontal::Left, Vertical::Baseline);
+/// A legend of what is compared with the first.
+pub(crate) fn legend<'a>(first: &str, names: impl Iterator<Item = &'a str>) -> Legend {
+    let names: Vec<String> = names.map(|name| fitted(name, 26.0, MAX_NAME)).collect();
+    Legend::of_lines(LEGEND, RIGHT, first, names.iter().map(String::as_str))
+}
+
+fn heading(figure: &mut Figure, result: &Comparison, name: &str, caption: &str) {
     let runs = match result.paths.len() {
         1 => "1 run".to_owned(),
         count => format!("{count} runs"),
@@ -81,15 +71,12 @@ fn heading(canvas: &mut Canvas, result: &Comparison, name: &str, caption: &str) 
         number(result.distance(), 1),
         number(result.tau, 3)
     );
-    let right = i32::from(WIDTH) - LEFT;
-    let title = canvas.fitted(&title, 40.0, right - LEFT);
-    canvas.text(&title, [LEFT, 72], &style(40.0));
+    sheet::line(figure, &title, 72, Style::new(40.0));
     let below = format!(
         "Whiskers: 95 % confidence, {}; marks of one length stand side by side. {caption}",
         result.blocks.description()
     );
-    let below = canvas.fitted(&below, 24.0, right - LEFT);
-    canvas.text(&below, [LEFT, i32::from(HEIGHT) - 28], &style(24.0).colour(GREY));
+    sheet::line(figure, &below, HEIGHT - 28, Style::new(24.0).colour(GREY));
 }
 
 #[cfg(test)]
@@ -115,14 +102,16 @@ mod tests {
     #[test]
     fn the_same_result_gives_the_same_bytes() {
         let result = result(6.0, 3);
-        let draw = || odometry(&result, "synthetic", "caption").expect("drawn");
+        let draw = || odometry(&result, "synthetic", "caption").to_png().expect("drawn");
         assert!(draw() == draw());
     }
 
     #[test]
     fn short_runs_and_many_sets_can_be_drawn() {
         for (duration, sets) in [(0.2, 1), (2.0, 12)] {
-            odometry(&result(duration, sets), "a name", "").expect("drawn");
+            let figure = odometry(&result(duration, sets), "a name", "");
+            figure.to_png().expect("drawn");
+            assert_eq!(figure.panels.len(), 5);
         }
     }
 }

@@ -4,9 +4,10 @@ mod confusion;
 mod power;
 mod shares;
 
-use crate::canvas::Canvas;
-use crate::panel::TICK_SIZE;
-use crate::sheet::{self, Mark};
+use crate::colour::INK;
+use crate::figure::{Legend, Swatch};
+use crate::sheet;
+use crate::text::{TICK_SIZE, fitted};
 
 pub use confusion::{Matrix, confusion};
 pub use power::{Power, power};
@@ -40,18 +41,13 @@ pub struct Entrant<'a> {
     pub shares: Vec<Option<Share>>,
 }
 
-/// Draws the programs' markers with their names, and further entries.
-fn legend<'a>(
-    canvas: &mut Canvas,
-    at: [i32; 2],
-    names: impl Iterator<Item = &'a str>,
-    further: &[(Mark, &str)],
-) {
-    const LONGEST: i32 = 420;
-    let names: Vec<String> = names.map(|name| canvas.fitted(name, TICK_SIZE, LONGEST)).collect();
-    let marks = (0..).map(Mark::Entry).zip(names.iter().map(String::as_str));
-    let entries: Vec<(Mark, &str)> = marks.chain(further.iter().copied()).collect();
-    sheet::legend(canvas, at, &entries);
+/// The programs' markers with their names, and what their bars mean.
+fn legend<'a>(names: impl Iterator<Item = &'a str>) -> Legend {
+    const MAX_NAME: i32 = 420;
+    let names: Vec<String> = names.map(|name| fitted(name, TICK_SIZE, MAX_NAME)).collect();
+    let marks = (0..).map(Swatch::entry).zip(names.iter().map(String::as_str));
+    let entries = marks.chain([(Swatch::Line(INK, 3.0), "bars: 95 % intervals")]);
+    Legend::of_marks([sheet::LEFT, sheet::TOP + 20], sheet::RIGHT, entries)
 }
 
 /// Place of an entry beside the others in an interval of length one.
@@ -104,10 +100,11 @@ mod tests {
             };
             let draw = || {
                 [
-                    power(&panels, "caption").expect("drawn"),
-                    shares(&sheet, "caption").expect("drawn"),
-                    confusion(&matrix, "a program", "caption").expect("drawn"),
+                    power(&panels, "caption"),
+                    shares(&sheet, "caption"),
+                    confusion(&matrix, "a program", "caption"),
                 ]
+                .map(|figure| (figure.to_png().expect("drawn"), figure.to_svg().expect("drawn")))
             };
             assert!(draw() == draw());
         }

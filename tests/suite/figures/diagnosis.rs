@@ -9,6 +9,7 @@ use trackdyn_model::Stationary;
 use trackdyn_model::kinematics::Source;
 use trackdyn_model::{Circumstance, Effects, Model, VehicleFile};
 use trackdyn_recording::OperatingPoint;
+use trackdyn_report::figure::{Boxes, Paint, Panel, Series, Sign};
 use trackdyn_report::{Figure, Subject, diagnosis_figures, diagnosis_html};
 
 /// Pixels that stay white at the left, the right and the top of every figure.
@@ -94,7 +95,7 @@ impl Case {
             name: NAME,
             caption: &caption,
         };
-        let figures = diagnosis_figures(&subject).expect("figures");
+        let figures = diagnosis_figures(&subject);
         let html = diagnosis_html(&subject, &figures).expect("a report");
         (figures, html)
     }
@@ -103,7 +104,7 @@ impl Case {
 /// Names of the elements that are open at the end of a page, or the first that is closed out of
 /// turn.
 fn unclosed(html: &str) -> Vec<String> {
-    const EMPTY: [&str; 4] = ["meta", "br", "img", "!DOCTYPE"];
+    const EMPTY: [&str; 3] = ["meta", "br", "!DOCTYPE"];
     let style = html.find("<style>").expect("a style")..html.find("</style>").expect("its end");
     let mut open: Vec<String> = Vec::new();
     for (start, _) in html.match_indices('<').filter(|(place, _)| !style.contains(place)) {
@@ -113,7 +114,7 @@ fn unclosed(html: &str) -> Vec<String> {
             if name != "style" && open.pop().as_deref() != Some(name) {
                 return vec![name.to_owned()];
             }
-        } else {
+        } else if !tag.ends_with('/') {
             let name = tag.split_whitespace().next().expect("a name");
             if !EMPTY.contains(&name) {
                 open.push(name.to_owned());
@@ -125,17 +126,21 @@ fn unclosed(html: &str) -> Vec<String> {
 
 fn check(case: &Case, expected: &[&str]) {
     let (figures, html) = case.report();
-    let names: Vec<&str> = figures.iter().map(|figure| figure.file).collect();
+    let names: Vec<String> = figures.iter().map(Figure::file).collect();
     assert_eq!(names, expected);
     for figure in &figures {
-        assert!(html.contains(figure.file) && html.contains(figure.title));
-        assert!(!ink_in_margin(&figure.png), "{} reaches its edge", figure.file);
+        assert!(html.contains(&figure.file()) && html.contains(&figure.title));
+        assert!(html.contains(&figure.to_svg_element().expect("a picture")));
+        let png = figure.to_small_png().expect("a picture");
+        assert!(!ink_in_margin(&png), "{} reaches its edge", figure.name);
+        check_picture(figure);
     }
-    assert_eq!(html.matches("src=\"data:image/png;base64,iVBOR").count(), figures.len());
-    assert_eq!(html.matches("<img ").count(), figures.len());
-    for outside in ["http:", "https:", "//", "<link", "<script", "@import", "url("] {
-        let text: String = html.split('"').filter(|part| !part.starts_with("data:image")).collect();
-        assert!(!text.contains(outside), "{outside}");
+    assert_eq!(html.matches("<svg role=\"img\"").count(), figures.len());
+    assert_eq!(html.matches("<img ").count(), 0);
+    // Colours of a picture are named in it
+    let without_own = html.replace("url(#", "");
+    for outside in ["http:", "https:", "//", "<link", "<script", "@import", "url(", "data:"] {
+        assert!(!without_own.contains(outside), "{outside}");
     }
     assert!(html.contains("&lt;script&gt;") && html.contains("a &amp; b"));
     assert!(html.contains("prefers-color-scheme: dark"));
@@ -146,8 +151,46 @@ fn check(case: &Case, expected: &[&str]) {
     for target in html.split("href=\"#").skip(1).filter_map(|id| id.split('"').next()) {
         assert!(ids.contains(&target), "{target}");
     }
+    for target in html.split("url(#").skip(1).filter_map(|id| id.split(')').next()) {
+        assert!(ids.contains(&target), "{target}");
+    }
     let (again, same) = case.report();
-    assert!(same == html && again.iter().zip(&figures).all(|(a, b)| a.png == b.png));
+    assert!(same == html && again == figures);
+}
+
+/// Checks that a picture is well-formed, and that every text of its figure is text in it.
+fn check_picture(figure: &Figure) {
+    let svg = figure.to_svg().expect("a picture");
+    let document = roxmltree::Document::parse(&svg).expect("well-formed");
+    let texts: BTreeSet<String> = document
+        .descendants()
+        .filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "text")))
+        .map(|text| text.descendants().filter_map(|node| node.text()).collect())
+        .collect();
+    let titles = figure.panels.iter().map(|panel| &panel.title);
+    let labels = figure.panels.iter().flat_map(|panel| &panel.labels).map(|label| &label.text);
+    let others = figure.texts.iter().map(|text| &text.text);
+    for text in titles.chain(labels).chain(others).filter(|text| !text.is_empty()) {
+        // Subscripts are lowered letters
+        let text = text.replace('ₗ', "l").replace('ᵣ', "r");
+        assert!(texts.contains(&text), "{}: {text}", figure.name);
+    }
+}
+
+/// The panel of a figure whose title begins so.
+fn panel<'f>(figures: &'f [Figure], name: &str, title: &str) -> &'f Panel {
+    let figure = figures.iter().find(|figure| figure.name == name).expect("a figure of this name");
+    let panel = figure.panels.iter().find(|panel| panel.title.starts_with(title));
+    panel.expect("a panel of this title")
+}
+
+fn boxes<'p>(panel: &'p Panel, name: &str) -> &'p Boxes {
+    let named = panel.series.iter().filter(|series| series.name == name);
+    let mut found = named.filter_map(|series| match &series.sign {
+        Sign::Boxes(boxes) => Some(boxes),
+        _ => None,
+    });
+    found.next_back().expect("boxes of this name")
 }
 
 fn ink_in_margin(bytes: &[u8]) -> bool {
@@ -177,6 +220,56 @@ const FIGURES: [&str; 8] = [
 #[test]
 fn a_recording_without_missing_physics_has_a_report() {
     check(&Case::nothing_missing(), &FIGURES);
+}
+
+#[test]
+fn figures_hold_what_the_diagnosis_found() {
+    let case = Case::nothing_missing();
+    let (figures, _) = case.report();
+    let diagnosis = &case.diagnosis;
+    let errors = panel(&figures, "errors", "held-out runs");
+    assert_eq!(errors.y.label(), "rms residual (σ)");
+    let heights = boxes(errors, "held-out runs").boxes.iter().map(|[_, [_, top]]| *top);
+    let expected = diagnosis.held_out;
+    assert_eq!(
+        heights.collect::<Vec<_>>(),
+        [expected.before, expected.after, expected.noise_floor]
+    );
+    let matrix = panel(&figures, "isolability", "");
+    let Some(Paint::Values { values, scale }) = &boxes(matrix, "|cosine|").paint else {
+        panic!("cells without values");
+    };
+    assert_eq!(scale.range, [0.0, 1.0]);
+    let largest = values.iter().fold(0.0_f64, |most, value| most.max(*value));
+    // An effect resembles itself
+    assert!((largest - 1.0).abs() < 1e-6, "{largest}");
+    let bars = panel(&figures, "evidence", "");
+    let shown = boxes(bars, "gain of ln evidence").boxes.len();
+    let gains = diagnosis.screened.iter().filter(|one| one.gain.is_finite()).count();
+    assert!(shown >= gains.saturating_sub(diagnosis.missing.len()) && shown > 0);
+    let path = panel(&figures, "path", "Paths");
+    let lines: Vec<&Series> =
+        path.series.iter().filter(|series| matches!(series.sign, Sign::Line(_))).collect();
+    let names: Vec<&str> = lines.iter().map(|series| series.name.as_str()).collect();
+    assert_eq!(names, ["observed", "as filed", "corrected"]);
+    assert_eq!([path.x.label(), path.y.label()], ["x (m)", "y (m)"]);
+}
+
+#[test]
+fn figures_are_plain_data() {
+    let (figures, _) = Case::steady_points().report();
+    for figure in &figures {
+        let value = serde_yaml_ng::to_value(figure).expect("data");
+        let panels = value["panels"].as_sequence().expect("panels");
+        assert_eq!(panels.len(), figure.panels.len());
+        for (panel, of) in panels.iter().zip(&figure.panels) {
+            assert_eq!(panel["x"]["quantity"].as_str(), Some(of.x.quantity.as_str()));
+            assert_eq!(panel["x"]["unit"].as_str(), Some(of.x.unit.as_str()));
+            assert_eq!(panel["y"]["range"][1].as_f64(), Some(of.y.range[1]));
+            let series = panel["series"].as_sequence().expect("series");
+            assert!(series.iter().all(|series| series["sign"]["kind"].is_string()));
+        }
+    }
 }
 
 #[test]

@@ -3,6 +3,8 @@
 use trackdyn_core::Side;
 use trackdyn_model::{Circumstance, Model, Vehicle, VehicleFile};
 use trackdyn_model::{Grid, IcrMap, Status};
+use trackdyn_report::Figure;
+use trackdyn_report::figure::{Axis, Cell, Cells, Sign};
 
 const SIZE: [usize; 2] = [2400, 1350];
 /// Pixels that stay white all around.
@@ -21,7 +23,7 @@ fn solve(model: &Model, points: usize) -> IcrMap {
 
 /// The pixels of the figure, three bytes each.
 fn draw(map: &IcrMap, model: &Model, caption: &str) -> Vec<u8> {
-    let bytes = trackdyn_report::icr_map(map, model, caption).expect("a figure");
+    let bytes = trackdyn_report::icr_map(map, model, caption).to_png().expect("a figure");
     let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().expect("a PNG");
     let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
     let frame = reader.next_frame(&mut pixels).expect("pixels");
@@ -129,13 +131,72 @@ fn the_smallest_and_a_large_grid_are_drawn() {
     }
 }
 
+/// The heat map of a coordinate, whose titles begin with its name.
+fn heat_map<'f>(figure: &'f Figure, coordinate: &str) -> &'f Cells {
+    let panel = figure.panels.iter().find(|panel| panel.title.starts_with(coordinate));
+    let panel = panel.expect("a panel of this coordinate");
+    assert_eq!([&panel.x, &panel.y].map(Axis::label), ["Vₗ (m/s)", "Vᵣ (m/s)"]);
+    match &panel.series[0].sign {
+        Sign::Cells(cells) => cells,
+        other => panic!("expected a heat map: {other:?}"),
+    }
+}
+
+#[test]
+fn the_figure_holds_the_values_of_the_map() {
+    let model = auriga(&EFFECTS);
+    let map = solve(&model, 11);
+    let figure = trackdyn_report::icr_map(&map, &model, "");
+    for (k, coordinate) in ["xₗ", "xᵣ", "y"].into_iter().enumerate() {
+        let cells = heat_map(&figure, coordinate);
+        assert_eq!([cells.count, cells.cells.len()], [11, 121]);
+        for (solution, cell) in map.solutions.iter().zip(&cells.cells) {
+            let value = solution.icrs.map(|icrs| icrs.to_array()[k]);
+            match (solution.status, *cell) {
+                (Status::Turning, Cell::Value(shown)) => assert_eq!(Some(shown), value),
+                (status, Cell::Gap(_)) => assert_ne!(status, Status::Turning),
+                (status, Cell::Value(_)) => panic!("a value where it is {status:?}"),
+            }
+        }
+    }
+    let robot = &figure.panels[0];
+    let clouds = robot.series.iter().filter_map(|series| match &series.sign {
+        Sign::Cloud(cloud) => Some(cloud.points.len()),
+        _ => None,
+    });
+    let turning = map.turning().filter(|solution| solution.icrs.is_some()).count();
+    assert_eq!(clouds.collect::<Vec<_>>(), [turning, turning]);
+}
+
+#[test]
+fn the_figure_is_well_formed_svg() {
+    let model = auriga(&["motion-resistance"]);
+    let mut map = solve(&model, 11);
+    for (k, status) in
+        [Status::Holds(Side::Left), Status::Lifts, Status::NotConverged].into_iter().enumerate()
+    {
+        map.solutions[k].status = status;
+    }
+    let figure = trackdyn_report::icr_map(&map, &model, "<caption> & \"more\"");
+    let svg = figure.to_svg().expect("a figure");
+    let document = roxmltree::Document::parse(&svg).expect("well-formed");
+    let texts: Vec<String> = document
+        .descendants()
+        .filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "text")))
+        .map(|text| text.descendants().filter_map(|node| node.text()).collect())
+        .collect();
+    for text in ["<caption> & \"more\"", "Left ICRs, enlarged", "no balance found"] {
+        assert!(texts.iter().any(|other| other == text), "{text}: {texts:?}");
+    }
+}
+
 #[test]
 fn the_number_of_threads_does_not_show() {
     let bytes = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
             let model = auriga(&EFFECTS);
-            trackdyn_report::icr_map(&solve(&model, 21), &model, "").expect("a figure")
+            trackdyn_report::icr_map(&solve(&model, 21), &model, "").to_png().expect("a figure")
         })
     };
     assert!(bytes(1) == bytes(4));

@@ -3,6 +3,7 @@
 use trackdyn_drive::tracking::{DriveOptions, Estimate};
 use trackdyn_drive::{Journey, Path, Rolling, Tracker, drive};
 use trackdyn_model::{Icrs, Kinematics};
+use trackdyn_report::figure::Sign;
 use trackdyn_report::{TrackedDrive, path_tracking};
 use trackdyn_tests::circle;
 
@@ -20,7 +21,8 @@ fn draw(path: &Path, options: &DriveOptions, names: [&str; 2], texts: [&str; 2])
     let models = [Kinematics::ideal(0.42), Kinematics::new(AURIGA)];
     let journeys = models.map(|model| journey(path, model, options));
     let drives = [0, 1].map(|k| TrackedDrive { name: names[k], journey: &journeys[k] });
-    path_tracking(path, &drives, [0.0, 0.0], texts[0], texts[1]).expect("a figure")
+    let figure = path_tracking(path, &drives, [0.0, 0.0], texts[0], texts[1]);
+    figure.to_png().expect("a figure")
 }
 
 fn ink_in_margin(bytes: &[u8]) -> bool {
@@ -54,6 +56,33 @@ fn long_texts_short_drives_and_no_drives_can_be_drawn() {
     let long = "a long name ".repeat(40);
     let options = DriveOptions { time_limit: Some(0.01), ..DriveOptions::default() };
     assert!(!ink_in_margin(&draw(&line, &options, [&long, &long], [&long, &long])));
-    let empty = path_tracking(&line, &[], [0.0, 0.0], "", "").expect("a figure");
+    let empty = path_tracking(&line, &[], [0.0, 0.0], "", "").to_png().expect("a figure");
     assert!(!ink_in_margin(&empty));
+}
+
+#[test]
+fn the_figure_holds_the_planned_path_and_the_errors() {
+    let path = Path::square(3.0, true, 1).expect("a square");
+    let journey = journey(&path, Kinematics::ideal(0.42), &DriveOptions::default());
+    let drives = [TrackedDrive { name: "ideal", journey: &journey }];
+    let figure = path_tracking(&path, &drives, [0.0, 0.0], "", "");
+    let line = |panel: usize, name: &str| {
+        let mut series = figure.panels[panel].series.iter().filter(|series| series.name == name);
+        let line = series.find_map(|series| match &series.sign {
+            Sign::Line(line) => Some(line.points.clone()),
+            _ => None,
+        });
+        line.expect("a line of this name")
+    };
+    assert_eq!(line(0, "planned"), path.points());
+    let [_, errors] = [0, 1].map(|panel| &figure.panels[panel]);
+    let metres = if errors.y.unit == "mm" { 1e-3 } else { 1.0 };
+    let shown = line(1, "ideal");
+    assert_eq!(shown.len(), journey.cross_track.len());
+    for ([travelled, error], expected) in shown.into_iter().zip(&journey.cross_track) {
+        assert_eq!(travelled, expected.travelled);
+        // Rounding of the change of unit
+        assert!((metres * error - expected.offset).abs() < 1e-12);
+    }
+    assert!(errors.x.contains(journey.cross_track.last().expect("it drives").travelled));
 }

@@ -127,8 +127,8 @@ pub fn run(options: &Options) -> Outcome {
     let title = format!("{}: {knows}", file.vehicle.name);
     let vehicle = fingerprint(file.to_toml().as_bytes());
     let caption = format!("trackdyn {}, vehicle and effects {vehicle}", env!("CARGO_PKG_VERSION"));
-    let picture = path_tracking(&path, &tracked, point, &title, &caption)?;
-    write_file(&options.out.join("drive.png"), &picture)?;
+    let figure = path_tracking(&path, &tracked, point, &title, &caption);
+    write_file(&options.out.join("drive.png"), &figure.to_png()?)?;
     let table = |index: usize| options.out.join(format!("cross_track_{index}.csv"));
     for (index, drive) in drives.iter().enumerate() {
         write_file(&table(index), drive.journey.cross_track_csv().as_bytes())?;

@@ -56,7 +56,7 @@ pub fn run(options: &Options) -> Outcome {
     let source = source(&file, &map);
     let caption =
         format!("trackdyn {}, vehicle and effects {}", source.version, source.fingerprint);
-    write_file(&picture, &trackdyn_report::icr_map(&map, &model, &caption)?)?;
+    write_file(&picture, &trackdyn_report::icr_map(&map, &model, &caption).to_png()?)?;
     let parameters = options.out.join("kinematics.toml");
     let Some(statistics) = statistics else {
         remove_earlier(&parameters, |source| source.grid.is_some())?;

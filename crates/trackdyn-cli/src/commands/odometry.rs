@@ -81,8 +81,8 @@ fn write(
         inputs.recording.fingerprint(),
         inputs.vehicle_fingerprint
     );
-    let picture = trackdyn_report::odometry(result, inputs.recording.name(), &caption)?;
-    write_file(&out.join("odometry.png"), &picture)?;
+    let figure = trackdyn_report::odometry(result, inputs.recording.name(), &caption);
+    write_file(&out.join("odometry.png"), &figure.to_png()?)?;
     write_file(&out.join("runs.csv"), runs_table::text(result).as_bytes())?;
     let count = trajectories(&out.join("trajectories"), &out.join("odometry.toml"), result)?;
     let document = document::text(inputs, clock, result, &command_line())?;

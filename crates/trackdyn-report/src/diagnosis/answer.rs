@@ -2,7 +2,7 @@
 
 use super::Subject;
 use super::words::{id, ids, significant, symmetry, with_interval};
-use crate::panel::ticks::number;
+use crate::ticks::number;
 use trackdyn_diagnose::Status;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::Unknown;
@@ -30,14 +30,14 @@ pub(super) fn parts(subject: &Subject) -> Vec<[String; 2]> {
     let mut what: Vec<String> = diagnosis.missing.iter().map(|m| named(subject, m)).collect();
     match (diagnosis.status, what.is_empty()) {
         (Status::Unexplained, true) => what.push(
-            "Observation and model differ, but no effect of the catalogue, nor two or three together, \
-             explain how."
+            "Observation and model differ, but no effect of the catalogue, nor two or three \
+             together, explain how."
                 .to_owned(),
         ),
         (Status::Unexplained, false) => what.push(left(subject)),
         (_, true) => what.push(format!(
-            "The model of {} as filed, with constant ICRs (the centres about which the tracks turn), clock \
-             and sensor fitted, explains this evidence down to its noise.",
+            "The model of {} as filed, with constant ICRs (the centres about which the tracks \
+             turn), clock and sensor fitted, explains this evidence down to its noise.",
             subject.vehicle.vehicle.name
         )),
         _ => {}
@@ -70,8 +70,8 @@ fn once(subject: &Subject, verdict: &Verdict) -> Option<String> {
     let values = card.parameters.iter().zip(found.values());
     let values = values.map(|(parameter, &value)| is(parameter, value));
     Some(format!(
-        "Not claimed, because {} of {} blocks of time show it and whatever happens once would look the same: {} ({}, {}). \
-         Drive there again, and diagnose that.",
+        "Not claimed, because {} of {} blocks of time show it and whatever happens once would look \
+         the same: {} ({}, {}). Drive there again, and diagnose that.",
         number(verdict.support.blocks, 1),
         subject.diagnosis.evidence.blocks(),
         lower(card.title),
@@ -110,8 +110,9 @@ fn proposed(proposal: &Proposal) -> String {
         format!("after which symmetries are surely broken still ({})", names.join(", "))
     };
     format!(
-        "A force of this form, whose cause the catalogue does not know, describes it: {} (breaks {}). With it the \
-         error falls from {} to {} standard deviations of the noise{share}, {rest}.",
+        "A force of this form, whose cause the catalogue does not know, describes it: {} (breaks \
+         {}). With it the error falls from {} to {} standard deviations of the noise{share}, \
+         {rest}.",
         proposal.sentence(),
         names.join(", "),
         number(proposal.held_out.before, 3),
@@ -123,8 +124,9 @@ fn named(subject: &Subject, missing: &Missing) -> String {
     let effects = &missing.verdict.one_of;
     if missing.kind == Kind::Constant {
         return format!(
-            "A number of the vehicle file is off, not its physics: the constant ICRs (the centres about which \
-             the tracks turn) differ from what the file gives, for which any one of {} would account.",
+            "A number of the vehicle file is off, not its physics: the constant ICRs (the centres \
+             about which the tracks turn) differ from what the file gives, for which any one of {} \
+             would account.",
             some(effects)
         );
     }
@@ -149,7 +151,8 @@ fn named(subject: &Subject, missing: &Missing) -> String {
             .map(|&effect| format!("{} ({})", lower(title(effect)), id(effect)))
             .collect();
         return format!(
-            "The model of {} lacks one of these, and this evidence cannot tell which: {}. If it is {}{sizes}.",
+            "The model of {} lacks one of these, and this evidence cannot tell which: {}. \
+             If it is {}{sizes}.",
             subject.vehicle.vehicle.name,
             names.join(" or "),
             id(missing.verdict.effect)
@@ -171,8 +174,12 @@ fn is(parameter: &Parameter, value: f64) -> String {
 
 /// Names of a few effects, or how many they are.
 pub(super) fn some(effects: &[EffectId]) -> String {
-    const FEW: usize = 3;
-    if effects.len() > FEW { format!("{} effects", effects.len()) } else { ids(effects, " or ") }
+    const MAX_NAMED: usize = 3;
+    if effects.len() > MAX_NAMED {
+        format!("{} effects", effects.len())
+    } else {
+        ids(effects, " or ")
+    }
 }
 
 /// A title inside a sentence.
@@ -197,8 +204,9 @@ fn errors(subject: &Subject) -> String {
     let contradiction = subject.diagnosis.contradiction();
     let contradiction = contradiction.map_or_else(String::new, |sentence| format!(" {sentence}"));
     format!(
-        "{on} the error is {} standard deviations of the noise before and {} after, where {} would be left \
-         if everything that could move ICRs or instruments were fitted away: {share}.{contradiction}",
+        "{on} the error is {} standard deviations of the noise before and {} after, where {} would \
+         be left if everything that could move ICRs or instruments were fitted away: \
+         {share}.{contradiction}",
         number(fit.before, 3),
         number(fit.after, 3),
         number(fit.noise_floor, 3)
@@ -207,19 +215,20 @@ fn errors(subject: &Subject) -> String {
 
 /// What it is worth: the largest departure that is surely one.
 fn worth(subject: &Subject) -> Option<String> {
-    const SURE: f64 = 4.0;
+    const MIN_DEVIATIONS: f64 = 4.0;
     if subject.diagnosis.missing.is_empty() {
         return None;
     }
     let [before, _] = subject.cells();
     let surely = |cell: &Cell| {
-        let sure = cell.departure.iter().filter(|(value, sd)| value.abs() > SURE * sd);
+        let sure = cell.departure.iter().filter(|(value, sd)| value.abs() > MIN_DEVIATIONS * sd);
         sure.map(|(value, _)| value.abs()).fold(0.0, f64::max)
     };
     let worst = before.iter().max_by(|a, b| surely(a).total_cmp(&surely(b)))?;
     (surely(worst) > 0.0).then(|| {
         format!(
-            "Whoever drives with constant ICRs is off by up to {} mm in one of them, in {} at {} m/s.",
+            "Whoever drives with constant ICRs is off by up to {} mm in one of them, in {} at \
+             {} m/s.",
             number(1e3 * surely(worst), 0),
             worst.manoeuvre.name(),
             number(worst.mean_speed, 2)
@@ -233,16 +242,16 @@ fn advice(subject: &Subject) -> &'static str {
             "vehicle.corrected.toml has what is claimed, to simulate, calibrate and replay with."
         }
         Status::NothingMissing => {
-            "There is no reason to change the vehicle file; the detection limits below say what would have \
-             shown, and what would not."
+            "There is no reason to change the vehicle file; the detection limits below say what \
+             would have shown, and what would not."
         }
         Status::Ambiguous => {
-            "vehicle.corrected.toml takes the first of each class; before more is built on it, do what \
-             decides between its members (below)."
+            "vehicle.corrected.toml takes the first of each class; before more is built on it, do \
+             what decides between its members (below)."
         }
         Status::Unexplained => {
-            "Do not build on the corrected vehicle beyond this recording: look at the figures for where and \
-             when it departs, and at the run for what happened there."
+            "Do not build on the corrected vehicle beyond this recording: look at the figures for \
+             where and when it departs, and at the run for what happened there."
         }
     }
 }

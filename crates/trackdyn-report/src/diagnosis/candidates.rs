@@ -2,7 +2,7 @@
 
 use super::Subject;
 use super::words::{id, ids, significant};
-use crate::panel::ticks::number;
+use crate::ticks::number;
 use trackdyn_diagnose::candidate;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::Unknown;
@@ -11,10 +11,10 @@ use trackdyn_model::EffectId;
 use trackdyn_model::effect::{Parameter, Role};
 
 /// Gain of ln evidence below which nothing is kept.
-const WORTH: f64 = 3.0;
+const MIN_GAIN: f64 = 3.0;
 
 /// Resemblance from which on two effects are called alike.
-const ALIKE: f64 = 0.9;
+const MIN_RESEMBLANCE: f64 = 0.9;
 
 /// How a candidate came out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,8 +34,8 @@ pub(super) enum Outcome {
 /// An effect of the catalogue.
 pub(super) struct Candidate {
     pub effect: EffectId,
-    /// Gain of ln evidence, of a claimed one against the best model without it, of others each by itself; none where it
-    /// was not, or could not be, asked.
+    /// Gain of ln evidence, of a claimed one against the best model without it, of others each by
+    /// itself; none where it was not, or could not be, asked.
     pub gain: Option<f64>,
     /// √ of what the misfit falls by.
     pub z: Option<f64>,
@@ -136,9 +136,12 @@ fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
     if !one.gain.is_finite() || one.z == 0.0 {
         return (Outcome::Out, "not visible: nothing in this evidence would change".to_owned());
     }
-    if one.gain < WORTH {
+    if one.gain < MIN_GAIN {
         let gain = number(one.gain, 1);
-        return (Outcome::Lost, format!("gain of ln evidence {gain}, below {}", number(WORTH, 0)));
+        return (
+            Outcome::Lost,
+            format!("gain of ln evidence {gain}, below {}", number(MIN_GAIN, 0)),
+        );
     }
     (Outcome::Lost, weaker(subject, one))
 }
@@ -156,7 +159,7 @@ fn weaker(subject: &Subject, one: &Screened) -> String {
     let alike = alike.max_by(|a, b| a.0.total_cmp(&b.0));
     let left = diagnosis.left.iter().find(|left| left.effect == one.effect).map(|left| left.gain);
     let left = left.map_or(String::new(), |gain| {
-        if gain > WORTH {
+        if gain > MIN_GAIN {
             let gain = number(gain, 1);
             format!("; beside the answer it promises {gain}, but no claim came of it")
         } else if gain.is_finite() {
@@ -166,7 +169,7 @@ fn weaker(subject: &Subject, one: &Screened) -> String {
         }
     });
     match alike {
-        Some((cosine, other)) if cosine > ALIKE => {
+        Some((cosine, other)) if cosine > MIN_RESEMBLANCE => {
             format!("twin of {}, which explains more{left}", id(other))
         }
         Some((_, other)) => format!("weaker than {}{left}", id(other)),
@@ -175,7 +178,8 @@ fn weaker(subject: &Subject, one: &Screened) -> String {
     }
 }
 
-/// Value of each size: that of no effect, or of the vehicle file, and the estimated distance from it.
+/// Value of each size: that of no effect, or of the vehicle file, and the estimated distance from
+/// it.
 fn values<'a>(subject: &'a Subject, one: &'a Screened) -> impl Iterator<Item = (usize, f64)> + 'a {
     candidate::sizes(one.effect).into_iter().zip(&one.sizes).map(|(place, size)| {
         let hypothesis = &subject.diagnosis.base.fit.hypothesis;

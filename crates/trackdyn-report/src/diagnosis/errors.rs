@@ -1,15 +1,14 @@
 //! Errors before and after against the floor of the noise.
 
-use super::sheet::{self, AFTER, BEFORE, Mark, px};
+use super::sheet::{self, AFTER, BEFORE};
 use super::words::CHANNELS;
 use super::{Subject, View};
-use crate::Error;
-use crate::canvas::{Area, Canvas};
-use crate::colour::{FRAME, GREY, GRID, INK, Rgb};
-use crate::look;
-use crate::panel::ticks::{Ticks, number};
-use crate::panel::{LABEL_SIZE, Panel, TICK_SIZE, TITLE_SIZE};
-use crate::text::{Horizontal, Style, Vertical};
+use crate::colour::Rgb;
+use crate::figure::{
+    Area, Axis, Boxes, Figure, Label, Legend, Paint, Panel, Rule, Swatch, entry_colour,
+};
+use crate::text::{Horizontal, LABEL_SIZE, Style, TICK_SIZE, Vertical, fitted, width};
+use crate::ticks::number;
 use trackdyn_core::real;
 use trackdyn_diagnose::evidence::{Origin, Sample};
 use trackdyn_diagnose::locate::excess_of;
@@ -17,10 +16,10 @@ use trackdyn_diagnose::locate::excess_of;
 const HEIGHT: i32 = 1000;
 const TOP: i32 = sheet::TOP + 130;
 const FLOOR: Rgb = [120, 120, 120];
-/// Runs that have a place of their own.
-const MOST_RUNS: usize = 40;
-/// Runs that have a name each.
-const CROWDED: usize = 16;
+/// Runs that have a place of their own, at most.
+const MAX_RUNS: usize = 40;
+/// Places whose bars have numbers, at most.
+const MAX_NUMBERED: usize = 4;
 
 /// Places of the groups with and without that of the runs.
 const NARROW: [Area; 3] =
@@ -33,24 +32,25 @@ struct Bars {
     places: Vec<(String, Vec<(Rgb, f64)>)>,
 }
 
-/// Draws the error on the runs that judge, by channel and run by run.
-pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
+/// The error on the runs that judge, by channel and run by run.
+pub(super) fn figure(subject: &Subject) -> Figure {
     let fit = &subject.diagnosis.held_out;
-    let explanation = "Root mean square of the residuals in standard deviations of the noise. Floor: what is \
-                       left when everything that could move ICRs or instruments, known or not, is fitted away.";
+    let explanation = "Root mean square of the residuals in standard deviations of the noise. \
+                       Floor: what is left when everything that could move ICRs or instruments, \
+                       known or not, is fitted away.";
     let title = if fit.are_held_out {
         "Error where nothing was fitted or chosen"
     } else {
         "Error on what was fitted (nothing was held out)"
     };
-    let mut canvas = sheet::sheet(HEIGHT, title, explanation, subject.caption)?;
-    let [before, after] = [BEFORE, AFTER].map(look::colour);
+    let mut figure = sheet::sheet("errors", HEIGHT, title, explanation, subject.caption);
+    let [before, after] = [BEFORE, AFTER].map(entry_colour);
     let entries = [
-        (Mark::Box(before), "before"),
-        (Mark::Box(after), "after"),
-        (Mark::Box(FLOOR), "noise floor"),
+        (Swatch::Box(before), "before"),
+        (Swatch::Box(after), "after"),
+        (Swatch::Box(FLOOR), "noise floor"),
     ];
-    sheet::legend(&mut canvas, [158, sheet::TOP + 20], &entries);
+    figure.legends.push(Legend::of_marks([158, sheet::TOP + 20], sheet::RIGHT, entries));
     let which = if fit.are_held_out { "held-out" } else { "all" };
     let what = subject.evidence().origin().runs();
     let place = |text: &str, bars: Vec<(Rgb, f64)>| (text.to_owned(), bars);
@@ -80,9 +80,8 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     let runs = runs(subject, [before, after]);
     let areas = if runs.places.is_empty() { WIDE.as_slice() } else { NARROW.as_slice() };
     for (area, bars) in areas.iter().zip([whole, channels, runs]) {
-        group(&mut canvas, *area, &bars, fit.noise_floor);
+        figure.panels.push(group(*area, &bars, fit.noise_floor));
     }
-    let style = Style::new(LABEL_SIZE).colour(INK);
     let text = match fit.excess_explained() {
         Some(share) => format!(
             "{} % of the excess over the noise floor is explained.",
@@ -90,8 +89,8 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
         ),
         None => "There is no excess over the noise floor to explain.".to_owned(),
     };
-    canvas.text(&text, [158, HEIGHT - 106], &style);
-    canvas.to_small_png()
+    figure.write(text, [158, HEIGHT - 106], Style::new(LABEL_SIZE));
+    figure
 }
 
 /// Before and after of every run; none where there are too many.
@@ -99,7 +98,7 @@ fn runs(subject: &Subject, colours: [Rgb; 2]) -> Bars {
     let names = subject.evidence().runs();
     let mut bars = Bars { title: "run by run (* held out)".to_owned(), places: Vec::new() };
     let is_table = matches!(subject.evidence().origin(), Origin::SteadyPoints(_));
-    if is_table || names.len() > MOST_RUNS {
+    if is_table || names.len() > MAX_RUNS {
         return bars;
     }
     for (run, name) in names.iter().enumerate() {
@@ -116,52 +115,42 @@ fn runs(subject: &Subject, colours: [Rgb; 2]) -> Bars {
     bars
 }
 
-fn group(canvas: &mut Canvas, area: Area, bars: &Bars, floor: f64) {
+fn group(area: Area, bars: &Bars, floor: f64) -> Panel {
     let all = bars.places.iter().flat_map(|(_, bars)| bars).map(|(_, value)| *value);
     let highest = 1.12 * all.filter(|value| value.is_finite()).fold(floor.max(1.0), f64::max);
-    let panel = Panel { plot: area, x: [0.0, real(bars.places.len())], y: [0.0, highest] };
-    let ticks = Ticks::along(panel.y, area.height, 60);
-    let style = Style::new(TICK_SIZE).colour(GREY).anchor(Horizontal::Right, Vertical::Middle);
-    for value in &ticks.values {
-        let row = px(panel.pixel([0.0, *value])[1]);
-        canvas.fill(Area::new(area.left, row, area.width, 1), GRID);
-        canvas.text(&number(*value, ticks.decimals), [area.left - 14, row], &style);
-    }
-    for (place, (name, values)) in bars.places.iter().enumerate() {
+    let x = Axis::unmarked([0.0, real(bars.places.len())]).at(names(bars, area)).without_grid();
+    let y = Axis::new("rms residual", "σ", [0.0, highest]);
+    let mut panel = Panel::new(&bars.title, area, x, y);
+    let (mut boxes, mut colours) = (Vec::new(), Vec::new());
+    for (place, (_, values)) in bars.places.iter().enumerate() {
         let width = 0.7 / real(values.len().max(1));
         for (k, (colour, value)) in values.iter().enumerate() {
             let left = real(place) + 0.15 + width * real(k);
-            let bar = panel.area([left, 0.0], [left + 0.94 * width, value.min(highest)]);
-            canvas.fill(bar, *colour);
-            if bars.places.len() <= 4 {
+            let right = left + 0.94 * width;
+            boxes.push([[left, 0.0], [right, value.min(highest)]]);
+            colours.push(*colour);
+            if bars.places.len() <= MAX_NUMBERED {
                 let style = Style::new(20.0).anchor(Horizontal::Centre, Vertical::Baseline);
-                let middle = bar.left + bar.width / 2;
-                let decimals = if *value < 10.0 { 3 } else { 1 };
-                canvas.text(&number(*value, decimals), [middle, bar.top - 8], &style);
+                let at = [f64::midpoint(left, right), value.min(highest)];
+                let text = number(*value, if *value < 10.0 { 3 } else { 1 });
+                panel.labels.push(Label::new(text, at, style).shifted([0, -8]));
             }
         }
-        let column = px(panel.pixel([real(place) + 0.5, 0.0])[0]);
-        let size = if bars.places.len() > 10 { 18.0 } else { TICK_SIZE };
-        let style = Style::new(size).anchor(Horizontal::Centre, Vertical::Top);
-        let each = if bars.places.len() <= CROWDED { 1 } else { 2 };
-        if place % each == 0 {
-            let room = px(panel.pixel([real(each), 0.0])[0]) - px(panel.pixel([0.0, 0.0])[0]);
-            let name = canvas.fitted(name, size, room - 10);
-            canvas.text(&name, [column, area.bottom() + 16], &style);
-        }
     }
-    let row = px(panel.pixel([0.0, floor])[1]);
-    for column in (area.left..area.right()).step_by(16) {
-        canvas.fill(Area::new(column, row - 1, 8, 3), FLOOR);
-    }
-    canvas.outline(
-        Area::new(area.left - 1, area.top - 1, area.width + 2, area.height + 2),
-        2,
-        FRAME,
-    );
-    let style = Style::new(TITLE_SIZE).anchor(Horizontal::Left, Vertical::Baseline);
-    canvas.text(&bars.title, [area.left, area.top - 16], &style);
-    let style = Style { upwards: true, ..Style::new(LABEL_SIZE) };
-    let style = style.anchor(Horizontal::Centre, Vertical::Top);
-    canvas.text("rms residual (σ)", [area.left - 118, area.top + area.height / 2], &style);
+    panel.show_as(&bars.title, Boxes::new(boxes, Paint::Each(colours)));
+    panel.show_as("noise floor", Rule::level(floor, 3.0, FLOOR).dashed());
+    panel
+}
+
+/// Names of the places, as many as there is room for.
+fn names(bars: &Bars, area: Area) -> Vec<(f64, String)> {
+    const GAP: i32 = 10;
+    let count = bars.places.len().max(1);
+    let pitch = area.width / sheet::rows(count);
+    let widest = bars.places.iter().map(|(name, _)| width(name, TICK_SIZE)).max().unwrap_or(0);
+    let is_crowded = count > MAX_NUMBERED && widest + GAP > pitch;
+    let each = if is_crowded { (widest + GAP).div_euclid(pitch.max(1)) + 1 } else { 1 };
+    let names = bars.places.iter().enumerate().step_by(each.unsigned_abs() as usize);
+    let room = pitch * each - GAP;
+    names.map(|(place, (name, _))| (real(place) + 0.5, fitted(name, TICK_SIZE, room))).collect()
 }

@@ -1,11 +1,11 @@
 //! The report: one page that needs nothing beside itself.
 
-use super::base64::base64;
 use super::candidates::{Outcome, candidates};
 use super::words::{id, ids, probability, significant, with_interval};
-use super::{Figure, Subject, answer};
+use super::{Subject, answer};
 use crate::Error;
-use crate::panel::ticks::number;
+use crate::figure::Figure;
+use crate::ticks::number;
 use minijinja::Environment;
 use minijinja::value::Serde;
 use serde::Serialize;
@@ -74,10 +74,10 @@ struct Class {
 
 #[derive(Serialize)]
 struct Picture<'a> {
-    file: &'a str,
+    file: String,
     title: &'a str,
     reading: &'a str,
-    base64: String,
+    svg: String,
 }
 
 #[derive(Serialize)]
@@ -104,25 +104,24 @@ struct Limit {
 /// The text depends on the arguments only.
 ///
 /// # Errors
-/// [`Error::Template`].
+/// [`Error`] where a figure cannot be drawn or the page cannot be filled in.
 pub fn diagnosis_html(subject: &Subject, figures: &[Figure]) -> Result<String, Error> {
     let mut environment = Environment::new();
     environment.add_template(NAME, include_str!("report.html"))?;
-    Ok(environment.get_template(NAME)?.render(Serde(page(subject, figures)))?)
+    Ok(environment.get_template(NAME)?.render(Serde(page(subject, figures)?))?)
 }
 
-fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Page<'a> {
+fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Result<Page<'a>, Error> {
     let (diagnosis, evidence) = (subject.diagnosis, subject.evidence());
     let [status, tone] = answer::status(subject);
     let refused = diagnosis.refused.iter().map(|verdict| Row {
         name: ids(&verdict.one_of, " or "),
         text: verdict.refused.clone().unwrap_or_default(),
     });
-    let figures = figures.iter().map(|figure| Picture {
-        file: figure.file,
-        title: figure.title,
-        reading: figure.reading,
-        base64: base64(&figure.png),
+    let figures = figures.iter().map(|figure| {
+        let svg = figure.to_svg_element()?;
+        let (file, title, reading) = (figure.file(), &figure.title, &figure.reading);
+        Ok(Picture { file, title, reading, svg })
     });
     let unit = match evidence.origin() {
         Origin::Drive(_) => "segments of driving",
@@ -135,7 +134,7 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Page<'a> {
         let what = evidence.origin().runs();
         format!("{held_out} of {} {what} were held out", evidence.runs().len())
     });
-    Page {
+    Ok(Page {
         name: subject.name,
         vehicle: &subject.vehicle.vehicle.name,
         status,
@@ -145,15 +144,15 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Page<'a> {
         missing: missing(subject),
         classes: classes(subject),
         refused: refused.collect(),
-        figures: figures.collect(),
+        figures: figures.collect::<Result<_, Error>>()?,
         candidates: rows(subject),
         limits: limits(subject),
-        rules: rules(),
+        rules: rules(&ClaimLimits::of_diagnosis()),
         evidence: format!("{samples} {unit}; {held_out}"),
         noise: noise(subject),
         source: subject.file.source.as_ref(),
         caption: subject.caption,
-    }
+    })
 }
 
 fn missing(subject: &Subject) -> Vec<Missing> {
@@ -274,17 +273,48 @@ fn limits(subject: &Subject) -> Vec<Limit> {
         .collect()
 }
 
-fn rules() -> Vec<String> {
+/// Limits that a claim has to meet.
+struct ClaimLimits {
+    /// Largest probability of chance.
+    max_p: f64,
+    /// Smallest ln Bayes factor against the best answer without it.
+    min_ln_bayes_factor: f64,
+    /// Smallest gain on blocks left out of the fit, in standard errors.
+    min_held_out_gain: f64,
+    /// Smallest share of resampled recordings that name it too.
+    min_stable: f64,
+}
+
+impl ClaimLimits {
+    /// The limits that the diagnosis uses.
+    const fn of_diagnosis() -> Self {
+        Self {
+            max_p: Rules::P,
+            min_ln_bayes_factor: Rules::LN_BAYES_FACTOR,
+            min_held_out_gain: Rules::GAIN,
+            min_stable: Rules::STABLE,
+        }
+    }
+}
+
+/// What a claim has to meet, one clause each.
+fn rules(limits: &ClaimLimits) -> Vec<String> {
     vec![
-        format!("the probability of chance, among all that was looked at, is below {}", Rules::P),
+        format!(
+            "the probability of chance, among all that was looked at, is below {}",
+            limits.max_p
+        ),
         format!(
             "its ln Bayes factor against the best answer without it is at least {}",
-            Rules::LN_BAYES_FACTOR
+            limits.min_ln_bayes_factor
         ),
-        format!("on blocks left out of the fit it gains more than {} standard errors", Rules::GAIN),
+        format!(
+            "on blocks left out of the fit it gains more than {} standard errors",
+            limits.min_held_out_gain
+        ),
         format!(
             "at least {} % of resampled recordings name the same",
-            number(100.0 * Rules::STABLE, 0)
+            number(100.0 * limits.min_stable, 0)
         ),
         "its sizes lie inside their physical ranges".to_owned(),
     ]
@@ -304,7 +334,8 @@ fn noise(subject: &Subject) -> String {
     }
     let [forward, left, yaw] = scale.map(|scale| number(scale, 2));
     format!(
-        "{taken}. What no effect explains is larger than it, so the noise was taken to be {forward} (forward), \
-         {left} (left) and {yaw} (yaw) times as large, which makes every claim less sure."
+        "{taken}. What no effect explains is larger than it, so the noise was taken to be \
+         {forward} (forward), {left} (left) and {yaw} (yaw) times as large, which makes every \
+         claim less sure."
     )
 }

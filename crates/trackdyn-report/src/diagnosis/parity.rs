@@ -1,15 +1,15 @@
 //! The tests of symmetries.
 
 use super::Subject;
-use super::sheet::{self, AFTER, BEFORE, Mark, label_left_of, label_right_of, px, rows};
+use super::sheet::{self, AFTER, BEFORE, rows};
 use super::words::{probability, symmetry};
-use crate::Error;
-use crate::canvas::Area;
 use crate::colour::{FRAME, GREY, GRID, INK};
-use crate::look;
-use crate::panel::ticks::number;
-use crate::panel::{LABEL_SIZE, Panel, TICK_SIZE};
-use crate::text::{Horizontal, Style, Vertical};
+use crate::figure::{
+    Area, Axis, Figure, Label, Legend, Line, Marker, Panel, Points, Rule, Shape, Swatch,
+    entry_colour,
+};
+use crate::text::{Horizontal, LABEL_SIZE, Style, TICK_SIZE, Vertical};
+use crate::ticks::number;
 use trackdyn_core::real;
 use trackdyn_diagnose::Diagnosis;
 use trackdyn_diagnose::locate::{SIGNIFICANT, SymmetryTest};
@@ -25,8 +25,8 @@ const COLUMN: i32 = 215;
 /// Place among the colours of what is taken as the file has it.
 const FILED: usize = 2;
 
-/// Draws one row per symmetry: its statistic per degree of freedom.
-pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
+/// One row per symmetry: its statistic per degree of freedom.
+pub(super) fn figure(subject: &Subject) -> Figure {
     let Diagnosis { filed, before: fitted, after, .. } = subject.diagnosis;
     let states = [
         (&filed.tests, FILED, "as filed", "p as filed"),
@@ -35,74 +35,73 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     ];
     let count = fitted.tests.len().max(1);
     let height = TOP + rows(count) * ROW + 140 + sheet::FOOT;
-    let explanation = "A robot with constant ICRs drives alike in both cases that a symmetry compares. \
-                       Statistic: squared departure per number tested; noise makes 1 within a block of time, \
-                       and p compares blocks. Broken: by the vehicle as filed or with clock and sensor fitted, \
-                       or surely by the corrected one.";
+    let explanation = "A robot with constant ICRs drives alike in both cases that a symmetry \
+                       compares. Statistic: squared departure per number tested; noise makes 1 \
+                       within a block of time, and p compares blocks. Broken: by the vehicle as \
+                       filed or with clock and sensor fitted, or surely by the corrected one.";
     let title = "Which symmetries of driving are broken";
-    let mut canvas = sheet::sheet(height, title, explanation, subject.caption)?;
+    let mut figure = sheet::sheet("symmetries", height, title, explanation, subject.caption);
     let broken = format!("filled: broken (p < {SIGNIFICANT} among all tests)");
     let of_states =
-        states.iter().map(|(_, entry, name, _)| (Mark::Disc(look::colour(*entry)), *name));
-    let of_tests = [(Mark::Disc(INK), broken.as_str()), (Mark::Ring(INK), "open: may be chance")];
-    let entries: Vec<(Mark, &str)> = of_states.chain(of_tests).collect();
-    sheet::legend(&mut canvas, [LABELS - 120, sheet::TOP + 20], &entries);
+        states.iter().map(|(_, entry, name, _)| (Swatch::disc(entry_colour(*entry)), *name));
+    let of_tests = [(Swatch::disc(INK), broken.as_str()), (Swatch::ring(), "open: may be chance")];
+    let at = [LABELS - 120, sheet::TOP + 20];
+    figure.legends.push(Legend::of_marks(at, sheet::RIGHT, of_states.chain(of_tests)));
     let ratios = states.iter().flat_map(|(tests, ..)| *tests).filter_map(ratio);
     let (low, high) = ratios.fold((0.3, 10.0), |(low, high): (f64, f64), value| {
         (low.min(0.8 * value).max(0.02), high.max(2.0 * value))
     });
-    let plot = Area::new(LABELS, TOP, PANEL, rows(count) * ROW);
-    let panel = Panel { plot, x: [low.log10(), high.log10()], y: [real(count), 0.0] };
-    let mut ticks = Vec::new();
-    for decade in -2..7 {
-        for factor in [1.0, 3.0] {
-            let value = factor * 10.0_f64.powi(decade);
-            if value >= low && value <= high {
-                let decimals = if value < 0.1 { 2 } else { usize::from(value < 1.0) };
-                ticks.push((value.log10(), number(value, decimals)));
-            }
-        }
+    let range = [low.log10(), high.log10()];
+    let x = Axis::new("statistic per degree of freedom (logarithmic)", "", range);
+    let place = Area::new(LABELS, TOP, PANEL, rows(count) * ROW);
+    let mut panel = Panel::new("", place, x.at(ticks(low, high)), Axis::rows(count));
+    let above =
+        |anchor, (size, colour)| Style::new(size).colour(colour).anchor(anchor, Vertical::Baseline);
+    let style = above(Horizontal::Centre, (TICK_SIZE, GREY));
+    panel.labels.push(Label::new("noise alone", [0.0, 0.0], style).shifted([0, -14]));
+    for row in 1..fitted.tests.len() {
+        panel.show(Rule::level(real(row), 1.0, GRID));
     }
-    sheet::axis_below(&mut canvas, &panel, &ticks, "statistic per degree of freedom (logarithmic)");
-    let one = px(panel.pixel([0.0, 0.0])[0]);
-    canvas.fill(Area::new(one - 1, TOP, 3, plot.height), FRAME);
-    let style = Style::new(TICK_SIZE).colour(GREY).anchor(Horizontal::Centre, Vertical::Baseline);
-    canvas.text("noise alone", [one, TOP - 14], &style);
-    let columns = [0, 1, 2].map(|state| LABELS + PANEL + 40 + state * COLUMN);
-    let style = Style::new(LABEL_SIZE).anchor(Horizontal::Left, Vertical::Baseline);
-    for (column, (.., title)) in columns.into_iter().zip(states) {
-        canvas.text(title, [column, TOP - 14], &style);
-    }
+    panel.show_as("noise alone", Rule::upright(0.0, 3.0, FRAME));
     for (row, test) in fitted.tests.iter().enumerate() {
-        let middle = TOP + rows(row) * ROW + ROW / 2;
+        let at = [range[0], real(row) + 0.5];
         let [name, meaning] = symmetry(test.symmetry);
-        label_left_of(&mut canvas, name, [LABELS - 24, middle - 17], LABEL_SIZE, INK);
-        label_left_of(&mut canvas, meaning, [LABELS - 24, middle + 19], 20.0, GREY);
-        if row > 0 {
-            canvas.fill(Area::new(LABELS, TOP + rows(row) * ROW, PANEL, 1), GRID);
+        let names = [(name, (LABEL_SIZE, INK), -17), (meaning, (20.0, GREY), 19)];
+        for (text, style, down) in names {
+            let label = Label::left_of(text, at, 24, style);
+            panel.labels.push(Label { shift: [-24, down], ..label });
         }
-        for (state, (tests, entry, ..)) in states.into_iter().enumerate() {
+    }
+    for (state, (tests, entry, name, title)) in states.into_iter().enumerate() {
+        let beside = 40 + rows(state) * COLUMN;
+        let style = above(Horizontal::Left, (LABEL_SIZE, INK));
+        panel.labels.push(Label::new(title, [range[1], 0.0], style).shifted([beside, -14]));
+        for (row, test) in fitted.tests.iter().enumerate() {
             let test = tests.iter().find(|other| other.symmetry == test.symmetry);
             let Some(test) = test else { continue };
-            let aside = ASIDE[state];
-            let broken = test.test.p < SIGNIFICANT;
-            let colour = if broken { INK } else { GREY };
-            let text = probability(test.test.p);
-            label_right_of(&mut canvas, &text, [columns[state], middle], TICK_SIZE, colour);
+            let is_broken = test.test.p < SIGNIFICANT;
+            let style = (TICK_SIZE, if is_broken { INK } else { GREY });
+            let (p, at) = (probability(test.test.p), [range[1], real(row) + 0.5]);
+            panel.labels.push(Label::right_of(&p, at, beside, style));
             let Some(ratio) = ratio(test) else { continue };
-            let at = panel.pixel([ratio.max(low).log10(), real(row) + aside]);
-            let foot = [f64::from(one), at[1]];
-            canvas.line(foot, at, 4.0, look::colour(entry));
-            if broken {
-                canvas.disc(at, 13.0, look::colour(entry));
-            } else {
-                canvas.disc(at, 13.0, crate::colour::WHITE);
-                canvas.ring(at, 11.0, 4.0, look::colour(entry));
-            }
+            let (end, row) = (ratio.max(low).log10(), real(row) + ASIDE[state]);
+            let colour = entry_colour(entry);
+            let points = vec![[0.0, row], [end, row]];
+            panel.show_as(name, Line { points, thickness: 4.0, colour });
+            let shape = if is_broken { Shape::Disc(13.0) } else { Shape::Open(11.0, 4.0) };
+            panel.show_as(name, Points::new(vec![[end, row]], Marker { shape, colour }));
         }
     }
-    panel.border(&mut canvas);
-    canvas.to_small_png()
+    figure.panels.push(panel);
+    figure
+}
+
+/// Numbers along a logarithmic axis.
+fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
+    let values = (-2..7).flat_map(|decade| [1.0, 3.0].map(|k| k * 10.0_f64.powi(decade)));
+    let inside = values.filter(|value| (low..=high).contains(value));
+    let text = |value| number(value, if value < 0.1 { 2 } else { usize::from(value < 1.0) });
+    inside.map(|value| (value.log10(), text(value))).collect()
 }
 
 fn ratio(test: &SymmetryTest) -> Option<f64> {

@@ -1,13 +1,11 @@
 //! One run replayed: dead reckoning with the model as filed and as corrected.
 
-use super::sheet::{self, AFTER, BEFORE, Mark};
+use super::sheet::{self, AFTER, BEFORE};
 use super::{Subject, View};
-use crate::Error;
-use crate::canvas::{Area, Canvas};
-use crate::colour::{INK, WHITE};
-use crate::look;
-use crate::panel::ticks::number;
-use crate::panel::{Labels, Panel};
+use crate::colour::INK;
+use crate::figure::{Area, Axis, Figure, Legend, Line, Panel, Swatch, around, entry_colour};
+use crate::paths::{self, Named};
+use crate::ticks::number;
 use nalgebra::Vector3;
 use trackdyn_core::Pose;
 use trackdyn_diagnose::Evidence;
@@ -22,7 +20,9 @@ const ERRORS: [Area; 2] =
     [Area::new(1310, sheet::TOP + 130, 1030, 360), Area::new(1310, sheet::TOP + 670, 1030, 360)];
 
 /// Longest time that is replayed, s: later the paths only cross themselves.
-const LONGEST: f64 = 60.0;
+const MAX_TIME: f64 = 60.0;
+/// What is replayed.
+const NAMES: [&str; 2] = ["as filed", "corrected"];
 
 /// A run, as observed and as replayed, from one start.
 struct Replay {
@@ -34,31 +34,29 @@ struct Replay {
     replayed: [Vec<Pose>; 2],
 }
 
-/// Draws the paths and their errors; none where there are no paths.
-pub(super) fn draw(subject: &Subject) -> Result<Option<Vec<u8>>, Error> {
-    let Some(replay) = replay(subject) else { return Ok(None) };
+/// The paths and their errors; none where there are no paths.
+pub(super) fn figure(subject: &Subject) -> Option<Figure> {
+    let replay = replay(subject)?;
     let held_out = if replay.is_held_out { ", held out of the fit" } else { "" };
     let title = format!("Dead reckoning of run {}{held_out}", replay.run);
-    let explanation = "Where the recorded track speeds alone lead, from the first observed pose on: with the \
-                       vehicle file as it is, and as the diagnosis corrects it. Both use the recording's own \
-                       clock offset.";
-    let mut canvas = sheet::sheet(HEIGHT, &title, explanation, subject.caption)?;
-    let line = |entry| Mark::Line(look::colour(entry), 5.0);
+    let explanation = "Where the recorded track speeds alone lead, from the first observed pose \
+                       on: with the vehicle file as it is, and as the diagnosis corrects it. Both \
+                       use the recording's own clock offset.";
+    let mut figure = sheet::sheet("path", HEIGHT, &title, explanation, subject.caption);
+    let line = |entry: usize| Swatch::Line(entry_colour(entry), 5.0);
     let entries = [
-        (Mark::Line(INK, 8.0), "observed"),
-        (line(BEFORE), "as filed"),
-        (line(AFTER), "corrected"),
-        (Mark::Ring(INK), "start"),
+        (Swatch::Line(INK, 8.0), "observed"),
+        (line(BEFORE), NAMES[BEFORE]),
+        (line(AFTER), NAMES[AFTER]),
+        (Swatch::ring(), "start"),
     ];
-    sheet::legend(&mut canvas, [158, sheet::TOP + 20], &entries);
-    paths(&mut canvas, &replay)?;
+    figure.legends.push(Legend::of_marks([158, sheet::TOP + 20], sheet::RIGHT, entries));
+    figure.panels.push(paths(&replay));
     let distance = |a: &Pose, b: &Pose| (a.x - b.x).hypot(a.y - b.y);
     let turn = |a: &Pose, b: &Pose| a.relative(b).yaw.to_degrees();
-    let place = Labels { title: "Error of place", x: "time (s)", y: "error (m)" };
-    errors(&mut canvas, ERRORS[0], &place, &replay, distance, "m")?;
-    let heading = Labels { title: "Error of heading", x: "time (s)", y: "error (°)" };
-    errors(&mut canvas, ERRORS[1], &heading, &replay, turn, "°")?;
-    canvas.to_small_png().map(Some)
+    figure.panels.push(errors(ERRORS[0], ["Error of place", "m"], &replay, distance));
+    figure.panels.push(errors(ERRORS[1], ["Error of heading", "°"], &replay, turn));
+    Some(figure)
 }
 
 /// The longest of the held-out runs, or of all where none was held out.
@@ -77,7 +75,7 @@ fn replay(subject: &Subject) -> Option<Replay> {
     let start = samples[first].start;
     let count = samples[first..]
         .iter()
-        .take_while(|sample| sample.run == run && sample.start - start <= LONGEST)
+        .take_while(|sample| sample.run == run && sample.start - start <= MAX_TIME)
         .count();
     let chosen = first..first + count;
     let observed = poses(evidence, chosen.clone(), |index| samples[index].motion);
@@ -91,8 +89,8 @@ fn replay(subject: &Subject) -> Option<Replay> {
     Some(Replay { run: evidence.runs()[run], is_held_out, times, observed, replayed })
 }
 
-/// The motion of every sample with a vehicle file, moved by the recording's clock where the file says nothing
-/// of it.
+/// The motion of every sample with a vehicle file, moved by the recording's clock where the file
+/// says nothing of it.
 fn motions(evidence: &Evidence, file: &VehicleFile) -> Vec<Vector3<f64>> {
     let hypothesis = Hypothesis::filed(file);
     let mut instruments = Instruments::of(&hypothesis);
@@ -145,47 +143,29 @@ fn chained(
     path
 }
 
-fn paths(canvas: &mut Canvas, replay: &Replay) -> Result<(), Error> {
+fn paths(replay: &Replay) -> Panel {
     let points = |poses: &[Pose]| poses.iter().map(|pose| [pose.x, pose.y]).collect::<Vec<_>>();
     let further = replay.replayed.iter().flat_map(|path| points(path));
-    let panel = Panel::around(PATHS, points(&replay.observed), further);
-    panel.frame(canvas, &Labels { title: "Paths", x: "x (m)", y: "y (m)" }, true)?;
-    canvas.clip(PATHS, |canvas| {
-        let place = |pose: &Pose| panel.pixel([pose.x, pose.y]);
-        look::line(canvas, replay.observed.iter().map(place), 8.0, INK);
-        for (entry, path) in replay.replayed.iter().enumerate() {
-            look::line(canvas, path.iter().map(place), 4.0, look::colour(entry));
-        }
-        for (entry, path) in replay.replayed.iter().enumerate() {
-            if let Some(end) = path.last() {
-                look::marker(canvas, entry, place(end));
-            }
-        }
-        if let (Some(start), Some(end)) = (replay.observed.first(), replay.observed.last()) {
-            canvas.disc(place(end), 12.0, INK);
-            canvas.disc(place(start), 12.0, WHITE);
-            canvas.ring(place(start), 12.0, 4.0, INK);
-        }
-    });
-    panel.border(canvas);
+    let ranges = around(PATHS, points(&replay.observed), further);
+    let paths = replay.replayed.iter().map(|path| points(path));
+    let paths: Vec<Named> = NAMES.into_iter().zip(paths).collect();
+    let mut panel = paths::panel(PATHS, ranges, ("observed", points(&replay.observed)), &paths);
     let length: f64 = replay
         .observed
         .windows(2)
         .map(|pair| (pair[1].x - pair[0].x).hypot(pair[1].y - pair[0].y))
         .sum();
     let time = replay.times.last().copied().unwrap_or(0.0);
-    panel.remark(canvas, &format!("{} m in {} s", number(length, 1), number(time, 0)));
-    Ok(())
+    panel.remark = format!("{} m in {} s", number(length, 1), number(time, 0));
+    panel
 }
 
 fn errors(
-    canvas: &mut Canvas,
-    area: Area,
-    labels: &Labels,
+    place: Area,
+    [title, unit]: [&str; 2],
     replay: &Replay,
     of: impl Fn(&Pose, &Pose) -> f64,
-    unit: &str,
-) -> Result<(), Error> {
+) -> Panel {
     let errors = replay.replayed.each_ref().map(|path| -> Vec<f64> {
         path.iter().zip(&replay.observed).map(|(path, observed)| of(observed, path)).collect()
     });
@@ -194,22 +174,15 @@ fn errors(
     let room = 0.06 * (high - low).max(1e-6);
     let low = if low < 0.0 { low - room } else { 0.0 };
     let end = replay.times.last().copied().unwrap_or(1.0).max(1e-3);
-    let panel = Panel { plot: area, x: [0.0, end], y: [low, high + room] };
-    panel.frame(canvas, labels, true)?;
-    canvas.clip(area, |canvas| {
-        for (entry, errors) in errors.iter().enumerate() {
-            let places =
-                replay.times.iter().zip(errors).map(|(time, error)| panel.pixel([*time, *error]));
-            look::line(canvas, places, 4.0, look::colour(entry));
-        }
-    });
-    panel.border(canvas);
+    let y = Axis::new("error", unit, [low, high + room]);
+    let mut panel = Panel::new(title, place, Axis::new("time", "s", [0.0, end]), y);
+    for (entry, errors) in errors.iter().enumerate() {
+        let points = replay.times.iter().zip(errors).map(|(time, error)| [*time, *error]).collect();
+        let line = Line { points, thickness: 4.0, colour: entry_colour(entry) };
+        panel.show_as(NAMES[entry], line);
+    }
     let last = errors.each_ref().map(|errors| errors.last().copied().unwrap_or(0.0));
-    let text = format!(
-        "at the end {} {unit} as filed, {} {unit} corrected",
-        number(last[0], 2),
-        number(last[1], 2)
-    );
-    panel.remark(canvas, &text);
-    Ok(())
+    let [filed, corrected] = last.map(|error| number(error, 2));
+    panel.remark = format!("at the end {filed} {unit} as filed, {corrected} {unit} corrected");
+    panel
 }

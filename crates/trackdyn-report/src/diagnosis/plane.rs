@@ -3,12 +3,10 @@
 use super::sheet::{self, quantile};
 use super::words::CHANNELS;
 use super::{Subject, View};
-use crate::Error;
-use crate::canvas::{Area, Canvas};
-use crate::colour::{BLUE_RED, BLUES, ColourMap, FRAME, GREY, GRID};
-use crate::colour_bar;
-use crate::panel::{Labels, Panel, TICK_SIZE};
-use crate::text::{Horizontal, Style, Vertical};
+use crate::colour::{BLUE_RED, BLUES, FRAME, GRID};
+use crate::figure::{
+    Area, Axis, Boxes, ColourBar, Figure, Paint, Panel, Points, Scale, Series, Shape,
+};
 use trackdyn_core::real;
 use trackdyn_diagnose::evidence::Origin;
 
@@ -24,19 +22,27 @@ const CELLS: usize = 17;
 /// Radius of a steady point, pixels.
 const POINT: f64 = 6.0;
 
-/// One panel: what stands for a place of the plane.
+/// What a spot of the plane stands for: the samples of a cell, or one steady point.
+#[derive(Clone, Copy)]
+enum Stands {
+    Cell,
+    Point,
+}
+
+/// A value at a place of the plane.
 struct Spot {
     at: [f64; 2],
     value: f64,
 }
 
-/// Draws the mean residual of each channel and the size of all, before and after.
-pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
-    let explanation = "What the model leaves unexplained of the motion, by the speeds of the left and the \
-                       right track, in standard deviations of the noise; the same scale above and below. White: \
-                       nothing, or not driven. Of all cells the largest 2 % share the last colour.";
+/// The mean residual of each channel and the size of all, before and after.
+pub(super) fn figure(subject: &Subject) -> Figure {
+    let explanation = "What the model leaves unexplained of the motion, by the speeds of the left \
+                       and the right track, in standard deviations of the noise; the same scale \
+                       above and below. White: nothing, or not driven. Of all cells the largest 2 \
+                       % share the last colour.";
     let title = "Where observation and model differ";
-    let mut canvas = sheet::sheet(HEIGHT, title, explanation, subject.caption)?;
+    let mut figure = sheet::sheet("plane", HEIGHT, title, explanation, subject.caption);
     let views = subject.views();
     let fastest = views
         .iter()
@@ -44,12 +50,12 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
         .map(|sample| sample.speeds.left.abs().max(sample.speeds.right.abs()))
         .fold(0.0, f64::max);
     let shape = match subject.evidence().origin() {
-        Origin::Drive(_) => Shape::Cells,
-        Origin::SteadyPoints(_) => Shape::Points,
+        Origin::Drive(_) => Stands::Cell,
+        Origin::SteadyPoints(_) => Stands::Point,
     };
     let room = match shape {
-        Shape::Cells => 1.03,
-        Shape::Points => 1.08,
+        Stands::Cell => 1.03,
+        Stands::Point => 1.08,
     };
     let extent = if fastest > 0.0 { room * fastest } else { 1.0 };
     let means = [0, 1].map(|when| {
@@ -72,23 +78,28 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     };
     let most = limit(&mut means.iter().flatten().flatten().map(|spot| spot.value.abs()), 1.0);
     let largest = limit(&mut sizes.iter().flatten().map(|spot| spot.value), 1.5);
+    let mean = Scale::new(BLUE_RED, [-most, most], "mean, σ");
+    let size = Scale::new(BLUES, [0.0, largest], "rms, σ");
     for (row, when) in ["before", "after"].into_iter().enumerate() {
-        for channel in 0..3 {
-            let area = Area::new(COLUMNS[channel], ROWS[row], SIDE, SIDE);
-            let title = format!("{}, {when}", CHANNELS[channel]);
-            let share = |value: f64| f64::midpoint(value / most, 1.0);
-            let spots = &means[row][channel];
-            panel(&mut canvas, area, extent, &title, (spots.as_slice(), shape), &BLUE_RED, share)?;
+        let channels = CHANNELS.iter().zip(&means[row]).map(|(name, spots)| (*name, spots, &mean));
+        let all = channels.chain([("size of all", &sizes[row], &size)]);
+        for (column, (name, spots, scale)) in all.enumerate() {
+            let place = Area::new(COLUMNS[column], ROWS[row], SIDE, SIDE);
+            let title = format!("{name}, {when}");
+            let mut panel = panel(place, extent, &title);
+            if spots.is_empty() {
+                panel.explain_emptiness("not measured");
+            } else {
+                panel.show_as(&title, shapes(spots, scale, extent, shape));
+            }
+            let bar = |column: usize| Area::new(BARS[column], ROWS[row], 26, SIDE);
+            if let Some(k) = [2, 3].iter().position(|last| *last == column) {
+                panel.colour_bars.push(ColourBar { place: bar(k), scale: scale.clone() });
+            }
+            figure.panels.push(panel);
         }
-        let area = Area::new(COLUMNS[3], ROWS[row], SIDE, SIDE);
-        let title = format!("size of all, {when}");
-        let spots = (sizes[row].as_slice(), shape);
-        panel(&mut canvas, area, extent, &title, spots, &BLUES, |v| v / largest)?;
-        let bar = |column: usize| Area::new(BARS[column], ROWS[row], 26, SIDE);
-        colour_bar::draw(&mut canvas, bar(0), &BLUE_RED, [-most, most], "mean, σ");
-        colour_bar::draw(&mut canvas, bar(1), &BLUES, [0.0, largest], "rms, σ");
     }
-    canvas.to_small_png()
+    figure
 }
 
 /// Mean square of what was measured of a sample, before (0) or after (1).
@@ -99,19 +110,10 @@ fn square(view: &View, when: usize, index: usize) -> Option<f64> {
     (!squares.is_empty()).then(|| squares.iter().sum::<f64>() / real(squares.len()))
 }
 
-/// How places are drawn.
-#[derive(Clone, Copy)]
-enum Shape {
-    /// As squares that share samples.
-    Cells,
-    /// As discs, one each.
-    Points,
-}
-
 /// Means over cells of the plane; of a table of steady motions each point for itself.
 fn spots(
     views: &[View],
-    shape: Shape,
+    shape: Stands,
     extent: f64,
     of: impl Fn(&View, usize) -> Option<f64>,
 ) -> Vec<Spot> {
@@ -122,7 +124,7 @@ fn spots(
         let value = of(view, index).filter(|value| value.is_finite())?;
         Some(Spot { at: [sample.speeds.left, sample.speeds.right], value })
     });
-    if let Shape::Points = shape {
+    if let Stands::Point = shape {
         return values.collect();
     }
     let mut sums = vec![(0.0, 0.0); CELLS * CELLS];
@@ -145,41 +147,24 @@ fn spots(
     .collect()
 }
 
-fn panel(
-    canvas: &mut Canvas,
-    area: Area,
-    extent: f64,
-    title: &str,
-    (spots, shape): (&[Spot], Shape),
-    colours: &ColourMap,
-    share: impl Fn(f64) -> f64,
-) -> Result<(), Error> {
-    let panel = Panel { plot: area, x: [-extent, extent], y: [-extent, extent] };
-    let y = if area.left == COLUMNS[0] { "Vᵣ (m/s)" } else { "" };
-    panel.frame(canvas, &Labels { title, x: "Vₗ (m/s)", y }, true)?;
-    if spots.is_empty() {
-        let style = Style::new(TICK_SIZE).colour(GREY).anchor(Horizontal::Centre, Vertical::Middle);
-        canvas.text("not measured", [area.left + SIDE / 2, area.top + SIDE / 2], &style);
-        return Ok(());
+/// An empty plane.
+fn panel(place: Area, extent: f64, title: &str) -> Panel {
+    let x = Axis::new("Vₗ", "m/s", [-extent, extent]);
+    let is_labelled = place.left == COLUMNS[0];
+    let y = Axis { is_labelled, ..Axis::new("Vᵣ", "m/s", [-extent, extent]) };
+    Panel::new(title, place, x, y)
+}
+
+/// Squares that share samples; of a table of steady motions discs, one each.
+fn shapes(spots: &[Spot], scale: &Scale, extent: f64, shape: Stands) -> Series {
+    let values = spots.iter().map(|spot| spot.value).collect();
+    let paint = Paint::Values { values, scale: scale.clone() };
+    if let Stands::Point = shape {
+        let points = spots.iter().map(|spot| spot.at).collect();
+        return Points { points, shape: Shape::Disc(POINT), paint, edge: Some(FRAME) }.into();
     }
     let half = extent / real(CELLS);
-    canvas.clip(area, |canvas| {
-        for Spot { at: [left, right], value } in spots {
-            let colour = colours.at(share(*value));
-            match shape {
-                Shape::Cells => {
-                    let corners = [[left - half, right - half], [left + half, right + half]];
-                    let cell = panel.area(corners[0], corners[1]);
-                    canvas.fill(cell, colour);
-                    canvas.outline(cell, 1, GRID);
-                }
-                Shape::Points => {
-                    canvas.disc(panel.pixel([*left, *right]), POINT + 1.0, FRAME);
-                    canvas.disc(panel.pixel([*left, *right]), POINT, colour);
-                }
-            }
-        }
-    });
-    panel.border(canvas);
-    Ok(())
+    let square = |[x, y]: [f64; 2]| [[x - half, y - half], [x + half, y + half]];
+    let boxes = spots.iter().map(|spot| square(spot.at)).collect();
+    Boxes::new(boxes, paint).edged(1, GRID).into()
 }

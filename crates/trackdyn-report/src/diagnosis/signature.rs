@@ -1,15 +1,14 @@
 //! What was seen against what an effect would change.
 
 use super::Subject;
-use super::sheet::{self, Mark, quantile, rows};
+use super::sheet::{self, quantile, rows};
 use super::words::{CHANNELS, id};
-use crate::Error;
-use crate::canvas::{Area, Canvas};
-use crate::colour::{GREY, INK, Rgb, WHITE};
-use crate::look;
-use crate::panel::ticks::number;
-use crate::panel::{Labels, Panel, TICK_SIZE, TITLE_SIZE};
-use crate::text::{Horizontal, Style, Vertical};
+use crate::colour::{GREY, INK, Rgb};
+use crate::figure::{
+    Area, Axis, Estimates, Figure, Label, Legend, Line, Marker, Panel, Points, Swatch,
+};
+use crate::text::{Horizontal, Style, TITLE_SIZE, Vertical};
+use crate::ticks::number;
 use trackdyn_core::real;
 use trackdyn_diagnose::exposure::Exposure;
 
@@ -21,47 +20,42 @@ const POINT: Rgb = [176, 196, 214];
 /// Means of about this many groups of samples.
 const GROUPS: f64 = 14.0;
 /// Samples that a group needs.
-const FEWEST: usize = 12;
+const MIN_SAMPLES: usize = 12;
 /// Part of the largest change below which a channel shows nothing of the effect.
-const NOTHING: f64 = 0.01;
+const MIN_CHANGE: f64 = 0.01;
 /// Half interval of a slope from which on it says nothing.
-const VAGUE: f64 = 2.0;
+const MAX_SLOPE_ERROR: f64 = 2.0;
 
-/// Draws a row of channels for each claimed effect, or for the best candidate.
-pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
+/// A row of channels for each claimed effect, or for the best candidate.
+pub(super) fn figure(subject: &Subject) -> Figure {
     let exposures = &subject.diagnosis.exposures;
     let height = TOP - 40 + rows(exposures.len().max(1)) * ROW + sheet::FOOT;
-    let explanation = "Observed departure without the effect, against the change that the effect predicts; \
-                       what else is free is taken out of both. An effect that is there puts the means on \
-                       the line, one that is not there on zero.";
+    let explanation = "Observed departure without the effect, against the change that the effect \
+                       predicts; what else is free is taken out of both. An effect that is there \
+                       puts the means on the line, one that is not there on zero.";
     let title = if subject.claims_nothing() {
         "Nothing is claimed: the best candidate against the evidence"
     } else {
         "What is claimed against the evidence"
     };
-    let mut canvas = sheet::sheet(height, title, explanation, subject.caption)?;
+    let mut figure = sheet::sheet("signatures", height, title, explanation, subject.caption);
     let entries = [
-        (Mark::Disc(POINT), "samples"),
-        (Mark::Entry(1), "means of samples of like change, with 95 % intervals"),
-        (Mark::Line(INK, 3.0), "predicted: slope one"),
+        (Swatch::disc(POINT), "samples"),
+        (Swatch::entry(1), "means of samples of like change, with 95 % intervals"),
+        (Swatch::Line(INK, 3.0), "predicted: slope one"),
     ];
-    sheet::legend(&mut canvas, [158, sheet::TOP + 20], &entries);
+    figure.legends.push(Legend::of_marks([158, sheet::TOP + 20], sheet::RIGHT, entries));
     if exposures.is_empty() {
         let text = "No effect of the catalogue changes anything that this evidence can see.";
-        canvas.text(text, [158, TOP + 40], &Style::new(TITLE_SIZE));
+        figure.write(text, [158, TOP + 40], Style::new(TITLE_SIZE));
     }
     for (row, exposure) in exposures.iter().enumerate() {
-        effect(&mut canvas, subject, exposure, TOP + rows(row) * ROW)?;
+        figure.panels.extend(effect(subject, exposure, TOP + rows(row) * ROW));
     }
-    canvas.to_small_png()
+    figure
 }
 
-fn effect(
-    canvas: &mut Canvas,
-    subject: &Subject,
-    exposure: &Exposure,
-    top: i32,
-) -> Result<(), Error> {
+fn effect(subject: &Subject, exposure: &Exposure, top: i32) -> [Panel; 3] {
     let changes = exposure.predicted.iter().flat_map(|change| change.iter().copied());
     let extent = 1.1 * quantile(changes.map(f64::abs), 0.997).unwrap_or(0.0);
     let extent = if extent > 0.0 { extent } else { 1.0 };
@@ -69,61 +63,47 @@ fn effect(
     let groups = all.each_ref().map(|points| groups(points));
     let highest = groups.iter().flatten().map(|group| group.mean[1].abs() + group.half);
     let highest = highest.fold(1.15 * extent, f64::max);
-    for channel in 0..3 {
-        let [width, height] = PLOT;
-        let plot = Area::new(COLUMNS[channel], top, width, height);
-        let panel = Panel { plot, x: [-extent, extent], y: [-highest, highest] };
+    [0, 1, 2].map(|channel| {
+        let place = Area::new(COLUMNS[channel], top, PLOT[0], PLOT[1]);
+        let x = Axis::new("predicted change", "σ of the noise", [-extent, extent]);
+        let y = Axis::new("observed departure", "σ of the noise", [-highest, highest]);
+        let y = Axis { is_labelled: channel == 0, ..y };
         let title = format!("{}: {}", id(exposure.effect), CHANNELS[channel]);
-        let y = if channel == 0 { "observed departure (σ of the noise)" } else { "" };
-        panel.frame(
-            canvas,
-            &Labels { title: &title, x: "predicted change (σ of the noise)", y },
-            true,
-        )?;
-        let largest = all[channel].iter().fold(0.0_f64, |most, point| most.max(point[0].abs()));
-        if largest < NOTHING * extent {
-            let style =
-                Style::new(TICK_SIZE).colour(GREY).anchor(Horizontal::Centre, Vertical::Middle);
-            let at = [plot.left + width / 2, plot.top + height / 2];
-            let text =
-                if all[channel].is_empty() { "not measured" } else { "it changes nothing here" };
-            canvas.text(text, at, &style);
-            continue;
-        }
-        let hidden = all[channel].iter().filter(|point| !panel.contains(**point)).count();
-        canvas.clip(plot, |canvas| {
-            for point in &all[channel] {
-                canvas.disc(panel.pixel(*point), 3.0, POINT);
-            }
-            let ends = [[-extent, -extent], [extent, extent]].map(|point| panel.pixel(point));
-            canvas.line(ends[0], ends[1], 3.0, INK);
-            for group in &groups[channel] {
-                let [column, _] = panel.pixel(group.mean);
-                let ends = [group.mean[1] - group.half, group.mean[1] + group.half];
-                let ends = ends.map(|value| panel.pixel([0.0, value])[1]);
-                look::whisker(canvas, column, ends, look::colour(1));
-                look::marker(canvas, 1, panel.pixel(group.mean));
-            }
-        });
-        panel.border(canvas);
-        if let Some((slope, error)) = slope(&all[channel]) {
-            let text = if error < VAGUE {
-                format!("slope {} ± {}", number(slope, 2), number(error, 2))
-            } else {
-                "too small to see".to_owned()
-            };
-            panel.remark(canvas, &text);
-        }
-        if hidden > 0 {
-            let style = Style::new(18.0).colour(GREY).anchor(Horizontal::Right, Vertical::Baseline);
-            let text = format!("beyond the frame: {hidden}");
-            let at = [plot.right() - 12, plot.bottom() - 12];
-            let width = canvas.text_width(&text, 18.0);
-            canvas.fill(Area::new(at[0] - width - 4, at[1] - 17, width + 8, 23), WHITE);
-            canvas.text(&text, at, &style);
-        }
+        let mut panel = Panel::new(&title, place, x, y);
+        show(&mut panel, &all[channel], &groups[channel]);
+        panel
+    })
+}
+
+/// Samples and their means in a panel.
+fn show(panel: &mut Panel, points: &[[f64; 2]], groups: &[Group]) {
+    let extent = panel.x.range[1];
+    let largest = points.iter().fold(0.0_f64, |most, point| most.max(point[0].abs()));
+    if largest < MIN_CHANGE * extent {
+        let is_measured = !points.is_empty();
+        let reason = if is_measured { "it changes nothing here" } else { "not measured" };
+        return panel.explain_emptiness(reason);
     }
-    Ok(())
+    panel.show_as("samples", Points::new(points.to_vec(), Marker::disc(3.0, POINT)));
+    let ends = vec![[-extent, -extent], [extent, extent]];
+    panel.show_as("predicted", Line { points: ends, thickness: 3.0, colour: INK });
+    let means =
+        groups.iter().map(|Group { mean, half }| (*mean, Some([mean[1] - half, mean[1] + half])));
+    panel.show_as("means", Estimates::of_entry(1, means));
+    if let Some((slope, error)) = slope(points) {
+        panel.remark = if error < MAX_SLOPE_ERROR {
+            format!("slope {} ± {}", number(slope, 2), number(error, 2))
+        } else {
+            "too small to see".to_owned()
+        };
+    }
+    let hidden = points.iter().filter(|point| !panel.contains(**point)).count();
+    if hidden > 0 {
+        let style = Style::new(18.0).colour(GREY).anchor(Horizontal::Right, Vertical::Baseline);
+        let corner = [extent, panel.y.range[0]];
+        let label = Label::new(format!("beyond the frame: {hidden}"), corner, style);
+        panel.labels.push(label.shifted([-12, -12]).on_white());
+    }
 }
 
 /// Predicted change and observed departure of the samples that count in the fit.
@@ -149,8 +129,8 @@ struct Group {
     half: f64,
 }
 
-/// Groups by the change, such that each has about the same part of all changes: where most samples feel
-/// nothing, the few that do are not lost among them.
+/// Groups by the change, such that each has about the same part of all changes: where most samples
+/// feel nothing, the few that do are not lost among them.
 fn groups(points: &[[f64; 2]]) -> Vec<Group> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
@@ -161,12 +141,12 @@ fn groups(points: &[[f64; 2]]) -> Vec<Group> {
     for point in sorted {
         taken += weight(&point);
         inside.push(point);
-        if taken >= whole / GROUPS && inside.len() >= FEWEST {
+        if taken >= whole / GROUPS && inside.len() >= MIN_SAMPLES {
             groups.extend(group(&inside));
             (inside, taken) = (Vec::new(), 0.0);
         }
     }
-    if inside.len() >= FEWEST {
+    if inside.len() >= MIN_SAMPLES {
         groups.extend(group(&inside));
     }
     groups

@@ -1,6 +1,6 @@
 //! Words and numbers of a diagnosis.
 
-use crate::panel::ticks::number;
+use crate::ticks::number;
 use trackdyn_diagnose::proposal::words::decimals;
 use trackdyn_diagnose::uncertainty::Interval;
 use trackdyn_model::EffectId;
@@ -50,13 +50,14 @@ pub(super) fn significant(value: f64, digits: i32) -> String {
     number(value, usize::try_from(digits - 1 - exponent).unwrap_or(0))
 }
 
-/// An estimate and the ends of its interval, to two digits of half of it: a gain that is 1.0023 is not 1.
+/// An estimate and the ends of its interval, to two digits of half of it: a gain that is 1.0023 is
+/// not 1.
 pub(super) fn with_interval(interval: &Interval) -> [String; 3] {
     /// Smaller ones are read as powers of ten.
-    const LEAST: f64 = 1e-6;
+    const MIN_HALF_WIDTH: f64 = 1e-6;
     let numbers = [interval.value, interval.low, interval.high];
     let half = (interval.high - interval.low) / 2.0;
-    if half >= LEAST && numbers.iter().all(|value| value.is_finite()) {
+    if half >= MIN_HALF_WIDTH && numbers.iter().all(|value| value.is_finite()) {
         numbers.map(|value| number(value, decimals(half)))
     } else {
         numbers.map(|value| significant(value, 4))

@@ -1,17 +1,17 @@
 //! Title and caption.
 
 use super::{HEIGHT, LEFT, WIDTH};
-use crate::canvas::Canvas;
 use crate::colour::{GREY, INK};
-use crate::panel::ticks::number;
-use crate::text::Style;
+use crate::figure::Figure;
+use crate::text::{Style, fitted, width};
+use crate::ticks::number;
 use trackdyn_model::IcrMap;
 use trackdyn_model::Model;
 use trackdyn_model::map::Statistics;
 
-/// Draws the title and the two lines below it, and the caption at the foot.
-pub(super) fn draw(
-    canvas: &mut Canvas,
+/// Writes the title and the two lines below it, and the caption at the foot.
+pub(super) fn write(
+    figure: &mut Figure,
     map: &IcrMap,
     model: &Model,
     statistics: Option<&Statistics>,
@@ -32,17 +32,16 @@ pub(super) fn draw(
         ),
         None => format!("{grid};   the robot never turns"),
     };
-    let foot = i32::from(HEIGHT) - 32;
+    let foot = HEIGHT - 32;
     for (text, row, sizes, colour) in [
         (format!("{}: ICR map", model.vehicle().name), 82, [46.0, 36.0, 28.0], INK),
         (effects, 134, [30.0, 26.0, 22.0], INK),
         (numbers, 182, [30.0, 26.0, 22.0], INK),
         (caption.to_owned(), foot, [22.0; 3], GREY),
     ] {
-        let room = i32::from(WIDTH) - 2 * LEFT;
-        let fits = |size: &f32| canvas.text_width(&text, *size) <= room;
+        let room = WIDTH - 2 * LEFT;
+        let fits = |size: &f32| width(&text, *size) <= room;
         let size = sizes.into_iter().find(fits).unwrap_or(sizes[2]);
-        let fitted = canvas.fitted(&text, size, room);
-        canvas.text(&fitted, [LEFT, row], &Style::new(size).colour(colour));
+        figure.write(fitted(&text, size, room), [LEFT, row], Style::new(size).colour(colour));
     }
 }

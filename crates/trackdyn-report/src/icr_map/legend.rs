@@ -1,10 +1,9 @@
 //! What the signs mean, and the numbers behind the picture.
 
-use super::{heat_map, robot};
-use crate::canvas::{Area, Canvas};
-use crate::colour::{FRAME, GREY, INK, VIRIDIS};
-use crate::panel::ticks::number;
-use crate::text::{Horizontal, Style, Vertical};
+use super::{heat_map, metres, robot};
+use crate::colour::{FRAME, GREY, INK, Rgb, VIRIDIS};
+use crate::figure::{Area, Axis, Boxes, Cell, Cells, Label, Marker, Paint, Panel, Points};
+use crate::ticks::number;
 use trackdyn_core::Side;
 use trackdyn_model::map::Statistics;
 use trackdyn_model::{IcrMap, Status};
@@ -19,46 +18,54 @@ const SWATCH: [i32; 2] = [46, 26];
 /// Distance from the beginning of a line to its text, pixels.
 const INDENT: i32 = 64;
 
-/// Draws signs, counts and statistics.
-pub(super) fn draw(canvas: &mut Canvas, area: Area, map: &IcrMap, statistics: Option<&Statistics>) {
-    let mut row = signs(canvas, area);
-    row = counts(canvas, area, row + LINE / 2, map);
+/// Signs, counts and statistics: patterns of gaps in panels of their own, below all else.
+pub(super) fn panels(area: Area, map: &IcrMap, statistics: Option<&Statistics>) -> Vec<Panel> {
+    let mut panel = Panel::of_sheet(area.grown(SWATCH[1]));
+    let row = signs(&mut panel, area);
+    let (mut panels, row) = counts(&mut panel, area, row + LINE / 2, map);
     if let Some(statistics) = statistics {
-        table(canvas, area, row + LINE / 2, statistics);
+        table(&mut panel, area, row + LINE / 2, statistics);
     }
+    panels.push(panel);
+    panels
 }
 
-fn entry(canvas: &mut Canvas, text: &str, [column, row]: [i32; 2]) {
-    let style = Style::new(SIZE).anchor(Horizontal::Left, Vertical::Middle);
-    canvas.text(text, [column + INDENT, row], &style);
+fn entry(panel: &mut Panel, text: &str, at: [i32; 2]) {
+    panel.labels.push(Label::right_of(text, at.map(f64::from), INDENT, (SIZE, INK)));
 }
 
-/// The box of a sample at the beginning of a line, framed.
-fn swatch(canvas: &mut Canvas, [column, row]: [i32; 2], paint: impl FnOnce(&mut Canvas, Area)) {
-    let [width, height] = SWATCH;
-    let area = Area::new(column, row - height / 2, width, height);
-    paint(canvas, area);
-    canvas.outline(area, 2, FRAME);
+/// The place of a sample at the beginning of a line.
+fn swatch([column, row]: [i32; 2]) -> Area {
+    Area::new(column, row - SWATCH[1] / 2, SWATCH[0], SWATCH[1])
+}
+
+fn corners(area: Area) -> [[f64; 2]; 2] {
+    [[area.left, area.bottom()], [area.right(), area.top]].map(|corner| corner.map(f64::from))
 }
 
 /// Signs of the picture of the robot; returns the next row.
-fn signs(canvas: &mut Canvas, area: Area) -> i32 {
+fn signs(panel: &mut Panel, area: Area) -> i32 {
     let (first, second) = (area.top, area.top + LINE + 6);
     let right = area.left + area.width / 2 - 20;
-    let middle = |column: i32, row: i32| [f64::from(column + SWATCH[0] / 2), f64::from(row)];
-    swatch(canvas, [area.left, first], |canvas, area| canvas.fill(area, robot::PATCH));
-    entry(canvas, "contact", [area.left, first]);
-    swatch(canvas, [area.left, second], |canvas, area| canvas.fill(area, robot::HULL));
-    entry(canvas, "hull", [area.left, second]);
-    robot::centre_of_gravity(canvas, middle(right, first));
-    entry(canvas, "centre of gravity", [right, first]);
-    robot::mean_icr(canvas, middle(right, second));
-    entry(canvas, "mean ICR of a track", [right, second]);
+    for (row, text, colour) in [(first, "contact", robot::PATCH), (second, "hull", robot::HULL)] {
+        let boxes = vec![corners(swatch([area.left, row]))];
+        panel.show(Boxes::new(boxes, Paint::One(colour)).edged(2, FRAME));
+        entry(panel, text, [area.left, row]);
+    }
+    let markers: [(i32, &str, Marker); 2] = [
+        (first, "centre of gravity", robot::CENTRE_OF_GRAVITY),
+        (second, "mean ICR of a track", robot::MEAN_ICR),
+    ];
+    for (row, text, marker) in markers {
+        let at = [right + SWATCH[0] / 2, row].map(f64::from);
+        panel.show(Points::new(vec![at], marker));
+        entry(panel, text, [right, row]);
+    }
     second + LINE
 }
 
-/// Kinds of motion with their numbers; returns the next row.
-fn counts(canvas: &mut Canvas, area: Area, first: i32, map: &IcrMap) -> i32 {
+/// Kinds of motion with their numbers; returns samples of their patterns and the next row.
+fn counts(panel: &mut Panel, area: Area, first: i32, map: &IcrMap) -> (Vec<Panel>, i32) {
     const MEANINGS: [(Status, &str); 5] = [
         (Status::Turning, "turning"),
         (Status::Straight, "straight: both tracks stick"),
@@ -67,33 +74,44 @@ fn counts(canvas: &mut Canvas, area: Area, first: i32, map: &IcrMap) -> i32 {
         (Status::NotConverged, "no balance found"),
     ];
     let counts = map.counts();
-    let mut row = first;
+    let (mut samples, mut row) = (Vec::new(), first);
     for (status, meaning) in MEANINGS {
-        swatch(canvas, [area.left, row], |canvas, area| {
-            canvas.paint(area, |column, row| match status {
-                Status::Turning => {
-                    VIRIDIS.at(f64::from(column - area.left) / f64::from(area.width))
-                }
-                gap => heat_map::gap(gap, column, row),
-            });
-        });
-        entry(canvas, meaning, [area.left, row]);
-        let style = Style::new(SIZE).anchor(Horizontal::Right, Vertical::Middle);
-        canvas.text(&counts[status.index()].to_string(), [area.right(), row], &style);
+        let place = swatch([area.left, row]);
+        if status == Status::Turning {
+            let columns = place.left..place.right();
+            let column = |left| corners(Area::new(left, place.top, 1, place.height));
+            let colour = |column| VIRIDIS.at(f64::from(column - place.left) / f64::from(SWATCH[0]));
+            let paint = Paint::Each(columns.clone().map(colour).collect());
+            panel.show(Boxes::new(columns.map(column).collect(), paint));
+        } else {
+            let axis = || Axis::unmarked([0.0, 1.0]);
+            let mut sample = Panel::new("", place, axis(), axis());
+            sample.is_framed = false;
+            let cells = vec![Cell::Gap(heat_map::gap(status))];
+            sample.show_as(meaning, Cells { count: 1, cells, scale: metres(VIRIDIS, [0.0, 1.0]) });
+            samples.push(sample);
+        }
+        panel.show(Boxes::framed(vec![corners(place)], 2, FRAME));
+        entry(panel, meaning, [area.left, row]);
+        write(panel, &counts[status.index()].to_string(), [area.right(), row], INK);
         row += LINE;
     }
-    row
+    (samples, row)
+}
+
+/// Writes a number that ends at a column.
+fn write(panel: &mut Panel, text: &str, at: [i32; 2], colour: Rgb) {
+    panel.labels.push(Label::left_of(text, at.map(f64::from), 0, (SIZE, colour)));
 }
 
 /// Means and spreads.
-fn table(canvas: &mut Canvas, area: Area, first: i32, statistics: &Statistics) {
+fn table(panel: &mut Panel, area: Area, first: i32, statistics: &Statistics) {
     let columns = [area.left + INDENT + 200, area.right()];
     let mut line = |row: i32, name: &str, values: [String; 2], colour| {
-        let style = Style::new(SIZE).colour(colour);
-        canvas.text(name, [area.left, row], &style.anchor(Horizontal::Left, Vertical::Middle));
+        let at = [area.left, row].map(f64::from);
+        panel.labels.push(Label::right_of(name, at, 0, (SIZE, colour)));
         for (value, column) in values.into_iter().zip(columns) {
-            let style = style.anchor(Horizontal::Right, Vertical::Middle);
-            canvas.text(&value, [column, row], &style);
+            write(panel, &value, [column, row], colour);
         }
     };
     let mut row = first;

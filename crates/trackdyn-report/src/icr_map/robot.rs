@@ -1,71 +1,57 @@
 //! The robot from above.
 
-use super::{Cloud, ROBOT, mean_of};
-use crate::Error;
-use crate::canvas::{Area, Canvas};
-use crate::colour::{INK, Rgb, WHITE};
-use crate::panel::{Labels, Panel};
+use super::{Clouds, ROBOT, mean_of};
+use crate::colour::{INK, Rgb};
+use crate::figure::{Arrow, Axis, Boxes, Label, Marker, Paint, Panel, Points, Shape, equal_scale};
 use crate::text::{Horizontal, Style, Vertical};
-use trackdyn_core::{PerSide, Side};
+use trackdyn_core::Side;
 use trackdyn_model::Model;
 use trackdyn_model::map::Statistics;
 
 /// Inside of the hull.
 pub(super) const HULL: Rgb = [240, 241, 243];
 /// Outline of hull and patches.
-pub(super) const OUTLINE: Rgb = [110, 115, 122];
+const OUTLINE: Rgb = [110, 115, 122];
 /// Contact patches.
 pub(super) const PATCH: Rgb = [205, 209, 214];
 /// Axes of the paper's frame.
 const AXES: Rgb = [60, 60, 60];
+/// The marker of a centre of gravity.
+pub(super) const CENTRE_OF_GRAVITY: Marker = Marker { shape: Shape::CentreOfGravity, colour: INK };
+/// The marker of a mean ICR: it leaves the middle free for the cloud.
+pub(super) const MEAN_ICR: Marker = Marker { shape: Shape::Sights, colour: INK };
 
 /// Sizes of the robot within which ICRs are shown, from its middle.
-const VIEW: f64 = 3.0;
+const MAX_SIZES: f64 = 3.0;
 
-/// Draws robot, axes, clouds and mean ICRs.
-pub(super) fn draw(
-    canvas: &mut Canvas,
-    model: &Model,
-    clouds: &PerSide<Cloud>,
-    statistics: Option<&Statistics>,
-) -> Result<(), Error> {
+/// Robot, axes, clouds and mean ICRs.
+pub(super) fn panel(model: &Model, clouds: &Clouds, statistics: Option<&Statistics>) -> Panel {
     let hull = hull(model);
-    let panel = view(hull, clouds);
-    let labels =
-        Labels { title: "Robot from above and its ICRs", x: "x, right (m)", y: "y, forward (m)" };
-    panel.frame(canvas, &labels, true)?;
-    canvas.clip(panel.plot, |canvas| {
-        let body = panel.area([hull[0][0], hull[1][0]], [hull[0][1], hull[1][1]]);
-        canvas.fill(body, HULL);
-        canvas.outline(body, 3, OUTLINE);
-        for side in Side::BOTH {
-            for patch in &model.patches()[side] {
-                let area = panel.area([patch.x[0], patch.y[0]], [patch.x[1], patch.y[1]]);
-                canvas.fill(area, PATCH);
-                canvas.outline(area, 2, OUTLINE);
-            }
-        }
-        axes(canvas, &panel);
-        for side in Side::BOTH {
-            clouds[side].draw(canvas, &panel);
-        }
-        centre_of_gravity(canvas, panel.pixel(model.vehicle().cog));
-        if let Some(statistics) = statistics {
-            for side in Side::BOTH {
-                mean_icr(canvas, panel.pixel(mean_of(statistics, side)));
-            }
-        }
-    });
-    panel.border(canvas);
-    let outside = Side::BOTH
-        .iter()
-        .flat_map(|&side| clouds[side].places())
-        .filter(|&place| !panel.contains(place))
-        .count();
-    if outside > 0 {
-        panel.remark(canvas, &format!("{outside} ICRs outside"));
+    let [x, y] = ranges(hull, clouds);
+    let (x, y) = (Axis::new("x, right", "m", x), Axis::new("y, forward", "m", y));
+    let mut panel = Panel::new("Robot from above and its ICRs", ROBOT, x, y);
+    let corners = |x: [f64; 2], y: [f64; 2]| [[x[0], y[0]], [x[1], y[1]]];
+    let body = Boxes::new(vec![corners(hull[0], hull[1])], Paint::One(HULL));
+    panel.show_as("hull", body.edged(3, OUTLINE));
+    let patches = Side::BOTH.iter().flat_map(|&side| &model.patches()[side]);
+    let patches = patches.map(|patch| corners(patch.x, patch.y)).collect();
+    panel.show_as("contact", Boxes::new(patches, Paint::One(PATCH)).edged(2, OUTLINE));
+    axes(&mut panel);
+    for (side, name) in Side::BOTH.into_iter().zip(["left ICRs", "right ICRs"]) {
+        panel.show_as(name, clouds.cloud(side, |place| place));
     }
-    Ok(())
+    let cog = Points::new(vec![model.vehicle().cog], CENTRE_OF_GRAVITY);
+    panel.show_as("centre of gravity", cog);
+    if let Some(statistics) = statistics {
+        let means = Side::BOTH.iter().map(|&side| mean_of(statistics, side)).collect();
+        panel.show_as("mean ICRs", Points::new(means, MEAN_ICR));
+    }
+    let places = Side::BOTH.iter().flat_map(|&side| &clouds.places[side]);
+    let outside = places.filter(|&&place| !panel.contains(place)).count();
+    if outside > 0 {
+        panel.remark = format!("{outside} ICRs outside");
+    }
+    panel
 }
 
 /// Ranges of x and y of the contact.
@@ -83,58 +69,29 @@ fn hull(model: &Model) -> [[f64; 2]; 2] {
     ]
 }
 
-/// The panel that shows the hull and the ICRs, if these are not too far away.
-fn view(hull: [[f64; 2]; 2], clouds: &PerSide<Cloud>) -> Panel {
+/// Ranges that show the hull and the ICRs, if these are not too far away.
+fn ranges(hull: [[f64; 2]; 2], clouds: &Clouds) -> [[f64; 2]; 2] {
     let size = (hull[0][1] - hull[0][0]).max(hull[1][1] - hull[1][0]);
     let middle = hull.map(|[low, high]| f64::midpoint(low, high));
     let mut ranges = hull;
-    for place in Side::BOTH.iter().flat_map(|&side| clouds[side].places()) {
+    for place in Side::BOTH.iter().flat_map(|&side| &clouds.places[side]) {
         for ((range, middle), value) in ranges.iter_mut().zip(middle).zip(place) {
-            let value = value.clamp(middle - VIEW * size, middle + VIEW * size);
+            let value = value.clamp(middle - MAX_SIZES * size, middle + MAX_SIZES * size);
             *range = [range[0].min(value), range[1].max(value)];
         }
     }
     let room = 0.07 * (ranges[0][1] - ranges[0][0]).max(ranges[1][1] - ranges[1][0]);
     let [x, y] = ranges.map(|[low, high]| [low - room, high + room]);
-    Panel::equal_scale(ROBOT, x, y)
+    equal_scale(ROBOT, x, y)
 }
 
 /// The axes of the paper's frame at its origin.
-fn axes(canvas: &mut Canvas, panel: &Panel) {
+fn axes(panel: &mut Panel) {
     const LENGTH: f64 = 92.0;
-    let origin = panel.pixel([0.0, 0.0]);
-    let style = Style::new(24.0).colour(AXES);
-    for (name, [right, down]) in [("x", [1.0, 0.0]), ("y", [0.0, -1.0])] {
-        let end = [origin[0] + LENGTH * right, origin[1] + LENGTH * down];
-        canvas.arrow(origin, end, 3.0, AXES);
-        let beyond = [end[0] + 16.0 * right, end[1] + 18.0 * down];
-        #[expect(clippy::cast_possible_truncation, reason = "places on the canvas")]
-        let at = beyond.map(|place| place.round() as i32);
-        canvas.text(name, at, &style.anchor(Horizontal::Centre, Vertical::Middle));
-    }
-}
-
-/// The marker of a centre of gravity: a disc with two black quarters.
-pub(super) fn centre_of_gravity(canvas: &mut Canvas, centre: [f64; 2]) {
-    const RADIUS: f64 = 13.0;
-    canvas.disc(centre, RADIUS, WHITE);
-    #[expect(clippy::cast_possible_truncation, reason = "places on the canvas")]
-    let [column, row] = centre.map(|place| place.round() as i32);
-    let quarter = 14;
-    for (left, top) in [(column, row - quarter), (column - quarter, row)] {
-        canvas.clip(Area::new(left, top, quarter, quarter), |canvas| {
-            canvas.disc(centre, RADIUS, INK);
-        });
-    }
-    canvas.ring(centre, RADIUS, 2.5, INK);
-}
-
-/// The marker of a mean ICR: sights that leave the middle free for the cloud.
-pub(super) fn mean_icr(canvas: &mut Canvas, centre: [f64; 2]) {
-    const RADIUS: f64 = 15.0;
-    canvas.ring(centre, RADIUS, 3.0, INK);
-    for [right, down] in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
-        let place = |radius: f64| [centre[0] + radius * right, centre[1] + radius * down];
-        canvas.line(place(RADIUS), place(RADIUS + 9.0), 3.0, INK);
+    let style = Style::new(24.0).colour(AXES).anchor(Horizontal::Centre, Vertical::Middle);
+    let origin = [0.0, 0.0];
+    for (name, by, beyond) in [("x", [LENGTH, 0.0], [108, 0]), ("y", [0.0, -LENGTH], [0, -110])] {
+        panel.show(Arrow { from: origin, by, thickness: 3.0, colour: AXES });
+        panel.labels.push(Label::new(name, origin, style).shifted(beyond));
     }
 }

@@ -1,12 +1,10 @@
 //! Drives in numbers.
 
 use super::TrackedDrive;
-use crate::canvas::{Area, Canvas};
-use crate::colour::{FRAME, GREY, GRID};
-use crate::look;
-use crate::panel::ticks::number;
-use crate::panel::{TICK_SIZE, TITLE_SIZE};
-use crate::text::{Horizontal, Style, Vertical};
+use crate::colour::{FRAME, GREY, GRID, INK, Rgb};
+use crate::figure::{Area, Boxes, Label, Marker, Paint, Panel, Points};
+use crate::text::{TICK_SIZE, TITLE_SIZE, fitted};
+use crate::ticks::number;
 use trackdyn_drive::tracking::Summary;
 use trackdyn_drive::{Ending, Path};
 
@@ -19,50 +17,51 @@ const ROW: i32 = 52;
 /// Room for the marker, pixels.
 const MARKER: i32 = 44;
 
-/// Draws a row for each drive, as many as there is room for, and says how many more there are.
-pub(super) fn draw(
-    canvas: &mut Canvas,
-    area: Area,
-    path: &Path,
-    drives: &[TrackedDrive],
-    point: [f64; 2],
-) {
-    let left = Style::new(TICK_SIZE).anchor(Horizontal::Left, Vertical::Middle);
-    let right = Style::new(TICK_SIZE).anchor(Horizontal::Right, Vertical::Middle);
+/// A row for each drive, as many as there is room for, and how many more there are.
+pub(super) fn panel(area: Area, path: &Path, drives: &[TrackedDrive], point: [f64; 2]) -> Panel {
+    let mut panel = Panel::of_sheet(area.grown(ROW));
+    let at = |column: i32, row: i32| [column, row].map(f64::from);
     let end = |column: usize| {
         let later = i32::try_from(COLUMNS.len() - 1 - column).unwrap_or_default();
         area.right() - later * COLUMN
     };
-    let title = Style::new(TITLE_SIZE).anchor(Horizontal::Left, Vertical::Middle);
-    canvas.text("Distances", [area.left, area.top], &title);
+    let title = Label::right_of("Distances", at(area.left, area.top), 0, (TITLE_SIZE, INK));
+    panel.labels.push(title);
     for (column, name) in COLUMNS.iter().enumerate() {
-        canvas.text(name, [end(column), area.top], &right.colour(GREY));
+        panel.labels.push(Label::left_of(name, at(end(column), area.top), 0, (TICK_SIZE, GREY)));
     }
-    canvas.fill(Area::new(area.left, area.top + ROW / 2, area.width, 2), FRAME);
+    let below = |row: i32, height: i32, colour: Rgb| {
+        let top = row + ROW / 2;
+        Boxes::new(vec![[at(area.left, top + height), at(area.right(), top)]], Paint::One(colour))
+    };
+    panel.show(below(area.top, 2, FRAME));
     let room = usize::try_from(area.height / ROW - 1).unwrap_or_default();
     let shown = if drives.len() > room { room.saturating_sub(1) } else { drives.len() };
     let names = area.width - 4 * COLUMN - MARKER;
     let mut row = area.top;
     for (entry, TrackedDrive { name, journey }) in drives.iter().enumerate().take(shown) {
         row += ROW;
-        look::marker(canvas, entry, [f64::from(area.left) + 12.0, f64::from(row)]);
+        panel.show(Points::new(vec![at(area.left + 12, row)], Marker::of_entry(entry)));
         let name = match journey.ending {
             Ending::Arrived => (*name).to_owned(),
             Ending::OutOfTime => format!("{name} (out of time)"),
             _ => format!("{name} (stopped)"),
         };
-        let name = canvas.fitted(&name, TICK_SIZE, names);
-        canvas.text(&name, [area.left + MARKER, row], &left);
+        let name = fitted(&name, TICK_SIZE, names);
+        panel.labels.push(Label::right_of(&name, at(area.left, row), MARKER, (TICK_SIZE, INK)));
         let Summary { rms, max, end_distance, end_belief, .. } = journey.summary(path, point);
         for (column, value) in [rms, max, end_distance, end_belief].into_iter().enumerate() {
-            canvas.text(&length(value), [end(column), row], &right);
+            let number = Label::left_of(&length(value), at(end(column), row), 0, (TICK_SIZE, INK));
+            panel.labels.push(number);
         }
-        canvas.fill(Area::new(area.left, row + ROW / 2, area.width, 2), GRID);
+        panel.show(below(row, 2, GRID));
     }
     if drives.len() > shown {
         let more = format!("and {} more: see the tables", drives.len() - shown);
-        canvas.text(&more, [area.left + MARKER, row + ROW], &left.colour(GREY));
+        let style = (TICK_SIZE, GREY);
+        panel.labels.push(Label::right_of(&more, at(area.left, row + ROW), MARKER, style));
     }
+    panel
 }
 
 /// A length with two or three digits and its unit.

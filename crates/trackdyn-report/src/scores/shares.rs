@@ -1,13 +1,11 @@
 //! Shares, one row each.
 
 use super::{Entrant, beside, legend};
-use crate::Error;
-use crate::canvas::{Area, Canvas};
 use crate::colour::{GREY, GRID, INK};
-use crate::look;
-use crate::panel::ticks::number;
-use crate::panel::{Panel, TICK_SIZE};
-use crate::sheet::{self, Mark, label_left_of, label_right_of, px, rows};
+use crate::figure::{Area, Axis, Estimates, Figure, Label, Panel, Rule};
+use crate::sheet::{self, rows};
+use crate::text::{TICK_SIZE, fitted, width};
+use crate::ticks::number;
 use trackdyn_core::real;
 
 const TOP: i32 = sheet::TOP + 70;
@@ -35,49 +33,44 @@ pub struct Shares<'a> {
     pub wanted: Option<f64>,
 }
 
-/// Shares with their intervals, one row each. `caption` stands below, for what the figure was made from.
-///
-/// Returns the bytes of a PNG. They depend on the arguments only.
-///
-/// # Errors
-/// [`Error`] where a part cannot be drawn; no share is the cause of one.
-pub fn shares(of: &Shares, caption: &str) -> Result<Vec<u8>, Error> {
+/// Shares with their intervals, one row each. `caption` stands below, for what the figure was made
+/// from.
+pub fn shares(of: &Shares, caption: &str) -> Figure {
     let pitch = ROW[0] + ROW[1] * rows(of.entrants.len().saturating_sub(1));
-    let room = Canvas::new(1, 1)?;
-    let longest = of.rows.iter().map(|name| room.text_width(name, TICK_SIZE)).max().unwrap_or(0);
+    let longest = of.rows.iter().map(|name| width(name, TICK_SIZE)).max().unwrap_or(0);
     let labels = (sheet::LEFT + longest + 40).clamp(LABELS[0], LABELS[1]);
-    let width = sheet::RIGHT - COUNTS - labels;
-    let plot = Area::new(labels, TOP, width, pitch * rows(of.rows.len().max(1)));
-    let height = plot.bottom() + BELOW + sheet::FOOT;
-    let mut canvas = sheet::sheet(height, of.title, of.explanation, caption)?;
-    let names = of.entrants.iter().map(|entrant| entrant.name);
-    let bars = (Mark::Line(INK, 3.0), "bars: 95 % intervals");
-    legend(&mut canvas, [sheet::LEFT, sheet::TOP + 20], names, &[bars]);
-    let panel = Panel { plot, x: [-2.0, 102.0], y: [real(of.rows.len().max(1)), 0.0] };
+    let plot_width = sheet::RIGHT - COUNTS - labels;
+    let place = Area::new(labels, TOP, plot_width, pitch * rows(of.rows.len().max(1)));
+    let height = place.bottom() + BELOW + sheet::FOOT;
+    let mut figure = sheet::sheet("shares", height, of.title, of.explanation, caption);
+    figure.legends.push(legend(of.entrants.iter().map(|entrant| entrant.name)));
     let ticks = [0.0, 20.0, 40.0, 60.0, 80.0, 100.0].map(|tick| (tick, number(tick, 0)));
-    sheet::axis_below(&mut canvas, &panel, &ticks, &format!("share of {} (%)", of.of));
+    let x = Axis::new(&format!("share of {}", of.of), "%", [-2.0, 102.0]).at(ticks.to_vec());
+    let mut panel = Panel::new("", place, x, Axis::rows(of.rows.len()));
     if let Some(wanted) = of.wanted {
-        sheet::dashes(&mut canvas, &panel, 100.0 * wanted, INK);
+        panel.show_as("wanted", Rule::upright(100.0 * wanted, 3.0, INK).dashed());
     }
     for (row, name) in of.rows.iter().enumerate() {
-        let top = plot.top + rows(row) * pitch;
         if row > 0 {
-            canvas.fill(Area::new(plot.left, top, plot.width, 1), GRID);
+            panel.show(Rule::level(real(row), 1.0, GRID));
         }
-        let name = canvas.fitted(name, TICK_SIZE, labels - sheet::LEFT - 20);
-        label_left_of(&mut canvas, &name, [labels - 16, top + pitch / 2], TICK_SIZE, INK);
-        for (entry, entrant) in of.entrants.iter().enumerate() {
-            let Some(share) = entrant.shares.get(row).copied().flatten() else { continue };
-            let middle = panel.pixel([0.0, real(row) + beside(entry, of.entrants.len())])[1];
-            if let Some((value, interval)) = share.shown() {
-                let column = |value: f64| panel.pixel([100.0 * value, 0.0])[0];
-                sheet::whisker(&mut canvas, interval.map(column), middle, look::colour(entry));
-                look::marker(&mut canvas, entry, [column(value), middle]);
-            }
-            let text = format!("{} of {}", share.successes, share.cases);
-            label_right_of(&mut canvas, &text, [plot.right() + 16, px(middle)], 20.0, GREY);
-        }
+        let name = fitted(name, TICK_SIZE, labels - sheet::LEFT - 20);
+        panel.name(&name, [-2.0, real(row) + 0.5], 16);
     }
-    panel.border(&mut canvas);
-    canvas.to_small_png()
+    for (entry, entrant) in of.entrants.iter().enumerate() {
+        let at = |row: usize| real(row) + beside(entry, of.entrants.len());
+        let shares = entrant.shares.iter().take(of.rows.len()).enumerate();
+        let shares = shares.filter_map(|(row, share)| Some((row, (*share)?)));
+        for (row, share) in shares.clone() {
+            let text = format!("{} of {}", share.successes, share.cases);
+            panel.labels.push(Label::right_of(&text, [102.0, at(row)], 16, (20.0, GREY)));
+        }
+        let shown = shares.filter_map(|(row, share)| {
+            let (value, interval) = share.shown()?;
+            Some(([100.0 * value, at(row)], Some(interval.map(|end| 100.0 * end))))
+        });
+        panel.show_as(entrant.name, Estimates::of_entry(entry, shown).across());
+    }
+    figure.panels.push(panel);
+    figure
 }

@@ -35,13 +35,13 @@ pub fn write(
         name: &subject.name,
         caption: &caption,
     };
-    let figures = diagnosis_figures(&subject)?;
+    let figures = diagnosis_figures(&subject);
     for figure in &figures {
-        write_file(&folder.join(figure.file), &figure.png)?;
+        write_file(&folder.join(figure.file()), &figure.to_small_png()?)?;
     }
     let report = folder.join("report.html");
     // points have no path
-    if figures.iter().all(|figure| figure.file != PATH) {
+    if figures.iter().all(|figure| figure.file() != PATH) {
         remove_of(&report, [folder.join(PATH)])?;
     }
     write_file(&report, diagnosis_html(&subject, &figures)?.as_bytes())?;

@@ -6,7 +6,7 @@ use trackdyn_blind_trial::oracle::{MIN_DETECTABLE_Z, MIN_DISTINCT_Z};
 use trackdyn_blind_trial::score::interval::clopper_pearson;
 use trackdyn_blind_trial::score::{PowerBin, Rate, distinct};
 use trackdyn_core::output::write_file;
-use trackdyn_report::{Entrant, Matrix, Power, Share, Shares, confusion, power, shares};
+use trackdyn_report::{Entrant, Figure, Matrix, Power, Share, Shares, confusion, power, shares};
 
 /// Scores with the names of their programs.
 pub type Named<'a> = [(&'a str, &'a Score)];
@@ -33,12 +33,12 @@ pub fn write(out: &Path, scores: &Named, caption: &str) -> Written {
     });
     let panels: Vec<Power> = panels.collect();
     if let Ok(panels) = <&[Power; 4]>::try_from(panels.as_slice()) {
-        write_file(&out.join("power.png"), &power(panels, caption)?)?;
+        write_file(&out.join("power.png"), &power(panels, caption).to_small_png()?)?;
     }
-    let png = sheet(scores, |score| &score.rates, &RATES, caption)?;
-    write_file(&out.join("rates.png"), &png)?;
-    let png = sheet(scores, |score| &score.coverage, &COVERAGE, caption)?;
-    Ok(write_file(&out.join("coverage.png"), &png)?)
+    let rates = sheet(scores, |score| &score.rates, &RATES, caption);
+    write_file(&out.join("rates.png"), &rates.to_small_png()?)?;
+    let coverage = sheet(scores, |score| &score.coverage, &COVERAGE, caption);
+    Ok(write_file(&out.join("coverage.png"), &coverage.to_small_png()?)?)
 }
 
 /// Writes `confusion.png`, the figure of one program.
@@ -54,7 +54,7 @@ pub fn write_confusion(out: &Path, (name, score): (&str, &Score), caption: &str)
     let right = places.filter(|[row, column]| of.is_right(&rows[*row], &columns[*column]));
     let (counts, right) = (counts.collect(), right.collect());
     let matrix = Matrix { rows: &rows, columns: &columns, counts, right, remarks: CONFUSION };
-    Ok(write_file(&out.join("confusion.png"), &confusion(&matrix, name, caption)?)?)
+    Ok(write_file(&out.join("confusion.png"), &confusion(&matrix, name, caption).to_small_png()?)?)
 }
 
 /// What columns in brackets mean.
@@ -90,12 +90,7 @@ const COVERAGE: Texts = Texts {
     wanted: Some(0.95),
 };
 
-fn sheet(
-    scores: &Named,
-    of: fn(&Score) -> &Vec<Rate>,
-    texts: &Texts,
-    caption: &str,
-) -> Result<Vec<u8>, trackdyn_report::Error> {
+fn sheet(scores: &Named, of: fn(&Score) -> &Vec<Rate>, texts: &Texts, caption: &str) -> Figure {
     let rows = distinct(scores.iter().flat_map(|(_, score)| of(score)));
     let entrants = entrants(scores, |score| {
         let find = |name: &&str| of(score).iter().find(|rate| rate.name == *name).map(of_rate);

@@ -1,10 +1,7 @@
 //! Round numbers along an axis.
 
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-use std::ops::Range;
-
 /// Round numbers inside a range.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ticks {
     /// The numbers, ascending.
     pub values: Vec<f64>,
@@ -15,8 +12,8 @@ pub struct Ticks {
 }
 
 impl Ticks {
-    /// Multiples of 1, 2 or 5 times a power of ten inside `range`, at least `spacing` pixels apart on
-    /// an axis of `length` pixels.
+    /// Multiples of 1, 2 or 5 times a power of ten inside `range`, at least `spacing` pixels apart
+    /// on an axis of `length` pixels.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -52,10 +49,10 @@ impl Ticks {
     }
 }
 
-/// What the numbers along a range are counted from: zero, or a round number below them all where they would
-/// be long and alike, as the coordinates of a map are.
+/// What the numbers along a range are counted from: zero, or a round number below them all where
+/// they would be long and alike, as the coordinates of a map are.
 #[expect(clippy::cast_possible_truncation, reason = "a length has a few hundred digits at most")]
-fn origin([low, high]: [f64; 2]) -> f64 {
+pub fn origin([low, high]: [f64; 2]) -> f64 {
     const FAR: f64 = 1e4;
     let length = high - low;
     let is_far = low.abs().max(high.abs()) >= FAR.max(10.0 * length);
@@ -64,56 +61,6 @@ fn origin([low, high]: [f64; 2]) -> f64 {
     }
     let unit = 10.0_f64.powi(length.log10().ceil() as i32).max(1.0);
     (low / unit).floor() * unit
-}
-
-/// A range with its ticks: an axis of a chart of `plotters`.
-#[derive(Clone, Debug)]
-pub(super) struct Axis {
-    range: [f64; 2],
-    pub(super) ticks: Ticks,
-    origin: f64,
-}
-
-impl Axis {
-    /// The axis of a range, with numbers at these ticks.
-    pub(super) fn new(range: [f64; 2], ticks: Ticks) -> Self {
-        Self { range, ticks, origin: origin(range) }
-    }
-
-    /// Its label, with what its numbers are counted from.
-    pub(super) fn label(&self, quantity: &str) -> String {
-        let sign = if self.origin < 0.0 { '+' } else { '−' };
-        if self.origin == 0.0 {
-            quantity.to_owned()
-        } else {
-            format!("{quantity} {sign} {}", number(self.origin.abs(), 0))
-        }
-    }
-}
-
-impl Ranged for Axis {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    #[expect(clippy::cast_possible_truncation, reason = "places on the canvas")]
-    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        let share = (value - self.range[0]) / (self.range[1] - self.range[0]);
-        limit.0 + (share * f64::from(limit.1 - limit.0)).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, _hint: Hint) -> Vec<f64> {
-        self.ticks.values.clone()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.range[0]..self.range[1]
-    }
-}
-
-impl ValueFormatter<f64> for Axis {
-    fn format_ext(&self, value: &f64) -> String {
-        number(*value - self.origin, self.ticks.decimals)
-    }
 }
 
 /// A number with this many digits after the point, and the sign of mathematics.
@@ -154,12 +101,6 @@ mod tests {
         assert_eq!(origin([9_000.0, 9_001.0]), 0.0);
         assert_eq!(origin([4_432_187.0, 4_432_215.5]), 4_432_100.0);
         assert_eq!(origin([-20_010.2, -20_010.1]), -20_011.0);
-        let axis = |range| Axis::new(range, Ticks::along(range, 390, 60));
-        let far = axis([4_432_187.0, 4_432_215.5]);
-        assert_eq!(far.label("y (m)"), "y (m) − 4432100");
-        assert_eq!(far.format_ext(&4_432_190.0), "90");
-        assert_eq!(axis([-20_010.2, -20_010.1]).label("y (m)"), "y (m) + 20011");
-        assert_eq!(axis([-1.0, 1.0]).label("y (m)"), "y (m)");
     }
 
     #[test]

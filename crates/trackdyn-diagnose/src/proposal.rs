@@ -25,6 +25,7 @@ use crate::uncertainty::{Interval, Uncertainty};
 use crate::verdict::{Rules, Support};
 use crate::weighted::Weighted;
 use selection::{Library, Selected};
+use std::sync::Arc;
 use trackdyn_core::real;
 use trackdyn_model::effect::{Symmetry, Term};
 use trackdyn_model::{EffectId, Effects, Model, Vehicle};
@@ -87,7 +88,7 @@ pub struct Unexplained<'a> {
     /// The evidence of the fit.
     pub evidence: &'a Weighted,
     /// The base.
-    pub base: &'a Base,
+    pub base: &'a Arc<Base>,
     /// The best hypothesis.
     pub best: &'a Found,
     /// Where the vehicle as filed departs from the evidence.
@@ -119,8 +120,7 @@ fn law(effect: EffectId, unexplained: &Unexplained, resampling: Resampling) -> O
         .filter(|term| symmetry::is_admissible(term, unexplained.after, &left_over, &kept))
         .collect();
 
-    let catalogue = Catalogue { entries: Vec::new() };
-    let search = Search::new(evidence, base, &catalogue);
+    let search = Search::new(evidence.clone(), Arc::clone(base), Catalogue::default());
     let library = library(effect, terms, &search, &best.fit);
     let selected = selection::select(&library, resampling);
     if selected.is_empty() {
@@ -172,7 +172,7 @@ fn remainder(location: &Location, symmetries: &[Symmetry]) -> f64 {
 
 /// The normal equations of the best fit with the signatures of all terms beside.
 fn library(effect: EffectId, terms: Vec<Term>, search: &Search, fit: &Fit) -> Library {
-    let Search { evidence, .. } = *search;
+    let Search { evidence, .. } = search;
     let mut unknowns: Vec<Unknown> = terms
         .iter()
         .flat_map(|term| term.coefficients.iter().map(|&k| Unknown::Effect(effect, k)))
@@ -208,7 +208,7 @@ fn refitted(
         }
     }
     let before = Some(&best.fit.mechanics);
-    let fit = Fit::new(hypothesis, &unknowns, search.evidence, before);
+    let fit = Fit::new(hypothesis, &unknowns, &search.evidence, before);
     let mut effects = best.effects.clone();
     effects.push(effect);
     effects.sort_unstable();

@@ -57,7 +57,7 @@ impl Level {
 /// Applied Statistics 37(1), 1988; with another variance than the noise's: McCullagh, Nelder, Generalized Linear Models,
 /// 2nd ed. 1989, chapter 9.
 pub struct Uncertainty<'a> {
-    search: &'a Search<'a>,
+    search: &'a Search,
     fit: &'a Fit,
     /// Half the intervals, were the likelihood a parabola.
     halves: Vec<f64>,
@@ -102,7 +102,7 @@ impl<'a> Uncertainty<'a> {
         let half = |variance: f64, groups: usize| {
             Student::new(0.0, variance.max(0.0).sqrt(), groups, 1).high
         };
-        let groupings = groupings(search.evidence, counts);
+        let groupings = groupings(&search.evidence, counts);
         let noise = fit.solution.covariance.diagonal();
         let mut halves: Vec<f64> =
             noise.iter().map(|variance| half(*variance, groupings[0].len())).collect();

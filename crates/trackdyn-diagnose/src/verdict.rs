@@ -14,6 +14,7 @@ pub use support::{Support, cross_validated};
 use crate::candidate::{Signature, Variant, sizes};
 use crate::fit::Fit;
 use crate::hypothesis::{Unknown, beyond_none, neutral};
+use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
 use crate::search::{AS_FILED, Found, Search};
 use crate::uncertainty::Interval;
@@ -41,6 +42,9 @@ pub struct Verdict {
 /// Judges effects that the best hypothesis adds.
 ///
 /// `file` is the vehicle's.
+///
+/// # Errors
+/// [`Cancelled`], by the observer of the watch.
 pub fn judge(
     search: &Search,
     best: &Found,
@@ -48,13 +52,14 @@ pub fn judge(
     constants: &Constants,
     file: &VehicleFile,
     resampling: Resampling,
-) -> Vec<Verdict> {
+    watch: &Watch,
+) -> Result<Vec<Verdict>, Cancelled> {
     let departure = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
     // What mostly moves constant ICRs is known to a part of all that moved them. What a law beyond their class breaks none of
     // them does.
     let by_constants = LazyCell::new(|| constants::departure(search, best, constants, file));
     let of = |effect: EffectId| {
-        let rivals = Rivals::new(search, best, constants, effect);
+        let rivals = Rivals::new(search, best, constants, effect, watch)?;
         let (one_of, stable) = rivals.answer(search, best, resampling);
         let support = rivals.support(search, best, &one_of, stable, resampling);
         let whole = if one_of.iter().any(|member| constants.could_be_constant(*member)) {
@@ -76,7 +81,7 @@ pub fn judge(
             .or_else(as_filed)
             .or_else(|| within_filed(search, &rivals.without, rivals.changed.as_ref()?));
         let found = best.fit.hypothesis.effect(effect).cloned();
-        Verdict { effect, one_of, found, support, refused }
+        Ok(Verdict { effect, one_of, found, support, refused })
     };
     effects.iter().copied().map(of).collect()
 }
@@ -143,24 +148,22 @@ fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<St
     })
 }
 
-/// Refuses the claims whose sizes may all be none by their own intervals.
-pub fn refuse_unsure(verdicts: &mut [Verdict], intervals: &[Interval]) {
-    for verdict in verdicts.iter_mut().filter(|verdict| verdict.refused.is_none()) {
-        let effect = verdict.effect;
-        let places = sizes(effect).into_iter().map(|place| Unknown::Effect(effect, place));
-        let sizes: Vec<&Interval> = places
-            .filter_map(|unknown| intervals.iter().find(|interval| interval.unknown == unknown))
-            .collect();
-        let may_be_none = |interval: &&Interval| {
-            // of a limit that the law approaches, the range ends before it
-            let [low, high] = interval.unknown.range();
-            let none = interval.unknown.parameter().map_or(0.0, neutral).clamp(low, high);
-            (interval.low..=interval.high).contains(&none)
-        };
-        if !sizes.is_empty() && sizes.iter().all(may_be_none) {
-            verdict.refused = Some("the 95 % interval of its size holds none".to_owned());
-        }
-    }
+/// The verdict with its claim refused where its sizes may all be none by their own intervals.
+pub fn unless_unsure(verdict: Verdict, intervals: &[Interval]) -> Verdict {
+    let places = sizes(verdict.effect).into_iter();
+    let sizes: Vec<&Interval> = places
+        .map(|place| Unknown::Effect(verdict.effect, place))
+        .filter_map(|unknown| intervals.iter().find(|interval| interval.unknown == unknown))
+        .collect();
+    let may_be_none = |interval: &&Interval| {
+        // of a limit that the law approaches, the range ends before it
+        let [low, high] = interval.unknown.range();
+        let none = interval.unknown.parameter().map_or(0.0, neutral).clamp(low, high);
+        (interval.low..=interval.high).contains(&none)
+    };
+    let is_unsure = !sizes.is_empty() && sizes.iter().all(may_be_none);
+    let unsure = || is_unsure.then(|| "the 95 % interval of its size holds none".to_owned());
+    Verdict { refused: verdict.refused.clone().or_else(unsure), ..verdict }
 }
 
 #[cfg(test)]
@@ -176,9 +179,8 @@ mod tests {
             let interval = Interval { unknown, value: f64::midpoint(low, high), low, high };
             let support = Support::none();
             let one_of = vec![effect];
-            let mut verdicts = [Verdict { effect, one_of, found: None, support, refused: None }];
-            refuse_unsure(&mut verdicts, &[interval]);
-            verdicts[0].refused.is_some()
+            let verdict = Verdict { effect, one_of, found: None, support, refused: None };
+            unless_unsure(verdict, &[interval]).refused.is_some()
         };
         assert!(refused("yaw-inertia", [0.0, 0.03]));
         assert!(!refused("yaw-inertia", [0.01, 0.03]));

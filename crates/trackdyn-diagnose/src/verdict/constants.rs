@@ -5,6 +5,7 @@ use crate::base::OFFSETS;
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of, with_friction};
 use crate::prior::measured;
+use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
 use crate::search::{Found, Search};
 use std::collections::BTreeMap;
@@ -102,7 +103,7 @@ pub(super) fn departure(
 ) -> f64 {
     let (filed, fixed) = as_filed(search, best, constants, file, &[]);
     let before = Some(&best.fit.mechanics);
-    let dropped = Fit::new(filed, &fixed, search.evidence, before);
+    let dropped = Fit::new(filed, &fixed, &search.evidence, before);
     (dropped.objective - best.fit.objective).max(0.0).sqrt()
 }
 
@@ -121,6 +122,9 @@ fn as_good_as_filed(free: &Fit) -> Option<String> {
 
 /// Judges the constant ICRs against those of the vehicle file: a wrong number, or one of the class of effects
 /// that only move them. Effects that are `claimed` stay where they are.
+///
+/// # Errors
+/// [`Cancelled`], by the observer of the watch.
 pub fn judge_constants(
     search: &Search,
     best: &Found,
@@ -128,9 +132,11 @@ pub fn judge_constants(
     file: &VehicleFile,
     claimed: &[EffectId],
     resampling: Resampling,
-) -> Option<Verdict> {
+    watch: &Watch,
+) -> Result<Option<Verdict>, Cancelled> {
+    watch.go_on()?;
     let (filed, fixed) = as_filed(search, best, constants, file, claimed);
-    let evidence = search.evidence;
+    let evidence = &search.evidence;
     let before = Some(&best.fit.mechanics);
     let dropped = Fit::new(filed.clone(), &fixed, evidence, before);
     let moving: Vec<Unknown> = OFFSETS.iter().chain(&fixed).copied().collect();
@@ -138,7 +144,7 @@ pub fn judge_constants(
     let ln_bayes_factor = free.ln_evidence() - dropped.ln_evidence();
     let z = (dropped.objective - free.objective).max(0.0).sqrt();
     if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
-        return None;
+        return Ok(None);
     }
     let support = Support {
         ln_bayes_factor,
@@ -147,19 +153,25 @@ pub fn judge_constants(
     };
     let refused = refusal(&support, 0.0).or_else(|| as_good_as_filed(&free));
     // What the owner measured can have moved within its uncertainty only: is that enough?
-    let can = |effect: &EffectId| {
+    let can = |effect: &EffectId| -> Result<bool, Cancelled> {
         if unknowns_of(*effect).all(|unknown| measured(&file.vehicle, unknown).is_none()) {
-            return true;
+            return Ok(true);
         }
+        watch.go_on()?;
         let unknowns: Vec<Unknown> = fixed.iter().copied().chain(unknowns_of(*effect)).collect();
         let none: Vec<f64> = effect.card().parameters.iter().map(neutral).collect();
         let start = filed.with_effect(active(*effect, &none));
         let fit = Fit::new(start, &unknowns, evidence, before);
         // Each unknown fewer than the three constants is worth two: chance alone gives one half.
         let fewer = OFFSETS.len().saturating_sub(unknowns_of(*effect).count());
-        (fit.objective - free.objective) / 2.0 < Rules::SAME + 2.0 * real(fewer)
+        Ok((fit.objective - free.objective) / 2.0 < Rules::SAME + 2.0 * real(fewer))
     };
-    let one_of: Vec<EffectId> = constants.class.iter().copied().filter(can).collect();
-    let effect = *one_of.first()?;
-    Some(Verdict { effect, one_of, found: None, support, refused })
+    let mut one_of: Vec<EffectId> = Vec::new();
+    for effect in &constants.class {
+        if can(effect)? {
+            one_of.push(*effect);
+        }
+    }
+    let first = one_of.first().copied();
+    Ok(first.map(|effect| Verdict { effect, one_of, found: None, support, refused }))
 }

@@ -5,6 +5,7 @@ use super::{Constants, Rules, Support};
 use crate::candidate::Signature;
 use crate::hypothesis::{Unknown, typical};
 use crate::mechanics::is_instrument;
+use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
 use crate::search::{Found, Screened, Search};
 use std::slice;
@@ -34,7 +35,17 @@ pub(super) struct Rivals {
 
 impl Rivals {
     /// Puts what the screen leaves open in the place of an effect.
-    pub fn new(search: &Search, best: &Found, constants: &Constants, effect: EffectId) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`], by the observer of the watch.
+    pub fn new(
+        search: &Search,
+        best: &Found,
+        constants: &Constants,
+        effect: EffectId,
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
+        watch.go_on()?;
         let without = search.without(best, effect);
         let screened = search.screen(&without);
         let changed = support::change(effect, &without, best);
@@ -48,6 +59,7 @@ impl Rivals {
         let asked = close.iter().enumerate().filter(is_asked).take(2 * RIVALS);
         let (mut exchanged, mut alike) = (Vec::new(), Vec::new());
         for (_, rival) in asked {
+            watch.go_on()?;
             let found = search.refit(&without, slice::from_ref(rival));
             let behind = (found.fit.objective - best.fit.objective) / 2.0;
             let less = best.ln_evidence - found.ln_evidence;
@@ -64,7 +76,7 @@ impl Rivals {
             |one: &&&Screened| !exchanged.iter().any(|(effect, _)| *effect == one.effect);
         let does_as_well = |one: &&&Screened| one.gain > own - Rules::LN_BAYES_FACTOR;
         let unasked = close.iter().filter(is_unasked).filter(does_as_well).count();
-        Self { effect, without, changed, screened, unasked, exchanged, alike }
+        Ok(Self { effect, without, changed, screened, unasked, exchanged, alike })
     }
 
     /// The effect and the rivals that were refitted, each with its hypothesis.

@@ -50,6 +50,7 @@ pub(super) struct Candidate {
 pub(super) fn candidates(subject: &Subject) -> Vec<Candidate> {
     let diagnosis = subject.diagnosis;
     let mut all: Vec<Candidate> = diagnosis
+        .limits
         .screened
         .iter()
         .map(|one| {
@@ -67,9 +68,9 @@ pub(super) fn candidates(subject: &Subject) -> Vec<Candidate> {
             }
         })
         .collect();
-    for &effect in &diagnosis.base.instruments {
+    for &effect in &diagnosis.models.base.instruments {
         let missing = claim(subject, effect);
-        let refused = diagnosis.refused.iter().find(|verdict| verdict.effect == effect);
+        let refused = diagnosis.answer.refused.iter().find(|verdict| verdict.effect == effect);
         let verdict = missing.map(|missing| &missing.verdict).or(refused);
         let reason = match (missing, refused) {
             (Some(missing), _) => claimed(missing),
@@ -93,7 +94,7 @@ pub(super) fn candidates(subject: &Subject) -> Vec<Candidate> {
 }
 
 fn claim<'a>(subject: &Subject<'a>, effect: EffectId) -> Option<&'a Missing> {
-    let missing = subject.diagnosis.missing.iter();
+    let missing = subject.diagnosis.answer.missing.iter();
     missing.filter(|missing| missing.kind != Kind::Constant).find(|m| m.verdict.effect == effect)
 }
 
@@ -114,7 +115,8 @@ fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
     if let Some(missing) = claim(subject, effect) {
         return (Outcome::Claimed, claimed(missing));
     }
-    let twin = diagnosis.missing.iter().find(|missing| missing.verdict.one_of.contains(&effect));
+    let twin =
+        diagnosis.answer.missing.iter().find(|missing| missing.verdict.one_of.contains(&effect));
     if let Some(missing) = twin {
         return if missing.kind == Kind::Constant {
             let reason = "one of the class that only moves constant ICRs, of which one is claimed";
@@ -124,10 +126,11 @@ fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
             (Outcome::Twin, format!("this evidence cannot tell it from {other}"))
         };
     }
-    if let Some(verdict) = diagnosis.refused.iter().find(|verdict| verdict.effect == effect) {
+    if let Some(verdict) = diagnosis.answer.refused.iter().find(|verdict| verdict.effect == effect)
+    {
         return (Outcome::Lost, refusal(verdict.refused.as_deref()));
     }
-    if diagnosis.constants.contains(&effect) {
+    if diagnosis.limits.constants.contains(&effect) {
         return (Outcome::Constant, "only moves constant ICRs, which are fitted anyway".to_owned());
     }
     if one.held {
@@ -146,15 +149,16 @@ fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
 /// Why a candidate that explains something by itself is not in the answer.
 fn weaker(subject: &Subject, one: &Screened) -> String {
     let diagnosis = subject.diagnosis;
-    let answer = &diagnosis.best.effects;
-    let resemblance = &diagnosis.resemblance;
+    let answer = &diagnosis.models.best.effects;
+    let resemblance = &diagnosis.limits.resemblance;
     let place = |effect: EffectId| resemblance.effects.iter().position(|other| *other == effect);
     let alike = answer.iter().filter_map(|&other| {
         let cosine = resemblance.cosines[(place(one.effect)?, place(other)?)];
         Some((cosine, other))
     });
     let alike = alike.max_by(|a, b| a.0.total_cmp(&b.0));
-    let left = diagnosis.left.iter().find(|left| left.effect == one.effect).map(|left| left.gain);
+    let left =
+        diagnosis.limits.left.iter().find(|left| left.effect == one.effect).map(|left| left.gain);
     let left = left.map_or(String::new(), |gain| {
         if gain > WORTH {
             let gain = number(gain, 1);
@@ -170,7 +174,7 @@ fn weaker(subject: &Subject, one: &Screened) -> String {
             format!("twin of {}, which explains more{left}", id(other))
         }
         Some((_, other)) => format!("weaker than {}{left}", id(other)),
-        None if diagnosis.base.instruments.is_empty() => format!("not needed{left}"),
+        None if diagnosis.models.base.instruments.is_empty() => format!("not needed{left}"),
         None => format!("no single effect is worth keeping{left}"),
     }
 }
@@ -178,7 +182,7 @@ fn weaker(subject: &Subject, one: &Screened) -> String {
 /// Value of each size: that of no effect, or of the vehicle file, and the estimated distance from it.
 fn values<'a>(subject: &'a Subject, one: &'a Screened) -> impl Iterator<Item = (usize, f64)> + 'a {
     candidate::sizes(one.effect).into_iter().zip(&one.sizes).map(|(place, size)| {
-        let hypothesis = &subject.diagnosis.base.fit.hypothesis;
+        let hypothesis = &subject.diagnosis.models.base.fit.hypothesis;
         (place, hypothesis.get(Unknown::Effect(one.effect, place)) + size)
     })
 }
@@ -198,7 +202,7 @@ fn shown(parameter: &Parameter, value: f64, digits: i32) -> String {
 
 /// All numbers of an effect as they were fitted.
 fn fitted(subject: &Subject, effect: EffectId) -> String {
-    let hypothesis = &subject.diagnosis.best.fit.hypothesis;
+    let hypothesis = &subject.diagnosis.models.best.fit.hypothesis;
     let texts = effect.card().parameters.iter().enumerate().map(|(place, parameter)| {
         let value = hypothesis.get(Unknown::Effect(effect, place));
         shown(parameter, value, 4)

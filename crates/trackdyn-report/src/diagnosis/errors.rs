@@ -35,7 +35,7 @@ struct Bars {
 
 /// Draws the error on the runs that judge, by channel and run by run.
 pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
-    let fit = &subject.diagnosis.held_out;
+    let fit = &subject.diagnosis.evidence.errors;
     let explanation = "Root mean square of the residuals in standard deviations of the noise. Floor: what is \
                        left when everything that could move ICRs or instruments, known or not, is fitted away.";
     let title = if fit.are_held_out {

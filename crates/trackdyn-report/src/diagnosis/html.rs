@@ -114,7 +114,7 @@ pub fn diagnosis_html(subject: &Subject, figures: &[Figure]) -> Result<String, E
 fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Page<'a> {
     let (diagnosis, evidence) = (subject.diagnosis, subject.evidence());
     let [status, tone] = answer::status(subject);
-    let refused = diagnosis.refused.iter().map(|verdict| Row {
+    let refused = diagnosis.answer.refused.iter().map(|verdict| Row {
         name: ids(&verdict.one_of, " or "),
         text: verdict.refused.clone().unwrap_or_default(),
     });
@@ -129,17 +129,18 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Page<'a> {
         Origin::SteadyPoints(_) => "points of steady motion",
     };
     let samples: usize = subject.views().iter().map(|view| view.evidence.samples().len()).sum();
-    let held_out = diagnosis.unseen.as_ref().map_or("none were held out".to_owned(), |unseen| {
-        let samples = unseen.evidence.samples().iter();
-        let held_out = samples.map(|sample| sample.run).collect::<BTreeSet<usize>>().len();
-        let what = evidence.origin().runs();
-        format!("{held_out} of {} {what} were held out", evidence.runs().len())
-    });
+    let held_out =
+        diagnosis.evidence.unseen.as_ref().map_or("none were held out".to_owned(), |unseen| {
+            let samples = unseen.evidence.samples().iter();
+            let held_out = samples.map(|sample| sample.run).collect::<BTreeSet<usize>>().len();
+            let what = evidence.origin().runs();
+            format!("{held_out} of {} {what} were held out", evidence.runs().len())
+        });
     Page {
         name: subject.name,
         vehicle: &subject.vehicle.vehicle.name,
         status,
-        status_id: diagnosis.status.name(),
+        status_id: diagnosis.answer.status.name(),
         tone,
         answer: answer::parts(subject),
         missing: missing(subject),
@@ -157,7 +158,7 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Page<'a> {
 }
 
 fn missing(subject: &Subject) -> Vec<Missing> {
-    let missing = subject.diagnosis.missing.iter();
+    let missing = subject.diagnosis.answer.missing.iter();
     missing
         .map(|missing| {
             let card = missing.verdict.effect.card();
@@ -211,7 +212,7 @@ fn missing(subject: &Subject) -> Vec<Missing> {
 }
 
 fn classes(subject: &Subject) -> Vec<Class> {
-    let missing = subject.diagnosis.missing.iter();
+    let missing = subject.diagnosis.answer.missing.iter();
     missing
         .filter(|missing| missing.verdict.one_of.len() > 1)
         .map(|missing| Class {
@@ -254,7 +255,7 @@ fn rows(subject: &Subject) -> Vec<Candidate> {
 }
 
 fn limits(subject: &Subject) -> Vec<Limit> {
-    let mut detectable = subject.diagnosis.detectable.clone();
+    let mut detectable = subject.diagnosis.limits.detectable.clone();
     detectable.sort_by_key(|one| (one.effect, one.parameter));
     detectable
         .iter()
@@ -291,9 +292,9 @@ fn rules() -> Vec<String> {
 }
 
 fn noise(subject: &Subject) -> String {
-    let scale = subject.diagnosis.evidence.scale();
+    let scale = subject.diagnosis.evidence.seen.scale();
     let taken = subject.evidence().description();
-    let taken = subject.diagnosis.evidence.noise().map_or_else(
+    let taken = subject.diagnosis.evidence.seen.noise().map_or_else(
         || taken.to_owned(),
         |noise| format!("{taken}: {}", trackdyn_diagnose::noise::sentence(noise)),
     );

@@ -29,7 +29,7 @@ const VISIBLE: f64 = 0.05;
 
 /// Draws the matrix of |cosine| and what each effect would stand out by.
 pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
-    let of = &subject.diagnosis.resemblance;
+    let of = &subject.diagnosis.limits.resemblance;
     let order = order(of);
     let side = rows(order.len()) * CELL;
     let height = TOP + side.max(500) + BELOW + sheet::FOOT;
@@ -82,7 +82,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
 
 /// Bars of z at each effect's typical size, beside the rows.
 fn strengths(canvas: &mut Canvas, subject: &Subject, order: &[usize], left: i32) {
-    let of = &subject.diagnosis.resemblance;
+    let of = &subject.diagnosis.limits.resemblance;
     let width = f64::from((sheet::RIGHT - left - 110).min(WIDEST));
     let most = order.iter().map(|&k| of.detection[k]).fold(10.0, f64::max);
     let style = Style::new(TICK_SIZE).anchor(Horizontal::Left, Vertical::Baseline);
@@ -111,7 +111,7 @@ fn strengths(canvas: &mut Canvas, subject: &Subject, order: &[usize], left: i32)
 /// Writes a name; that of what is claimed in ink, others in grey.
 fn name(canvas: &mut Canvas, subject: &Subject, effect: EffectId, at: [i32; 2], upwards: bool) {
     let claimed =
-        subject.diagnosis.missing.iter().any(|missing| {
+        subject.diagnosis.answer.missing.iter().any(|missing| {
             missing.kind != Kind::Constant && missing.verdict.one_of.contains(&effect)
         });
     let colour = if claimed { INK } else { GREY };

@@ -11,7 +11,7 @@ use crate::panel::ticks::number;
 use crate::panel::{LABEL_SIZE, Panel, TICK_SIZE};
 use crate::text::{Horizontal, Style, Vertical};
 use trackdyn_core::real;
-use trackdyn_diagnose::Diagnosis;
+use trackdyn_diagnose::diagnosis::Examined;
 use trackdyn_diagnose::locate::{SIGNIFICANT, SymmetryTest};
 
 const TOP: i32 = sheet::TOP + 110;
@@ -27,7 +27,7 @@ const FILED: usize = 2;
 
 /// Draws one row per symmetry: its statistic per degree of freedom.
 pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
-    let Diagnosis { filed, before: fitted, after, .. } = subject.diagnosis;
+    let Examined { filed, before: fitted, after, .. } = &subject.diagnosis.evidence;
     let states = [
         (&filed.tests, FILED, "as filed", "p as filed"),
         (&fitted.tests, BEFORE, "clock and sensor fitted", "p fitted"),

@@ -29,7 +29,7 @@ const VAGUE: f64 = 2.0;
 
 /// Draws a row of channels for each claimed effect, or for the best candidate.
 pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
-    let exposures = &subject.diagnosis.exposures;
+    let exposures = &subject.diagnosis.evidence.exposures;
     let height = TOP - 40 + rows(exposures.len().max(1)) * ROW + sheet::FOOT;
     let explanation = "Observed departure without the effect, against the change that the effect predicts; \
                        what else is free is taken out of both. An effect that is there puts the means on \

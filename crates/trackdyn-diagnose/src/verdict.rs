@@ -2,12 +2,14 @@
 
 mod constants;
 mod instruments;
+mod refusal;
 mod rivals;
 mod rules;
 mod support;
 
 pub use constants::{Constants, judge_constants};
 pub use instruments::judge_instruments;
+pub use refusal::Refusal;
 pub use rules::Rules;
 pub use support::{Support, cross_validated};
 
@@ -36,7 +38,7 @@ pub struct Verdict {
     /// What speaks for it.
     pub support: Support,
     /// Why it is not claimed; none where it is.
-    pub refused: Option<String>,
+    pub refused: Option<Refusal>,
 }
 
 /// Judges effects that the best hypothesis adds.
@@ -87,47 +89,42 @@ pub fn judge(
 }
 
 /// Why a claim is refused by the rules; none where it is not. The `whole` is √ of what the misfit falls by with all laws.
-fn refusal(support: &Support, whole: f64) -> Option<String> {
+fn refusal(support: &Support, whole: f64) -> Option<Refusal> {
     if let Some(reason) = support.falls_short() {
         return Some(reason);
     }
-    if support.stable < Rules::STABLE {
-        return Some(format!(
-            "named in {:.0} % of resampled recordings only",
-            100.0 * support.stable
-        ));
+    let Support { stable, z, .. } = *support;
+    if stable < Rules::STABLE {
+        return Some(Refusal::Unstable { share: stable, needed: Rules::STABLE });
     }
-    if support.z < Rules::FORM * whole {
-        return Some("no larger than what the form of the other laws may leave".to_owned());
-    }
-    None
+    let needed = Rules::FORM * whole;
+    (z < needed).then_some(Refusal::WithinForm { z, needed })
 }
 
 /// An effect that the vehicle file knows, at nearly the sizes that it gives: no law is known better.
-fn nearly_as_filed(search: &Search, found: &Fit, effect: EffectId) -> Option<String> {
+fn nearly_as_filed(search: &Search, found: &Fit, effect: EffectId) -> Option<Refusal> {
     let filed = search.base.as_filed.hypothesis.effect(effect)?;
     let found = found.hypothesis.effect(effect)?;
     let near = sizes(effect).into_iter().all(|place| {
         let [filed, found] = [filed, found].map(|effect| beyond_none(effect, place));
         (found - filed).abs() <= AS_FILED * filed.abs()
     });
-    let id = effect.name();
-    near.then(|| format!("the vehicle file knows {id}, which explains it at nearly the filed size"))
+    near.then_some(Refusal::NearlyAsFiled { effect })
 }
 
 /// A size of the effect that ended at the limit of its physical range.
-fn at_limit(fit: &Fit, unknown: Unknown, effect: EffectId) -> Option<String> {
+fn at_limit(fit: &Fit, unknown: Unknown, effect: EffectId) -> Option<Refusal> {
     let parameter = unknown.parameter()?;
     let is_size = matches!(parameter.role, Role::Size { .. });
     let value = fit.hypothesis.get(unknown);
     (unknown.is_of(effect) && is_size && fit.is_at_limit(unknown))
-        .then(|| format!("{} = {value} lies at the limit of what is physical", parameter.key))
+        .then_some(Refusal::AtLimit { size: unknown, value })
 }
 
 /// Why what an effect changes is no more than what laws of the vehicle file may leave; none where it is more.
 ///
 /// Such a law is known to a part of what it does: its radius of gyration is hardly ever measured.
-fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<String> {
+fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<Refusal> {
     let filed = &search.base.as_filed.hypothesis;
     let laws: Vec<&(Variant, Vec<Signature>)> = search
         .catalogue
@@ -142,9 +139,10 @@ fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<St
         Some(Rules::FORM * (filed.get(unknown) - none).abs()).filter(|size| *size > 0.0)
     };
     let apart = separation(search, without, changed, &signatures, known);
-    (!laws.is_empty() && apart < Rules::ISOLATED).then(|| {
-        let names: Vec<&str> = laws.iter().map(|(law, _)| law.effect.name()).collect();
-        format!("no more than what {} of a slightly other size may leave", names.join(" and "))
+    (!laws.is_empty() && apart < Rules::ISOLATED).then(|| Refusal::WithinFiled {
+        laws: laws.iter().map(|(law, _)| law.effect).collect(),
+        apart,
+        needed: Rules::ISOLATED,
     })
 }
 
@@ -162,7 +160,7 @@ pub fn unless_unsure(verdict: Verdict, intervals: &[Interval]) -> Verdict {
         (interval.low..=interval.high).contains(&none)
     };
     let is_unsure = !sizes.is_empty() && sizes.iter().all(may_be_none);
-    let unsure = || is_unsure.then(|| "the 95 % interval of its size holds none".to_owned());
+    let unsure = || is_unsure.then_some(Refusal::MayBeNone);
     Verdict { refused: verdict.refused.clone().or_else(unsure), ..verdict }
 }
 

@@ -1,6 +1,6 @@
 //! Constant ICRs that differ from those of the vehicle file: a wrong number, or one of a class of effects.
 
-use super::{Rules, Support, Verdict, refusal};
+use super::{Refusal, Rules, Support, Verdict, refusal};
 use crate::base::OFFSETS;
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of, with_friction};
@@ -108,16 +108,11 @@ pub(super) fn departure(
 }
 
 /// Constant ICRs that are nearly those of the vehicle file: no model of the contact is better.
-fn as_good_as_filed(free: &Fit) -> Option<String> {
+fn as_good_as_filed(free: &Fit) -> Option<Refusal> {
     let Hypothesis { vehicle, offset, .. } = &free.hypothesis;
     let largest = offset.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
-    (largest < Rules::CONSTANT * vehicle.gauge).then(|| {
-        format!(
-            "ICRs differ from the vehicle file's by {:.1} mm, less than {:.0} % of the gauge",
-            1e3 * largest,
-            100.0 * Rules::CONSTANT
-        )
-    })
+    let needed = Rules::CONSTANT;
+    (largest < needed * vehicle.gauge).then_some(Refusal::ConstantsAsFiled { largest, needed })
 }
 
 /// Judges the constant ICRs against those of the vehicle file: a wrong number, or one of the class of effects

@@ -1,7 +1,7 @@
 //! What explains an effect's part as well as it does.
 
 use super::support::{self, Change};
-use super::{Constants, Rules, Support};
+use super::{Constants, Refusal, Rules, Support};
 use crate::candidate::Signature;
 use crate::hypothesis::{Unknown, typical};
 use crate::mechanics::is_instrument;
@@ -131,10 +131,10 @@ impl Rivals {
     }
 
     /// Where all that were asked explain it as well, those that were not may.
-    pub fn too_many(&self) -> Option<String> {
+    pub fn too_many(&self) -> Option<Refusal> {
         let alike = self.alike.len();
         (self.unasked > 0 && alike >= self.exchanged.len())
-            .then(|| format!("{} effects explain it as well", alike + self.unasked))
+            .then_some(Refusal::TooMany { effects: alike + self.unasked })
     }
 }
 

@@ -1,6 +1,6 @@
 //! What speaks for a claim.
 
-use super::Rules;
+use super::{Refusal, Rules};
 use crate::candidate::{Signature, sizes};
 use crate::fit::Fit;
 use crate::hypothesis::Unknown;
@@ -64,27 +64,21 @@ impl Support {
     }
 
     /// What it lacks of what every claim must reach; none where it lacks nothing.
-    pub(crate) fn falls_short(&self) -> Option<String> {
+    pub(crate) fn falls_short(&self) -> Option<Refusal> {
         let Self { p, ln_bayes_factor, held_out_gain, held_out_error, blocks, .. } = *self;
         if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
-            return Some(format!(
-                "ln Bayes factor {ln_bayes_factor:.1}, below {}",
-                Rules::LN_BAYES_FACTOR
-            ));
+            return Some(Refusal::Weak { ln_bayes_factor, needed: Rules::LN_BAYES_FACTOR });
         }
         if self.is_met_once() {
-            return Some(format!(
-                "may have happened once: {blocks:.1} blocks of time show it, p = {p:.3}"
-            ));
+            return Some(Refusal::MetOnce { blocks, p });
         }
         if p >= Rules::P {
-            return Some(format!("may be chance: family-wise p = {p:.3}"));
+            return Some(Refusal::Chance { p });
         }
-        (held_out_gain < Rules::GAIN * held_out_error).then(|| {
-            format!(
-                "gain on held-out blocks {held_out_gain:.1} is less than {} standard errors of {held_out_error:.1}",
-                Rules::GAIN
-            )
+        (held_out_gain < Rules::GAIN * held_out_error).then_some(Refusal::NotForetold {
+            gain: held_out_gain,
+            error: held_out_error,
+            needed: Rules::GAIN,
         })
     }
 
@@ -342,8 +336,7 @@ mod tests {
     fn what_is_strong_and_was_met_once_is_said_to_be_so() {
         let strong = Support { p: 0.9, ln_bayes_factor: 92.0, blocks: 1.4, ..Support::none() };
         assert!(strong.is_met_once());
-        let reason = strong.falls_short().expect("a reason");
-        assert!(reason.contains("once: 1.4 blocks"), "{reason}");
+        assert_eq!(strong.falls_short(), Some(Refusal::MetOnce { blocks: 1.4, p: 0.9 }));
         for other in [
             Support { blocks: 20.0, ..strong },
             Support { p: 0.001, ..strong },

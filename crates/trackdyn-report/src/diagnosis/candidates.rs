@@ -7,6 +7,7 @@ use trackdyn_diagnose::candidate;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::search::Screened;
+use trackdyn_diagnose::verdict::Refusal;
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::{Parameter, Role};
 
@@ -74,7 +75,7 @@ pub(super) fn candidates(subject: &Subject) -> Vec<Candidate> {
         let verdict = missing.map(|missing| &missing.verdict).or(refused);
         let reason = match (missing, refused) {
             (Some(missing), _) => claimed(missing),
-            (_, Some(verdict)) => refusal(verdict.refused.as_deref()),
+            (_, Some(verdict)) => refusal(verdict.refused.as_ref()),
             _ => {
                 "fitted in every hypothesis; ln evidence falls by less than 5 without it".to_owned()
             }
@@ -105,8 +106,9 @@ fn claimed(missing: &Missing) -> String {
     }
 }
 
-fn refusal(why: Option<&str>) -> String {
-    format!("refused: {}", why.unwrap_or("no reason given"))
+fn refusal(why: Option<&Refusal>) -> String {
+    let why = why.map_or("no reason given".to_owned(), Refusal::to_string);
+    format!("refused: {why}")
 }
 
 fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
@@ -128,7 +130,7 @@ fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
     }
     if let Some(verdict) = diagnosis.answer.refused.iter().find(|verdict| verdict.effect == effect)
     {
-        return (Outcome::Lost, refusal(verdict.refused.as_deref()));
+        return (Outcome::Lost, refusal(verdict.refused.as_ref()));
     }
     if diagnosis.limits.constants.contains(&effect) {
         return (Outcome::Constant, "only moves constant ICRs, which are fitted anyway".to_owned());

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::document::separate_by;
 use trackdyn_diagnose::evidence::Origin;
-use trackdyn_diagnose::verdict::Rules;
+use trackdyn_diagnose::verdict::{Refusal, Rules};
 
 const NAME: &str = "report.html";
 
@@ -116,7 +116,7 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Page<'a> {
     let [status, tone] = answer::status(subject);
     let refused = diagnosis.answer.refused.iter().map(|verdict| Row {
         name: ids(&verdict.one_of, " or "),
-        text: verdict.refused.clone().unwrap_or_default(),
+        text: verdict.refused.as_ref().map_or_else(String::new, Refusal::to_string),
     });
     let figures = figures.iter().map(|figure| Picture {
         file: figure.file,

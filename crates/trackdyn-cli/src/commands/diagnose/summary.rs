@@ -9,6 +9,7 @@ use trackdyn_diagnose::place::words;
 use trackdyn_diagnose::proposal::Proposal;
 use trackdyn_diagnose::proposal::words::decimals;
 use trackdyn_diagnose::uncertainty::{Interval, Level};
+use trackdyn_diagnose::verdict::Refusal;
 use trackdyn_diagnose::{Diagnosis, Evidence, Status};
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::Symmetry;
@@ -50,7 +51,7 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
     }
     for verdict in &diagnosis.answer.refused {
         let id = verdict.effect.name();
-        let why = verdict.refused.as_deref().unwrap_or_default();
+        let why = verdict.refused.as_ref().map_or_else(String::new, Refusal::to_string);
         let _ = writeln!(text, "refused  {id}: {why}");
     }
     if diagnosis.answer.status == Status::Unexplained {

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use trackdyn_diagnose::Diagnosis;
 use trackdyn_diagnose::candidate::{Beside, Variant, candidates};
 use trackdyn_diagnose::diagnosis::{Kind, Models};
+use trackdyn_diagnose::equations::Equations;
 use trackdyn_diagnose::hypothesis::neutral;
 use trackdyn_diagnose::search::{Catalogue, Search};
 use trackdyn_diagnose::verdict::Rules;
@@ -140,9 +141,8 @@ fn separations(found: &Diagnosis, effect: EffectId) -> Vec<(EffectId, f64)> {
     let search = Search::new(evidence.clone(), Arc::clone(base), catalogue);
     let entries = &search.catalogue.entries;
     let apart = |rival: usize| {
-        let (normal, known, groups) = search.normal(&base.fit, &[0, rival]);
-        let free = (0..base.fit.columns.len()).chain(groups[1].iter().copied());
-        let projected = normal.projected(&free.collect::<Vec<_>>(), &known);
+        let Equations { normal, priors, free, groups } = search.equations(&base.fit, &[0, rival]);
+        let projected = normal.projected(&[&free[..], &groups[1]].concat(), &priors);
         let square = sizes.dot(&(projected.information(&groups[0]) * &sizes));
         (entries[rival].0.effect, square.max(0.0).sqrt())
     };

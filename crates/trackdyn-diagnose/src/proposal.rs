@@ -13,6 +13,7 @@ pub mod symmetry;
 pub mod words;
 
 use crate::base::Base;
+use crate::equations::Stack;
 use crate::fit::{Fit, columns};
 use crate::held_out::{HeldOut, Unseen};
 use crate::hypothesis::Unknown;
@@ -182,12 +183,11 @@ fn library(effect: EffectId, terms: Vec<Term>, search: &Search, fit: &Fit) -> Li
     let hypothesis = &fit.hypothesis;
     let prediction = fit.mechanics.predict(&Instruments::of(hypothesis), evidence);
     let more = columns(hypothesis, &fit.mechanics, &prediction, &unknowns, evidence);
-    let mut known = priors(hypothesis, &fit.unknowns, evidence);
-    known.extend(priors(hypothesis, &unknowns, evidence));
-    let free = fit.columns.len();
-    let all: Vec<_> = fit.columns.iter().cloned().chain(more).collect();
-    let normal = evidence.normal(&fit.residual, &all);
-    Library { effect, terms, unknowns, normal, priors: known, free }
+    let known = priors(hypothesis, &fit.unknowns, evidence);
+    let mut stack = Stack::new(fit.columns.clone(), known);
+    stack.push(more.into_iter().zip(priors(hypothesis, &unknowns, evidence)));
+    let equations = stack.equations(|columns| evidence.normal(&fit.residual, columns));
+    Library { effect, terms, unknowns, equations }
 }
 
 /// The best hypothesis with the chosen terms as a force in the simulator, everything fitted anew.

@@ -9,9 +9,10 @@ mod done;
 
 use crate::base::{Base, Calibration, with_vehicle};
 use crate::candidate::{Beside, Signature, Variant};
+use crate::equations::{Equations, Stack};
 use crate::fit::{Fit, Point};
 use crate::hypothesis::{Hypothesis, Unknown, active, beyond_none, unknowns_of};
-use crate::normal::{Normal, Prior};
+use crate::normal::Prior;
 use crate::prior::{prior, priors};
 use crate::progress::{Cancelled, Watch};
 use crate::weighted::Weighted;
@@ -130,31 +131,22 @@ impl Search {
     }
 
     /// The normal equations of a fit with the signatures of these catalogue entries beside.
-    pub fn normal(&self, fit: &Fit, entries: &[usize]) -> (Normal, Vec<Prior>, Vec<Vec<usize>>) {
+    pub fn equations(&self, fit: &Fit, entries: &[usize]) -> Equations {
         let signatures = entries.iter().map(|&entry| &self.catalogue.entries[entry].1[..]);
-        self.normal_of(fit, &signatures.collect::<Vec<_>>())
+        self.equations_with(fit, &signatures.collect::<Vec<_>>())
     }
 
-    /// The same with these signatures beside, those of an effect together.
-    pub fn normal_of(
-        &self,
-        fit: &Fit,
-        beside: &[&[Signature]],
-    ) -> (Normal, Vec<Prior>, Vec<Vec<usize>>) {
-        let mut columns = fit.columns.clone();
-        let mut known = priors(&fit.hypothesis, &fit.unknowns, &self.evidence);
-        let mut groups = Vec::with_capacity(beside.len());
+    /// The normal equations of a fit with these signatures beside, those of an effect together.
+    pub fn equations_with(&self, fit: &Fit, beside: &[&[Signature]]) -> Equations {
+        let Fit { hypothesis, unknowns, columns, residual, .. } = fit;
+        let mut stack = Stack::new(columns.clone(), priors(hypothesis, unknowns, &self.evidence));
         for &signatures in beside {
-            let first = columns.len();
-            for signature in signatures {
-                columns.push(signature.column.clone());
-                let prior = prior(&fit.hypothesis, signature.unknown, &self.evidence);
-                known.push(Prior { mean: 0.0, ..prior });
-            }
-            groups.push((first..columns.len()).collect());
+            stack.push(signatures.iter().map(|signature| {
+                let known = prior(hypothesis, signature.unknown, &self.evidence);
+                (signature.column.clone(), Prior { mean: 0.0, ..known })
+            }));
         }
-        let normal = self.evidence.normal(&fit.residual, &columns);
-        (normal, known, groups)
+        stack.equations(|columns| self.evidence.normal(residual, columns))
     }
 
     /// Screens all candidates beside a fit; the best variant of each effect, best first.
@@ -162,23 +154,22 @@ impl Search {
         let entries: Vec<usize> = (0..self.catalogue.entries.len())
             .filter(|&entry| !beside.effects.contains(&self.catalogue.entries[entry].0.effect))
             .collect();
-        let (normal, known, groups) = self.normal(&beside.fit, &entries);
-        let base: Vec<usize> = (0..beside.fit.columns.len()).collect();
-        let without = normal.fit(&base, &known);
+        let equations = self.equations(&beside.fit, &entries);
+        let without = equations.fit_with(&[]);
         let mut best: Vec<Screened> = Vec::new();
         let all: Vec<Screened> = entries
             .par_iter()
-            .zip(&groups)
+            .zip(&equations.groups)
             .map(|(&entry, group)| {
-                let columns: Vec<usize> = base.iter().chain(group).copied().collect();
-                let fit = normal.fit(&columns, &known);
+                let fit = equations.fit_with(group);
                 let variant = &self.catalogue.entries[entry].0;
                 let sizes: Vec<f64> =
-                    fit.estimate.rows(base.len(), group.len()).iter().copied().collect();
+                    fit.estimate.rows(equations.free.len(), group.len()).iter().copied().collect();
                 let held = !is_physical(&beside.fit.hypothesis, variant, &sizes);
                 let drop = (without.misfit - fit.misfit).max(0.0);
                 // Where the robot never met it, there is nothing to see.
-                let unseen = group.iter().all(|&column| normal.product(column, column) == 0.0);
+                let unseen =
+                    group.iter().all(|&column| equations.normal.product(column, column) == 0.0);
                 Screened {
                     entry,
                     effect: variant.effect,
@@ -228,20 +219,19 @@ impl Search {
     fn pairs(&self, beside: &Found, screened: &[Screened]) -> Vec<(f64, [Screened; 2])> {
         let dozen: Vec<&Screened> = screened.iter().take(DOZEN).collect();
         let entries: Vec<usize> = dozen.iter().map(|one| one.entry).collect();
-        let (normal, known, groups) = self.normal(&beside.fit, &entries);
-        let base: Vec<usize> = (0..beside.fit.columns.len()).collect();
-        let without = normal.fit(&base, &known);
+        let equations = self.equations(&beside.fit, &entries);
+        let (groups, free) = (&equations.groups, equations.free.len());
+        let without = equations.fit_with(&[]);
         let mut pairs = Vec::new();
         for a in 0..dozen.len() {
             for b in a + 1..dozen.len() {
-                let columns: Vec<usize> =
-                    base.iter().chain(&groups[a]).chain(&groups[b]).copied().collect();
-                let fit = normal.fit(&columns, &known);
+                let both: Vec<usize> = groups[a].iter().chain(&groups[b]).copied().collect();
+                let fit = equations.fit_with(&both);
                 let sizes = |from: usize, count: usize| -> Vec<f64> {
                     fit.estimate.rows(from, count).iter().copied().collect()
                 };
-                let first = sizes(base.len(), groups[a].len());
-                let second = sizes(base.len() + groups[a].len(), groups[b].len());
+                let first = sizes(free, groups[a].len());
+                let second = sizes(free + groups[a].len(), groups[b].len());
                 let hypothesis = &beside.fit.hypothesis;
                 let variant = |one: &Screened| &self.catalogue.entries[one.entry].0;
                 let physical = is_physical(hypothesis, variant(dozen[a]), &first)

@@ -1,5 +1,6 @@
 //! Intervals of fitted parameters.
 
+use crate::equations::Equations;
 use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::hypothesis::Unknown;
@@ -94,7 +95,7 @@ impl<'a> Uncertainty<'a> {
     /// Those of the best hypothesis.
     pub fn of(search: &'a Search, best: &'a Found) -> Self {
         let fit = &best.fit;
-        let (normal, priors, _) = search.normal(fit, &[]);
+        let Equations { normal, priors, .. } = search.equations(fit, &[]);
         let estimate = |normal: &Normal| normal.fit(&fit.free, &priors).estimate;
         let whole = estimate(&normal);
         let last = normal.columns();

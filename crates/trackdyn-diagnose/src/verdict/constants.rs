@@ -36,19 +36,19 @@ impl Constants {
     pub fn of(search: &Search) -> Self {
         let fit = &search.base.fit;
         let entries: Vec<usize> = (0..search.catalogue.entries.len()).collect();
-        let (normal, known, groups) = search.normal(fit, &entries);
+        let equations = search.equations(fit, &entries);
         let offsets: Vec<usize> =
             (0..fit.unknowns.len()).filter(|&k| OFFSETS.contains(&fit.unknowns[k])).collect();
-        let projected = normal.projected(&offsets, &known);
+        let projected = equations.normal.projected(&offsets, &equations.priors);
         let within = |share: f64| {
             let is_within = |group: &[usize]| {
                 group.iter().all(|&column| {
-                    let whole = normal.product(column, column);
+                    let whole = equations.normal.product(column, column);
                     whole > 0.0 && projected.product(column, column) <= share * whole
                 })
             };
             let mut effects = BTreeMap::new();
-            for ((variant, _), group) in search.catalogue.entries.iter().zip(&groups) {
+            for ((variant, _), group) in search.catalogue.entries.iter().zip(&equations.groups) {
                 *effects.entry(variant.effect).or_insert(true) &= is_within(group);
             }
             effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()

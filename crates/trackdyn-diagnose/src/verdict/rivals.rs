@@ -3,6 +3,7 @@
 use super::support::{self, Change};
 use super::{Constants, Refusal, Rules, Support};
 use crate::candidate::Signature;
+use crate::equations::Equations;
 use crate::hypothesis::{Unknown, typical};
 use crate::mechanics::is_instrument;
 use crate::progress::{Cancelled, Watch};
@@ -161,8 +162,8 @@ pub(super) fn separation(
     known: impl Fn(Unknown) -> Option<f64>,
 ) -> f64 {
     let signatures = [&[slice::from_ref(&changed.signature)], rivals].concat();
-    let (normal, mut priors, groups) = search.normal_of(&without.fit, &signatures);
-    let mut free: Vec<usize> = (0..without.fit.columns.len()).collect();
+    let Equations { normal, mut priors, mut free, groups } =
+        search.equations_with(&without.fit, &signatures);
     for (&column, signature) in groups[1..].iter().flatten().zip(rivals.iter().copied().flatten()) {
         free.push(column);
         if let Some(deviation) = known(signature.unknown) {

@@ -3,11 +3,11 @@
 //!
 //! `diagnose_speed [--longest N]` prints a table; N is 1, 4 or 16 (default 16).
 
-use std::cell::RefCell;
 use std::error::Error;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
 use std::time::Instant;
-use trackdyn_diagnose::diagnosis::STAGES;
-use trackdyn_diagnose::{Evidence, Options, diagnose};
+use trackdyn_diagnose::{Evidence, Options, Progress, Stage, diagnose};
 use trackdyn_drive::sensors::Preset;
 use trackdyn_drive::{ScheduleKind, ScheduleOptions};
 use trackdyn_recording::Recording;
@@ -29,10 +29,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         _ => return Err("usage: diagnose_speed [--longest N]".into()),
     };
     println!(
-        "| concealed | segments | seconds | CPU seconds | attempts | {} | before [MiB] | peak [MiB] | named |",
-        STAGES.join(" | ")
+        "| concealed | segments | seconds | CPU seconds | searches | {} | before [MiB] | peak [MiB] | named |",
+        Stage::ALL.map(Stage::name).join(" | ")
     );
-    println!("|{}", "---|".repeat(8 + STAGES.len()));
+    println!("|{}", "---|".repeat(8 + Stage::ALL.len()));
     for times in [1, 4, 16].into_iter().filter(|times| *times <= longest) {
         for concealed in CONCEALED {
             report(&recording(times, concealed)?, concealed)?;
@@ -53,6 +53,27 @@ fn recording(times: usize, concealed: &[&str]) -> Result<Recording, Box<dyn Erro
     Ok(drive.recording(&sensors(Preset::Laboratory), 1))
 }
 
+/// Time that a diagnosis spent so far.
+struct Times {
+    /// When it last told where it is.
+    last: Instant,
+    /// Stages that were finished then.
+    done: usize,
+    /// Time of each stage, s.
+    seconds: [f64; Stage::ALL.len()],
+    /// Searches that were finished.
+    searches: usize,
+}
+
+impl Times {
+    fn reach(&mut self, at: Progress) {
+        let stage = Stage::ALL.iter().position(|stage| *stage == at.stage).unwrap_or(0);
+        self.seconds[stage] += self.last.elapsed().as_secs_f64();
+        self.searches += usize::from(at.stage == Stage::Search && at.done > self.done);
+        (self.last, self.done) = (Instant::now(), at.done);
+    }
+}
+
 /// Diagnoses and prints a row.
 fn report(recording: &Recording, concealed: &[&str]) -> Result<(), Box<dyn Error>> {
     let file = owned(concealed);
@@ -62,24 +83,26 @@ fn report(recording: &Recording, concealed: &[&str]) -> Result<(), Box<dyn Error
     let evidence = Evidence::of_recording(recording, file.vehicle.gauge)?;
     let held_out = (3..recording.runs().len()).step_by(4).collect();
     let options = Options { held_out, ..Options::default() };
-    let stages = RefCell::new((Instant::now(), [0.0; STAGES.len()], 0));
-    let diagnosis = diagnose(&evidence, &file, &options, &|name| {
-        let (last, seconds, attempts) = &mut *stages.borrow_mut();
-        let stage = STAGES.iter().position(|stage| *stage == name).unwrap_or(0);
-        seconds[stage] += last.elapsed().as_secs_f64();
-        *attempts += usize::from(stage == 0);
-        *last = Instant::now();
+    let times = Mutex::new(Times {
+        last: Instant::now(),
+        done: 0,
+        seconds: [0.0; Stage::ALL.len()],
+        searches: 0,
+    });
+    let diagnosis = diagnose(&evidence, &file, &options, &|at| {
+        times.lock().expect("one thread at a time").reach(at);
+        ControlFlow::Continue(())
     })?;
     let whole = begun.elapsed().as_secs_f64();
     let spent = cpu_seconds() - spent;
-    let (_, seconds, attempts) = stages.into_inner();
+    let Times { seconds, searches, .. } = times.into_inner().expect("no thread failed");
     let seconds: Vec<String> = seconds.iter().map(|s| format!("{s:.2}")).collect();
     let named: Vec<String> = named(&diagnosis)
         .into_iter()
         .map(|(_, members)| members.into_iter().collect::<Vec<_>>().join(" or "))
         .collect();
     println!(
-        "| {} | {} | {whole:.1} | {spent:.1} | {attempts} | {} | {before} | {} | {} |",
+        "| {} | {} | {whole:.1} | {spent:.1} | {searches} | {} | {before} | {} | {} |",
         concealed.first().unwrap_or(&"nothing"),
         evidence.samples().len(),
         seconds.join(" | "),

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use trackdyn_core::{Plant, Pose, Trajectory};
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
-use trackdyn_diagnose::{Diagnosis, Error, Evidence, Options, diagnose};
+use trackdyn_diagnose::{Diagnosis, Error, Evidence, Options, diagnose, unobserved};
 use trackdyn_drive::schedules::as_commanded;
 use trackdyn_drive::sensors::{PoseFrame, Preset, Sensors, Views};
 use trackdyn_drive::{ScheduleKind, ScheduleOptions, ScheduledRun};
@@ -146,7 +146,7 @@ pub fn diagnosed(recording: &Recording, file: &VehicleFile) -> Result<Diagnosis,
     let count = recording.runs().len();
     let held_out = if count < 8 { Vec::new() } else { (3..count).step_by(4).collect() };
     let evidence = Evidence::of_recording(recording, file.vehicle.gauge)?;
-    diagnose(&evidence, file, &Options { held_out, ..Options::default() }, &|_| ())
+    diagnose(&evidence, file, &Options { held_out, ..Options::default() }, &unobserved)
 }
 
 /// Members of an answer by their names.
@@ -156,5 +156,5 @@ pub fn members(missing: &Missing) -> BTreeSet<&'static str> {
 
 /// All that is named, with its kind.
 pub fn named(diagnosis: &Diagnosis) -> Vec<(Kind, BTreeSet<&'static str>)> {
-    diagnosis.missing.iter().map(|missing| (missing.kind, members(missing))).collect()
+    diagnosis.answer.missing.iter().map(|missing| (missing.kind, members(missing))).collect()
 }

@@ -210,7 +210,7 @@ impl Case {
     ) -> Self {
         let truth = setting.id();
         let alone = |missing: &&Missing| missing.verdict.one_of.len() == 1;
-        let answers = diagnosis.missing.iter();
+        let answers = diagnosis.answer.missing.iter();
         let answers = answers.filter(|missing| {
             truth == CLOCK
                 || !(missing.kind == Kind::Instrument && members(missing).contains(CLOCK))
@@ -221,15 +221,15 @@ impl Case {
             let colon = if constants.is_empty() { "" } else { ":" };
             format!("{constants}{colon}{}", ids.join("|"))
         });
-        let own = diagnosis.missing.iter().find(|missing| members(missing).contains(truth));
+        let own = diagnosis.answer.missing.iter().find(|missing| members(missing).contains(truth));
         let found = own.filter(alone).map(|missing| sizes(missing, values, sensors));
         Self {
             truth: String::new(),
-            status: diagnosis.status.name().to_owned(),
+            status: diagnosis.answer.status.name().to_owned(),
             named: named.collect(),
             support: own.map(|own| (own.verdict.support.p, own.verdict.support.ln_bayes_factor)),
             found: found.unwrap_or_default(),
-            explained: diagnosis.held_out.excess_explained(),
+            explained: diagnosis.evidence.errors.excess_explained(),
             seconds: 0.0,
         }
     }

@@ -7,7 +7,7 @@ use trackdyn_core::Pose;
 use trackdyn_diagnose::evidence::planned::{PlannedRun, READINGS};
 use trackdyn_diagnose::hypothesis::Hypothesis;
 use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
-use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
+use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose, unobserved};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_model::VehicleFile;
 use trackdyn_recording::TrackSample;
@@ -66,23 +66,23 @@ fn evidence(last: f64, wrong: f64) -> Evidence {
 
 fn diagnosis(evidence: &Evidence) -> Diagnosis {
     let options = Options { held_out: vec![HELD_OUT], ..Options::default() };
-    diagnose(evidence, &owned(&[]), &options, &|_| ()).expect("enough driving")
+    diagnose(evidence, &owned(&[]), &options, &unobserved).expect("enough driving")
 }
 
 /// All that is claimed, to the last bit.
 fn claims(diagnosis: &Diagnosis) -> String {
-    let sizes = diagnosis.missing.iter().flat_map(|missing| &missing.parameters);
+    let sizes = diagnosis.answer.missing.iter().flat_map(|missing| &missing.parameters);
     let sizes: Vec<[f64; 3]> = sizes.map(|one| [one.value, one.low, one.high]).collect();
-    format!("{:?} {sizes:?} {:?}", named(diagnosis), diagnosis.corrected.to_toml())
+    format!("{:?} {sizes:?} {:?}", named(diagnosis), diagnosis.answer.corrected.to_toml())
 }
 
 #[test]
 fn held_out_runs_teach_nothing() {
     let [as_it_is, another] =
         [evidence(0.5, 1.0), evidence(0.3, 1.3)].map(|evidence| diagnosis(&evidence));
-    assert!(!as_it_is.missing.is_empty());
+    assert!(!as_it_is.answer.missing.is_empty());
     assert_eq!(claims(&as_it_is), claims(&another));
     // They judge.
-    assert!(as_it_is.held_out.are_held_out && another.held_out.are_held_out);
-    assert!(another.held_out.after > 2.0 * as_it_is.held_out.after);
+    assert!(as_it_is.evidence.errors.are_held_out && another.evidence.errors.are_held_out);
+    assert!(another.evidence.errors.after > 2.0 * as_it_is.evidence.errors.after);
 }

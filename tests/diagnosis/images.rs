@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::sync::LazyLock;
 use trackdyn_core::Pose;
 use trackdyn_diagnose::diagnosis::Kind;
-use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
+use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose, unobserved};
 use trackdyn_drive::ScheduleKind;
 use trackdyn_drive::sensors::Preset;
 use trackdyn_model::VehicleFile;
@@ -28,7 +28,7 @@ fn drive(concealed: &[&str], count: usize, seed: u64) -> Recording {
 
 fn diagnosed(recording: &Recording, file: &VehicleFile) -> Diagnosis {
     let evidence = Evidence::of_recording(recording, file.vehicle.gauge).expect("enough");
-    diagnose(&evidence, file, &Options::default(), &|_| ()).expect("a diagnosis")
+    diagnose(&evidence, file, &Options::default(), &unobserved).expect("a diagnosis")
 }
 
 /// What left and right tell apart: a resistance and encoders that differ.
@@ -56,7 +56,7 @@ fn changed(of: &Recording, change: impl Fn(&mut UncheckedRun)) -> Recording {
 
 /// A named parameter with half the width of its interval.
 fn parameter(diagnosis: &Diagnosis, effect: &str, key: &str) -> (f64, f64) {
-    let named = diagnosis.missing.iter().find(|one| members(one).contains(effect));
+    let named = diagnosis.answer.missing.iter().find(|one| members(one).contains(effect));
     let parameters = &named.unwrap_or_else(|| panic!("{effect} is not named")).parameters;
     let interval = parameters
         .iter()
@@ -74,9 +74,9 @@ fn assert_images(
     image: impl Fn(&str, &str, f64) -> (String, f64),
 ) {
     assert_eq!(named(one), named(other));
-    assert_eq!(one.status, other.status);
+    assert_eq!(one.answer.status, other.answer.status);
     println!("{:?}", named(one));
-    for missing in &one.missing {
+    for missing in &one.answer.missing {
         for interval in &missing.parameters {
             let card = missing.verdict.effect.card();
             let key = interval.unknown.parameter().expect("of an effect").key;
@@ -104,7 +104,7 @@ fn shuffled_runs_say_the_same() {
     // Sums in another order: rounding, in places where a fit that ends a step earlier would be
     // seen.
     assert_images(one, &other, 1e-3, same);
-    for (one, other) in one.missing.iter().zip(&other.missing) {
+    for (one, other) in one.answer.missing.iter().zip(&other.answer.missing) {
         let [one, other] = [one, other].map(|missing| missing.verdict.support.ln_bayes_factor);
         assert!((one - other).abs() < 1e-3 * one.abs(), "ln Bayes factors {one} and {other}");
     }
@@ -130,7 +130,7 @@ fn a_mirrored_recording_has_the_mirrored_answer() {
         ("resistance-split", _) | (_, "yaw_deg") => (key.to_owned(), -value),
         _ => (key.to_owned(), value),
     });
-    assert_eq!(one.broken, other.broken);
+    assert_eq!(one.answer.broken, other.answer.broken);
 }
 
 #[test]
@@ -144,7 +144,7 @@ fn another_frame_of_the_world_turns_directions_with_it() {
     let slope = |(kind, members): &(Kind, BTreeSet<&str>)| {
         *kind == Kind::Physics && members.contains("slope")
     };
-    assert!(named(&one).iter().any(slope), "{:?}, {:?}", named(&one), one.refused);
+    assert!(named(&one).iter().any(slope), "{:?}, {:?}", named(&one), one.answer.refused);
     let frame = Pose::new(7.0, -3.0, TURN.to_radians());
     let turned = changed(&recording, |run| {
         for sample in &mut run.poses.samples {
@@ -155,7 +155,7 @@ fn another_frame_of_the_world_turns_directions_with_it() {
         }
     });
     let other = diagnosed(&turned, &file);
-    assert!(named(&other).iter().any(slope), "{:?}, {:?}", named(&other), other.refused);
+    assert!(named(&other).iter().any(slope), "{:?}, {:?}", named(&other), other.answer.refused);
     assert_images(&one, &other, WITHIN, |_, key, value| {
         if key != "uphill_deg" {
             return (key.to_owned(), value);
@@ -180,7 +180,7 @@ fn the_origin_of_time_says_nothing() {
     // Stamps since 1970, as robots write them: rounded to 0.2 µs.
     let other = diagnosed(&at_other_times(recording, 1.6e9), &owned(&SPLIT));
     assert_images(one, &other, WITHIN, same);
-    assert_eq!(one.broken, other.broken);
+    assert_eq!(one.answer.broken, other.answer.broken);
 }
 
 #[test]

@@ -188,7 +188,7 @@ fn mass_tells_where_it_is_beside_a_mount() {
     let drive = Drive::new(&truth.vehicle, &[CONCEALED], &schedule, 11).expect("it drives");
     let sensors = sensors(Preset::Laboratory);
     let found = diagnosed(&drive.recording(&sensors, 11), &file).expect("enough");
-    let cog = found.base.fit.hypothesis.vehicle.cog;
+    let cog = found.models.base.fit.hypothesis.vehicle.cog;
     println!("centre of gravity {cog:?} of {:?}: {:?}", truth.vehicle.cog, named(&found));
     assert!((cog[0] - truth.vehicle.cog[0]).abs() < 0.003, "{cog:?}");
     let walk = walk(&found);
@@ -198,7 +198,7 @@ fn mass_tells_where_it_is_beside_a_mount() {
 
 /// Walk of the yaw that a diagnosis finds, rad/√s.
 fn walk(of: &Diagnosis) -> f64 {
-    let noise = of.evidence.noise().expect("of a recording");
+    let noise = of.evidence.seen.noise().expect("of a recording");
     (noise.walk[2] + noise.heading).sqrt()
 }
 

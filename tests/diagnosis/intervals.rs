@@ -4,7 +4,7 @@ use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::prior::prior;
 use trackdyn_diagnose::uncertainty::Interval;
-use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
+use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose, unobserved};
 use trackdyn_drive::ScheduleKind;
 use trackdyn_drive::sensors::Preset;
 use trackdyn_tests::concealed::{Drive, members, owned, runs, sensors};
@@ -14,7 +14,7 @@ const PATCH: &str = "terrain-patch:x_m=0.4,y_m=0.3,radius_m=1.5,ratio=1.3";
 
 /// By how much twice the misfit, all else fitted anew, has risen where a number is held at a value.
 fn risen(diagnosis: &Diagnosis, held: Unknown, value: f64) -> f64 {
-    let Diagnosis { evidence, best, .. } = diagnosis;
+    let (evidence, best) = (&diagnosis.evidence.seen, &diagnosis.models.best);
     let others = best.fit.unknowns.iter().copied().filter(|unknown| *unknown != held);
     let others: Vec<Unknown> = others.collect();
     let start = best.fit.hypothesis.with(held, value);
@@ -41,7 +41,8 @@ fn both_ends_are_equally_unlikely_with_all_else_fitted_anew() {
     let mut most_lopsided: f64 = 0.0;
     for seed in DRIVES {
         let diagnosis = diagnosed(seed);
-        let patch = diagnosis.missing.iter().find(|one| members(one).contains("terrain-patch"));
+        let patch =
+            diagnosis.answer.missing.iter().find(|one| members(one).contains("terrain-patch"));
         let patch = patch.expect("a patch that shows");
         for &Interval { unknown, value, low, high } in &patch.parameters {
             let [below, above] = [low, high].map(|end| risen(&diagnosis, unknown, end));
@@ -65,5 +66,5 @@ fn diagnosed(seed: u64) -> Diagnosis {
     let drive = Drive::new(&vehicle, &[PATCH], &schedule, seed).expect("it drives");
     let recording = drive.recording(&sensors(Preset::Laboratory), seed);
     let evidence = Evidence::of_recording(&recording, vehicle.gauge).expect("enough");
-    diagnose(&evidence, &owned(&[PATCH]), &Options::default(), &|_| ()).expect("a diagnosis")
+    diagnose(&evidence, &owned(&[PATCH]), &Options::default(), &unobserved).expect("a diagnosis")
 }

@@ -89,7 +89,7 @@ fn wrong_claims(drive: &Drive, wrong: Wrong, preset: Preset, seed: u64) -> Vec<S
     let truth: BTreeSet<&str> = wrong.truth().iter().copied().collect();
     let case = format!("{wrong:?}, {}, seed {seed}", preset.name());
     let mut claims = Vec::new();
-    for missing in &diagnosis.missing {
+    for missing in &diagnosis.answer.missing {
         let (kind, members) = (missing.kind, members(missing));
         // A set is wrong where none of its members is true; physics always is.
         if kind == Kind::Physics || members.is_disjoint(&truth) {
@@ -102,8 +102,8 @@ fn wrong_claims(drive: &Drive, wrong: Wrong, preset: Preset, seed: u64) -> Vec<S
         }
     }
     // What a lever arm leaves is asked below.
-    if diagnosis.status == Status::Unexplained && wrong != Wrong::LeverArm {
-        claims.push(format!("{case}: unexplained, {:?}", diagnosis.after.broken()));
+    if diagnosis.answer.status == Status::Unexplained && wrong != Wrong::LeverArm {
+        claims.push(format!("{case}: unexplained, {:?}", diagnosis.evidence.after.broken()));
     }
     claims
 }
@@ -153,7 +153,12 @@ fn a_lever_arm_leaves_nothing_unexplained() {
     let sensors = Wrong::LeverArm.sensors(Preset::Laboratory);
     let recording = drive.expect("it drives").recording(&sensors, 1);
     let diagnosis = diagnosed(&recording, &owned(&[])).expect("enough driving");
-    assert_ne!(diagnosis.status, Status::Unexplained, "{:?}", diagnosis.after.tests);
+    assert_ne!(
+        diagnosis.answer.status,
+        Status::Unexplained,
+        "{:?}",
+        diagnosis.evidence.after.tests
+    );
 }
 
 #[test]
@@ -173,7 +178,7 @@ fn a_known_law_of_a_slightly_other_size_names_nothing_else() {
         let drive = Drive::new(&vehicle, &really, &runs(kind, 8, 2), 2).expect("it drives");
         let recording = drive.recording(&sensors(Preset::Laboratory), 2);
         let found = diagnosed(&recording, &owned(&[])).expect("enough driving");
-        let physics = found.missing.iter().filter(|missing| missing.kind == Kind::Physics);
+        let physics = found.answer.missing.iter().filter(|missing| missing.kind == Kind::Physics);
         let physics: Vec<_> = physics.map(members).collect();
         assert!(physics.is_empty(), "{}: {physics:?}", kind.name());
     }

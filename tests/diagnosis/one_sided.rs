@@ -70,7 +70,7 @@ fn moved(diagnosis: &Diagnosis) -> f64 {
         let solver = Stationary::new(&model, &Circumstance::default());
         solver.solve(PerSide::new(-0.1, 0.1)).icrs.expect("it turns").to_array()
     };
-    let (filed, corrected) = (spin(&owned(&[]).vehicle), spin(&diagnosis.corrected.vehicle));
+    let (filed, corrected) = (spin(&owned(&[]).vehicle), spin(&diagnosis.answer.corrected.vehicle));
     filed.iter().zip(corrected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
@@ -114,7 +114,7 @@ fn motion_resistance_is_not_named_by_a_robot_that_only_spun() {
 #[test]
 fn driving_the_other_way_is_said_to_decide_where_it_does() {
     let found = diagnosis(&left_arcs(), &["directional-lugs:excess=0.15"]);
-    let class = found.missing.iter().find(|one| members(one).contains("directional-lugs"));
+    let class = found.answer.missing.iter().find(|one| members(one).contains("directional-lugs"));
     let class = class.expect("three numbers that differ from the file's");
     // Constant ICRs that lugs, too, may have moved: reversing tells.
     let decides = separate_by(class);

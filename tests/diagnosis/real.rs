@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::hypothesis::Unknown;
-use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
+use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose, unobserved};
 use trackdyn_recording::UncheckedRun;
 use trackdyn_recording::{Recording, Run};
 use trackdyn_tests::concealed::{diagnosed, members, named, recording};
@@ -89,7 +89,8 @@ fn poses_that_come_later_are_found() {
         // there beside constants and instruments does not.
         let late = [("time-offset", "delay_s"), ("drivetrain-lag", "time_constant_s")];
         println!("{}: {:?}, then {:?}", real.vehicle, said(before), said(after));
-        let [before, after] = [before, after].map(|diagnosis| fitted(&diagnosis.base.fit, &late));
+        let [before, after] =
+            [before, after].map(|diagnosis| fitted(&diagnosis.models.base.fit, &late));
         let (found, deviation) = (after.0 - before.0, after.1.hypot(before.1));
         println!("{found:.3} ± {deviation:.3} s later");
         assert!((found - LATER).abs() < 2.6 * deviation && deviation < LATER / 2.0, "{found}");
@@ -106,8 +107,9 @@ fn a_larger_wheel_on_one_side_is_found() {
         let after = &real.altered(|run| {
             run.tracks.samples.iter_mut().for_each(|reading| reading.v_left *= THINKS);
         });
-        let gain =
-            |diagnosis: &Diagnosis| fitted(&diagnosis.best.fit, &[("encoder-scale", "left")]).0;
+        let gain = |diagnosis: &Diagnosis| {
+            fitted(&diagnosis.models.best.fit, &[("encoder-scale", "left")]).0
+        };
         let found = gain(after) / gain(before);
         println!("{}: {found:.4} times: {:?}, then {:?}", real.vehicle, said(before), said(after));
         assert!((found * THINKS - 1.0).abs() < 0.005, "{found}");
@@ -129,8 +131,13 @@ fn gravel_among_asphalt_is_not_found() {
         })
     });
     let diagnosis = diagnosed(&recording(mixed.collect()), &file).expect("turns");
-    println!("{} {:?} {:?}", diagnosis.status.name(), said(&diagnosis), diagnosis.broken);
-    assert_ne!(diagnosis.status.name(), "nothing-missing");
+    println!(
+        "{} {:?} {:?}",
+        diagnosis.answer.status.name(),
+        said(&diagnosis),
+        diagnosis.answer.broken
+    );
+    assert_ne!(diagnosis.answer.status.name(), "nothing-missing");
 }
 
 /// Withheld: the windows of the fastest third. Real: all.
@@ -148,10 +155,10 @@ fn what_slow_driving_shows_forecasts_fast_driving() {
     let held_out = order.split_off(2 * order.len() / 3);
     let evidence = Evidence::of_recording(&real, file.vehicle.gauge).expect("segments");
     let options = Options { held_out, ..Options::default() };
-    let diagnosis = diagnose(&evidence, &file, &options, &|_| ()).expect("turns");
-    let physics = diagnosis.missing.iter().filter(|missing| missing.kind == Kind::Physics);
+    let diagnosis = diagnose(&evidence, &file, &options, &unobserved).expect("turns");
+    let physics = diagnosis.answer.missing.iter().filter(|missing| missing.kind == Kind::Physics);
     let physics: Vec<_> = physics.map(members).collect();
-    println!("{physics:?} {:?}", diagnosis.held_out);
+    println!("{physics:?} {:?}", diagnosis.evidence.errors);
     assert!(!physics.is_empty());
-    assert!(diagnosis.held_out.after < diagnosis.held_out.before);
+    assert!(diagnosis.evidence.errors.after < diagnosis.evidence.errors.before);
 }

@@ -3,9 +3,11 @@
 use nalgebra::DVector;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 use trackdyn_diagnose::Diagnosis;
 use trackdyn_diagnose::candidate::{Beside, Variant, candidates};
-use trackdyn_diagnose::diagnosis::Kind;
+use trackdyn_diagnose::diagnosis::{Kind, Models};
+use trackdyn_diagnose::equations::Equations;
 use trackdyn_diagnose::hypothesis::neutral;
 use trackdyn_diagnose::search::{Catalogue, Search};
 use trackdyn_diagnose::verdict::Rules;
@@ -105,7 +107,7 @@ fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
     let found = diagnosis(concealed, &sensors(preset));
     let truth = id(concealed);
     let mut wrong = Vec::new();
-    for missing in found.missing.iter().filter(|missing| missing.kind == Kind::Physics) {
+    for missing in found.answer.missing.iter().filter(|missing| missing.kind == Kind::Physics) {
         let ids: Vec<&str> = missing.verdict.one_of.iter().map(|&e| e.name()).collect();
         if !ids.contains(&truth) {
             wrong.push(format!("{concealed}: {ids:?}"));
@@ -125,7 +127,7 @@ fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
 /// Every variant of every other candidate, with the part of an effect's signature, at the size that
 /// was found, that neither it nor the base can stand for, in standard deviations.
 fn separations(found: &Diagnosis, effect: EffectId) -> Vec<(EffectId, f64)> {
-    let Diagnosis { base, evidence, best, .. } = found;
+    let (Models { base, best, .. }, evidence) = (&found.models, &found.evidence.seen);
     let active = best.fit.hypothesis.effect(effect).expect("what is named is there");
     let own = Variant { effect, values: active.values().to_vec() };
     let parameters = effect.card().parameters;
@@ -136,16 +138,16 @@ fn separations(found: &Diagnosis, effect: EffectId) -> Vec<(EffectId, f64)> {
     let tried: Vec<Variant> = std::iter::once(own).chain(others).collect();
     let entries = Beside::new(&base.fit.hypothesis, evidence).signatures(&tried);
     let catalogue = Catalogue { entries };
-    let search = Search::new(evidence, base, &catalogue);
+    let search = Search::new(evidence.clone(), Arc::clone(base), catalogue);
+    let entries = &search.catalogue.entries;
     let apart = |rival: usize| {
-        let (normal, known, groups) = search.normal(&base.fit, &[0, rival]);
-        let free = (0..base.fit.columns.len()).chain(groups[1].iter().copied());
-        let projected = normal.projected(&free.collect::<Vec<_>>(), &known);
+        let Equations { normal, priors, free, groups } = search.equations(&base.fit, &[0, rival]);
+        let projected = normal.projected(&[&free[..], &groups[1]].concat(), &priors);
         let square = sizes.dot(&(projected.information(&groups[0]) * &sizes));
-        (catalogue.entries[rival].0.effect, square.max(0.0).sqrt())
+        (entries[rival].0.effect, square.max(0.0).sqrt())
     };
-    assert_eq!(catalogue.entries[0].0.effect, effect, "its signature is there");
-    (1..catalogue.entries.len()).map(apart).collect()
+    assert_eq!(entries[0].0.effect, effect, "its signature is there");
+    (1..entries.len()).map(apart).collect()
 }
 
 /// Small sizes and far places, where a neighbour does as well.
@@ -198,7 +200,7 @@ fn a_lag_and_a_late_clock_are_one_answer() {
         let found = diagnosis(&format!("{concealed}={LATE}"), &in_time());
         // The part of a lag that a clock, which is free, cannot stand for goes as the square of its
         // time: 1/(1 + s T) − exp(−s T) = (s T)²/2 + …
-        let of = &found.resemblance;
+        let of = &found.limits.resemblance;
         let place = of.effects.iter().position(|effect| *effect == lag);
         let apart = place.map(|place| of.detection[place] * (LATE / typical).powi(2));
         println!("{concealed}: {apart:?} apart, {:?}", named(&found));

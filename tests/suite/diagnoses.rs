@@ -41,8 +41,12 @@ fn is_named(concealed: &str) {
     let found = diagnosis(&[concealed]);
     let named = physics(&found);
     assert!(matches!(&named[..], [one] if one.contains(id)), "{concealed}: {named:?}");
-    assert!(matches!(found.status, Status::Explained | Status::Ambiguous), "{:?}", found.status);
-    let errors = &found.held_out;
+    assert!(
+        matches!(found.answer.status, Status::Explained | Status::Ambiguous),
+        "{:?}",
+        found.answer.status
+    );
+    let errors = &found.evidence.errors;
     assert!(errors.after < errors.before, "{} to {}", errors.before, errors.after);
 }
 
@@ -50,7 +54,7 @@ fn is_named(concealed: &str) {
 fn nothing_is_named_where_nothing_is_concealed() {
     let found = diagnosis(&[]);
     assert!(physics(&found).is_empty(), "{:?}", physics(&found));
-    assert_ne!(found.status, Status::Unexplained);
+    assert_ne!(found.answer.status, Status::Unexplained);
 }
 
 #[test]
@@ -112,5 +116,5 @@ fn gains_of_the_encoders_are_an_instrument() {
 #[test]
 fn a_law_outside_the_catalogue_is_flagged() {
     let found = diagnosis(&["washboard:depth=0.1,wavelength_m=1.7"]);
-    assert_eq!(found.status, Status::Unexplained, "{:?}", named(&found));
+    assert_eq!(found.answer.status, Status::Unexplained, "{:?}", named(&found));
 }

@@ -4,6 +4,7 @@
 //! encoders and pose sensor make of the motion: gains, clock, mount; and the level of friction and the centre of gravity where
 //! mass shows them.
 
+use crate::equations::{Column, Stack};
 use crate::fit::Fit;
 use crate::hypothesis::{
     Hypothesis, Unknown, active, neutral, typical, unknowns_of, with_friction,
@@ -137,22 +138,25 @@ fn free_instruments(
 /// The smallest part of a column beyond the first `base` ones that is its own, as share of its square.
 fn own_share(fit: &Fit, base: usize) -> f64 {
     let samples = fit.residual.len();
-    let normal = Normal::new(&Columns {
-        residual: &fit.residual,
-        columns: &fit.columns,
-        weights: &vec![1.0; samples],
-        blocks: &vec![0; samples],
-        count: 1,
-    });
-    let flat = vec![Prior::flat(); fit.columns.len()];
-    let before: Vec<usize> = (0..base).collect();
-    let projected = normal.projected(&before, &flat);
-    (base..fit.columns.len())
-        .map(|k| {
-            let whole = normal.product(k, k);
-            if whole > 0.0 { projected.product(k, k) / whole } else { 0.0 }
+    let flat = |of: &[Column]| vec![Prior::flat(); of.len()];
+    let (before, own) = fit.columns.split_at(base);
+    let mut stack = Stack::new(before.to_vec(), flat(before));
+    stack.push(own.iter().cloned().zip(flat(own)));
+    let equations = stack.equations(|columns| {
+        Normal::new(&Columns {
+            residual: &fit.residual,
+            columns,
+            weights: &vec![1.0; samples],
+            blocks: &vec![0; samples],
+            count: 1,
         })
-        .fold(1.0, f64::min)
+    });
+    let projected = equations.projected();
+    let share = |&k: &usize| {
+        let whole = equations.normal.product(k, k);
+        if whole > 0.0 { projected.product(k, k) / whole } else { 0.0 }
+    };
+    equations.groups[0].iter().map(share).fold(1.0, f64::min)
 }
 
 /// What of a vehicle's numbers takes over an offset of the ICRs. As long as ICRs are constant, nothing tells

@@ -3,33 +3,36 @@
 use crate::answer::{Kind, Missing};
 use crate::base::correct_constants;
 use crate::hypothesis::with_friction;
+use crate::proposal::Proposal;
 use crate::search::Found;
 use crate::uncertainty::Level;
 use trackdyn_model::VehicleFile;
 
-/// The vehicle that explains the evidence: the filed one, with what is claimed and the level of friction where it
-/// surely differs. Where the constant ICRs were wrong, friction ratio and centre of gravity stand for all that could
-/// move them.
+/// The vehicle that explains the evidence: the filed one, with what is claimed and the level of
+/// friction where it surely differs, and with the law that is proposed. Where the constant ICRs
+/// were wrong, friction ratio and centre of gravity stand for all that could move them.
 pub(crate) fn corrected(
     file: &VehicleFile,
     best: &Found,
     friction_level: Option<Level>,
     missing: &[Missing],
+    proposed: Option<&Proposal>,
 ) -> VehicleFile {
-    let level = sure(friction_level);
+    let level = friction_level.filter(Level::is_sure).map_or(0.0, |level| level.value);
     let vehicle = with_friction(&file.vehicle, level);
-    let mut corrected = VehicleFile { vehicle, ..file.clone() };
-    correct(&mut corrected, best, missing, level);
-    corrected
+    let claimed = with_claims(VehicleFile { vehicle, ..file.clone() }, best, missing, level);
+    let Some(Proposal { found, effect, .. }) = proposed else { return claimed };
+    // the law first: what it moves is no constant
+    let mut with_law = claimed;
+    if let Some(law) = found.fit.hypothesis.effect(*effect) {
+        with_law.effects.insert(law.clone());
+    }
+    with_claims(with_law, found, missing, level)
 }
 
-/// The level of friction where it surely differs from the filed one.
-pub(crate) fn sure(friction_level: Option<Level>) -> f64 {
-    friction_level.filter(Level::is_sure).map_or(0.0, |level| level.value)
-}
-
-/// Puts what is claimed into a vehicle file, as a hypothesis has it, with friction at a level.
-pub(crate) fn correct(corrected: &mut VehicleFile, found: &Found, missing: &[Missing], level: f64) {
+/// A vehicle file with what is claimed, as a hypothesis has it, and with friction at a level.
+fn with_claims(file: VehicleFile, found: &Found, missing: &[Missing], level: f64) -> VehicleFile {
+    let mut corrected = file;
     let hypothesis = &found.fit.hypothesis;
     let (constants, effects): (Vec<_>, Vec<_>) =
         missing.iter().partition(|missing| missing.kind == Kind::Constant);
@@ -39,6 +42,7 @@ pub(crate) fn correct(corrected: &mut VehicleFile, found: &Found, missing: &[Mis
         }
     }
     if !constants.is_empty() {
-        correct_constants(corrected, hypothesis, &found.effects, level);
+        correct_constants(&mut corrected, hypothesis, &found.effects, level);
     }
+    corrected
 }

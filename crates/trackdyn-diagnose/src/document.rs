@@ -135,8 +135,8 @@ impl DiagnosisFile {
     /// # Panics
     /// Never: a source is a table.
     pub fn new(diagnosis: &Diagnosis, source: &Source) -> Self {
-        let located = &diagnosis.before;
-        let detectable = diagnosis.detectable.iter().filter_map(|one| {
+        let located = &diagnosis.evidence.before;
+        let detectable = diagnosis.limits.detectable.iter().filter_map(|one| {
             let card = one.effect.card();
             let size = rounded(one.size?);
             Some((card.id.to_owned(), card.parameters[one.parameter].key.to_owned(), size))
@@ -145,10 +145,10 @@ impl DiagnosisFile {
         for (id, key, size) in detectable {
             sizes.entry(id).or_default().insert(key, size);
         }
-        let held_out = &diagnosis.held_out;
+        let held_out = &diagnosis.evidence.errors;
         Self {
             schema: SCHEMA.to_owned(),
-            status: diagnosis.status.name().to_owned(),
+            status: diagnosis.answer.status.name().to_owned(),
             located: LocatedTable {
                 excess_over_noise: rounded(located.excess_over_noise),
                 channels: Channels {
@@ -156,12 +156,12 @@ impl DiagnosisFile {
                     lateral: rounded(located.channels[1]),
                     yaw: rounded(located.channels[2]),
                 },
-                broken: diagnosis.broken.iter().map(|s| s.letter().to_string()).collect(),
-                place: diagnosis.place.clone(),
+                broken: diagnosis.answer.broken.iter().map(|s| s.letter().to_string()).collect(),
+                place: diagnosis.answer.place.clone(),
             },
-            missing: diagnosis.missing.iter().map(missing).collect(),
-            proposed: diagnosis.proposed.as_ref().map_or_else(Vec::new, proposed::terms),
-            proposal: diagnosis.proposed.as_ref().map(proposed::law),
+            missing: diagnosis.answer.missing.iter().map(missing).collect(),
+            proposed: diagnosis.answer.proposed.as_ref().map_or_else(Vec::new, proposed::terms),
+            proposal: diagnosis.answer.proposed.as_ref().map(proposed::law),
             fit: FitTable {
                 are_held_out: held_out.are_held_out,
                 held_out_before: rounded(held_out.before),

@@ -1,5 +1,6 @@
 //! Why a recording cannot be diagnosed.
 
+use crate::progress::Cancelled;
 use trackdyn_core::real;
 
 /// Evidence that does not bear a diagnosis.
@@ -60,6 +61,9 @@ pub enum Error {
     /// A vehicle that cannot move as recorded.
     #[error("the vehicle does not move as recorded: {0}")]
     NoMotion(String),
+    /// Stopped by its observer.
+    #[error("cancelled")]
+    Cancelled,
     /// A plan without time.
     #[error("{given} s: expected at least {needed:.2} s, the time of the shortest manoeuvre")]
     TooShort {
@@ -68,6 +72,12 @@ pub enum Error {
         /// Time of the shortest manoeuvre, s.
         needed: f64,
     },
+}
+
+impl From<Cancelled> for Error {
+    fn from(Cancelled: Cancelled) -> Self {
+        Self::Cancelled
+    }
 }
 
 impl Error {

@@ -25,7 +25,7 @@ pub struct Exposure {
 impl Exposure {
     /// Of an effect of a fit: without it, it is as the vehicle file has it.
     pub fn of_fitted(search: &Search, fit: &Fit, effect: EffectId) -> Self {
-        let Search { evidence, base, .. } = *search;
+        let Search { evidence, base, .. } = search;
         let without = fit.hypothesis.with_effect_of(&base.as_filed.hypothesis, effect);
         let prediction =
             Mechanics::new(&without, evidence).predict(&Instruments::of(&without), evidence);

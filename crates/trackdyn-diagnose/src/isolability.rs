@@ -42,9 +42,8 @@ impl Isolability {
             screened.iter().filter(|one| !best.effects.contains(&one.effect)).collect();
         order.sort_by_key(|one| one.effect);
         let entries: Vec<usize> = order.iter().map(|one| one.entry).collect();
-        let (normal, known, groups) = search.normal(&best.fit, &entries);
-        let base: Vec<usize> = (0..best.fit.columns.len()).collect();
-        let projected = normal.projected(&base, &known);
+        let equations = search.equations(&best.fit, &entries);
+        let (projected, groups) = (equations.projected(), &equations.groups);
         // The signature at typical sizes, as one column.
         let typical = |place: usize| -> Vec<f64> {
             let parameters = order[place].effect.card().parameters;

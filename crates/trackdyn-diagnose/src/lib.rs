@@ -4,7 +4,7 @@
 //! - [`noise`]: how noisy that is, from what driving cannot explain.
 //! - [`hypothesis`]: a vehicle with effects; [`mechanics`], [`surface`]: what it predicts of the evidence.
 //! - [`huber`], [`prior`]: what residuals far out weigh, and what is known of its unknowns beforehand.
-//! - [`fit`], [`normal`]: its unknowns at their best, and normal equations by blocks.
+//! - [`fit`], [`normal`], [`equations`]: its unknowns at their best, and normal equations by blocks.
 //! - [`base`]: what is free in every hypothesis: constant ICRs, encoders and pose sensor.
 //! - [`locate`], [`significance`], [`place`]: where evidence departs from it, without a model of why.
 //! - [`candidate`], [`search`]: the signature of every effect, and which effects explain the evidence.
@@ -22,6 +22,7 @@ pub mod candidate;
 mod corrected;
 pub mod diagnosis;
 pub mod document;
+pub mod equations;
 pub mod error;
 pub mod evidence;
 pub mod exposure;
@@ -37,6 +38,7 @@ pub mod normal;
 pub mod place;
 pub mod plan;
 pub mod prior;
+pub mod progress;
 pub mod proposal;
 pub mod resampling;
 pub mod search;
@@ -52,5 +54,6 @@ pub use document::DiagnosisFile;
 pub use error::Error;
 pub use evidence::Evidence;
 pub use plan::{Plan, PlanFile, plan};
+pub use progress::{Observer, Progress, Stage, unobserved};
 pub use resampling::Resampling;
 pub use weighted::Weighted;

@@ -16,6 +16,7 @@ pub use contrasts::{Manoeuvre, contrasts};
 pub use departures::Contrasts;
 pub use waves::Wave;
 
+use crate::equations::Stack;
 use crate::evidence::{Evidence, Sample};
 use crate::fit::Fit;
 use crate::huber;
@@ -109,18 +110,17 @@ impl Residual<'_> {
     pub fn locate(&self, resampling: Resampling) -> Location {
         let Self { evidence, fit, icrs } = *self;
         let Fit { residual, columns: fitted, .. } = fit;
-        let mut columns = fitted.clone();
-        let mut groups: Vec<(Contrasts, Vec<usize>)> = Vec::new();
+        let mut stack = Stack::new(fitted.clone(), vec![Prior::flat(); fitted.len()]);
+        let mut of_groups: Vec<Contrasts> = Vec::new();
         for mut contrasts in contrasts(evidence, icrs) {
-            let first = columns.len();
-            let of = std::mem::take(&mut contrasts.columns).into_iter();
-            columns.extend(of.map(|column| evidence.white(column)));
-            groups.push((contrasts, (first..columns.len()).collect()));
+            let columns = std::mem::take(&mut contrasts.columns).into_iter();
+            stack.push(columns.map(|column| (evidence.white(column), Prior::flat())));
+            of_groups.push(contrasts);
         }
-        let normal = evidence.normal(residual, &columns);
-        let base: Vec<usize> = (0..fitted.len()).collect();
-        let flat = vec![Prior::flat(); columns.len()];
-        let mut projected = normal.projected(&base, &flat);
+        let equations = stack.equations(|columns| evidence.normal(residual, columns));
+        let mut projected = equations.projected();
+        let groups: Vec<(Contrasts, Vec<usize>)> =
+            of_groups.into_iter().zip(equations.groups.iter().cloned()).collect();
         for (contrasts, own) in groups.iter().filter(|(contrasts, _)| !contrasts.beside.is_empty())
         {
             let is_plain = |(other, _): &&(Contrasts, Vec<usize>)| {
@@ -129,9 +129,8 @@ impl Residual<'_> {
             let beside = groups.iter().filter(is_plain).flat_map(|(_, columns)| columns.clone());
             projected = projected.cleared(own, &beside.collect::<Vec<_>>());
         }
-        let indices: Vec<Vec<usize>> = groups.iter().map(|(_, group)| group.clone()).collect();
-        let tests = test(&projected, &indices, resampling);
-        let all = test(&projected, &[indices.concat()], resampling.once());
+        let tests = test(&projected, &equations.groups, resampling);
+        let all = test(&projected, &[equations.groups.concat()], resampling.once());
         let mut strongest: Vec<SymmetryTest> = Vec::new();
         for ((Contrasts { symmetry, .. }, _), test) in groups.into_iter().zip(tests) {
             match strongest.iter_mut().find(|other| other.symmetry == symmetry) {

@@ -13,6 +13,7 @@ pub mod symmetry;
 pub mod words;
 
 use crate::base::Base;
+use crate::equations::Stack;
 use crate::fit::{Fit, columns};
 use crate::held_out::{HeldOut, Unseen};
 use crate::hypothesis::Unknown;
@@ -25,6 +26,7 @@ use crate::uncertainty::{Interval, Uncertainty};
 use crate::verdict::{Rules, Support};
 use crate::weighted::Weighted;
 use selection::{Library, Selected};
+use std::sync::Arc;
 use trackdyn_core::real;
 use trackdyn_model::effect::{Symmetry, Term};
 use trackdyn_model::{EffectId, Effects, Model, Vehicle};
@@ -87,7 +89,7 @@ pub struct Unexplained<'a> {
     /// The evidence of the fit.
     pub evidence: &'a Weighted,
     /// The base.
-    pub base: &'a Base,
+    pub base: &'a Arc<Base>,
     /// The best hypothesis.
     pub best: &'a Found,
     /// Where the vehicle as filed departs from the evidence.
@@ -119,8 +121,7 @@ fn law(effect: EffectId, unexplained: &Unexplained, resampling: Resampling) -> O
         .filter(|term| symmetry::is_admissible(term, unexplained.after, &left_over, &kept))
         .collect();
 
-    let catalogue = Catalogue { entries: Vec::new() };
-    let search = Search::new(evidence, base, &catalogue);
+    let search = Search::new(evidence.clone(), Arc::clone(base), Catalogue::default());
     let library = library(effect, terms, &search, &best.fit);
     let selected = selection::select(&library, resampling);
     if selected.is_empty() {
@@ -172,7 +173,7 @@ fn remainder(location: &Location, symmetries: &[Symmetry]) -> f64 {
 
 /// The normal equations of the best fit with the signatures of all terms beside.
 fn library(effect: EffectId, terms: Vec<Term>, search: &Search, fit: &Fit) -> Library {
-    let Search { evidence, .. } = *search;
+    let Search { evidence, .. } = search;
     let mut unknowns: Vec<Unknown> = terms
         .iter()
         .flat_map(|term| term.coefficients.iter().map(|&k| Unknown::Effect(effect, k)))
@@ -182,12 +183,11 @@ fn library(effect: EffectId, terms: Vec<Term>, search: &Search, fit: &Fit) -> Li
     let hypothesis = &fit.hypothesis;
     let prediction = fit.mechanics.predict(&Instruments::of(hypothesis), evidence);
     let more = columns(hypothesis, &fit.mechanics, &prediction, &unknowns, evidence);
-    let mut known = priors(hypothesis, &fit.unknowns, evidence);
-    known.extend(priors(hypothesis, &unknowns, evidence));
-    let free = fit.columns.len();
-    let all: Vec<_> = fit.columns.iter().cloned().chain(more).collect();
-    let normal = evidence.normal(&fit.residual, &all);
-    Library { effect, terms, unknowns, normal, priors: known, free }
+    let known = priors(hypothesis, &fit.unknowns, evidence);
+    let mut stack = Stack::new(fit.columns.clone(), known);
+    stack.push(more.into_iter().zip(priors(hypothesis, &unknowns, evidence)));
+    let equations = stack.equations(|columns| evidence.normal(&fit.residual, columns));
+    Library { effect, terms, unknowns, equations }
 }
 
 /// The best hypothesis with the chosen terms as a force in the simulator, everything fitted anew.
@@ -208,7 +208,7 @@ fn refitted(
         }
     }
     let before = Some(&best.fit.mechanics);
-    let fit = Fit::new(hypothesis, &unknowns, search.evidence, before);
+    let fit = Fit::new(hypothesis, &unknowns, &search.evidence, before);
     let mut effects = best.effects.clone();
     effects.push(effect);
     effects.sort_unstable();

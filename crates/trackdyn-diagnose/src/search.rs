@@ -9,13 +9,16 @@ mod done;
 
 use crate::base::{Base, Calibration, with_vehicle};
 use crate::candidate::{Beside, Signature, Variant};
+use crate::equations::{Equations, Stack};
 use crate::fit::{Fit, Point};
 use crate::hypothesis::{Hypothesis, Unknown, active, beyond_none, unknowns_of};
-use crate::normal::{Normal, Prior};
+use crate::normal::Prior;
 use crate::prior::{prior, priors};
+use crate::progress::{Cancelled, Watch};
 use crate::weighted::Weighted;
 use done::{Done, Key, Step};
 use rayon::prelude::*;
+use std::sync::Arc;
 use trackdyn_model::EffectId;
 
 /// Effects that one hypothesis may add.
@@ -63,6 +66,7 @@ pub const AS_FILED: f64 = 0.5;
 const TOLD: f64 = 4.0;
 
 /// Signatures of all candidates: some variants of each effect.
+#[derive(Default)]
 pub struct Catalogue {
     /// Each variant with its signatures.
     pub entries: Vec<(Variant, Vec<Signature>)>,
@@ -97,20 +101,27 @@ pub struct Found {
 }
 
 /// Everything that a search looks at.
-pub struct Search<'a> {
-    /// The evidence.
-    pub evidence: &'a Weighted,
+pub struct Search {
+    /// The evidence, in the noise that it is searched in.
+    pub evidence: Weighted,
     /// The base.
-    pub base: &'a Base,
+    pub base: Arc<Base>,
     /// The candidates.
-    pub catalogue: &'a Catalogue,
+    pub catalogue: Catalogue,
     done: Done,
 }
 
-impl<'a> Search<'a> {
+impl Search {
     /// A search of evidence beside a base.
-    pub fn new(evidence: &'a Weighted, base: &'a Base, catalogue: &'a Catalogue) -> Self {
-        Self { evidence, base, catalogue, done: Done::default() }
+    pub fn new(evidence: Weighted, base: impl Into<Arc<Base>>, catalogue: Catalogue) -> Self {
+        Self { evidence, base: base.into(), catalogue, done: Done::default() }
+    }
+
+    /// The search with more candidates.
+    pub fn with_more(self, more: Vec<(Variant, Vec<Signature>)>) -> Self {
+        let Self { evidence, base, catalogue: Catalogue { mut entries }, .. } = self;
+        entries.extend(more);
+        Self::new(evidence, base, Catalogue { entries })
     }
 
     /// The base as a hypothesis that adds nothing.
@@ -120,31 +131,22 @@ impl<'a> Search<'a> {
     }
 
     /// The normal equations of a fit with the signatures of these catalogue entries beside.
-    pub fn normal(&self, fit: &Fit, entries: &[usize]) -> (Normal, Vec<Prior>, Vec<Vec<usize>>) {
+    pub fn equations(&self, fit: &Fit, entries: &[usize]) -> Equations {
         let signatures = entries.iter().map(|&entry| &self.catalogue.entries[entry].1[..]);
-        self.normal_of(fit, &signatures.collect::<Vec<_>>())
+        self.equations_with(fit, &signatures.collect::<Vec<_>>())
     }
 
-    /// The same with these signatures beside, those of an effect together.
-    pub fn normal_of(
-        &self,
-        fit: &Fit,
-        beside: &[&[Signature]],
-    ) -> (Normal, Vec<Prior>, Vec<Vec<usize>>) {
-        let mut columns = fit.columns.clone();
-        let mut known = priors(&fit.hypothesis, &fit.unknowns, self.evidence);
-        let mut groups = Vec::with_capacity(beside.len());
+    /// The normal equations of a fit with these signatures beside, those of an effect together.
+    pub fn equations_with(&self, fit: &Fit, beside: &[&[Signature]]) -> Equations {
+        let Fit { hypothesis, unknowns, columns, residual, .. } = fit;
+        let mut stack = Stack::new(columns.clone(), priors(hypothesis, unknowns, &self.evidence));
         for &signatures in beside {
-            let first = columns.len();
-            for signature in signatures {
-                columns.push(signature.column.clone());
-                let prior = prior(&fit.hypothesis, signature.unknown, self.evidence);
-                known.push(Prior { mean: 0.0, ..prior });
-            }
-            groups.push((first..columns.len()).collect());
+            stack.push(signatures.iter().map(|signature| {
+                let known = prior(hypothesis, signature.unknown, &self.evidence);
+                (signature.column.clone(), Prior { mean: 0.0, ..known })
+            }));
         }
-        let normal = self.evidence.normal(&fit.residual, &columns);
-        (normal, known, groups)
+        stack.equations(|columns| self.evidence.normal(residual, columns))
     }
 
     /// Screens all candidates beside a fit; the best variant of each effect, best first.
@@ -152,23 +154,22 @@ impl<'a> Search<'a> {
         let entries: Vec<usize> = (0..self.catalogue.entries.len())
             .filter(|&entry| !beside.effects.contains(&self.catalogue.entries[entry].0.effect))
             .collect();
-        let (normal, known, groups) = self.normal(&beside.fit, &entries);
-        let base: Vec<usize> = (0..beside.fit.columns.len()).collect();
-        let without = normal.fit(&base, &known);
+        let equations = self.equations(&beside.fit, &entries);
+        let without = equations.fit_with(&[]);
         let mut best: Vec<Screened> = Vec::new();
         let all: Vec<Screened> = entries
             .par_iter()
-            .zip(&groups)
+            .zip(&equations.groups)
             .map(|(&entry, group)| {
-                let columns: Vec<usize> = base.iter().chain(group).copied().collect();
-                let fit = normal.fit(&columns, &known);
+                let fit = equations.fit_with(group);
                 let variant = &self.catalogue.entries[entry].0;
                 let sizes: Vec<f64> =
-                    fit.estimate.rows(base.len(), group.len()).iter().copied().collect();
+                    fit.estimate.rows(equations.free.len(), group.len()).iter().copied().collect();
                 let held = !is_physical(&beside.fit.hypothesis, variant, &sizes);
                 let drop = (without.misfit - fit.misfit).max(0.0);
                 // Where the robot never met it, there is nothing to see.
-                let unseen = group.iter().all(|&column| normal.product(column, column) == 0.0);
+                let unseen =
+                    group.iter().all(|&column| equations.normal.product(column, column) == 0.0);
                 Screened {
                     entry,
                     effect: variant.effect,
@@ -202,7 +203,7 @@ impl<'a> Search<'a> {
         let nothing = self.nothing();
         let alone = |variant: &Variant, signatures: &[Signature]| -> f64 {
             let catalogue = Catalogue { entries: vec![(variant.clone(), signatures.to_vec())] };
-            let search = Search::new(self.evidence, self.base, &catalogue);
+            let search = Self::new(self.evidence.clone(), Arc::clone(&self.base), catalogue);
             search.screen(&nothing).first().map_or(f64::NEG_INFINITY, |one| one.gain)
         };
         let screened = self.screen(&nothing);
@@ -218,20 +219,19 @@ impl<'a> Search<'a> {
     fn pairs(&self, beside: &Found, screened: &[Screened]) -> Vec<(f64, [Screened; 2])> {
         let dozen: Vec<&Screened> = screened.iter().take(DOZEN).collect();
         let entries: Vec<usize> = dozen.iter().map(|one| one.entry).collect();
-        let (normal, known, groups) = self.normal(&beside.fit, &entries);
-        let base: Vec<usize> = (0..beside.fit.columns.len()).collect();
-        let without = normal.fit(&base, &known);
+        let equations = self.equations(&beside.fit, &entries);
+        let (groups, free) = (&equations.groups, equations.free.len());
+        let without = equations.fit_with(&[]);
         let mut pairs = Vec::new();
         for a in 0..dozen.len() {
             for b in a + 1..dozen.len() {
-                let columns: Vec<usize> =
-                    base.iter().chain(&groups[a]).chain(&groups[b]).copied().collect();
-                let fit = normal.fit(&columns, &known);
+                let both: Vec<usize> = groups[a].iter().chain(&groups[b]).copied().collect();
+                let fit = equations.fit_with(&both);
                 let sizes = |from: usize, count: usize| -> Vec<f64> {
                     fit.estimate.rows(from, count).iter().copied().collect()
                 };
-                let first = sizes(base.len(), groups[a].len());
-                let second = sizes(base.len() + groups[a].len(), groups[b].len());
+                let first = sizes(free, groups[a].len());
+                let second = sizes(free + groups[a].len(), groups[b].len());
                 let hypothesis = &beside.fit.hypothesis;
                 let variant = |one: &Screened| &self.catalogue.entries[one.entry].0;
                 let physical = is_physical(hypothesis, variant(dozen[a]), &first)
@@ -263,7 +263,7 @@ impl<'a> Search<'a> {
             unknowns.extend(unknowns_of(one.effect));
         }
         effects.sort_unstable();
-        let evidence = self.evidence;
+        let evidence = &self.evidence;
         let start = |share: f64| {
             let hypothesis = self.with(beside, more, share);
             Point::new(hypothesis, &unknowns, evidence, Some(&beside.fit.mechanics))
@@ -325,7 +325,7 @@ impl<'a> Search<'a> {
             }
             let Some(again) = calibration.calibrated(&fit.hypothesis) else { break };
             let (unknowns, before) = (&fit.unknowns, Some(&fit.mechanics));
-            let again = Fit::new(again, unknowns, self.evidence, before);
+            let again = Fit::new(again, unknowns, &self.evidence, before);
             if again.objective >= fit.objective {
                 break;
             }
@@ -343,7 +343,7 @@ impl<'a> Search<'a> {
         for calibration in Calibration::ALL {
             let Some(hypothesis) = calibration.calibrated(&whole) else { continue };
             let (unknowns, before) = (&best.fit.unknowns, Some(&best.fit.mechanics));
-            let fit = Fit::new(hypothesis, unknowns, self.evidence, before);
+            let fit = Fit::new(hypothesis, unknowns, &self.evidence, before);
             if fit.objective < best.fit.objective - TOLD {
                 best = Found { ln_evidence: fit.ln_evidence(), fit, ..best };
             }
@@ -363,7 +363,7 @@ impl<'a> Search<'a> {
         let hypothesis = found.fit.hypothesis.with_effect_of(&self.base.fit.hypothesis, effect);
         let unknowns = found.fit.unknowns_without(effect);
         let before = Some(&self.base.fit.mechanics);
-        let fit = Fit::new(hypothesis, &unknowns, self.evidence, before);
+        let fit = Fit::new(hypothesis, &unknowns, &self.evidence, before);
         let without = self.recalibrated(effects, fit);
         let is_further = self.base.fit.objective <= without.fit.objective;
         if is_base && is_further { self.nothing() } else { without }
@@ -381,7 +381,10 @@ impl<'a> Search<'a> {
     }
 
     /// The best hypothesis.
-    pub fn best(&self) -> Found {
+    ///
+    /// # Errors
+    /// [`Cancelled`], by the observer of the watch.
+    pub fn best(&self, watch: &Watch) -> Result<Found, Cancelled> {
         let mut best = self.nothing();
         for _ in 0..ROUNDS {
             let mut proposals: Vec<(Found, Vec<Screened>)> = Vec::new();
@@ -404,8 +407,12 @@ impl<'a> Search<'a> {
                     }
                 }
             }
+            let without = |&effect: &EffectId| {
+                watch.go_on()?;
+                Ok(self.without(&best, effect))
+            };
             let reduced: Vec<Found> =
-                best.effects.iter().map(|&effect| self.without(&best, effect)).collect();
+                best.effects.iter().map(without).collect::<Result<_, Cancelled>>()?;
             for found in &reduced {
                 let screened = self.screen(found);
                 let others = screened
@@ -418,8 +425,11 @@ impl<'a> Search<'a> {
                     proposals.push((found.clone(), vec![one]));
                 }
             }
-            let refitted: Vec<Found> =
-                proposals.iter().map(|(beside, more)| self.refit(beside, more)).collect();
+            let refitted = proposals.iter().map(|(beside, more)| {
+                watch.go_on()?;
+                Ok(self.refit(beside, more))
+            });
+            let refitted: Vec<Found> = refitted.collect::<Result<_, Cancelled>>()?;
             // An added effect must be worth it; one that is left out, or exchanged, must only not be missed.
             let value = |found: &Found| {
                 #[expect(clippy::cast_precision_loss, reason = "at most three")]
@@ -437,7 +447,7 @@ impl<'a> Search<'a> {
                 _ => break,
             }
         }
-        best
+        Ok(best)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Intervals of fitted parameters.
 
+use crate::equations::Equations;
 use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::hypothesis::Unknown;
@@ -57,7 +58,7 @@ impl Level {
 /// Applied Statistics 37(1), 1988; with another variance than the noise's: McCullagh, Nelder, Generalized Linear Models,
 /// 2nd ed. 1989, chapter 9.
 pub struct Uncertainty<'a> {
-    search: &'a Search<'a>,
+    search: &'a Search,
     fit: &'a Fit,
     /// Half the intervals, were the likelihood a parabola.
     halves: Vec<f64>,
@@ -94,7 +95,7 @@ impl<'a> Uncertainty<'a> {
     /// Those of the best hypothesis.
     pub fn of(search: &'a Search, best: &'a Found) -> Self {
         let fit = &best.fit;
-        let (normal, priors, _) = search.normal(fit, &[]);
+        let Equations { normal, priors, .. } = search.equations(fit, &[]);
         let estimate = |normal: &Normal| normal.fit(&fit.free, &priors).estimate;
         let whole = estimate(&normal);
         let last = normal.columns();
@@ -102,7 +103,7 @@ impl<'a> Uncertainty<'a> {
         let half = |variance: f64, groups: usize| {
             Student::new(0.0, variance.max(0.0).sqrt(), groups, 1).high
         };
-        let groupings = groupings(search.evidence, counts);
+        let groupings = groupings(&search.evidence, counts);
         let noise = fit.solution.covariance.diagonal();
         let mut halves: Vec<f64> =
             noise.iter().map(|variance| half(*variance, groupings[0].len())).collect();

@@ -2,18 +2,21 @@
 
 mod constants;
 mod instruments;
+mod refusal;
 mod rivals;
 mod rules;
 mod support;
 
 pub use constants::{Constants, judge_constants};
 pub use instruments::judge_instruments;
+pub use refusal::Refusal;
 pub use rules::Rules;
 pub use support::{Support, cross_validated};
 
 use crate::candidate::{Signature, Variant, sizes};
 use crate::fit::Fit;
 use crate::hypothesis::{Unknown, beyond_none, neutral};
+use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
 use crate::search::{AS_FILED, Found, Search};
 use crate::uncertainty::Interval;
@@ -35,12 +38,15 @@ pub struct Verdict {
     /// What speaks for it.
     pub support: Support,
     /// Why it is not claimed; none where it is.
-    pub refused: Option<String>,
+    pub refused: Option<Refusal>,
 }
 
 /// Judges effects that the best hypothesis adds.
 ///
 /// `file` is the vehicle's.
+///
+/// # Errors
+/// [`Cancelled`], by the observer of the watch.
 pub fn judge(
     search: &Search,
     best: &Found,
@@ -48,13 +54,14 @@ pub fn judge(
     constants: &Constants,
     file: &VehicleFile,
     resampling: Resampling,
-) -> Vec<Verdict> {
+    watch: &Watch,
+) -> Result<Vec<Verdict>, Cancelled> {
     let departure = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
     // What mostly moves constant ICRs is known to a part of all that moved them. What a law beyond their class breaks none of
     // them does.
     let by_constants = LazyCell::new(|| constants::departure(search, best, constants, file));
     let of = |effect: EffectId| {
-        let rivals = Rivals::new(search, best, constants, effect);
+        let rivals = Rivals::new(search, best, constants, effect, watch)?;
         let (one_of, stable) = rivals.answer(search, best, resampling);
         let support = rivals.support(search, best, &one_of, stable, resampling);
         let whole = if one_of.iter().any(|member| constants.could_be_constant(*member)) {
@@ -76,53 +83,48 @@ pub fn judge(
             .or_else(as_filed)
             .or_else(|| within_filed(search, &rivals.without, rivals.changed.as_ref()?));
         let found = best.fit.hypothesis.effect(effect).cloned();
-        Verdict { effect, one_of, found, support, refused }
+        Ok(Verdict { effect, one_of, found, support, refused })
     };
     effects.iter().copied().map(of).collect()
 }
 
 /// Why a claim is refused by the rules; none where it is not. The `whole` is √ of what the misfit falls by with all laws.
-fn refusal(support: &Support, whole: f64) -> Option<String> {
+fn refusal(support: &Support, whole: f64) -> Option<Refusal> {
     if let Some(reason) = support.falls_short() {
         return Some(reason);
     }
-    if support.stable < Rules::STABLE {
-        return Some(format!(
-            "named in {:.0} % of resampled recordings only",
-            100.0 * support.stable
-        ));
+    let Support { stable, z, .. } = *support;
+    if stable < Rules::STABLE {
+        return Some(Refusal::Unstable { share: stable, needed: Rules::STABLE });
     }
-    if support.z < Rules::FORM * whole {
-        return Some("no larger than what the form of the other laws may leave".to_owned());
-    }
-    None
+    let needed = Rules::FORM * whole;
+    (z < needed).then_some(Refusal::WithinForm { z, needed })
 }
 
 /// An effect that the vehicle file knows, at nearly the sizes that it gives: no law is known better.
-fn nearly_as_filed(search: &Search, found: &Fit, effect: EffectId) -> Option<String> {
+fn nearly_as_filed(search: &Search, found: &Fit, effect: EffectId) -> Option<Refusal> {
     let filed = search.base.as_filed.hypothesis.effect(effect)?;
     let found = found.hypothesis.effect(effect)?;
     let near = sizes(effect).into_iter().all(|place| {
         let [filed, found] = [filed, found].map(|effect| beyond_none(effect, place));
         (found - filed).abs() <= AS_FILED * filed.abs()
     });
-    let id = effect.name();
-    near.then(|| format!("the vehicle file knows {id}, which explains it at nearly the filed size"))
+    near.then_some(Refusal::NearlyAsFiled { effect })
 }
 
 /// A size of the effect that ended at the limit of its physical range.
-fn at_limit(fit: &Fit, unknown: Unknown, effect: EffectId) -> Option<String> {
+fn at_limit(fit: &Fit, unknown: Unknown, effect: EffectId) -> Option<Refusal> {
     let parameter = unknown.parameter()?;
     let is_size = matches!(parameter.role, Role::Size { .. });
     let value = fit.hypothesis.get(unknown);
     (unknown.is_of(effect) && is_size && fit.is_at_limit(unknown))
-        .then(|| format!("{} = {value} lies at the limit of what is physical", parameter.key))
+        .then_some(Refusal::AtLimit { size: unknown, value })
 }
 
 /// Why what an effect changes is no more than what laws of the vehicle file may leave; none where it is more.
 ///
 /// Such a law is known to a part of what it does: its radius of gyration is hardly ever measured.
-fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<String> {
+fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<Refusal> {
     let filed = &search.base.as_filed.hypothesis;
     let laws: Vec<&(Variant, Vec<Signature>)> = search
         .catalogue
@@ -137,30 +139,29 @@ fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<St
         Some(Rules::FORM * (filed.get(unknown) - none).abs()).filter(|size| *size > 0.0)
     };
     let apart = separation(search, without, changed, &signatures, known);
-    (!laws.is_empty() && apart < Rules::ISOLATED).then(|| {
-        let names: Vec<&str> = laws.iter().map(|(law, _)| law.effect.name()).collect();
-        format!("no more than what {} of a slightly other size may leave", names.join(" and "))
+    (!laws.is_empty() && apart < Rules::ISOLATED).then(|| Refusal::WithinFiled {
+        laws: laws.iter().map(|(law, _)| law.effect).collect(),
+        apart,
+        needed: Rules::ISOLATED,
     })
 }
 
-/// Refuses the claims whose sizes may all be none by their own intervals.
-pub fn refuse_unsure(verdicts: &mut [Verdict], intervals: &[Interval]) {
-    for verdict in verdicts.iter_mut().filter(|verdict| verdict.refused.is_none()) {
-        let effect = verdict.effect;
-        let places = sizes(effect).into_iter().map(|place| Unknown::Effect(effect, place));
-        let sizes: Vec<&Interval> = places
-            .filter_map(|unknown| intervals.iter().find(|interval| interval.unknown == unknown))
-            .collect();
-        let may_be_none = |interval: &&Interval| {
-            // of a limit that the law approaches, the range ends before it
-            let [low, high] = interval.unknown.range();
-            let none = interval.unknown.parameter().map_or(0.0, neutral).clamp(low, high);
-            (interval.low..=interval.high).contains(&none)
-        };
-        if !sizes.is_empty() && sizes.iter().all(may_be_none) {
-            verdict.refused = Some("the 95 % interval of its size holds none".to_owned());
-        }
-    }
+/// The verdict with its claim refused where its sizes may all be none by their own intervals.
+pub fn unless_unsure(verdict: Verdict, intervals: &[Interval]) -> Verdict {
+    let places = sizes(verdict.effect).into_iter();
+    let sizes: Vec<&Interval> = places
+        .map(|place| Unknown::Effect(verdict.effect, place))
+        .filter_map(|unknown| intervals.iter().find(|interval| interval.unknown == unknown))
+        .collect();
+    let may_be_none = |interval: &&Interval| {
+        // of a limit that the law approaches, the range ends before it
+        let [low, high] = interval.unknown.range();
+        let none = interval.unknown.parameter().map_or(0.0, neutral).clamp(low, high);
+        (interval.low..=interval.high).contains(&none)
+    };
+    let is_unsure = !sizes.is_empty() && sizes.iter().all(may_be_none);
+    let unsure = || is_unsure.then_some(Refusal::MayBeNone);
+    Verdict { refused: verdict.refused.clone().or_else(unsure), ..verdict }
 }
 
 #[cfg(test)]
@@ -176,9 +177,8 @@ mod tests {
             let interval = Interval { unknown, value: f64::midpoint(low, high), low, high };
             let support = Support::none();
             let one_of = vec![effect];
-            let mut verdicts = [Verdict { effect, one_of, found: None, support, refused: None }];
-            refuse_unsure(&mut verdicts, &[interval]);
-            verdicts[0].refused.is_some()
+            let verdict = Verdict { effect, one_of, found: None, support, refused: None };
+            unless_unsure(verdict, &[interval]).refused.is_some()
         };
         assert!(refused("yaw-inertia", [0.0, 0.03]));
         assert!(!refused("yaw-inertia", [0.01, 0.03]));

@@ -51,12 +51,12 @@ struct View<'a> {
 impl<'a> Subject<'a> {
     /// Whether nothing but perhaps wrong constants is claimed.
     fn claims_nothing(&self) -> bool {
-        self.diagnosis.missing.iter().all(|missing| missing.kind == Kind::Constant)
+        self.diagnosis.answer.missing.iter().all(|missing| missing.kind == Kind::Constant)
     }
 
     /// What it was made from.
     fn evidence(&self) -> &'a Weighted {
-        &self.diagnosis.evidence
+        &self.diagnosis.evidence.seen
     }
 
     /// The fit before.
@@ -66,7 +66,7 @@ impl<'a> Subject<'a> {
 
     /// Cells of driving before and after.
     fn cells(&self) -> [Vec<Cell>; 2] {
-        let [before, after] = &self.diagnosis.cells;
+        let [before, after] = &self.diagnosis.evidence.cells;
         if !self.diagnosis.blames_instruments() {
             return [before.clone(), after.clone()];
         }
@@ -79,9 +79,10 @@ impl<'a> Subject<'a> {
     /// What was left, of the fit and of the held-out runs.
     fn views(&self) -> Vec<View<'a>> {
         let diagnosis = self.diagnosis;
-        let residuals = [self.fit_before(), &diagnosis.best.fit].map(|fit| fit.residual.as_slice());
+        let residuals =
+            [self.fit_before(), &diagnosis.models.best.fit].map(|fit| fit.residual.as_slice());
         let mut views = vec![View { evidence: self.evidence(), residuals, is_held_out: false }];
-        if let Some(Unseen { evidence, before, after }) = &diagnosis.unseen {
+        if let Some(Unseen { evidence, before, after }) = &diagnosis.evidence.unseen {
             views.push(View { evidence, residuals: [before, after], is_held_out: true });
         }
         views

@@ -5,6 +5,7 @@ use trackdyn_diagnose::base::Base;
 use trackdyn_diagnose::candidate::{Beside, candidates};
 use trackdyn_diagnose::evidence::Evidence;
 use trackdyn_diagnose::fit::Fit;
+use trackdyn_diagnose::progress::Watch;
 use trackdyn_diagnose::search::{Catalogue, Found, Search};
 
 use trackdyn_estimate::synthetic::{Synthetic, random_steps};
@@ -46,8 +47,8 @@ fn both_ways() -> [Found; 2] {
             entries.reverse();
         }
         let catalogue = Catalogue { entries: entries.clone() };
-        let search = Search::new(&evidence, &base, &catalogue);
-        search.best()
+        let search = Search::new(evidence.clone(), base.clone(), catalogue);
+        search.best(&Watch::none()).expect("nobody stops it")
     })
 }
 

@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 use trackdyn_core::PerSide;
 use trackdyn_diagnose::diagnosis::HeldOut;
-use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, Options, Resampling, diagnose};
+use trackdyn_diagnose::{
+    Diagnosis, DiagnosisFile, Evidence, Options, Resampling, diagnose, unobserved,
+};
 use trackdyn_estimate::synthetic::{ConstantIcr, Synthetic, random_steps};
 use trackdyn_model::Stationary;
 use trackdyn_model::kinematics::Source;
@@ -27,7 +29,7 @@ struct Case {
 impl Case {
     fn new(evidence: &Evidence, vehicle: VehicleFile, held_out: Vec<usize>) -> Self {
         let options = Options { held_out, resampling: Resampling { draws: 100, seed: 1 } };
-        let diagnosis = diagnose(evidence, &vehicle, &options, &|_| {}).expect("a diagnosis");
+        let diagnosis = diagnose(evidence, &vehicle, &options, &unobserved).expect("a diagnosis");
         let source = Source {
             command: "trackdyn diagnose <a&b>".to_owned(),
             version: "0".to_owned(),
@@ -230,7 +232,7 @@ fn figures_hold_what_the_diagnosis_found() {
     let errors = panel(&figures, "errors", "held-out runs");
     assert_eq!(errors.y.label(), "rms residual (σ)");
     let heights = boxes(errors, "held-out runs").boxes.iter().map(|[_, [_, top]]| *top);
-    let expected = diagnosis.held_out;
+    let expected = diagnosis.evidence.errors;
     assert_eq!(
         heights.collect::<Vec<_>>(),
         [expected.before, expected.after, expected.noise_floor]
@@ -245,8 +247,8 @@ fn figures_hold_what_the_diagnosis_found() {
     assert!((largest - 1.0).abs() < 1e-6, "{largest}");
     let bars = panel(&figures, "evidence", "");
     let shown = boxes(bars, "gain of ln evidence").boxes.len();
-    let gains = diagnosis.screened.iter().filter(|one| one.gain.is_finite()).count();
-    assert!(shown >= gains.saturating_sub(diagnosis.missing.len()) && shown > 0);
+    let gains = diagnosis.limits.screened.iter().filter(|one| one.gain.is_finite()).count();
+    assert!(shown >= gains.saturating_sub(diagnosis.answer.missing.len()) && shown > 0);
     let path = panel(&figures, "path", "Paths");
     let lines: Vec<&Series> =
         path.series.iter().filter(|series| matches!(series.sign, Sign::Line(_))).collect();
@@ -280,9 +282,9 @@ fn steady_points_have_a_report_without_paths() {
 #[test]
 fn a_claim_that_held_out_runs_contradict_is_not_for_driving() {
     let mut case = Case::steady_points();
-    assert!(!case.diagnosis.missing.is_empty());
+    assert!(!case.diagnosis.answer.missing.is_empty());
     for (after, warned) in [(1.1, false), (1.2, true), (1.3, true)] {
-        case.diagnosis.held_out =
+        case.diagnosis.evidence.errors =
             HeldOut { before: 1.2, instruments: 1.2, after, noise_floor: 1.0, are_held_out: true };
         let (_, html) = case.report();
         assert_eq!(html.contains("What is claimed does not help there"), warned, "{after}");

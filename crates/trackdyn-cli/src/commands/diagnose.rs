@@ -10,7 +10,9 @@ use crate::progress::Progress;
 use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
 use trackdyn_diagnose::diagnosis::STAGES;
 use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, Resampling, diagnose};
@@ -59,12 +61,20 @@ pub fn run(options: &Options) -> Outcome {
     let vehicle = read_vehicle(&options.vehicle)?;
     let subject = subject(options, &vehicle)?;
     prepare_folder(&options.out)?;
-    let progress = Progress::new(2 * STAGES.len());
+    let progress = Progress::new(STAGES);
+    let shown = AtomicUsize::new(0);
+    let observer = |at: trackdyn_diagnose::Progress| {
+        let before = shown.swap(at.done, Ordering::Relaxed);
+        if at.done > before {
+            progress.advance(at.done - before);
+        }
+        ControlFlow::Continue(())
+    };
     let settings = trackdyn_diagnose::Options {
         held_out: subject.held_out.clone(),
         resampling: Resampling { draws: options.draws as usize, seed: options.seed },
     };
-    let diagnosis = diagnose(&subject.evidence, &vehicle, &settings, &|_| progress.advance(1))
+    let diagnosis = diagnose(&subject.evidence, &vehicle, &settings, &observer)
         .map_err(|error| about(options, &error))?;
     progress.finish();
     write(&diagnosis, &subject, &vehicle, options)?;
@@ -99,7 +109,7 @@ fn write(
     );
     // a name may hold a line break, which would end the comment
     let head = head.replace(char::is_control, " ");
-    let corrected = format!("# {head}\n{}", diagnosis.corrected.to_toml());
+    let corrected = format!("# {head}\n{}", diagnosis.answer.corrected.to_toml());
     for (name, text) in [("diagnosis.toml", file.to_toml()), ("vehicle.corrected.toml", corrected)]
     {
         let path = options.out.join(name);

@@ -10,6 +10,7 @@ use crate::mechanics::{Instruments, Mechanics, is_instrument};
 use crate::search::{Catalogue, Search};
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
+use std::sync::Arc;
 use trackdyn_model::{EffectId, VehicleFile};
 
 /// One of the members of a class.
@@ -65,6 +66,7 @@ impl Rival {
         let fit = Fit::new(without, &nuisances, driving, None);
         let calibration = Calibration::Vehicle;
         let base = Base { as_filed: fit.clone(), fit, nuisances, instruments, calibration };
+        let base = Arc::new(base);
         let others = question.members.iter().copied().filter(|member| *member != self.effect);
         others
             .map(|effect| {
@@ -72,7 +74,7 @@ impl Rival {
                 let tried = variants(effect, driving);
                 let entries = Beside::new(hypothesis, driving).signatures(&tried);
                 let catalogue = Catalogue { entries };
-                let search = Search::new(driving, &base, &catalogue);
+                let search = Search::new(driving.clone(), Arc::clone(&base), catalogue);
                 let nothing = search.nothing();
                 let best = search.screen(&nothing).into_iter().next();
                 let found = best.map_or(nothing.clone(), |best| search.refit(&nothing, &[best]));

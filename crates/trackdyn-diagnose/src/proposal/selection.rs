@@ -1,7 +1,7 @@
 //! Which terms: forward selection, with elimination and exchange after every step.
 
+use crate::equations::Equations;
 use crate::hypothesis::Unknown;
-use crate::normal::{Normal, Prior};
 use crate::resampling::Resampling;
 use crate::significance::test;
 use crate::verdict::{Rules, Support};
@@ -20,12 +20,8 @@ pub(super) struct Library {
     pub terms: Vec<Term>,
     /// Coefficients, ascending: the columns behind those of the fit.
     pub unknowns: Vec<Unknown>,
-    /// Normal equations: what is free, then the coefficients.
-    pub normal: Normal,
-    /// What is known of each column's factor beforehand.
-    pub priors: Vec<Prior>,
-    /// Number of columns that are free anyway.
-    pub free: usize,
+    /// Normal equations: what is free, and the coefficients as one group.
+    pub equations: Equations,
 }
 
 /// A term that was chosen.
@@ -46,14 +42,15 @@ impl Library {
     /// The estimates of the coefficients of some terms together, as changes.
     pub(super) fn estimate(&self, terms: &[usize]) -> Vec<(Unknown, f64)> {
         let columns = self.columns(terms);
-        let solution = self.normal.fit(&columns, &self.priors);
-        let of_terms = columns.iter().zip(solution.estimate.iter()).skip(self.free);
-        of_terms.map(|(&column, step)| (self.unknowns[column - self.free], *step)).collect()
+        let solution = self.equations.fit_with(&columns);
+        let free = self.equations.free.len();
+        let of_terms = columns.iter().zip(solution.estimate.iter().skip(free));
+        of_terms.map(|(&column, step)| (self.unknowns[column - free], *step)).collect()
     }
 
-    /// What is free and the columns of some terms.
+    /// The columns of some terms, each once.
     fn columns(&self, terms: &[usize]) -> Vec<usize> {
-        let mut columns: Vec<usize> = (0..self.free).collect();
+        let mut columns = Vec::new();
         for &term in terms {
             for column in self.group(term) {
                 if !columns.contains(&column) {
@@ -68,11 +65,11 @@ impl Library {
     fn group(&self, term: usize) -> Vec<usize> {
         let place = |unknown: Unknown| self.unknowns.iter().position(|other| *other == unknown);
         let places = self.unknowns(term).into_iter().filter_map(place);
-        places.map(|place| self.free + place).collect()
+        places.map(|place| self.equations.groups[0][place]).collect()
     }
 
     fn ln_evidence(&self, terms: &[usize]) -> f64 {
-        self.normal.fit(&self.columns(terms), &self.priors).ln_evidence
+        self.equations.fit_with(&self.columns(terms)).ln_evidence
     }
 
     /// The best choice with one more of the terms, or with another in the place of one.
@@ -91,7 +88,8 @@ impl Library {
     fn support(&self, term: usize, terms: &[usize], resampling: Resampling) -> Support {
         let others: Vec<usize> = terms.iter().copied().filter(|other| *other != term).collect();
         let base = self.columns(&others);
-        let projected = self.normal.projected(&base, &self.priors);
+        let Equations { normal, priors, free, .. } = &self.equations;
+        let projected = normal.projected(&[&free[..], &base[..]].concat(), priors);
         let family: Vec<usize> =
             (0..self.terms.len()).filter(|other| !others.contains(other)).collect();
         let groups: Vec<Vec<usize>> = family
@@ -106,7 +104,7 @@ impl Library {
         Support {
             p: own.map_or(1.0, |own| tests[own].p),
             ln_bayes_factor: self.ln_evidence(terms) - self.ln_evidence(&others),
-            ..Support::of_blocks(&projected, &self.priors, columns)
+            ..Support::of_blocks(&projected, priors, columns)
         }
     }
 }

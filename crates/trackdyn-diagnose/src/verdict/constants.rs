@@ -1,10 +1,11 @@
 //! Constant ICRs that differ from those of the vehicle file: a wrong number, or one of a class of effects.
 
-use super::{Rules, Support, Verdict, refusal};
+use super::{Refusal, Rules, Support, Verdict, refusal};
 use crate::base::OFFSETS;
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of, with_friction};
 use crate::prior::measured;
+use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
 use crate::search::{Found, Search};
 use std::collections::BTreeMap;
@@ -35,19 +36,19 @@ impl Constants {
     pub fn of(search: &Search) -> Self {
         let fit = &search.base.fit;
         let entries: Vec<usize> = (0..search.catalogue.entries.len()).collect();
-        let (normal, known, groups) = search.normal(fit, &entries);
+        let equations = search.equations(fit, &entries);
         let offsets: Vec<usize> =
             (0..fit.unknowns.len()).filter(|&k| OFFSETS.contains(&fit.unknowns[k])).collect();
-        let projected = normal.projected(&offsets, &known);
+        let projected = equations.normal.projected(&offsets, &equations.priors);
         let within = |share: f64| {
             let is_within = |group: &[usize]| {
                 group.iter().all(|&column| {
-                    let whole = normal.product(column, column);
+                    let whole = equations.normal.product(column, column);
                     whole > 0.0 && projected.product(column, column) <= share * whole
                 })
             };
             let mut effects = BTreeMap::new();
-            for ((variant, _), group) in search.catalogue.entries.iter().zip(&groups) {
+            for ((variant, _), group) in search.catalogue.entries.iter().zip(&equations.groups) {
                 *effects.entry(variant.effect).or_insert(true) &= is_within(group);
             }
             effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
@@ -102,25 +103,23 @@ pub(super) fn departure(
 ) -> f64 {
     let (filed, fixed) = as_filed(search, best, constants, file, &[]);
     let before = Some(&best.fit.mechanics);
-    let dropped = Fit::new(filed, &fixed, search.evidence, before);
+    let dropped = Fit::new(filed, &fixed, &search.evidence, before);
     (dropped.objective - best.fit.objective).max(0.0).sqrt()
 }
 
 /// Constant ICRs that are nearly those of the vehicle file: no model of the contact is better.
-fn as_good_as_filed(free: &Fit) -> Option<String> {
+fn as_good_as_filed(free: &Fit) -> Option<Refusal> {
     let Hypothesis { vehicle, offset, .. } = &free.hypothesis;
     let largest = offset.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
-    (largest < Rules::CONSTANT * vehicle.gauge).then(|| {
-        format!(
-            "ICRs differ from the vehicle file's by {:.1} mm, less than {:.0} % of the gauge",
-            1e3 * largest,
-            100.0 * Rules::CONSTANT
-        )
-    })
+    let needed = Rules::CONSTANT;
+    (largest < needed * vehicle.gauge).then_some(Refusal::ConstantsAsFiled { largest, needed })
 }
 
 /// Judges the constant ICRs against those of the vehicle file: a wrong number, or one of the class of effects
 /// that only move them. Effects that are `claimed` stay where they are.
+///
+/// # Errors
+/// [`Cancelled`], by the observer of the watch.
 pub fn judge_constants(
     search: &Search,
     best: &Found,
@@ -128,9 +127,11 @@ pub fn judge_constants(
     file: &VehicleFile,
     claimed: &[EffectId],
     resampling: Resampling,
-) -> Option<Verdict> {
+    watch: &Watch,
+) -> Result<Option<Verdict>, Cancelled> {
+    watch.go_on()?;
     let (filed, fixed) = as_filed(search, best, constants, file, claimed);
-    let evidence = search.evidence;
+    let evidence = &search.evidence;
     let before = Some(&best.fit.mechanics);
     let dropped = Fit::new(filed.clone(), &fixed, evidence, before);
     let moving: Vec<Unknown> = OFFSETS.iter().chain(&fixed).copied().collect();
@@ -138,7 +139,7 @@ pub fn judge_constants(
     let ln_bayes_factor = free.ln_evidence() - dropped.ln_evidence();
     let z = (dropped.objective - free.objective).max(0.0).sqrt();
     if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
-        return None;
+        return Ok(None);
     }
     let support = Support {
         ln_bayes_factor,
@@ -147,19 +148,25 @@ pub fn judge_constants(
     };
     let refused = refusal(&support, 0.0).or_else(|| as_good_as_filed(&free));
     // What the owner measured can have moved within its uncertainty only: is that enough?
-    let can = |effect: &EffectId| {
+    let can = |effect: &EffectId| -> Result<bool, Cancelled> {
         if unknowns_of(*effect).all(|unknown| measured(&file.vehicle, unknown).is_none()) {
-            return true;
+            return Ok(true);
         }
+        watch.go_on()?;
         let unknowns: Vec<Unknown> = fixed.iter().copied().chain(unknowns_of(*effect)).collect();
         let none: Vec<f64> = effect.card().parameters.iter().map(neutral).collect();
         let start = filed.with_effect(active(*effect, &none));
         let fit = Fit::new(start, &unknowns, evidence, before);
         // Each unknown fewer than the three constants is worth two: chance alone gives one half.
         let fewer = OFFSETS.len().saturating_sub(unknowns_of(*effect).count());
-        (fit.objective - free.objective) / 2.0 < Rules::SAME + 2.0 * real(fewer)
+        Ok((fit.objective - free.objective) / 2.0 < Rules::SAME + 2.0 * real(fewer))
     };
-    let one_of: Vec<EffectId> = constants.class.iter().copied().filter(can).collect();
-    let effect = *one_of.first()?;
-    Some(Verdict { effect, one_of, found: None, support, refused })
+    let mut one_of: Vec<EffectId> = Vec::new();
+    for effect in &constants.class {
+        if can(effect)? {
+            one_of.push(*effect);
+        }
+    }
+    let first = one_of.first().copied();
+    Ok(first.map(|effect| Verdict { effect, one_of, found: None, support, refused }))
 }

@@ -5,13 +5,22 @@ use super::{Rules, Support, Verdict, refusal};
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, typical};
 use crate::mechanics::is_instrument;
+use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
 use crate::search::{Found, Search};
 use std::cell::LazyCell;
 use trackdyn_model::EffectId;
 
 /// Judges the effects of encoders and pose sensor that are free in every hypothesis.
-pub fn judge_instruments(search: &Search, best: &Found, resampling: Resampling) -> Vec<Verdict> {
+///
+/// # Errors
+/// [`Cancelled`], by the observer of the watch.
+pub fn judge_instruments(
+    search: &Search,
+    best: &Found,
+    resampling: Resampling,
+    watch: &Watch,
+) -> Result<Vec<Verdict>, Cancelled> {
     let filed = &search.base.as_filed.hypothesis;
     let mut verdicts = Vec::new();
     // What the form of any law leaves, be it known or named, may look like a sensor.
@@ -21,6 +30,7 @@ pub fn judge_instruments(search: &Search, best: &Found, resampling: Resampling) 
         if more.is_finite() { more.max(0.0).sqrt() } else { 0.0 }
     });
     for &effect in &search.base.instruments {
+        watch.go_on()?;
         let dropped = without_instrument(search, best, effect);
         let ln_bayes_factor = best.ln_evidence - dropped.ln_evidence;
         let z = (dropped.fit.objective - best.fit.objective).max(0.0).sqrt();
@@ -31,6 +41,7 @@ pub fn judge_instruments(search: &Search, best: &Found, resampling: Resampling) 
         let screened = search.screen(&dropped);
         let rivals = screened.iter().filter(|one| is_rival(one, ln_bayes_factor, best));
         for rival in rivals.take(RIVALS) {
+            watch.go_on()?;
             let exchanged = search.refit(&dropped, std::slice::from_ref(rival));
             if (exchanged.fit.objective - best.fit.objective) / 2.0 < Rules::SAME {
                 one_of.push(rival.effect);
@@ -56,7 +67,7 @@ pub fn judge_instruments(search: &Search, best: &Found, resampling: Resampling) 
         let found = fit.hypothesis.effect(effect).cloned();
         verdicts.push(Verdict { effect, one_of, found, support, refused });
     }
-    verdicts
+    Ok(verdicts)
 }
 
 /// The best hypothesis with an instrument as the vehicle file has it.
@@ -64,7 +75,7 @@ fn without_instrument(search: &Search, best: &Found, effect: EffectId) -> Found 
     let hypothesis = best.fit.hypothesis.with_effect_of(&search.base.as_filed.hypothesis, effect);
     let unknowns = best.fit.unknowns_without(effect);
     let before = Some(&best.fit.mechanics);
-    let fit = Fit::new(hypothesis, &unknowns, search.evidence, before);
+    let fit = Fit::new(hypothesis, &unknowns, &search.evidence, before);
     Found { effects: best.effects.clone(), ln_evidence: fit.ln_evidence(), fit }
 }
 
@@ -79,5 +90,5 @@ fn without_laws(search: &Search, best: &Found) -> Fit {
         Unknown::Offset(_) | Unknown::FrictionLevel | Unknown::Cog(_) => true,
     };
     let unknowns: Vec<Unknown> = unknowns.iter().copied().filter(is_left).collect();
-    Fit::new(hypothesis, &unknowns, search.evidence, Some(&best.fit.mechanics))
+    Fit::new(hypothesis, &unknowns, &search.evidence, Some(&best.fit.mechanics))
 }

@@ -1,10 +1,12 @@
 //! What explains an effect's part as well as it does.
 
 use super::support::{self, Change};
-use super::{Constants, Rules, Support};
+use super::{Constants, Refusal, Rules, Support};
 use crate::candidate::Signature;
+use crate::equations::Equations;
 use crate::hypothesis::{Unknown, typical};
 use crate::mechanics::is_instrument;
+use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
 use crate::search::{Found, Screened, Search};
 use std::slice;
@@ -34,7 +36,17 @@ pub(super) struct Rivals {
 
 impl Rivals {
     /// Puts what the screen leaves open in the place of an effect.
-    pub fn new(search: &Search, best: &Found, constants: &Constants, effect: EffectId) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`], by the observer of the watch.
+    pub fn new(
+        search: &Search,
+        best: &Found,
+        constants: &Constants,
+        effect: EffectId,
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
+        watch.go_on()?;
         let without = search.without(best, effect);
         let screened = search.screen(&without);
         let changed = support::change(effect, &without, best);
@@ -48,6 +60,7 @@ impl Rivals {
         let asked = close.iter().enumerate().filter(is_asked).take(2 * RIVALS);
         let (mut exchanged, mut alike) = (Vec::new(), Vec::new());
         for (_, rival) in asked {
+            watch.go_on()?;
             let found = search.refit(&without, slice::from_ref(rival));
             let behind = (found.fit.objective - best.fit.objective) / 2.0;
             let less = best.ln_evidence - found.ln_evidence;
@@ -64,7 +77,7 @@ impl Rivals {
             |one: &&&Screened| !exchanged.iter().any(|(effect, _)| *effect == one.effect);
         let does_as_well = |one: &&&Screened| one.gain > own - Rules::LN_BAYES_FACTOR;
         let unasked = close.iter().filter(is_unasked).filter(does_as_well).count();
-        Self { effect, without, changed, screened, unasked, exchanged, alike }
+        Ok(Self { effect, without, changed, screened, unasked, exchanged, alike })
     }
 
     /// The effect and the rivals that were refitted, each with its hypothesis.
@@ -119,10 +132,10 @@ impl Rivals {
     }
 
     /// Where all that were asked explain it as well, those that were not may.
-    pub fn too_many(&self) -> Option<String> {
+    pub fn too_many(&self) -> Option<Refusal> {
         let alike = self.alike.len();
         (self.unasked > 0 && alike >= self.exchanged.len())
-            .then(|| format!("{} effects explain it as well", alike + self.unasked))
+            .then_some(Refusal::TooMany { effects: alike + self.unasked })
     }
 }
 
@@ -149,8 +162,8 @@ pub(super) fn separation(
     known: impl Fn(Unknown) -> Option<f64>,
 ) -> f64 {
     let signatures = [&[slice::from_ref(&changed.signature)], rivals].concat();
-    let (normal, mut priors, groups) = search.normal_of(&without.fit, &signatures);
-    let mut free: Vec<usize> = (0..without.fit.columns.len()).collect();
+    let Equations { normal, mut priors, mut free, groups } =
+        search.equations_with(&without.fit, &signatures);
     for (&column, signature) in groups[1..].iter().flatten().zip(rivals.iter().copied().flatten()) {
         free.push(column);
         if let Some(deviation) = known(signature.unknown) {

@@ -1,7 +1,8 @@
 //! What speaks for a claim.
 
-use super::Rules;
+use super::{Refusal, Rules};
 use crate::candidate::{Signature, sizes};
+use crate::equations::Equations;
 use crate::fit::Fit;
 use crate::hypothesis::Unknown;
 use crate::normal::{Normal, Prior};
@@ -64,27 +65,21 @@ impl Support {
     }
 
     /// What it lacks of what every claim must reach; none where it lacks nothing.
-    pub(crate) fn falls_short(&self) -> Option<String> {
+    pub(crate) fn falls_short(&self) -> Option<Refusal> {
         let Self { p, ln_bayes_factor, held_out_gain, held_out_error, blocks, .. } = *self;
         if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
-            return Some(format!(
-                "ln Bayes factor {ln_bayes_factor:.1}, below {}",
-                Rules::LN_BAYES_FACTOR
-            ));
+            return Some(Refusal::Weak { ln_bayes_factor, needed: Rules::LN_BAYES_FACTOR });
         }
         if self.is_met_once() {
-            return Some(format!(
-                "may have happened once: {blocks:.1} blocks of time show it, p = {p:.3}"
-            ));
+            return Some(Refusal::MetOnce { blocks, p });
         }
         if p >= Rules::P {
-            return Some(format!("may be chance: family-wise p = {p:.3}"));
+            return Some(Refusal::Chance { p });
         }
-        (held_out_gain < Rules::GAIN * held_out_error).then(|| {
-            format!(
-                "gain on held-out blocks {held_out_gain:.1} is less than {} standard errors of {held_out_error:.1}",
-                Rules::GAIN
-            )
+        (held_out_gain < Rules::GAIN * held_out_error).then_some(Refusal::NotForetold {
+            gain: held_out_gain,
+            error: held_out_error,
+            needed: Rules::GAIN,
         })
     }
 
@@ -104,11 +99,12 @@ impl Support {
             || &search.catalogue.entries[own.entry].1[..],
             |found| slice::from_ref(&found.signature),
         );
-        let (normal, known, groups) = search.normal_of(&without.fit, &[own_signatures]);
-        let base: Vec<usize> = (0..without.fit.columns.len()).collect();
-        let projected = normal.projected(&base, &known);
+        let equations = search.equations_with(&without.fit, &[own_signatures]);
         let p = Self::chance(search, without, own.entry, own_signatures, resampling);
-        Self { p, ..Self::of_blocks(&projected, &known, &groups[0]) }
+        Self {
+            p,
+            ..Self::of_blocks(&equations.projected(), &equations.priors, &equations.groups[0])
+        }
     }
 
     /// What blocks say for columns: what they gain where they were left out, and how many show it. What is free beside them
@@ -133,11 +129,10 @@ impl Support {
             .map(|(other, (_, tried))| (other, if other == entry { signatures } else { tried }))
             .collect();
         let all: Vec<&[Signature]> = family.iter().map(|(_, signatures)| *signatures).collect();
-        let (normal, known, groups) = search.normal_of(&without.fit, &all);
-        let base: Vec<usize> = (0..without.fit.columns.len()).collect();
-        let projected = normal.projected(&base, &known);
+        let equations = search.equations_with(&without.fit, &all);
+        let tests = || test(&equations.projected(), &equations.groups, resampling);
         let place = family.iter().position(|(other, _)| *other == entry);
-        place.map_or(1.0, |place| test(&projected, &groups, resampling)[place].p)
+        place.map_or(1.0, |place| tests()[place].p)
     }
 
     /// The support of columns of a fit, asked of the residual with their part put back: `parts` are their
@@ -155,12 +150,12 @@ impl Support {
                 *value += by * *part;
             }
         }
-        let (normal, known, _) = search.normal(&fit, &[]);
-        let known: Vec<Prior> = known.iter().map(|prior| Prior { mean: 0.0, ..*prior }).collect();
-        let base: Vec<usize> = (0..fit.columns.len()).filter(|k| !columns.contains(k)).collect();
-        let projected = normal.projected(&base, &known);
-        let p = test(&projected, &[columns.to_vec()], resampling)[0].p;
-        Self { p, stable: 1.0, ..Self::of_blocks(&projected, &known, columns) }
+        let equations = search.equations(&fit, &[]).with_group(columns);
+        let known = equations.priors.iter().map(|prior| Prior { mean: 0.0, ..*prior }).collect();
+        let equations = Equations { priors: known, ..equations };
+        let projected = equations.projected();
+        let p = test(&projected, &equations.groups, resampling)[0].p;
+        Self { p, stable: 1.0, ..Self::of_blocks(&projected, &equations.priors, columns) }
     }
 }
 
@@ -193,16 +188,14 @@ pub(super) fn named(
         .map(|(effect, change, gain)| (*effect, slice::from_ref(&change.signature), Some(*gain)));
     let contenders: Vec<(EffectId, &[Signature], Option<f64>)> = screened.chain(changes).collect();
     let signatures: Vec<&[Signature]> = contenders.iter().map(|(_, one, _)| *one).collect();
-    let (normal, known, groups) = search.normal_of(&without.fit, &signatures);
-    let base: Vec<usize> = (0..without.fit.columns.len()).collect();
-    let evidence_with = |normal: &Normal, group: &[usize]| {
-        let columns: Vec<usize> = base.iter().chain(group).copied().collect();
-        normal.fit(&columns, &known).ln_evidence
-    };
+    let equations = search.equations_with(&without.fit, &signatures);
+    let Equations { normal, groups, .. } = &equations;
+    let evidence_with =
+        |normal: &Normal, group: &[usize]| equations.fit_of(normal, group).ln_evidence;
     // What refitting gains beyond what its change does in a linear fit.
-    let before = evidence_with(&normal, &[]);
-    let contenders_beyond = contenders.iter().zip(&groups).map(|((effect, _, gain), group)| {
-        let beyond = gain.map_or(0.0, |gain| gain - (evidence_with(&normal, group) - before));
+    let before = evidence_with(normal, &[]);
+    let contenders_beyond = contenders.iter().zip(groups).map(|((effect, _, gain), group)| {
+        let beyond = gain.map_or(0.0, |gain| gain - (evidence_with(normal, group) - before));
         (*effect, group, beyond)
     });
     let contenders: Vec<(EffectId, &Vec<usize>, f64)> = contenders_beyond.collect();
@@ -342,8 +335,7 @@ mod tests {
     fn what_is_strong_and_was_met_once_is_said_to_be_so() {
         let strong = Support { p: 0.9, ln_bayes_factor: 92.0, blocks: 1.4, ..Support::none() };
         assert!(strong.is_met_once());
-        let reason = strong.falls_short().expect("a reason");
-        assert!(reason.contains("once: 1.4 blocks"), "{reason}");
+        assert_eq!(strong.falls_short(), Some(Refusal::MetOnce { blocks: 1.4, p: 0.9 }));
         for other in [
             Support { blocks: 20.0, ..strong },
             Support { p: 0.001, ..strong },

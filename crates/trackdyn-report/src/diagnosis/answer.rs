@@ -14,7 +14,7 @@ use trackdyn_model::effect::Parameter;
 
 /// The status in words, and what kind of news it is.
 pub(super) fn status(subject: &Subject) -> [&'static str; 2] {
-    match subject.diagnosis.status {
+    match subject.diagnosis.answer.status {
         Status::Explained => ["Explained: what the model lacks has a name", "good"],
         Status::NothingMissing => ["Nothing is missing that this evidence could show", "good"],
         Status::Ambiguous => ["Ambiguous: several effects explain it alike", "mixed"],
@@ -27,8 +27,9 @@ pub(super) fn status(subject: &Subject) -> [&'static str; 2] {
 /// The answer, each part with its question.
 pub(super) fn parts(subject: &Subject) -> Vec<[String; 2]> {
     let diagnosis = subject.diagnosis;
-    let mut what: Vec<String> = diagnosis.missing.iter().map(|m| named(subject, m)).collect();
-    match (diagnosis.status, what.is_empty()) {
+    let mut what: Vec<String> =
+        diagnosis.answer.missing.iter().map(|m| named(subject, m)).collect();
+    match (diagnosis.answer.status, what.is_empty()) {
         (Status::Unexplained, true) => what.push(
             "Observation and model differ, but no effect of the catalogue, nor two or three \
              together, explain how."
@@ -42,13 +43,13 @@ pub(super) fn parts(subject: &Subject) -> Vec<[String; 2]> {
         )),
         _ => {}
     }
-    let met_once = diagnosis.refused.iter().filter(|verdict| verdict.support.is_met_once());
+    let met_once = diagnosis.answer.refused.iter().filter(|verdict| verdict.support.is_met_once());
     what.extend(met_once.filter_map(|verdict| once(subject, verdict)));
-    what.extend(diagnosis.proposed.as_ref().map(proposed));
-    let place = if diagnosis.broken.is_empty() {
+    what.extend(diagnosis.answer.proposed.as_ref().map(proposed));
+    let place = if diagnosis.answer.broken.is_empty() {
         "Nowhere: no symmetry of driving is broken beyond chance.".to_owned()
     } else {
-        let mut letters = diagnosis.place.chars();
+        let mut letters = diagnosis.answer.place.chars();
         let first = letters.next().map(char::to_uppercase);
         format!("{}{}.", first.into_iter().flatten().collect::<String>(), letters.as_str())
     };
@@ -73,7 +74,7 @@ fn once(subject: &Subject, verdict: &Verdict) -> Option<String> {
         "Not claimed, because {} of {} blocks of time show it and whatever happens once would look \
          the same: {} ({}, {}). Drive there again, and diagnose that.",
         number(verdict.support.blocks, 1),
-        subject.diagnosis.evidence.blocks(),
+        subject.diagnosis.evidence.seen.blocks(),
         lower(card.title),
         card.id,
         values.collect::<Vec<_>>().join(", ")
@@ -82,7 +83,7 @@ fn once(subject: &Subject, verdict: &Verdict) -> Option<String> {
 
 /// What the claims do not explain.
 fn left(subject: &Subject) -> String {
-    let after = &subject.diagnosis.after;
+    let after = &subject.diagnosis.evidence.after;
     let names: Vec<&str> = after.broken().into_iter().map(|one| symmetry(one)[0]).collect();
     let wave = after.wave.map_or(String::new(), |wave| {
         format!(
@@ -189,7 +190,7 @@ fn lower(title: &str) -> String {
 }
 
 fn errors(subject: &Subject) -> String {
-    let fit = &subject.diagnosis.held_out;
+    let fit = &subject.diagnosis.evidence.errors;
     let on = if fit.are_held_out {
         "On runs that nothing was fitted or chosen on"
     } else {
@@ -216,7 +217,7 @@ fn errors(subject: &Subject) -> String {
 /// What it is worth: the largest departure that is surely one.
 fn worth(subject: &Subject) -> Option<String> {
     const MIN_DEVIATIONS: f64 = 4.0;
-    if subject.diagnosis.missing.is_empty() {
+    if subject.diagnosis.answer.missing.is_empty() {
         return None;
     }
     let [before, _] = subject.cells();
@@ -237,7 +238,7 @@ fn worth(subject: &Subject) -> Option<String> {
 }
 
 fn advice(subject: &Subject) -> &'static str {
-    match subject.diagnosis.status {
+    match subject.diagnosis.answer.status {
         Status::Explained => {
             "vehicle.corrected.toml has what is claimed, to simulate, calibrate and replay with."
         }

@@ -7,6 +7,7 @@ use trackdyn_diagnose::candidate;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::search::Screened;
+use trackdyn_diagnose::verdict::Refusal;
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::{Parameter, Role};
 
@@ -50,6 +51,7 @@ pub(super) struct Candidate {
 pub(super) fn candidates(subject: &Subject) -> Vec<Candidate> {
     let diagnosis = subject.diagnosis;
     let mut all: Vec<Candidate> = diagnosis
+        .limits
         .screened
         .iter()
         .map(|one| {
@@ -67,13 +69,13 @@ pub(super) fn candidates(subject: &Subject) -> Vec<Candidate> {
             }
         })
         .collect();
-    for &effect in &diagnosis.base.instruments {
+    for &effect in &diagnosis.models.base.instruments {
         let missing = claim(subject, effect);
-        let refused = diagnosis.refused.iter().find(|verdict| verdict.effect == effect);
+        let refused = diagnosis.answer.refused.iter().find(|verdict| verdict.effect == effect);
         let verdict = missing.map(|missing| &missing.verdict).or(refused);
         let reason = match (missing, refused) {
             (Some(missing), _) => claimed(missing),
-            (_, Some(verdict)) => refusal(verdict.refused.as_deref()),
+            (_, Some(verdict)) => refusal(verdict.refused.as_ref()),
             _ => {
                 "fitted in every hypothesis; ln evidence falls by less than 5 without it".to_owned()
             }
@@ -93,7 +95,7 @@ pub(super) fn candidates(subject: &Subject) -> Vec<Candidate> {
 }
 
 fn claim<'a>(subject: &Subject<'a>, effect: EffectId) -> Option<&'a Missing> {
-    let missing = subject.diagnosis.missing.iter();
+    let missing = subject.diagnosis.answer.missing.iter();
     missing.filter(|missing| missing.kind != Kind::Constant).find(|m| m.verdict.effect == effect)
 }
 
@@ -104,8 +106,9 @@ fn claimed(missing: &Missing) -> String {
     }
 }
 
-fn refusal(why: Option<&str>) -> String {
-    format!("refused: {}", why.unwrap_or("no reason given"))
+fn refusal(why: Option<&Refusal>) -> String {
+    let why = why.map_or("no reason given".to_owned(), Refusal::to_string);
+    format!("refused: {why}")
 }
 
 fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
@@ -114,7 +117,8 @@ fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
     if let Some(missing) = claim(subject, effect) {
         return (Outcome::Claimed, claimed(missing));
     }
-    let twin = diagnosis.missing.iter().find(|missing| missing.verdict.one_of.contains(&effect));
+    let twin =
+        diagnosis.answer.missing.iter().find(|missing| missing.verdict.one_of.contains(&effect));
     if let Some(missing) = twin {
         return if missing.kind == Kind::Constant {
             let reason = "one of the class that only moves constant ICRs, of which one is claimed";
@@ -124,10 +128,11 @@ fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
             (Outcome::Twin, format!("this evidence cannot tell it from {other}"))
         };
     }
-    if let Some(verdict) = diagnosis.refused.iter().find(|verdict| verdict.effect == effect) {
-        return (Outcome::Lost, refusal(verdict.refused.as_deref()));
+    if let Some(verdict) = diagnosis.answer.refused.iter().find(|verdict| verdict.effect == effect)
+    {
+        return (Outcome::Lost, refusal(verdict.refused.as_ref()));
     }
-    if diagnosis.constants.contains(&effect) {
+    if diagnosis.limits.constants.contains(&effect) {
         return (Outcome::Constant, "only moves constant ICRs, which are fitted anyway".to_owned());
     }
     if one.held {
@@ -149,15 +154,16 @@ fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
 /// Why a candidate that explains something by itself is not in the answer.
 fn weaker(subject: &Subject, one: &Screened) -> String {
     let diagnosis = subject.diagnosis;
-    let answer = &diagnosis.best.effects;
-    let resemblance = &diagnosis.resemblance;
+    let answer = &diagnosis.models.best.effects;
+    let resemblance = &diagnosis.limits.resemblance;
     let place = |effect: EffectId| resemblance.effects.iter().position(|other| *other == effect);
     let alike = answer.iter().filter_map(|&other| {
         let cosine = resemblance.cosines[(place(one.effect)?, place(other)?)];
         Some((cosine, other))
     });
     let alike = alike.max_by(|a, b| a.0.total_cmp(&b.0));
-    let left = diagnosis.left.iter().find(|left| left.effect == one.effect).map(|left| left.gain);
+    let left =
+        diagnosis.limits.left.iter().find(|left| left.effect == one.effect).map(|left| left.gain);
     let left = left.map_or(String::new(), |gain| {
         if gain > MIN_GAIN {
             let gain = number(gain, 1);
@@ -173,7 +179,7 @@ fn weaker(subject: &Subject, one: &Screened) -> String {
             format!("twin of {}, which explains more{left}", id(other))
         }
         Some((_, other)) => format!("weaker than {}{left}", id(other)),
-        None if diagnosis.base.instruments.is_empty() => format!("not needed{left}"),
+        None if diagnosis.models.base.instruments.is_empty() => format!("not needed{left}"),
         None => format!("no single effect is worth keeping{left}"),
     }
 }
@@ -182,7 +188,7 @@ fn weaker(subject: &Subject, one: &Screened) -> String {
 /// it.
 fn values<'a>(subject: &'a Subject, one: &'a Screened) -> impl Iterator<Item = (usize, f64)> + 'a {
     candidate::sizes(one.effect).into_iter().zip(&one.sizes).map(|(place, size)| {
-        let hypothesis = &subject.diagnosis.base.fit.hypothesis;
+        let hypothesis = &subject.diagnosis.models.base.fit.hypothesis;
         (place, hypothesis.get(Unknown::Effect(one.effect, place)) + size)
     })
 }
@@ -202,7 +208,7 @@ fn shown(parameter: &Parameter, value: f64, digits: i32) -> String {
 
 /// All numbers of an effect as they were fitted.
 fn fitted(subject: &Subject, effect: EffectId) -> String {
-    let hypothesis = &subject.diagnosis.best.fit.hypothesis;
+    let hypothesis = &subject.diagnosis.models.best.fit.hypothesis;
     let texts = effect.card().parameters.iter().enumerate().map(|(place, parameter)| {
         let value = hypothesis.get(Unknown::Effect(effect, place));
         shown(parameter, value, 4)

@@ -34,7 +34,7 @@ struct Bars {
 
 /// The error on the runs that judge, by channel and run by run.
 pub(super) fn figure(subject: &Subject) -> Figure {
-    let fit = &subject.diagnosis.held_out;
+    let fit = &subject.diagnosis.evidence.errors;
     let explanation = "Root mean square of the residuals in standard deviations of the noise. \
                        Floor: what is left when everything that could move ICRs or instruments, \
                        known or not, is fitted away.";

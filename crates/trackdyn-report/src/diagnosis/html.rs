@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::document::separate_by;
 use trackdyn_diagnose::evidence::Origin;
-use trackdyn_diagnose::verdict::Rules;
+use trackdyn_diagnose::verdict::{Refusal, Rules};
 
 const NAME: &str = "report.html";
 
@@ -114,9 +114,9 @@ pub fn diagnosis_html(subject: &Subject, figures: &[Figure]) -> Result<String, E
 fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Result<Page<'a>, Error> {
     let (diagnosis, evidence) = (subject.diagnosis, subject.evidence());
     let [status, tone] = answer::status(subject);
-    let refused = diagnosis.refused.iter().map(|verdict| Row {
+    let refused = diagnosis.answer.refused.iter().map(|verdict| Row {
         name: ids(&verdict.one_of, " or "),
-        text: verdict.refused.clone().unwrap_or_default(),
+        text: verdict.refused.as_ref().map_or_else(String::new, Refusal::to_string),
     });
     let figures = figures.iter().map(|figure| {
         let svg = figure.to_svg_element()?;
@@ -128,17 +128,18 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Result<Page<'a>, Er
         Origin::SteadyPoints(_) => "points of steady motion",
     };
     let samples: usize = subject.views().iter().map(|view| view.evidence.samples().len()).sum();
-    let held_out = diagnosis.unseen.as_ref().map_or("none were held out".to_owned(), |unseen| {
-        let samples = unseen.evidence.samples().iter();
-        let held_out = samples.map(|sample| sample.run).collect::<BTreeSet<usize>>().len();
-        let what = evidence.origin().runs();
-        format!("{held_out} of {} {what} were held out", evidence.runs().len())
-    });
+    let held_out =
+        diagnosis.evidence.unseen.as_ref().map_or("none were held out".to_owned(), |unseen| {
+            let samples = unseen.evidence.samples().iter();
+            let held_out = samples.map(|sample| sample.run).collect::<BTreeSet<usize>>().len();
+            let what = evidence.origin().runs();
+            format!("{held_out} of {} {what} were held out", evidence.runs().len())
+        });
     Ok(Page {
         name: subject.name,
         vehicle: &subject.vehicle.vehicle.name,
         status,
-        status_id: diagnosis.status.name(),
+        status_id: diagnosis.answer.status.name(),
         tone,
         answer: answer::parts(subject),
         missing: missing(subject),
@@ -156,7 +157,7 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Result<Page<'a>, Er
 }
 
 fn missing(subject: &Subject) -> Vec<Missing> {
-    let missing = subject.diagnosis.missing.iter();
+    let missing = subject.diagnosis.answer.missing.iter();
     missing
         .map(|missing| {
             let card = missing.verdict.effect.card();
@@ -210,7 +211,7 @@ fn missing(subject: &Subject) -> Vec<Missing> {
 }
 
 fn classes(subject: &Subject) -> Vec<Class> {
-    let missing = subject.diagnosis.missing.iter();
+    let missing = subject.diagnosis.answer.missing.iter();
     missing
         .filter(|missing| missing.verdict.one_of.len() > 1)
         .map(|missing| Class {
@@ -253,7 +254,7 @@ fn rows(subject: &Subject) -> Vec<Candidate> {
 }
 
 fn limits(subject: &Subject) -> Vec<Limit> {
-    let mut detectable = subject.diagnosis.detectable.clone();
+    let mut detectable = subject.diagnosis.limits.detectable.clone();
     detectable.sort_by_key(|one| (one.effect, one.parameter));
     detectable
         .iter()
@@ -321,9 +322,9 @@ fn rules(limits: &ClaimLimits) -> Vec<String> {
 }
 
 fn noise(subject: &Subject) -> String {
-    let scale = subject.diagnosis.evidence.scale();
+    let scale = subject.diagnosis.evidence.seen.scale();
     let taken = subject.evidence().description();
-    let taken = subject.diagnosis.evidence.noise().map_or_else(
+    let taken = subject.diagnosis.evidence.seen.noise().map_or_else(
         || taken.to_owned(),
         |noise| format!("{taken}: {}", trackdyn_diagnose::noise::sentence(noise)),
     );

@@ -30,7 +30,7 @@ const MIN_VISIBLE: f64 = 0.05;
 
 /// The matrix of |cosine| and what each effect would stand out by.
 pub(super) fn figure(subject: &Subject) -> Figure {
-    let of = &subject.diagnosis.resemblance;
+    let of = &subject.diagnosis.limits.resemblance;
     let order = order(of);
     let side = rows(order.len()) * CELL;
     let height = TOP + side.max(500) + BELOW + sheet::FOOT;
@@ -60,7 +60,7 @@ pub(super) fn figure(subject: &Subject) -> Figure {
 }
 
 fn matrix(subject: &Subject, order: &[usize], place: Area) -> Panel {
-    let of = &subject.diagnosis.resemblance;
+    let of = &subject.diagnosis.limits.resemblance;
     let names: Vec<_> = order.iter().map(|&k| name(subject, of.effects[k])).collect();
     let pairs = order.iter().flat_map(|&a| order.iter().map(move |&b| (a, b)));
     let cells = pairs.map(|(a, b)| {
@@ -107,7 +107,7 @@ fn strengths(of: &Isolability, order: &[usize], left: i32) -> Panel {
 /// A name and its colour: ink for what is claimed, grey for others.
 fn name(subject: &Subject, effect: EffectId) -> (String, Rgb) {
     let claimed =
-        subject.diagnosis.missing.iter().any(|missing| {
+        subject.diagnosis.answer.missing.iter().any(|missing| {
             missing.kind != Kind::Constant && missing.verdict.one_of.contains(&effect)
         });
     if claimed { (format!("→ {}", id(effect)), INK) } else { (id(effect).to_owned(), GREY) }

@@ -11,7 +11,7 @@ use crate::figure::{
 use crate::text::{Horizontal, LABEL_SIZE, Style, TICK_SIZE, Vertical};
 use crate::ticks::number;
 use trackdyn_core::real;
-use trackdyn_diagnose::Diagnosis;
+use trackdyn_diagnose::diagnosis::Examined;
 use trackdyn_diagnose::locate::{SIGNIFICANT, SymmetryTest};
 
 const TOP: i32 = sheet::TOP + 110;
@@ -27,7 +27,7 @@ const FILED: usize = 2;
 
 /// One row per symmetry: its statistic per degree of freedom.
 pub(super) fn figure(subject: &Subject) -> Figure {
-    let Diagnosis { filed, before: fitted, after, .. } = subject.diagnosis;
+    let Examined { filed, before: fitted, after, .. } = &subject.diagnosis.evidence;
     let states = [
         (&filed.tests, FILED, "as filed", "p as filed"),
         (&fitted.tests, BEFORE, "clock and sensor fitted", "p fitted"),

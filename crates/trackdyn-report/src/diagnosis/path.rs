@@ -79,7 +79,7 @@ fn replay(subject: &Subject) -> Option<Replay> {
         .count();
     let chosen = first..first + count;
     let observed = poses(evidence, chosen.clone(), |index| samples[index].motion);
-    let replayed = [subject.vehicle, &subject.diagnosis.corrected].map(|file| {
+    let replayed = [subject.vehicle, &subject.diagnosis.answer.corrected].map(|file| {
         let motions = motions(evidence, file);
         chained(evidence, chosen.clone(), &observed, &motions)
     });

@@ -28,7 +28,7 @@ const MAX_SLOPE_ERROR: f64 = 2.0;
 
 /// A row of channels for each claimed effect, or for the best candidate.
 pub(super) fn figure(subject: &Subject) -> Figure {
-    let exposures = &subject.diagnosis.exposures;
+    let exposures = &subject.diagnosis.evidence.exposures;
     let height = TOP - 40 + rows(exposures.len().max(1)) * ROW + sheet::FOOT;
     let explanation = "Observed departure without the effect, against the change that the effect \
                        predicts; what else is free is taken out of both. An effect that is there \

@@ -9,6 +9,7 @@ use trackdyn_diagnose::place::words;
 use trackdyn_diagnose::proposal::Proposal;
 use trackdyn_diagnose::proposal::words::decimals;
 use trackdyn_diagnose::uncertainty::{Interval, Level};
+use trackdyn_diagnose::verdict::Refusal;
 use trackdyn_diagnose::{Diagnosis, Evidence, Status};
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::Symmetry;
@@ -26,41 +27,41 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
     let unit = evidence.origin().samples();
     // Writing to a String cannot fail.
     let _ = writeln!(text, "{name}: {samples} {unit}, {}", evidence.description());
-    if let Some(noise) = diagnosis.evidence.noise() {
+    if let Some(noise) = diagnosis.evidence.seen.noise() {
         let _ = writeln!(text, "noise    {}", noise::sentence(noise));
     }
-    let _ = writeln!(text, "\nstatus   {}", diagnosis.status.name());
+    let _ = writeln!(text, "\nstatus   {}", diagnosis.answer.status.name());
     let _ = writeln!(
         text,
         "where    {} ({:.2} times the noise with clock, mount and constant ICRs fitted)",
-        diagnosis.place, diagnosis.before.excess_over_noise
+        diagnosis.answer.place, diagnosis.evidence.before.excess_over_noise
     );
-    if diagnosis.missing.is_empty() {
+    if diagnosis.answer.missing.is_empty() {
         let _ = writeln!(text, "missing  {}", nothing(diagnosis));
     }
-    for (index, missing) in diagnosis.missing.iter().enumerate() {
+    for (index, missing) in diagnosis.answer.missing.iter().enumerate() {
         let head = if index == 0 { "missing " } else { "        " };
         let _ = writeln!(text, "{head} {}", line(missing));
         if missing.verdict.one_of.len() > 1 {
             let _ = writeln!(text, "           decides: {}", separate_by(missing));
         }
     }
-    if let Some(level) = diagnosis.friction_level.filter(Level::is_sure) {
+    if let Some(level) = diagnosis.models.friction_level.filter(Level::is_sure) {
         let _ = writeln!(text, "friction {}", friction(level));
     }
-    for verdict in &diagnosis.refused {
+    for verdict in &diagnosis.answer.refused {
         let id = verdict.effect.name();
-        let why = verdict.refused.as_deref().unwrap_or_default();
+        let why = verdict.refused.as_ref().map_or_else(String::new, Refusal::to_string);
         let _ = writeln!(text, "refused  {id}: {why}");
     }
-    if diagnosis.status == Status::Unexplained {
-        let left = diagnosis.after.tests.iter().filter(|one| one.test.p < SURE);
+    if diagnosis.answer.status == Status::Unexplained {
+        let left = diagnosis.evidence.after.tests.iter().filter(|one| one.test.p < SURE);
         let left: Vec<String> = left
             .map(|one| {
                 let test = &one.test;
                 format!(
                     "{} (chi2 {:.0} of {} columns, p = {:.4})",
-                    words(one.symmetry, &diagnosis.after),
+                    words(one.symmetry, &diagnosis.evidence.after),
                     test.statistic,
                     test.degrees,
                     test.p
@@ -69,11 +70,11 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
             .collect();
         let _ = writeln!(text, "left     {}", left.join("; "));
     }
-    if let Some(proposal) = &diagnosis.proposed {
+    if let Some(proposal) = &diagnosis.answer.proposed {
         let _ = writeln!(text, "form     {}", form(proposal));
     }
-    let fit = &diagnosis.held_out;
-    let of = diagnosis.evidence.origin().runs();
+    let fit = &diagnosis.evidence.errors;
+    let of = diagnosis.evidence.seen.origin().runs();
     let on =
         if fit.are_held_out { format!("held-out {of}") } else { format!("the {of} of the fit") };
     let explained = fit.excess_explained();
@@ -122,11 +123,12 @@ fn form(proposal: &Proposal) -> String {
 }
 
 fn nothing(diagnosis: &Diagnosis) -> String {
-    if diagnosis.status == Status::Unexplained {
+    if diagnosis.answer.status == Status::Unexplained {
         return "something outside the catalogue: no effect, nor two or three, explains it"
             .to_owned();
     }
     let limits: Vec<String> = diagnosis
+        .limits
         .detectable
         .iter()
         .filter_map(|one| {

@@ -1,0 +1,163 @@
+//! The verdicts: what of the best hypothesis is claimed, and what is refused.
+
+use super::searched::Searched;
+use crate::answer::{Kind, Missing};
+use crate::exposure::Exposure;
+use crate::progress::{Cancelled, Watch};
+use crate::resampling::Resampling;
+use crate::search::{Found, Screened, Search};
+use crate::uncertainty::{Interval, Level, Uncertainty};
+use crate::verdict::{
+    Constants, Verdict, judge, judge_constants, judge_instruments, unless_unsure,
+};
+use crate::weighted::Weighted;
+use trackdyn_model::{EffectId, VehicleFile};
+
+/// Residuals may be this much larger than the noise before the noise is taken to be larger.
+const TOLERATED: f64 = 1.1;
+
+/// A search with its verdicts.
+pub(super) struct Judged {
+    /// Evidence, base and candidates.
+    pub search: Search,
+    /// All candidates beside the base, best first.
+    pub screened: Vec<Screened>,
+    /// Effects that move constant ICRs.
+    pub constants: Constants,
+    /// The best hypothesis, refitted to what is claimed.
+    pub best: Found,
+    /// The level of friction in it; none where it is not free.
+    pub friction_level: Option<Level>,
+    /// What is claimed.
+    pub missing: Vec<Missing>,
+    /// What is not.
+    pub refused: Vec<Verdict>,
+}
+
+impl Judged {
+    /// Judges all that the best hypothesis adds, then instruments and constants beside what is left
+    /// of it.
+    pub fn of(
+        searched: Searched,
+        file: &VehicleFile,
+        resampling: Resampling,
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
+        let Searched { search, screened, found } = searched;
+        let constants = Constants::of(&search);
+        let Physics { best, verdicts, intervals, mut refused } =
+            Physics::of(&search, found, &constants, file, resampling, watch)?;
+        let instruments = judge_instruments(&search, &best, resampling, watch)?;
+        let own = claimed(&verdicts);
+        let wrong = judge_constants(&search, &best, &constants, file, &own, resampling, watch)?;
+        let uncertainty = Uncertainty::of(&search, &best);
+        let of_instruments = uncertainty.intervals(&claimed(&instruments));
+        let friction_level = uncertainty.friction_level();
+        let intervals = [intervals, of_instruments].concat();
+        let of = |effect: EffectId| -> Vec<Interval> {
+            intervals.iter().filter(|interval| interval.unknown.is_of(effect)).copied().collect()
+        };
+        let physics = verdicts.into_iter().map(|verdict| (Kind::Physics, verdict));
+        let instruments = instruments.into_iter().map(|verdict| (Kind::Instrument, verdict));
+        let wrong = wrong.into_iter().map(|verdict| (Kind::Constant, verdict));
+        let mut missing = Vec::new();
+        for (kind, verdict) in physics.chain(instruments).chain(wrong) {
+            if verdict.refused.is_some() {
+                refused.push(verdict);
+            } else {
+                let parameters =
+                    if kind == Kind::Constant { Vec::new() } else { of(verdict.effect) };
+                missing.push(Missing { kind, verdict, parameters });
+            }
+        }
+        Ok(Self { search, screened, constants, best, friction_level, missing, refused })
+    }
+
+    /// The evidence in a larger noise; none where what no effect explains is no larger than the
+    /// noise that it was judged in.
+    pub fn rescaled(&self) -> Option<Weighted> {
+        let evidence = &self.search.evidence;
+        let scale = evidence.residual_scale(&self.best.fit.residual);
+        let grows = scale.iter().any(|scale| *scale > TOLERATED);
+        grows.then(|| evidence.with_scale(scale.map(|scale| scale.max(1.0))))
+    }
+}
+
+impl Judged {
+    /// The claimed effects, or else the best candidate, against the evidence.
+    pub fn exposures(&self) -> Vec<Exposure> {
+        let Self { search, screened, constants, best, missing, .. } = self;
+        let claimed = missing.iter().filter(|missing| missing.kind != Kind::Constant);
+        let claimed: Vec<Exposure> = claimed
+            .map(|missing| Exposure::of_fitted(search, &best.fit, missing.verdict.effect))
+            .collect();
+        if !claimed.is_empty() {
+            return claimed;
+        }
+        // Of what constant ICRs can stand for, there is nothing to see.
+        let shows = |one: &&Screened| {
+            one.gain.is_finite() && one.z > 0.0 && !constants.only.contains(&one.effect)
+        };
+        let candidate = screened.iter().find(shows);
+        candidate.map(|one| Exposure::of_candidate(search, one)).into_iter().collect()
+    }
+}
+
+/// The verdicts on what the best hypothesis adds.
+struct Physics {
+    /// The best hypothesis, without what was refused.
+    best: Found,
+    /// The verdicts on what it adds.
+    verdicts: Vec<Verdict>,
+    /// The intervals of what is claimed.
+    intervals: Vec<Interval>,
+    /// What was refused.
+    refused: Vec<Verdict>,
+}
+
+impl Physics {
+    /// A claim is judged beside all others: each time the weakest of them is refused, those that
+    /// are left are asked again.
+    fn of(
+        search: &Search,
+        found: Found,
+        constants: &Constants,
+        file: &VehicleFile,
+        resampling: Resampling,
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
+        // What mostly moves constant ICRs is free in every hypothesis: it stays, claimed or not.
+        let stays = |one: &Verdict| constants.mostly.contains(&one.effect);
+        let mut best = found;
+        let mut refused: Vec<Verdict> = Vec::new();
+        loop {
+            let mut asked = best.effects.clone();
+            asked.retain(|effect| !refused.iter().any(|other| other.effect == *effect));
+            let verdicts = judge(search, &best, &asked, constants, file, resampling, watch)?;
+            let all_stand = verdicts.iter().all(|one| one.refused.is_none() || stays(one));
+            let intervals = if all_stand {
+                Uncertainty::of(search, &best).intervals(&claimed(&verdicts))
+            } else {
+                Vec::new()
+            };
+            let verdicts = verdicts.into_iter().map(|one| unless_unsure(one, &intervals));
+            let (staying, mut verdicts): (Vec<Verdict>, Vec<Verdict>) =
+                verdicts.partition(|one| one.refused.is_some() && stays(one));
+            refused.extend(staying);
+            let fallen = verdicts.iter().enumerate().filter(|(_, one)| one.refused.is_some());
+            let weakest = fallen.min_by(|(_, a), (_, b)| a.support.z.total_cmp(&b.support.z));
+            let Some((place, _)) = weakest else {
+                return Ok(Self { best, verdicts, intervals, refused });
+            };
+            let weakest = verdicts.remove(place);
+            watch.go_on()?;
+            best = search.without(&best, weakest.effect);
+            refused.push(weakest);
+        }
+    }
+}
+
+/// The effects that are not refused.
+fn claimed(verdicts: &[Verdict]) -> Vec<EffectId> {
+    verdicts.iter().filter(|one| one.refused.is_none()).map(|one| one.effect).collect()
+}

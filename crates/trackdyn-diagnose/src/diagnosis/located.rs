@@ -1,0 +1,55 @@
+//! Where the evidence departs from the models before and after.
+
+use super::judged::Judged;
+use crate::locate::cells::{Cell, cells};
+use crate::locate::{Location, Residual, icr_columns};
+use crate::place::sentence;
+use crate::resampling::Resampling;
+use crate::search::Search;
+use crate::verdict::Rules;
+use std::collections::BTreeSet;
+use trackdyn_model::effect::Symmetry;
+
+/// Where the evidence departs.
+pub(super) struct Located {
+    /// From the vehicle as filed with nothing fitted but constant ICRs.
+    pub filed: Location,
+    /// From the base.
+    pub before: Location,
+    /// From the best hypothesis.
+    pub after: Location,
+    /// Symmetries that the best hypothesis leaves broken.
+    pub left_over: Vec<Symmetry>,
+    /// ICRs in cells of driving, beside the base and beside the best hypothesis.
+    pub cells: [Vec<Cell>; 2],
+}
+
+impl Located {
+    /// Where the evidence departs from what was judged.
+    pub fn of(judged: &Judged, resampling: Resampling) -> Self {
+        let evidence = &judged.search.evidence;
+        let (base, best) = (&judged.search.base, &judged.best);
+        let [of_filed, of_base, of_best] =
+            [&base.as_filed, &base.fit, &best.fit].map(|fit| icr_columns(evidence, fit));
+        let filed = Residual { evidence, fit: &base.as_filed, icrs: &of_filed }.locate(resampling);
+        let before = Residual { evidence, fit: &base.fit, icrs: &of_base }.locate(resampling);
+        let of_corrected = Residual { evidence, fit: &best.fit, icrs: &of_best };
+        let after = of_corrected.locate_in_waves(resampling);
+        let left_over = after.left_over(Rules::tolerated(evidence, base, best));
+        let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]
+            .map(|(fit, icrs)| cells(evidence, &fit.residual, icrs));
+        Self { filed, before, after, left_over, cells }
+    }
+
+    /// Symmetries that the evidence breaks, ascending.
+    pub fn broken(&self) -> Vec<Symmetry> {
+        let all = [self.before.broken(), self.filed.broken(), self.left_over.clone()].concat();
+        BTreeSet::from_iter(all).into_iter().collect()
+    }
+
+    /// One sentence: channel, driving, symmetries.
+    pub fn sentence(&self, search: &Search) -> String {
+        let locations = [&self.before, &self.after];
+        sentence(&search.evidence, &search.base, locations, &self.broken())
+    }
+}

@@ -1,0 +1,127 @@
+//! The diagnosis: all stages in order.
+
+use super::evidence::{Cleaned, InNoise, Split};
+use super::judged::Judged;
+use super::located::Located;
+use super::searched::{self, Searched};
+use super::tested::Tested;
+use super::{Answer, Diagnosis, Examined, Limits, Models, Options};
+use crate::corrected::corrected;
+use crate::error::Error;
+use crate::evidence::Evidence;
+use crate::progress::{Observer, Stage, Watch};
+use crate::proposal::{Unexplained, propose};
+use crate::weighted::Weighted;
+use trackdyn_model::VehicleFile;
+
+/// Stages of a round of search and verdicts.
+const ROUND: usize = searched::STAGES_SHARPENED + 1;
+
+/// Stages of the longest way: noise, readings, two rounds, location, held-out runs, proposal and
+/// limits.
+pub const STAGES: usize = 2 + 2 * ROUND + 4;
+
+/// Diagnoses evidence. `observer` is told how far it has come, and may stop it.
+///
+/// # Errors
+/// Evidence without turning, or with too little driving; a vehicle that cannot move so;
+/// [`Error::Cancelled`].
+pub fn diagnose(
+    evidence: &Evidence,
+    file: &VehicleFile,
+    options: &Options,
+    observer: &Observer,
+) -> Result<Diagnosis, Error> {
+    let resampling = options.resampling;
+    let watch = &Watch::new(observer, STAGES);
+
+    // Evidence: runs that are fitted, and runs that judge.
+    let Split { seen, unseen } = Split::new(evidence, &options.held_out)?;
+
+    // Noise: what is left when all that driving could explain is fitted away.
+    let InNoise { seen, base } = watch.stage(Stage::Noise, || InNoise::of(seen, file))?;
+
+    // Cleaned: late stamps and ticks are taken out of the readings.
+    let Cleaned { seen, unseen } =
+        watch.stage(Stage::Readings, || Ok::<_, Error>(Cleaned::of(seen, unseen, &base)))?;
+
+    // Signatures and search, sharpened: once more in the noise beside what was found, where that is
+    // smaller. Then the verdicts.
+    let judged_in = |seen: Weighted| -> Result<Judged, Error> {
+        let base = base.refitted(&seen);
+        let searched = Searched::sharpened(seen, base, watch)?;
+        let judged = || Judged::of(searched, file, resampling, watch);
+        Ok(watch.stage(Stage::Verdicts, judged)?)
+    };
+    let first = judged_in(seen)?;
+
+    // Rescaled: residuals larger than the noise that no effect explains make every claim less sure,
+    // so that all is searched and judged once more in a noise as large as they are.
+    let judged = match first.rescaled() {
+        Some(seen) => judged_in(seen)?,
+        None => {
+            watch.skip(ROUND);
+            first
+        }
+    };
+
+    // Location: where the evidence departs from the models before and after.
+    let located =
+        watch.stage(Stage::Location, || Ok::<_, Error>(Located::of(&judged, resampling)))?;
+
+    // Held-out runs: errors where nothing was fitted or chosen.
+    let tested = watch.stage(Stage::HeldOut, || {
+        Ok::<_, Error>(Tested::of(&judged, unseen.as_ref(), resampling))
+    })?;
+
+    // Proposal: a form for what no effect explains.
+    let proposed = watch.stage(Stage::Proposal, || {
+        let unexplained = Unexplained {
+            evidence: &judged.search.evidence,
+            base: &judged.search.base,
+            best: &judged.best,
+            filed: &located.filed,
+            before: &located.before,
+            after: &located.after,
+            held_out: tested.errors,
+            unseen: tested.unseen.as_ref(),
+        };
+        let is_left = !located.left_over.is_empty();
+        Ok::<_, Error>(is_left.then(|| propose(&unexplained, resampling)).flatten())
+    })?;
+
+    // Limits: what this evidence could have shown, and told apart.
+    let (limits, exposures) =
+        watch.stage(Stage::Limits, || Ok::<_, Error>((Limits::of(&judged), judged.exposures())))?;
+
+    let corrected =
+        corrected(file, &judged.best, judged.friction_level, &judged.missing, proposed.as_ref());
+    let Judged { search, screened: _, constants: _, best, friction_level, missing, refused } =
+        judged;
+    let place = located.sentence(&search);
+    let broken = located.broken();
+    let Located { filed, before, after, left_over, cells } = located;
+    Ok(Diagnosis {
+        answer: Answer {
+            status: super::status(&left_over, &missing),
+            broken,
+            place,
+            missing,
+            refused,
+            proposed,
+            corrected,
+        },
+        evidence: Examined {
+            seen: search.evidence,
+            unseen: tested.unseen,
+            filed,
+            before,
+            after,
+            cells,
+            exposures,
+            errors: tested.errors,
+        },
+        models: Models { base: search.base, best, friction_level },
+        limits,
+    })
+}

@@ -1,0 +1,62 @@
+//! The search: what every candidate would change, and the best hypothesis.
+
+use crate::base::Base;
+use crate::candidate::{Beside, candidates};
+use crate::noise::sharper;
+use crate::progress::{Cancelled, Stage, Watch};
+use crate::search::{Catalogue, Found, Screened, Search};
+use crate::weighted::Weighted;
+use std::sync::Arc;
+
+/// Stages of a search, and of one that may be repeated in a smaller noise.
+pub(super) const STAGES: usize = 2;
+pub(super) const STAGES_SHARPENED: usize = 2 * STAGES;
+
+/// A search that has ended.
+pub(super) struct Searched {
+    /// Evidence, base and candidates.
+    pub search: Search,
+    /// All candidates beside the base, best first.
+    pub screened: Vec<Screened>,
+    /// The best hypothesis.
+    pub found: Found,
+}
+
+impl Searched {
+    /// Searches evidence beside a base.
+    fn of(seen: Weighted, base: Base, watch: &Watch) -> Result<Self, Cancelled> {
+        let search = watch.stage(Stage::Signatures, || Ok(with_signatures(seen, base)))?;
+        watch.stage(Stage::Search, || {
+            let screened = search.screen(&search.nothing());
+            let found = search.best(watch)?;
+            Ok(Self { search, screened, found })
+        })
+    }
+
+    /// Searches evidence beside a base; once more where the noise beside what was found is smaller:
+    /// that hypothesis explains more than contrasts can, which passed for noise.
+    pub fn sharpened(seen: Weighted, base: Base, watch: &Watch) -> Result<Self, Cancelled> {
+        let first = Self::of(seen, base, watch)?;
+        match sharper(&first.search.evidence, &first.found.fit) {
+            Some(seen) => {
+                let base = first.search.base.refitted(&seen);
+                Self::of(seen, base, watch)
+            }
+            None => {
+                watch.skip(STAGES);
+                Ok(first)
+            }
+        }
+    }
+}
+
+/// A search with the signatures of all candidates, and of those between them that gain more.
+fn with_signatures(seen: Weighted, base: Base) -> Search {
+    let base = Arc::new(base);
+    let tried = candidates(&base.instruments, &seen);
+    let beside = Beside::new(&base.fit.hypothesis, &seen);
+    let catalogue = Catalogue { entries: beside.signatures(&tried) };
+    let search = Search::new(seen.clone(), Arc::clone(&base), catalogue);
+    let between = search.between(&beside);
+    search.with_more(between)
+}

@@ -1,0 +1,184 @@
+//! Why something is not claimed.
+
+use crate::hypothesis::Unknown;
+use std::fmt;
+use trackdyn_model::EffectId;
+
+/// Why something is not claimed, with what it had and what it needed. Written, it is a sentence
+/// without its full stop.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// The evidence is not much more probable with it than without.
+    Weak {
+        /// Logarithm of the Bayes factor.
+        ln_bayes_factor: f64,
+        /// The least that is needed.
+        needed: f64,
+    },
+    /// It is strong, but so few blocks of time show it that any single event would look alike.
+    MetOnce {
+        /// Blocks of time that show it, as many as show it alike.
+        blocks: f64,
+        /// Family-wise probability of chance.
+        p: f64,
+    },
+    /// The best of all that were tried may be as good by chance.
+    Chance {
+        /// Family-wise probability of chance.
+        p: f64,
+    },
+    /// It foretells blocks that were left out of its fit too badly.
+    NotForetold {
+        /// Gain of log-likelihood on these blocks.
+        gain: f64,
+        /// Its standard error.
+        error: f64,
+        /// Standard errors that are needed.
+        needed: f64,
+    },
+    /// Recordings that were resampled name something else too often.
+    Unstable {
+        /// Share of them that name it.
+        share: f64,
+        /// The least share that is needed.
+        needed: f64,
+    },
+    /// The other laws may leave as much by their form.
+    WithinForm {
+        /// √ of what the misfit falls by with it.
+        z: f64,
+        /// The least that is needed: a part of what the misfit falls by with all laws.
+        needed: f64,
+    },
+    /// A size ended where it can physically be no larger or smaller.
+    AtLimit {
+        /// The size.
+        size: Unknown,
+        /// Its value.
+        value: f64,
+    },
+    /// So many effects explain it as well that not all of them were asked.
+    TooMany {
+        /// Their number.
+        effects: usize,
+    },
+    /// An effect that the vehicle file has explains it at nearly the size that stands there.
+    NearlyAsFiled {
+        /// That effect.
+        effect: EffectId,
+    },
+    /// Laws of the vehicle file of a slightly other size may leave it.
+    WithinFiled {
+        /// These laws; one stands as often as it has variants.
+        laws: Vec<EffectId>,
+        /// Standard deviations by which it is apart from them.
+        apart: f64,
+        /// The least that is needed.
+        needed: f64,
+    },
+    /// All its sizes may be none, by their own intervals.
+    MayBeNone,
+    /// Constant ICRs are nearly those of the vehicle file.
+    ConstantsAsFiled {
+        /// The largest of their differences, m.
+        largest: f64,
+        /// The least that is needed, as part of the gauge.
+        needed: f64,
+    },
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Weak { ln_bayes_factor, needed } => {
+                write!(f, "ln Bayes factor {ln_bayes_factor:.1}, below {needed}")
+            }
+            Self::MetOnce { blocks, p } => {
+                write!(f, "may have happened once: {blocks:.1} blocks of time show it, p = {p:.3}")
+            }
+            Self::Chance { p } => write!(f, "may be chance: family-wise p = {p:.3}"),
+            Self::NotForetold { gain, error, needed } => write!(
+                f,
+                "gain on held-out blocks {gain:.1} is less than {needed} standard errors of \
+                 {error:.1}"
+            ),
+            Self::Unstable { share, .. } => {
+                write!(f, "named in {:.0} % of resampled recordings only", 100.0 * share)
+            }
+            Self::WithinForm { .. } => {
+                f.write_str("no larger than what the form of the other laws may leave")
+            }
+            Self::AtLimit { size, value } => {
+                let key = size.parameter().map_or("a number", |parameter| parameter.key);
+                write!(f, "{key} = {value} lies at the limit of what is physical")
+            }
+            Self::TooMany { effects } => write!(f, "{effects} effects explain it as well"),
+            Self::NearlyAsFiled { effect } => write!(
+                f,
+                "the vehicle file knows {effect}, which explains it at nearly the filed size"
+            ),
+            Self::WithinFiled { laws, .. } => {
+                let names: Vec<&str> = laws.iter().map(|law| law.name()).collect();
+                let names = names.join(" and ");
+                write!(f, "no more than what {names} of a slightly other size may leave")
+            }
+            Self::MayBeNone => f.write_str("the 95 % interval of its size holds none"),
+            Self::ConstantsAsFiled { largest, needed } => write!(
+                f,
+                "ICRs differ from the vehicle file's by {:.1} mm, less than {:.0} % of the gauge",
+                1e3 * largest,
+                100.0 * needed
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_refusal_says_its_numbers() {
+        let effect = EffectId::of("yaw-inertia").expect("an effect");
+        let size = Unknown::Effect(effect, 0);
+        let key = effect.card().parameters[0].key;
+        let laws = vec![effect, EffectId::of("slope").expect("an effect")];
+        let said = [
+            (
+                Refusal::Weak { ln_bayes_factor: 3.14, needed: 5.0 },
+                "ln Bayes factor 3.1, below 5".to_owned(),
+            ),
+            (
+                Refusal::NotForetold { gain: 2.0, error: 1.5, needed: 2.0 },
+                "gain on held-out blocks 2.0 is less than 2 standard errors of 1.5".to_owned(),
+            ),
+            (
+                Refusal::Unstable { share: 0.815, needed: 0.9 },
+                "named in 82 % of resampled recordings only".to_owned(),
+            ),
+            (
+                Refusal::AtLimit { size, value: 0.25 },
+                format!("{key} = 0.25 lies at the limit of what is physical"),
+            ),
+            (
+                Refusal::NearlyAsFiled { effect },
+                "the vehicle file knows yaw-inertia, which explains it at nearly the filed size"
+                    .to_owned(),
+            ),
+            (
+                Refusal::WithinFiled { laws, apart: 1.0, needed: 3.0 },
+                "no more than what yaw-inertia and slope of a slightly other size may leave"
+                    .to_owned(),
+            ),
+            (
+                Refusal::ConstantsAsFiled { largest: 0.0042, needed: 0.01 },
+                "ICRs differ from the vehicle file's by 4.2 mm, less than 1 % of the gauge"
+                    .to_owned(),
+            ),
+        ];
+        for (refusal, expected) in said {
+            assert_eq!(refusal.to_string(), expected);
+        }
+    }
+}

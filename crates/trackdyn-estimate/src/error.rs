@@ -63,4 +63,7 @@ pub enum Error {
         /// Largest change of a parameter in the last one, m or 1.
         step: f64,
     },
+    /// The caller asked to stop.
+    #[error("stopped before the end")]
+    Cancelled,
 }

@@ -28,8 +28,8 @@ pub mod weighting;
 
 pub use doubt::Doubt;
 pub use error::Error;
-pub use genetic::{GeneticOptions, genetic};
-pub use identification::{Identification, identify};
+pub use genetic::{GeneticOptions, genetic, genetic_unless_stopped};
+pub use identification::{Identification, identify, identify_unless_stopped};
 pub use least_squares::{Estimate, Unknowns, least_squares};
 pub use observations::Observations;
 pub use parameters::{Free, Parameters};

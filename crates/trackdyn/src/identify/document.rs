@@ -1,0 +1,250 @@
+//! The result of an identification as a file, schema `trackdyn.identification/1`.
+
+use super::{FILES, MotionFit};
+use crate::document::{ClockTable, Rounded, to_toml};
+use serde::Serialize;
+use trackdyn_estimate::identification::Fit;
+use trackdyn_estimate::{Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest};
+use trackdyn_model::kinematics::Source;
+use trackdyn_recording::Interval;
+use trackdyn_recording::noise::Component;
+
+#[derive(Serialize)]
+struct File<'a> {
+    schema: &'static str,
+    frame: &'static str,
+    segments: usize,
+    source: SourceTable<'a>,
+    clock: ClockTable<'a>,
+    noise: NoiseTable,
+    method: Vec<MethodTable>,
+}
+
+#[derive(Serialize)]
+struct SourceTable<'a> {
+    #[serde(flatten)]
+    source: &'a Source,
+    robot: &'a str,
+    vehicle_fingerprint: &'a str,
+    gauge_m: f64,
+}
+
+/// Noise of the recording; keys are absent where it does not show it.
+#[derive(Serialize)]
+struct NoiseTable {
+    weights: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pose_forward_m: Option<Rounded>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pose_lateral_m: Option<Rounded>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pose_yaw_rad: Option<Rounded>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    encoder_left_m_s: Option<Rounded>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    encoder_right_m_s: Option<Rounded>,
+}
+
+/// One method with one choice of what is free.
+#[derive(Serialize)]
+struct MethodTable {
+    method: &'static str,
+    free: &'static str,
+    /// Whether the recording determines what is free.
+    determined: bool,
+    /// Kinematics file with these numbers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    file: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cost: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cost_unit: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    whitened_rms: Option<Rounded>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    blocks: Option<usize>,
+    /// Why it is not determined.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    doubts: Vec<String>,
+    /// What was asked for beside the ICRs and is not fitted: why.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    not_fitted: Vec<String>,
+    estimate: Vec<EstimateTable>,
+}
+
+#[derive(Serialize)]
+struct EstimateTable {
+    name: &'static str,
+    unit: &'static str,
+    value: Rounded,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    standard_error: Option<Rounded>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    low95: Option<Rounded>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    high95: Option<Rounded>,
+}
+
+/// The text of `identification.toml`; `source` is that of the kinematics files.
+pub(super) fn text(fit: &MotionFit, source: &Source) -> String {
+    let (found, gauge) = (&fit.found, fit.gauge());
+    let mut method = vec![of_spin_test(&found.spin_test, gauge)];
+    for (fit, file) in found.fits.iter().zip(FILES) {
+        method.push(of_genetic(fit, gauge));
+        method.push(of_least_squares(fit, gauge, found.weighted_by_noise, file));
+    }
+    to_toml(&File {
+        schema: "trackdyn.identification/1",
+        frame: "paper",
+        segments: found.segments,
+        source: SourceTable {
+            source,
+            robot: fit.robot(),
+            vehicle_fingerprint: fit.vehicle_fingerprint(),
+            gauge_m: gauge,
+        },
+        clock: ClockTable::of(&found.clock),
+        noise: of_noise(found),
+        method,
+    })
+}
+
+fn of_noise(found: &Identification) -> NoiseTable {
+    let poses = found.noise.moving.as_ref().or(found.noise.standing.as_ref());
+    let white = |component: &Component| Rounded(component.white);
+    let encoders = found.noise.encoders.map(|noise| noise.map(|noise| Rounded(noise.deviation)));
+    NoiseTable {
+        weights: if found.weighted_by_noise { "noise" } else { "equal" },
+        pose_forward_m: poses.map(|poses| white(&poses.forward)),
+        pose_lateral_m: poses.map(|poses| white(&poses.lateral)),
+        pose_yaw_rad: poses.map(|poses| white(&poses.yaw)),
+        encoder_left_m_s: encoders.left,
+        encoder_right_m_s: encoders.right,
+    }
+}
+
+impl MethodTable {
+    fn new(method: &'static str, free: &'static str) -> Self {
+        Self {
+            method,
+            free,
+            determined: true,
+            file: None,
+            cost: None,
+            cost_unit: None,
+            whitened_rms: None,
+            blocks: None,
+            doubts: Vec::new(),
+            not_fitted: Vec::new(),
+            estimate: Vec::new(),
+        }
+    }
+
+    fn refused(self, doubts: Vec<String>) -> Self {
+        Self { determined: doubts.is_empty(), doubts, ..self }
+    }
+}
+
+fn of_spin_test(spin_test: &Result<SpinTest, Error>, gauge: f64) -> MethodTable {
+    let table = MethodTable::new("spin-test", "distance");
+    match spin_test {
+        Ok(spin) => MethodTable { estimate: of_spin(spin, gauge), ..table },
+        Err(reason) => table.refused(vec![reason.to_string()]),
+    }
+}
+
+fn of_spin(spin: &SpinTest, gauge: f64) -> Vec<EstimateTable> {
+    // χ falls as the distance grows.
+    let chi = |interval: &Interval| Interval {
+        value: gauge / interval.value,
+        deviation: gauge / interval.value.powi(2) * interval.deviation,
+        low: gauge / interval.high,
+        high: gauge / interval.low,
+    };
+    let row = |name, unit, value, interval: Option<Interval>| match interval {
+        Some(interval) => of_interval(name, unit, &interval),
+        None => EstimateTable {
+            name,
+            unit,
+            value: Rounded(value),
+            standard_error: None,
+            low95: None,
+            high95: None,
+        },
+    };
+    vec![
+        row("x_r - x_l", "m", spin.gap, spin.interval),
+        row("chi", "1", spin.steering_efficiency, spin.interval.as_ref().map(chi)),
+    ]
+}
+
+fn name_of(free: Free) -> &'static str {
+    match free {
+        Free::Icrs => "icrs",
+        Free::IcrsAndAlphas => "icrs-and-alphas",
+    }
+}
+
+fn of_genetic(fit: &Fit, gauge: f64) -> MethodTable {
+    let doubts = if let Err(Error::NotDetermined(doubt)) = &fit.least_squares {
+        vec![doubt.to_string()]
+    } else {
+        Vec::new()
+    };
+    MethodTable {
+        cost: Some(fit.genetic.cost),
+        cost_unit: Some("m^2"),
+        blocks: Some(fit.genetic_estimate.filled_blocks),
+        estimate: of_estimate(&fit.genetic_estimate, gauge),
+        ..MethodTable::new("genetic", name_of(fit.free)).refused(doubts)
+    }
+}
+
+fn of_least_squares(fit: &Fit, gauge: f64, by_noise: bool, file: &'static str) -> MethodTable {
+    let table = MethodTable {
+        not_fitted: fit.refused.iter().map(Doubt::to_string).collect(),
+        ..MethodTable::new("least-squares", name_of(fit.free))
+    };
+    match &fit.least_squares {
+        Ok(estimate) => MethodTable {
+            file: fit.doubts.is_empty().then_some(file),
+            cost: Some(estimate.cost),
+            cost_unit: Some(if by_noise { "1" } else { "m^2" }),
+            whitened_rms: by_noise.then_some(Rounded(estimate.whitened_rms)),
+            blocks: Some(estimate.filled_blocks),
+            estimate: of_estimate(estimate, gauge),
+            ..table.refused(fit.doubts.iter().map(Doubt::to_string).collect())
+        },
+        Err(reason) => table.refused(vec![reason.to_string()]),
+    }
+}
+
+fn of_estimate(estimate: &Estimate, gauge: f64) -> Vec<EstimateTable> {
+    let unknowns = &estimate.unknowns;
+    let parameters = (0..unknowns.free.count()).filter_map(|k| {
+        let (name, unit) = (Parameters::NAMES[k], Parameters::UNITS[k]);
+        Some(of_interval(name, unit, &estimate.interval(k)?))
+    });
+    let sensor = unknowns.nuisances.iter().filter_map(|&nuisance| {
+        Some(of_interval(nuisance.symbol(), nuisance.unit(), &estimate.nuisance(nuisance)?))
+    });
+    let derived = [
+        of_interval("x_r - x_l", "m", &estimate.gap()),
+        of_interval("chi", "1", &estimate.steering_efficiency(gauge)),
+        of_interval("e", "1", &estimate.eccentricity()),
+    ];
+    parameters.chain(sensor).chain(derived).collect()
+}
+
+fn of_interval(name: &'static str, unit: &'static str, interval: &Interval) -> EstimateTable {
+    let Interval { value, deviation, low, high } = *interval;
+    let finite = |value: f64| value.is_finite().then_some(Rounded(value));
+    EstimateTable {
+        name,
+        unit,
+        value: Rounded(value),
+        standard_error: finite(deviation),
+        low95: finite(low),
+        high95: finite(high),
+    }
+}

@@ -2,8 +2,8 @@
 
 use crate::stderr::say;
 use std::path::{Path, PathBuf};
-use trackdyn_core::document::Document;
-use trackdyn_model::kinematics::{KinematicsFile, Source};
+use trackdyn::crates::core::document::Document;
+use trackdyn::crates::model::kinematics::{KinematicsFile, Source};
 
 /// Removes a kinematics file where this run gives none, if it comes from an earlier run of the same kind.
 ///

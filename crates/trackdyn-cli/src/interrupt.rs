@@ -39,7 +39,7 @@ pub fn end_between_files() -> io::Result<()> {
     use signal_hook::consts::{SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
-    use trackdyn_core::output::files_at_rest;
+    use trackdyn::crates::core::output::files_at_rest;
 
     let mut signals = Signals::new([SIGINT, SIGTERM])?;
     std::thread::Builder::new().name("signals".to_owned()).spawn(move || {

@@ -3,12 +3,12 @@
 use crate::stderr::say;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use trackdyn_core::Pose;
-use trackdyn_core::document::Document;
-use trackdyn_model::effect::{Stage, Symmetry};
-use trackdyn_model::{ActiveEffect, Circumstance, Effects, Model, VehicleFile};
-use trackdyn_recording::rosbag::{JointSignal, RosbagOptions};
-use trackdyn_recording::{Format, Recording, RunList, tum};
+use trackdyn::crates::core::Pose;
+use trackdyn::crates::core::document::Document;
+use trackdyn::crates::model::effect::{Stage, Symmetry};
+use trackdyn::crates::model::{ActiveEffect, Circumstance, Effects, Model, VehicleFile};
+use trackdyn::crates::recording::rosbag::{JointSignal, RosbagOptions};
+use trackdyn::crates::recording::{Format, Recording, RunList, tum};
 
 /// The vehicle and its effects.
 #[derive(Args)]
@@ -201,7 +201,7 @@ impl RecordingOptions {
         }
         let recording = match tracks_of(path, self.tracks.as_deref())? {
             Some(tracks) => tum::read(path, tracks, "unknown")?,
-            None => trackdyn_recording::read(path, &self.rosbag())?,
+            None => trackdyn::crates::recording::read(path, &self.rosbag())?,
         };
         for warning in recording.warnings() {
             say(format_args!("note: {warning}"));
@@ -365,9 +365,9 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 /// What is wrong with a drive, in the words of the command line.
-pub fn of_drive(error: &trackdyn_drive::Error) -> String {
+pub fn of_drive(error: &trackdyn::crates::drive::Error) -> String {
     match error {
-        trackdyn_drive::Error::Option { name, value, expected } => {
+        trackdyn::crates::drive::Error::Option { name, value, expected } => {
             format!("--{} {value}: expected {expected}", name.replace('_', "-"))
         }
         other => other.to_string(),

@@ -2,9 +2,9 @@
 
 use crate::options::command_line;
 use serde::Serialize;
-use trackdyn_core::output::fingerprint;
-use trackdyn_model::VehicleFile;
-use trackdyn_recording::Clock;
+use trackdyn::crates::core::output::fingerprint;
+use trackdyn::crates::model::VehicleFile;
+use trackdyn::crates::recording::Clock;
 
 /// Head of a document: what it is, and the vehicle it was made from.
 #[derive(Serialize)]

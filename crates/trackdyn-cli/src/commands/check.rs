@@ -12,10 +12,10 @@ use reference::{Case, Reference};
 use std::error::Error;
 use std::fmt::Write;
 use std::path::PathBuf;
-use trackdyn_core::document::Document;
-use trackdyn_model::map::Statistics;
-use trackdyn_model::{Circumstance, VehicleFile};
-use trackdyn_model::{Grid, IcrMap, Status};
+use trackdyn::crates::core::document::Document;
+use trackdyn::crates::model::map::Statistics;
+use trackdyn::crates::model::{Circumstance, VehicleFile};
+use trackdyn::crates::model::{Grid, IcrMap, Status};
 
 /// Options of `trackdyn check`.
 #[derive(Args)]

@@ -11,12 +11,12 @@ use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
-use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
-use trackdyn_diagnose::diagnosis::STAGES;
-use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, diagnose};
-use trackdyn_model::VehicleFile;
-use trackdyn_model::kinematics::Source;
-use trackdyn_recording::{OperatingPoints, Recording, RunList};
+use trackdyn::crates::core::output::{fingerprint, prepare_folder, write_file};
+use trackdyn::crates::diagnose::diagnosis::STAGES;
+use trackdyn::crates::diagnose::{Diagnosis, DiagnosisFile, Evidence, diagnose};
+use trackdyn::crates::model::VehicleFile;
+use trackdyn::crates::model::kinematics::Source;
+use trackdyn::crates::recording::{OperatingPoints, Recording, RunList};
 
 /// Options of `trackdyn diagnose`.
 #[derive(Args)]
@@ -60,7 +60,7 @@ pub fn run(options: &Options) -> Outcome {
     let subject = subject(options, &vehicle)?;
     prepare_folder(&options.out)?;
     let progress = Progress::new(2 * STAGES.len());
-    let settings = trackdyn_diagnose::Options {
+    let settings = trackdyn::crates::diagnose::Options {
         held_out: subject.held_out.clone(),
         draws: options.draws as usize,
         seed: options.seed,
@@ -176,7 +176,7 @@ fn subject(
 }
 
 /// Why a recording cannot be diagnosed, after its name.
-fn about(options: &Options, error: &trackdyn_diagnose::Error) -> String {
+fn about(options: &Options, error: &trackdyn::crates::diagnose::Error) -> String {
     format!("{}: {error}", options.recording.recording.display())
 }
 

@@ -12,14 +12,14 @@ use crate::stdout::show;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use trackdyn_core::document::Document;
-use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
-use trackdyn_drive::tracking::{DriveOptions, Estimate};
-use trackdyn_drive::{Ending, Journey, Path, Steering, Tracker, drive};
-use trackdyn_model::Model;
-use trackdyn_model::kinematics::KinematicsFile;
-use trackdyn_model::{Kinematics, Transient};
-use trackdyn_report::{TrackedDrive, path_tracking};
+use trackdyn::crates::core::document::Document;
+use trackdyn::crates::core::output::{fingerprint, prepare_folder, write_file};
+use trackdyn::crates::drive::tracking::{DriveOptions, Estimate};
+use trackdyn::crates::drive::{Ending, Journey, Path, Steering, Tracker, drive};
+use trackdyn::crates::model::Model;
+use trackdyn::crates::model::kinematics::KinematicsFile;
+use trackdyn::crates::model::{Kinematics, Transient};
+use trackdyn::crates::report::{TrackedDrive, path_tracking};
 
 /// Options of `trackdyn drive`.
 #[derive(Args)]
@@ -150,7 +150,7 @@ fn follow(
     tracker: &Tracker,
     steering: &dyn Steering,
     options: &Options,
-) -> Result<Journey, trackdyn_drive::Error> {
+) -> Result<Journey, trackdyn::crates::drive::Error> {
     const PARTS: usize = 1000;
     let mut robot = Transient::at_rest(model, 0.0, path.start());
     let estimate = match options.estimate {

@@ -5,8 +5,8 @@ use crate::exit::Exit;
 use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
-use trackdyn_model::effect::{Card, Parameter, Symmetry, Term};
-use trackdyn_model::{ActiveEffect, CATALOGUE};
+use trackdyn::crates::model::effect::{Card, Parameter, Symmetry, Term};
+use trackdyn::crates::model::{ActiveEffect, CATALOGUE};
 
 /// Options of `trackdyn effects`.
 #[derive(Args)]

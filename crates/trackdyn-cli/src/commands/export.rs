@@ -6,10 +6,10 @@ use crate::options::{command_line, pair};
 use crate::stderr::say;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
-use trackdyn_core::document::Document;
-use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
-use trackdyn_export::ros2::{Published, Wheels};
-use trackdyn_export::{
+use trackdyn::crates::core::document::Document;
+use trackdyn::crates::core::output::{fingerprint, prepare_folder, write_file};
+use trackdyn::crates::export::ros2::{Published, Wheels};
+use trackdyn::crates::export::{
     EquivalentDrive, Error, Frames, Name, NodeName, Provenance, Residuals, TextFile, gz, ros2, urdf,
 };
 

@@ -15,13 +15,13 @@ use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::{Path, PathBuf};
-use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_estimate::genetic::GeneticOptions;
-use trackdyn_estimate::identification::{self, Fit};
-use trackdyn_estimate::{Free, Nuisance, identify};
-use trackdyn_model::VehicleFile;
-use trackdyn_model::kinematics::{KinematicsFile, Source};
-use trackdyn_recording::{OperatingPoints, Recording};
+use trackdyn::crates::core::output::{prepare_folder, write_file};
+use trackdyn::crates::estimate::genetic::GeneticOptions;
+use trackdyn::crates::estimate::identification::{self, Fit};
+use trackdyn::crates::estimate::{Free, Nuisance, identify};
+use trackdyn::crates::model::VehicleFile;
+use trackdyn::crates::model::kinematics::{KinematicsFile, Source};
+use trackdyn::crates::recording::{OperatingPoints, Recording};
 
 /// Options of `trackdyn identify`.
 #[derive(Args)]

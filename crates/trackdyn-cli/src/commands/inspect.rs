@@ -9,10 +9,10 @@ use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use trackdyn_recording::clock::{ClockSearch, clock_offset};
-use trackdyn_recording::format::Format;
-use trackdyn_recording::rosbag::{self, RosbagOptions};
-use trackdyn_recording::{OperatingPoint, OperatingPoints, Recording, folder, tum};
+use trackdyn::crates::recording::clock::{ClockSearch, clock_offset};
+use trackdyn::crates::recording::format::Format;
+use trackdyn::crates::recording::rosbag::{self, RosbagOptions};
+use trackdyn::crates::recording::{OperatingPoint, OperatingPoints, Recording, folder, tum};
 
 /// Options of `trackdyn inspect`.
 #[derive(Args)]
@@ -48,7 +48,7 @@ pub fn run(options: &Options) -> Outcome {
 }
 
 /// A trajectory alone, and the option that adds its track speeds.
-fn trajectory(path: &Path) -> Result<String, trackdyn_recording::Error> {
+fn trajectory(path: &Path) -> Result<String, trackdyn::crates::recording::Error> {
     let poses = tum::read_poses(path)?.samples;
     let (first, last) = (poses.first().map_or(0.0, |p| p.t), poses.last().map_or(0.0, |p| p.t));
     Ok(format!(
@@ -82,7 +82,7 @@ fn points(table: &OperatingPoints) -> String {
 }
 
 /// The topics of a bag, and the options that read it.
-fn bag(options: &Options) -> Result<String, trackdyn_recording::Error> {
+fn bag(options: &Options) -> Result<String, trackdyn::crates::recording::Error> {
     let inspection = rosbag::inspect(&options.recording)?;
     let mut text = format!("{:>9} {:>9}  {:40} type\n", "messages", "seconds", "topic");
     for topic in &inspection.topics {
@@ -136,8 +136,9 @@ fn suggestion(options: &RosbagOptions) -> String {
 /// The runs of a recording, and its clocks.
 fn runs(recording: &Recording) -> String {
     let runs = recording.runs();
-    let total =
-        |count: fn(&trackdyn_recording::Run) -> usize| runs.iter().map(count).sum::<usize>();
+    let total = |count: fn(&trackdyn::crates::recording::Run) -> usize| {
+        runs.iter().map(count).sum::<usize>()
+    };
     let mut text = format!(
         "{}: robot {}, fingerprint {}\n",
         recording.name(),
@@ -148,7 +149,7 @@ fn runs(recording: &Recording) -> String {
         text,
         "{} runs, {:.0} s, {} readings of the tracks, {} poses, {} readings of an IMU",
         runs.len(),
-        runs.iter().map(trackdyn_recording::Run::duration).sum::<f64>(),
+        runs.iter().map(trackdyn::crates::recording::Run::duration).sum::<f64>(),
         total(|run| run.tracks().len()),
         total(|run| run.poses().len()),
         total(|run| run.imu().len()),

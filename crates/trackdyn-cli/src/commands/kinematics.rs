@@ -11,11 +11,11 @@ use clap::{ArgGroup, Args};
 use std::error::Error;
 use std::fmt::Write;
 use std::path::PathBuf;
-use trackdyn_core::document::Document;
-use trackdyn_core::frames::ros_twist_from_paper;
-use trackdyn_core::{PerSide, Twist};
-use trackdyn_model::kinematics::{KinematicsFile, Source};
-use trackdyn_model::{Grid, IcrMap, Kinematics};
+use trackdyn::crates::core::document::Document;
+use trackdyn::crates::core::frames::ros_twist_from_paper;
+use trackdyn::crates::core::{PerSide, Twist};
+use trackdyn::crates::model::kinematics::{KinematicsFile, Source};
+use trackdyn::crates::model::{Grid, IcrMap, Kinematics};
 
 /// Options of `trackdyn kinematics`.
 #[derive(Args)]

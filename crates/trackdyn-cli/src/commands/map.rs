@@ -13,10 +13,10 @@ use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
-use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
-use trackdyn_model::VehicleFile;
-use trackdyn_model::kinematics::{GridSource, KinematicsFile, Source};
-use trackdyn_model::{Grid, IcrMap, Status};
+use trackdyn::crates::core::output::{fingerprint, prepare_folder, write_file};
+use trackdyn::crates::model::VehicleFile;
+use trackdyn::crates::model::kinematics::{GridSource, KinematicsFile, Source};
+use trackdyn::crates::model::{Grid, IcrMap, Status};
 
 /// Options of `trackdyn map`.
 #[derive(Args)]
@@ -56,7 +56,7 @@ pub fn run(options: &Options) -> Outcome {
     let source = source(&file, &map);
     let caption =
         format!("trackdyn {}, vehicle and effects {}", source.version, source.fingerprint);
-    write_file(&picture, &trackdyn_report::icr_map(&map, &model, &caption)?)?;
+    write_file(&picture, &trackdyn::crates::report::icr_map(&map, &model, &caption)?)?;
     let parameters = options.out.join("kinematics.toml");
     let Some(statistics) = statistics else {
         remove_earlier(&parameters, |source| source.grid.is_some())?;

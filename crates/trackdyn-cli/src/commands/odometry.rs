@@ -16,9 +16,9 @@ use inputs::Inputs;
 use std::collections::BTreeSet;
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_estimate::odometry::{Comparison, tum};
-use trackdyn_recording::Clock;
+use trackdyn::crates::core::output::{prepare_folder, write_file};
+use trackdyn::crates::estimate::odometry::{Comparison, tum};
+use trackdyn::crates::recording::Clock;
 
 /// Options of `trackdyn odometry`.
 #[derive(Args)]
@@ -81,7 +81,7 @@ fn write(
         inputs.recording.fingerprint(),
         inputs.vehicle_fingerprint
     );
-    let picture = trackdyn_report::odometry(result, inputs.recording.name(), &caption)?;
+    let picture = trackdyn::crates::report::odometry(result, inputs.recording.name(), &caption)?;
     write_file(&out.join("odometry.png"), &picture)?;
     write_file(&out.join("runs.csv"), runs_table::text(result).as_bytes())?;
     let count = trajectories(&out.join("trajectories"), &out.join("odometry.toml"), result)?;

@@ -11,13 +11,13 @@ use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
-use trackdyn_core::document::Document;
-use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
-use trackdyn_diagnose::plan::{Options as PlanOptions, Question, STAGES};
-use trackdyn_diagnose::{Error, PlanFile, plan};
-use trackdyn_drive::schedules::{self, ScheduledRun};
-use trackdyn_model::VehicleFile;
-use trackdyn_model::kinematics::Source;
+use trackdyn::crates::core::document::Document;
+use trackdyn::crates::core::output::{fingerprint, prepare_folder, write_file};
+use trackdyn::crates::diagnose::plan::{Options as PlanOptions, Question, STAGES};
+use trackdyn::crates::diagnose::{Error, PlanFile, plan};
+use trackdyn::crates::drive::schedules::{self, ScheduledRun};
+use trackdyn::crates::model::VehicleFile;
+use trackdyn::crates::model::kinematics::Source;
 
 /// Options of `trackdyn plan`.
 #[derive(Args)]

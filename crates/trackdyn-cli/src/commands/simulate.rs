@@ -12,14 +12,16 @@ use crate::stdout::show;
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
-use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_core::{PerSide, Trajectory};
-use trackdyn_drive::schedules::{self, ScheduleKind, ScheduleOptions, ScheduledRun, as_commanded};
-use trackdyn_drive::sensors::{Preset, Sensors, Views};
-use trackdyn_drive::truth;
-use trackdyn_model::{Circumstance, Model, VehicleFile};
-use trackdyn_model::{Stationary, Transient};
-use trackdyn_recording::{Recording, Source, UncheckedRun, folder};
+use trackdyn::crates::core::output::{prepare_folder, write_file};
+use trackdyn::crates::core::{PerSide, Trajectory};
+use trackdyn::crates::drive::schedules::{
+    self, ScheduleKind, ScheduleOptions, ScheduledRun, as_commanded,
+};
+use trackdyn::crates::drive::sensors::{Preset, Sensors, Views};
+use trackdyn::crates::drive::truth;
+use trackdyn::crates::model::{Circumstance, Model, VehicleFile};
+use trackdyn::crates::model::{Stationary, Transient};
+use trackdyn::crates::recording::{Recording, Source, UncheckedRun, folder};
 use trackdyn_second_simulator::ActiveMechanism;
 
 /// Options of `trackdyn simulate`.

@@ -5,11 +5,11 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use toml::Spanned;
-use trackdyn_core::document::{Document, DocumentError};
-use trackdyn_core::real;
-use trackdyn_model::ActiveEffect;
-use trackdyn_model::Grid;
-use trackdyn_model::map::{GridError, Statistics};
+use trackdyn::crates::core::document::{Document, DocumentError};
+use trackdyn::crates::core::real;
+use trackdyn::crates::model::ActiveEffect;
+use trackdyn::crates::model::Grid;
+use trackdyn::crates::model::map::{GridError, Statistics};
 
 const SCHEMA: &str = "trackdyn.reference/1";
 

@@ -4,10 +4,10 @@ use super::Subject;
 use crate::earlier::remove_of;
 use crate::stderr::say;
 use std::path::Path;
-use trackdyn_core::output::{fingerprint, write_file};
-use trackdyn_diagnose::{Diagnosis, DiagnosisFile};
-use trackdyn_model::VehicleFile;
-use trackdyn_report::{diagnosis_figures, diagnosis_html};
+use trackdyn::crates::core::output::{fingerprint, write_file};
+use trackdyn::crates::diagnose::{Diagnosis, DiagnosisFile};
+use trackdyn::crates::model::VehicleFile;
+use trackdyn::crates::report::{diagnosis_figures, diagnosis_html};
 
 /// The one figure that not every diagnosis has.
 const PATH: &str = "path.png";
@@ -28,7 +28,7 @@ pub fn write(
         vehicle.vehicle.name,
         fingerprint(vehicle.to_toml().as_bytes())
     );
-    let subject = trackdyn_report::Subject {
+    let subject = trackdyn::crates::report::Subject {
         diagnosis,
         vehicle,
         file,

@@ -1,17 +1,17 @@
 //! A diagnosis in one screen.
 
 use std::fmt::Write;
-use trackdyn_diagnose::diagnosis::{Kind, Missing};
-use trackdyn_diagnose::document::separate_by;
-use trackdyn_diagnose::locate::SURE;
-use trackdyn_diagnose::noise;
-use trackdyn_diagnose::place::words;
-use trackdyn_diagnose::proposal::Proposal;
-use trackdyn_diagnose::proposal::words::decimals;
-use trackdyn_diagnose::uncertainty::{Interval, Level};
-use trackdyn_diagnose::{Diagnosis, Evidence, Status};
-use trackdyn_model::CATALOGUE;
-use trackdyn_model::effect::Symmetry;
+use trackdyn::crates::diagnose::diagnosis::{Kind, Missing};
+use trackdyn::crates::diagnose::document::separate_by;
+use trackdyn::crates::diagnose::locate::SURE;
+use trackdyn::crates::diagnose::noise;
+use trackdyn::crates::diagnose::place::words;
+use trackdyn::crates::diagnose::proposal::Proposal;
+use trackdyn::crates::diagnose::proposal::words::decimals;
+use trackdyn::crates::diagnose::uncertainty::{Interval, Level};
+use trackdyn::crates::diagnose::{Diagnosis, Evidence, Status};
+use trackdyn::crates::model::CATALOGUE;
+use trackdyn::crates::model::effect::Symmetry;
 
 /// Effects whose limits are printed where nothing is missing.
 const LIMITS: usize = 6;

@@ -4,9 +4,9 @@ use super::Drive;
 use crate::tables::Head;
 use serde::Serialize;
 use std::fmt::Write;
-use trackdyn_core::output::fingerprint;
-use trackdyn_drive::{Ending, Path, Tracker};
-use trackdyn_model::VehicleFile;
+use trackdyn::crates::core::output::fingerprint;
+use trackdyn::crates::drive::{Ending, Path, Tracker};
+use trackdyn::crates::model::VehicleFile;
 
 #[derive(Serialize)]
 struct File<'a> {

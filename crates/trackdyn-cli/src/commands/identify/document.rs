@@ -2,13 +2,15 @@
 
 use crate::tables::{ClockTable, rounded};
 use serde::Serialize;
-use trackdyn_core::output::fingerprint;
-use trackdyn_estimate::identification::Fit;
-use trackdyn_estimate::{Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest};
-use trackdyn_model::VehicleFile;
-use trackdyn_model::kinematics::Source;
-use trackdyn_recording::noise::Component;
-use trackdyn_recording::{Interval, Recording};
+use trackdyn::crates::core::output::fingerprint;
+use trackdyn::crates::estimate::identification::Fit;
+use trackdyn::crates::estimate::{
+    Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest,
+};
+use trackdyn::crates::model::VehicleFile;
+use trackdyn::crates::model::kinematics::Source;
+use trackdyn::crates::recording::noise::Component;
+use trackdyn::crates::recording::{Interval, Recording};
 
 #[derive(Serialize)]
 struct File<'a> {

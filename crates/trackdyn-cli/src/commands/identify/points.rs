@@ -6,15 +6,15 @@ use crate::options::{command_line, refuse_for_points};
 use crate::stdout::show;
 use std::fmt::Write;
 use std::path::Path;
-use trackdyn_core::document::Document;
-use trackdyn_core::output::{fingerprint, prepare_folder};
-use trackdyn_estimate::least_squares::Loss;
-use trackdyn_estimate::steady::{SteadyEstimate, lagging};
-use trackdyn_estimate::{Doubt, Error, Free, Parameters, fit_points};
-use trackdyn_model::Kinematics;
-use trackdyn_model::VehicleFile;
-use trackdyn_model::kinematics::{KinematicsFile, Source};
-use trackdyn_recording::{OperatingPoint, OperatingPoints};
+use trackdyn::crates::core::document::Document;
+use trackdyn::crates::core::output::{fingerprint, prepare_folder};
+use trackdyn::crates::estimate::least_squares::Loss;
+use trackdyn::crates::estimate::steady::{SteadyEstimate, lagging};
+use trackdyn::crates::estimate::{Doubt, Error, Free, Parameters, fit_points};
+use trackdyn::crates::model::Kinematics;
+use trackdyn::crates::model::VehicleFile;
+use trackdyn::crates::model::kinematics::{KinematicsFile, Source};
+use trackdyn::crates::recording::{OperatingPoint, OperatingPoints};
 
 /// Points with the largest residuals that are shown.
 const WORST: usize = 5;

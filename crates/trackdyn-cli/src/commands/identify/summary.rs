@@ -1,16 +1,16 @@
 //! The result of an identification as text.
 
 use std::fmt::Write;
-use trackdyn_estimate::identification::Fit;
-use trackdyn_estimate::{Estimate, Free, Identification, Nuisance, Parameters};
-use trackdyn_model::Vehicle;
-use trackdyn_recording::{Clock, Interval, Recording};
+use trackdyn::crates::estimate::identification::Fit;
+use trackdyn::crates::estimate::{Estimate, Free, Identification, Nuisance, Parameters};
+use trackdyn::crates::model::Vehicle;
+use trackdyn::crates::recording::{Clock, Interval, Recording};
 
 /// One screen: the recording, its clock and noise, the methods side by side.
 pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) -> String {
     let mut text = String::new();
     let runs = recording.runs();
-    let seconds: f64 = runs.iter().map(trackdyn_recording::Run::duration).sum();
+    let seconds: f64 = runs.iter().map(trackdyn::crates::recording::Run::duration).sum();
     let _ = writeln!(
         text,
         "{}: {} runs, {seconds:.0} s, {} segments; {}, gauge {} m\n",

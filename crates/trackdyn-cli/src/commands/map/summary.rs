@@ -1,9 +1,9 @@
 //! The result of a map as text.
 
 use std::fmt::Write;
-use trackdyn_model::IcrMap;
-use trackdyn_model::VehicleFile;
-use trackdyn_model::map::{Sector, Statistics};
+use trackdyn::crates::model::IcrMap;
+use trackdyn::crates::model::VehicleFile;
+use trackdyn::crates::model::map::{Sector, Statistics};
 
 /// One screen: parameters, what kinds of motion the map holds, sectors.
 pub fn text(file: &VehicleFile, map: &IcrMap, statistics: Option<&Statistics>) -> String {

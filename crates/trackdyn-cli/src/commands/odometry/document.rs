@@ -4,9 +4,9 @@ use super::inputs::Inputs;
 use super::summary::end;
 use crate::tables::{ClockTable, rounded};
 use serde::Serialize;
-use trackdyn_estimate::odometry::comparison::{Component, SpanErrors};
-use trackdyn_estimate::odometry::{Comparison, Estimate, ParameterSet, Span};
-use trackdyn_recording::Clock;
+use trackdyn::crates::estimate::odometry::comparison::{Component, SpanErrors};
+use trackdyn::crates::estimate::odometry::{Comparison, Estimate, ParameterSet, Span};
+use trackdyn::crates::recording::Clock;
 
 #[derive(Serialize)]
 struct File<'a> {
@@ -164,16 +164,18 @@ fn of_span<'a>(result: &'a Comparison, errors: &SpanErrors) -> SpanTable<'a> {
         Span::Distance(length) => ("distance", Some(length), None),
         Span::Duration(length) => ("duration", None, Some(length)),
     };
-    let of_set =
-        |(set, errors): (&'a ParameterSet, &trackdyn_estimate::odometry::comparison::SetErrors)| {
-            ErrorTable {
-                name: set.name(),
-                along_m: of_component(&errors.along),
-                across_m: of_component(&errors.across),
-                yaw_rad: of_component(&errors.yaw),
-                position_m: of_component(&errors.position),
-            }
-        };
+    let of_set = |(set, errors): (
+        &'a ParameterSet,
+        &trackdyn::crates::estimate::odometry::comparison::SetErrors,
+    )| {
+        ErrorTable {
+            name: set.name(),
+            along_m: of_component(&errors.along),
+            across_m: of_component(&errors.across),
+            yaw_rad: of_component(&errors.yaw),
+            position_m: of_component(&errors.position),
+        }
+    };
     SpanTable {
         kind,
         length_m,

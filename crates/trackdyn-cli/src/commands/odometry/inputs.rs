@@ -4,12 +4,12 @@ use super::Options;
 use crate::options::read_vehicle;
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use trackdyn_core::document::Document;
-use trackdyn_core::output::fingerprint;
-use trackdyn_estimate::odometry::{Comparison, ParameterSet};
-use trackdyn_model::Kinematics;
-use trackdyn_model::kinematics::{KinematicsFile, Source};
-use trackdyn_recording::{Recording, RunList};
+use trackdyn::crates::core::document::Document;
+use trackdyn::crates::core::output::fingerprint;
+use trackdyn::crates::estimate::odometry::{Comparison, ParameterSet};
+use trackdyn::crates::model::Kinematics;
+use trackdyn::crates::model::kinematics::{KinematicsFile, Source};
+use trackdyn::crates::recording::{Recording, RunList};
 
 /// Files, read and checked.
 pub struct Inputs {

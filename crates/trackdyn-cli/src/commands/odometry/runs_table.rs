@@ -1,7 +1,7 @@
 //! Errors run by run, as CSV.
 
 use std::fmt::Write;
-use trackdyn_estimate::odometry::Comparison;
+use trackdyn::crates::estimate::odometry::Comparison;
 
 const COLUMNS: &str = "run,set,duration_s,distance_m,final_along_m,final_across_m,final_yaw_rad,\
     ape_rmse_m,ape_max_m,ape_yaw_rmse_rad,ape_aligned_rmse_m,rpe_1m_rmse_m,rpe_1m_yaw_rmse_rad,\

@@ -2,9 +2,9 @@
 
 use super::inputs::Inputs;
 use std::fmt::Write;
-use trackdyn_estimate::odometry::comparison::{Component, SpanErrors};
-use trackdyn_estimate::odometry::{Comparison, Estimate, Span};
-use trackdyn_recording::Clock;
+use trackdyn::crates::estimate::odometry::comparison::{Component, SpanErrors};
+use trackdyn::crates::estimate::odometry::{Comparison, Estimate, Span};
+use trackdyn::crates::recording::Clock;
 
 /// One screen: what was replayed, errors per segment, drift, and how sets compare with the ideal.
 pub fn text(inputs: &Inputs, clock: &Clock, result: &Comparison) -> String {

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use trackdyn_diagnose::Plan;
-use trackdyn_diagnose::plan::menu::Manoeuvre;
-use trackdyn_diagnose::plan::{Answer, DECIDED, Separation, measurements};
-use trackdyn_model::CATALOGUE;
+use trackdyn::crates::diagnose::Plan;
+use trackdyn::crates::diagnose::plan::menu::Manoeuvre;
+use trackdyn::crates::diagnose::plan::{Answer, DECIDED, Separation, measurements};
+use trackdyn::crates::model::CATALOGUE;
 
 /// The text of a plan.
 pub fn text(plan: &Plan) -> String {

@@ -4,10 +4,10 @@ use super::{Driven, Options};
 use crate::tables::Head;
 use serde::Serialize;
 use std::fmt::Write;
-use trackdyn_core::output::fingerprint;
-use trackdyn_drive::Sensors;
-use trackdyn_model::VehicleFile;
-use trackdyn_recording::Recording;
+use trackdyn::crates::core::output::fingerprint;
+use trackdyn::crates::drive::Sensors;
+use trackdyn::crates::model::VehicleFile;
+use trackdyn::crates::recording::Recording;
 
 #[derive(Serialize)]
 struct File<'a> {

@@ -1,9 +1,9 @@
 //! The two simulators.
 
 use super::Options;
-use trackdyn_core::{Plant, Schedule, Trajectory};
-use trackdyn_model::Transient;
-use trackdyn_model::{ActiveEffect, Model, VehicleFile};
+use trackdyn::crates::core::{Plant, Schedule, Trajectory};
+use trackdyn::crates::model::Transient;
+use trackdyn::crates::model::{ActiveEffect, Model, VehicleFile};
 use trackdyn_second_simulator::{ActiveMechanism, Robot, Setup, sheet_of};
 
 /// The motion of the hull, and the path that the pose sensor takes it to be.

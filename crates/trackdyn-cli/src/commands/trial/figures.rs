@@ -1,12 +1,12 @@
 //! Scores as figures.
 
 use std::path::Path;
+use trackdyn::crates::core::output::write_file;
+use trackdyn::crates::report::{Entrant, Matrix, Power, Share, Shares, confusion, power, shares};
 use trackdyn_blind_trial::Score;
 use trackdyn_blind_trial::oracle::{DETECTABLE, DISTINCT};
 use trackdyn_blind_trial::score::interval::clopper_pearson;
 use trackdyn_blind_trial::score::{PowerBin, Rate, distinct};
-use trackdyn_core::output::write_file;
-use trackdyn_report::{Entrant, Matrix, Power, Share, Shares, confusion, power, shares};
 
 /// Scores with the names of their programs.
 pub type Named<'a> = [(&'a str, &'a Score)];
@@ -91,7 +91,7 @@ fn sheet(
     of: fn(&Score) -> &Vec<Rate>,
     texts: &Texts,
     caption: &str,
-) -> Result<Vec<u8>, trackdyn_report::Error> {
+) -> Result<Vec<u8>, trackdyn::crates::report::Error> {
     let rows = distinct(scores.iter().flat_map(|(_, score)| of(score)));
     let entrants = entrants(scores, |score| {
         let find = |name: &&str| of(score).iter().find(|rate| rate.name == *name).map(of_rate);

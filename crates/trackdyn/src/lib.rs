@@ -10,6 +10,7 @@ mod progress;
 mod provenance;
 mod vehicle;
 
+pub mod check;
 pub mod diagnose;
 pub mod drive;
 pub mod export;
@@ -32,6 +33,7 @@ pub mod crates {
 }
 
 pub use change::{Change, prepare_folder};
+pub use check::{Reference, check};
 pub use diagnose::{Claim, DiagnoseSettings, Diagnosis, HeldOut, diagnose};
 pub use drive::{DriveSettings, Drives, drive};
 pub use error::Error;

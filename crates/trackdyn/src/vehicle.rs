@@ -130,16 +130,21 @@ impl From<VehicleFile> for Vehicle {
     }
 }
 
-/// The first effect that is given twice.
+/// Refuses an effect that is given twice.
 ///
 /// # Errors
 /// [`Error::EffectTwice`].
 pub fn refuse_repeated(effects: &[ActiveEffect]) -> Result<(), Error> {
-    for (place, effect) in effects.iter().enumerate() {
-        let id = effect.card().id;
-        if effects[..place].iter().any(|other| other.card().id == id) {
-            return Err(Error::EffectTwice { id });
-        }
+    match repeated(effects) {
+        Some(place) => Err(Error::EffectTwice { id: effects[place].card().id }),
+        None => Ok(()),
     }
-    Ok(())
+}
+
+/// Place of the first effect that is there before it already.
+pub(crate) fn repeated(effects: &[ActiveEffect]) -> Option<usize> {
+    let is_there = |place: &usize| {
+        effects[..*place].iter().any(|other| other.card().id == effects[*place].card().id)
+    };
+    (0..effects.len()).find(is_there)
 }

@@ -1,6 +1,7 @@
 //! A diagnosis in one screen.
 
 use std::fmt::Write;
+use trackdyn::Diagnosis;
 use trackdyn::crates::diagnose::diagnosis::{Kind, Missing};
 use trackdyn::crates::diagnose::document::separate_by;
 use trackdyn::crates::diagnose::locate::SURE;
@@ -9,7 +10,7 @@ use trackdyn::crates::diagnose::place::words;
 use trackdyn::crates::diagnose::proposal::Proposal;
 use trackdyn::crates::diagnose::proposal::words::decimals;
 use trackdyn::crates::diagnose::uncertainty::{Interval, Level};
-use trackdyn::crates::diagnose::{Diagnosis, Evidence, Status};
+use trackdyn::crates::diagnose::{Diagnosis as Found, Status};
 use trackdyn::crates::model::CATALOGUE;
 use trackdyn::crates::model::effect::Symmetry;
 
@@ -20,7 +21,9 @@ const LIMITS: usize = 6;
 const DECIMALS: usize = 4;
 
 /// The text of a diagnosis.
-pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
+pub fn text(diagnosis: &Diagnosis) -> String {
+    let (evidence, name) = (diagnosis.evidence(), diagnosis.name());
+    let diagnosis = diagnosis.found();
     let mut text = String::new();
     let samples = evidence.samples().len();
     let unit = if evidence.is_steady() { "points" } else { "segments" };
@@ -121,7 +124,7 @@ fn form(proposal: &Proposal) -> String {
     )
 }
 
-fn nothing(diagnosis: &Diagnosis) -> String {
+fn nothing(diagnosis: &Found) -> String {
     if diagnosis.status == Status::Unexplained {
         return "something outside the catalogue: no effect, nor two or three, explains it"
             .to_owned();

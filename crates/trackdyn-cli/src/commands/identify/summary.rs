@@ -3,22 +3,22 @@
 use std::fmt::Write;
 use trackdyn::crates::estimate::identification::Fit;
 use trackdyn::crates::estimate::{Estimate, Free, Identification, Nuisance, Parameters};
-use trackdyn::crates::model::Vehicle;
-use trackdyn::crates::recording::{Clock, Interval, Recording};
+use trackdyn::crates::recording::{Clock, Interval, Run};
+use trackdyn::{Recording, Vehicle};
 
 /// One screen: the recording, its clock and noise, the methods side by side.
 pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) -> String {
     let mut text = String::new();
     let runs = recording.runs();
-    let seconds: f64 = runs.iter().map(trackdyn::crates::recording::Run::duration).sum();
+    let seconds: f64 = runs.iter().map(Run::duration).sum();
     let _ = writeln!(
         text,
         "{}: {} runs, {seconds:.0} s, {} segments; {}, gauge {} m\n",
         recording.name(),
         runs.len(),
         found.segments,
-        vehicle.name,
-        vehicle.gauge
+        vehicle.name(),
+        vehicle.gauge()
     );
     clock(&mut text, found);
     noise(&mut text, found);
@@ -38,7 +38,7 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) ->
         }
     }
     for fit in &found.fits {
-        self::fit(&mut text, fit, vehicle.gauge, found.weighted_by_noise);
+        self::fit(&mut text, fit, vehicle.gauge(), found.weighted_by_noise);
     }
     text
 }

@@ -6,6 +6,7 @@
 use std::cell::RefCell;
 use std::error::Error;
 use std::time::Instant;
+use trackdyn::diagnose::every_fourth;
 use trackdyn_diagnose::diagnosis::STAGES;
 use trackdyn_diagnose::{Evidence, Options, diagnose};
 use trackdyn_drive::sensors::Preset;
@@ -59,7 +60,7 @@ fn report(recording: &Recording, concealed: &[&str]) -> Result<(), Box<dyn Error
     let before = status("VmRSS:");
     let (begun, spent) = (Instant::now(), cpu_seconds());
     let evidence = Evidence::of_recording(recording, file.vehicle.gauge)?;
-    let held_out = (3..recording.runs().len()).step_by(4).collect();
+    let held_out = every_fourth(recording.runs().len());
     let options = Options { held_out, draws: 2000, ..Options::default() };
     let stages = RefCell::new((Instant::now(), [0.0; STAGES.len()], 0));
     let diagnosis = diagnose(&evidence, &file, &options, &|name| {

@@ -8,6 +8,7 @@ mod conformance;
 mod driving;
 mod figures;
 mod golden;
+mod library;
 mod odometry;
 mod properties;
 mod recording;

@@ -239,8 +239,12 @@ impl Diagnosis {
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`], [`Error::Figure`].
-    pub fn write(&self, folder: &Path, provenance: &Provenance) -> Result<Vec<Change>, Error> {
-        let mut folder = Folder::prepare(folder)?;
+    pub fn write(
+        &self,
+        folder: impl AsRef<Path>,
+        provenance: &Provenance,
+    ) -> Result<Vec<Change>, Error> {
+        let mut folder = Folder::prepare(folder.as_ref())?;
         folder.write("diagnosis.toml", self.file(provenance).to_toml().as_bytes())?;
         folder.write(CORRECTED, self.corrected_toml(provenance).as_bytes())?;
         let Report { figures, html } = self.report(provenance)?;

@@ -238,9 +238,13 @@ impl Drives {
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`], [`Error::Figure`].
-    pub fn write(&self, folder: &FilePath, provenance: &Provenance) -> Result<Vec<Change>, Error> {
+    pub fn write(
+        &self,
+        folder: impl AsRef<FilePath>,
+        provenance: &Provenance,
+    ) -> Result<Vec<Change>, Error> {
         let table = |index: usize| format!("cross_track_{index}.csv");
-        let mut folder = Folder::prepare(folder)?;
+        let mut folder = Folder::prepare(folder.as_ref())?;
         folder.write("drive.png", &self.figure(provenance)?)?;
         for (index, drive) in self.drives.iter().enumerate() {
             folder.write(&table(index), drive.journey.cross_track_csv().as_bytes())?;

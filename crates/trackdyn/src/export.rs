@@ -180,8 +180,8 @@ impl Export {
 ///
 /// # Errors
 /// [`Error::Output`].
-pub fn write(files: &[TextFile], folder: &Path) -> Result<Vec<Change>, Error> {
-    let mut folder = Folder::prepare(folder)?;
+pub fn write(files: &[TextFile], folder: impl AsRef<Path>) -> Result<Vec<Change>, Error> {
+    let mut folder = Folder::prepare(folder.as_ref())?;
     for TextFile { name, text } in files {
         folder.write(name, text.as_bytes())?;
     }

@@ -98,8 +98,12 @@ impl IcrMap {
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`], [`Error::Figure`].
-    pub fn write(&self, folder: &Path, provenance: &Provenance) -> Result<Vec<Change>, Error> {
-        let mut folder = Folder::prepare(folder)?;
+    pub fn write(
+        &self,
+        folder: impl AsRef<Path>,
+        provenance: &Provenance,
+    ) -> Result<Vec<Change>, Error> {
+        let mut folder = Folder::prepare(folder.as_ref())?;
         folder.write("icr_map.png", &self.figure(provenance)?)?;
         match self.parameters(provenance) {
             Some(parameters) => folder.write(FILE, parameters.document().text().as_bytes())?,

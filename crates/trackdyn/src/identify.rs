@@ -163,8 +163,12 @@ impl Identification {
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`].
-    pub fn write(&self, folder: &Path, provenance: &Provenance) -> Result<Vec<Change>, Error> {
-        let mut folder = Folder::prepare(folder)?;
+    pub fn write(
+        &self,
+        folder: impl AsRef<Path>,
+        provenance: &Provenance,
+    ) -> Result<Vec<Change>, Error> {
+        let mut folder = Folder::prepare(folder.as_ref())?;
         if let Self::Motion(fit) = self {
             folder.write("identification.toml", fit.to_toml(provenance).as_bytes())?;
         }

@@ -144,8 +144,12 @@ impl Odometry {
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`], [`Error::Unreadable`], [`Error::Figure`].
-    pub fn write(&self, folder: &Path, provenance: &Provenance) -> Result<Vec<Change>, Error> {
-        let mut folder = Folder::prepare(folder)?;
+    pub fn write(
+        &self,
+        folder: impl AsRef<Path>,
+        provenance: &Provenance,
+    ) -> Result<Vec<Change>, Error> {
+        let mut folder = Folder::prepare(folder.as_ref())?;
         folder.write("odometry.png", &self.figure(provenance)?)?;
         folder.write("runs.csv", self.runs_csv().as_bytes())?;
         self.write_trajectories(&mut folder)?;

@@ -139,9 +139,13 @@ impl Plan {
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`].
-    pub fn write(&self, folder: &Path, provenance: &Provenance) -> Result<Vec<Change>, Error> {
-        let Some(schedule) = self.schedule() else { return remove_earlier(folder) };
-        let mut folder = Folder::prepare(folder)?;
+    pub fn write(
+        &self,
+        folder: impl AsRef<Path>,
+        provenance: &Provenance,
+    ) -> Result<Vec<Change>, Error> {
+        let Some(schedule) = self.schedule() else { return remove_earlier(folder.as_ref()) };
+        let mut folder = Folder::prepare(folder.as_ref())?;
         let [plan, table] = FILES;
         let csv = schedules::text(&[ScheduledRun { id: 0, schedule }]);
         folder.write(table, csv.as_bytes())?;

@@ -231,9 +231,13 @@ impl Simulation {
     /// # Errors
     /// [`Error::NotSimulated`] where the folder holds one of these that no simulation wrote;
     /// [`Error::Output`], [`Error::Recording`].
-    pub fn write(&self, folder: &Path, provenance: &Provenance) -> Result<Vec<Change>, Error> {
-        refuse_other(folder)?;
-        let path = folder;
+    pub fn write(
+        &self,
+        folder: impl AsRef<Path>,
+        provenance: &Provenance,
+    ) -> Result<Vec<Change>, Error> {
+        let path = folder.as_ref();
+        refuse_other(path)?;
         let mut folder = Folder::prepare(path)?;
         // It comes first: it says that all others may be replaced.
         folder.write(FILE, self.to_toml(provenance).as_bytes())?;

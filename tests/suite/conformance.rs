@@ -3,4 +3,5 @@
 mod arrows;
 mod circles;
 mod crates;
+mod packages;
 mod parity;

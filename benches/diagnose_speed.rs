@@ -1,5 +1,5 @@
-//! Time and memory of a diagnosis: of a recording as long as the paper's, of four and of sixteen times as
-//! long, with nothing concealed and with load transfer.
+//! Time and memory of a diagnosis: of a recording as long as the paper's, of four and of sixteen
+//! times as long, with nothing concealed and with load transfer.
 //!
 //! `diagnose_speed [--longest N]` prints a table; N is 1, 4 or 16 (default 16).
 
@@ -14,7 +14,8 @@ use trackdyn_drive::{ScheduleKind, ScheduleOptions};
 use trackdyn_recording::Recording;
 use trackdyn_tests::concealed::{Drive, named, owned, sensors};
 
-/// Runs of the paper, and the time of each that gives its 1807 segments, three poses of 0.1 s each, s.
+/// Runs of the paper, and the time of each that gives its 1807 segments, three poses of 0.1 s each,
+/// s.
 const RUNS: usize = 9;
 const RUN_TIME: f64 = 60.3;
 
@@ -61,7 +62,7 @@ fn report(recording: &Recording, concealed: &[&str]) -> Result<(), Box<dyn Error
     let (begun, spent) = (Instant::now(), cpu_seconds());
     let evidence = Evidence::of_recording(recording, file.vehicle.gauge)?;
     let held_out = every_fourth(recording.runs().len());
-    let options = Options { held_out, draws: 2000, ..Options::default() };
+    let options = Options { held_out, ..Options::default() };
     let stages = RefCell::new((Instant::now(), [0.0; STAGES.len()], 0));
     let diagnosis = diagnose(&evidence, &file, &options, &|name| {
         let (last, seconds, attempts) = &mut *stages.borrow_mut();

@@ -1,16 +1,16 @@
 //! A recording as long as the paper's: 1807 segments of nine readings of 30 ms, with noise.
 
 use trackdyn_core::PerSide;
+use trackdyn_estimate::SegmentOptions;
 use trackdyn_estimate::genetic::GeneticEstimate;
 use trackdyn_estimate::least_squares::Loss;
+use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_estimate::{
     Estimate, Free, GeneticOptions, Observations, Parameters, Weighting, genetic, least_squares,
 };
 use trackdyn_model::Kinematics;
-use trackdyn_recording::SegmentOptions;
-use trackdyn_recording::noise::noise;
-use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 
 const SEGMENTS: usize = 1807;
 
@@ -28,8 +28,8 @@ pub struct PaperCase {
 
 impl PaperCase {
     pub fn new() -> Self {
-        // 139 steps, each 13 segments long, and a halt of one reading: the last segment's speeds must be
-        // known to its end.
+        // 139 steps, each 13 segments long, and a halt of one reading: the last segment's speeds
+        // must be known to its end.
         let mut schedule = random_steps(139, 3.51, 0.8, 1);
         schedule.push(Stretch { duration: 0.03, speeds: PerSide::default() });
         let synthetic = Synthetic {

@@ -13,7 +13,7 @@ use trackdyn_diagnose::{Diagnosis, Error, Evidence, Options, diagnose};
 use trackdyn_drive::schedules::as_commanded;
 use trackdyn_drive::sensors::{PoseFrame, Preset, Sensors, Views};
 use trackdyn_drive::{ScheduleKind, ScheduleOptions, ScheduledRun};
-use trackdyn_model::{CATALOGUE, Effects, Vehicle, VehicleFile};
+use trackdyn_model::{Effects, Vehicle, VehicleFile};
 use trackdyn_recording::{Recording, Source, UncheckedRun};
 use trackdyn_second_simulator::{ActiveMechanism, Robot, Setup};
 
@@ -40,8 +40,8 @@ struct Driven {
 }
 
 impl Drive {
-    /// Drives a vehicle with what is concealed (`id:key=value`) and with Newton's law, each run from a
-    /// place and a heading that are drawn.
+    /// Drives a vehicle with what is concealed (`id:key=value`) and with Newton's law, each run
+    /// from a place and a heading that are drawn.
     ///
     /// # Errors
     /// What no mechanism is, and a robot that tips over.
@@ -119,7 +119,8 @@ pub fn runs(kind: ScheduleKind, count: usize, seed: u64) -> Vec<ScheduledRun> {
     kind.generate(&options).expect("a schedule")
 }
 
-/// Sensors of a preset whose poses are those of one world: places and headings mean the same in all runs.
+/// Sensors of a preset whose poses are those of one world: places and headings mean the same in all
+/// runs.
 pub fn sensors(preset: Preset) -> Sensors {
     let mut sensors = preset.sensors();
     sensors.imu = None;
@@ -150,7 +151,7 @@ pub fn diagnosed(recording: &Recording, file: &VehicleFile) -> Result<Diagnosis,
 
 /// Members of an answer by their names.
 pub fn members(missing: &Missing) -> BTreeSet<&'static str> {
-    missing.verdict.one_of.iter().map(|&effect| CATALOGUE[effect].id).collect()
+    missing.verdict.one_of.iter().map(|&effect| effect.name()).collect()
 }
 
 /// All that is named, with its kind.

@@ -4,8 +4,10 @@ pub mod concealed;
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
+use trackdyn_core::real;
 use trackdyn_model::contact::Friction;
 use trackdyn_model::{Effects, Model, RunningGear, Uncertainty, Vehicle, VehicleFile};
 use trackdyn_recording::Recording;
@@ -34,8 +36,8 @@ pub fn uniform(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * random.random::<f64>()
 }
 
-/// A vehicle of any proportion: μ_x/μ_y from 0.2 to 5, contact from e⁻² to e² gauges long, tracks or
-/// two to four axles, the centre of gravity anywhere up to `support` of the tipping limit.
+/// A vehicle of any proportion: μ_x/μ_y from 0.2 to 5, contact from e⁻² to e² gauges long, tracks
+/// or two to four axles, the centre of gravity anywhere up to `support` of the tipping limit.
 pub fn random_vehicle(random: &mut ChaCha8Rng, support: f64) -> Vehicle {
     let mu_y = uniform(random, 0.1, 1.5);
     let ratio = uniform(random, 0.2_f64.ln(), 5.0_f64.ln()).exp();
@@ -70,8 +72,9 @@ pub fn random_vehicle(random: &mut ChaCha8Rng, support: f64) -> Vehicle {
     vehicle
 }
 
-/// A public recording of a real robot, which the project does not carry: `TRACKDYN_DATA` names their folder, else it is
-/// `../shared/data` beside the checkout. None, and a note, where it is not at hand.
+/// A public recording of a real robot, which the project does not carry: `TRACKDYN_DATA` names
+/// their folder, else it is `../shared/data` beside the checkout. None, and a note, where it is not
+/// at hand.
 ///
 /// # Panics
 /// Where the recording cannot be read, or the folder that `TRACKDYN_DATA` names does not have it.
@@ -96,4 +99,20 @@ pub fn vehicle(name: &str) -> VehicleFile {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs/vehicles");
     let document = Document::read(&folder.join(name).with_extension("toml")).expect(name);
     VehicleFile::from_document(&document).expect(name)
+}
+
+/// Pieces of a whole circle: its polyline lies within R (1 − cos(π/720)), 0.01 mm for 1 m.
+const CIRCLE_PIECES: usize = 720;
+
+/// A circular path from the origin along x, to the left (or right), driven `laps` times, m.
+///
+/// # Panics
+/// Where the radius makes no path.
+pub fn circle(radius: f64, to_the_left: bool, laps: usize) -> trackdyn_drive::Path {
+    let side = if to_the_left { 1.0 } else { -1.0 };
+    let point = |k: usize| {
+        let (sin, cos) = (real(k) / real(CIRCLE_PIECES) * TAU).sin_cos();
+        [radius * sin, side * radius * (1.0 - cos)]
+    };
+    trackdyn_drive::Path::new((0..=laps * CIRCLE_PIECES).map(point).collect()).expect("a circle")
 }

@@ -6,8 +6,8 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
 
-/// Writes a bag as robots make them: 2000 s of joints at 50 Hz and odometry at 20 Hz; at 5 Hz a lidar whose
-/// clouds have so many bytes, or none.
+/// Writes a bag as robots make them: 2000 s of joints at 50 Hz and odometry at 20 Hz; at 5 Hz a
+/// lidar whose clouds have so many bytes, or none.
 pub fn write(
     path: &Path,
     compression: Option<mcap::Compression>,

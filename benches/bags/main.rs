@@ -8,8 +8,8 @@ mod bag;
 use std::error::Error;
 use std::path::Path;
 use std::time::Instant;
+use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_recording::rosbag::RosbagOptions;
-use trackdyn_recording::synthetic::{Synthetic, random_steps};
 use trackdyn_recording::{folder, rosbag};
 
 fn main() -> Result<(), Box<dyn Error>> {

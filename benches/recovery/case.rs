@@ -22,8 +22,8 @@ pub const NOTHING: &str = "nothing";
 /// What the class of constants is called among the answers.
 pub const CONSTANTS: &str = "constants";
 
-/// Sizes that stop the robot, or with which one track holds and it goes straight on, are taken smaller by this factor, so many
-/// times at most.
+/// Sizes that stop the robot, or with which one track holds and it goes straight on, are taken
+/// smaller by this factor, so many times at most.
 const SMALLER: f64 = 0.6;
 const SHRINKS: usize = 6;
 

@@ -12,8 +12,8 @@ const UNEXPLAINED: &str = "unexplained";
 /// Column of cases without a diagnosis.
 const REFUSED: &str = "refused";
 
-/// Shares of the cases of each truth in which each name came up; a member of a set counts as its part of
-/// the set.
+/// Shares of the cases of each truth in which each name came up; a member of a set counts as its
+/// part of the set.
 pub struct Confusion {
     /// What was concealed.
     pub rows: Vec<&'static str>,

@@ -1,5 +1,5 @@
-//! Conceals every effect of the catalogue, at three sizes and in two kinds of driving, on the independent
-//! ground, and asks the diagnosis for it.
+//! Conceals every effect of the catalogue, at three sizes and in two kinds of driving, on the
+//! independent ground, and asks the diagnosis for it.
 //!
 //! `recovery --out DIR [--only ID,ID,...] [--driving manual|designed] [--runs N]` writes a line per case to
 //! `DIR/recovery.csv`; a line that is there is passed over, so that a run can be broken off. From all lines it

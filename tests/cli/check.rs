@@ -25,7 +25,8 @@ fn a_number_that_left_its_tolerance_fails() {
     assert!(run.stdout.contains("MISS") && run.stdout.contains("0 of 1 values"), "{}", run.stdout);
 }
 
-/// A robot of which one track carries nearly all does not turn; the cases beside it keep their rows.
+/// A robot of which one track carries nearly all does not turn; the cases beside it keep their
+/// rows.
 #[test]
 fn a_case_that_does_not_turn_misses_and_costs_no_other() {
     let place = Workplace::new();

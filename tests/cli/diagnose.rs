@@ -4,7 +4,8 @@ use crate::{Run, Workplace};
 
 pub const VEHICLE: &str = "drive/auriga.toml";
 
-/// A drive of Auriga-alpha with what is concealed from its owner, and the vehicle file that the owner has.
+/// A drive of Auriga-alpha with what is concealed from its owner, and the vehicle file that the
+/// owner has.
 pub fn drive(place: &Workplace, concealed: &str) {
     let run = place.run(&format!("simulate --quasi-static {concealed} --out drive"));
     assert_eq!(run.status, 0, "{}", run.stderr);

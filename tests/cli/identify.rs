@@ -2,8 +2,8 @@
 
 use crate::{Workplace, project_file};
 use trackdyn_core::PerSide;
+use trackdyn_estimate::synthetic::{Stretch, Synthetic, random_steps};
 use trackdyn_recording::folder;
-use trackdyn_recording::synthetic::{Stretch, Synthetic, random_steps};
 
 /// Writes a recording of Auriga-alpha's size into the folder `rec`.
 fn record(place: &Workplace, schedules: Vec<Vec<Stretch>>) {
@@ -28,7 +28,8 @@ fn vehicle() -> String {
     project_file("configs/vehicles/auriga-alpha.toml").display().to_string()
 }
 
-/// Speeds as they were told, and the poses of a simulator: nothing of their noise can be measured, and all is determined.
+/// Speeds as they were told, and the poses of a simulator: nothing of their noise can be measured,
+/// and all is determined.
 #[test]
 fn commands_and_poses_without_noise_do() {
     let place = Workplace::new();
@@ -90,7 +91,8 @@ fn parameters_come_out_of_a_recording() {
             let of = |key: &str| estimate[key].as_float().expect("a number");
             assert!(["m", "1"].contains(&estimate["unit"].as_str().expect("a unit")));
             assert!(of("low95") < of("value") && of("value") < of("high95"), "{estimate}");
-            // Student's quantile: above that of the normal distribution, below that of three blocks.
+            // Student's quantile: above that of the normal distribution, below that of three
+            // blocks.
             let half = (of("high95") - of("low95")) / 2.0 / of("standard_error");
             assert!((1.95..4.4).contains(&half), "{estimate}");
         }

@@ -1,4 +1,5 @@
-//! A diagnosis that is broken off, and recordings with too little in them: nothing half done is left.
+//! A diagnosis that is broken off, and recordings with too little in them: nothing half done is
+//! left.
 
 use crate::Workplace;
 use std::path::PathBuf;

@@ -117,7 +117,8 @@ fn few_pairs_of_speeds_make_no_sectors() {
     }
 }
 
-/// What a pose sensor makes of the motion is no part of the hull's ICRs, and a reader of them is told so.
+/// What a pose sensor makes of the motion is no part of the hull's ICRs, and a reader of them is
+/// told so.
 #[test]
 fn what_steady_icrs_leave_out_is_said() {
     let place = Workplace::new();

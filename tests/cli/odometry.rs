@@ -2,8 +2,8 @@
 
 use crate::{Run, Workplace, project_text};
 use trackdyn_core::PerSide;
+use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_recording::folder;
-use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 
 /// Four runs of a robot whose ICRs and alphas are known.
 fn synthetic() -> Synthetic {

@@ -2,8 +2,8 @@
 
 use crate::{Workplace, project_file};
 use std::fmt::Write;
+use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_recording::folder;
-use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
 /// A recording folder `rec`, and the same as the trajectory `walk.tum` and the table `tracks.csv`.
 fn record(place: &Workplace) {
@@ -170,7 +170,8 @@ fn operating_points_give_icrs_with_intervals() {
     assert_eq!(used.status, 0, "{}", used.stderr);
 }
 
-/// A table without lateral speeds tells x_l and x_r, and nothing of y: that is said, and no file is written.
+/// A table without lateral speeds tells x_l and x_r, and nothing of y: that is said, and no file is
+/// written.
 #[test]
 fn points_without_lateral_speeds_give_what_they_can() {
     let place = Workplace::new();

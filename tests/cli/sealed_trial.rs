@@ -1,7 +1,7 @@
 //! A small sealed trial from end to end: what holds whatever the power of the diagnosis.
 //!
-//! Runs are short, so that it takes minutes instead of hours; the effects are as large as they have to be for the
-//! same z.
+//! Runs are short, so that it takes minutes instead of hours; the effects are as large as they have
+//! to be for the same z.
 
 use crate::trial::KEY;
 use crate::{Run, Workplace};
@@ -14,8 +14,8 @@ const MAKE: &str =
 /// z from which on an effect stands out far.
 const FAR: f64 = 20.0;
 
-/// What nulls may have beside physics: errors of encoders, clock and pose sensor, and the constants that an
-/// owner's vehicle file may have wrong. All but plain ones have some, by design.
+/// What nulls may have beside physics: errors of encoders, clock and pose sensor, and the constants
+/// that an owner's vehicle file may have wrong. All but plain ones have some, by design.
 const NO_PHYSICS: [&str; 13] = [
     "bulldozing",
     "cog-shift",

@@ -85,7 +85,8 @@ fn bad_schedules_and_worlds_are_refused_and_leave_nothing() {
     assert_eq!(place.files(), inputs, "nothing is written");
 }
 
-/// Friction begins to drift as the recording begins, whatever its clock shows; stamps are those of the schedule.
+/// Friction begins to drift as the recording begins, whatever its clock shows; stamps are those of
+/// the schedule.
 #[test]
 fn laws_that_know_the_time_begin_with_the_recording() {
     let place = Workplace::new();
@@ -108,7 +109,8 @@ fn laws_that_know_the_time_begin_with_the_recording() {
     }
 }
 
-/// A simulation writes the vehicle that it moved, with what was switched on: not over its owner's file.
+/// A simulation writes the vehicle that it moved, with what was switched on: not over its owner's
+/// file.
 #[test]
 fn an_owner_s_vehicle_file_is_not_replaced() {
     let place = Workplace::new();

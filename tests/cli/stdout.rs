@@ -1,4 +1,5 @@
-//! Results and talk behind a closed pipe or on a full disk: no panic, and nothing that was asked for is lost.
+//! Results and talk behind a closed pipe or on a full disk: no panic, and nothing that was asked
+//! for is lost.
 
 use crate::Workplace;
 use std::path::PathBuf;

@@ -37,8 +37,8 @@ fn run(seed: u64, fastest: f64) -> PlannedRun {
     PlannedRun { tracks: tracks.collect(), pose: Pose::default(), blocks }
 }
 
-/// What a robot with more on board than its file says shows of four runs, the last of them with speeds up to this (m/s)
-/// and `wrong` times as far as they lead.
+/// What a robot with more on board than its file says shows of four runs, the last of them with
+/// speeds up to this (m/s) and `wrong` times as far as they lead.
 fn evidence(last: f64, wrong: f64) -> Evidence {
     let truth = VehicleFile {
         effects: ["yaw-inertia", "centripetal", "load-transfer:cog_height_m=0.2"]

@@ -1,5 +1,5 @@
-//! What is no physics changes nothing: the order of runs, the side that is called left, the frame of the
-//! world, the origin of time.
+//! What is no physics changes nothing: the order of runs, the side that is called left, the frame
+//! of the world, the origin of time.
 
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -8,14 +8,14 @@ use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
 use trackdyn_drive::ScheduleKind;
 use trackdyn_drive::sensors::Preset;
-use trackdyn_model::{CATALOGUE, VehicleFile};
+use trackdyn_model::VehicleFile;
 use trackdyn_recording::{Recording, UncheckedRun};
 use trackdyn_tests::concealed::{Drive, members, named, owned, recording, runs, sensors};
 
 /// Part of the half width of an interval by which an image's estimate may differ.
 ///
-/// A fit ends where a step lowers χ² by less than 0.2, which is 0.45 standard deviations or a quarter of the
-/// half width; its difference quotients step to one side, which an image exchanges.
+/// A fit ends where a step lowers χ² by less than 0.2, which is 0.45 standard deviations or a
+/// quarter of the half width; its difference quotients step to one side, which an image exchanges.
 const WITHIN: f64 = 0.25;
 
 /// A drive of so many runs with something concealed.
@@ -65,8 +65,8 @@ fn parameter(diagnosis: &Diagnosis, effect: &str, key: &str) -> (f64, f64) {
     (interval.value, (interval.high - interval.low) / 2.0)
 }
 
-/// Both name the same, with the same parameters but for `image`, which says what becomes of a parameter
-/// (its key) and its value.
+/// Both name the same, with the same parameters but for `image`, which says what becomes of a
+/// parameter (its key) and its value.
 fn assert_images(
     one: &Diagnosis,
     other: &Diagnosis,
@@ -78,7 +78,7 @@ fn assert_images(
     println!("{:?}", named(one));
     for missing in &one.missing {
         for interval in &missing.parameters {
-            let card = &CATALOGUE[missing.verdict.effect];
+            let card = missing.verdict.effect.card();
             let key = interval.unknown.parameter().expect("of an effect").key;
             let (key, wanted) = image(card.id, key, interval.value);
             let (found, half) = parameter(other, card.id, &key);
@@ -101,7 +101,8 @@ fn shuffled_runs_say_the_same() {
         run.id = [2, 0, 3, 1][usize::try_from(run.id).expect("a number from 0")];
     });
     let other = diagnosed(&shuffled, &owned(&SPLIT));
-    // Sums in another order: rounding, in places where a fit that ends a step earlier would be seen.
+    // Sums in another order: rounding, in places where a fit that ends a step earlier would be
+    // seen.
     assert_images(one, &other, 1e-3, same);
     for (one, other) in one.missing.iter().zip(&other.missing) {
         let [one, other] = [one, other].map(|missing| missing.verdict.support.ln_bayes_factor);
@@ -165,7 +166,7 @@ fn another_frame_of_the_world_turns_directions_with_it() {
     });
 }
 
-/// The same with stamps that count from elsewhere.
+/// The recording with stamps that count from elsewhere.
 fn at_other_times(recording: &Recording, by: f64) -> Recording {
     changed(recording, |run| {
         run.tracks.samples.iter_mut().for_each(|sample| sample.t += by);

@@ -13,11 +13,12 @@ use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_model::Transient;
 use trackdyn_model::contact::Friction;
 use trackdyn_model::vehicle::FrictionUncertainty;
-use trackdyn_model::{ActiveEffect, CATALOGUE, Model, RunningGear};
+use trackdyn_model::{ActiveEffect, Model, RunningGear};
 use trackdyn_tests::concealed::{Drive, INERTIA, diagnosed, named, owned, runs, sensors};
 
-/// What inertia adds is late with belts that lag, without a motion in time of its own for every lag: a hypothesis on the way
-/// of a fit predicts what one that is found anew does. A clock of lag and delay together would else explain more.
+/// What inertia adds is late with belts that lag, without a motion in time of its own for every
+/// lag: a hypothesis on the way of a fit predicts what one that is found anew does. A clock of lag
+/// and delay together would else explain more.
 #[test]
 fn what_inertia_adds_is_late_with_the_belts() {
     let (at_once, evidence) = by_hand();
@@ -35,8 +36,9 @@ fn what_inertia_adds_is_late_with_the_belts() {
     }
 }
 
-/// A belt jumps with each reading, and on dry friction a body follows in some milliseconds. Steps by readings pass over that: a
-/// robot with little friction under small wheels seemed to have Stribeck's friction, of seven standard deviations.
+/// A belt jumps with each reading, and on dry friction a body follows in some milliseconds. Steps
+/// by readings pass over that: a robot with little friction under small wheels seemed to have
+/// Stribeck's friction, of seven standard deviations.
 #[test]
 fn what_inertia_adds_is_what_small_steps_make_it() {
     let mut file = owned(&[]);
@@ -60,8 +62,8 @@ fn what_inertia_adds_is_what_small_steps_make_it() {
     assert!(off < 1.2, "{off} standard deviations");
 }
 
-/// The departure by inertia is found without these laws, and what they change in it from there: that is what
-/// a motion in time with them gives, which takes many times as long.
+/// The departure by inertia is found without these laws, and what they change in it from there:
+/// that is what a motion in time with them gives, which takes many times as long.
 #[test]
 fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
     let (plain, evidence) = by_hand();
@@ -80,14 +82,15 @@ fn laws_of_the_slip_speed_change_the_answer_to_acceleration() {
     }
 }
 
-/// What a number of the robot changes in its answer to acceleration is found with what inertia adds, on the way of a fit too: with a
-/// law of the slip speed it is not found once more. A fit took every step of the friction ratio nearly twice as far as its
-/// derivatives foretold, and came to rest nowhere.
+/// What a number of the robot changes in its answer to acceleration is found with what inertia
+/// adds, on the way of a fit too: with a law of the slip speed it is not found once more. A fit
+/// took every step of the friction ratio nearly twice as far as its derivatives foretold, and came
+/// to rest nowhere.
 #[test]
 fn a_law_of_the_slip_speed_takes_no_part_in_what_other_numbers_change() {
     let (plain, evidence) = by_hand();
     let rubber: ActiveEffect = "friction-anisotropy:ratio=0.95".parse().expect("an effect");
-    let ratio = Unknown::Effect(place(&rubber), 0);
+    let ratio = Unknown::Effect(rubber.effect(), 0);
     let plain = plain.with_effect(rubber);
     for law in MILD {
         let here = plain.with_effect(law.parse().expect("an effect"));
@@ -109,14 +112,15 @@ fn a_law_of_the_slip_speed_takes_no_part_in_what_other_numbers_change() {
     }
 }
 
-/// The search sees by signatures, and a law of the slip speed shows in the answer to acceleration as well as in steady turns.
+/// The search sees by signatures, and a law of the slip speed shows in the answer to acceleration
+/// as well as in steady turns.
 #[test]
 fn signatures_of_laws_of_the_slip_speed_know_the_answer_to_acceleration() {
     let (plain, evidence) = by_hand();
     let beside = Beside::new(&plain, &evidence);
     for law in MILD.into_iter().chain(STRONG) {
         let law: ActiveEffect = law.parse().expect("an effect");
-        let variant = Variant { effect: place(&law), values: law.values().to_vec() };
+        let variant = Variant { effect: law.effect(), values: law.values().to_vec() };
         let signatures = beside.signatures(std::slice::from_ref(&variant));
         let [(_, signatures)] = &signatures[..] else { panic!("{law}: {}", signatures.len()) };
         let size = variant.values[0] - neutral(&law.card().parameters[0]);
@@ -141,16 +145,14 @@ const MILD: [&str; 4] = [
     "shear-displacement:modulus_m=0.01",
 ];
 
-/// The same that change the answer to acceleration so much that other numbers of the robot change another one.
+/// Effects that change the answer to acceleration so much that other numbers of the robot change
+/// another one.
 const STRONG: [&str; 2] =
     ["viscous-friction:growth_s_per_m=1.0", "friction-creep:speed_m_per_s=0.05"];
 
-fn place(of: &ActiveEffect) -> usize {
-    CATALOGUE.iter().position(|card| card.id == of.card().id).expect("of the catalogue")
-}
-
-/// Friction that grows with the slip brakes a robot that starts to turn as more friction does. Where its owner measured
-/// friction, that is not its level: the noise stays what it is, and the law is named.
+/// Friction that grows with the slip brakes a robot that starts to turn as more friction does.
+/// Where its owner measured friction, that is not its level: the noise stays what it is, and the
+/// law is named.
 #[test]
 fn friction_that_grows_with_the_slip_is_named_where_its_level_is_known() {
     const CONCEALED: &str = "viscous-friction:growth_s_per_m=0.3";
@@ -172,8 +174,9 @@ fn friction_that_grows_with_the_slip_is_named_where_its_level_is_known() {
     );
 }
 
-/// A centre of gravity that is filed wrong and a sensor beside it move the constant ICRs alike, but mass pulls where it is with every
-/// start and stop. Taken for the sensor's, 1 cm would be noise of a heading that walks, or friction that hangs on the slip.
+/// A centre of gravity that is filed wrong and a sensor beside it move the constant ICRs alike, but
+/// mass pulls where it is with every start and stop. Taken for the sensor's, 1 cm would be noise of
+/// a heading that walks, or friction that hangs on the slip.
 #[test]
 fn mass_tells_where_it_is_beside_a_mount() {
     const CONCEALED: &str = "sensor-lever-arm:x_m=0.2,y_m=0.2";
@@ -217,7 +220,8 @@ fn predicted(hypothesis: &Hypothesis, evidence: &Evidence) -> Vec<Vector3<f64>> 
     Mechanics::new(hypothesis, evidence).predict(&Instruments::of(hypothesis), evidence)
 }
 
-/// The motion in time of all that the hypothesis holds, over each sample, in steps of this length, s, and tolerance, m/s.
+/// The motion in time of all that the hypothesis holds, over each sample, in steps of this length,
+/// s, and tolerance, m/s.
 fn in_time(
     hypothesis: &Hypothesis,
     evidence: &Evidence,

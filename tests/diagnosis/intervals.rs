@@ -24,14 +24,17 @@ fn risen(diagnosis: &Diagnosis, held: Unknown, value: f64) -> f64 {
     fit.objective + cost(value) - best.fit.objective
 }
 
-/// Fits from nothing but the numbers themselves, without the slopes and starts that the search for the ends takes over.
+/// Fits from nothing but the numbers themselves, without the slopes and starts that the search for
+/// the ends takes over.
 ///
-/// The edges of a patch make the misfit rough: a single end may be caught beside the minimum of the others.
+/// The edges of a patch make the misfit rough: a single end may be caught beside the minimum of the
+/// others.
 #[test]
 fn both_ends_are_equally_unlikely_with_all_else_fitted_anew() {
     /// 95 % of one number, at the least: where noise is what it is taken for and runs are many.
     const NORMAL: f64 = 3.84;
-    /// Ends are found to 3 % of the width, which twice the misfit goes with the square of; fits end 0.2 above the minimum.
+    /// Ends are found to 3 % of the width, which twice the misfit goes with the square of; fits end
+    /// 0.2 above the minimum.
     const TO: f64 = 0.2;
     const DRIVES: std::ops::Range<u64> = 5..8;
     let mut unequal = Vec::new();

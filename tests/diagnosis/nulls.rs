@@ -142,7 +142,8 @@ fn a_hard_null_names_nothing_that_is_not_there() {
 fn hundreds_of_hard_nulls_name_nothing_that_is_not_there() {
     let claims = all_wrong_claims(&[Preset::Laboratory, Preset::Field], 100..120);
     println!("{claims:#?}");
-    // Each claim is at most 1 % likely to be chance; of 360 cases 3.6, and 10 with a probability of 0.3 %.
+    // Each claim is at most 1 % likely to be chance; of 360 cases 3.6, and 10 with a probability of
+    // 0.3 %.
     assert!(claims.len() <= 10, "{claims:#?}");
 }
 
@@ -162,8 +163,8 @@ fn a_hard_null_with_coarse_sensors_names_nothing_that_is_not_there() {
     assert!(claims.is_empty(), "{claims:#?}");
 }
 
-/// Nobody weighs a radius of gyration: that a law of the vehicle file does a little more or less than it says is no other
-/// physics, however surely a long recording shows it.
+/// Nobody weighs a radius of gyration: that a law of the vehicle file does a little more or less
+/// than it says is no other physics, however surely a long recording shows it.
 #[test]
 fn a_known_law_of_a_slightly_other_size_names_nothing_else() {
     let vehicle = owned(&[]).vehicle;

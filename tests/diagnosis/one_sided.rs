@@ -62,7 +62,8 @@ fn beside_clock(diagnosis: &Diagnosis) -> Vec<(Kind, BTreeSet<&'static str>)> {
 /// Where the robot turns one way all the time, yaw adds up and constants are known to less.
 const SHOES: f64 = 1e-3;
 
-/// Largest change of an ICR coordinate from the owner's vehicle to the corrected one, in a slow spin, m.
+/// Largest change of an ICR coordinate from the owner's vehicle to the corrected one, in a slow
+/// spin, m.
 fn moved(diagnosis: &Diagnosis) -> f64 {
     let spin = |vehicle: &Vehicle| {
         let model = Model::new(vehicle.clone(), Effects::none());
@@ -88,8 +89,8 @@ fn one_sided_driving_names_nothing_where_nothing_is_concealed() {
     }
 }
 
-/// What is concealed moves no more than constant ICRs in this driving: the answer is the class of constants
-/// with it in it, or nothing.
+/// What is concealed moves no more than constant ICRs in this driving: the answer is the class of
+/// constants with it in it, or nothing.
 fn assert_cannot_tell(runs: &[ScheduledRun], concealed: &str) {
     let id = concealed.split(':').next().expect("an id");
     let found = diagnosis(runs, &[concealed]);

@@ -1,7 +1,8 @@
 //! Real recordings in which something is hidden that a real sensor, robot or ground could do.
 //!
-//! Poses, speeds and ground are those of the recording; what is altered is said at each test. Nobody knows all
-//! that is in a real recording, so that what is asked is the difference that the alteration makes.
+//! Poses, speeds and ground are those of the recording; what is altered is said at each test.
+//! Nobody knows all that is in a real recording, so that what is asked is the difference that the
+//! alteration makes.
 
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
@@ -9,7 +10,7 @@ use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose};
-use trackdyn_recording::recording::UncheckedRun;
+use trackdyn_recording::UncheckedRun;
 use trackdyn_recording::{Recording, Run};
 use trackdyn_tests::concealed::{diagnosed, members, named, recording};
 use trackdyn_tests::{real_recording, vehicle};
@@ -83,9 +84,9 @@ fn poses_that_come_later_are_found() {
         let after = &real.altered(|run| {
             run.poses.samples.iter_mut().for_each(|pose| pose.t += LATER);
         });
-        // Wheels that follow late, poses that come late and a body that is slow to turn look alike in windows of two
-        // seconds: which of them is named differs between both diagnoses. What is there beside constants and
-        // instruments does not.
+        // Wheels that follow late, poses that come late and a body that is slow to turn look alike
+        // in windows of two seconds: which of them is named differs between both diagnoses. What is
+        // there beside constants and instruments does not.
         let late = [("time-offset", "delay_s"), ("drivetrain-lag", "time_constant_s")];
         println!("{}: {:?}, then {:?}", real.vehicle, said(before), said(after));
         let [before, after] = [before, after].map(|diagnosis| fitted(&diagnosis.base.fit, &late));
@@ -95,7 +96,8 @@ fn poses_that_come_later_are_found() {
     }
 }
 
-/// Altered: speeds of the left wheels, as if they were 4 % larger than their encoders think. Real: all else.
+/// Altered: speeds of the left wheels, as if they were 4 % larger than their encoders think. Real:
+/// all else.
 #[test]
 fn a_larger_wheel_on_one_side_is_found() {
     const THINKS: f64 = 0.96;
@@ -113,8 +115,8 @@ fn a_larger_wheel_on_one_side_is_found() {
     }
 }
 
-/// Altered: every second window is one of gravel. Real: both halves. That there are two grounds is not found: what
-/// holds is no more than that something is missing.
+/// Altered: every second window is one of gravel. Real: both halves. That there are two grounds is
+/// not found: what holds is no more than that something is missing.
 #[test]
 fn gravel_among_asphalt_is_not_found() {
     let Some(Real { recording: asphalt, .. }) = &*ASPHALT else { return };

@@ -11,7 +11,7 @@ use trackdyn_diagnose::search::{Catalogue, Search};
 use trackdyn_diagnose::verdict::Rules;
 use trackdyn_drive::sensors::{Preset, Sensors};
 use trackdyn_drive::{ScheduleKind, ScheduleOptions, ScheduledRun};
-use trackdyn_model::CATALOGUE;
+use trackdyn_model::EffectId;
 use trackdyn_tests::concealed::{Drive, diagnosed, named, owned, runs, sensors};
 
 /// Effects that only move the constant ICRs, whatever is driven.
@@ -41,8 +41,8 @@ fn id(concealed: &str) -> &str {
     concealed.split(':').next().expect("an id")
 }
 
-/// Slow driving, in which the centripetal force (a fortieth of the friction's range) moves no ICR: nothing
-/// but three numbers can be told.
+/// Slow driving, in which the centripetal force (a fortieth of the friction's range) moves no ICR:
+/// nothing but three numbers can be told.
 fn slow() -> Vec<ScheduledRun> {
     let options = ScheduleOptions {
         runs: Some(4),
@@ -54,7 +54,8 @@ fn slow() -> Vec<ScheduledRun> {
     ScheduleKind::Manual.generate(&options).expect("a schedule")
 }
 
-/// What is named beside the clock, where that is not one answer with all of the class; none where it is.
+/// What is named beside the clock, where that is not one answer with all of the class; none where
+/// it is.
 fn split(concealed: &str) -> Option<String> {
     let found = diagnosis_of(&slow(), concealed, &sensors(Preset::Laboratory));
     let beside_clock = named(&found).into_iter().filter(|(_, m)| !m.contains("time-offset"));
@@ -80,8 +81,8 @@ fn every_member_of_the_class_of_constants_is_one_answer() {
     assert!(split.is_empty(), "{split:#?}");
 }
 
-/// At speed the centripetal force, which the owner knows, tells a little more than three numbers: whatever
-/// that leaves of the class, the truth is in it.
+/// At speed the centripetal force, which the owner knows, tells a little more than three numbers:
+/// whatever that leaves of the class, the truth is in it.
 #[test]
 #[ignore = "eight drives: cargo test --release -p trackdyn-tests --test diagnosis -- --ignored"]
 fn at_speed_the_truth_is_in_the_class_of_constants() {
@@ -98,14 +99,14 @@ fn at_speed_the_truth_is_in_the_class_of_constants() {
 
 /// What a diagnosis names beyond what its evidence can tell apart.
 ///
-/// A single name is too much where it is not the truth, or where another effect is closer than the rules
-/// allow: by the signatures beside the base, its own at the size that was found.
+/// A single name is too much where it is not the truth, or where another effect is closer than the
+/// rules allow: by the signatures beside the base, its own at the size that was found.
 fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
     let found = diagnosis(concealed, &sensors(preset));
     let truth = id(concealed);
     let mut wrong = Vec::new();
     for missing in found.missing.iter().filter(|missing| missing.kind == Kind::Physics) {
-        let ids: Vec<&str> = missing.verdict.one_of.iter().map(|&e| CATALOGUE[e].id).collect();
+        let ids: Vec<&str> = missing.verdict.one_of.iter().map(|&e| e.name()).collect();
         if !ids.contains(&truth) {
             wrong.push(format!("{concealed}: {ids:?}"));
             continue;
@@ -113,7 +114,7 @@ fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
         let [only] = missing.verdict.one_of[..] else { continue };
         for (other, apart) in separations(&found, only) {
             if apart < Rules::ISOLATED {
-                let other = CATALOGUE[other].id;
+                let other = other.name();
                 wrong.push(format!("{concealed}: {truth} alone, {apart:.1} from {other}"));
             }
         }
@@ -121,13 +122,13 @@ fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
     wrong
 }
 
-/// Every variant of every other candidate, with the part of an effect's signature, at the size that was found, that
-/// neither it nor the base can stand for, in standard deviations.
-fn separations(found: &Diagnosis, effect: usize) -> Vec<(usize, f64)> {
+/// Every variant of every other candidate, with the part of an effect's signature, at the size that
+/// was found, that neither it nor the base can stand for, in standard deviations.
+fn separations(found: &Diagnosis, effect: EffectId) -> Vec<(EffectId, f64)> {
     let Diagnosis { base, evidence, best, .. } = found;
     let active = best.fit.hypothesis.effect(effect).expect("what is named is there");
     let own = Variant { effect, values: active.values().to_vec() };
-    let parameters = CATALOGUE[effect].parameters;
+    let parameters = effect.card().parameters;
     let sizes = own.sizes().into_iter().map(|k| own.values[k] - neutral(&parameters[k]));
     let sizes = DVector::from_iterator(own.sizes().len(), sizes);
     let others = candidates(&base.instruments, evidence);
@@ -136,7 +137,7 @@ fn separations(found: &Diagnosis, effect: usize) -> Vec<(usize, f64)> {
     let entries = Beside::new(&base.fit.hypothesis, evidence).signatures(&tried);
     let catalogue = Catalogue { entries };
     let search = Search::new(evidence, base, &catalogue);
-    let apart = |rival: usize| {
+    let apart = |rival: EffectId| {
         let (normal, known, groups) = search.normal(&base.fit, &[0, rival]);
         let free = (0..base.fit.columns.len()).chain(groups[1].iter().copied());
         let projected = normal.projected(&free.collect::<Vec<_>>(), &known);
@@ -184,19 +185,19 @@ fn in_time() -> Sensors {
     sensors
 }
 
-/// A lag of the drivetrain far below the time of a change of speed, and a clock that is late, differ by
-/// less than poses err in a short drive.
+/// A lag of the drivetrain far below the time of a change of speed, and a clock that is late,
+/// differ by less than poses err in a short drive.
 #[test]
 fn a_lag_and_a_late_clock_are_one_answer() {
     /// Delay of either, s.
     const LATE: f64 = 0.03;
-    let lag = CATALOGUE.iter().position(|card| card.id == "drivetrain-lag").expect("an effect");
-    let typical = CATALOGUE[lag].parameters[0].typical;
+    let lag = EffectId::of("drivetrain-lag").expect("an effect");
+    let typical = lag.card().parameters[0].typical;
     let mut split = Vec::new();
     for concealed in ["drivetrain-lag:time_constant_s", "time-offset:delay_s"] {
         let found = diagnosis(&format!("{concealed}={LATE}"), &in_time());
-        // The part of a lag that a clock, which is free, cannot stand for goes as the square of its time:
-        // 1/(1 + s T) − exp(−s T) = (s T)²/2 + …
+        // The part of a lag that a clock, which is free, cannot stand for goes as the square of its
+        // time: 1/(1 + s T) − exp(−s T) = (s T)²/2 + …
         let of = &found.resemblance;
         let place = of.effects.iter().position(|effect| *effect == lag);
         let apart = place.map(|place| of.detection[place] * (LATE / typical).powi(2));

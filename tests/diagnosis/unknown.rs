@@ -29,7 +29,8 @@ fn waves_of_the_ground_are_located_with_their_length_and_direction() {
     }
 }
 
-/// Rubber that softens by its own slip, and cools within 15 s: what speeds and times say is taken up by other laws.
+/// Rubber that softens by its own slip, and cools within 15 s: what speeds and times say is taken
+/// up by other laws.
 #[test]
 fn what_hangs_on_the_past_breaks_what_holds_at_steady_speeds() {
     let diagnosis = diagnosis("warm-rubber:softening=1", ScheduleKind::Manual);

@@ -5,3 +5,4 @@ mod circles;
 mod crates;
 mod packages;
 mod parity;
+mod words;

@@ -5,6 +5,7 @@
 
 mod candidates;
 mod conformance;
+mod diagnoses;
 mod driving;
 mod figures;
 mod golden;

@@ -8,15 +8,16 @@ mod steady;
 
 use rayon::prelude::*;
 use trackdyn_core::PerSide;
+use trackdyn_estimate::SegmentOptions;
 use trackdyn_estimate::least_squares::Loss;
+use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_estimate::{
     Error, Estimate, Free, Observations, Parameters, Weighting, least_squares,
 };
 use trackdyn_model::Kinematics;
-use trackdyn_recording::noise::noise;
-use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
-use trackdyn_recording::{Recording, SegmentOptions};
+use trackdyn_recording::Recording;
 
 /// Gauge of the vehicle that drives, m.
 const GAUGE: f64 = 0.42;
@@ -62,7 +63,8 @@ fn fit(recording: &Recording, free: Free) -> Result<Estimate, Error> {
     least_squares(&observe(recording), &start(), &free.into(), &weighting, Loss::Huber)
 }
 
-/// Shares of `count` draws, with the seeds from `seed` on, in which each of N intervals holds the truth.
+/// Shares of `count` draws, with the seeds from `seed` on, in which each of N intervals holds the
+/// truth.
 fn shares<const N: usize>(
     count: u32,
     seed: u64,

@@ -101,8 +101,8 @@ pub fn note_what_no_sensor_reports(effects: &Effects) {
     }
 }
 
-/// Notes which effects do not change the steady motion of the hull, whose ICRs are computed: those of the pose sensor, and those that
-/// only changes of speed show.
+/// Notes which effects do not change the steady motion of the hull, whose ICRs are computed: those
+/// of the pose sensor, and those that only changes of speed show.
 pub fn note_what_steady_icrs_leave_out(effects: &Effects) {
     for card in effects.iter().map(ActiveEffect::card) {
         if card.stages == [Stage::Sense] || card.breaks == [Symmetry::Transient] {
@@ -117,9 +117,9 @@ pub fn note_what_steady_icrs_leave_out(effects: &Effects) {
 /// A recording, and how it is read.
 #[derive(Args)]
 pub struct RecordingOptions {
-    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory of the
-    /// TUM benchmark (.tum, .txt) with --tracks; for identify and diagnose also a table of steady operating points
-    /// (.csv)
+    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory
+    /// of the TUM benchmark (.tum, .txt) with --tracks; for identify and diagnose also a table of
+    /// steady operating points (.csv)
     pub recording: PathBuf,
     /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
     #[arg(long, value_name = "FILE")]
@@ -142,8 +142,8 @@ pub struct RecordingOptions {
     /// Bag: topic of the poses
     #[arg(long, value_name = "TOPIC")]
     pose_topic: Option<String>,
-    /// Bag: frame that the poses are expressed in; with --child-frame, transforms are chained where no
-    /// topic has these poses
+    /// Bag: frame that the poses are expressed in; with --child-frame, transforms are chained where
+    /// no topic has these poses
     #[arg(long, value_name = "FRAME")]
     parent_frame: Option<String>,
     /// Bag: frame whose poses they are
@@ -208,7 +208,8 @@ impl RecordingOptions {
     }
 }
 
-/// Refuses options of recordings of motion for a table of steady points, which has no runs and no time.
+/// Refuses options of recordings of motion for a table of steady points, which has no runs and no
+/// time.
 ///
 /// # Errors
 /// The options given, where there are any and the recording is a table.
@@ -232,7 +233,8 @@ pub struct DrivingOptions {
     /// Take these runs only, such as 7,8,20-29: fit on some, judge on others [default: all]
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     runs: Option<RunList>,
-    /// Take this time of each run only, in s from its first reading: to split a recording of one run
+    /// Take this time of each run only, in s from its first reading: to split a recording of one
+    /// run
     #[arg(long, value_name = "FROM,UNTIL", value_parser = time)]
     time: Option<[f64; 2]>,
     /// Time in s by which poses lag behind the track speeds [default: estimated]

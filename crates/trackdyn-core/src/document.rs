@@ -103,7 +103,8 @@ impl Document {
         })
     }
 
-    /// The contents as a `T`, if the file says that it has this schema. What keys another kind of file has is no help.
+    /// The contents as a `T`, if the file says that it has this schema. What keys another kind of
+    /// file has is no help.
     ///
     /// # Errors
     /// [`DocumentError::Value`] where it says otherwise; those of [`Document::parse`].

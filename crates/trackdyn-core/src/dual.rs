@@ -7,8 +7,8 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 
 /// A number and its derivatives by N variables.
 ///
-/// Plain arrays without branches, which the stationary balance runs faster than the general dual vectors
-/// of `num-dual` (docs/design.md); the tests compare every operation with these.
+/// Plain arrays without branches, which the stationary balance runs faster than the general dual
+/// vectors of `num-dual` (docs/design.md); the tests compare every operation with these.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<const N: usize> {
     /// The value.
@@ -170,7 +170,7 @@ mod tests {
     use num_dual::{Dual64, DualNum};
     use num_traits::Signed;
 
-    /// The same expression in ours and in num-dual's numbers: every operation of [`Scalar`].
+    /// An expression of every operation of [`Scalar`], for our numbers and those of num-dual.
     macro_rules! expression {
         ($a:expr, $b:expr) => {{
             let (a, b) = ($a, $b);

@@ -5,7 +5,8 @@
 //! - **ROS frame** (REP-103): same origin, x forward, y left. Recordings, trajectories and exports
 //!   use it.
 //!
-//! The yaw rate is the same in both, and a coordinate on the middle line is y in one and x in the other.
+//! The yaw rate is the same in both, and a coordinate on the middle line is y in one and x in the
+//! other.
 
 use crate::Twist;
 

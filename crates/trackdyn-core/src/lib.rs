@@ -9,6 +9,8 @@ pub mod frames;
 pub mod output;
 pub mod plant;
 pub mod pose;
+pub mod robust;
+pub mod rounding;
 pub mod scalar;
 pub mod schedule;
 pub mod side;

@@ -27,7 +27,7 @@ pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
     write(path, contents, tempfile::Builder::new().permissions(permissions()))
 }
 
-/// The same of a file that nobody but its owner reads, as temporary files are.
+/// Writes a file as [`write_file`] does, but one that nobody but its owner can read.
 ///
 /// # Errors
 /// As [`write_file`].
@@ -56,7 +56,8 @@ fn write(
 
 /// Waits until no file is being written, and lets none be begun while what it gives is kept.
 ///
-/// For ends that run no destructors, such as a signal's: inside [`write_file`] they would leave its temporary file.
+/// For ends that run no destructors, such as a signal's: inside [`write_file`] they would leave its
+/// temporary file.
 pub fn files_at_rest() -> RwLockWriteGuard<'static, ()> {
     WRITING.write().unwrap_or_else(PoisonError::into_inner)
 }

@@ -7,8 +7,8 @@ pub trait Plant {
     /// Where the robot is and how it moves.
     fn moment(&self) -> Moment;
 
-    /// Holds track speeds, as the encoders show them (m/s), until a time (s), and appends the moments
-    /// after the present one, the last of them at `until`.
+    /// Holds track speeds, as the encoders show them (m/s), until a time (s), and appends the
+    /// moments after the present one, the last of them at `until`.
     ///
     /// # Errors
     /// [`Stopped`] when the motion cannot go on; the moments up to there are appended.

@@ -27,8 +27,8 @@ pub trait Scalar:
     /// The value without its derivatives.
     fn value(self) -> f64;
 
-    /// A function of several numbers from its value and its partial derivatives there: the chain rule
-    /// for a derivative that was worked out by hand. `partials[k]` belongs to `arguments[k]`.
+    /// A function of several numbers from its value and its partial derivatives there: the chain
+    /// rule for a derivative that was worked out by hand. `partials[k]` belongs to `arguments[k]`.
     #[must_use]
     fn chain<const K: usize>(value: f64, partials: [f64; K], arguments: [Self; K]) -> Self;
 
@@ -76,7 +76,7 @@ pub trait Scalar:
     fn exp_m1(self) -> Self {
         let a = self.value();
         // Far from zero the difference loses nothing, and takes half the time.
-        let value = if a.abs() > NOT_SMALL { a.exp() - 1.0 } else { a.exp_m1() };
+        let value = if a.abs() > MIN_EXACT_SUMMAND { a.exp() - 1.0 } else { a.exp_m1() };
         self.map(value, value + 1.0)
     }
 
@@ -85,13 +85,13 @@ pub trait Scalar:
     #[inline]
     fn ln_1p(self) -> Self {
         let a = self.value();
-        let value = if a > NOT_SMALL { (1.0 + a).ln() } else { a.ln_1p() };
+        let value = if a > MIN_EXACT_SUMMAND { (1.0 + a).ln() } else { a.ln_1p() };
         self.map(value, (1.0 + a).recip())
     }
 }
 
 /// Size from which on a sum with one keeps all digits of what is added.
-const NOT_SMALL: f64 = 0.5;
+const MIN_EXACT_SUMMAND: f64 = 0.5;
 
 /// A count as a real number.
 #[expect(clippy::cast_precision_loss, reason = "counts of samples stay far below 2⁵³")]

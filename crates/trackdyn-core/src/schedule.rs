@@ -48,8 +48,8 @@ impl Schedule {
     /// Checks the commands.
     ///
     /// # Errors
-    /// [`ScheduleError`] for fewer than two commands, numbers that are not finite and times that do not
-    /// increase.
+    /// [`ScheduleError`] for fewer than two commands, numbers that are not finite and times that do
+    /// not increase.
     pub fn new(commands: Vec<Command>) -> Result<Self, ScheduleError> {
         if commands.len() < 2 {
             return Err(ScheduleError::TooShort(commands.len()));
@@ -82,13 +82,14 @@ impl Schedule {
         end - start
     }
 
-    /// Speeds that hold at a time; the first ones before the start, the last ones at the end and after.
+    /// Speeds that hold at a time; the first ones before the start, the last ones at the end and
+    /// after.
     pub fn at(&self, t: f64) -> PerSide<f64> {
         let after = self.commands.partition_point(|command| command.t <= t);
         self.commands[after.saturating_sub(1)].speeds
     }
 
-    /// The same so much later, s.
+    /// The schedule with all its times shifted, s.
     pub fn later(mut self, by: f64) -> Self {
         self.commands.iter_mut().for_each(|command| command.t += by);
         self

@@ -33,7 +33,7 @@ impl Trajectory {
         self.moments.push(moment);
     }
 
-    /// The same so much later, s.
+    /// The trajectory with all its times shifted, s.
     pub fn later(mut self, by: f64) -> Self {
         self.moments.iter_mut().for_each(|moment| moment.t += by);
         self
@@ -49,7 +49,8 @@ impl Trajectory {
         Some([self.moments.first()?.t, self.moments.last()?.t])
     }
 
-    /// Pose at a time: on the arc of constant twist between two moments; the first or last pose outside.
+    /// Pose at a time: on the arc of constant twist between two moments; the first or last pose
+    /// outside.
     ///
     /// # Panics
     /// Where the trajectory is empty.

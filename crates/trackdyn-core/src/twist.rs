@@ -28,7 +28,8 @@ impl<S: Scalar> Twist<S> {
         [self.v_x - self.w * y, self.v_y + self.w * x]
     }
 
-    /// Acceleration of the body point (x, y) when the twist stays constant in the body's axes, m/s².
+    /// Acceleration of the body point (x, y) when the twist stays constant in the body's axes,
+    /// m/s².
     #[inline]
     pub fn steady_acceleration_at(&self, point: [f64; 2]) -> [S; 2] {
         let [v_x, v_y] = self.velocity_at(point);

@@ -14,7 +14,7 @@ use crate::normal::{Columns, Normal, Prior};
 use crate::prior::prior;
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::PerSide;
-use trackdyn_model::{ActiveEffect, CATALOGUE, Circumstance, Effects, Model, Vehicle, VehicleFile};
+use trackdyn_model::{ActiveEffect, Circumstance, EffectId, Effects, Model, Vehicle, VehicleFile};
 use trackdyn_model::{Icrs, Stationary};
 
 /// Part of an instrument's signature that must be its own for it to be free beside the others.
@@ -34,7 +34,7 @@ pub struct Base {
     /// What is free in every hypothesis.
     pub nuisances: Vec<Unknown>,
     /// Effects of encoders and pose sensor among them, by their places in the catalogue.
-    pub instruments: Vec<usize>,
+    pub instruments: Vec<EffectId>,
     /// What of the vehicle takes over constant ICRs.
     pub calibration: Calibration,
 }
@@ -93,13 +93,12 @@ impl Base {
 /// The hypothesis with the clock offset that the recording shows by itself, in whatever effect delays poses.
 fn with_clock(hypothesis: &Hypothesis, evidence: &Evidence) -> Hypothesis {
     let own = Model::new(hypothesis.vehicle.clone(), hypothesis.effects.clone()).sensor().delay;
-    for (effect, card) in CATALOGUE.iter().enumerate() {
+    for effect in EffectId::all() {
         let effects: Effects = std::iter::once(typical(effect)).collect();
         let delay = Model::new(hypothesis.vehicle.clone(), effects).sensor().delay;
         if delay != 0.0 && hypothesis.effect(effect).is_none() {
             let share = (evidence.tau() - own) / delay;
-            let values: Vec<f64> = card
-                .parameters
+            let values: Vec<f64> = (effect.card().parameters)
                 .iter()
                 .map(|parameter| {
                     neutral(parameter) + share * (parameter.typical - neutral(parameter))
@@ -117,10 +116,10 @@ fn free_instruments(
     hypothesis: &Hypothesis,
     evidence: &Evidence,
     mechanics: &Mechanics,
-) -> Vec<usize> {
+) -> Vec<EffectId> {
     let mut unknowns = OFFSETS.to_vec();
     let mut chosen = Vec::new();
-    for effect in 0..CATALOGUE.len() {
+    for effect in EffectId::all() {
         if !is_instrument(&hypothesis.vehicle, &typical(effect)) {
             continue;
         }
@@ -238,7 +237,7 @@ impl Calibration {
 pub fn correct_constants(
     file: &mut VehicleFile,
     hypothesis: &Hypothesis,
-    added: &[usize],
+    added: &[EffectId],
     level: f64,
 ) {
     let filed = |of: &ActiveEffect| file.effects.get(of.card().id);
@@ -284,7 +283,7 @@ mod tests {
     fn the_vehicle_takes_over_what_is_not_claimed() {
         const LEVEL: f64 = 0.1;
         let mut file = VehicleFile::auriga_alpha();
-        let gradient = CATALOGUE.iter().position(|card| card.id == "friction-gradient");
+        let gradient = EffectId::of("friction-gradient");
         let gradient = gradient.expect("an effect");
         let effect = active(gradient, &[0.3]);
         let filed = Hypothesis::filed(&file).with(Unknown::FrictionLevel, 0.4);

@@ -15,13 +15,13 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use trackdyn_model::effect::{Card, Parameter, Role};
-use trackdyn_model::{ActiveEffect, CATALOGUE};
+use trackdyn_model::{ActiveEffect, EffectId};
 
 /// An effect with one choice of what is no size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variant {
     /// Place in the catalogue.
-    pub effect: usize,
+    pub effect: EffectId,
     /// Values of all parameters: those of sizes are where its signature is taken.
     pub values: Vec<f64>,
 }
@@ -45,7 +45,7 @@ impl Variant {
     pub fn with_sizes(&self, sizes: &[f64]) -> Self {
         let mut variant = self.clone();
         for (&parameter, &size) in self.sizes().iter().zip(sizes) {
-            let card = &CATALOGUE[self.effect].parameters[parameter];
+            let card = &self.effect.card().parameters[parameter];
             let [low, high] = card.range;
             variant.values[parameter] = (neutral(card) + size).clamp(low, high);
         }
@@ -59,7 +59,7 @@ impl Variant {
 
     /// The signature of a size, at the first of its steps that the robot can take.
     fn signature(&self, size: usize, beside: &Beside) -> Option<Signature> {
-        let parameters = CATALOGUE[self.effect].parameters;
+        let parameters = self.effect.card().parameters;
         let mut values = self.values.clone();
         let mut steps = &STEPS[..];
         if let Some(present) = beside.hypothesis.effect(self.effect) {
@@ -118,8 +118,8 @@ impl Prepared {
 }
 
 /// Places of the sizes among an effect's parameters.
-pub fn sizes(effect: usize) -> Vec<usize> {
-    let parameters = CATALOGUE[effect].parameters.iter().enumerate();
+pub fn sizes(effect: EffectId) -> Vec<usize> {
+    let parameters = effect.card().parameters.iter().enumerate();
     parameters
         .filter(|(_, parameter)| matches!(parameter.role, Role::Size { .. }))
         .map(|(place, _)| place)
@@ -127,17 +127,17 @@ pub fn sizes(effect: usize) -> Vec<usize> {
 }
 
 /// All variants of all mechanisms that are tried on this evidence, but of the instruments that are free anyway.
-pub fn candidates(instruments: &[usize], evidence: &Evidence) -> Vec<Variant> {
-    (0..CATALOGUE.len())
-        .filter(|effect| !instruments.contains(effect) && !CATALOGUE[*effect].is_form())
+pub fn candidates(instruments: &[EffectId], evidence: &Evidence) -> Vec<Variant> {
+    EffectId::all()
+        .filter(|effect| !instruments.contains(effect) && !effect.card().is_form())
         .flat_map(|effect| variants(effect, evidence))
         .collect()
 }
 
 /// The variants of an effect that are tried on this evidence: none of what knows places or directions where the
 /// evidence has none.
-pub fn variants(effect: usize, evidence: &Evidence) -> Vec<Variant> {
-    let card = &CATALOGUE[effect];
+pub fn variants(effect: EffectId, evidence: &Evidence) -> Vec<Variant> {
+    let card = effect.card();
     let parameters = card.parameters;
     let of_the_world =
         |parameter: &Parameter| matches!(parameter.role, Role::Place { .. } | Role::Direction);
@@ -279,7 +279,7 @@ mod tests {
     #[test]
     fn shapes_are_tried_on_both_sides_or_inside_of_an_end() {
         let tried = |id: &str, key: &str| {
-            let card = CATALOGUE.iter().find(|card| card.id == id).expect("an effect");
+            let card = EffectId::of(id).expect("an effect").card();
             let parameter = card.parameters.iter().find(|one| one.key == key).expect("a key");
             shapes(parameter).iter().map(|shape| (1e3 * shape).round() / 1e3).collect::<Vec<_>>()
         };

@@ -1,118 +1,34 @@
 //! What a diagnosis says.
 
-mod corrected;
-mod held_out;
 mod steps;
 
-pub use held_out::HeldOut;
+pub use crate::answer::{Kind, Missing, Status};
+pub use crate::held_out::{HeldOut, Unseen};
 pub use steps::{STAGES, diagnose};
-
-pub(crate) use corrected::{correct, sure};
 
 use crate::base::Base;
 use crate::evidence::Evidence;
 use crate::exposure::Exposure;
 use crate::fit::Fit;
-use crate::isolability::Isolability;
+use crate::isolability::{Detectable, Isolability};
 use crate::locate::Location;
 use crate::locate::cells::Cell;
 use crate::proposal::Proposal;
+use crate::resampling::Resampling;
 use crate::search::{Found, Screened};
-use crate::uncertainty::{Interval, Level};
+use crate::uncertainty::Level;
 use crate::verdict::Verdict;
-use nalgebra::Vector3;
+use trackdyn_model::EffectId;
 use trackdyn_model::VehicleFile;
 use trackdyn_model::effect::Symmetry;
 
 /// How to diagnose.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// Indices of runs that nothing is fitted or chosen on; empty: none are held out.
     pub held_out: Vec<usize>,
-    /// Draws of the bootstrap.
-    pub draws: usize,
-    /// Seed of everything random.
-    pub seed: u64,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { held_out: Vec::new(), draws: 2000, seed: 1 }
-    }
-}
-
-/// What a diagnosis says in a word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    /// What was left out is named.
-    Explained,
-    /// Nothing that this evidence could show was left out.
-    NothingMissing,
-    /// Something is missing that several effects explain alike.
-    Ambiguous,
-    /// Something is there that the catalogue does not explain.
-    Unexplained,
-}
-
-impl Status {
-    /// All of them.
-    pub const ALL: [Self; 4] =
-        [Self::Explained, Self::NothingMissing, Self::Ambiguous, Self::Unexplained];
-
-    /// Its word in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Explained => "explained",
-            Self::NothingMissing => "nothing-missing",
-            Self::Ambiguous => "ambiguous",
-            Self::Unexplained => "unexplained",
-        }
-    }
-}
-
-/// What kind of thing was left out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Physics of the robot on its ground.
-    Physics,
-    /// What encoders and pose sensor make of the motion.
-    Instrument,
-    /// A wrong number, or one of the effects that only move constant ICRs.
-    Constant,
-}
-
-/// Something that was left out, with its sizes.
-#[derive(Clone, Debug)]
-pub struct Missing {
-    /// What kind of thing it is.
-    pub kind: Kind,
-    /// The verdict.
-    pub verdict: Verdict,
-    /// Its parameters with intervals; empty where it stands for a class of constants.
-    pub parameters: Vec<Interval>,
-}
-
-/// What is left of runs that nothing was fitted or chosen on.
-#[derive(Clone)]
-pub struct Unseen {
-    /// What they show.
-    pub evidence: Evidence,
-    /// Whitened residuals before.
-    pub before: Vec<Vector3<f64>>,
-    /// After.
-    pub after: Vec<Vector3<f64>>,
-}
-
-/// The smallest change of an effect's size that this evidence could have shown.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Detectable {
-    /// Place of the effect in the catalogue.
-    pub effect: usize,
-    /// Place of the size among its parameters.
-    pub parameter: usize,
-    /// How far the size would have to be off to stand out five standard deviations: from none, from the filed one where the vehicle file
-    /// has the effect, from the fitted one where the best hypothesis adds it. None where no physical size would.
-    pub size: Option<f64>,
+    /// Draws of the bootstrap, and the seed of everything random.
+    pub resampling: Resampling,
 }
 
 /// The outcome.
@@ -139,7 +55,7 @@ pub struct Diagnosis {
     /// The same beside the corrected model.
     pub left: Vec<Screened>,
     /// Effects that only move constant ICRs.
-    pub constants: Vec<usize>,
+    pub constants: Vec<EffectId>,
     /// What this evidence can tell apart, of all candidates beside the base, what is claimed among them.
     pub resemblance: Isolability,
     /// The claimed effects, or else the best candidate, against the evidence.

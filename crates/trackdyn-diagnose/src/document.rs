@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use trackdyn_core::document::{Document, DocumentError};
-use trackdyn_model::CATALOGUE;
+use trackdyn_core::rounding::Digits;
 use trackdyn_model::effect::{Card, Symmetry};
 use trackdyn_model::kinematics::Source;
 
@@ -137,7 +137,7 @@ impl DiagnosisFile {
     pub fn new(diagnosis: &Diagnosis, source: &Source) -> Self {
         let located = &diagnosis.before;
         let detectable = diagnosis.detectable.iter().filter_map(|one| {
-            let card = &CATALOGUE[one.effect];
+            let card = one.effect.card();
             let size = rounded(one.size?);
             Some((card.id.to_owned(), card.parameters[one.parameter].key.to_owned(), size))
         });
@@ -208,11 +208,10 @@ impl ParameterTable {
 
 fn missing(missing: &crate::diagnosis::Missing) -> MissingTable {
     let verdict = &missing.verdict;
-    let ids: Vec<String> =
-        verdict.one_of.iter().map(|&effect| CATALOGUE[effect].id.to_owned()).collect();
+    let ids: Vec<String> = verdict.one_of.iter().map(|&effect| effect.name().to_owned()).collect();
     let parameters = missing.parameters.iter().filter_map(ParameterTable::of);
     MissingTable {
-        effect: CATALOGUE[verdict.effect].id.to_owned(),
+        effect: verdict.effect.name().to_owned(),
         parameters: parameters.collect(),
         evidence: SupportTable {
             p: rounded(verdict.support.p),
@@ -228,7 +227,7 @@ fn missing(missing: &crate::diagnosis::Missing) -> MissingTable {
 pub fn separate_by(missing: &crate::diagnosis::Missing) -> String {
     match missing.kind {
         Kind::Constant => {
-            let members = missing.verdict.one_of.iter().map(|&effect| &CATALOGUE[effect]);
+            let members = missing.verdict.one_of.iter().map(|&effect| effect.card());
             let mut text = String::new();
             for (card, driving) in members.filter_map(|card| Some((card, told_by(card)?))) {
                 let _ = write!(text, "driving {driving} tells whether it is {}; ", card.id);
@@ -261,12 +260,7 @@ fn told_by(card: &Card) -> Option<&'static str> {
     })
 }
 
-/// The number to nine significant digits: what is below is rounding.
+/// The number with the digits that the file keeps.
 fn rounded(value: f64) -> f64 {
-    if value == 0.0 || !value.is_finite() {
-        return value;
-    }
-    #[expect(clippy::cast_possible_truncation, reason = "a decimal exponent")]
-    let digits = 10.0_f64.powi(8 - value.abs().log10().floor() as i32);
-    (value * digits).round() / digits
+    Digits::Significant(9).round(value)
 }

@@ -15,11 +15,11 @@ use crate::normal::{Columns, Normal};
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
+use trackdyn_core::robust::deviation_about_zero;
 use trackdyn_core::{PerSide, Pose};
+use trackdyn_estimate::regular::regularise;
 use trackdyn_estimate::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 use trackdyn_recording::TrackSample;
-use trackdyn_recording::regular::regularise;
-use trackdyn_recording::robust::deviation_about_zero;
 
 /// One observed motion.
 #[derive(Clone, Copy, Debug, PartialEq)]

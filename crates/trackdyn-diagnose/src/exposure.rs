@@ -9,12 +9,13 @@ use crate::mechanics::{Instruments, Mechanics};
 use crate::normal::{Columns, Normal};
 use crate::search::{Screened, Search};
 use nalgebra::Vector3;
+use trackdyn_model::EffectId;
 
 /// An effect against the evidence, sample by sample, whitened.
 #[derive(Clone, Debug)]
 pub struct Exposure {
     /// Place of the effect in the catalogue.
-    pub effect: usize,
+    pub effect: EffectId,
     /// Change of the prediction by the effect at its estimated size.
     pub predicted: Vec<Vector3<f64>>,
     /// Departure of the evidence from the prediction without it.
@@ -23,7 +24,7 @@ pub struct Exposure {
 
 impl Exposure {
     /// Of an effect of a fit: without it, it is as the vehicle file has it.
-    pub fn of_fitted(search: &Search, fit: &Fit, effect: usize) -> Self {
+    pub fn of_fitted(search: &Search, fit: &Fit, effect: EffectId) -> Self {
         let Search { evidence, base, .. } = *search;
         let without = fit.hypothesis.with_effect_of(&base.as_filed.hypothesis, effect);
         let prediction =

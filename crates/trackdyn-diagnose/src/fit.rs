@@ -12,6 +12,7 @@ use crate::normal::{Prior, Solution};
 use crate::prior::priors;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
+use trackdyn_model::EffectId;
 use trackdyn_model::effect::Role;
 
 /// Iterations of a fit.
@@ -391,7 +392,7 @@ impl Fit {
     }
 
     /// What was free, without the parameters of an effect.
-    pub fn unknowns_without(&self, effect: usize) -> Vec<Unknown> {
+    pub fn unknowns_without(&self, effect: EffectId) -> Vec<Unknown> {
         self.unknowns.iter().copied().filter(|unknown| !unknown.is_of(effect)).collect()
     }
 
@@ -428,13 +429,13 @@ fn spread(solution: &Solution, free: &[usize], priors: &[Prior]) -> Solution {
 mod tests {
     use super::*;
     use crate::hypothesis::unknowns_of;
-    use trackdyn_model::{CATALOGUE, VehicleFile};
+    use trackdyn_model::VehicleFile;
 
     /// A quotient over no step at all would be no number.
     #[test]
     fn every_number_has_a_step_to_take_wherever_it_stands() {
         let filed = Hypothesis::filed(&VehicleFile::auriga_alpha());
-        let effects = (0..CATALOGUE.len()).flat_map(unknowns_of);
+        let effects = EffectId::all().flat_map(unknowns_of);
         for unknown in effects.chain([Unknown::Offset(0), Unknown::FrictionLevel]) {
             let [low, high] = unknown.range();
             for value in [low.max(-1e9), high.min(1e9), 0.0_f64.clamp(low, high)] {

@@ -1,7 +1,7 @@
 //! A hypothesis: a vehicle, effects with their sizes, and a constant offset of the ICRs.
 
 use trackdyn_model::effect::{Card, Parameter, Role};
-use trackdyn_model::{ActiveEffect, CATALOGUE, Effects, Vehicle, VehicleFile};
+use trackdyn_model::{ActiveEffect, EffectId, Effects, Vehicle, VehicleFile};
 
 /// What is supposed.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +34,7 @@ pub enum Unknown {
     /// Centre of gravity, x_c or y_c.
     Cog(usize),
     /// Parameter of an effect, both by their places in the catalogue.
-    Effect(usize, usize),
+    Effect(EffectId, usize),
 }
 
 impl Unknown {
@@ -42,7 +42,7 @@ impl Unknown {
     pub fn card(self) -> Option<&'static Card> {
         match self {
             Self::Offset(_) | Self::FrictionLevel | Self::Cog(_) => None,
-            Self::Effect(effect, _) => Some(&CATALOGUE[effect]),
+            Self::Effect(effect, _) => Some(effect.card()),
         }
     }
 
@@ -50,7 +50,7 @@ impl Unknown {
     pub fn parameter(self) -> Option<&'static Parameter> {
         match self {
             Self::Offset(_) | Self::FrictionLevel | Self::Cog(_) => None,
-            Self::Effect(effect, parameter) => Some(&CATALOGUE[effect].parameters[parameter]),
+            Self::Effect(effect, parameter) => Some(&effect.card().parameters[parameter]),
         }
     }
 
@@ -64,14 +64,14 @@ impl Unknown {
     }
 
     /// Whether it is a parameter of this effect.
-    pub fn is_of(self, effect: usize) -> bool {
+    pub fn is_of(self, effect: EffectId) -> bool {
         matches!(self, Self::Effect(of, _) if of == effect)
     }
 }
 
 /// The unknowns of an effect.
-pub fn unknowns_of(effect: usize) -> impl Iterator<Item = Unknown> {
-    (0..CATALOGUE[effect].parameters.len()).map(move |parameter| Unknown::Effect(effect, parameter))
+pub fn unknowns_of(effect: EffectId) -> impl Iterator<Item = Unknown> {
+    (0..effect.card().parameters.len()).map(move |parameter| Unknown::Effect(effect, parameter))
 }
 
 /// A parameter's value at which its effect is not there, within the physical range; its typical value
@@ -130,7 +130,7 @@ impl Hypothesis {
                 changed.cog_moved[k] = value;
             }
             Unknown::Effect(effect, parameter) => {
-                let card = &CATALOGUE[effect];
+                let card = effect.card();
                 let mut values: Vec<f64> = match self.effect(effect) {
                     Some(active) => active.values().to_vec(),
                     None => card.parameters.iter().map(neutral).collect(),
@@ -143,7 +143,7 @@ impl Hypothesis {
     }
 
     /// The effect at a place of the catalogue, where it is there.
-    pub fn effect(&self, effect: usize) -> Option<&ActiveEffect> {
+    pub fn effect(&self, effect: EffectId) -> Option<&ActiveEffect> {
         find(&self.effects, effect)
     }
 
@@ -155,7 +155,7 @@ impl Hypothesis {
     }
 
     /// The same with an effect as another hypothesis has it: without it where that one is.
-    pub fn with_effect_of(&self, other: &Self, effect: usize) -> Self {
+    pub fn with_effect_of(&self, other: &Self, effect: EffectId) -> Self {
         match other.effect(effect) {
             Some(known) => self.with_effect(known.clone()),
             None => self.without(effect),
@@ -163,24 +163,23 @@ impl Hypothesis {
     }
 
     /// The same without an effect.
-    pub fn without(&self, effect: usize) -> Self {
-        let id = CATALOGUE[effect].id;
-        let effects =
-            self.effects.iter().filter(|active| active.card().id != id).cloned().collect();
+    pub fn without(&self, effect: EffectId) -> Self {
+        let others = self.effects.iter().filter(|active| active.effect() != effect);
+        let effects = others.cloned().collect();
         Self { effects, ..self.clone() }
     }
 }
 
 /// The effect at a place of the catalogue, where it is there.
-pub fn find(effects: &Effects, effect: usize) -> Option<&ActiveEffect> {
-    effects.get(CATALOGUE[effect].id)
+pub fn find(effects: &Effects, effect: EffectId) -> Option<&ActiveEffect> {
+    effects.iter().find(|active| active.effect() == effect)
 }
 
 /// Value of an effect's parameter, both by their places in the catalogue; that of no effect where the effect is not
 /// there.
-pub fn value(effects: &Effects, effect: usize, parameter: usize) -> f64 {
+pub fn value(effects: &Effects, effect: EffectId, parameter: usize) -> f64 {
     find(effects, effect).map_or_else(
-        || neutral(&CATALOGUE[effect].parameters[parameter]),
+        || neutral(&effect.card().parameters[parameter]),
         |active| active.values()[parameter],
     )
 }
@@ -197,15 +196,15 @@ pub fn with_friction(vehicle: &Vehicle, level: f64) -> Vehicle {
 ///
 /// # Panics
 /// Never: typical sizes are in range.
-pub fn typical(effect: usize) -> ActiveEffect {
-    ActiveEffect::new(CATALOGUE[effect].id, &[]).expect("an effect of the catalogue")
+pub fn typical(effect: EffectId) -> ActiveEffect {
+    ActiveEffect::new(effect.name(), &[]).expect("an effect of the catalogue")
 }
 
 /// An effect with these values, clamped into their physical ranges.
 ///
 /// # Panics
 /// Never: names and ranges are the catalogue's.
-pub fn active(effect: usize, values: &[f64]) -> ActiveEffect {
+pub fn active(effect: EffectId, values: &[f64]) -> ActiveEffect {
     with_values(&typical(effect), values)
 }
 

@@ -1,10 +1,9 @@
 //! What this evidence could show, and could tell apart.
 
-use crate::diagnosis::Detectable;
 use crate::hypothesis::{Unknown, neutral};
 use crate::search::{Found, Screened, Search};
 use nalgebra::DMatrix;
-use trackdyn_model::CATALOGUE;
+use trackdyn_model::EffectId;
 
 /// Standard deviations by which an effect must stand out to be detectable.
 pub const DETECTED: f64 = 5.0;
@@ -13,7 +12,7 @@ pub const DETECTED: f64 = 5.0;
 #[derive(Clone, Debug)]
 pub struct Isolability {
     /// Places of the effects in the catalogue, ascending.
-    pub effects: Vec<usize>,
+    pub effects: Vec<EffectId>,
     /// z of each effect at its typical size.
     pub detection: Vec<f64>,
     /// |cosine| between the signatures of two effects: one where they cannot be told apart.
@@ -22,6 +21,18 @@ pub struct Isolability {
     pub separation: DMatrix<f64>,
     /// Each size parameter, with z per unit of it.
     sizes: Vec<(Unknown, f64)>,
+}
+
+/// The smallest change of an effect's size that this evidence could have shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Detectable {
+    /// Place of the effect in the catalogue.
+    pub effect: EffectId,
+    /// Place of the size among its parameters.
+    pub parameter: usize,
+    /// How far the size would have to be off to stand out five standard deviations: from none, from the filed one where the vehicle file
+    /// has the effect, from the fitted one where the best hypothesis adds it. None where no physical size would.
+    pub size: Option<f64>,
 }
 
 impl Isolability {
@@ -36,7 +47,7 @@ impl Isolability {
         let projected = normal.projected(&base, &known);
         // The signature at typical sizes, as one column.
         let typical = |place: usize| -> Vec<f64> {
-            let parameters = CATALOGUE[order[place].effect].parameters;
+            let parameters = order[place].effect.card().parameters;
             let sizes = crate::candidate::sizes(order[place].effect);
             sizes.iter().map(|&k| parameters[k].typical - neutral(&parameters[k])).collect()
         };
@@ -92,7 +103,7 @@ impl Isolability {
             .iter()
             .filter_map(|&(unknown, per_unit)| {
                 let Unknown::Effect(effect, parameter) = unknown else { return None };
-                let card = &CATALOGUE[effect].parameters[parameter];
+                let card = &effect.card().parameters[parameter];
                 let most = (card.range[1] - neutral(card)).max(neutral(card) - card.range[0]);
                 let size = DETECTED / per_unit;
                 Some(Detectable { effect, parameter, size: (size <= most).then_some(size) })

@@ -10,19 +10,23 @@
 //! - [`candidate`], [`search`]: the signature of every effect, and which effects explain the evidence.
 //! - [`verdict`], [`uncertainty`], [`isolability`]: what is claimed, how large it is, what is told apart.
 //! - [`proposal`]: the form of a force for what no effect explains.
+//! - [`answer`], [`held_out`]: what is said, and what runs say of it that nothing was fitted on.
 //! - [`mod@diagnosis`]: all of it in order, and what comes out; [`document`]: as a file; [`exposure`]: for the eye.
 //! - [`mod@plan`]: the driving that would tell apart what is left; [`error`]: why none of it can be done.
 //!
 //! No effect is known by name here: what an effect does is asked of the simulator.
 
+pub mod answer;
 pub mod base;
 pub mod candidate;
+mod corrected;
 pub mod diagnosis;
 pub mod document;
 pub mod error;
 pub mod evidence;
 pub mod exposure;
 pub mod fit;
+pub mod held_out;
 pub mod huber;
 pub mod hypothesis;
 pub mod isolability;
@@ -34,6 +38,7 @@ pub mod place;
 pub mod plan;
 pub mod prior;
 pub mod proposal;
+pub mod resampling;
 pub mod search;
 pub mod significance;
 pub mod surface;
@@ -45,3 +50,4 @@ pub use document::DiagnosisFile;
 pub use error::Error;
 pub use evidence::Evidence;
 pub use plan::{Plan, PlanFile, plan};
+pub use resampling::Resampling;

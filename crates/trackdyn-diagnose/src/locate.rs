@@ -8,10 +8,12 @@
 
 pub mod cells;
 mod contrasts;
+mod departures;
 mod past;
 mod waves;
 
-pub use contrasts::{Contrasts, Manoeuvre, contrasts};
+pub use contrasts::{Manoeuvre, contrasts};
+pub use departures::Contrasts;
 pub use waves::Wave;
 
 use crate::evidence::{Evidence, Sample};
@@ -19,6 +21,7 @@ use crate::fit::Fit;
 use crate::huber;
 use crate::mechanics::Instruments;
 use crate::normal::Prior;
+use crate::resampling::Resampling;
 use crate::significance::{Test, test};
 use nalgebra::Vector3;
 use trackdyn_core::real;
@@ -102,7 +105,7 @@ pub struct Residual<'a> {
 
 impl Residual<'_> {
     /// What it shows.
-    pub fn locate(&self, draws: usize, seed: u64) -> Location {
+    pub fn locate(&self, resampling: Resampling) -> Location {
         let Self { evidence, fit, icrs } = *self;
         let Fit { residual, columns: fitted, .. } = fit;
         let mut columns = fitted.clone();
@@ -126,8 +129,8 @@ impl Residual<'_> {
             projected = projected.cleared(own, &beside.collect::<Vec<_>>());
         }
         let indices: Vec<Vec<usize>> = groups.iter().map(|(_, group)| group.clone()).collect();
-        let tests = test(&projected, &indices, draws, seed);
-        let all = test(&projected, &[indices.concat()], 1, seed);
+        let tests = test(&projected, &indices, resampling);
+        let all = test(&projected, &[indices.concat()], resampling.once());
         let mut strongest: Vec<SymmetryTest> = Vec::new();
         for ((Contrasts { symmetry, .. }, _), test) in groups.into_iter().zip(tests) {
             match strongest.iter_mut().find(|other| other.symmetry == symmetry) {
@@ -146,11 +149,11 @@ impl Residual<'_> {
     }
 
     /// What it shows in waves of the ground as well: these are the strictest test of places.
-    pub fn locate_in_waves(&self, draws: usize, seed: u64) -> Location {
-        let mut location = self.locate(draws, seed);
+    pub fn locate_in_waves(&self, resampling: Resampling) -> Location {
+        let mut location = self.locate(resampling);
         let Self { evidence, fit, icrs } = *self;
         let strongest = |beside: &[Vec<Vector3<f64>>]| {
-            let wave = strongest_wave(evidence, &fit.residual, beside, icrs, (draws, seed));
+            let wave = strongest_wave(evidence, &fit.residual, beside, icrs, resampling);
             wave.filter(|wave| wave.test.p < SIGNIFICANT)
         };
         // What plainer contrasts show is in some waves as well, and in the best of so many by chance.

@@ -19,7 +19,7 @@
 //! does explain more, the noise is looked for once more beside it, and stands if what a run adds up to falls along one axis: a walk that is
 //! next to nothing in a sample is what hides slow changes.
 //!
-//! What is measured without any model ([`trackdyn_recording::noise`]) is where this starts from. Poses alone
+//! What is measured without any model ([`trackdyn_estimate::noise`]) is where this starts from. Poses alone
 //! cannot tell the ripple of a drive, which the encoders see, from a walk of the pose; nor can encoders alone
 //! tell counts that err against each other from slip.
 //!
@@ -34,9 +34,9 @@ use crate::evidence::Evidence;
 use crate::fit::Fit;
 use flexible::Flexible;
 use nalgebra::{Cholesky, SMatrix, SVector, Vector3};
+use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median};
 use trackdyn_core::{Pose, real};
 use trackdyn_estimate::weighting::SegmentNoise;
-use trackdyn_recording::robust::{MEDIAN_OF_CHI_SQUARE, median};
 
 /// Degrees of freedom of the heavy-tailed likelihood.
 const TAILS: f64 = 5.0;

@@ -20,8 +20,10 @@ use menu::{INTERVAL, Manoeuvre, menu};
 use nalgebra::DMatrix;
 use rivals::Rival;
 use separation::{Pair, products, shares, squared};
+use trackdyn_core::rounding::Digits;
 use trackdyn_core::{Command, PerSide, Pose, Schedule, real};
 use trackdyn_estimate::weighting::SegmentNoise;
+use trackdyn_model::EffectId;
 use trackdyn_model::Stationary;
 use trackdyn_model::{Circumstance, Model, VehicleFile};
 use trackdyn_recording::TrackSample;
@@ -95,7 +97,7 @@ pub struct Separation {
     /// Index of the question that it belongs to.
     pub question: usize,
     /// Both, by their places in the catalogue.
-    pub effects: [usize; 2],
+    pub effects: [EffectId; 2],
     /// z over the whole plan.
     pub z: f64,
     /// z over all manoeuvres of the menu, one after the other.
@@ -133,9 +135,9 @@ impl Plan {
     }
 }
 
-/// To six decimals: what is below is rounding.
+/// The number with the digits that files of plans keep.
 fn rounded(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6
+    Digits::Decimals(6).round(value)
 }
 
 /// Plans what separates the members of these classes. `progress` is told of each finished stage.

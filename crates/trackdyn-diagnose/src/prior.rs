@@ -5,7 +5,7 @@ use crate::hypothesis::{Hypothesis, Unknown, active, neutral, typical_size};
 use crate::normal::Prior;
 use trackdyn_model::contact::Friction;
 use trackdyn_model::effect::Role;
-use trackdyn_model::{CATALOGUE, Circumstance, Model, Vehicle};
+use trackdyn_model::{Circumstance, Model, Vehicle};
 
 /// What is known of an unknown beforehand, as standard deviation around no effect.
 ///
@@ -29,7 +29,7 @@ pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> 
                 }
                 Role::Place { .. } => {
                     let [middle, spread] = area(evidence, parameter.role);
-                    let far = if CATALOGUE[effect].has_extent() { 1.0 } else { SEVERAL };
+                    let far = if effect.card().has_extent() { 1.0 } else { SEVERAL };
                     Prior::normal(middle, far * spread.max(1.0))
                 }
                 // all alike, wherever it stands
@@ -73,7 +73,7 @@ pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
     /// What is known exactly is known to this part of a typical size.
     const EXACT: f64 = 1e-4;
     let Unknown::Effect(effect, place) = unknown else { return None };
-    let parameters = CATALOGUE[effect].parameters;
+    let parameters = effect.card().parameters;
     let size = typical_size(&parameters[place]);
     let values: Vec<f64> = (0..parameters.len())
         .map(|k| if k == place { parameters[k].typical } else { neutral(&parameters[k]) })

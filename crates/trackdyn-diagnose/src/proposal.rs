@@ -12,26 +12,28 @@ mod selection;
 pub mod symmetry;
 pub mod words;
 
-use crate::diagnosis::{Diagnosis, HeldOut, Options, Status, Unseen, correct, sure};
+use crate::base::Base;
 use crate::evidence::Evidence;
 use crate::fit::{Fit, columns};
+use crate::held_out::{HeldOut, Unseen};
 use crate::hypothesis::Unknown;
 use crate::locate::{Location, Residual, excess, icr_columns};
 use crate::mechanics::Instruments;
 use crate::prior::priors;
+use crate::resampling::Resampling;
 use crate::search::{Catalogue, Found, Search};
 use crate::uncertainty::{Interval, Uncertainty};
 use crate::verdict::{Rules, Support};
 use selection::{Library, Selected};
 use trackdyn_core::real;
 use trackdyn_model::effect::{Symmetry, Term};
-use trackdyn_model::{CATALOGUE, Effects, Model, Vehicle};
+use trackdyn_model::{EffectId, Effects, Model, Vehicle};
 
 /// A law that is proposed for what no effect explains.
 #[derive(Clone)]
 pub struct Proposal {
     /// The form, by its place in the catalogue.
-    pub effect: usize,
+    pub effect: EffectId,
     /// Its terms, most telling first.
     pub terms: Vec<Proposed>,
     /// The best hypothesis with it, refitted.
@@ -79,60 +81,59 @@ impl Proposal {
     }
 }
 
-/// A diagnosis that leaves something unexplained, with the law that is proposed for it: in `proposed`, and in the
-/// corrected vehicle.
-pub fn completed(mut diagnosis: Diagnosis, options: &Options) -> Diagnosis {
-    if diagnosis.status == Status::Unexplained {
-        diagnosis.proposed = propose(&diagnosis, &diagnosis.evidence, options);
-        let Diagnosis { proposed, corrected, missing, friction_level, .. } = &mut diagnosis;
-        if let Some(Proposal { found, effect, .. }) = proposed {
-            // the law first: what it moves is no constant
-            if let Some(law) = found.fit.hypothesis.effect(*effect) {
-                corrected.effects.insert(law.clone());
-            }
-            correct(corrected, found, missing, sure(*friction_level));
-        }
-    }
-    diagnosis
+/// A best hypothesis that leaves something unexplained, and what is known of it.
+#[derive(Clone, Copy)]
+pub struct Unexplained<'a> {
+    /// The evidence of the fit.
+    pub evidence: &'a Evidence,
+    /// The base.
+    pub base: &'a Base,
+    /// The best hypothesis.
+    pub best: &'a Found,
+    /// Where the vehicle as filed departs from the evidence.
+    pub filed: &'a Location,
+    /// Where the base does.
+    pub before: &'a Location,
+    /// Where the best hypothesis does.
+    pub after: &'a Location,
+    /// Errors of the best hypothesis, on the runs that judge it.
+    pub held_out: HeldOut,
+    /// These runs; none where none were held out.
+    pub unseen: Option<&'a Unseen>,
 }
 
 /// The law of the first form that has one to propose.
-fn propose(diagnosis: &Diagnosis, evidence: &Evidence, options: &Options) -> Option<Proposal> {
-    let forms = (0..CATALOGUE.len()).filter(|&effect| CATALOGUE[effect].is_form());
-    forms.into_iter().find_map(|effect| law(effect, diagnosis, evidence, options))
+pub fn propose(unexplained: &Unexplained, resampling: Resampling) -> Option<Proposal> {
+    let forms = EffectId::all().filter(|effect| effect.card().is_form());
+    forms.into_iter().find_map(|effect| law(effect, unexplained, resampling))
 }
 
 /// The law of a form: its terms chosen, and fitted in the simulator.
-fn law(
-    effect: usize,
-    diagnosis: &Diagnosis,
-    evidence: &Evidence,
-    options: &Options,
-) -> Option<Proposal> {
-    let Diagnosis { base, best, .. } = diagnosis;
+fn law(effect: EffectId, unexplained: &Unexplained, resampling: Resampling) -> Option<Proposal> {
+    let Unexplained { evidence, base, best, .. } = *unexplained;
     let form = Rules::tolerated(evidence, base, best);
-    let left_over = diagnosis.after.left_over(form);
-    let kept = symmetry::kept([&diagnosis.filed, &diagnosis.before, &diagnosis.after]);
-    let terms = CATALOGUE[effect].terms().into_iter();
+    let left_over = unexplained.after.left_over(form);
+    let kept = symmetry::kept([unexplained.filed, unexplained.before, unexplained.after]);
+    let terms = effect.card().terms().into_iter();
     let terms = terms
-        .filter(|term| symmetry::is_admissible(term, &diagnosis.after, &left_over, &kept))
+        .filter(|term| symmetry::is_admissible(term, unexplained.after, &left_over, &kept))
         .collect();
 
     let catalogue = Catalogue { entries: Vec::new() };
     let search = Search::new(evidence, base, &catalogue);
     let library = library(effect, terms, &search, &best.fit);
-    let selected = selection::select(&library, options);
+    let selected = selection::select(&library, resampling);
     if selected.is_empty() {
         return None;
     }
     let found = refitted(effect, &selected, &library, &search, best);
     let icrs = icr_columns(evidence, &found.fit);
     let residual = Residual { evidence, fit: &found.fit, icrs: &icrs };
-    let after = residual.locate_in_waves(options.draws, options.seed);
-    let held_out = judged(diagnosis, &found.fit);
+    let after = residual.locate_in_waves(resampling);
+    let held_out = judged(unexplained, &found.fit);
     let still = after.left_over(form);
     // A law that leaves most of it, breaks what was whole, or fails where nothing was fitted, is none.
-    let remains = remainder(&after, &left_over) / remainder(&diagnosis.after, &left_over);
+    let remains = remainder(&after, &left_over) / remainder(unexplained.after, &left_over);
     let at_limit = |&unknown: &Unknown| unknown.is_of(effect) && found.fit.is_at_limit(unknown);
     let sound = remains < MOST_LEFT
         && still.iter().all(|symmetry| left_over.contains(symmetry))
@@ -170,7 +171,7 @@ fn remainder(location: &Location, symmetries: &[Symmetry]) -> f64 {
 }
 
 /// The normal equations of the best fit with the signatures of all terms beside.
-fn library(effect: usize, terms: Vec<Term>, search: &Search, fit: &Fit) -> Library {
+fn library(effect: EffectId, terms: Vec<Term>, search: &Search, fit: &Fit) -> Library {
     let Search { evidence, .. } = *search;
     let mut unknowns: Vec<Unknown> = terms
         .iter()
@@ -191,7 +192,7 @@ fn library(effect: usize, terms: Vec<Term>, search: &Search, fit: &Fit) -> Libra
 
 /// The best hypothesis with the chosen terms as a force in the simulator, everything fitted anew.
 fn refitted(
-    effect: usize,
+    effect: EffectId,
     selected: &[Selected],
     library: &Library,
     search: &Search,
@@ -215,11 +216,12 @@ fn refitted(
 }
 
 /// The errors without the law and with it, on the runs that judge the diagnosis.
-fn judged(diagnosis: &Diagnosis, fit: &Fit) -> HeldOut {
-    let HeldOut { instruments, after: before, noise_floor, are_held_out, .. } = diagnosis.held_out;
-    let after = match &diagnosis.unseen {
+fn judged(unexplained: &Unexplained, fit: &Fit) -> HeldOut {
+    let HeldOut { instruments, after: before, noise_floor, are_held_out, .. } =
+        unexplained.held_out;
+    let after = match unexplained.unseen {
         Some(Unseen { evidence, .. }) => excess(evidence, &fit.on(evidence).residual),
-        None => excess(&diagnosis.evidence, &fit.residual),
+        None => excess(unexplained.evidence, &fit.residual),
     };
     HeldOut { before, instruments, after, noise_floor, are_held_out }
 }

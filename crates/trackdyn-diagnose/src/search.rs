@@ -16,6 +16,7 @@ use crate::normal::{Normal, Prior};
 use crate::prior::{prior, priors};
 use done::{Done, Key, Step};
 use rayon::prelude::*;
+use trackdyn_model::EffectId;
 
 /// Effects that one hypothesis may add.
 pub const MOST_EFFECTS: usize = 3;
@@ -73,7 +74,7 @@ pub struct Screened {
     /// Index of the variant in the catalogue.
     pub entry: usize,
     /// Place of its effect.
-    pub effect: usize,
+    pub effect: EffectId,
     /// Gain of ln evidence.
     pub gain: f64,
     /// Gain of the likelihood alone, as z: √ of what twice the misfit falls by.
@@ -88,7 +89,7 @@ pub struct Screened {
 #[derive(Clone)]
 pub struct Found {
     /// The added effects, ascending.
-    pub effects: Vec<usize>,
+    pub effects: Vec<EffectId>,
     /// The fit.
     pub fit: Fit,
     /// Its ln evidence.
@@ -313,7 +314,7 @@ impl<'a> Search<'a> {
 
     /// A fit of a hypothesis that adds these effects, after the vehicle took back what is its own: what an effect adds to
     /// the constant ICRs had gone into the vehicle's friction and centre of gravity before.
-    fn recalibrated(&self, effects: Vec<usize>, mut fit: Fit) -> Found {
+    fn recalibrated(&self, effects: Vec<EffectId>, mut fit: Fit) -> Found {
         for _ in 0..RECALIBRATIONS {
             let calibration = self.base.calibration;
             let moved: [f64; 3] = std::array::from_fn(|k| {
@@ -351,12 +352,12 @@ impl<'a> Search<'a> {
     }
 
     /// The hypothesis without one of its added effects, refitted from there: the base itself may have ended further off.
-    pub fn without(&self, found: &Found, effect: usize) -> Found {
+    pub fn without(&self, found: &Found, effect: EffectId) -> Found {
         self.done.or_else(Key::new(found, Step::Leave(effect)), || self.left_out(found, effect))
     }
 
-    fn left_out(&self, found: &Found, effect: usize) -> Found {
-        let effects: Vec<usize> =
+    fn left_out(&self, found: &Found, effect: EffectId) -> Found {
+        let effects: Vec<EffectId> =
             found.effects.iter().copied().filter(|other| *other != effect).collect();
         let is_base = effects.is_empty();
         let hypothesis = found.fit.hypothesis.with_effect_of(&self.base.fit.hypothesis, effect);

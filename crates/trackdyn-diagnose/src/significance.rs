@@ -22,9 +22,9 @@
 //! Westfall, Young, Resampling-based multiple testing, 1993.
 
 use crate::normal::Normal;
+use crate::resampling::Resampling;
 use nalgebra::{DMatrix, DVector};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand::RngExt;
 use rayon::prelude::*;
 use trackdyn_core::real;
 
@@ -53,20 +53,19 @@ impl Test {
 const DEPENDENT: f64 = 1e-6;
 
 /// Tests groups of columns of which the base was projected out, all as one family.
-pub fn test(projected: &Normal, groups: &[Vec<usize>], draws: usize, seed: u64) -> Vec<Test> {
+pub fn test(projected: &Normal, groups: &[Vec<usize>], resampling: Resampling) -> Vec<Test> {
     let groups: Vec<Group> = groups.iter().map(|columns| Group::new(projected, columns)).collect();
-    test_family(&groups, draws, seed)
+    test_family(&groups, resampling)
 }
 
 /// Tests groups as one family.
-pub fn test_family(groups: &[Group], draws: usize, seed: u64) -> Vec<Test> {
+pub fn test_family(groups: &[Group], resampling: Resampling) -> Vec<Test> {
     let blocks = groups.iter().map(|group| group.remainders.ncols()).max().unwrap_or_default();
     let observed: Vec<f64> = groups.iter().map(Group::observed).collect();
-    let largest: Vec<f64> = (0..draws)
+    let largest: Vec<f64> = (0..resampling.draws)
         .into_par_iter()
         .map(|draw| {
-            let mut random = ChaCha8Rng::seed_from_u64(seed);
-            random.set_stream(draw as u64);
+            let mut random = resampling.random(draw);
             let signs =
                 DVector::from_fn(blocks, |_, _| if random.random::<bool>() { 1.0 } else { -1.0 });
             let statistics = groups.iter().map(|group| group.normal_score(group.statistic(&signs)));
@@ -80,7 +79,8 @@ pub fn test_family(groups: &[Group], draws: usize, seed: u64) -> Vec<Test> {
             let score = group.normal_score(statistic);
             // As large as the observed arrangement within rounding counts as large.
             let exceeding = largest.iter().filter(|other| **other >= score - 1e-9).count();
-            let p = if group.degrees == 0 { 1.0 } else { real(exceeding + 1) / real(draws + 1) };
+            let share = real(exceeding + 1) / real(resampling.draws + 1);
+            let p = if group.degrees == 0 { 1.0 } else { share };
             Test { statistic, degrees: group.degrees, p }
         })
         .collect()
@@ -193,10 +193,12 @@ mod tests {
     use super::*;
     use crate::normal::Columns;
     use nalgebra::Vector3;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
 
     const BLOCKS: usize = 36;
     const PER_BLOCK: usize = 30;
-    const DRAWS: usize = 999;
+    const RESAMPLING: Resampling = Resampling { draws: 999, seed: 1 };
 
     /// White noise, and columns of which the first two are seen by all blocks and the last by one of them. `sizes`
     /// are what of the first and the last is in the residual, in standard deviations.
@@ -229,7 +231,7 @@ mod tests {
     }
 
     fn tests_of(normal: &Normal) -> Vec<Test> {
-        test(normal, &[vec![0], vec![1], vec![2]], DRAWS, 1)
+        test(normal, &[vec![0], vec![1], vec![2]], RESAMPLING)
     }
 
     /// Of a column that others explain rounding is left, of any sign: it is no evidence.

@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use trackdyn_core::real;
-use trackdyn_recording::Interval as Student;
+use trackdyn_estimate::Interval as Student;
+use trackdyn_model::EffectId;
 
 /// A fitted parameter with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,7 +121,7 @@ impl<'a> Uncertainty<'a> {
     }
 
     /// The parameters of these effects with their 95 % intervals.
-    pub fn intervals(&self, effects: &[usize]) -> Vec<Interval> {
+    pub fn intervals(&self, effects: &[EffectId]) -> Vec<Interval> {
         let is_asked = |unknown: &Unknown| effects.iter().any(|&effect| unknown.is_of(effect));
         let places = (0..self.halves.len()).filter(|&place| is_asked(&self.fit.unknowns[place]));
         let places: Vec<usize> = places.collect();

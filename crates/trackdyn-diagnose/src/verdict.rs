@@ -14,21 +14,22 @@ pub use support::{Support, cross_validated};
 use crate::candidate::{Signature, Variant, sizes};
 use crate::fit::Fit;
 use crate::hypothesis::{Unknown, beyond_none, neutral};
+use crate::resampling::Resampling;
 use crate::search::{AS_FILED, Found, Search};
 use crate::uncertainty::Interval;
 use rivals::{Rivals, separation};
 use std::cell::LazyCell;
 use support::Change;
 use trackdyn_model::effect::Role;
-use trackdyn_model::{ActiveEffect, CATALOGUE, VehicleFile};
+use trackdyn_model::{ActiveEffect, EffectId, VehicleFile};
 
 /// Something that was left out, or why it is not claimed.
 #[derive(Clone, Debug)]
 pub struct Verdict {
     /// Place of the effect in the catalogue.
-    pub effect: usize,
+    pub effect: EffectId,
     /// All effects that explain it as well, ascending, itself among them.
-    pub one_of: Vec<usize>,
+    pub one_of: Vec<EffectId>,
     /// The effect as it was found; none where it stands for a class of constants.
     pub found: Option<ActiveEffect>,
     /// What speaks for it.
@@ -43,20 +44,19 @@ pub struct Verdict {
 pub fn judge(
     search: &Search,
     best: &Found,
-    effects: &[usize],
+    effects: &[EffectId],
     constants: &Constants,
     file: &VehicleFile,
-    draws: usize,
-    seed: u64,
+    resampling: Resampling,
 ) -> Vec<Verdict> {
     let departure = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
     // What mostly moves constant ICRs is known to a part of all that moved them. What a law beyond their class breaks none of
     // them does.
     let by_constants = LazyCell::new(|| constants::departure(search, best, constants, file));
-    let of = |effect: usize| {
+    let of = |effect: EffectId| {
         let rivals = Rivals::new(search, best, constants, effect);
-        let (one_of, stable) = rivals.answer(search, best, seed);
-        let support = rivals.support(search, best, &one_of, stable, (draws, seed));
+        let (one_of, stable) = rivals.answer(search, best, resampling);
+        let support = rivals.support(search, best, &one_of, stable, resampling);
         let whole = if one_of.iter().any(|member| constants.could_be_constant(*member)) {
             departure.hypot(*by_constants)
         } else {
@@ -99,19 +99,19 @@ fn refusal(support: &Support, whole: f64) -> Option<String> {
 }
 
 /// An effect that the vehicle file knows, at nearly the sizes that it gives: no law is known better.
-fn nearly_as_filed(search: &Search, found: &Fit, effect: usize) -> Option<String> {
+fn nearly_as_filed(search: &Search, found: &Fit, effect: EffectId) -> Option<String> {
     let filed = search.base.as_filed.hypothesis.effect(effect)?;
     let found = found.hypothesis.effect(effect)?;
     let near = sizes(effect).into_iter().all(|place| {
         let [filed, found] = [filed, found].map(|effect| beyond_none(effect, place));
         (found - filed).abs() <= AS_FILED * filed.abs()
     });
-    let id = CATALOGUE[effect].id;
+    let id = effect.name();
     near.then(|| format!("the vehicle file knows {id}, which explains it at nearly the filed size"))
 }
 
 /// A size of the effect that ended at the limit of its physical range.
-fn at_limit(fit: &Fit, unknown: Unknown, effect: usize) -> Option<String> {
+fn at_limit(fit: &Fit, unknown: Unknown, effect: EffectId) -> Option<String> {
     let parameter = unknown.parameter()?;
     let is_size = matches!(parameter.role, Role::Size { .. });
     let value = fit.hypothesis.get(unknown);
@@ -138,7 +138,7 @@ fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<St
     };
     let apart = separation(search, without, changed, &signatures, known);
     (!laws.is_empty() && apart < Rules::ISOLATED).then(|| {
-        let names: Vec<&str> = laws.iter().map(|(law, _)| CATALOGUE[law.effect].id).collect();
+        let names: Vec<&str> = laws.iter().map(|(law, _)| law.effect.name()).collect();
         format!("no more than what {} of a slightly other size may leave", names.join(" and "))
     })
 }
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn a_size_that_may_be_none_is_not_claimed() {
-        let of = |id: &str| CATALOGUE.iter().position(|card| card.id == id).expect("an effect");
+        let of = |id: &str| EffectId::of(id).expect("an effect");
         let refused = |id: &str, [low, high]: [f64; 2]| {
             let effect = of(id);
             let unknown = Unknown::Effect(effect, sizes(effect)[0]);

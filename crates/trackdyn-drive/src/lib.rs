@@ -7,9 +7,9 @@
 //! - [`path`]: a way over the ground.
 //! - [`tracking`]: a path tracker on the inverse kinematics, and how far the robot strays.
 //!
-//! A robot is any [`Plant`](trackdyn_core::Plant). Axes are those of REP-103 (x forward, y left), units
-//! SI, angles in radians. The same seed gives the same bytes: every run and every sensor has a random
-//! stream of its own.
+//! A robot is any [`Plant`](trackdyn_core::Plant). Axes are those of REP-103 (x forward, y left),
+//! units SI, angles in radians. The same seed gives the same bytes: every run and every sensor has
+//! a random stream of its own.
 
 mod error;
 mod odometer;

@@ -134,8 +134,8 @@ impl Path {
         }
     }
 
-    /// The first place between two lengths along that lies at least a radius away from a point: where
-    /// a circle around it is left. None where the path stays inside.
+    /// The first place between two lengths along that lies at least a radius away from a point:
+    /// where a circle around it is left. None where the path stays inside.
     pub fn leaves_circle(
         &self,
         centre: [f64; 2],

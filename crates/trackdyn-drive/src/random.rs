@@ -1,6 +1,7 @@
 //! Random numbers: a stream for each purpose of each run.
 //!
-//! Switching one noise off does not change the others, and a run does not depend on those before it.
+//! Switching one noise off does not change the others, and a run does not depend on those before
+//! it.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

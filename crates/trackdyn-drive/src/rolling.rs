@@ -7,7 +7,8 @@ use trackdyn_model::Kinematics;
 /// Time after which a step of speed shows as one, s.
 const STEP: f64 = 1e-6;
 
-/// A robot of constant ICRs: no mass, no delays, exact arcs. What it does is known to the last digit.
+/// A robot of constant ICRs: no mass, no delays, exact arcs. What it does is known to the last
+/// digit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rolling {
     kinematics: Kinematics,

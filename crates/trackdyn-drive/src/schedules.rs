@@ -24,11 +24,11 @@ pub struct ScheduledRun {
     pub schedule: Schedule,
 }
 
-/// A driven path with the speeds that were commanded in place of those of the belts: what encoders on
-/// the sprockets see. A step of the command is a step, whatever the steps of the simulation.
+/// A driven path with the speeds that were commanded in place of those of the belts: what encoders
+/// on the sprockets see. A step of the command is a step, whatever the steps of the simulation.
 pub fn as_commanded(schedule: &Schedule, path: &Trajectory) -> Trajectory {
     /// Time after which a new command holds, s: far below what any sensor resolves.
-    const AT_ONCE: f64 = 1e-6;
+    const COMMAND_DELAY: f64 = 1e-6;
     let mut commanded = Trajectory::default();
     let mut moments = path.moments().iter().peekable();
     for (start, end, belt_speed) in schedule.stretches() {
@@ -37,7 +37,7 @@ pub fn as_commanded(schedule: &Schedule, path: &Trajectory) -> Trajectory {
                 commanded.push(Moment { belt_speed, ..*moment });
             }
         }
-        let t = start + AT_ONCE;
+        let t = start + COMMAND_DELAY;
         if commanded.span().is_some_and(|[_, last]| t > last) {
             let (pose, twist) = (path.pose_at(t), path.twist_at(t));
             commanded.push(Moment { t, pose, twist, belt_speed });

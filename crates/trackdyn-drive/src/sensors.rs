@@ -1,7 +1,7 @@
 //! What sensors report of a motion.
 //!
-//! A sensor sees the true motion at its own moments, with its own errors, and stamps what it saw with
-//! a delay. None of them knows how the motion came about.
+//! A sensor sees the true motion at its own moments, with its own errors, and stamps what it saw
+//! with a delay. None of them knows how the motion came about.
 
 mod check;
 mod encoder;
@@ -61,10 +61,10 @@ impl Sensors {
     /// Clock offset τ of their recordings, s, as [`hold`](trackdyn_recording::hold) defines it.
     ///
     /// # Law
-    /// A pose shows the moment that lies its delay before its stamp. A reading that is held from its
-    /// stamp t on stands for t to t + T there, and shows what happened from t − d_e − s to
-    /// t − d_e − s + T, with s = T where it is stamped at the end of its interval, else 0. So
-    /// τ = d_p − d_e − s.
+    /// A pose shows the moment that lies its delay before its stamp. A reading that is held from
+    /// its stamp t on stands for t to t + T there, and shows what happened from t − d_e − s to t −
+    /// d_e − s + T, with s = T where it is stamped at the end of its interval, else 0. So τ = d_p −
+    /// d_e − s.
     pub fn clock_offset(&self) -> f64 {
         let shown_before = match self.encoder.stamp_at {
             StampAt::Start => 0.0,
@@ -73,8 +73,8 @@ impl Sensors {
         self.pose.delay - self.encoder.delay - shown_before
     }
 
-    /// What they report of a run, of which all see the same motion. It depends on the motion, the seed and
-    /// the number of the run only.
+    /// What they report of a run, of which all see the same motion. It depends on the motion, the
+    /// seed and the number of the run only.
     ///
     /// # Errors
     /// As [`Sensors::observe_views`].
@@ -91,8 +91,8 @@ impl Sensors {
     /// What they report of a run of which each sees its own.
     ///
     /// # Errors
-    /// [`Error::NoMotion`] for a trajectory without moments, [`Error::Option`] for values that no sensor
-    /// has.
+    /// [`Error::NoMotion`] for a trajectory without moments, [`Error::Option`] for values that no
+    /// sensor has.
     pub fn observe_views(&self, run: i64, views: &Views, seed: u64) -> Result<UncheckedRun, Error> {
         self.check().map_err(|problem| {
             Error::option(problem.key, &problem.value, problem.expected.to_owned())
@@ -114,7 +114,8 @@ impl Sensors {
     /// The recording of runs, each with its number.
     ///
     /// # Errors
-    /// Those of [`Sensors::observe`]; [`Error::Recording`] where no run is long enough for two poses.
+    /// Those of [`Sensors::observe`]; [`Error::Recording`] where no run is long enough for two
+    /// poses.
     pub fn record<'a>(
         &self,
         name: &str,

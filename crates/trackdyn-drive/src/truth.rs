@@ -1,4 +1,5 @@
-//! The true motion, as a table beside a recording: `truth.csv`, which readers of recordings pass over.
+//! The true motion, as a table beside a recording: `truth.csv`, which readers of recordings pass
+//! over.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -8,8 +9,9 @@ use trackdyn_core::{Moment, PerSide, Trajectory};
 /// Name of the table in the folder of a recording.
 pub const FILE: &str = "truth.csv";
 
-/// The text: `run,t,x,y,yaw,v_forward,v_lateral,yaw_rate,v_left,v_right`, REP-103 and SI, in the frame of
-/// the world and by the true clock. Numbers are printed so that reading them gives the same bits.
+/// The text: `run,t,x,y,yaw,v_forward,v_lateral,yaw_rate,v_left,v_right`, REP-103 and SI, in the
+/// frame of the world and by the true clock. Numbers are printed so that reading them gives the
+/// same bits.
 pub fn text<'a>(runs: impl IntoIterator<Item = (i64, &'a Trajectory)>) -> String {
     let mut text = String::from("run,t,x,y,yaw,v_forward,v_lateral,yaw_rate,v_left,v_right\n");
     for (run, trajectory) in runs {

@@ -25,8 +25,8 @@ pub enum Doubt {
     },
     /// A lever arm of the sensor moves the ICRs and nothing else.
     LeverArm,
-    /// The robot drives on one circle, or turns on the spot: ICRs that are turned about the sensor pass for
-    /// a sensor that is turned.
+    /// The robot drives on one circle, or turns on the spot: ICRs that are turned about the sensor
+    /// pass for a sensor that is turned.
     NoTranslation,
     /// The track speeds hardly change: an offset of the clocks moves nothing.
     NoChange,
@@ -34,7 +34,8 @@ pub enum Doubt {
     NoLateralSpeed,
     /// The tracks run alike: the robot hardly turns, and no ICR shows.
     NoTurning,
-    /// The tracks run at one ratio of speeds, as in a spin or on one arc: ICRs and α cannot be told apart.
+    /// The tracks run at one ratio of speeds, as in a spin or on one arc: ICRs and α cannot be told
+    /// apart.
     OneRatio,
 }
 
@@ -46,29 +47,29 @@ impl std::fmt::Display for Doubt {
                 let unit = if parameter < 3 { " m" } else { "" };
                 write!(
                     f,
-                    "{name} is open by {deviation:.2}{unit} (one standard deviation; {limit:.2}{unit} \
-                     would do): drive more turns of different kinds"
+                    "{name} is open by {deviation:.2}{unit} (one standard deviation; \
+                     {limit:.2}{unit} would do): drive more turns of different kinds"
                 )
             }
             Self::WideNuisance { nuisance, deviation } => {
                 let (limit, unit) = (nuisance.limit(), nuisance.unit());
                 write!(
                     f,
-                    "{nuisance} is open by {deviation:.3} {unit} (one standard deviation; {limit:.3} {unit} \
-                     would do)"
+                    "{nuisance} is open by {deviation:.3} {unit} (one standard deviation; \
+                     {limit:.3} {unit} would do)"
                 )
             }
             Self::LeverArm => f.write_str(
-                "lever-arm cannot be told from the ICRs, which it moves as a whole, by poses and track \
-                 speeds of any kind: measure the mount",
+                "lever-arm cannot be told from the ICRs, which it moves as a whole, by poses and \
+                 track speeds of any kind: measure the mount",
             ),
             Self::NoTranslation => f.write_str(
-                "sensor-yaw shows only where the robot drives ahead as well as turns: drive straight, or on \
-                 circles of different size",
+                "sensor-yaw shows only where the robot drives ahead as well as turns: drive \
+                 straight, or on circles of different size",
             ),
             Self::NoChange => f.write_str(
-                "time-offset shows only where track speeds change, and here they change by less than their \
-                 noise: speed up, slow down, begin and end turns",
+                "time-offset shows only where track speeds change, and here they change by less \
+                 than their noise: speed up, slow down, begin and end turns",
             ),
             Self::NoLateralSpeed => f.write_str(
                 "y shows in the lateral speed only, of which the table has none: measure v_lateral",
@@ -77,8 +78,8 @@ impl std::fmt::Display for Doubt {
                 "the tracks run alike all the time, so no ICR shows: drive turns, both ways",
             ),
             Self::OneRatio => f.write_str(
-                "the tracks run at one ratio of speeds all the time, so ICRs and alphas cannot be told \
-                 apart: drive straight as well as turns, or fit without alphas",
+                "the tracks run at one ratio of speeds all the time, so ICRs and alphas cannot be \
+                 told apart: drive straight as well as turns, or fit without alphas",
             ),
         }
     }

@@ -8,8 +8,9 @@ use crate::doubt::Doubt;
 pub enum Error {
     /// Too little in the recording.
     #[error(
-        "{found} segments: expected at least {needed} for {parameters} parameters, each between two poses that the track \
-         speeds cover by the same clock, in seconds, and of steady driving where --settle asks for it"
+        "{found} segments: expected at least {needed} for {parameters} parameters, each between \
+         two poses that the track speeds cover by the same clock, in seconds, and of steady \
+         driving where --settle asks for it"
     )]
     TooFewSegments {
         /// Segments of the recording.
@@ -31,7 +32,8 @@ pub enum Error {
     },
     /// No turning on the spot.
     #[error(
-        "no spin: expected tracks running against each other for at least {needed_rad:.1} rad in all, found {found_rad:.2} rad"
+        "no spin: expected tracks running against each other for at least {needed_rad:.1} rad in \
+         all, found {found_rad:.2} rad"
     )]
     NoSpin {
         /// Yaw in segments that spin, rad.
@@ -44,8 +46,8 @@ pub enum Error {
     NotDetermined(Doubt),
     /// The clock offset ran out of the readings around the segments.
     #[error(
-        "the time offset does not settle within {margin} s of {start:.3} s: it reached {tau:.3} s (give a \
-         better one with --tau, or do not fit it)"
+        "the time offset does not settle within {margin} s of {start:.3} s: it reached {tau:.3} s \
+         (give a better one with --tau, or do not fit it)"
     )]
     ClockLeaves {
         /// Where it was, s.
@@ -62,6 +64,14 @@ pub enum Error {
         iterations: usize,
         /// Largest change of a parameter in the last one, m or 1.
         step: f64,
+    },
+    /// The recording does not hold what an estimate needs.
+    #[error("{what} cannot be estimated: {reason}")]
+    NotEstimable {
+        /// The quantity.
+        what: &'static str,
+        /// What is missing, with numbers.
+        reason: String,
     },
     /// The caller asked to stop.
     #[error("stopped before the end")]

@@ -16,7 +16,7 @@ use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 /// Bits per parameter: 4096 steps of its range.
-const BITS: u32 = 12;
+const BITS_PER_PARAMETER: u32 = 12;
 
 /// How the population evolves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +66,8 @@ fn ranges(gauge: f64) -> [[f64; 2]; COUNT] {
 
 /// Evolves the parameters. `progress` is told each finished generation.
 ///
-/// The same seed gives the same result on any number of threads: only costs are computed in parallel.
+/// The result depends on the seed and not on the number of threads: only costs are computed in
+/// parallel.
 ///
 /// # Panics
 /// Without a population.
@@ -86,7 +87,8 @@ pub fn genetic(
         .expect("progress never asks to stop")
 }
 
-/// As [`genetic`], until `progress` asks to stop after one of the generations: then there is no estimate.
+/// As [`genetic`], until `progress` asks to stop after one of the generations: then there is no
+/// estimate.
 ///
 /// # Panics
 /// Without a population.
@@ -100,7 +102,7 @@ pub fn genetic_unless_stopped(
 ) -> Option<GeneticEstimate> {
     let ranges = ranges(gauge);
     let count = free.count();
-    let bits = BITS * narrow(count);
+    let bits = BITS_PER_PARAMETER * narrow(count);
     let decode = |chromosome: u64| decode(chromosome, count, &ranges);
     let cost = Cost::new(observations, lever);
     // A place of the form takes as long as a cost.
@@ -168,8 +170,8 @@ fn narrow(count: usize) -> u32 {
 fn decode(chromosome: u64, count: usize, ranges: &[[f64; 2]; COUNT]) -> Parameters {
     let mut parameters = [0.0, 0.0, 0.0, 1.0, 1.0];
     for (k, (parameter, [low, high])) in parameters.iter_mut().zip(ranges).enumerate().take(count) {
-        let largest = (1_u64 << BITS) - 1;
-        let gray = (chromosome >> (BITS * narrow(k))) & largest;
+        let largest = (1_u64 << BITS_PER_PARAMETER) - 1;
+        let gray = (chromosome >> (BITS_PER_PARAMETER * narrow(k))) & largest;
         let mut binary = gray;
         for shift in [1, 2, 4, 8] {
             binary ^= binary >> shift;

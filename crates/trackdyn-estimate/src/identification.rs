@@ -7,15 +7,16 @@ use crate::least_squares::{
     Estimate, Loss, Unknowns, doubts, estimate_at, lacks, lacks_nuisance, least_squares,
     nuisance_doubts,
 };
+use crate::noise::{Noise, noise};
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
 use crate::sensor::Nuisance;
 use crate::spin_test::{SpinTest, spin_test};
 use crate::weighting::{SegmentNoise, Weighting};
+use crate::{Clock, SegmentOptions};
 use std::ops::ControlFlow;
 use trackdyn_model::Kinematics;
-use trackdyn_recording::noise::{Noise, noise};
-use trackdyn_recording::{Clock, Recording, SegmentOptions};
+use trackdyn_recording::Recording;
 
 /// How to identify.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +25,8 @@ pub struct Options {
     pub gauge: f64,
     /// Clock offset of the poses, s; none: estimated.
     pub tau: Option<f64>,
-    /// Time for which the tracks must have run steadily before a segment counts, s; none: all count.
+    /// Time for which the tracks must have run steadily before a segment counts, s; none: all
+    /// count.
     pub settle: Option<f64>,
     /// Properties of the pose sensor to fit beside the kinematic parameters.
     pub nuisances: Vec<Nuisance>,
@@ -39,7 +41,7 @@ pub struct Fit {
     pub free: Free,
     /// The genetic algorithm's, by the cost (17).
     pub genetic: GeneticEstimate,
-    /// The same with the uncertainty that the cost (17) has there.
+    /// The genetic result as an estimate, with the uncertainty that the cost (17) has there.
     pub genetic_estimate: Estimate,
     /// Least squares by the noise, or why not.
     pub least_squares: Result<Estimate, Error>,
@@ -72,10 +74,10 @@ pub struct Identification {
 const TAU_MARGIN: f64 = 0.1;
 
 /// Times that segments are cut anew where the clock offset runs to its margin.
-const CUTS: usize = 5;
+const MAX_CUTS: usize = 5;
 
-/// Runs all methods on a recording. `progress` is told each finished generation of the genetic algorithm,
-/// which runs twice.
+/// Runs all methods on a recording. `progress` is told each finished generation of the genetic
+/// algorithm, which runs twice.
 ///
 /// # Errors
 /// Too few segments.
@@ -151,8 +153,8 @@ fn cut(recording: &Recording, segments: &SegmentOptions, options: &Options) -> O
     }
 }
 
-/// Least squares with those of the wanted properties of the sensor that the recording shows, and why not
-/// with the others.
+/// Least squares with those of the wanted properties of the sensor that the recording shows, and
+/// why not with the others.
 fn fit_with_sensor(
     observations: &Observations,
     cut: &dyn Fn(f64) -> Observations,
@@ -175,8 +177,9 @@ fn fit_with_sensor(
             least_squares(observations, &start, &unknowns, weighting, Loss::Huber)
         };
         let mut fitted = fit(observations);
-        for _ in 0..CUTS {
-            // Readings are at hand up to the margin: where the offset reaches it, segments are cut anew.
+        for _ in 0..MAX_CUTS {
+            // Readings are at hand up to the margin: where the offset reaches it, segments are cut
+            // anew.
             let Err(Error::ClockLeaves { tau, .. }) = fitted else { break };
             fitted = fit(&cut(tau));
         }
@@ -185,7 +188,10 @@ fn fit_with_sensor(
             return (fitted, refused);
         }
         let is_wide = |nuisance: &Nuisance| {
-            let of = |doubt: &Doubt| matches!(doubt, Doubt::WideNuisance { nuisance: n, .. } if n == nuisance);
+            let of = |doubt: &Doubt| match doubt {
+                Doubt::WideNuisance { nuisance: wide, .. } => wide == nuisance,
+                _ => false,
+            };
             wide.iter().any(of)
         };
         unknowns.nuisances.retain(|nuisance| !is_wide(nuisance));

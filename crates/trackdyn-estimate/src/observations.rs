@@ -1,15 +1,14 @@
 //! What a recording shows, segment by segment.
 
+use crate::{Blocks, Extent, Segment, SegmentOptions, segments};
 use std::ops::Range;
 use std::sync::Arc;
 use trackdyn_core::PerSide;
 use trackdyn_recording::hold::{held, travelled};
-use trackdyn_recording::{
-    Blocks, Extent, Recording, Run, Segment, SegmentOptions, TrackSample, segments,
-};
+use trackdyn_recording::{Recording, Run, TrackSample};
 
 /// Change of a track speed over the faster one's up to which driving is steady.
-const STEADY: f64 = 0.1;
+const MAX_STEADY_CHANGE: f64 = 0.1;
 
 /// Observed motions and the track speeds that go with them, in flat arrays.
 #[derive(Clone, Debug)]
@@ -77,8 +76,8 @@ impl Observations {
         Self::of(recording, options, |_, _| true)
     }
 
-    /// The segments of a recording over which, and for `settle` seconds before, neither track changes its
-    /// speed by more than a tenth of the faster one's.
+    /// The segments of a recording over which, and for `settle` seconds before, neither track
+    /// changes its speed by more than a tenth of the faster one's.
     ///
     /// In between the drivetrain and the slip settle, which is not what constant ICRs describe.
     pub fn steady(recording: &Recording, options: &SegmentOptions, settle: f64) -> Self {
@@ -98,7 +97,7 @@ impl Observations {
                 let (low, high) = values
                     .iter()
                     .fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
-                high - low <= STEADY * fastest
+                high - low <= MAX_STEADY_CHANGE * fastest
             })
         })
     }
@@ -124,7 +123,7 @@ impl Observations {
         Self { segments: kept, pieces: Vec::new(), tau, tau_margin, tracks }.at(tau)
     }
 
-    /// The same segments at another clock offset, s: other readings go with the same poses.
+    /// These segments at another clock offset, s: other readings go with their poses.
     pub fn at(&self, tau: f64) -> Self {
         let mut pieces = Vec::with_capacity(self.pieces.len());
         let mut segments = self.segments.clone();
@@ -171,8 +170,8 @@ impl Observations {
         PerSide::new(distance(|piece| piece.v_left), distance(|piece| piece.v_right))
     }
 
-    /// What counts as independent: the runs with segments, from the first to the last one, or pieces of
-    /// them.
+    /// What counts as independent: the runs with segments, from the first to the last one, or
+    /// pieces of them.
     pub fn blocks(&self) -> Blocks {
         let runs = self.segments.chunk_by(|a, b| a.run == b.run);
         Blocks::new(runs.map(|segments| {

@@ -23,7 +23,8 @@ impl Parameters {
         Self([x_left, x_right, y, kinematics.alpha.left, kinematics.alpha.right])
     }
 
-    /// Angles by which a metre of the left and of the right track turns the robot, α/(x_r − x_l), rad/m.
+    /// Angles by which a metre of the left and of the right track turns the robot, α/(x_r − x_l),
+    /// rad/m.
     pub(crate) fn turns(&self) -> [f64; 2] {
         let [x_l, x_r, _, alpha_l, alpha_r] = self.0;
         [alpha_l, alpha_r].map(|alpha| alpha / (x_r - x_l))

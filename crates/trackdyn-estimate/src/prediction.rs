@@ -10,7 +10,8 @@ pub(crate) use series::{any_arc, arc};
 use crate::observations::Piece;
 use crate::parameters::{COUNT, Parameters};
 
-/// Motion over a segment from its first pose: forward (m), left (m), yaw (rad); and its derivatives.
+/// Motion over a segment from its first pose: forward (m), left (m), yaw (rad); and its
+/// derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prediction {
     /// Forward, left, yaw.
@@ -21,8 +22,8 @@ pub struct Prediction {
 
 /// The motion and its derivatives by all parameters.
 ///
-/// Constant speeds move the robot on an arc of angle a: a chord along the mean heading, shorter than
-/// the arc by sinc(a/2). Exact.
+/// Constant speeds move the robot on an arc of angle a: a chord along the mean heading, shorter
+/// than the arc by sinc(a/2). Exact.
 #[inline]
 pub fn predict(parameters: &Parameters, pieces: &[Piece]) -> Prediction {
     let [x_l, x_r, y, alpha_l, alpha_r] = parameters.0;
@@ -74,7 +75,8 @@ pub fn body_velocity(parameters: &Parameters, piece: &Piece) -> [f64; 3] {
     [v_l - w * x_l, -w * y, w]
 }
 
-/// sinc(a/2) = sin(a/2)/(a/2) and its derivative by a: by their series where it is exact to rounding.
+/// sinc(a/2) = sin(a/2)/(a/2) and its derivative by a: by their series where it is exact to
+/// rounding.
 #[inline]
 fn sinc_half(angle: f64) -> (f64, f64) {
     if angle.abs() < 0.1 {

@@ -48,8 +48,8 @@ impl Nuisance {
         }
     }
 
-    /// Standard deviation from which on the value is of no use: a twentieth of a second, an interval of
-    /// readings at 20 Hz; two degrees, 35 mm aside per metre.
+    /// Standard deviation from which on the value is of no use: a twentieth of a second, an
+    /// interval of readings at 20 Hz; two degrees, 35 mm aside per metre.
     pub fn limit(self) -> f64 {
         match self {
             Self::TimeOffset => 0.05,
@@ -105,7 +105,8 @@ impl Sensor {
     }
 }
 
-/// Motion over a segment as the sensor reports it: forward (m), left (m), yaw (rad); and its derivatives.
+/// Motion over a segment as the sensor reports it: forward (m), left (m), yaw (rad); and its
+/// derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// Forward, left, yaw.
@@ -121,15 +122,16 @@ pub struct Report {
 /// What a sensor reports of the motion of these pieces, which are cut at its τ.
 ///
 /// # Law
-/// With ψ the motion's translation turns by −ψ. With τ the segment moves over the track speeds: to first
-/// order it wins ε times the twist ξ_a at its beginning and loses ε times the twist ξ_b at its end,
-/// M → exp(ε ξ_a) M exp(−ε ξ_b).
+/// With ψ the motion's translation turns by −ψ. With τ the segment moves over the track speeds: to
+/// first order it wins ε times the twist ξ_a at its beginning and loses ε times the twist ξ_b at
+/// its end, M → exp(ε ξ_a) M exp(−ε ξ_b).
 pub fn report(parameters: &Parameters, sensor: &Sensor, pieces: &[Piece]) -> Report {
     Report::of(&predict(parameters, pieces), parameters, sensor, pieces)
 }
 
 impl Report {
-    /// What a sensor reports of a motion that is predicted already, from the same parameters and pieces.
+    /// What a sensor reports of a motion that is predicted already, from the same parameters and
+    /// pieces.
     pub(crate) fn of(
         prediction: &Prediction,
         parameters: &Parameters,
@@ -191,7 +193,8 @@ mod tests {
 
     #[test]
     fn a_lever_arm_is_a_shift_of_the_icrs_exactly() {
-        // 0.3 m forward and 0.2 m to the left: the ICRs lie as much further back and to the right of it.
+        // The sensor sits 0.3 m forward and 0.2 m to the left: the ICRs lie as much further back
+        // and to the right of it.
         let [x_l, x_r, y, alpha_l, alpha_r] = PARAMETERS.0;
         let shifted = Parameters([x_l + 0.2, x_r + 0.2, y - 0.3, alpha_l, alpha_r]);
         let [x, y, yaw] = predict(&shifted, &pieces()).motion;

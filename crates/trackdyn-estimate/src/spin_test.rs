@@ -1,15 +1,15 @@
 //! The spin test: χ from turning on the spot, eq. (16).
 
+use crate::Interval;
 use crate::error::Error;
 use crate::observations::Observations;
 use std::ops::Range;
-use trackdyn_recording::Interval;
 
 /// Yaw that a spin test needs in all, rad: half a turn.
-const NEEDED: f64 = std::f64::consts::PI;
+const MIN_YAW: f64 = std::f64::consts::PI;
 
 /// Slower over faster track, in a spin, at least.
-const BALANCE: f64 = 0.5;
+const MIN_SPEED_RATIO: f64 = 0.5;
 
 /// Result of the spin test.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +43,9 @@ impl Sums {
             let travelled = observations.travelled(segment);
             let (left, right) = (travelled.left, travelled.right);
             let against = left * right < 0.0;
-            if against && left.abs().min(right.abs()) >= BALANCE * left.abs().max(right.abs()) {
+            if against
+                && left.abs().min(right.abs()) >= MIN_SPEED_RATIO * left.abs().max(right.abs())
+            {
                 let sense = (right - left).signum();
                 sums.difference += sense * (right - left);
                 sums.yaw += sense * segment.motion[2];
@@ -66,8 +68,8 @@ pub fn spin_test(observations: &Observations, gauge: f64) -> Result<SpinTest, Er
     let parts: Vec<Sums> =
         ranges.into_iter().map(|segments| Sums::of(observations, segments)).collect();
     let Sums { difference, yaw, segments } = Sums::of(observations, 0..observations.len());
-    if yaw < NEEDED {
-        return Err(Error::NoSpin { found_rad: yaw, needed_rad: NEEDED });
+    if yaw < MIN_YAW {
+        return Err(Error::NoSpin { found_rad: yaw, needed_rad: MIN_YAW });
     }
     // χ = L φ / ∫ (V_r − V_l) dt, eq. (16)
     let gap = difference / yaw;

@@ -1,14 +1,14 @@
 //! Parameters from steady operating points: a measured map of ICRs.
 //!
 //! # Law
-//! Eqs (7)-(9) at each point: ω = (α_r V_r − α_l V_l)/(x_r − x_l), forward α_l V_l − ω x_l, to the left −ω y.
-//! Residuals of each channel count by its own scatter, whose size comes from the residuals (1.48 median
-//! absolute deviations), with Huber's loss.
+//! Eqs (7)-(9) at each point: ω = (α_r V_r − α_l V_l)/(x_r − x_l), forward α_l V_l − ω x_l, to the
+//! left −ω y. Residuals of each channel count by its own scatter, whose size comes from the
+//! residuals (1.48 median absolute deviations), with Huber's loss.
 //!
 //! # Assumes
-//! Track speeds are known. Deviations of one point say nothing of those of others, or of those that share
-//! its left track speed, or of those that share its right one: intervals are the widest of the three
-//! jackknifes.
+//! Track speeds are known. Deviations of one point say nothing of those of others, or of those that
+//! share its left track speed, or of those that share its right one: intervals are the widest of
+//! the three jackknifes.
 
 mod groups;
 mod lagging;
@@ -17,16 +17,18 @@ mod row;
 pub use groups::Grouping;
 pub use lagging::{Lagging, lagging};
 
+use crate::Interval;
 use crate::doubt::Doubt;
 use crate::error::Error;
+use crate::gauss_newton::{Control, Minimum, Problem, Settings, Status, minimise};
 use crate::least_squares::covariance::{jackknife, larger_deviation, with_deviations};
 use crate::least_squares::{Loss, inverse, too_wide};
 use crate::parameters::{Free, Parameters};
 use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
 use row::{Row, observed};
 use trackdyn_core::real;
-use trackdyn_recording::robust::deviation_about_zero;
-use trackdyn_recording::{Interval, OperatingPoint};
+use trackdyn_core::robust::deviation_about_zero;
+use trackdyn_recording::OperatingPoint;
 
 /// Channels of a point: forward (m/s), left (m/s), yaw rate (rad/s).
 pub const CHANNELS: usize = 3;
@@ -34,17 +36,20 @@ pub const CHANNELS: usize = 3;
 /// Place of y_icr among the parameters.
 const Y: usize = 2;
 
-const MAX_ITERATIONS: usize = 200;
-
 /// Speeds that differ by less than this part of their size are alike: tables round to four digits.
-const ALIKE: f64 = 1e-3;
+const SPEED_ROUNDING: f64 = 1e-3;
 
-/// Iterations after which the scatters stay: medians jump from one residual to the next, and would keep
-/// the parameters from settling.
+/// Iterations after which the scatters stay: medians jump from one residual to the next, and would
+/// keep the parameters from settling.
 const SCATTER_ITERATIONS: usize = 20;
 
-/// Change of every parameter, m or 1, below which the iteration has settled.
-const SETTLED: f64 = 1e-10;
+/// Changes of parameters are in m or 1. The cost is in units of the scatter, which changes with the
+/// parameters: it cannot tell whether a step is good.
+const SETTINGS: Settings = Settings {
+    max_iterations: 200,
+    settled_below: 1e-10,
+    control: Control::Full { damping: 1e-12 },
+};
 
 /// Fitted parameters of steady points.
 #[derive(Clone, Debug)]
@@ -88,56 +93,92 @@ pub fn fit_points(
     if let Some(doubt) = lacks(points, free) {
         return Err(Error::NotDetermined(doubt));
     }
-    let mut parameters = *start;
-    let mut size = f64::INFINITY;
-    let mut scatter = [None; CHANNELS];
-    let mut done = 0;
-    for iterations in 1..=MAX_ITERATIONS {
-        let rows: Vec<Row> = points.iter().map(|point| Row::at(point, &parameters)).collect();
-        if iterations <= SCATTER_ITERATIONS {
-            scatter = scatter_of(&rows, loss);
-        }
-        let parts = |weight: &dyn Fn(f64) -> f64| -> Vec<Part> {
-            rows.iter().map(|row| row.part(&scatter, loss, weight, count)).collect()
+    let table = Table { points, loss, count };
+    let Minimum { point: at, status, iterations, last_change } =
+        minimise(&table, table.at(*start, None), &SETTINGS);
+    if status != Status::Settled {
+        return Err(Error::NotConverged { iterations, step: last_change });
+    }
+    let (matrix, _) = table.normal_equations(&at);
+    let parts = table.parts(&at, |residual| loss.curvature(residual));
+    let (curvature, _) = sum(&parts, count);
+    let (grouping, groups, covariance) =
+        groups::widest(points, &parts, |grouped| jackknife(&curvature, grouped));
+    Ok(SteadyEstimate {
+        parameters: at.parameters,
+        free,
+        covariance,
+        covariance_of_scatter: inverse(&matrix),
+        grouping,
+        groups,
+        scatter: at.scatter,
+        residuals: at.rows.iter().map(|row| row.whitened(&at.scatter)).collect(),
+        iterations: at.evaluations,
+    })
+}
+
+/// Points whose residuals the first parameters make small.
+struct Table<'a> {
+    points: &'a [OperatingPoint],
+    loss: Loss,
+    /// Number of free parameters.
+    count: usize,
+}
+
+/// Parameters with the residuals that they leave.
+struct At {
+    parameters: Parameters,
+    rows: Vec<Row>,
+    scatter: [Option<f64>; CHANNELS],
+    /// Evaluations so far, this one included.
+    evaluations: usize,
+}
+
+impl Table<'_> {
+    fn at(&self, parameters: Parameters, before: Option<&At>) -> At {
+        let rows: Vec<Row> = self.points.iter().map(|point| Row::at(point, &parameters)).collect();
+        let evaluations = before.map_or(0, |before| before.evaluations) + 1;
+        let scatter = match before {
+            Some(before) if evaluations > SCATTER_ITERATIONS => before.scatter,
+            _ => scatter_of(&rows, self.loss),
         };
-        let (matrix, gradient) = sum(&parts(&|residual| loss.weight(residual)), count);
-        if size < SETTLED {
-            let parts = parts(&|residual| loss.curvature(residual));
-            let (curvature, _) = sum(&parts, count);
-            let (grouping, groups, covariance) =
-                groups::widest(points, &parts, |grouped| jackknife(&curvature, grouped));
-            let residuals = rows.iter().map(|row| row.whitened(&scatter)).collect();
-            return Ok(SteadyEstimate {
-                parameters,
-                free,
-                covariance,
-                covariance_of_scatter: inverse(&matrix),
-                grouping,
-                groups,
-                scatter,
-                residuals,
-                iterations,
-            });
-        }
-        let mut damped = matrix.clone();
-        for k in 0..count {
-            // A direction that no point shows must not send the others astray.
-            damped[(k, k)] = matrix[(k, k)] * (1.0 + 1e-12) + f64::MIN_POSITIVE;
-        }
-        let Some(mut step) = damped.cholesky().map(|cholesky| cholesky.solve(&gradient)) else {
-            break;
-        };
+        At { parameters, rows, scatter, evaluations }
+    }
+
+    /// What each point adds to the normal equations, with these weights of the residuals.
+    fn parts(&self, at: &At, weight: impl Fn(f64) -> f64) -> Vec<Part> {
+        let part = |row: &Row| row.part(&at.scatter, self.loss, &weight, self.count);
+        at.rows.iter().map(part).collect()
+    }
+}
+
+impl Problem for Table<'_> {
+    type Point = At;
+
+    fn cost(&self, at: &At) -> f64 {
+        let whitened = at.rows.iter().flat_map(|row| row.whitened(&at.scatter));
+        whitened.flatten().map(|residual| self.loss.value(residual)).sum()
+    }
+
+    fn normal_equations(&self, at: &At) -> Part {
+        sum(&self.parts(at, |residual| self.loss.weight(residual)), self.count)
+    }
+
+    fn curvature(&self, at: &At) -> DMatrix<f64> {
+        sum(&self.parts(at, |residual| self.loss.curvature(residual)), self.count).0
+    }
+
+    fn stepped(&self, at: &At, step: &mut DVector<f64>) -> At {
+        let mut parameters = at.parameters;
         // The left ICR stays left of the right one.
         while parameters.0[1] + step[1] <= parameters.0[0] + step[0] {
-            step *= 0.5;
+            *step *= 0.5;
         }
-        for k in 0..count {
+        for k in 0..self.count {
             parameters.0[k] += step[k];
         }
-        size = step.amax();
-        done = iterations;
+        self.at(parameters, Some(at))
     }
-    Err(Error::NotConverged { iterations: done, step: size })
 }
 
 impl SteadyEstimate {
@@ -150,8 +191,8 @@ impl SteadyEstimate {
         })
     }
 
-    /// The larger standard deviation by both covariances: the jackknife knows nothing of a parameter that
-    /// no residual tells of.
+    /// The larger standard deviation by both covariances: the jackknife knows nothing of a
+    /// parameter that no residual tells of.
     fn deviation(&self, variance: impl Fn(&DMatrix<f64>) -> f64) -> f64 {
         larger_deviation([&self.covariance, &self.covariance_of_scatter].map(variance))
     }
@@ -197,8 +238,8 @@ impl SteadyEstimate {
     }
 }
 
-/// What the speeds of a table lack for these parameters; none where it does. How well it determines them is
-/// for the intervals to say.
+/// What the speeds of a table lack for these parameters; none where it does. How well it determines
+/// them is for the intervals to say.
 fn lacks(points: &[OperatingPoint], free: Free) -> Option<Doubt> {
     let moments = points.iter().fold(Matrix2::zeros(), |sum, point| {
         let speeds = Vector2::new(point.v_left, point.v_right);
@@ -214,7 +255,7 @@ fn lacks(points: &[OperatingPoint], free: Free) -> Option<Doubt> {
         Free::IcrsAndAlphas => Doubt::OneRatio,
     };
     // written so that no motion at all is a lack too
-    let enough = least > ALIKE.powi(2) * moments.trace();
+    let enough = least > SPEED_ROUNDING.powi(2) * moments.trace();
     (!enough).then_some(doubt)
 }
 

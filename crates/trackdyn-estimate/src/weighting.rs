@@ -1,22 +1,22 @@
 //! How much a residual counts.
 
+use crate::noise::Noise;
 use crate::observations::{Observation, Observations};
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, RowVector3, Vector3};
 use trackdyn_core::Side;
 use trackdyn_recording::StatedNoise;
-use trackdyn_recording::noise::Noise;
 
 /// The metric in which residuals are summed.
 #[derive(Clone, Debug)]
 pub enum Weighting {
-    /// The cost (17): squared distances, with yaw errors turned into distances by a lever (m). Segments
-    /// count alike and apart from each other.
+    /// The cost (17): squared distances, with yaw errors turned into distances by a lever (m).
+    /// Segments count alike and apart from each other.
     Distance {
         /// The lever, m.
         lever: f64,
     },
-    /// The noise of the recording: white noise of each pose, which neighbouring segments share, and a
-    /// random walk within each segment.
+    /// The noise of the recording: white noise of each pose, which neighbouring segments share, and
+    /// a random walk within each segment.
     Noise(SegmentNoise),
 }
 
@@ -27,29 +27,31 @@ pub struct SegmentNoise {
     pub pose: [f64; 3],
     /// Variance per second that a segment adds, in the same units per s.
     pub walk: [f64; 3],
-    /// Variance per second by which the sensor's heading wanders beside the way that it reports, rad²/s: all later
-    /// segments are seen turned by it.
+    /// Variance per second by which the sensor's heading wanders beside the way that it reports,
+    /// rad²/s: all later segments are seen turned by it.
     pub heading: f64,
 }
 
-/// Less noise of a pose, m and rad, no model explains: poses of a simulator have none, and no covariance without it.
-pub const LEAST: f64 = 1e-4;
+/// Less noise of a pose, m and rad, no model explains: poses of a simulator have none, and no
+/// covariance without it.
+pub const MIN_POSE_NOISE: f64 = 1e-4;
 
 impl SegmentNoise {
     /// From what the maker of the recording states of its poses.
     pub fn stated(stated: StatedNoise) -> Self {
-        let position = stated.position.max(LEAST).powi(2);
-        let pose = [position, position, stated.yaw.max(LEAST).powi(2)];
+        let position = stated.position.max(MIN_POSE_NOISE).powi(2);
+        let pose = [position, position, stated.yaw.max(MIN_POSE_NOISE).powi(2)];
         Self { pose, walk: [0.0; 3], heading: 0.0 }
     }
 
     /// From the noise that was measured without a model: that of the poses while moving, or at
-    /// stand-still where no other is known, and that of the encoders at a distance `gap` (m) between
-    /// the ICRs. None where the recording does not show it.
+    /// stand-still where no other is known, and that of the encoders at a distance `gap` (m)
+    /// between the ICRs. None where the recording does not show it.
     pub fn measured(noise: &Noise, gap: f64) -> Option<Self> {
         let poses = noise.moving.as_ref().or(noise.standing.as_ref())?;
         let components = [poses.forward, poses.lateral, poses.yaw];
-        // A reading that is wrong by σ moves a track by σ u, u its time; that many readings a second.
+        // A reading that is wrong by σ moves a track by σ u, u its time; that many readings a
+        // second.
         let encoder = |side: Side| {
             noise.encoders[side].map_or(0.0, |e| e.deviation.powi(2) * e.update_interval)
         };
@@ -57,7 +59,7 @@ impl SegmentNoise {
         let encoders = [both / 4.0, 0.0, both / gap.powi(2)];
         let mut walk = components.map(|component| component.walk.powi(2));
         walk.iter_mut().zip(encoders).for_each(|(walk, encoder)| *walk += encoder);
-        let pose = components.map(|component| component.white.max(LEAST).powi(2));
+        let pose = components.map(|component| component.white.max(MIN_POSE_NOISE).powi(2));
         Some(Self { pose, walk, heading: 0.0 })
     }
 }
@@ -84,7 +86,8 @@ impl Seen {
     }
 }
 
-/// Residuals and their derivatives, three rows per segment, made white: unit variance, no correlation.
+/// Residuals and their derivatives, three rows per segment, made white: unit variance, no
+/// correlation.
 pub struct Whitener {
     blocks: Vec<Block>,
 }
@@ -104,8 +107,8 @@ struct Block {
     begins: bool,
 }
 
-/// What is known of the pose between two segments and of the heading there: the covariance of the pose's noise, along the
-/// body's axes, and of the error e of the heading.
+/// What is known of the pose between two segments and of the heading there: the covariance of the
+/// pose's noise, along the body's axes, and of the error e of the heading.
 #[derive(Clone, Copy)]
 struct Known {
     covariance: Matrix4<f64>,
@@ -121,8 +124,9 @@ impl Whitener {
 
     /// The whitener for motions that were not observed but are expected.
     ///
-    /// A pose that two segments share enters the first as its end and the second as its start, and an error of the heading
-    /// all segments after it: a Kalman filter of both finds what of a residual is new.
+    /// A pose that two segments share enters the first as its end and the second as its start, and
+    /// an error of the heading all segments after it: a Kalman filter of both finds what of a
+    /// residual is new.
     pub fn of_motions(weighting: &Weighting, motions: impl Iterator<Item = Seen>) -> Self {
         let noise = match weighting {
             Weighting::Distance { lever } => {
@@ -148,12 +152,14 @@ impl Whitener {
         Self { blocks: blocks.collect() }
     }
 
-    /// Logarithm of the determinant of what whitens each segment, given those before it; −∞ of one that is lost.
+    /// Logarithm of the determinant of what whitens each segment, given those before it; −∞ of one
+    /// that is lost.
     pub fn ln_determinants(&self) -> impl Iterator<Item = f64> + '_ {
         self.blocks.iter().map(|block| block.inverse.determinant().ln())
     }
 
-    /// Gives a white column the noise's correlations, in place: the inverse of [`Whitener::whiten`].
+    /// Gives a white column the noise's correlations, in place: the inverse of
+    /// [`Whitener::whiten`].
     pub fn colour(&self, column: &mut [Vector3<f64>]) {
         let (mut before, mut heading) = (Vector3::zeros(), 0.0);
         for (value, block) in column.iter_mut().zip(&self.blocks) {
@@ -209,7 +215,8 @@ impl SegmentNoise {
         let innovation = by_known * known * by_known.transpose() + own;
         let factor = innovation.cholesky().map_or(Matrix3::identity(), |cholesky| cholesky.l());
         let inverse = factor.try_inverse().unwrap_or(Matrix3::identity());
-        // The covariance G of the end pose and of the heading there with the residual, G L⁻ᵀ of it made white.
+        // The covariance G of the end pose and of the heading there with the residual, G L⁻ᵀ of it
+        // made white.
         let mut with = known.row(3) * by_known.transpose();
         with[2] += wanders;
         let [of_pose, of_heading] = if segment.is_lost {
@@ -235,8 +242,8 @@ impl SegmentNoise {
         (block, Known { covariance: after, tells: of_pose })
     }
 
-    /// What noise of the first pose, along its axes, does to the observed motion: it is subtracted, and
-    /// its yaw turns the motion.
+    /// What noise of the first pose, along its axes, does to the observed motion: it is subtracted,
+    /// and its yaw turns the motion.
     fn by_start(segment: &Seen) -> Matrix3<f64> {
         let [forward, left, _] = segment.motion;
         -Matrix3::new(1.0, 0.0, -left, 0.0, 1.0, forward, 0.0, 0.0, 1.0)

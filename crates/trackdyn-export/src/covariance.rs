@@ -9,21 +9,21 @@ use trackdyn_core::document::{Document, DocumentError};
 
 const SCHEMA: &str = "trackdyn.odometry/1";
 
-/// Time over which residuals are taken, s: noise of the recorded poses counts once in it, and it is shorter
-/// than most manoeuvres.
+/// Time over which residuals are taken, s: noise of the recorded poses counts once in it, and it is
+/// shorter than most manoeuvres.
 const HORIZON: f64 = 1.0;
 
 /// Fewer pieces of that time than this are replaced by segments.
-const ENOUGH: usize = 20;
+const MIN_PIECES: usize = 20;
 
 /// Variance of what a robot on the ground does not measure: up and down, roll, pitch; m² and rad².
-const UNKNOWN: f64 = 1e6;
+const UNKNOWN_VARIANCE: f64 = 1e6;
 
 /// Least variance, m² and rad²: zero is certainty.
-const LEAST: f64 = 1e-12;
+const MIN_VARIANCE: f64 = 1e-12;
 
 /// Most that is taken for a residual, a time or a distance, in m, rad and s.
-const MOST: f64 = 1e9;
+const MAX_RESIDUAL: f64 = 1e9;
 
 /// Root mean squares of what odometry with one parameter set got wrong.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,7 +110,7 @@ impl Residuals {
         // The first of a file's sets is the whole of it; one without its alphas comes after.
         let is_wanted = |set: &&Set| set.fingerprint.as_deref() == Some(kinematics);
         let set = file.set.iter().find(is_wanted).ok_or_else(missing)?;
-        let over = |span: &&Span| span.length_s == Some(HORIZON) && span.count >= ENOUGH;
+        let over = |span: &&Span| span.length_s == Some(HORIZON) && span.count >= MIN_PIECES;
         let span = file.span.iter().find(over);
         let span = span.or_else(|| file.span.iter().find(|span| span.kind == "segment"));
         let span = span.ok_or_else(missing)?;
@@ -140,38 +140,39 @@ impl Residuals {
         })
     }
 
-    /// Diagonal of the twist's covariance in the frame midway between the ICRs, for messages at a rate, Hz:
-    /// x, y, z ((m/s)²), roll, pitch, yaw ((rad/s)²).
+    /// Diagonal of the twist's covariance in the frame midway between the ICRs, for messages at a
+    /// rate, Hz: x, y, z ((m/s)²), roll, pitch, yaw ((rad/s)²).
     ///
     /// # Law
-    /// σ² = r²/(T Δt): N = T/Δt messages with independent errors σ Δt add up to r² over T. Residuals at a
-    /// point (p_x, p_y) are at most r_along + |p_y| r_yaw and r_across + |p_x| r_yaw.
+    /// σ² = r²/(T Δt): N = T/Δt messages with independent errors σ Δt add up to r² over T.
+    /// Residuals at a point (p_x, p_y) are at most r_along + |p_y| r_yaw and r_across + |p_x|
+    /// r_yaw.
     pub fn twist_diagonal(&self, drive: &EquivalentDrive, rate: f64) -> [f64; 6] {
         let [along, across, yaw] = self.motion;
         let [forward, left] = drive.point;
-        let variance = |rms: f64| (rms * rms * rate / self.duration).max(LEAST);
+        let variance = |rms: f64| (rms * rms * rate / self.duration).max(MIN_VARIANCE);
         let x = variance(along + left.abs() * yaw);
         let y = variance(across + forward.abs() * yaw);
-        [x, y, UNKNOWN, UNKNOWN, UNKNOWN, variance(yaw)]
+        [x, y, UNKNOWN_VARIANCE, UNKNOWN_VARIANCE, UNKNOWN_VARIANCE, variance(yaw)]
     }
 
-    /// Diagonal of the pose's covariance at the end of a run of mean length: x, y, z (m²), roll, pitch, yaw
-    /// (rad²).
+    /// Diagonal of the pose's covariance at the end of a run of mean length: x, y, z (m²), roll,
+    /// pitch, yaw (rad²).
     pub fn pose_diagonal(&self) -> [f64; 6] {
         // Two axes share the distance.
-        let place = (self.end_position * self.end_position / 2.0).max(LEAST);
-        let yaw = (self.end_yaw * self.end_yaw).max(LEAST);
-        [place, place, UNKNOWN, UNKNOWN, UNKNOWN, yaw]
+        let place = (self.end_position * self.end_position / 2.0).max(MIN_VARIANCE);
+        let yaw = (self.end_yaw * self.end_yaw).max(MIN_VARIANCE);
+        [place, place, UNKNOWN_VARIANCE, UNKNOWN_VARIANCE, UNKNOWN_VARIANCE, yaw]
     }
 }
 
 /// A number that is not negative, and whose square is a variance.
 fn checked(document: &Document, key: &str, value: &Spanned<f64>) -> Result<f64, DocumentError> {
     let number = *value.get_ref();
-    if (0.0..=MOST).contains(&number) {
+    if (0.0..=MAX_RESIDUAL).contains(&number) {
         return Ok(number);
     }
-    Err(document.value_error(value.span(), key, format!("a number from 0 to {MOST:e}")))
+    Err(document.value_error(value.span(), key, format!("a number from 0 to {MAX_RESIDUAL:e}")))
 }
 
 #[cfg(test)]

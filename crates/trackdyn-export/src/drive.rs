@@ -3,10 +3,12 @@
 use trackdyn_core::PerSide;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::frames::ros_from_paper;
+use trackdyn_core::rounding::Digits;
 use trackdyn_model::icr::Icrs;
 use trackdyn_model::kinematics::KinematicsFile;
 
-/// The ideal differential drive that a tracked robot is, seen midway between the ICRs of its tracks.
+/// The ideal differential drive that a tracked robot is, seen midway between the ICRs of its
+/// tracks.
 ///
 /// # Law
 /// At the point ((x_l + x_r)/2, y) the twist (7)-(9) is forward (V_l + V_r)/2, lateral 0, yaw rate
@@ -25,8 +27,8 @@ pub struct EquivalentDrive {
     pub separation: f64,
     /// Factors α_l, α_r from measured to true track speeds.
     pub alpha: PerSide<f64>,
-    /// The point midway between the ICRs, m from the centre of the contact area, in ROS axes: forward,
-    /// left.
+    /// The point midway between the ICRs, m from the centre of the contact area, in ROS axes:
+    /// forward, left.
     pub point: [f64; 2],
     /// Sectors of the map for which these constants stand; 0 where the map is not piecewise.
     pub sectors: usize,
@@ -58,10 +60,10 @@ impl EquivalentDrive {
     }
 }
 
-/// The length to 1e-9 m: files give χ and the ICRs to twelve decimals, and the gauge shall read 0.42 and
-/// not 0.420000000000039. Gauges below that scale keep their digits.
+/// The length to 1e-9 m: files give χ and the ICRs to twelve decimals, and the gauge shall read
+/// 0.42 and not 0.420000000000039. Gauges below that scale keep their digits.
 fn to_nanometres(length: f64) -> f64 {
-    let rounded = (length * 1e9).round() / 1e9;
+    let rounded = Digits::Decimals(9).round(length);
     if rounded > 0.0 { rounded } else { length }
 }
 

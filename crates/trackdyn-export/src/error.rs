@@ -40,8 +40,8 @@ pub enum Error {
     },
     /// A replay with other parameters.
     #[error(
-        "residuals = {residuals}: no set is of a kinematics file with the fingerprint {fingerprint}: \
-         expected what `trackdyn odometry --kinematics` wrote with that file"
+        "residuals = {residuals}: no set is of a kinematics file with the fingerprint \
+         {fingerprint}: expected what `trackdyn odometry --kinematics` wrote with that file"
     )]
     NoResiduals {
         /// Path of the odometry file.
@@ -69,7 +69,8 @@ pub enum Error {
     },
     /// A name that would need quoting in one of the languages.
     #[error(
-        "\"{value}\": expected a name of letters, digits, _, -, . and /, that begins with a letter or _"
+        "\"{value}\": expected a name of letters, digits, _, -, . and /, that begins with a letter \
+         or _"
     )]
     Name {
         /// The name.

@@ -1,14 +1,14 @@
 //! The frame at which the robot is an ideal differential drive, and the robot's own.
 
-use crate::number::LARGEST;
+use crate::number::MAX_LENGTH;
 use crate::{EquivalentDrive, Error, Name};
 use trackdyn_core::Pose;
 
 /// The chain odometry frame → ICR frame → base frame.
 ///
-/// The ICR frame is the parent of the base frame: an odometry that integrates an ideal differential drive
-/// moves the ICR frame, and a frame has one parent. The base frame must then be the root of the robot's
-/// own tree.
+/// The ICR frame is the parent of the base frame: an odometry that integrates an ideal differential
+/// drive moves the ICR frame, and a frame has one parent. The base frame must then be the root of
+/// the robot's own tree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frames {
     odom: Name,
@@ -18,14 +18,14 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// The names, and the centre of the contact area of both tracks in the base frame, m, in ROS axes
-    /// (forward, left).
+    /// The names, and the centre of the contact area of both tracks in the base frame, m, in ROS
+    /// axes (forward, left).
     ///
     /// # Errors
     /// [`Error::SameFrame`], [`Error::ContactCentre`].
     pub fn new(odom: Name, icr: Name, base: Name, contact_centre: [f64; 2]) -> Result<Self, Error> {
         let [x, y] = contact_centre;
-        if ![x, y].iter().all(|coordinate| (-LARGEST..=LARGEST).contains(coordinate)) {
+        if ![x, y].iter().all(|coordinate| (-MAX_LENGTH..=MAX_LENGTH).contains(coordinate)) {
             return Err(Error::ContactCentre { x, y });
         }
         let chain = [("odom-frame", &odom), ("icr-frame", &icr), ("base-frame", &base)];
@@ -74,7 +74,8 @@ pub(crate) mod tests {
 
     #[test]
     fn the_transform_is_the_inverse_of_the_offset() {
-        // x = y_ICR and y = −(x_r + x_l)/2 from base to ICR, so the base lies behind and to the left.
+        // x = y_ICR and y = −(x_r + x_l)/2 from base to ICR, so the base lies behind and to the
+        // left.
         let pose = frames().icr_from_base(&drive());
         assert!(
             (pose.x + 0.049_235).abs() < 1e-15 && (pose.y - 0.040_988).abs() < 1e-15,

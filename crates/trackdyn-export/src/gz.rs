@@ -28,11 +28,13 @@ pub fn plugin(
         "Put this into the <model>, beside one TrackController system per track.\n\
          tracks_separation (m): gauge = steering_efficiency * (x_icr_right_m - x_icr_left_m).\n\
          What the system cannot carry:\n\
-         - eccentricity and y_icr_m: commands are those of the point midway between the ICRs, from the\n  \
+         - eccentricity and y_icr_m: commands are those of the point midway between the ICRs, from \
+           the\n  \
            centre of the tracks' contact area {x} m forward and\n  \
            {y} m left, not of the model's origin;\n\
          - steering_efficiency in its own odometry: that of a differential drive with wheels\n  \
-           tracks_separation apart, whose yaw rate is too large by 1/steering_efficiency. Where that\n  \
+           tracks_separation apart, whose yaw rate is too large by 1/steering_efficiency. Where \
+           that\n  \
            odometry is used, write tracks_separation {separation} and\n  \
            steering_efficiency 1.0: the same commands, and odometry that agrees with them.\n"
     );
@@ -40,7 +42,8 @@ pub fn plugin(
         let (left, right) = (number(drive.alpha.left), number(drive.alpha.right));
         let _ = writeln!(
             notes,
-            "- alpha_left {left} and alpha_right {right}: the system's tracks run at the speeds it commands."
+            "- alpha_left {left} and alpha_right {right}: the system's tracks run at the speeds it \
+             commands."
         );
     }
     let mut text = provenance.xml_comment(&notes);

@@ -4,8 +4,8 @@ use crate::Error;
 use std::fmt;
 use std::str::FromStr;
 
-/// A name that stands in YAML, XML and Python as it is: letters, digits, `_`, `-`, `.` and `/`, with a
-/// letter or `_` first.
+/// A name that stands in YAML, XML and Python as it is: letters, digits, `_`, `-`, `.` and `/`,
+/// with a letter or `_` first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name(String);
 

@@ -3,7 +3,7 @@
 mod controller;
 mod launch;
 
-use crate::number::LARGEST;
+use crate::number::MAX_LENGTH;
 use crate::{EquivalentDrive, Error, Frames, Name, NodeName, Provenance, Residuals, TextFile};
 
 /// What a kinematics file does not know of the robot's drive.
@@ -15,13 +15,13 @@ pub struct Wheels {
 }
 
 impl Wheels {
-    /// Travel of the belt per radian of the wheel joint, m (for a track the pitch radius of its sprocket),
-    /// and names of the wheel joints.
+    /// Travel of the belt per radian of the wheel joint, m (for a track the pitch radius of its
+    /// sprocket), and names of the wheel joints.
     ///
     /// # Errors
     /// [`Error::WheelRadius`], [`Error::WheelCount`], [`Error::Repeated`].
     pub fn new(radius: f64, left: Vec<Name>, right: Vec<Name>) -> Result<Self, Error> {
-        if !(1e-6..=LARGEST).contains(&radius) {
+        if !(1e-6..=MAX_LENGTH).contains(&radius) {
             return Err(Error::WheelRadius { value: radius });
         }
         if left.len() != right.len() || left.is_empty() {
@@ -55,8 +55,8 @@ impl Published {
     }
 }
 
-/// The parameters of a controller of this name, with covariances where residuals are known, and the launch
-/// file.
+/// The parameters of a controller of this name, with covariances where residuals are known, and the
+/// launch file.
 pub fn files(
     drive: &EquivalentDrive,
     frames: &Frames,

@@ -9,7 +9,8 @@ pub fn fragment(drive: &EquivalentDrive, frames: &Frames, provenance: &Provenanc
     let pose = frames.icr_from_base(drive);
     let (x, y) = (metres(pose.x), metres(pose.y));
     let notes = format!(
-        "{icr} is the point midway between the ICRs of the tracks, at which the robot moves as an ideal\n\
+        "{icr} is the point midway between the ICRs of the tracks, at which the robot moves as an \
+         ideal\n\
          differential drive. It becomes the root: a controller with base_frame_id {icr} publishes\n\
          {odom} -> {icr}, and a link has one parent. {base} must be the root of the robot's URDF\n\
          until now. Include this file, or launch icr_frame.launch.py, not both.\n"

@@ -30,8 +30,9 @@ pub struct Friction {
 
 /// Friction wrench on the body from the patches of one side, about the frame's origin.
 ///
-/// Closed form for each patch where it keeps its digits; where the ICR is so far away that the closed form
-/// would cancel, the integrand is smooth and a Gauss rule is exact to the digits asked for.
+/// Closed form for each patch where it keeps its digits; where the ICR is so far away that the
+/// closed form would cancel, the integrand is smooth and a Gauss rule is exact to the digits asked
+/// for.
 pub fn friction_wrench<S: Scalar>(
     patches: &[Patch],
     friction: Friction,

@@ -14,9 +14,9 @@ use trackdyn_core::{PerSide, Scalar, Wrench};
 
 /// A mechanism that the base model leaves out.
 ///
-/// A hook adds to or multiplies what it is given and never assigns, so effects combine in any order.
-/// A hook that an effect does not override does nothing. [`Card::stages`] names the hooks that act;
-/// the conformance tests hold the two together.
+/// A hook adds to or multiplies what it is given and never assigns, so effects combine in any
+/// order. A hook that an effect does not override does nothing. [`Card::stages`] names the hooks
+/// that act; the conformance tests hold the two together.
 pub trait Effect: Copy + Sized {
     /// Description and parameters.
     const CARD: Card;
@@ -29,7 +29,8 @@ pub trait Effect: Copy + Sized {
         Vec::new()
     }
 
-    /// The effect with its parameters in the order and the units of the card, each within its range.
+    /// The effect with its parameters in the order and the units of the card, each within its
+    /// range.
     fn from_values(values: &[f64]) -> Self;
 
     /// Stage `body`: what the machine is.
@@ -89,7 +90,8 @@ impl Card {
         self.stages.contains(&Stage::Shear)
     }
 
-    /// Whether it acts where its place is, over an extent that is its shape, and not from there on the robot wherever that is.
+    /// Whether it acts where its place is, over an extent that is its shape, and not from there on
+    /// the robot wherever that is.
     pub fn has_extent(&self) -> bool {
         let is_place = |one: &Parameter| matches!(one.role, Role::Place { .. });
         let is_shape = |one: &Parameter| one.role == Role::Shape;
@@ -126,11 +128,12 @@ impl Parameter {
 /// What a parameter does in the law of its effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {
-    /// How large the effect is. Where all its sizes are neutral there is no effect, whatever its other
-    /// parameters are.
+    /// How large the effect is. Where all its sizes are neutral there is no effect, whatever its
+    /// other parameters are.
     Size {
-        /// Value at which the law is that of the base model, in the parameter's unit. It may lie below the
-        /// physical range: then it is a limit, which the law approaches towards that end of the range.
+        /// Value at which the law is that of the base model, in the parameter's unit. It may lie
+        /// below the physical range: then it is a limit, which the law approaches towards that end
+        /// of the range.
         neutral: f64,
     },
     /// A coordinate of a place in the world, m.
@@ -156,8 +159,8 @@ impl Role {
     }
 }
 
-/// An invariance that the ICR triple (x_l, x_r, y), as encoders and pose sensor show it, has in the base
-/// model.
+/// An invariance that the ICR triple (x_l, x_r, y), as encoders and pose sensor show it, has in the
+/// base model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Symmetry {
     /// S: all speeds scaled by one factor.

@@ -6,10 +6,12 @@ mod active;
 #[cfg(test)]
 mod conformance;
 mod error;
+mod id;
 mod nature;
 
 pub use active::{ActiveEffect, Effects};
 pub use error::EffectError;
+pub use id::EffectId;
 
 use crate::contact::ShearStress;
 use crate::effect::{Card, Effect, Nature, Term};

@@ -5,8 +5,8 @@ use crate::{Ground, Model, Motion};
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Twist, Wrench};
 
-/// The forces on the body of a model at one place, heading and time. Rows are force across and along (N) and moment
-/// (N·m), columns v_x, v_y (m/s) and w (rad/s) or their rates, paper's frame.
+/// The forces on the body of a model at one place, heading and time. Rows are force across and
+/// along (N) and moment (N·m), columns v_x, v_y (m/s) and w (rad/s) or their rates, paper's frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Forces<'a> {
     /// The robot.
@@ -18,7 +18,8 @@ pub struct Forces<'a> {
 }
 
 impl Forces<'_> {
-    /// Their sum at belt speeds (m/s), a twist and its rate: zero where the motion is one of the model.
+    /// Their sum at belt speeds (m/s), a twist and its rate: zero where the motion is one of the
+    /// model.
     pub fn sum(&self, belts: PerSide<f64>, twist: &Twist, rate: &Twist) -> Vector3<f64> {
         let Twist { v_x, v_y, w } = *twist;
         Vector3::from(self.at(belts, [v_x, v_y, w], *rate))
@@ -54,7 +55,7 @@ fn gradients(rows: &[Dual<3>; 3]) -> Matrix3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::transient::{CREEP, GAMMA, Instant};
+    use crate::transient::{GAMMA, Instant, STICKING_SLIP_VELOCITY};
     use crate::{ActiveEffect, Circumstance, Effects, VehicleFile};
     use crate::{Stationary, Transient};
     use trackdyn_core::frames::ros_twist_from_paper;
@@ -94,7 +95,8 @@ mod tests {
         }
     }
 
-    /// In the stages of a motion in time they balance, the last one of each step is its end, and both together move the body.
+    /// In the stages of a motion in time they balance, the last one of each step is its end, and
+    /// both together move the body.
     #[test]
     fn they_balance_in_every_stage_of_a_motion_in_time() {
         let texts = ["yaw-inertia:strength=1,gyration_m=0.3", "centripetal"];
@@ -102,7 +104,7 @@ mod tests {
             texts.iter().map(|text| text.parse::<ActiveEffect>().expect("an effect")).collect();
         let model = Model::new(VehicleFile::auriga_alpha().vehicle, effects);
         let ground = model.ground(&Circumstance::default());
-        let forces = Forces { model: &model, ground: &ground, creep: CREEP };
+        let forces = Forces { model: &model, ground: &ground, creep: STICKING_SLIP_VELOCITY };
         let mut path = Trajectory::default();
         let mut robot =
             Transient::at_rest(&model, 0.0, Pose::default()).with_step(0.03).with_steps();

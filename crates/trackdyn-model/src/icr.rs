@@ -29,7 +29,8 @@ impl Icrs {
         [self.x_left, self.x_right, self.y]
     }
 
-    /// The ICRs of a hull with this twist and belts with these speeds (m/s); none where it does not turn.
+    /// The ICRs of a hull with this twist and belts with these speeds (m/s); none where it does not
+    /// turn.
     pub fn of_motion(belt_speed: PerSide<f64>, twist: &Twist) -> Option<Self> {
         // x = (V − v_y)/w, y = v_x/w
         let x = |speed: f64| (speed - twist.v_y) / twist.w;

@@ -45,7 +45,7 @@ impl Kinematics {
     }
 
     /// Track speeds as they would be measured, m/s, at a forward speed and a yaw rate: inverse
-    /// kinematics. The lateral speed follows: see [`Kinematics::lateral_speed`].
+    /// kinematics. The lateral speed v_x = ω y follows: the vehicle cannot choose it.
     pub fn track_speeds(&self, forward: f64, yaw_rate: f64) -> PerSide<f64> {
         let Icrs { x_left, x_right, .. } = self.icrs;
         PerSide {
@@ -54,11 +54,6 @@ impl Kinematics {
             // V_r = v_y + x_r ω, eq. (11)
             right: (forward + x_right * yaw_rate) / self.alpha.right,
         }
-    }
-
-    /// Lateral speed v_x (right positive, m/s) that goes with a yaw rate: the vehicle cannot choose it.
-    pub fn lateral_speed(&self, yaw_rate: f64) -> f64 {
-        yaw_rate * self.icrs.y
     }
 }
 
@@ -80,7 +75,6 @@ mod tests {
             let twist = kinematics.twist(PerSide::new(left, right));
             let back = kinematics.track_speeds(twist.v_y, twist.w);
             assert!((back.left - left).abs() < 1e-15 && (back.right - right).abs() < 1e-15);
-            assert!((kinematics.lateral_speed(twist.w) - twist.v_x).abs() < 1e-15);
         }
     }
 

@@ -15,7 +15,8 @@
 //! - [`kinematics`]: what the means are for: equations (7)-(13) with constant ICRs.
 //!
 //! Laws are written over one scalar type, so each has exact derivatives. What pushes never iterates
-//! and knows nothing of how the robot moves. The paper's frame holds throughout: x right, y forward.
+//! and knows nothing of how the robot moves. The paper's frame holds throughout: x right, y
+//! forward.
 
 pub mod contact;
 pub mod effect;
@@ -32,7 +33,7 @@ pub mod transient;
 pub mod vehicle;
 pub mod vehicle_file;
 
-pub use effects::{ActiveEffect, CATALOGUE, EffectError, Effects};
+pub use effects::{ActiveEffect, CATALOGUE, EffectError, EffectId, Effects};
 pub use forces::Forces;
 pub use icr::Icrs;
 pub use kinematics::Kinematics;

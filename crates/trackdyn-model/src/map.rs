@@ -28,8 +28,8 @@ pub struct IcrMap {
 impl IcrMap {
     /// Solves every pair, in parallel. `progress` is told the number of pairs of each finished row.
     ///
-    /// Each pair is solved on its own from a cold start, so the map does not depend on the number of
-    /// threads.
+    /// Each pair is solved on its own from a cold start, so the map does not depend on the number
+    /// of threads.
     ///
     /// # Panics
     /// Never: `progress` cannot ask to stop.
@@ -47,7 +47,8 @@ impl IcrMap {
             .expect("progress never asks to stop")
     }
 
-    /// As [`IcrMap::solve`], until `progress` asks to stop after one of the rows: then there is no map.
+    /// As [`IcrMap::solve`], until `progress` asks to stop after one of the rows: then there is no
+    /// map.
     pub fn solve_unless_stopped(
         model: &Model,
         grid: Grid,

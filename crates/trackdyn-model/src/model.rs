@@ -14,8 +14,8 @@ use trackdyn_core::{PerSide, Scalar, Side, Wrench};
 /// Stationary motion, eqs (14)-(15): friction + weight along the slope + what effects add = 0.
 ///
 /// # Assumes
-/// A rigid hull on flat patches, the pressure linear along the track and constant across it (Fig. 5),
-/// anisotropic Coulomb friction (22)-(23).
+/// A rigid hull on flat patches, the pressure linear along the track and constant across it (Fig.
+/// 5), anisotropic Coulomb friction (22)-(23).
 ///
 /// # Sources
 /// Martinez et al., IJRR 24(10), 2005.
@@ -73,7 +73,7 @@ impl Model {
         Self { vehicle, effects, patches, footprint, extent, drive, sensor, shear_laws, resolution }
     }
 
-    /// The same with the shear stress integrated this finely.
+    /// This model with the shear stress integrated this finely.
     pub fn with_resolution(self, resolution: Resolution) -> Self {
         Self { resolution, ..self }
     }
@@ -164,7 +164,8 @@ impl Model {
         })
     }
 
-    /// Whether no pressure of the ground can bear the load at this motion: it would have to act outside the contact.
+    /// Whether no pressure of the ground can bear the load at this motion: it would have to act
+    /// outside the contact.
     pub fn tips(&self, ground: &Ground, motion: &Motion) -> bool {
         let (normal_load, pressure) = self.load(&self.situation(ground, motion));
         let [rear, front] = self.footprint.ends;
@@ -178,7 +179,8 @@ impl Model {
         Situation { vehicle: &self.vehicle, ground, footprint: &self.footprint, motion }
     }
 
-    /// Stage `load`: weight on each side (N; negative where it would have to pull) and the pressure.
+    /// Stage `load`: weight on each side (N; negative where it would have to pull) and the
+    /// pressure.
     #[inline]
     fn load<S: Scalar>(&self, situation: &Situation<S>) -> (PerSide<S>, PerSide<Pressure<S>>) {
         let mut centre_of_pressure = self.vehicle.cog.map(S::from);

@@ -17,7 +17,7 @@ impl Tolerance {
     /// For friction that has half the digits.
     const COARSE: Self = Self { converged: 1e-8, rounding: 1e-7 };
 
-    /// The same for friction of this resolution: no root is finer.
+    /// The tolerance for friction of this resolution: a root is no finer than that.
     pub fn at(self, resolution: Resolution) -> Self {
         if resolution == Resolution::Fine { self } else { Self::COARSE }
     }
@@ -25,16 +25,16 @@ impl Tolerance {
 
 /// Residual below which one more step of a quadratic method is expected to be the last, so that
 /// its derivatives are not asked for.
-const NEARLY: f64 = 1e-6;
+const LAST_STEP_RESIDUAL: f64 = 1e-6;
 
 const MAX_ITERATIONS: usize = 80;
 
 /// Share of the predicted decrease of the residual's norm that a step must bring.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 
-/// Smallest fraction of a Newton step that is tried: where less is needed, there is no root near, and another start is
-/// tried sooner.
-const SMALLEST_STEP: f64 = 1e-3;
+/// Smallest fraction of a Newton step that is tried: where less is needed, there is no root near,
+/// and another start is tried sooner.
+const MIN_STEP_SHARE: f64 = 1e-3;
 
 /// Residual and Jacobian at a point.
 pub struct Evaluation<const N: usize> {
@@ -69,12 +69,13 @@ pub struct Convergence<const N: usize> {
 }
 
 /// What a step without derivatives must leave of the residual at most.
-const LEFT: f64 = 0.6;
+const MAX_RESIDUAL_RATIO: f64 = 0.6;
 
-/// Iterates from a `start` near a root without derivatives, by Broyden's method; none where that does not lead there.
+/// Iterates from a `start` near a root without derivatives, by Broyden's method; none where that
+/// does not lead there.
 ///
-/// `value` is the residual there, `inverse` that of a Jacobian not far from here. Each step corrects it by what the
-/// residual changed along the step:
+/// `value` is the residual there, `inverse` that of a Jacobian not far from here. Each step
+/// corrects it by what the residual changed along the step:
 /// B ← B + (s − B y) sᵀB/(sᵀB y).
 #[inline]
 pub fn from_near<const N: usize>(
@@ -95,7 +96,7 @@ pub fn from_near<const N: usize>(
         let next = residual(point);
         let next_norm = next.norm();
         iterations += 1;
-        if next_norm.is_nan() || next_norm > LEFT * norm {
+        if next_norm.is_nan() || next_norm > MAX_RESIDUAL_RATIO * norm {
             return None;
         }
         let mapped = inverse * (next - value);
@@ -107,8 +108,8 @@ pub fn from_near<const N: usize>(
     Some(Convergence { point, residual: norm, iterations, is_root: true, inverse })
 }
 
-/// Iterates from `start`. `evaluate` gives residual and Jacobian, `residual` the residual alone; no step
-/// moves the first two unknowns by more than `longest_step`.
+/// Iterates from `start`. `evaluate` gives residual and Jacobian, `residual` the residual alone; no
+/// step moves the first two unknowns by more than `longest_step`.
 #[inline]
 pub fn solve<const N: usize>(
     start: SVector<f64, N>,
@@ -133,7 +134,7 @@ pub fn solve<const N: usize>(
         let Some(here) = at.jacobian.try_inverse() else { break };
         inverse = Some(here);
         let step = -(here * at.residual);
-        if norm < NEARLY {
+        if norm < LAST_STEP_RESIDUAL {
             let last = point + step;
             let last_norm = residual(last).norm();
             if last_norm <= tolerance.converged {
@@ -149,7 +150,7 @@ pub fn solve<const N: usize>(
                 break Some((trial, next, next_norm));
             }
             fraction *= 0.5;
-            if fraction < SMALLEST_STEP {
+            if fraction < MIN_STEP_SHARE {
                 break None;
             }
         };

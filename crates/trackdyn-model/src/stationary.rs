@@ -4,16 +4,17 @@
 //! Find the twist at which all forces on the body balance, eqs (14)-(15).
 //!
 //! # Unknowns
-//! The ICR (x, y) of one track, the *anchor*, and the turn t = w/(V_r − V_l) = 1/(x_r − x_l). All three
-//! stay finite: at small speed differences, where the twist degenerates, and at t → 0, where the other
-//! track's ICR runs to infinity.
+//! The ICR (x, y) of one track, the *anchor*, and the turn t = w/(V_r − V_l) = 1/(x_r − x_l). All
+//! three stay finite: at small speed differences, where the twist degenerates, and at t → 0, where
+//! the other track's ICR runs to infinity.
 //!
 //! # When a robot does not turn
-//! A track with much more load than the other can hold the robot: it sticks, the robot drives straight
-//! at its speed, and the other track slips. No slip direction exists on the sticking track, so the
-//! balance has no solution with t > 0. The residual is continued to t < 0 by multiplying the force of
-//! the slipping track and all forces beside friction by 1 − L t: there, a root says that the anchor breaks loose only under so much
-//! more force, that is, that it holds. One Newton iteration thus decides between turning and holding.
+//! A track with much more load than the other can hold the robot: it sticks, the robot drives
+//! straight at its speed, and the other track slips. No slip direction exists on the sticking
+//! track, so the balance has no solution with t > 0. The residual is continued to t < 0 by
+//! multiplying the force of the slipping track and all forces beside friction by 1 − L t: there, a
+//! root says that the anchor breaks loose only under so much more force, that is, that it holds.
+//! One Newton iteration thus decides between turning and holding.
 
 mod solution;
 
@@ -26,16 +27,18 @@ use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
 
 /// Speed, m/s, of the spin that stands for the limit of slow driving.
-const CREEP: f64 = 1e-6;
+const SPIN_SPEED: f64 = 1e-6;
 
-/// Residual over the weight, and change of belt speeds over the faster one at which speed and traction agree.
+/// Residual over the weight, and change of belt speeds over the faster one at which speed and
+/// traction agree.
 const TOLERANCE: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11 };
 
-/// Residual at which a search beside a known motion stops at the latest: what differs between the two is asked for.
-const COMPARABLE: f64 = 1e-10;
+/// Residual at which a search beside a known motion stops at the latest: what differs between the
+/// two is asked for.
+const MAX_COMPARED_RESIDUAL: f64 = 1e-10;
 
 /// Turns between belt speeds and traction after which the search is given up.
-const MOST_TURNS: usize = 100;
+const MAX_TURNS: usize = 100;
 
 /// A motion that is nearly the wanted one: where a search starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,11 +85,11 @@ pub struct Stationary<'m> {
 impl<'m> Stationary<'m> {
     /// The solver for a model.
     ///
-    /// Solves one slow spin: without effects all motions share its ICRs (the constancy theorem), and
-    /// with effects it is a good start for any of them.
+    /// Solves one slow spin: without effects all motions share its ICRs (the constancy theorem),
+    /// and with effects it is a good start for any of them.
     pub fn new(model: &'m Model, circumstance: &Circumstance) -> Self {
         let mut solver = Self::from_start(model, circumstance, None);
-        let spin = solver.solve_belts(PerSide::new(-CREEP, CREEP));
+        let spin = solver.solve_belts(PerSide::new(-SPIN_SPEED, SPIN_SPEED));
         solver.near = spin.near();
         solver
     }
@@ -98,18 +101,18 @@ impl<'m> Stationary<'m> {
         Self { model, ground: model.ground(circumstance), scale, near }
     }
 
-    /// The same solver with this motion as its first start, where one is known.
+    /// This solver with this motion as its first start, where one is known.
     pub fn starting_at(&self, near: Option<Near>) -> Self {
         Self { near: near.or(self.near), ..self.clone() }
     }
 
     /// The stationary motion at the track speeds that the encoders show, m/s.
     ///
-    /// No pair of speeds knows of another, so the order of solves does not matter. The result carries
-    /// its status; read it before the numbers.
+    /// No pair of speeds knows of another, so the order of solves does not matter. The result
+    /// carries its status; read it before the numbers.
     ///
-    /// Where belts slip on their sprockets, speeds and traction are found in turns: Coulomb's friction knows speeds by
-    /// their ratios alone, so the next traction hardly differs.
+    /// Where belts slip on their sprockets, speeds and traction are found in turns: Coulomb's
+    /// friction knows speeds by their ratios alone, so the next traction hardly differs.
     pub fn solve(&self, track_speed: PerSide<f64>) -> Solution {
         let driven = self.model.drive().driven(track_speed);
         let mut solution = self.solve_belts(driven);
@@ -120,14 +123,15 @@ impl<'m> Stationary<'m> {
         Solution { track_speed, ..solution }
     }
 
-    /// The motion of belts that slip on sprockets of these speeds, m/s, sought from that of belts that do not.
+    /// The motion of belts that slip on sprockets of these speeds, m/s, sought from that of belts
+    /// that do not.
     fn slipping(&self, driven: PerSide<f64>, firm: Solution) -> Solution {
         let settled = TOLERANCE.at(self.model.resolution()).converged;
         let tolerance = settled * driven.left.abs().max(driven.right.abs());
         let mut solution = firm;
         let (mut share, mut last) = (1.0, PerSide::new(0.0, 0.0));
         let mut may_be_straight = true;
-        for _ in 0..MOST_TURNS {
+        for _ in 0..MAX_TURNS {
             let Some(traction) = self.traction(&solution) else { break };
             let belts = solution.belt_speed;
             let next = self.model.drive().belt_speed(driven, traction);
@@ -136,7 +140,8 @@ impl<'m> Stationary<'m> {
             if change <= tolerance {
                 return solution;
             }
-            // Traction that turns the robot the other way than it turns comes before traction that does not turn it.
+            // Traction that turns the robot the other way than it turns comes before traction that
+            // does not turn it.
             if may_be_straight && difference(&next) * difference(&belts) <= 0.0 {
                 if let Some(straight) = self.straight(driven) {
                     return straight;
@@ -154,13 +159,13 @@ impl<'m> Stationary<'m> {
         Solution { status: Status::NotConverged, ..solution }
     }
 
-    /// The straight motion behind sprockets of these speeds, m/s, where traction takes up their difference; none where
-    /// it does not.
+    /// The straight motion behind sprockets of these speeds, m/s, where traction takes up their
+    /// difference; none where it does not.
     ///
     /// # Law
-    /// Both tracks stick: κ T/N = (V_d − V)/|V_d| with one V on both sides, and T_l + T_r + F = 0, F the load along
-    /// the tracks. They hold where friction in a vanishing turn, to the left and to the right, would turn the robot
-    /// back.
+    /// Both tracks stick: κ T/N = (V_d − V)/|V_d| with one V on both sides, and T_l + T_r + F = 0,
+    /// F the load along the tracks. They hold where friction in a vanishing turn, to the left and
+    /// to the right, would turn the robot back.
     fn straight(&self, driven: PerSide<f64>) -> Option<Solution> {
         if driven.left == 0.0 || driven.right == 0.0 {
             return None; // a belt that stands has no slip to stand with the other
@@ -177,8 +182,8 @@ impl<'m> Stationary<'m> {
             let belts = PerSide::new(speed - difference / 2.0, speed + difference / 2.0);
             self.solve_belts(belts)
         };
-        let left = departing(CREEP * speed.abs());
-        let right = departing(-CREEP * speed.abs());
+        let left = departing(SPIN_SPEED * speed.abs());
+        let right = departing(-SPIN_SPEED * speed.abs());
         let turns = |solution| {
             Some(difference(&self.model.drive().belt_speed(driven, self.traction(solution)?)))
         };
@@ -194,7 +199,8 @@ impl<'m> Stationary<'m> {
         })
     }
 
-    /// Traction of each side over its normal load, forward positive; none where no motion was found.
+    /// Traction of each side over its normal load, forward positive; none where no motion was
+    /// found.
     fn traction(&self, solution: &Solution) -> Option<PerSide<f64>> {
         let anchor = match solution.status {
             Status::NotConverged => return None,
@@ -318,11 +324,13 @@ impl<'s> Problem<'s> {
         Root { problem: self, convergence }
     }
 
-    /// The root near a known one of this anchor; none where derivatives from there do not lead to it.
+    /// The root near a known one of this anchor; none where derivatives from there do not lead to
+    /// it.
     fn solve_beside(self, known: &Linearised) -> Option<Root<'s>> {
         let residual = |z: Vector3<f64>| Vector3::from(self.residual([z[0], z[1], z[2]]));
         let tolerance = TOLERANCE.at(self.solver.model.resolution());
-        let tolerance = Tolerance { converged: tolerance.converged.min(COMPARABLE), ..tolerance };
+        let tolerance =
+            Tolerance { converged: tolerance.converged.min(MAX_COMPARED_RESIDUAL), ..tolerance };
         let start = (known.point, residual(known.point));
         let convergence = newton::from_near(start, known.inverse, tolerance, residual)?;
         Some(Root { problem: self, convergence })
@@ -337,7 +345,8 @@ impl<'s> Problem<'s> {
     #[inline]
     fn residual<S: Scalar>(&self, z: [S; 3]) -> [S; 3] {
         let balance = self.solver.model.balance(&self.solver.ground, &self.motion(z));
-        // What the track that is held has to bear: a root at a multiple of it above one proves that it bears once as much.
+        // What the track that is held has to bear: a root at a multiple of it above one proves that
+        // it bears once as much.
         let mut borne = balance.load;
         borne += balance.friction[self.anchor.other()];
         if z[2].value() <= 0.0 {

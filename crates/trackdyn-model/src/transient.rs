@@ -1,24 +1,26 @@
 //! The motion in time.
 //!
 //! # Law
-//! At every moment all forces on the body balance, eqs (14)-(15), inertia among them where the effects
-//! `yaw-inertia` and `centripetal` are on: together they are Newton's second law. Without them the robot
-//! is at its stationary motion at once.
+//! At every moment all forces on the body balance, eqs (14)-(15), inertia among them where the
+//! effects `yaw-inertia` and `centripetal` are on: together they are Newton's second law. Without
+//! them the robot is at its stationary motion at once.
 //!
 //! # Stick and slip
-//! Coulomb friction has no value where a whole track sticks. There, and only there, it is regularised:
-//! the friction wrench of a side is multiplied by σ/√(σ² + ε²), σ the root mean square of its slip
-//! velocity. A wrench of the exact law opposes the slip, so a fraction of it does, and energy never grows
-//! out of nothing. With ε = [`CREEP`], unless another one is asked for, a track that slips at 1 cm/s has friction
-//! exact to 5·10⁻⁹, and a parked robot creeps less than 0.1 mm in a minute up to 80 % of what friction bears.
+//! Coulomb friction has no value where a whole track sticks. There, and only there, it is
+//! regularised: the friction wrench of a side is multiplied by σ/√(σ² + ε²), σ the root mean square
+//! of its slip velocity. A wrench of the exact law opposes the slip, so a fraction of it does, and
+//! energy never grows out of nothing. With ε = [`STICKING_SLIP_VELOCITY`], unless another one is
+//! asked for, a track that slips at 1 cm/s has friction exact to 5·10⁻⁹, and a parked robot creeps
+//! less than 0.1 mm in a minute up to 80 % of what friction bears.
 //!
 //! # Method
-//! The two-stage singly diagonal implicit Runge-Kutta method of order 2 (Alexander 1977), which damps
-//! stiff parts at once. Each stage is one balance of forces with the acceleration (u − u_b)/(γ h): the
-//! same equations as the stationary ones, solved by Broyden's method from the last balance, else by the same Newton iteration with exact
-//! derivatives. Where
-//! belts slip on their sprockets, the traction of both sides is sought with the twist: near straight driving
-//! friction turns over within a small slip, and belts at speeds by an earlier traction would jump to and fro.
+//! The two-stage singly diagonal implicit Runge-Kutta method of order 2 (Alexander 1977), which
+//! damps stiff parts at once. Each stage is one balance of forces with the acceleration (u −
+//! u_b)/(γ h): the same equations as the stationary ones, solved by Broyden's method from the last
+//! balance, else by the same Newton iteration with exact derivatives. Where belts slip on their
+//! sprockets, the traction of both sides is sought with the twist: near straight driving friction
+//! turns over within a small slip, and belts at speeds by an earlier traction would jump to and
+//! fro.
 //!
 //! # Sources
 //! Alexander, SIAM Journal on Numerical Analysis 14(6), 1977.
@@ -33,16 +35,16 @@ use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{Moment, PerSide, Plant, Pose, Stopped, Trajectory, Twist};
 
 /// Slip velocity ε below which a track sticks, m/s.
-pub const CREEP: f64 = 1e-6;
+pub const STICKING_SLIP_VELOCITY: f64 = 1e-6;
 
 /// Coefficient γ = 1 − 1/√2 of the method: it makes the second stage the end of the step.
 pub const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
 /// Halvings of a step for its error at most.
-const MOST_REFINED: u32 = 2;
+const MAX_REFINEMENTS: u32 = 2;
 
 /// Halvings of a step after which it is given up.
-const MOST_HALVINGS: u32 = 10;
+const MAX_HALVINGS: u32 = 10;
 
 /// A step as it was taken.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +53,8 @@ pub struct Step {
     pub end: f64,
     /// Its length h, s.
     pub duration: f64,
-    /// Its stages, the second of which is its end. The body moves by 1 − γ of the first twist and γ of the second.
+    /// Its stages, the second of which is its end. The body moves by 1 − γ of the first twist and γ
+    /// of the second.
     pub stages: [Instant; 2],
 }
 
@@ -130,7 +133,7 @@ impl<'m> Transient<'m> {
             model,
             longest_step: Self::STEP,
             tolerance: f64::INFINITY,
-            creep: CREEP,
+            creep: STICKING_SLIP_VELOCITY,
             has_inertia: Self::feels_inertia(model),
             may_pull: false,
             steps: None,
@@ -138,30 +141,31 @@ impl<'m> Transient<'m> {
         }
     }
 
-    /// The same with another longest step, s.
+    /// This motion with another longest step, s.
     pub fn with_step(self, longest_step: f64) -> Self {
         Self { longest_step, ..self }
     }
 
-    /// The same with steps halved where the error of the twist, of the yaw rate that of the tracks, is estimated as larger
-    /// than `tolerance`, m/s.
+    /// This motion with steps halved where the estimated error of the twist is larger than
+    /// `tolerance`, m/s; the yaw rate counts by the speeds of the tracks.
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
     }
 
-    /// The same with tracks that stick below another slip velocity than [`CREEP`], m/s: larger ones are solved sooner.
+    /// This motion with tracks that stick below another slip velocity than
+    /// [`STICKING_SLIP_VELOCITY`], m/s: larger ones are solved sooner.
     pub fn with_creep(self, creep: f64) -> Self {
         Self { creep, ..self }
     }
 
-    /// The same, going on where part of the contact lifts, with a pressure that stays linear and pulls there, until the
-    /// robot tips over. Where the load shifts by 1 + ε times what keeps all of the contact down, forces are off by a part
-    /// of ε².
+    /// This motion, continued where part of the contact lifts until the robot tips over: the
+    /// pressure stays linear, and pulls there. Where the load shifts by 1 + ε times what keeps all
+    /// of the contact down, forces are off by a part of ε².
     pub fn with_pull(self) -> Self {
         Self { may_pull: true, ..self }
     }
 
-    /// The same, keeping its steps.
+    /// This motion, keeping its steps.
     pub fn with_steps(self) -> Self {
         Self { steps: Some(Vec::new()), ..self }
     }
@@ -171,17 +175,17 @@ impl<'m> Transient<'m> {
         self.steps.unwrap_or_default()
     }
 
-    /// The same with another twist (paper's frame).
+    /// This motion with another twist (paper's frame).
     pub fn with_twist(mut self, twist: Twist) -> Self {
         self.state.twist = twist;
         self
     }
 
-    /// One step to the time `end` at the speeds `shown` by the encoders, in halves where it does not
-    /// converge, or its error is larger than asked for.
+    /// One step to the time `end` at the speeds `shown` by the encoders, in halves where it does
+    /// not converge, or its error is larger than asked for.
     fn step(&mut self, shown: PerSide<f64>, end: f64, halvings: u32) -> Result<(), Stopped> {
         if let Some((state, stages, error)) = self.advanced(shown, end)
-            && (error <= self.tolerance || halvings >= MOST_REFINED)
+            && (error <= self.tolerance || halvings >= MAX_REFINEMENTS)
         {
             let duration = end - self.state.t;
             self.state = state;
@@ -190,7 +194,7 @@ impl<'m> Transient<'m> {
             }
             return Ok(());
         }
-        if halvings == MOST_HALVINGS {
+        if halvings == MAX_HALVINGS {
             let reason = "no motion balances the forces on the robot".to_owned();
             return Err(Stopped { t: self.state.t, reason });
         }
@@ -198,8 +202,8 @@ impl<'m> Transient<'m> {
         self.step(shown, end, halvings + 1)
     }
 
-    /// The state at the end of a step, its stages, and the estimated error of its twist, m/s; none where no balance is
-    /// found.
+    /// The state at the end of a step, its stages, and the estimated error of its twist, m/s; none
+    /// where no balance is found.
     fn advanced(&self, shown: PerSide<f64>, end: f64) -> Option<(State, [Instant; 2], f64)> {
         let start = self.state;
         let h = end - start.t;
@@ -279,8 +283,8 @@ impl<'m> Transient<'m> {
         Some(State { twist, driven, belt_speed, traction, lifts, tips, inverse, ..*before })
     }
 
-    /// Whether the forces beside friction depend on the acceleration: else the robot is at its stationary
-    /// motion at once.
+    /// Whether the forces beside friction depend on the acceleration: else the robot is at its
+    /// stationary motion at once.
     pub fn feels_inertia(model: &Model) -> bool {
         let still = Twist::zero();
         let force = |acceleration: Twist| {
@@ -288,15 +292,6 @@ impl<'m> Transient<'m> {
             model.balance(&model.ground(&Circumstance::default()), &motion).load
         };
         force(Twist { v_x: 1.0, v_y: 1.0, w: 1.0 }) != force(still)
-    }
-
-    /// Kinetic energy of the body with this radius of gyration about its centre of gravity (m), J.
-    pub fn kinetic_energy(&self, gyration: f64) -> f64 {
-        let vehicle = self.model.vehicle();
-        let [v_x, v_y] = self.state.twist.velocity_at(vehicle.cog);
-        let w = self.state.twist.w * gyration;
-        // E = ½ m (v² + r² ω²)
-        0.5 * vehicle.mass * (v_x * v_x + v_y * v_y + w * w)
     }
 }
 

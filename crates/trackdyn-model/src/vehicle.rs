@@ -11,7 +11,8 @@ pub use uncertainty::{FrictionUncertainty, Uncertainty};
 
 /// A tracked or skid-steer vehicle on its ground.
 ///
-/// [`VehicleFile`](crate::VehicleFile) checks the values on the way in; whoever changes one calls [`Vehicle::check`].
+/// [`VehicleFile`](crate::VehicleFile) checks the values on the way in; whoever changes one calls
+/// [`Vehicle::check`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vehicle {
     /// Name for titles and outputs.

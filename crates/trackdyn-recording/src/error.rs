@@ -121,14 +121,6 @@ pub enum Error {
         /// Length of the longest run, s.
         longest: f64,
     },
-    /// The recording does not hold what an estimate needs.
-    #[error("{what} cannot be estimated: {reason}")]
-    NotEstimable {
-        /// The quantity.
-        what: &'static str,
-        /// What is missing, with numbers.
-        reason: String,
-    },
 }
 
 impl From<DocumentError> for Error {

@@ -5,7 +5,8 @@
 //! columns are kept. Where a CSV file is not there, a Parquet file of the same columns may be
 //! (`tracks.parquet`; needs the feature `parquet`).
 
-use crate::recording::{Recording, Sample, Series, Source, TrackSample, UncheckedRun};
+use crate::recording::{Recording, Source, UncheckedRun};
+use crate::sample::{Sample, Series, TrackSample};
 use crate::{Error, Format};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -1,23 +1,9 @@
-//! The formats of recordings.
+//! Which format a path holds, and its reader.
 
-use crate::recording::Recording;
+use crate::recording::{Format, Recording};
 use crate::rosbag::{self, RosbagOptions};
 use crate::{Error, folder};
 use std::path::Path;
-
-/// Where a recording can come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Format {
-    /// A folder with `recording.toml` and CSV files.
-    Folder,
-    /// A rosbag2: a `.mcap` or `.db3` file, or the folder around them.
-    Rosbag,
-    /// A trajectory of the TUM benchmark and a CSV of track speeds.
-    Tum,
-    /// Computed.
-    Memory,
-}
 
 impl Format {
     /// The format of a file or folder that holds all of a recording.
@@ -47,9 +33,9 @@ impl Format {
         Err(Error::NotARecording {
             path: path.to_owned(),
             found: "a file of another kind".to_owned(),
-            expected: "a recording folder, a .mcap or .db3 file, or a .tum or .txt trajectory with a \
-                       table of its track speeds; to identify and diagnose, a .csv table of steady \
-                       operating points too",
+            expected: "a recording folder, a .mcap or .db3 file, or a .tum or .txt trajectory with \
+                       a table of its track speeds; to identify and diagnose, a .csv table of \
+                       steady operating points too",
         })
     }
 }

@@ -1,14 +1,14 @@
 //! Track speeds between their readings: a reading holds until the next one.
 //!
 //! Poses may lag behind the encoders. The clock offset `tau` (s) is what has to be added to a stamp
-//! of the encoders to get the stamp of the pose that shows the same motion: with `tau` > 0 the poses
-//! are late. What a pose shows between `start` and `end` the tracks did between `start − tau` and
-//! `end − tau`.
+//! of the encoders to get the stamp of the pose that shows the same motion: with `tau` > 0 the
+//! poses are late. What a pose shows between `start` and `end` the tracks did between `start − tau`
+//! and `end − tau`.
 //!
-//! Stamps that are meant to be the same differ where they are rounded. What would hold for no longer than
-//! that is not a reading of its own: its time goes to its neighbour.
+//! Stamps that are meant to be the same differ where they are rounded. What would hold for no
+//! longer than that is not a reading of its own: its time goes to its neighbour.
 
-use crate::recording::TrackSample;
+use crate::sample::TrackSample;
 use std::ops::Range;
 use trackdyn_core::{PerSide, Pose, Twist};
 
@@ -26,16 +26,17 @@ pub fn holding(tracks: &[TrackSample], t: f64) -> Option<usize> {
     tracks.partition_point(|sample| sample.t <= t).checked_sub(1)
 }
 
-/// Largest difference between two times that are meant to be the same, s: each stamp is rounded by half a
-/// unit in its last place, which is at most ε times the stamp, and so is the difference to `tau`.
+/// Largest difference between two times that are meant to be the same, s: each stamp is rounded by
+/// half a unit in its last place, which is at most ε times the stamp, and so is the difference to
+/// `tau`.
 fn rounding(start: f64, end: f64, tau: f64) -> f64 {
     2.0 * f64::EPSILON * start.abs().max(end.abs()).max(tau.abs())
 }
 
 /// Indices of the readings that hold at some time between two times of the pose clock.
 ///
-/// Before the first reading the first one counts, after the last one the last. Empty when there are no
-/// readings or `end` is not after `start`.
+/// Before the first reading the first one counts, after the last one the last. Empty when there are
+/// no readings or `end` is not after `start`.
 pub fn readings(tracks: &[TrackSample], start: f64, end: f64, tau: f64) -> Range<usize> {
     let rounding = rounding(start, end, tau);
     let (start, end) = (start - tau, end - tau);
@@ -47,7 +48,8 @@ pub fn readings(tracks: &[TrackSample], start: f64, end: f64, tau: f64) -> Range
     first..until.max(first + 1)
 }
 
-/// Each of the [`readings`] between two times of the pose clock, in order: its index, and how long it holds, s.
+/// Each of the [`readings`] between two times of the pose clock, in order: its index, and how long
+/// it holds, s.
 ///
 /// Callers that must not extrapolate compare with the stamps first.
 pub fn pieces(

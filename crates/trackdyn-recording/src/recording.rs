@@ -1,18 +1,18 @@
 //! The one in-memory type that everything else in the tool sees.
 
 use crate::Error;
-use crate::format::Format;
 use std::path::PathBuf;
 
 mod cleaning;
 mod content;
 mod run;
-mod sample;
+mod source;
 mod warning;
 
+pub use cleaning::MIN_GAP_RATIO;
 pub(crate) use cleaning::clean;
 pub use run::{Run, UncheckedRun};
-pub use sample::{Cells, Column, ImuSample, PoseSample, Sample, Series, Stream, TrackSample};
+pub use source::{Format, Source};
 pub use warning::{Cleaning, Finding, Warning};
 
 /// Track speeds, poses and, where there are any, readings of an IMU.
@@ -43,24 +43,6 @@ pub struct StatedNoise {
     /// Standard deviation of yaw, rad.
     #[serde(rename = "pose_yaw_rad")]
     pub yaw: f64,
-}
-
-/// Where a recording comes from.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Source {
-    /// The format it was read from.
-    pub format: Format,
-    /// File or folder; none for a recording that was computed.
-    pub path: Option<PathBuf>,
-    /// Unix time of t = 0 in nanoseconds, where the source keeps absolute time.
-    pub epoch_ns: Option<i64>,
-}
-
-impl Source {
-    /// A recording that was computed.
-    pub fn computed() -> Self {
-        Self { format: Format::Memory, path: None, epoch_ns: None }
-    }
 }
 
 impl Recording {
@@ -116,7 +98,7 @@ impl Recording {
         })
     }
 
-    /// The same recording with a statement of its pose noise.
+    /// This recording with a statement of its pose noise.
     pub fn with_stated_noise(mut self, noise: Option<StatedNoise>) -> Self {
         self.stated_noise = noise;
         self
@@ -137,8 +119,9 @@ impl Recording {
         &self.runs
     }
 
-    /// The same recording with other runs, in the order of their ids.
-    pub(crate) fn with_runs(&self, runs: Vec<Run>) -> Self {
+    /// This recording with other runs, in the order of their ids. Its fingerprint stays that of the
+    /// whole: it tells where the runs come from.
+    pub fn with_runs(&self, runs: Vec<Run>) -> Self {
         Self { runs, ..self.clone() }
     }
 
@@ -162,7 +145,8 @@ impl Recording {
         &self.fingerprint
     }
 
-    /// Fingerprint of the poses alone: the same drive has the same one without its IMU, and at another belt travel per radian.
+    /// Fingerprint of the poses alone: the same drive has the same one without its IMU, and at
+    /// another belt travel per radian.
     pub fn pose_fingerprint(&self) -> &str {
         &self.pose_fingerprint
     }

@@ -5,8 +5,9 @@
 //! `tf2_msgs/TFMessage`, readings of the IMU from `sensor_msgs/Imu`. The layouts of these types are
 //! known here: the message definitions in the bag do not matter. All of a bag is one run.
 //!
-//! Positions of joints that wrap after a turn are unwrapped. Where both frames are named and no topic has
-//! their poses, these are composed along a chain of transforms, such as map → odom → base_link.
+//! Positions of joints that wrap after a turn are unwrapped. Where both frames are named and no
+//! topic has their poses, these are composed along a chain of transforms, such as map → odom →
+//! base_link.
 
 use crate::recording::{Recording, Source};
 use crate::{Error, Format};
@@ -25,6 +26,7 @@ mod options;
 mod sqlite_file;
 mod storage;
 mod topic;
+mod visitor;
 
 pub use inspection::{Inspection, TopicSummary, inspect};
 pub(crate) use message::yaw_of_quaternion;

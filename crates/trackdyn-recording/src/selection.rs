@@ -1,6 +1,7 @@
 //! Parts of a recording: what is fitted on one part is judged on another.
 
-use crate::recording::{Recording, Sample, Series, Source, UncheckedRun};
+use crate::recording::{Recording, Source, UncheckedRun};
+use crate::sample::{Sample, Series};
 use crate::{Error, Run};
 use std::fmt;
 use std::str::FromStr;
@@ -30,7 +31,7 @@ impl FromStr for RunList {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        const MOST: i64 = 1_000_000;
+        const MAX_RUNS: i64 = 1_000_000;
         let expected = || "expected numbers of runs, such as 7,8,20-29".to_owned();
         let number = |text: &str| text.trim().parse::<i64>().map_err(|_| expected());
         let mut numbers = Vec::new();
@@ -38,7 +39,7 @@ impl FromStr for RunList {
             match part.trim().split_once('-').filter(|(first, _)| !first.is_empty()) {
                 Some((first, last)) => {
                     let (first, last) = (number(first)?, number(last)?);
-                    if !(first..first.saturating_add(MOST)).contains(&last) {
+                    if !(first..first.saturating_add(MAX_RUNS)).contains(&last) {
                         return Err(expected());
                     }
                     numbers.extend(first..=last);
@@ -84,8 +85,8 @@ impl Recording {
         RunList::new(self.runs().iter().map(Run::id))
     }
 
-    /// The recording of some of its runs only. Its fingerprint is that of the whole: it tells where the
-    /// runs come from.
+    /// The recording of some of its runs only. Its fingerprint is that of the whole: it tells where
+    /// the runs come from.
     ///
     /// # Errors
     /// [`Error::UnknownRun`].
@@ -108,8 +109,8 @@ impl Recording {
         Ok(joined.with_stated_noise(noise))
     }
 
-    /// The recording of a time only, s from the first reading of each run; runs without readings or with
-    /// fewer than two poses in it are left out. Its fingerprint is that of the whole.
+    /// The recording of a time only, s from the first reading of each run; runs without readings or
+    /// with fewer than two poses in it are left out. Its fingerprint is that of the whole.
     ///
     /// # Errors
     /// [`Error::NothingWithin`] where none is left.
@@ -159,15 +160,30 @@ fn expected(runs: &[Run]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthetic::{Synthetic, random_steps};
+    use crate::sample::{PoseSample, TrackSample};
+    use trackdyn_core::Pose;
 
     fn list(text: &str) -> RunList {
         text.parse().expect("a list")
     }
 
     fn recording() -> Recording {
-        let schedules = (0..12).map(|run| random_steps(2, 2.0, 1.0, run)).collect();
-        Synthetic { schedules, ..Synthetic::default() }.recording().expect("runs")
+        let run = |id: i64| {
+            let v = 0.1 * f64::from(u8::try_from(id).expect("a dozen"));
+            let reading = |k: u8| TrackSample { t: 0.05 * f64::from(k), v_left: v, v_right: v };
+            let pose = |k: u8| {
+                let t = 0.1 * f64::from(k);
+                PoseSample { t, pose: Pose::new(v * t, 0.0, 0.0) }
+            };
+            UncheckedRun {
+                id,
+                tracks: (0..=80).map(reading).collect::<Vec<_>>().into(),
+                poses: (0..=40).map(pose).collect::<Vec<_>>().into(),
+                imu: Series::default(),
+            }
+        };
+        let runs = (0..12).map(run).collect();
+        Recording::new("steady", "robot", runs, Source::computed(), Vec::new()).expect("runs")
     }
 
     #[test]

@@ -4,8 +4,9 @@
 //! (<https://cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats>). The motion is planar: x, y
 //! and the yaw of the quaternion count, the rest is dropped.
 
-use crate::recording::{PoseSample, Recording, Series, Source, UncheckedRun};
+use crate::recording::{Recording, Source, UncheckedRun};
 use crate::rosbag::yaw_of_quaternion;
+use crate::sample::{PoseSample, Series};
 use crate::table::{number, unreadable};
 use crate::{Error, Format, folder};
 use std::fs::File;

@@ -96,8 +96,8 @@ fn heading(canvas: &mut Canvas, result: &Comparison, name: &str, caption: &str) 
 mod tests {
     use super::*;
     use trackdyn_estimate::odometry::ParameterSet;
+    use trackdyn_estimate::synthetic::{Synthetic, random_steps};
     use trackdyn_model::{Icrs, Kinematics};
-    use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
     fn result(duration: f64, sets: usize) -> Comparison {
         let schedules = (0..3).map(|seed| random_steps(6, duration, 1.0, seed)).collect();

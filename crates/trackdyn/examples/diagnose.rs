@@ -1,5 +1,5 @@
-//! What does my model lack? A robot that carries its weight higher than its model knows is recorded,
-//! diagnosed, and corrected; the diagnosis can be stopped with an observer.
+//! What does my model lack? A robot that carries its weight higher than its model knows is
+//! recorded, diagnosed, and corrected; the diagnosis can be stopped with an observer.
 //!
 //! `cargo run --release -p trackdyn --example diagnose`
 

@@ -16,7 +16,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Records a robot in simulation, identifies its parameters and writes what its odometry needs.
 pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
-    // A log, where there is no robot at hand: three runs driven by hand, seen by sensors of a laboratory.
+    // A log, where there is no robot at hand: three runs driven by hand, seen by sensors of a
+    // laboratory.
     let provenance = Provenance::new("example log_to_odometry");
     let settings = SimulateSettings { runs: Some(3), ..SimulateSettings::default() };
     let log = out.join("drive");

@@ -66,7 +66,8 @@ impl<'a> Folder<'a> {
         self.changes.push(Change::Wrote(self.file(name)));
     }
 
-    /// Removes a kinematics file of which this run has none, if an earlier run of the same kind wrote it.
+    /// Removes a kinematics file of which this run has none, if an earlier run of the same kind
+    /// wrote it.
     pub(crate) fn remove_kinematics(
         &mut self,
         name: &str,
@@ -83,8 +84,8 @@ impl<'a> Folder<'a> {
         Ok(())
     }
 
-    /// Removes those of these files that are there, where the file `written`, which every run of a use case
-    /// writes, shows that there was an earlier one.
+    /// Removes those of these files that are there, where the file `written`, which every run of a
+    /// use case writes, shows that there was an earlier one.
     pub(crate) fn remove_earlier(
         &mut self,
         written: &str,
@@ -111,8 +112,8 @@ impl<'a> Folder<'a> {
     }
 }
 
-/// Makes a folder and its parents where they are missing, and makes sure that files can be written into
-/// it: before work that takes long.
+/// Makes a folder and its parents where they are missing, and makes sure that files can be written
+/// into it: before work that takes long.
 ///
 /// # Errors
 /// [`Error::Output`].

@@ -12,7 +12,7 @@ use crate::recording::joined;
 use crate::{Change, Error, Observer, Provenance, Recording, Vehicle, unobserved};
 use std::path::{Path, PathBuf};
 use trackdyn_diagnose::diagnosis::STAGES;
-use trackdyn_diagnose::{DiagnosisFile, Evidence, Options, Status};
+use trackdyn_diagnose::{DiagnosisFile, Evidence, Options, Resampling, Status};
 use trackdyn_model::kinematics::Source;
 use trackdyn_report::{Figure, Subject, diagnosis_figures, diagnosis_html};
 
@@ -23,24 +23,16 @@ const REPORT: &str = "report.html";
 const PATH: &str = "path.png";
 
 /// How to diagnose.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct DiagnoseSettings {
     /// Runs that nothing is fitted or chosen on: the result is judged on them.
     pub held_out: HeldOut,
-    /// Draws of the bootstrap behind the tests. Default: 2000.
-    pub draws: usize,
-    /// Seed of the bootstrap. Default: 1.
-    pub seed: u64,
+    /// Draws and seed of the bootstrap behind the tests. Default: 2000 draws, seed 1.
+    pub resampling: Resampling,
 }
 
-impl Default for DiagnoseSettings {
-    fn default() -> Self {
-        let Options { draws, seed, .. } = Options::default();
-        Self { held_out: HeldOut::default(), draws, seed }
-    }
-}
-
-/// Diagnoses recordings of one robot: where its model and they differ, and what physics was left out.
+/// Diagnoses recordings of one robot: where its model and they differ, and what physics was left
+/// out.
 ///
 /// # Errors
 /// Those of [`Prepared::new`] and [`Prepared::run`].
@@ -64,14 +56,15 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Takes the evidence out of recordings of one robot, or of one table of steady operating points. The
-    /// effects of the vehicle are part of the model, and what its file says of uncertainties is taken as known.
+    /// Takes the evidence out of recordings of one robot, or of one table of steady operating
+    /// points. The effects of the vehicle are part of the model, and what its file says of
+    /// uncertainties is taken as known.
     ///
     /// # Errors
     /// [`Error::NoRecording`]; [`Error::RecordingTwice`], for runs count as evidence of their own;
-    /// [`Error::PointsNotAlone`]; [`Error::HeldOut`] for runs that are not there, [`Error::AllHeldOut`],
-    /// [`Error::NoRunsToHoldOut`] for runs of a table; [`Error::Diagnose`] for too little driving, or noise
-    /// that is not known.
+    /// [`Error::PointsNotAlone`]; [`Error::HeldOut`] for runs that are not there,
+    /// [`Error::AllHeldOut`], [`Error::NoRunsToHoldOut`] for runs of a table; [`Error::Diagnose`]
+    /// for too little driving, or noise that is not known.
     pub fn new(
         recordings: &[Recording],
         vehicle: &Vehicle,
@@ -95,7 +88,7 @@ impl Prepared {
         };
         Ok(Self {
             evidence,
-            options: Options { held_out, draws: settings.draws, seed: settings.seed },
+            options: Options { held_out, resampling: settings.resampling },
             vehicle: vehicle.clone(),
             name: recording.name().to_owned(),
             place: recording.place(),
@@ -189,13 +182,14 @@ impl Diagnosis {
             fingerprint: self.of.fingerprint.clone(),
             recording: Some(self.of.name.clone()),
             runs: self.of.runs.clone(),
-            seed: Some(self.of.options.seed),
+            seed: Some(self.of.options.resampling.seed),
             ..provenance.source()
         };
         DiagnosisFile::new(&self.found, &source)
     }
 
-    /// The text of `vehicle.corrected.toml`: the corrected vehicle, and in its first line where it comes from.
+    /// The text of `vehicle.corrected.toml`: the corrected vehicle, and in its first line where it
+    /// comes from.
     pub fn corrected_toml(&self, provenance: &Provenance) -> String {
         let head = format!(
             "{} as a diagnosis of {} corrects it (trackdyn {}, vehicle {}, recording {}).",

@@ -2,7 +2,11 @@
 
 use crate::{Provenance, Vehicle};
 use serde::{Serialize, Serializer};
-use trackdyn_recording::Clock;
+use trackdyn_core::rounding::Digits;
+use trackdyn_estimate::Clock;
+
+/// Digits that documents keep.
+const DIGITS: Digits = Digits::Decimals(9);
 
 /// A number that is written with nine decimals: what is below is rounding, and would differ between
 /// machines.
@@ -11,7 +15,7 @@ pub(crate) struct Rounded(pub(crate) f64);
 
 impl Serialize for Rounded {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_f64((self.0 * 1e9).round() / 1e9)
+        serializer.serialize_f64(DIGITS.round(self.0))
     }
 }
 

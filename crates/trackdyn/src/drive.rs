@@ -24,7 +24,8 @@ pub struct DriveSettings {
     pub look_ahead: f64,
     /// How the robot knows its pose. Default: by a perfect localisation.
     pub estimate: Estimate,
-    /// Whether the robot has inertia; without, it is at its stationary motion at once. Default: it has.
+    /// Whether the robot has inertia; without, it is at its stationary motion at once. Default: it
+    /// has.
     pub inertia: bool,
 }
 
@@ -35,8 +36,8 @@ impl Default for DriveSettings {
     }
 }
 
-/// Follows a path with the ideal drive of the vehicle's gauge, and with each of these parameters. The point
-/// whose error counts is where the robot turns about by the first of them.
+/// Follows a path with the ideal drive of the vehicle's gauge, and with each of these parameters.
+/// The point whose error counts is where the robot turns about by the first of them.
 ///
 /// # Errors
 /// Those of [`Prepared::new`] and [`Prepared::run`].
@@ -63,7 +64,8 @@ impl Prepared {
     /// Checks that inputs and settings go together.
     ///
     /// # Errors
-    /// [`Error::IcrTooFar`] for a robot that turns about a point too far from its middle, [`Error::TooFast`].
+    /// [`Error::IcrTooFar`] for a robot that turns about a point too far from its middle,
+    /// [`Error::TooFast`].
     pub fn new(
         vehicle: &Vehicle,
         path: &Path,
@@ -74,8 +76,8 @@ impl Prepared {
         if let Some(first) = parameters.first() {
             // forward in both frames, on the middle line
             point = [first.file().y_icr_m, 0.0];
-            if point[0].abs() > Tracker::FARTHEST {
-                let (file, most) = (first.name().to_owned(), Tracker::FARTHEST);
+            if point[0].abs() > Tracker::MAX_POINT_DISTANCE {
+                let (file, most) = (first.name().to_owned(), Tracker::MAX_POINT_DISTANCE);
                 return Err(Error::IcrTooFar { file, y: point[0], most });
             }
         }
@@ -233,8 +235,8 @@ impl Drives {
         Ok(path_tracking(&self.of.path, &tracked, self.of.tracker.point, &title, &caption)?)
     }
 
-    /// Writes `drive.png`, a table of the cross-track error of each drive, `path.csv` and `drive.toml`. Tables
-    /// of an earlier run go where this one has none.
+    /// Writes `drive.png`, a table of the cross-track error of each drive, `path.csv` and
+    /// `drive.toml`. Tables of an earlier run go where this one has none.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`], [`Error::Figure`].

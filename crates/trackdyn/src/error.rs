@@ -9,8 +9,8 @@ use trackdyn_recording::RunList;
 
 /// What a use case cannot do, and why.
 ///
-/// Messages say what happened and where, then what was expected. Where a setting is to blame they begin with
-/// its name: see [`Error::setting`].
+/// Messages say what happened and where, then what was expected. Where a setting is to blame they
+/// begin with its name: see [`Error::setting`].
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -52,7 +52,10 @@ pub enum Error {
         path: PathBuf,
     },
     /// A trajectory without track speeds.
-    #[error("{}: a trajectory has no track speeds: expected a table of them (tracks)", path.display())]
+    #[error(
+        "{}: a trajectory has no track speeds: expected a table of them (tracks)",
+        path.display()
+    )]
     NoTracks {
         /// The trajectory.
         path: PathBuf,
@@ -181,7 +184,10 @@ pub enum Error {
     #[error(transparent)]
     Driving(#[from] trackdyn_drive::Error),
     /// Sensors that are neither a preset nor a file.
-    #[error("sensors {choice}: expected {} or a file that exists", Preset::ALL.map(Preset::name).join(", "))]
+    #[error(
+        "sensors {choice}: expected {} or a file that exists",
+        Preset::ALL.map(Preset::name).join(", ")
+    )]
     NoSensors {
         /// What was asked for.
         choice: String,
@@ -195,7 +201,10 @@ pub enum Error {
         driving: String,
     },
     /// A folder with files that a simulation would replace, and that none wrote.
-    #[error("out {}: holds a {file} that was not simulated: expected another folder", folder.display())]
+    #[error(
+        "out {}: holds a {file} that was not simulated: expected another folder",
+        folder.display()
+    )]
     NotSimulated {
         /// The folder.
         folder: PathBuf,

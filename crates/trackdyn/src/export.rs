@@ -16,8 +16,9 @@ pub struct FrameSettings {
     pub icr: Name,
     /// Root link of the robot's URDF. Default: `base_link`.
     pub base: Name,
-    /// Origin of the ICRs in the base frame, m, forward and left: of a map the centre of the contact area of
-    /// both tracks, of a recording the frame of its poses. Default: the origin of the base frame.
+    /// Origin of the ICRs in the base frame, m, forward and left: of a map the centre of the
+    /// contact area of both tracks, of a recording the frame of its poses. Default: the origin of
+    /// the base frame.
     pub contact_centre: [f64; 2],
 }
 
@@ -40,7 +41,8 @@ impl FrameSettings {
 pub struct Ros2Settings {
     /// The frames.
     pub frames: FrameSettings,
-    /// Belt travel per radian of the wheel joint, m: the pitch radius of the sprocket. There is no default.
+    /// Belt travel per radian of the wheel joint, m: the pitch radius of the sprocket. There is no
+    /// default.
     pub wheel_radius: f64,
     /// Wheel joints on the left. Default: `left_wheel_joint`.
     pub left_wheels: Vec<Name>,
@@ -48,8 +50,8 @@ pub struct Ros2Settings {
     pub right_wheels: Vec<Name>,
     /// Name of the controller. Default: `diff_drive_controller`.
     pub controller: NodeName,
-    /// How wrong odometry is with these parameters, for the covariances. Default: unknown, and none are
-    /// written.
+    /// How wrong odometry is with these parameters, for the covariances. Default: unknown, and none
+    /// are written.
     pub residuals: Option<Residuals>,
     /// Rate at which the controller publishes, Hz.
     pub publish_rate: f64,
@@ -123,11 +125,12 @@ impl Export {
         &self.drive
     }
 
-    /// How wrong odometry is with these parameters, from an odometry file (schema `trackdyn.odometry/1`) of a
-    /// replay with them, best of driving that they were not fitted to.
+    /// How wrong odometry is with these parameters, from an odometry file (schema
+    /// `trackdyn.odometry/1`) of a replay with them, best of driving that they were not fitted to.
     ///
     /// # Errors
-    /// [`Error::Document`], which names file, line and key; [`Error::Export`] for a replay with others.
+    /// [`Error::Document`], which names file, line and key; [`Error::Export`] for a replay with
+    /// others.
     pub fn residuals(&self, odometry: &Document) -> Result<Residuals, Error> {
         let residuals = Residuals::from_document(odometry, &self.provenance.fingerprint);
         residuals.map_err(|error| match error.downcast::<trackdyn_export::Error>() {
@@ -139,7 +142,8 @@ impl Export {
         })
     }
 
-    /// Parameters of ros2_control's `diff_drive_controller`, and a launch file that ties its frame to the robot.
+    /// Parameters of ros2_control's `diff_drive_controller`, and a launch file that ties its frame
+    /// to the robot.
     ///
     /// # Errors
     /// [`Error::Export`], with the setting that is not accepted.

@@ -16,7 +16,8 @@ use trackdyn_estimate::identification::Options;
 use trackdyn_estimate::{Nuisance, identify_unless_stopped};
 use trackdyn_recording::Recording as Motion;
 
-/// Names of the kinematics files of the two fits: the ICRs alone, and with the factors on the track speeds.
+/// Names of the kinematics files of the two fits: the ICRs alone, and with the factors on the track
+/// speeds.
 pub const FILES: [&str; 2] = ["kinematics.toml", "kinematics_alpha.toml"];
 
 /// How to identify.
@@ -26,7 +27,8 @@ pub struct IdentifySettings {
     pub tau: Option<f64>,
     /// Use only segments before which the tracks ran steadily for this time, s. Default: all.
     pub settle: Option<f64>,
-    /// Properties of the pose sensor to fit beside the ICRs, where the recording shows them. Default: none.
+    /// Properties of the pose sensor to fit beside the ICRs, where the recording shows them.
+    /// Default: none.
     pub nuisances: Vec<Nuisance>,
     /// The genetic algorithm.
     pub genetic: GeneticOptions,
@@ -127,8 +129,8 @@ impl<'a> Prepared<'a> {
 }
 
 impl Identification {
-    /// The parameters of the ICRs alone, and with the factors on the track speeds; none where the recording
-    /// does not determine them.
+    /// The parameters of the ICRs alone, and with the factors on the track speeds; none where the
+    /// recording does not determine them.
     pub fn fits(&self, provenance: &Provenance) -> [Option<Parameters>; 2] {
         let files = match self {
             Self::Motion(fit) => fit.files(provenance),
@@ -139,14 +141,15 @@ impl Identification {
             .map(|(file, name)| file.map(|file| Parameters::of(name, file)))
     }
 
-    /// The parameters of the ICRs, with the track speeds as measured; none where the recording does not
-    /// determine them.
+    /// The parameters of the ICRs, with the track speeds as measured; none where the recording does
+    /// not determine them.
     pub fn parameters(&self) -> Option<Parameters> {
         let [icrs, _] = self.fits(&Provenance::default());
         icrs
     }
 
-    /// The parameters with the factors on the track speeds; none where the recording does not determine them.
+    /// The parameters with the factors on the track speeds; none where the recording does not
+    /// determine them.
     pub fn parameters_with_alphas(&self) -> Option<Parameters> {
         let [_, with_alphas] = self.fits(&Provenance::default());
         with_alphas
@@ -157,9 +160,9 @@ impl Identification {
         self.fits(&Provenance::default()).iter().any(Option::is_some)
     }
 
-    /// Writes `kinematics.toml` and `kinematics_alpha.toml`, each where the recording determines it, and of a
-    /// recording of motion `identification.toml`. A file of an earlier fit goes where this one determines
-    /// none; that of a map stays.
+    /// Writes `kinematics.toml` and `kinematics_alpha.toml`, each where the recording determines
+    /// it, and of a recording of motion `identification.toml`. A file of an earlier fit goes where
+    /// this one determines none; that of a map stays.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`].

@@ -10,8 +10,9 @@ use trackdyn_model::kinematics::{KinematicsFile, Source};
 
 /// Kinematic parameters of a robot, and where they come from (schema `trackdyn.kinematics/1`).
 ///
-/// They come from [a map](crate::IcrMap::parameters), [a recording](crate::Identification::parameters) or a
-/// file, and go into [`crate::odometry()`], [`crate::drive()`] and [`crate::export`].
+/// They come from [a map](crate::IcrMap::parameters), [a
+/// recording](crate::Identification::parameters) or a file, and go into [`crate::odometry()`],
+/// [`crate::drive()`] and [`crate::export`].
 #[derive(Clone, Debug)]
 pub struct Parameters {
     document: Document,
@@ -76,7 +77,8 @@ impl Parameters {
         self.file.kinematics_at(speed)
     }
 
-    /// Track speeds, m/s, for a forward speed (m/s) and a yaw rate (rad/s), and the model that gives them.
+    /// Track speeds, m/s, for a forward speed (m/s) and a yaw rate (rad/s), and the model that
+    /// gives them.
     pub fn track_speeds(&self, forward: f64, yaw_rate: f64) -> (PerSide<f64>, Kinematics) {
         self.file.track_speeds(forward, yaw_rate)
     }

@@ -1,10 +1,10 @@
-//! Tracked and skid-steer robots slip whenever they turn: simulate them, identify their kinematics from logs,
-//! and diagnose which physics a model of them lacks.
+//! Tracked and skid-steer robots slip whenever they turn: simulate them, identify their kinematics
+//! from logs, and diagnose which physics a model of them lacks.
 //!
 //! ```
 //! use trackdyn::{
-//!     DiagnoseSettings, IdentifySettings, OdometrySettings, Provenance, ReadOptions, Recording, Vehicle,
-//!     diagnose, identify, odometry,
+//!     DiagnoseSettings, IdentifySettings, OdometrySettings, Provenance, ReadOptions, Recording,
+//!     Vehicle, diagnose, identify, odometry,
 //! };
 //! # use trackdyn::{SimulateSettings, simulate};
 //! # let folder = tempfile::tempdir()?;
@@ -15,15 +15,16 @@
 //! # let my_robot = folder.path().join("my-robot.toml");
 //! # Vehicle::auriga_alpha().with_inertia(true).write(&my_robot)?;
 //!
-//! // Open a log: a folder of CSV, a rosbag2 (.mcap, .db3), a trajectory with track speeds, a table of points.
+//! // Open a log: a folder of CSV, a rosbag2 (.mcap, .db3), a trajectory, or a table of points.
 //! let recording = Recording::open(&log, &ReadOptions::default())?;
 //! let vehicle = Vehicle::open(&my_robot)?;
 //!
-//! // Identify the parameters of its kinematics, and replay the log with them and with the ideal drive.
+//! // Identify the parameters of its kinematics. Replay the log with them and with the ideal drive.
 //! let found = identify(&recording, &vehicle, &IdentifySettings::default())?;
 //! let parameters = found.parameters().ok_or("this log does not determine them")?;
-//! let replay = odometry(&recording, &vehicle, &[parameters.clone()], &OdometrySettings::default())?;
-//! println!("off at the end: {:?}, ideal drive {:?}", replay.error_at_end(1), replay.error_at_end(0));
+//! let settings = OdometrySettings::default();
+//! let replay = odometry(&recording, &vehicle, &[parameters.clone()], &settings)?;
+//! println!("m, rad: {:?}, ideal drive {:?}", replay.error_at_end(1), replay.error_at_end(0));
 //!
 //! // Diagnose: where do model and log differ, and what physics was left out?
 //! let diagnosis = diagnose(&[recording], &vehicle, &DiagnoseSettings::default())?;
@@ -31,7 +32,7 @@
 //!     println!("missing: {} {:?}", claim.one_of().join(" or "), claim.sizes());
 //! }
 //!
-//! // Write what follows: parameters for the odometry, the report, and the vehicle that explains the log.
+//! // Write what follows: parameters, a report, and the vehicle that explains the log.
 //! parameters.write(folder.path().join("kinematics.toml"))?;
 //! diagnosis.write(&out, &Provenance::new("my program"))?;
 //! # assert!(replay.error_at_end(1)[0] < replay.error_at_end(0)[0]);
@@ -46,7 +47,7 @@
 //! | solve the stationary motion over track speeds | [`icr_map()`] | [`MapSettings`] | [`IcrMap`] |
 //! | drive in time and record it | [`simulate()`] | [`SimulateSettings`] | [`Simulation`] |
 //! | read a log | [`Recording::open`] | [`ReadOptions`] | [`Recording`] |
-//! | identify the parameters of the kinematics | [`identify()`] | [`IdentifySettings`] | [`Identification`] |
+//! | identify the kinematics | [`identify()`] | [`IdentifySettings`] | [`Identification`] |
 //! | replay a log by dead reckoning | [`odometry()`] | [`OdometrySettings`] | [`Odometry`] |
 //! | find the physics that a model lacks | [`diagnose()`] | [`DiagnoseSettings`] | [`Diagnosis`] |
 //! | plan the driving that decides what is open | [`plan()`] | [`PlanSettings`] | [`Plan`] |
@@ -54,15 +55,16 @@
 //! | write files of ROS 2, Gazebo, URDF | [`Export`] | [`export`] | text files |
 //! | check that ICRs stay as they were | [`check()`] | [`Reference`] | [`check::CheckedCase`] |
 //!
-//! All of them are functions over checked types. They print nothing, read nothing from the environment and
-//! write only into the folder that they are given. Results depend on inputs, settings and seeds alone, not on
-//! the number of threads. Work that takes long tells an [`Observer`] how far it is, and stops when that says
-//! so: by `run` of the use case's `Prepared`, such as [`diagnose::Prepared`], by [`IcrMap::solve`] and
-//! [`Plan::new`]. What goes wrong is an [`Error`].
+//! All of them are functions over checked types. They print nothing, read nothing from the
+//! environment and write only into the folder that they are given. Results depend on inputs,
+//! settings and seeds alone, not on the number of threads. Work that takes long tells an
+//! [`Observer`] how far it is, and stops when that says so: by `run` of the use case's `Prepared`,
+//! such as [`diagnose::Prepared`], by [`IcrMap::solve`] and [`Plan::new`]. What goes wrong is an
+//! [`Error`].
 //!
-//! Axes are those of REP-103 (x forward, y left), but for the ICRs, which have those of the paper (x right,
-//! y forward). Units are SI, angles in radians. [`effects()`] lists the physics that a [`Vehicle`] can have
-//! beyond the base model; the crates below are re-exported in [`crates`].
+//! Axes are those of REP-103 (x forward, y left), but for the ICRs, which have those of the paper
+//! (x right, y forward). Units are SI, angles in radians. [`effects()`] lists the physics that a
+//! [`Vehicle`] can have beyond the base model; the crates below are re-exported in [`crates`].
 
 mod change;
 mod document;
@@ -112,7 +114,7 @@ pub use recording::{Part, ReadOptions, Recording};
 pub use simulate::{SimulateSettings, Simulation, simulate};
 pub use vehicle::{Vehicle, refuse_repeated};
 
-pub use trackdyn_diagnose::Status;
+pub use trackdyn_diagnose::{Resampling, Status};
 pub use trackdyn_drive::{Path, Sensors};
 pub use trackdyn_model::effect::Card;
 pub use trackdyn_model::{ActiveEffect, Circumstance, Grid, Kinematics};

@@ -8,9 +8,10 @@ use crate::change::Folder;
 use crate::{Change, Error, Parameters, Part, Provenance, Recording, Vehicle};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use trackdyn_estimate::Clock;
 use trackdyn_estimate::odometry::{Comparison, ParameterSet, tum};
 use trackdyn_model::Kinematics;
-use trackdyn_recording::{Clock, RunList};
+use trackdyn_recording::RunList;
 
 /// Name of the document that every replay writes.
 const FILE: &str = "odometry.toml";
@@ -27,8 +28,8 @@ pub struct OdometrySettings {
     pub tau: Option<f64>,
 }
 
-/// Where the robot would be if parameters were true, against where it was: for the ideal differential drive
-/// and several sets of parameters.
+/// Where the robot would be if parameters were true, against where it was: for the ideal
+/// differential drive and several sets of parameters.
 #[derive(Clone, Debug)]
 pub struct Odometry {
     /// The replays and their errors. Its first set is the ideal drive.
@@ -48,12 +49,12 @@ struct Replayed {
     set: ParameterSet,
 }
 
-/// Replays a recording with the ideal drive of the vehicle's gauge, and with each of these parameters, as
-/// they are and without their factors on the track speeds.
+/// Replays a recording with the ideal drive of the vehicle's gauge, and with each of these
+/// parameters, as they are and without their factors on the track speeds.
 ///
 /// # Errors
-/// [`Error::NoMotion`] for a table of steady operating points, [`Error::TooLarge`] for parameters that no
-/// robot has, [`Error::Runs`], [`Error::Time`], [`Error::Odometry`].
+/// [`Error::NoMotion`] for a table of steady operating points, [`Error::TooLarge`] for parameters
+/// that no robot has, [`Error::Runs`], [`Error::Time`], [`Error::Odometry`].
 pub fn odometry(
     recording: &Recording,
     vehicle: &Vehicle,
@@ -97,8 +98,8 @@ impl Odometry {
         &self.vehicle
     }
 
-    /// Parameters that were fitted to some of the driving that is replayed here, which makes their errors look
-    /// smaller.
+    /// Parameters that were fitted to some of the driving that is replayed here, which makes their
+    /// errors look smaller.
     pub fn fitted_to_it(&self) -> impl Iterator<Item = &Parameters> {
         self.replayed.iter().filter(|one| !self.is_held_out(one)).map(|one| &one.parameters)
     }
@@ -139,8 +140,8 @@ impl Odometry {
         Ok(trackdyn_report::odometry(&self.comparison, self.recording.name(), &caption)?)
     }
 
-    /// Writes `odometry.png`, `runs.csv`, `odometry.toml` and the paths into `trajectories`. Paths of an
-    /// earlier replay go where this one has none.
+    /// Writes `odometry.png`, `runs.csv`, `odometry.toml` and the paths into `trajectories`. Paths
+    /// of an earlier replay go where this one has none.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`], [`Error::Unreadable`], [`Error::Figure`].
@@ -182,7 +183,8 @@ impl Odometry {
         folder.remove_earlier(FILE, there.filter(is_other))
     }
 
-    /// Whether the numbers of parameters were fitted to other runs, or another time of them, than are replayed.
+    /// Whether the numbers of parameters were fitted to other runs, or another time of them, than
+    /// are replayed.
     fn is_held_out(&self, replayed: &Replayed) -> bool {
         const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
         let source = replayed.parameters.source();

@@ -71,7 +71,8 @@ pub struct Plan {
     fingerprint: String,
 }
 
-/// Plans the driving that separates what is open; `vehicle` is the one that the diagnosis corrected.
+/// Plans the driving that separates what is open; `vehicle` is the one that the diagnosis
+/// corrected.
 ///
 /// # Errors
 /// Those of [`Plan::new`].
@@ -87,8 +88,8 @@ impl Plan {
     /// Plans, observed: a part is a stage.
     ///
     /// # Errors
-    /// [`Error::Plan`] for a vehicle that cannot move so, or a time in which no manoeuvre can be driven;
-    /// [`Error::Cancelled`].
+    /// [`Error::Plan`] for a vehicle that cannot move so, or a time in which no manoeuvre can be
+    /// driven; [`Error::Cancelled`].
     pub fn new(
         questions: &OpenQuestions,
         vehicle: &Vehicle,
@@ -134,8 +135,8 @@ impl Plan {
         PlanFile::new(&self.found, &self.settings, source)
     }
 
-    /// Writes `plan.csv`, a schedule for the simulator and the robot, and `plan.toml`. Where there is nothing
-    /// to drive, the plan of an earlier run goes.
+    /// Writes `plan.csv`, a schedule for the simulator and the robot, and `plan.toml`. Where there
+    /// is nothing to drive, the plan of an earlier run goes.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`].

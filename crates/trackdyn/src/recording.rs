@@ -32,14 +32,15 @@ enum Seen {
 }
 
 impl Recording {
-    /// Reads a recording: a folder with `recording.toml`, a rosbag2 (`.mcap`, `.db3`, or the folder around
-    /// them), a trajectory (`.tum`, `.txt`) with [a table of track speeds](ReadOptions::tracks), or a table of
-    /// steady operating points (`.csv`, or `operating_points.csv` in a folder).
+    /// Reads a recording: a folder with `recording.toml`, a rosbag2 (`.mcap`, `.db3`, or the folder
+    /// around them), a trajectory (`.tum`, `.txt`) with [a table of track
+    /// speeds](ReadOptions::tracks), or a table of steady operating points (`.csv`, or
+    /// `operating_points.csv` in a folder).
     ///
     /// # Errors
-    /// [`Error::Recording`], which names file and, where there is one, line and column; [`Error::NotABag`],
-    /// [`Error::NoTracks`], [`Error::TracksNotNeeded`], [`Error::MotionOnly`] for options that do not go with
-    /// the format.
+    /// [`Error::Recording`], which names file and, where there is one, line and column;
+    /// [`Error::NotABag`], [`Error::NoTracks`], [`Error::TracksNotNeeded`], [`Error::MotionOnly`]
+    /// for options that do not go with the format.
     pub fn open(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, Error> {
         let path = path.as_ref();
         let seen = if let Some(table) = Self::points_file(path) {
@@ -51,8 +52,8 @@ impl Recording {
         Ok(Self { seen, path: Some(path.to_owned()), time: None })
     }
 
-    /// The table of steady operating points that a path stands for; none where it stands for a recording of
-    /// motion.
+    /// The table of steady operating points that a path stands for; none where it stands for a
+    /// recording of motion.
     pub fn points_file(path: &Path) -> Option<PathBuf> {
         OperatingPoints::file_of(path)
     }
@@ -104,11 +105,12 @@ impl Recording {
         self.motion().map_or(&[], Motion::warnings)
     }
 
-    /// A part of it: what is fitted on one part is judged on another. Its fingerprint is that of the whole.
+    /// A part of it: what is fitted on one part is judged on another. Its fingerprint is that of
+    /// the whole.
     ///
     /// # Errors
-    /// [`Error::Runs`], [`Error::Time`] for what is not there; [`Error::MotionOnly`] for a part of a table of
-    /// steady operating points.
+    /// [`Error::Runs`], [`Error::Time`] for what is not there; [`Error::MotionOnly`] for a part of
+    /// a table of steady operating points.
     pub fn part(&self, part: &Part) -> Result<Self, Error> {
         let motion = match &self.seen {
             Seen::Motion(motion) => motion,

@@ -37,7 +37,8 @@ pub struct SimulateSettings {
     pub sensors: Sensors,
     /// Where each run begins. Default: the origin.
     pub start: Pose,
-    /// Whether the robot has inertia; without, it is at its stationary motion at once. Default: it has.
+    /// Whether the robot has inertia; without, it is at its stationary motion at once. Default: it
+    /// has.
     pub inertia: bool,
     /// Longest step of the integration, s.
     pub longest_step: f64,
@@ -81,8 +82,8 @@ impl Prepared {
     /// Reads or generates the driving.
     ///
     /// # Errors
-    /// [`Error::Driving`] for driving that cannot be read or generated, [`Error::GeneratedOnly`] for settings
-    /// that a file has no use for.
+    /// [`Error::Driving`] for driving that cannot be read or generated, [`Error::GeneratedOnly`]
+    /// for settings that a file has no use for.
     pub fn new(vehicle: &Vehicle, settings: &SimulateSettings) -> Result<Self, Error> {
         let vehicle = vehicle.clone().with_inertia(settings.inertia);
         let schedules = schedules(&vehicle, settings)?;
@@ -106,7 +107,8 @@ impl Prepared {
     /// Simulates on any ground, runs in parallel, observed: a part is a run.
     ///
     /// # Errors
-    /// [`Error::Run`] for a run that cannot be driven or observed, of several the first; [`Error::Cancelled`].
+    /// [`Error::Run`] for a run that cannot be driven or observed, of several the first;
+    /// [`Error::Cancelled`].
     pub fn run_on(&self, ground: &dyn Ground, observer: &Observer) -> Result<Simulation, Error> {
         // Laws that know the time begin where the recording begins, whatever its clock shows.
         let starts = self.schedules.iter().map(|run| run.schedule.span()[0]);
@@ -220,13 +222,14 @@ impl Simulation {
         )
     }
 
-    /// The text of `simulation.toml` (schema `trackdyn.simulation/1`): what the recording was made from.
+    /// The text of `simulation.toml` (schema `trackdyn.simulation/1`): what the recording was made
+    /// from.
     pub fn to_toml(&self, provenance: &Provenance) -> String {
         document::text(self, provenance)
     }
 
-    /// Writes the recording into a folder, with the true motion (`truth.csv`) and what it was made from:
-    /// `simulation.toml`, `schedule.csv`, `vehicle.toml`, `sensors.toml`.
+    /// Writes the recording into a folder, with the true motion (`truth.csv`) and what it was made
+    /// from: `simulation.toml`, `schedule.csv`, `vehicle.toml`, `sensors.toml`.
     ///
     /// # Errors
     /// [`Error::NotSimulated`] where the folder holds one of these that no simulation wrote;
@@ -253,8 +256,8 @@ impl Simulation {
     }
 }
 
-/// Refuses a folder that holds what no simulation wrote, be it a recording or the vehicle's own file: a
-/// simulation would replace it.
+/// Refuses a folder that holds what no simulation wrote, be it a recording or the vehicle's own
+/// file: a simulation would replace it.
 ///
 /// # Errors
 /// [`Error::NotSimulated`].

@@ -6,7 +6,8 @@ use trackdyn_core::document::Document;
 use trackdyn_core::output::{fingerprint, write_file};
 use trackdyn_model::{ActiveEffect, Effects, Model, VehicleFile};
 
-/// A vehicle, and the effects that its model has beyond the base model (schema `trackdyn.vehicle/1`).
+/// A vehicle, and the effects that its model has beyond the base model (schema
+/// `trackdyn.vehicle/1`).
 ///
 /// ```
 /// let robot = trackdyn::Vehicle::auriga_alpha().with_effect("load-transfer:cog_height_m=0.15")?;
@@ -60,16 +61,16 @@ impl Vehicle {
         self
     }
 
-    /// With its inertia in the model, as motion in time needs it; `false`: the robot is at its stationary
-    /// motion at once.
+    /// With its inertia in the model, as motion in time needs it; `false`: the robot is at its
+    /// stationary motion at once.
     pub fn with_inertia(mut self, inertia: bool) -> Self {
         let effects = self.file.effects;
         self.file.effects = if inertia { effects.with_inertia() } else { effects.quasi_static() };
         self
     }
 
-    /// With another centre of gravity, m from the centre of the contact area: right, forward. What the file
-    /// says of its uncertainty is dropped, for that is of the former one.
+    /// With another centre of gravity, m from the centre of the contact area: right, forward. What
+    /// the file says of its uncertainty is dropped, for that is of the former one.
     ///
     /// # Errors
     /// [`Error::CentreOfGravity`] where the vehicle would tip over.

@@ -6,11 +6,12 @@ use trackdyn_diagnose::evidence::Evidence;
 use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::search::{Catalogue, Found, Search};
 
+use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_model::{Effects, VehicleFile};
 use trackdyn_recording::Recording;
-use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
-/// A drive with constant ICRs: the lugs that its owner believes in do not grip more one way than the other.
+/// A drive with constant ICRs: the lugs that its owner believes in do not grip more one way than
+/// the other.
 fn recording() -> Recording {
     let synthetic = Synthetic {
         schedules: (0..6).map(|run| random_steps(14, 1.98, 0.8, 400 + run)).collect(),

@@ -1,10 +1,11 @@
 //! Terms that mean nothing join the family of candidates: how often is one of them claimed?
 //!
-//! Twenty random smooth functions of how and where the robot was driven, as changes of the ICRs or of the
-//! twist, stand beside the signatures of the catalogue on a recording of constant ICRs. The residual is drawn
-//! anew many times, and the rules of a claim are asked: Bayes factor, family-wise p among all
-//! candidates, gain on blocks that were left out. All of it is linear, so that a thousand recordings take
-//! seconds. Rivals and resampled recordings, which make a claim harder, are left out.
+//! Twenty random smooth functions of how and where the robot was driven, as changes of the ICRs or
+//! of the twist, stand beside the signatures of the catalogue on a recording of constant ICRs. The
+//! residual is drawn anew many times, and the rules of a claim are asked: Bayes factor, family-wise
+//! p among all candidates, gain on blocks that were left out. All of it is linear, so that a
+//! thousand recordings take seconds. Rivals and resampled recordings, which make a claim harder,
+//! are left out.
 
 mod library;
 mod noise;
@@ -13,6 +14,7 @@ use library::{Library, PLACEBOS};
 use nalgebra::Vector3;
 use noise::Noise;
 use rayon::prelude::*;
+use trackdyn_diagnose::Resampling;
 use trackdyn_diagnose::significance::test;
 use trackdyn_diagnose::verdict::{Rules, cross_validated};
 
@@ -55,13 +57,14 @@ fn claimed(library: &Library, residual: &[Vector3<f64>], seed: u64) -> Vec<usize
         .chain((0..PLACEBOS).map(|placebo| vec![library.candidates.len() + placebo]))
         .map(|group| group.into_iter().map(|column| base.len() + column).collect())
         .collect();
-    let tests = test(&projected, &groups, SIGNS, seed);
+    let tests = test(&projected, &groups, Resampling { draws: SIGNS, seed });
     let of = |placebo: &usize| tests[library.groups.len() + placebo].p;
     passed.into_iter().filter(|placebo| of(placebo) < Rules::P).collect()
 }
 
 impl Library {
-    /// The scale of residuals that a diagnosis would take: larger where they are larger than the noise.
+    /// The scale of residuals that a diagnosis would take: larger where they are larger than the
+    /// noise.
     fn scale(&self, residual: &[Vector3<f64>]) -> [f64; 3] {
         let scale = self.evidence.residual_scale(residual);
         let grows = scale.iter().any(|scale| *scale > TOLERATED);
@@ -77,7 +80,8 @@ fn false_claims(library: &Library, noise: Noise, recordings: u64) -> usize {
     claims.count()
 }
 
-/// Were one recording in twenty claimed, two such tests in a million would pass; the rate itself is for the longer test.
+/// Were one recording in twenty claimed, two such tests in a million would pass; the rate itself is
+/// for the longer test.
 #[test]
 fn placebos_are_claimed_in_one_recording_of_a_hundred_at_most() {
     const RECORDINGS: u64 = 100;
@@ -102,7 +106,7 @@ fn placebos_of_ten_libraries_are_claimed_in_one_recording_of_a_hundred_at_most()
     }
 }
 
-/// The same rules claim a term that is there: the test above could fail.
+/// A term that is there is claimed by these rules: the test above could fail.
 #[test]
 fn a_placebo_that_is_there_is_claimed() {
     /// Standard deviations by which it stands out, and recordings.

@@ -1,5 +1,5 @@
-//! The parity table: which invariances of the ICRs each effect breaks, measured and compared with its
-//! card.
+//! The parity table: which invariances of the ICRs each effect breaks, measured and compared with
+//! its card.
 
 use trackdyn_core::frames::paper_twist_from_ros;
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory};
@@ -21,8 +21,8 @@ const PATTERNS: [(f64, f64); 3] = [(0.4, 1.0), (-0.4, 1.0), (-1.0, 1.0)];
 /// Headings at which a direction of the world shows: none along an axis of the robot.
 const HEADINGS: [f64; 3] = [0.6, 1.9, 3.5];
 
-/// A vehicle with its centre of gravity in the middle plane, so that the mirror means something, and
-/// forward of the centre, so that nothing cancels by a second symmetry.
+/// A vehicle with its centre of gravity in the middle plane, so that the mirror means something,
+/// and forward of the centre, so that nothing cancels by a second symmetry.
 fn model(effect: Option<ActiveEffect>) -> Model {
     let vehicle = auriga([0.0, 0.04], &[]).vehicle().clone();
     Model::new(vehicle, effect.into_iter().collect::<Effects>())
@@ -35,11 +35,12 @@ const HERE: Circumstance = Circumstance { position: [0.0, 0.0], heading: 0.0, ti
 fn icrs(model: &Model, (left, right): (f64, f64), circumstance: Circumstance) -> Icrs {
     let solution = Stationary::new(model, &circumstance).solve(PerSide::new(left, right));
     assert_eq!(solution.status, Status::Turning, "{left} {right} {:?}", model.effects());
-    solution.reported_icrs(model.sensor()).expect("a turning robot has ICRs")
+    let reported = model.sensor().reported(&solution.twist);
+    Icrs::of_motion(solution.track_speed, &reported).expect("a turning robot has ICRs")
 }
 
-/// How far the ICRs that encoders and pose sensor show while the speeds grow, from half to full in a
-/// second, are from those of steady motion at the middle of that time.
+/// How far the ICRs that encoders and pose sensor show while the speeds grow, from half to full in
+/// a second, are from those of steady motion at the middle of that time.
 fn transient_change(model: &Model, (left, right): (f64, f64)) -> f64 {
     const INTERVAL: f64 = 0.01;
     let shown = |step: u32| {
@@ -70,7 +71,7 @@ fn distance(a: Icrs, b: Icrs) -> f64 {
 /// How far a straight command leads astray, over its distance; a turn counts over 1 m.
 fn astray(model: &Model, speed: f64) -> f64 {
     let solution = Stationary::new(model, &HERE).solve(PerSide::new(speed, speed));
-    let twist = solution.reported_twist(model.sensor());
+    let twist = model.sensor().reported(&solution.twist);
     (twist.v_x / speed).abs().max((twist.v_y / speed - 1.0).abs()).max((twist.w / speed).abs())
 }
 
@@ -79,7 +80,7 @@ fn change(model: &Model, symmetry: Symmetry) -> f64 {
     change_at(HERE, model, symmetry)
 }
 
-/// The same at another place and time.
+/// The driving at another place and time.
 fn change_at(start: Circumstance, model: &Model, symmetry: Symmetry) -> f64 {
     let mut worst = 0.0_f64;
     for heading in HEADINGS {

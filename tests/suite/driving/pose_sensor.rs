@@ -6,8 +6,8 @@ use trackdyn_drive::sensors::{
     Dropout, Encoder, Mount, Outlier, PoseFrame, PoseSensor, Preset, StampAt, Walk, White,
 };
 use trackdyn_drive::{ScheduleKind, ScheduleOptions, Sensors};
-use trackdyn_recording::clock::{ClockSearch, clock_offset};
-use trackdyn_recording::noise::noise;
+use trackdyn_estimate::clock::{ClockSearch, clock_offset};
+use trackdyn_estimate::noise::noise;
 use trackdyn_recording::{PoseSample, Recording};
 
 /// Driving with rests, some twelve minutes in three runs.
@@ -103,7 +103,8 @@ fn errors_against_the_truth_have_the_stated_deviations() {
     for (found, stated) in white.into_iter().zip([0.006, 0.006, 0.003]) {
         assert!((found / stated - 1.0).abs() < 0.06, "{white:?}");
     }
-    // With a memory of 0.2 s the deviation is √(q τ/2); neighbours are related over four poses: 3 %.
+    // With a memory of 0.2 s the deviation is √(q τ/2); neighbours are related over four poses:
+    // 3 %.
     let walk = of(silent, Walk { position: 0.02, yaw: 0.01, memory: Some(0.2) });
     for (found, strength) in walk.into_iter().zip([0.02, 0.02, 0.01]) {
         assert!((found / (strength * 0.1_f64.sqrt()) - 1.0).abs() < 0.12, "{walk:?}");

@@ -1,4 +1,4 @@
-//! The same seed gives the same bytes.
+//! One seed gives one sequence of bytes.
 
 use crate::driving::plant::auriga;
 use trackdyn_core::{Plant, Trajectory};

@@ -118,7 +118,8 @@ fn squares_close_on_a_robot_of_these_icrs() {
         let turn = if run.id == 0 { 1.0 } else { -1.0 };
         // exact but for the microsecond in which the robot of the test changes speed
         assert!((end.yaw - turn * std::f64::consts::TAU).abs() < 1e-6, "{end:?}");
-        // Turns on the spot move the origin about the centre of rotation; four of them bring it back.
+        // Turns on the spot move the origin about the centre of rotation; four of them bring it
+        // back.
         assert!(end.x.hypot(end.y) < 1e-6, "{end:?}");
     }
 }

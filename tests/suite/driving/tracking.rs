@@ -8,6 +8,7 @@ use trackdyn_drive::tracking::{DriveOptions, Ending, Estimate, Steering, Summary
 use trackdyn_drive::{Journey, Path, Rolling, Tracker, drive};
 use trackdyn_model::kinematics::{KinematicsFile, Source};
 use trackdyn_model::{Icrs, Kinematics};
+use trackdyn_tests::circle;
 
 /// Distance between the track centre-lines of Auriga-alpha, m.
 const GAUGE: f64 = 0.42;
@@ -37,7 +38,7 @@ fn with_its_own_kinematics_the_robot_stays_on_the_path() {
     let right = Kinematics::new(AURIGA);
     for left in [true, false] {
         let square = Path::square(3.0, left, 1).expect("a square");
-        let circle = Path::circle(1.5, left, 1).expect("a circle");
+        let circle = circle(1.5, left, 1);
         for estimate in [Estimate::Truth, Estimate::Odometry] {
             let found = arrived(&square, &at_pivot(), right, estimate);
             // a corner is reached within a millimetre and a turn ends within 2 mrad, which is
@@ -54,7 +55,7 @@ fn with_its_own_kinematics_the_robot_stays_on_the_path() {
 
 #[test]
 fn a_point_that_slips_aside_stays_on_the_circle_too() {
-    let circle = Path::circle(1.5, true, 2).expect("a circle");
+    let circle = circle(1.5, true, 2);
     for point in [[0.0, 0.0], [0.3, 0.0], [0.0, 0.15], [-0.1, -0.1]] {
         let tracker = Tracker { point, ..Tracker::default() };
         let journey = driven(&circle, &tracker, Kinematics::new(AURIGA), Estimate::Truth);
@@ -91,7 +92,7 @@ fn a_turn_on_the_spot_brings_any_point_onto_the_next_leg() {
 #[test]
 fn wrong_kinematics_strays_a_little_with_true_poses_and_far_with_its_own() {
     let square = Path::square(3.0, true, 1).expect("a square");
-    let circle = Path::circle(1.5, true, 1).expect("a circle");
+    let circle = circle(1.5, true, 1);
     let [right, ideal] = [Kinematics::new(AURIGA), Kinematics::ideal(GAUGE)];
     for path in [&square, &circle] {
         let of = |model, estimate| arrived(path, &at_pivot(), model, estimate);
@@ -109,13 +110,13 @@ fn wrong_kinematics_strays_a_little_with_true_poses_and_far_with_its_own() {
 #[test]
 fn the_ideal_drive_circles_wide_by_what_geometry_says() {
     let (tracker, radius) = (at_pivot(), 1.5);
-    let circle = Path::circle(radius, true, 2).expect("a circle");
+    let circle = circle(radius, true, 2);
     let journey = driven(&circle, &tracker, Kinematics::ideal(GAUGE), Estimate::Truth);
     let steady = journey.cross_track.iter().filter(|error| (9.0..18.0).contains(&error.along));
     let offsets: Vec<f64> = steady.map(|error| error.offset).collect();
     // The point runs on a circle of radius ρ about the same centre, its goal L away on the path:
-    // Δ_y = (L² + ρ² − R²)/(2 ρ). The ideal drive asks for ω/v = Δ_y/(L²/2 + p_x Δ_x) and sets the tracks
-    // G/2 apart; they turn the hull with x_r − x_l and move its middle with (x_r + x_l)/2:
+    // Δ_y = (L² + ρ² − R²)/(2 ρ). The ideal drive asks for ω/v = Δ_y/(L²/2 + p_x Δ_x) and sets the
+    // tracks G/2 apart; they turn the hull with x_r − x_l and move its middle with (x_r + x_l)/2:
     // ρ = (v/ω)(x_r − x_l)/G − (x_r + x_l)/2.
     let look_ahead = tracker.look_ahead;
     let residual = |rho: f64| {

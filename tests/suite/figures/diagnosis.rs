@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 use trackdyn_core::PerSide;
 use trackdyn_diagnose::diagnosis::HeldOut;
-use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, Options, diagnose};
+use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Evidence, Options, Resampling, diagnose};
+use trackdyn_estimate::synthetic::{ConstantIcr, Synthetic, random_steps};
 use trackdyn_model::Stationary;
 use trackdyn_model::kinematics::Source;
 use trackdyn_model::{Circumstance, Effects, Model, VehicleFile};
 use trackdyn_recording::OperatingPoint;
-use trackdyn_recording::synthetic::{ConstantIcr, Synthetic, random_steps};
 use trackdyn_report::{Figure, Subject, diagnosis_figures, diagnosis_html};
 
 /// Pixels that stay white at the left, the right and the top of every figure.
@@ -25,7 +25,7 @@ struct Case {
 
 impl Case {
     fn new(evidence: &Evidence, vehicle: VehicleFile, held_out: Vec<usize>) -> Self {
-        let options = Options { held_out, draws: 100, seed: 1 };
+        let options = Options { held_out, resampling: Resampling { draws: 100, seed: 1 } };
         let diagnosis = diagnose(evidence, &vehicle, &options, &|_| {}).expect("a diagnosis");
         let source = Source {
             command: "trackdyn diagnose <a&b>".to_owned(),
@@ -100,7 +100,8 @@ impl Case {
     }
 }
 
-/// Names of the elements that are open at the end of a page, or the first that is closed out of turn.
+/// Names of the elements that are open at the end of a page, or the first that is closed out of
+/// turn.
 fn unclosed(html: &str) -> Vec<String> {
     const EMPTY: [&str; 4] = ["meta", "br", "img", "!DOCTYPE"];
     let style = html.find("<style>").expect("a style")..html.find("</style>").expect("its end");

@@ -4,6 +4,7 @@ use trackdyn_drive::tracking::{DriveOptions, Estimate};
 use trackdyn_drive::{Journey, Path, Rolling, Tracker, drive};
 use trackdyn_model::{Icrs, Kinematics};
 use trackdyn_report::{TrackedDrive, path_tracking};
+use trackdyn_tests::circle;
 
 const SIZE: [usize; 2] = [2400, 1350];
 /// Pixels that stay white all around.
@@ -35,8 +36,8 @@ fn ink_in_margin(bytes: &[u8]) -> bool {
 
 #[test]
 fn figures_keep_their_margins_and_are_the_same_again() {
-    let (square, circle) = (Path::square(3.0, true, 1), Path::circle(2.0, false, 1));
-    for path in [square.expect("a square"), circle.expect("a circle")] {
+    let square = Path::square(3.0, true, 1).expect("a square");
+    for path in [square, circle(2.0, false, 1)] {
         for estimate in [Estimate::Truth, Estimate::Odometry] {
             let options = DriveOptions { estimate, ..DriveOptions::default() };
             let draw = || draw(&path, &options, ["ideal", "identified"], ["square", "caption"]);

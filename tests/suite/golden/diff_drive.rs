@@ -1,8 +1,8 @@
 //! `diff_drive_controller` with our parameters and our static transform drives and locates the robot as
 //! our own kinematics do.
 //!
-//! Source: ros2_controllers, `diff_drive_controller/src/odometry.cpp` and `diff_drive_controller.cpp`;
-//! the equations are in `docs/theory/export.md`.
+//! Source: ros2_controllers, `diff_drive_controller/src/odometry.cpp` and
+//! `diff_drive_controller.cpp`; the equations are in `docs/theory/export.md`.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -123,7 +123,7 @@ fn transform_of_urdf(text: &str) -> Pose {
     Pose::new(xyz[0], xyz[1], 0.0)
 }
 
-/// The same from the arguments of the static transform publisher in a launch file.
+/// The transform from the arguments of the static transform publisher in a launch file.
 fn transform_of_launch_file(text: &str) -> Pose {
     let of = |option: &str| {
         let rest = text.split(&format!("\"--{option}\", \"")).nth(1).expect(option);
@@ -134,7 +134,8 @@ fn transform_of_launch_file(text: &str) -> Pose {
     Pose::new(number("x"), number("y"), number("yaw"))
 }
 
-/// A duration, s, and track speeds as measured, m/s: now and then straight, nearly straight, or at rest.
+/// A duration, s, and track speeds as measured, m/s: now and then straight, nearly straight, or at
+/// rest.
 fn command(random: &mut ChaCha8Rng, step: usize) -> (f64, PerSide<f64>) {
     let left = uniform(random, -1.5, 1.5);
     let right = match step % 10 {
@@ -182,7 +183,8 @@ fn its_odometry_is_ours() {
             angle.left += speed.left * duration / radius;
             angle.right += speed.right * duration / radius;
             controller.update(angle);
-            // odom_from_base, seen from where the base stood at the start, which is not odom's origin
+            // odom_from_base, seen from where the base stood at the start, which is not odom's
+            // origin
             let theirs = icr_from_base.relative(&controller.pose.compose(&icr_from_base));
             let error = distance(&theirs, &ours);
             assert!(error < TOLERANCE, "step {step}: {error:e}, {controller:?} {ours:?}");
@@ -227,7 +229,8 @@ fn gazebo_commands_the_same_tracks() {
         };
         let (v, w) = (uniform(&mut random, -1.0, 1.0), uniform(&mut random, -1.0, 1.0));
         let across = w * of("tracks_separation") / (2.0 * of("steering_efficiency"));
-        // At the point between the ICRs v is that of the hull's origin and w times its way to the side.
+        // At the point between the ICRs v is that of the hull's origin and w times its way to the
+        // side.
         let [_, left] = drive.point;
         let ours = kinematics.track_speeds(v + w * left, w);
         assert!((v - across - ours.left * kinematics.alpha.left).abs() < TOLERANCE);

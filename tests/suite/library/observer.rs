@@ -9,7 +9,7 @@ use trackdyn::identify::Prepared as Identify;
 use trackdyn::simulate::Prepared as Simulate;
 use trackdyn::{
     DiagnoseSettings, DriveSettings, Error, IcrMap, IdentifySettings, MapSettings, Observer, Path,
-    Progress, SimulateSettings, Vehicle,
+    Progress, Resampling, SimulateSettings, Vehicle,
 };
 
 /// Work under an observer.
@@ -51,18 +51,13 @@ fn goes_on_and_stops(name: &str, work: Work) {
 fn maps_stop() {
     let vehicle = Vehicle::auriga_alpha();
     let settings = MapSettings::default();
-    goes_on_and_stops("map", &|observer| {
-        IcrMap::solve(&vehicle, &settings, observer).map(drop)
-    });
+    goes_on_and_stops("map", &|observer| IcrMap::solve(&vehicle, &settings, observer).map(drop));
 }
 
 #[test]
 fn simulations_stop() {
-    let settings = SimulateSettings {
-        runs: Some(40),
-        duration: Some(2.0),
-        ..SimulateSettings::default()
-    };
+    let settings =
+        SimulateSettings { runs: Some(40), duration: Some(2.0), ..SimulateSettings::default() };
     let prepared = Simulate::new(&Vehicle::auriga_alpha(), &settings).expect("a schedule");
     goes_on_and_stops("simulation", &|observer| prepared.run(observer).map(drop));
 }
@@ -87,7 +82,8 @@ fn drives_stop() {
 fn a_diagnosis_that_is_stopped_gives_none() {
     let recording = driven(2).recording;
     let model = Vehicle::auriga_alpha().with_inertia(true);
-    let settings = DiagnoseSettings { draws: 100, ..DiagnoseSettings::default() };
+    let resampling = Resampling { draws: 100, seed: 1 };
+    let settings = DiagnoseSettings { resampling, ..DiagnoseSettings::default() };
     let prepared = Diagnose::new(&[recording], &model, &settings).expect("evidence");
     let result = prepared.run(&|_| ControlFlow::Break(()));
     assert!(matches!(result, Err(Error::Cancelled)));

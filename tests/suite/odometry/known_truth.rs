@@ -1,10 +1,11 @@
 //! Replays of synthetic recordings, whose parameters and noise are known.
 
 use trackdyn_core::PerSide;
+use trackdyn_estimate::clock;
 use trackdyn_estimate::odometry::{Comparison, Error, ParameterSet, Span};
+use trackdyn_estimate::synthetic::{Stretch, Synthetic, random_steps};
 use trackdyn_model::{Icrs, Kinematics};
-use trackdyn_recording::synthetic::{Stretch, Synthetic, random_steps};
-use trackdyn_recording::{Recording, clock};
+use trackdyn_recording::Recording;
 
 const POSITION_NOISE: f64 = 0.004;
 const YAW_NOISE: f64 = 0.003;
@@ -40,8 +41,8 @@ fn true_parameters_leave_noise() {
     // Twelve runs, each cut into four blocks.
     assert_eq!(segments.blocks, 48);
     let [ideal, truth] = segments.sets[..] else { panic!("two sets") };
-    // An increment has the noise of two poses; yaw noise of the first turns the motion in a segment,
-    // up to 0.3 m, so that along and across may have some more. 5 %: 2400 segments, and τ.
+    // An increment has the noise of two poses; yaw noise of the first turns the motion in a
+    // segment, up to 0.3 m, so that along and across may have some more. 5 %: 2400 segments, and τ.
     let yaw = truth.yaw.rms.value / (YAW_NOISE * 2.0_f64.sqrt());
     assert!((yaw - 1.0).abs() < 0.05, "{yaw}");
     for component in [truth.along, truth.across] {
@@ -72,7 +73,7 @@ fn a_gauge_that_is_too_small_turns_too_far_and_drift_is_constant() {
     // Truth: x_r − x_l = 0.5 m; replayed with 0.4 m, every turn is predicted 1.25 times too large.
     let speeds = PerSide::new(0.45, 0.55);
     let schedules = vec![vec![Stretch { duration: 100.0, speeds }]];
-    let kinematics = trackdyn_recording::synthetic::ConstantIcr {
+    let kinematics = trackdyn_estimate::synthetic::ConstantIcr {
         x_left: -0.25,
         x_right: 0.25,
         y: 0.0,
@@ -86,7 +87,8 @@ fn a_gauge_that_is_too_small_turns_too_far_and_drift_is_constant() {
     let yaw = &metre.sets[0].yaw;
     assert!((yaw.mean.value + 0.05 * metre.mean_duration).abs() < 1e-9, "{yaw:?}");
     assert!((yaw.per_metre.expect("it moves").value - 0.1).abs() < 1e-9);
-    // One run is cut into 48 blocks of 2.08 s that all say the same; 47 pieces of 2.1 s begin in 47 of them.
+    // One run is cut into 48 blocks of 2.08 s that all say the same; 47 pieces of 2.1 s begin in 47
+    // of them.
     assert_eq!((result.blocks.count(), metre.blocks), (48, 47));
     assert!(yaw.mean.half_width.expect("blocks") < 1e-9);
     let last = result.paths[0].errors(0).expect("a path").last;

@@ -1,4 +1,5 @@
-//! The closed form of the contact against an independent quadrature, and what any friction must obey.
+//! The closed form of the contact against an independent quadrature, and what any friction must
+//! obey.
 
 use crate::properties::tanh_sinh::integrate;
 use rand::{RngExt, SeedableRng};
@@ -21,8 +22,8 @@ struct Case {
 }
 
 impl Case {
-    /// A patch 0.02 to 1 m wide and 0.05 to 2 m long; the ICR inside, on an edge, on a corner, or up
-    /// to `reach` patch sizes away.
+    /// A patch 0.02 to 1 m wide and 0.05 to 2 m long; the ICR inside, on an edge, on a corner, or
+    /// up to `reach` patch sizes away.
     fn random(random: &mut ChaCha8Rng, reach: f64) -> Self {
         let width = uniform(random, 0.02_f64.ln(), 0.0).exp();
         let length = uniform(random, 0.05_f64.ln(), 2.0_f64.ln()).exp();
@@ -74,7 +75,8 @@ impl Case {
         friction_wrench(patches, self.friction, &self.pressure(), slip, Resolution::Fine)
     }
 
-    /// Friction that the whole patch can give, N, and that at its largest lever about the origin, N·m.
+    /// Friction that the whole patch can give, N, and that at its largest lever about the origin,
+    /// N·m.
     fn scale(&self) -> [f64; 3] {
         let mu = self.friction.across.max(self.friction.along);
         let [x, y] = self.patch.centre();

@@ -1,4 +1,5 @@
-//! The empirical force: sizes by hand, twins in a limit, and that its coefficients are pure numbers.
+//! The empirical force: sizes by hand, twins in a limit, and that its coefficients are pure
+//! numbers.
 
 use trackdyn_core::{PerSide, Plant, Pose, STANDARD_GRAVITY, Trajectory};
 use trackdyn_model::{ActiveEffect, CATALOGUE, Circumstance, Effects, Model, RunningGear, Vehicle};

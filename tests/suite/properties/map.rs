@@ -139,7 +139,8 @@ fn order_of_effects_does_not_matter() {
     assert_eq!(parse_effects(&names), parse_effects(&reversed));
 }
 
-/// A pressure that is not linear and a stress that needs none add up: neither is a factor on the other.
+/// A pressure that is not linear and a stress that needs none add up: neither is a factor on the
+/// other.
 #[test]
 fn stresses_of_pressure_and_cohesion_add_up() {
     let effects = ["pressure-concentration:concentration=0.6", "cohesion:stress_pa=3000"];

@@ -11,7 +11,8 @@ use trackdyn_tests::{random_vehicle, uniform};
 /// Residual over weight that a solution may have.
 const TOLERANCE: f64 = 1e-10;
 
-/// No track holds a robot that slides down: friction as a whole bears μ cos β of the weight, and the slope pulls with sin β.
+/// No track holds a robot that slides down: friction as a whole bears μ cos β of the weight, and
+/// the slope pulls with sin β.
 #[test]
 fn a_slope_steeper_than_friction_holds_nobody() {
     let vehicle = VehicleFile::auriga_alpha().vehicle;
@@ -32,8 +33,8 @@ fn a_slope_steeper_than_friction_holds_nobody() {
     }
 }
 
-/// Solves `count` random vehicles, up to the tipping limit, at random speeds; every eighth pair is a
-/// straight drive, a spin, one track stopped or nearly straight.
+/// Solves `count` random vehicles, up to the tipping limit, at random speeds; every eighth pair is
+/// a straight drive, a spin, one track stopped or nearly straight.
 fn solve_random(count: u32, seed: u64) {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let (mut turning, mut held) = (0, 0);
@@ -85,9 +86,10 @@ fn a_million_random_vehicles_converge() {
     solve_random(1_000_000, 2);
 }
 
-/// A track that is said to hold can hold. With μ_x = μ_y friction is associated, and a wrench W is within
-/// a track's limit surface if and only if W·ξ ≤ D(ξ) for every slip ξ, D being the power that friction
-/// dissipates (the principle of maximum dissipation): no equation of the solver enters.
+/// A track that is said to hold can hold. With μ_x = μ_y friction is associated, and a wrench W is
+/// within a track's limit surface if and only if W·ξ ≤ D(ξ) for every slip ξ, D being the power
+/// that friction dissipates (the principle of maximum dissipation): no equation of the solver
+/// enters.
 #[test]
 fn tracks_that_hold_stay_within_their_limit_surface() {
     let mut random = ChaCha8Rng::seed_from_u64(3);

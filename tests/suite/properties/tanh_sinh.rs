@@ -31,8 +31,8 @@ fn points([low, high]: [f64; 2], halvings: u32) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// ∬ f over `u` × `v`, cut at u = 0 and v = 0 where these lie inside, with the step halved until the
-/// integral settles.
+/// ∬ f over `u` × `v`, cut at u = 0 and v = 0 where these lie inside, with the step halved until
+/// the integral settles.
 pub fn integrate<const K: usize>(
     u: [f64; 2],
     v: [f64; 2],

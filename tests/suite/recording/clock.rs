@@ -1,9 +1,10 @@
 //! The clock offset of synthetic recordings, over seeds.
 
 use trackdyn_core::PerSide;
-use trackdyn_recording::clock::{ClockSearch, clock_offset};
-use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
-use trackdyn_recording::{Error, Recording, Source};
+use trackdyn_estimate::Error;
+use trackdyn_estimate::clock::{ClockSearch, clock_offset};
+use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
+use trackdyn_recording::{Recording, Source};
 
 /// Noise as in lidar odometry of a small robot: 5 mm, 2 mrad, 5 % of the speed.
 fn noisy(tau: f64, seed: u64) -> Synthetic {
@@ -128,8 +129,8 @@ fn rare_readings_have_an_offset() {
     assert!((tau - 0.2).abs() < 1.5 / 4.0, "{tau}");
 }
 
-/// Where no reading came nobody knows what the tracks did: two seconds of every six pull the offset by a fifth of a second if the
-/// last reading is taken to hold on.
+/// Where no reading came nobody knows what the tracks did: two seconds of every six pull the offset
+/// by a fifth of a second if the last reading is taken to hold on.
 #[test]
 fn times_without_readings_do_not_count() {
     for seed in 0..5 {

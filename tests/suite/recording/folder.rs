@@ -2,8 +2,11 @@
 
 use std::path::Path;
 use tempfile::TempDir;
-use trackdyn_recording::recording::{Cells, Finding, Stream};
 use trackdyn_recording::{Error, Recording, Warning, folder};
+use trackdyn_recording::{
+    recording::Finding,
+    sample::{Cells, Stream},
+};
 
 const MANIFEST: &str =
     "schema = \"trackdyn.recording/1\"\nname = \"n\"\nrobot = \"r\"\nframe = \"ros\"\n";

@@ -1,8 +1,9 @@
 //! Noise figures of synthetic recordings.
 
 use trackdyn_core::PerSide;
-use trackdyn_recording::noise::{Method, noise};
-use trackdyn_recording::synthetic::{Stretch, Synthetic, random_steps};
+use trackdyn_estimate::noise::{Method, noise};
+use trackdyn_estimate::regular::with_regular_poses;
+use trackdyn_estimate::synthetic::{Stretch, Synthetic, random_steps};
 use trackdyn_recording::{Recording, Source};
 
 /// Random steps with three seconds of standing between them.
@@ -158,7 +159,7 @@ fn poses_that_are_stamped_late_by_chance_are_quiet_at_the_times_they_were_due() 
     let yaw = |recording: &Recording| {
         noise(recording, 0.2).moving.expect("six seconds of steady driving").yaw.white
     };
-    let [even, due, late] = [yaw(&even), yaw(&late.with_regular_poses()), yaw(&late)];
+    let [even, due, late] = [yaw(&even), yaw(&with_regular_poses(&late)), yaw(&late)];
     assert!(late > 1.5 * even, "{late} rad of {even}");
     assert!(due < 1.15 * even, "{due} rad of {even}");
 }

@@ -10,8 +10,8 @@ fn fixture() -> PathBuf {
 #[cfg(feature = "parquet")]
 #[test]
 fn parquet_is_read_like_csv() {
-    use trackdyn_recording::recording::{Cells, Finding};
     use trackdyn_recording::{Run, Warning};
+    use trackdyn_recording::{recording::Finding, sample::Cells};
 
     let recording = folder::read(&fixture()).expect("accepted");
     let ids: Vec<i64> = recording.runs().iter().map(Run::id).collect();

@@ -2,9 +2,10 @@
 //! checkout.
 
 use std::path::PathBuf;
-use trackdyn_recording::clock::{ClockSearch, clock_offset};
-use trackdyn_recording::noise::noise;
-use trackdyn_recording::{OperatingPoints, Recording, SegmentOptions, folder, segments};
+use trackdyn_estimate::clock::{ClockSearch, clock_offset};
+use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::{SegmentOptions, segments};
+use trackdyn_recording::{OperatingPoints, Recording, folder};
 
 /// The folder of one recording, or a word on why the test is skipped.
 fn real(name: &str) -> Option<PathBuf> {
@@ -96,7 +97,7 @@ fn every_recording_has_segments_a_clock_and_noise() {
         assert!(figures.moving.is_some() && figures.encoders.left.is_some(), "{name}");
         let options = SegmentOptions { tau: clock.tau, ..SegmentOptions::default() };
         let found = segments(&recording, &options);
-        let time: f64 = found.iter().map(trackdyn_recording::Segment::duration).sum();
+        let time: f64 = found.iter().map(trackdyn_estimate::Segment::duration).sum();
         println!("  {} segments, {time:.0} of {:.0} s", found.len(), recording.duration());
         assert!(time > 0.5 * recording.duration(), "{name}: {time} s in segments");
     }

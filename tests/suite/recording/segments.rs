@@ -3,11 +3,9 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use trackdyn_core::{PerSide, Pose};
-use trackdyn_recording::synthetic::{Stretch, Synthetic, random_steps};
-use trackdyn_recording::{
-    PoseSample, Recording, Segment, SegmentOptions, Series, Source, TrackSample, UncheckedRun,
-    hold, segments,
-};
+use trackdyn_estimate::synthetic::{Stretch, Synthetic, random_steps};
+use trackdyn_estimate::{Segment, SegmentOptions, segments};
+use trackdyn_recording::{PoseSample, Recording, Series, Source, TrackSample, UncheckedRun, hold};
 
 fn cut(recording: &Recording, options: &SegmentOptions) -> Vec<Segment> {
     let found = segments(recording, options);
@@ -136,8 +134,8 @@ fn a_recording_without_room_for_a_segment_gives_none() {
 
 #[test]
 fn coarse_stamps_do_not_make_segments_longer() {
-    // A robot that turns at 1 rad/s for 2 s at a time. Poses come every 0.1 s, give or take 30 ms, and have
-    // the stamp of the last of the readings, which come every 0.05 s.
+    // A robot that turns at 1 rad/s for 2 s at a time. Poses come every 0.1 s, give or take 30 ms,
+    // and have the stamp of the last of the readings, which come every 0.05 s.
     const GRID: f64 = 0.05;
     let mut random = ChaCha8Rng::seed_from_u64(1);
     let runs = (0..3000).map(|id| {
@@ -157,7 +155,8 @@ fn coarse_stamps_do_not_make_segments_longer() {
     let found = segments(&recording.expect("runs"), &SegmentOptions::default());
     let turned: f64 = found.iter().map(|segment| segment.observed.yaw).sum();
     let lasted: f64 = found.iter().map(Segment::duration).sum();
-    // The ends of 3000 runs of 1.8 s, 30 ms early or late, leave 0.04 %. Cuts at the first stamp that is
+    // The ends of 3000 runs of 1.8 s, 30 ms early or late, leave 0.04 %. Cuts at the first stamp
+    // that is
     // 0.27 s later would make it 0.45 % too slow.
     assert!((turned / lasted - 1.0).abs() < 0.0015, "{}", turned / lasted);
 }

@@ -47,8 +47,8 @@ fn nine_manual_paths_show_the_parameters_through_ticks_delays_and_noise() {
                 let interval = estimate.interval(k).expect("free");
                 let error = interval.value - truth;
                 assert!(error.abs() < 4.0 * interval.deviation, "{k}: {interval:?} of {truth}");
-                // 2 mm of ICRs half a metre away are what the paper's figures resolve; outdoors, three times
-                // that
+                // 2 mm of ICRs half a metre away are what the paper's figures resolve; outdoors,
+                // three times that
                 assert!(interval.deviation < precision, "{k}: {interval:?}");
             }
         }

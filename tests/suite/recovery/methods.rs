@@ -4,12 +4,12 @@ use crate::recovery::{GAUGE, TRUTH, drive, fit, observe, record, start};
 use trackdyn_core::PerSide;
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::least_squares::{Loss, doubts, lacks};
+use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::synthetic::{Stretch, Synthetic};
 use trackdyn_estimate::{
     Doubt, Error, Free, Parameters, Weighting, genetic, least_squares, spin_test,
 };
 use trackdyn_recording::Recording;
-use trackdyn_recording::noise::noise;
-use trackdyn_recording::synthetic::{Stretch, Synthetic};
 
 /// Lever of the cost (17), m.
 const LEVER: f64 = GAUGE / 2.0;

@@ -2,16 +2,17 @@
 
 use crate::recovery::{GAUGE, TRUTH, shares, start};
 use trackdyn_core::{PerSide, Pose};
+use trackdyn_estimate::SegmentOptions;
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::identification::{Options, identify};
 use trackdyn_estimate::least_squares::{Loss, lacks_nuisance};
+use trackdyn_estimate::noise::noise;
+use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_estimate::{
     Doubt, Estimate, Free, Nuisance, Observations, Parameters, Unknowns, Weighting, least_squares,
 };
-use trackdyn_recording::noise::noise;
-use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
-use trackdyn_recording::{Recording, SegmentOptions, Source};
+use trackdyn_recording::{Recording, Source};
 
 /// True clock offset, s: a reading and two thirds.
 const TAU: f64 = 0.05;
@@ -19,8 +20,8 @@ const TAU: f64 = 0.05;
 /// True yaw of the sensor, rad: 2.3 degrees.
 const YAW: f64 = 0.04;
 
-/// Runs like those of the other tests; poses come every 0.097 s, which is no multiple of the readings, as clocks
-/// that run apart have it.
+/// Runs like those of the other tests; poses come every 0.097 s, which is no multiple of the
+/// readings, as clocks that run apart have it.
 fn noisy(schedules: Vec<Vec<Stretch>>, seed: u64) -> Synthetic {
     let [x_left, x_right, y, left, right] = TRUTH;
     Synthetic {
@@ -145,7 +146,8 @@ fn a_lever_arm_moves_the_icrs_and_nothing_else() {
         let moved = mounted.parameters.0[k] - bare.parameters.0[k];
         assert!((moved - shift).abs() < 1e-6, "{}: {moved}", Parameters::NAMES[k]);
     }
-    // Nothing is left that a lever arm could explain: over a thousand segments, less than a micrometre each.
+    // Nothing is left that a lever arm could explain: over a thousand segments, less than a
+    // micrometre each.
     assert!(bare.cost < 1e-9 && mounted.cost < 1e-9, "{} {}", bare.cost, mounted.cost);
 }
 
@@ -208,7 +210,8 @@ fn a_clock_offset_that_is_far_off_is_found_too() {
     assert!((interval.value - TAU).abs() < 4.0 * interval.deviation, "{interval:?}");
 }
 
-/// Shares of `count` recordings whose 95 % interval holds the truth: τ, ψ and the kinematic parameters.
+/// Shares of `count` recordings whose 95 % interval holds the truth: τ, ψ and the kinematic
+/// parameters.
 fn coverage(count: u32, seed: u64) -> [f64; 7] {
     shares(count, seed, |seed| {
         let estimate = fit(&drive(steps(seed), seed), &BOTH, 0.01);

@@ -12,8 +12,8 @@ use trackdyn_recording::OperatingPoint;
 /// Speeds of each track, m/s.
 const SPEEDS: [f64; 9] = [-0.4, -0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4];
 
-/// Every pair of speeds, measured with 5 mm/s and 20 mrad/s of noise; motors cannot exceed `limit` m/s on
-/// the right where they run against the left.
+/// Every pair of speeds, measured with 5 mm/s and 20 mrad/s of noise; motors cannot exceed `limit`
+/// m/s on the right where they run against the left.
 fn points(seed: u64, limit: f64) -> Vec<OperatingPoint> {
     let [x_l, x_r, y, alpha_l, alpha_r] = TRUTH;
     let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -51,8 +51,8 @@ fn intervals_cover_the_truth() {
     }
     let shares = hits.map(|hits| f64::from(hits) / 400.0);
     println!("{shares:?}");
-    // Three standard deviations of a share of 0.95 among 400 below; above is only wide: the widest of
-    // three jackknifes counts.
+    // Three standard deviations of a share of 0.95 among 400 below; above is only wide: the widest
+    // of three jackknifes counts.
     let allowed = 3.0 * (0.95_f64 * 0.05 / 400.0).sqrt();
     assert!(shares.iter().all(|share| *share > 0.95 - allowed), "{shares:?}");
 }

@@ -4,7 +4,8 @@ use crate::second_simulator::turn::{Turn, auriga, distance};
 use trackdyn_core::Pose;
 use trackdyn_second_simulator::Setup;
 
-/// Speeds left and right, m/s: arcs, counter-rotations and spins, slow and fast, forward and in reverse.
+/// Speeds left and right, m/s: arcs, counter-rotations and spins, slow and fast, forward and in
+/// reverse.
 const SPEEDS: [(f64, f64); 8] = [
     (-0.4, 1.0),
     (0.4, 1.0),
@@ -29,8 +30,8 @@ fn one_point_for_each_track() {
         for speeds in SPEEDS {
             let (left, right): (f64, f64) = speeds;
             let off = distance(icrs(speeds), reference);
-            // A shoe follows a change of the slip's direction within its elastic range z of sliding. Until then
-            // it is carried on by z V/|s|, and |s| is ω (|x_j| − L/2) at least.
+            // A shoe follows a change of the slip's direction within its elastic range z of
+            // sliding. Until then it is carried on by z V/|s|, and |s| is ω (|x_j| − L/2) at least.
             let slowest_slip = (right - left).abs() / 0.8325 * 0.165;
             let carried = elastic_range * left.abs().max(right.abs()) / slowest_slip;
             println!("{speeds:?}: {:.1} µm off, {:.1} µm allowed", 1e6 * off, 1e6 * carried);

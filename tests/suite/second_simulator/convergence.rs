@@ -58,8 +58,9 @@ fn step_halving_halves_the_error() {
         let apart = |a: Pose, b: Pose| (a.x - b.x).hypot(a.y - b.y) + 0.5 * (a.yaw - b.yaw).abs();
         let changes: Vec<f64> = ends.windows(2).map(|pair| apart(pair[0], pair[1])).collect();
         println!("{ids:?}: {changes:.6?} m");
-        // 25 m of driving: the default steps are good to a few millimetres at its end, to 15 with belts that stretch by
-        // a tenth at every one of 40 commands; the first two changes may have opposite signs by chance
+        // 25 m of driving: the default steps are good to a few millimetres at its end, to 15 with
+        // belts that stretch by a tenth at every one of 40 commands; the first two changes may have
+        // opposite signs by chance
         let coarse = changes[0].max(changes[1]);
         assert!(coarse < 1e-2, "{ids:?}: {changes:?}");
         assert!(changes[2] < 0.6 * coarse, "{ids:?}: {changes:?}");

@@ -78,9 +78,9 @@ fn mistakes_are_refused() {
 
 #[test]
 fn the_page_lists_every_mechanism_with_its_law() {
-    let page = include_str!("../../../docs/theory/independent-ground.md");
+    let page = include_str!("../../../docs/theory/second-simulator.md");
     for sheet in MECHANISMS {
         let row = format!("| {} | {} |", sheet.id, sheet.law.replace('|', "\\|"));
-        assert!(page.contains(&row), "docs/theory/independent-ground.md lacks {row}");
+        assert!(page.contains(&row), "docs/theory/second-simulator.md lacks {row}");
     }
 }

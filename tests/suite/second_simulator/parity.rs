@@ -8,8 +8,8 @@ use trackdyn_second_simulator::{ActiveMechanism, Invariance, MECHANISMS, Robot, 
 /// Change of an ICR, m, that breaks an invariance: what a spin test can see.
 const BROKEN: f64 = 1e-3;
 
-/// Change that the shoes' draw and the shoes that come and go may cause in the base case, m: a hundredth of a
-/// shoe.
+/// Change that the shoes' draw and the shoes that come and go may cause in the base case, m: a
+/// hundredth of a shoe.
 const INTACT: f64 = 2.5e-4;
 
 /// Arc, counter-rotation and spin, m/s.
@@ -89,8 +89,8 @@ impl Subject {
         reported.pose_at(end - 2.0).relative(&reported.pose_at(end)).y.abs()
     }
 
-    /// What a turn that starts and ends lacks against the steady one in its middle part, in m of the belt:
-    /// yaw at a stamp over that at the same way of the encoders.
+    /// What a turn that starts and ends lacks against the steady one in its middle part, in m of
+    /// the belt: yaw at a stamp over that at the same way of the encoders.
     fn lags(&self) -> f64 {
         let robot = Robot::new(&auriga([0.0, 0.04]), &self.active, &self.setup);
         let mut robot = robot.expect("a robot");

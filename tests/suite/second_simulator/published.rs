@@ -1,5 +1,6 @@
-//! Steady turns of Auriga-alpha, Martinez et al., IJRR 24(10), 2005, sec. 5: the ICRs that the paper prints to
-//! three digits, with the digits that an integration of eqs (14)-(15) gives for μ_x/μ_y = 9/7.
+//! Steady turns of Auriga-alpha, Martinez et al., IJRR 24(10), 2005, sec. 5: the ICRs that the
+//! paper prints to three digits, with the digits that an integration of eqs (14)-(15) gives for
+//! μ_x/μ_y = 9/7.
 
 use crate::second_simulator::turn::{Turn, auriga, distance, typical};
 use trackdyn_core::Pose;
@@ -33,8 +34,8 @@ fn icrs_are_the_published_ones_and_come_closer_with_more_shoes() {
         let grids = [(2, 7), (4, 14), (8, 28), (16, 56)];
         let errors = grids.map(|(strips, shoes)| error(cog, reference, strips, shoes));
         println!("CoG {cog:?}: {errors:.6?} m with {grids:?} strips and shoes");
-        // each shoe acts at its middle: the error falls with the square of its size, by 4 each time;
-        // the random cuts leave some of it
+        // each shoe acts at its middle: the error falls with the square of its size, by 4 each
+        // time; the random cuts leave some of it
         for pair in errors.windows(2) {
             assert!(pair[1] < pair[0] / 2.0, "{errors:?}");
         }

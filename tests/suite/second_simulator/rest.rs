@@ -39,17 +39,18 @@ fn above_the_friction_angle_it_slides_as_a_block_does() {
     let expected = -0.5 * STANDARD_GRAVITY * (sin - 0.7 * cos) * 2.0_f64.powi(2);
     let slid = robot.moment().pose.x;
     println!("slides {slid:.4} m in 2 s, expected {expected:.4} m");
-    // Steps of up to 10 ms run ahead by half a step of the speed reached, 0.8 m/s. Released from undeflected
-    // shoes, the robot has √(g sin β z₀) = 5 mm/s when they slide, and keeps it for 2 s.
+    // Steps of up to 10 ms run ahead by half a step of the speed reached, 0.8 m/s. Released from
+    // undeflected shoes, the robot has √(g sin β z₀) = 5 mm/s when they slide, and keeps it for
+    // 2 s.
     assert!((slid - expected).abs() < 4e-3 + 1.1e-2, "{slid} {expected}");
 }
 
 #[test]
 fn straight_across_a_slope_the_tracks_hold_their_line() {
-    // Each shoe comes to the ground undeflected and takes up its share of the side force within its elastic
-    // range z, while it is carried through the contact of length l. So the robot creeps downhill by less than
-    // z in l, and because the rear shoes carry more, it steers by up to z/l² = 1e-5 rad/m, as a brush tyre
-    // does.
+    // Each shoe comes to the ground undeflected and takes up its share of the side force within its
+    // elastic range z, while it is carried through the contact of length l. So the robot creeps
+    // downhill by less than z in l, and because the rear shoes carry more, it steers by up to
+    // z/l² = 1e-5 rad/m, as a brush tyre does.
     let turned = 5e-6 / 0.7_f64.powi(2) * 30.0;
     let slope = ActiveMechanism::new("slope", &[("angle_deg", 10.0), ("uphill_deg", 90.0)]);
     let robot = Robot::new(&auriga([0.0, 0.0]), &[slope.expect("a slope")], &Setup::default());

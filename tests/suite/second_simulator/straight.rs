@@ -11,8 +11,8 @@ fn robot(mechanisms: &[&str], yaw: f64) -> Robot {
     Robot::new(&auriga([0.0, 0.0]), &active, &setup).expect("a robot")
 }
 
-/// Both tracks stick, so the load alone says how much the belts slip: it takes sin β of the weight up the slope, and at that
-/// traction the belt loses λ x √(x/0.3) of its speed.
+/// Both tracks stick, so the load alone says how much the belts slip: it takes sin β of the weight
+/// up the slope, and at that traction the belt loses λ x √(x/0.3) of its speed.
 #[test]
 fn belts_that_slip_up_a_slope_run_evenly_at_the_speed_that_the_law_gives() {
     const SLOPE: f64 = 5.0;

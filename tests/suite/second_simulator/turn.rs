@@ -10,12 +10,12 @@ const SETTLED: f64 = 0.8;
 /// Time beside it until mass has followed, s: seven times v/(μ g) of a spin at 1 m/s.
 const FOLLOWED: f64 = 1.0;
 
-/// Way of the slower belt in which the turn is measured, m: one shoe, over which the ripple of shoes that
-/// come and go averages out.
+/// Way of the slower belt in which the turn is measured, m: one shoe, over which the ripple of
+/// shoes that come and go averages out.
 const MEASURED: f64 = 0.025;
 
-/// Distance and angle to which a turn is brought to its target, m and rad: mechanisms of typical size change
-/// an ICR by less than 0.1 m in a radian.
+/// Distance and angle to which a turn is brought to its target, m and rad: mechanisms of typical
+/// size change an ICR by less than 0.1 m in a radian.
 const NEAR: f64 = 2e-3;
 
 /// Auriga-alpha with this centre of gravity, in the friction of the reference numbers.
@@ -50,7 +50,8 @@ impl Turn<'_> {
     /// (x_l, x_r, y) from reported poses, paper's frame, m.
     pub fn icrs(&self) -> [f64; 3] {
         let mut start = self.target;
-        // the way to the target depends on where it begins, where the ground is not everywhere the same
+        // the way to the target depends on where it begins, where the ground is not everywhere the
+        // same
         let (truth, reported, [begin, end]) = loop {
             let (truth, reported, span) = self.drive(start);
             let middle = truth.pose_at(f64::midpoint(span[0], span[1]));

@@ -1,10 +1,9 @@
 //! The cloud of ICRs that centripetal force and load transfer make of the point.
 //!
 //! Source: an independent computation (numpy, Gauss-Legendre 16 x 96 per track), in the manner of
-//! Martinez et al., IJRR 24(10), 2005, Figs 6-7, where the left ICRs scatter less than the right ones.
-//! Goal: means and standard deviations.
-//! Conditions: μ = 0.9/0.7, centre of gravity at (-0.015, 0.04) m, 0.05 m high, 11 x 11 speeds over
-//! ±1 m/s without V_l = V_r.
+//! Martinez et al., IJRR 24(10), 2005, Figs 6-7, where the left ICRs scatter less than the right
+//! ones. Goal: means and standard deviations. Conditions: μ = 0.9/0.7, centre of gravity at
+//! (-0.015, 0.04) m, 0.05 m high, 11 x 11 speeds over ±1 m/s without V_l = V_r.
 
 use super::{compare, map_statistics};
 use trackdyn_tests::auriga;

@@ -1,13 +1,15 @@
 //! Odometry of public recordings with parameters from their other half.
 //!
-//! Goal: identified ICRs beat the ideal drive in yaw on driving that they were not fitted to, by more than the
-//! 95 % interval of the ratio. The table in `docs/validation.md` is what this test computes.
+//! Goal: identified ICRs beat the ideal drive in yaw on driving that they were not fitted to, by
+//! more than the 95 % interval of the ratio. The table in `docs/validation.md` is what this test
+//! computes.
 
 use crate::validation::recordings::identified;
 use trackdyn_estimate::identification::Fit;
 use trackdyn_estimate::odometry::comparison::{Component, SetErrors};
 use trackdyn_estimate::odometry::{Comparison, Estimate, ParameterSet};
-use trackdyn_recording::{Clock, Interval, RunList};
+use trackdyn_estimate::{Clock, Interval};
+use trackdyn_recording::RunList;
 use trackdyn_tests::real_recording;
 
 /// Recording, gauge (m), runs that are fitted to, runs that are judged on.

@@ -1,10 +1,9 @@
 //! Distances between the ICRs, identified from public recordings of real robots.
 //!
-//! Source: independent fits of yaw rates in the steady parts, whose makers do not say whether the gyroscope's or
-//! the poses'.
-//! Goal: x_r − x_l within 2 %, from poses alone.
-//! Conditions: no α; of the Warthog the windows that are marked as steady; of the Husky those whose stamps are
-//! right (docs/validation.md says what is wrong with the others).
+//! Source: independent fits of yaw rates in the steady parts, whose makers do not say whether the
+//! gyroscope's or the poses'. Goal: x_r − x_l within 2 %, from poses alone. Conditions: no α; of
+//! the Warthog the windows that are marked as steady; of the Husky those whose stamps are right
+//! (docs/validation.md says what is wrong with the others).
 
 use crate::validation::recordings::{at_20_hertz, identified, steady};
 use trackdyn_estimate::Nuisance;

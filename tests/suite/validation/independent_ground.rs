@@ -1,5 +1,5 @@
-//! Two simulators that share no physics agree where their laws are the same: the stationary balance in closed
-//! form, and a rigid body on moving shoes in time.
+//! Two simulators that share no physics agree where their laws are the same: the stationary balance
+//! in closed form, and a rigid body on moving shoes in time.
 
 use trackdyn_core::{PerSide, Plant, Trajectory, frames};
 use trackdyn_model::{Circumstance, Model, RunningGear, Vehicle};
@@ -7,8 +7,8 @@ use trackdyn_model::{Stationary, Status};
 use trackdyn_second_simulator::{ActiveMechanism, Robot, Setup};
 use trackdyn_tests::{auriga, parse_effects};
 
-/// Difference of an ICR in both, over the distance of the two ICRs. A shoe is a fortieth of the contact, and shoes
-/// that act at their middles are off by the square of that.
+/// Difference of an ICR in both, over the distance of the two ICRs. A shoe is a fortieth of the
+/// contact, and shoes that act at their middles are off by the square of that.
 const AGREE: f64 = 1.0 / (40.0 * 40.0);
 
 const SPEEDS: [(f64, f64); 3] = [(0.3, 0.9), (-0.4, 1.0), (0.8, -0.8)];

@@ -1,9 +1,9 @@
 //! Simulated ICRs of Auriga-alpha with its centre of gravity at (-0.015, 0.04) m.
 //!
-//! Source: Martinez et al., IJRR 24(10), 2005, sec. 5.2, simulated parameters.
-//! Goal: with μ_x/μ_y = 9/7, calibrated on the symmetric vehicle alone, the printed ICRs and χ to the
-//! last printed digit (χ to one more unit: 0.5044 against 0.505).
-//! Not met, and not tuned to: the printed e = 0.108. By eq. (13) the paper's own printed ICRs give
+//! Source: Martinez et al., IJRR 24(10), 2005, sec. 5.2, simulated parameters. Goal: with μ_x/μ_y =
+//! 9/7, calibrated on the symmetric vehicle alone, the printed ICRs and χ to the last printed digit
+//! (χ to one more unit: 0.5044 against 0.505). Not met, and not tuned to: the printed e = 0.108. By
+//! eq. (13) the paper's own printed ICRs give
 //! 0.0986, and so do ours.
 
 use super::{compare, map_statistics};

@@ -1,10 +1,10 @@
 //! A measured map of ICRs: steady points of a tracked robot on an indoor floor.
 //!
-//! Source: mfocchi/tracked_robot_simulator, ident_wheels_real_indoor.csv (Apache-2.0), and an independent
-//! regression of its yaw rates on V_r − V_l and of its lateral speeds on its yaw rates.
-//! Goal: by least squares the regression's D = 0.728 m and y = 0.044 m to 1 mm, because it is the same
-//! problem; points that lag are those of the motor at its limit, 0.398 m/s.
-//! The project does not carry the table: without it the test says that it skips.
+//! Source: mfocchi/tracked_robot_simulator, ident_wheels_real_indoor.csv (Apache-2.0), and an
+//! independent regression of its yaw rates on V_r − V_l and of its lateral speeds on its yaw rates.
+//! Goal: by least squares the regression's D = 0.728 m and y = 0.044 m to 1 mm, because it is the
+//! same problem; points that lag are those of the motor at its limit, 0.398 m/s. The project does
+//! not carry the table: without it the test says that it skips.
 
 use std::path::{Path, PathBuf};
 use trackdyn_estimate::least_squares::Loss;

@@ -1,12 +1,12 @@
 //! The chain of the paper's section 5: drive, identify, replay on other paths.
 //!
-//! Source: Martinez et al., IJRR 24(10), 2005, section 5 and Figs 9-12. Its recordings are not public:
-//! ours are of a simulated robot of the same mass, size, centre of gravity and paths.
-//! Goal: the paper's order of dead reckoning. The ideal drive is worst, a symmetric model is better, an asymmetric
-//! one better still, and α improve each.
-//! Met for the error of the position over a metre, in which every fault of a model shows. The yaw hangs on
-//! x_r - x_l and α alone, so that symmetric and asymmetric models share it (docs/validation.md).
-//! Conditions: identified from nine manual paths of 20 m, replayed on two others, eight seeds.
+//! Source: Martinez et al., IJRR 24(10), 2005, section 5 and Figs 9-12. Its recordings are not
+//! public: ours are of a simulated robot of the same mass, size, centre of gravity and paths. Goal:
+//! the paper's order of dead reckoning. The ideal drive is worst, a symmetric model is better, an
+//! asymmetric one better still, and α improve each. Met for the error of the position over a metre,
+//! in which every fault of a model shows. The yaw hangs on x_r - x_l and α alone, so that symmetric
+//! and asymmetric models share it (docs/validation.md). Conditions: identified from nine manual
+//! paths of 20 m, replayed on two others, eight seeds.
 
 mod errors;
 mod localisation;
@@ -92,8 +92,8 @@ fn parameters_are_those_of_the_motions(chains: &[Chain]) {
             .chain((0..3).map(|k| format!("{:.1}", scale[k] * truth[k])))
             .collect();
         println!("| {seed} | {} | {:.2} |", cells.join(" | "), estimate.whitened_rms);
-        // 5 mm are the spread of the map, which one triple of ICRs cannot follow; on a curve of 1.5 m they
-        // are 0.3 % of a track speed.
+        // 5 mm are the spread of the map, which one triple of ICRs cannot follow; on a curve of
+        // 1.5 m they are 0.3 % of a track speed.
         for (k, tolerance) in [0.005, 0.005, 0.005, 0.003, 0.003].into_iter().enumerate() {
             let error = estimate.parameters.0[k] - truth[k];
             assert!(error.abs() < tolerance, "seed {seed}, parameter {k}: off by {error}");

@@ -5,7 +5,7 @@
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::identification::{Options, identify};
 use trackdyn_estimate::{Identification, Nuisance};
-use trackdyn_recording::recording::Cells;
+use trackdyn_recording::sample::Cells;
 use trackdyn_recording::{Recording, Run, RunList};
 
 /// All methods on a recording of a vehicle with this gauge, m; these fitted beside the ICRs.

@@ -1,21 +1,22 @@
-//! The laws of the catalogue beside those of the independent ground, which were written apart and share
-//! no code: what an effect does to a drive must be alike.
+//! The laws of the catalogue beside those of the independent ground, which were written apart and
+//! share no code: what an effect does to a drive must be alike.
 
 use trackdyn_core::{Command, PerSide, Plant, Pose, Schedule, Trajectory};
 use trackdyn_model::Transient;
 use trackdyn_model::{ActiveEffect, CATALOGUE, Effects, Model, RunningGear, Vehicle, VehicleFile};
 use trackdyn_second_simulator::{ActiveMechanism, Robot, Setup, sheet_of};
 
-/// Least cosine between what both simulators make of an effect. Where the laws are the same it is 1.000; a hull that leans
-/// with a delay has 0.99.
+/// Least cosine between what both simulators make of an effect. Where the laws are the same it is
+/// 1.000; a hull that leans with a delay has 0.99.
 const ALIKE: f64 = 0.95;
 
 /// Parameters of an effect that are not typical.
 type Shape = &'static [(&'static str, f64)];
 
-/// The same where one mechanism has two forms, each with the shape that comes nearest to the other simulator's: creep of
-/// shoes and creep of a belt, half of an excess that is lost sooner or later; an arc tangent; and Wong's hump on ground
-/// that remembers how far it was sheared where the robot now turns differently.
+/// Mechanisms of which one has two forms, each with the shape that comes nearest to the other
+/// simulator's: creep of shoes and creep of a belt, half of an excess that is lost sooner or later;
+/// an arc tangent; and Wong's hump on ground that remembers how far it was sheared where the robot
+/// now turns differently.
 const OF_ANOTHER_FORM: [(&str, Shape, f64); 3] = [
     ("stribeck-friction", &[], 0.85),
     ("friction-creep", &[("sharpness", 1.0)], ALIKE),

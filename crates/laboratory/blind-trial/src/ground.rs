@@ -6,8 +6,9 @@ use trackdyn_core::{Plant, Trajectory};
 use trackdyn_drive::schedules::as_commanded;
 use trackdyn_drive::sensors::{Preset, Sensors, Views};
 use trackdyn_estimate::Observations;
+use trackdyn_estimate::SegmentOptions;
 use trackdyn_model::{RunningGear, Vehicle};
-use trackdyn_recording::{Recording, SegmentOptions, Source, UncheckedRun};
+use trackdyn_recording::{Recording, Source, UncheckedRun};
 use trackdyn_second_simulator::{ActiveMechanism, Robot, Setup};
 
 /// How finely the ground is cut.

@@ -3,6 +3,7 @@
 use crate::random::{happens, log_uniform, normal, uniform};
 use rand_chacha::ChaCha8Rng;
 use trackdyn_core::STANDARD_GRAVITY;
+use trackdyn_core::rounding::Digits;
 use trackdyn_model::contact::Friction;
 use trackdyn_model::{RunningGear, Vehicle};
 
@@ -117,5 +118,5 @@ fn length(gear: &RunningGear) -> f64 {
 
 /// As a data sheet prints it.
 pub(crate) fn rounded(value: f64) -> f64 {
-    (value * 1e4).round() / 1e4
+    Digits::Decimals(4).round(value)
 }

@@ -2,10 +2,11 @@
 
 use crate::ground::{Driven, seen};
 use crate::instruments::Instruments;
+use trackdyn_core::rounding::Digits;
 use trackdyn_recording::{Recording, Source, StatedNoise, UncheckedRun};
 
-/// Digits after the point of every number of a recording, as a power of ten: a micrometre, a microsecond.
-const LAST_DIGIT: f64 = 1e6;
+/// Digits of every number of a recording: to a micrometre, to a microsecond.
+const DIGITS: Digits = Digits::Decimals(6);
 
 /// The recording that the instruments of a case make of driven runs, with the noise of a seed.
 pub(crate) fn recorded(
@@ -23,7 +24,7 @@ pub(crate) fn recorded(
 
 /// Rounds all numbers of a run alike: how they are written says nothing.
 fn round(run: &mut UncheckedRun) {
-    let digits = |value: &mut f64| *value = (*value * LAST_DIGIT).round() / LAST_DIGIT + 0.0;
+    let digits = |value: &mut f64| *value = DIGITS.round(*value) + 0.0;
     for sample in &mut run.tracks.samples {
         [&mut sample.t, &mut sample.v_left, &mut sample.v_right].into_iter().for_each(digits);
     }
@@ -34,6 +35,5 @@ fn round(run: &mut UncheckedRun) {
 }
 
 fn rounded(noise: StatedNoise) -> StatedNoise {
-    let digits = |value: f64| (value * LAST_DIGIT).round() / LAST_DIGIT;
-    StatedNoise { position: digits(noise.position), yaw: digits(noise.yaw) }
+    StatedNoise { position: DIGITS.round(noise.position), yaw: DIGITS.round(noise.yaw) }
 }

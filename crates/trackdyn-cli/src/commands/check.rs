@@ -17,7 +17,8 @@ use trackdyn::{Reference, Vehicle, check};
 pub struct Options {
     /// Reference file (schema trackdyn.reference/1)
     reference: PathBuf,
-    /// Check this vehicle instead of those that the cases name; a case's cog_m and effects still replace its own
+    /// Check this vehicle instead of those that the cases name; a case's cog_m and effects still
+    /// replace its own
     #[arg(long, value_name = "FILE")]
     vehicle: Option<PathBuf>,
 }
@@ -66,7 +67,8 @@ fn note_gaps(case: &CheckedCase) {
     let gaps = counts[Status::Lifts.index()] + counts[Status::NotConverged.index()];
     if gaps > 0 {
         say(format_args!(
-            "note: case \"{name}\": at {gaps} of {} pairs of speeds part of the contact lifts or no forces balance: \
+            "note: case \"{name}\": at {gaps} of {} pairs of speeds part of the contact lifts or \
+            no forces balance: \
              they enter no mean (expect turning_pairs to watch how many do)",
             map.solutions.len()
         ));

@@ -13,7 +13,9 @@ use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
 use trackdyn::diagnose::Prepared;
-use trackdyn::{Change, DiagnoseSettings, Error, HeldOut, Recording, Vehicle, prepare_folder};
+use trackdyn::{
+    Change, DiagnoseSettings, Error, HeldOut, Recording, Resampling, Vehicle, prepare_folder,
+};
 
 /// Options of `trackdyn diagnose`.
 #[derive(Args)]
@@ -22,12 +24,13 @@ pub struct Options {
     recording: RecordingOptions,
     /// More recordings of the same robot
     more: Vec<PathBuf>,
-    /// Vehicle file (schema trackdyn.vehicle/1); its effects are part of the model, and what its *_sd say is
-    /// taken as known
+    /// Vehicle file (schema trackdyn.vehicle/1); its effects are part of the model, and what its
+    /// *_sd say is taken as known
     #[arg(long, value_name = "FILE")]
     vehicle: PathBuf,
-    /// Runs to judge the result on, which nothing is fitted or chosen on: a list such as 9-11, or `none`
-    /// [default: every fourth run where there are eight or more, every fourth point of a table]
+    /// Runs to judge the result on, which nothing is fitted or chosen on: a list such as 9-11, or
+    /// `none` [default: every fourth run where there are eight or more, every fourth point of a
+    /// table]
     #[arg(long, value_name = "RUNS|none")]
     held_out: Option<String>,
     /// Draws of the bootstrap behind the tests
@@ -49,8 +52,7 @@ pub fn run(options: &Options) -> Outcome {
     let recordings = recordings(options)?;
     let settings = DiagnoseSettings {
         held_out: held_out(options)?,
-        draws: options.draws as usize,
-        seed: options.seed,
+        resampling: Resampling { draws: options.draws as usize, seed: options.seed },
     };
     let prepared = Prepared::new(&recordings, &vehicle, &settings)?;
     prepare_folder(&options.out)?;

@@ -1,4 +1,5 @@
-//! `trackdyn drive`: a path, followed with the ideal differential drive and with kinematic parameters.
+//! `trackdyn drive`: a path, followed with the ideal differential drive and with kinematic
+//! parameters.
 
 mod summary;
 
@@ -32,10 +33,12 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = Knows::Truth)]
     estimate: Knows,
     /// Speed on open ground, m/s
-    #[arg(long, value_name = "SPEED", default_value_t = Tracker::default().speed, value_parser = finite)]
+    #[arg(long, value_name = "SPEED", default_value_t = Tracker::default().speed,
+          value_parser = finite)]
     speed: f64,
     /// Look-ahead of the path tracker, m
-    #[arg(long, value_name = "M", default_value_t = Tracker::default().look_ahead, value_parser = finite)]
+    #[arg(long, value_name = "M", default_value_t = Tracker::default().look_ahead,
+          value_parser = finite)]
     look_ahead: f64,
     /// Leave inertia out: the robot is at its stationary motion at once
     #[arg(long)]

@@ -24,7 +24,8 @@ pub struct Options {
 
 #[derive(Subcommand)]
 enum Target {
-    /// Parameters of ros2_control's diff_drive_controller, and a launch file that ties its frame to the robot
+    /// Parameters of ros2_control's diff_drive_controller, and a launch file that ties its frame to
+    /// the robot
     Ros2(Ros2Options),
     /// The TrackedVehicle plugin of Gazebo's gz-sim, as SDF
     Gz(GzOptions),
@@ -50,8 +51,8 @@ struct Ros2Options {
     /// Name of the controller
     #[arg(long, value_name = "NAME", default_value = "diff_drive_controller")]
     controller: NodeName,
-    /// Odometry file (schema trackdyn.odometry/1) of a replay with these kinematics, best of runs that they were
-    /// not fitted to: for the covariances
+    /// Odometry file (schema trackdyn.odometry/1) of a replay with these kinematics, best of runs
+    /// that they were not fitted to: for the covariances
     #[arg(long, value_name = "FILE")]
     residuals: Option<PathBuf>,
     /// Rate in Hz at which the controller publishes, for the covariances
@@ -80,7 +81,8 @@ impl Ros2Options {
         let residuals = export.residuals(&Document::read(path)?)?;
         if !residuals.held_out {
             say(format_args!(
-                "warning: the residuals in {} are of runs that the kinematics were fitted to: covariances \
+                "warning: the residuals in {} are of runs that the kinematics were fitted to: \
+                covariances \
                  come out too small (replay others, with --runs or --time)",
                 residuals.source
             ));
@@ -130,8 +132,8 @@ struct FrameOptions {
     /// Root link of the robot's URDF
     #[arg(long, value_name = "FRAME", default_value = "base_link")]
     base_frame: Name,
-    /// Origin of the ICRs in the base frame, in m: forward, left (ROS axes). Of a map it is the centre of the contact area of
-    /// both tracks; of a recording the frame of its poses
+    /// Origin of the ICRs in the base frame, in m: forward, left (ROS axes). Of a map it is the
+    /// centre of the contact area of both tracks; of a recording the frame of its poses
     #[arg(long, value_name = "X,Y", value_parser = pair, default_value = "0,0",
           allow_hyphen_values = true)]
     contact_centre: [f64; 2],
@@ -161,7 +163,8 @@ pub fn run(options: &Options) -> Outcome {
     let sectors = export.drive().sectors;
     if sectors > 0 {
         say(format_args!(
-            "warning: {} is piecewise with {sectors} sectors; the constants of the whole map stand for all of them",
+            "warning: {} is piecewise with {sectors} sectors; the constants of the whole map \
+            stand for all of them",
             parameters.name(),
         ));
     }

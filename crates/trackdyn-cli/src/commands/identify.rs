@@ -30,8 +30,8 @@ pub struct Options {
     /// Use only segments before which the tracks ran steadily for this many seconds
     #[arg(long, value_name = "SECONDS", value_parser = not_negative)]
     settle: Option<f64>,
-    /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw (lever-arm only says why no
-    /// recording shows it)
+    /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw
+    /// (lever-arm only says why no recording shows it)
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     fit: Vec<Nuisance>,
     /// Individuals of the genetic algorithm
@@ -87,7 +87,8 @@ pub fn run(options: &Options) -> Outcome {
     say_changes(&changes);
     if settings.nuisances.contains(&Nuisance::SensorYaw) {
         say(format_args!(
-            "note: no kinematics file holds the yaw of the sensor's mount: before odometry and export with these \
+            "note: no kinematics file holds the yaw of the sensor's mount: before odometry and \
+            export with these \
              parameters, turn the sensor by it, or the frame of the poses"
         ));
     }

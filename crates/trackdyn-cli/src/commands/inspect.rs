@@ -8,7 +8,7 @@ use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use trackdyn::crates::recording::clock::{ClockSearch, clock_offset};
+use trackdyn::crates::estimate::clock::{ClockSearch, clock_offset};
 use trackdyn::crates::recording::rosbag::{self, RosbagOptions};
 use trackdyn::crates::recording::{
     Error as ReadError, Format, OperatingPoint, Recording as Motion, Run, tum,
@@ -19,8 +19,8 @@ use trackdyn::{ReadOptions, Recording};
 /// Options of `trackdyn inspect`.
 #[derive(Args)]
 pub struct Options {
-    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory of the
-    /// TUM benchmark (.tum, .txt), or table of steady operating points (.csv)
+    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory
+    /// of the TUM benchmark (.tum, .txt), or table of steady operating points (.csv)
     recording: PathBuf,
     /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
     #[arg(long, value_name = "FILE")]
@@ -57,7 +57,8 @@ fn trajectory(path: &Path) -> Result<String, ReadError> {
     let poses = tum::read_poses(path)?.samples;
     let (first, last) = (poses.first().map_or(0.0, |p| p.t), poses.last().map_or(0.0, |p| p.t));
     Ok(format!(
-        "{}: trajectory, {} poses, t = {first:.3} to {last:.3} s\n\nsuggested: --tracks TRACKS.csv\n",
+        "{}: trajectory, {} poses, t = {first:.3} to {last:.3} s\n\nsuggested: --tracks \
+        TRACKS.csv\n",
         path.display(),
         poses.len()
     ))
@@ -68,7 +69,8 @@ fn points(table: &PointsTable) -> String {
     let points = table.points();
     let measured = |of: fn(&OperatingPoint) -> Option<f64>| points.iter().filter_map(of).count();
     let mut text = format!(
-        "{}: {} steady operating points; measured: {} forward speeds, {} lateral speeds, {} yaw rates\n",
+        "{}: {} steady operating points; measured: {} forward speeds, {} lateral speeds, {} yaw \
+        rates\n",
         table.name(),
         points.len(),
         measured(|point| point.v_forward),

@@ -23,7 +23,8 @@ pub struct Options {
     /// Forward speed in m/s and yaw rate in rad/s; prints the track speeds
     #[arg(long, value_name = "FORWARD,YAW_RATE", value_parser = pair, allow_hyphen_values = true)]
     twist: Option<[f64; 2]>,
-    /// Parameters from a file (schema trackdyn.kinematics/1) [default: the mean of the vehicle's map up to 1 m/s]
+    /// Parameters from a file (schema trackdyn.kinematics/1) [default: the mean of the vehicle's
+    /// map up to 1 m/s]
     #[arg(long, value_name = "FILE",
           conflicts_with_all = ["vehicle", "cog", "effects", "heading", "position", "time"])]
     kinematics: Option<PathBuf>,
@@ -33,7 +34,8 @@ pub struct Options {
     circumstance: CircumstanceOptions,
 }
 
-/// Standard deviation of an ICR over the map, m, from which on its mean is not all that there is to say.
+/// Standard deviation of an ICR over the map, m, from which on its mean is not all that there is to
+/// say.
 const NOTABLE: f64 = 1e-3;
 
 /// Prints the motion for track speeds, or track speeds for a motion.
@@ -66,7 +68,8 @@ fn parameters(options: &Options) -> Result<Parameters, Box<dyn Error>> {
     // a piecewise map has the ICRs of each sector
     if map.solved().sectors().is_empty() && spread > NOTABLE {
         say(format_args!(
-            "note: the ICRs of this vehicle go with the speeds, by {:.1} mm up to {} m/s: these are their means",
+            "note: the ICRs of this vehicle go with the speeds, by {:.1} mm up to {} m/s: these \
+            are their means",
             1e3 * spread,
             Grid::PAPER_SPEED
         ));

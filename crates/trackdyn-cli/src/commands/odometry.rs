@@ -43,7 +43,8 @@ pub fn run(options: &Options) -> Outcome {
     }
     for fitted in found.fitted_to_it() {
         say(format_args!(
-            "note: {} was fitted to some of these runs, which makes its errors look smaller (choose \
+            "note: {} was fitted to some of these runs, which makes its errors look smaller \
+            (choose \
              others with --runs or --time)",
             fitted.name()
         ));

@@ -23,7 +23,8 @@ pub struct Options {
     /// Diagnosis file (schema trackdyn.diagnosis/1)
     #[arg(long, value_name = "FILE")]
     diagnosis: PathBuf,
-    /// Vehicle file that has what the diagnosis found [default: vehicle.corrected.toml beside the diagnosis]
+    /// Vehicle file that has what the diagnosis found [default: vehicle.corrected.toml beside the
+    /// diagnosis]
     #[arg(long, value_name = "FILE")]
     vehicle: Option<PathBuf>,
     /// Largest track speed, m/s

@@ -31,8 +31,9 @@ pub struct Options {
     /// Runs of a schedule that is generated [default: what is usual for it]
     #[arg(long, value_name = "N", value_parser = count)]
     runs: Option<usize>,
-    /// Time of each run of a schedule that is generated, s, with a second at rest before and after: a square or a plan that has
-    /// begun is driven to its end [default: as long as the schedule takes]
+    /// Time of each run of a schedule that is generated, s, with a second at rest before and after:
+    /// a square or a plan that has begun is driven to its end [default: as long as the schedule
+    /// takes]
     #[arg(long, value_name = "SECONDS", value_parser = finite)]
     duration: Option<f64>,
     /// Largest track speed of a schedule that is generated, m/s [default: 1]
@@ -44,12 +45,12 @@ pub struct Options {
     /// Leave inertia out: the robot is at its stationary motion at once
     #[arg(long)]
     quasi_static: bool,
-    /// Which simulator moves the robot: the project's own, or the independent one of proofs, which shares
-    /// no code with it
+    /// Which simulator moves the robot: the project's own, or the independent one of proofs, which
+    /// shares no code with it
     #[arg(long, value_enum, default_value_t = Ground::Own)]
     ground: Ground,
-    /// Independent ground: a mechanism of it, those outside the catalogue of effects among them (listed in
-    /// docs/theory/independent-ground.md); repeatable
+    /// Independent ground: a mechanism of it, those outside the catalogue of effects among them
+    /// (listed in docs/theory/second-simulator.md); repeatable
     #[arg(long = "mechanism", value_name = "ID[:PARAMETER=VALUE,...]")]
     mechanisms: Vec<ActiveMechanism>,
     /// Longest step of the integration, s

@@ -3,7 +3,6 @@
 use super::places::extent;
 use super::{Beside, Signature, Variant, spacing};
 use rayon::prelude::*;
-use trackdyn_model::CATALOGUE;
 use trackdyn_model::effect::Role;
 
 /// Rounds of a search.
@@ -18,7 +17,7 @@ const WORTH: f64 = 0.1;
 impl Variant {
     /// The same with a step of what is no size: `share` of half the distance between values that are tried.
     fn moved(&self, parameter: usize, share: f64, beside: &Beside) -> Self {
-        let of = &CATALOGUE[self.effect];
+        let of = self.effect.card();
         let card = &of.parameters[parameter];
         let by = share * spacing(card, extent(of, &self.values), beside.evidence) / 2.0;
         let mut moved = self.clone();

@@ -50,7 +50,7 @@ mod tests {
     use nalgebra::Vector3;
     use trackdyn_core::Pose;
     use trackdyn_estimate::weighting::SegmentNoise;
-    use trackdyn_model::CATALOGUE;
+    use trackdyn_model::EffectId;
     use trackdyn_recording::TrackSample;
 
     const NOISE: SegmentNoise = SegmentNoise { pose: [1e-6; 3], walk: [0.0; 3], heading: 0.0 };
@@ -80,7 +80,7 @@ mod tests {
     #[test]
     fn what_is_passed_often_is_tried_however_far_the_robot_went_once() {
         let evidence = drive();
-        let patch = CATALOGUE.iter().position(|card| card.id == "terrain-patch").expect("a patch");
+        let patch = EffectId::of("terrain-patch").expect("a patch");
         let tried = variants(patch, &evidence);
         let smallest = tried.iter().map(|one| one.values[2]).fold(f64::MAX, f64::min);
         let inside = |x: f64, y: f64| {

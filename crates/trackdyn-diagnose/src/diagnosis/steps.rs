@@ -1,25 +1,26 @@
 //! The diagnosis: all steps in order.
 
-use super::corrected::corrected;
-use super::held_out::errors;
 use super::{Diagnosis, Kind, Missing, Options, Status, before};
 use crate::base::Base;
 use crate::candidate::{Beside, candidates};
+use crate::corrected::{correct, corrected, sure};
 use crate::error::Error;
 use crate::evidence::{Evidence, FEWEST};
 use crate::exposure::Exposure;
 use crate::fit::Fit;
+use crate::held_out::{errors, judged as judged_by_unseen};
 use crate::isolability::Isolability;
 use crate::locate::cells::cells;
 use crate::locate::{Residual, icr_columns};
 use crate::noise::{sharper, with_remaining_noise};
-use crate::proposal::completed;
+use crate::proposal::{Proposal, Unexplained, propose};
 use crate::search::{Catalogue, Found, Screened, Search};
 use crate::uncertainty::{Interval, Level, Uncertainty};
 use crate::verdict::{
     Constants, Rules, Verdict, judge, judge_constants, judge_instruments, refuse_unsure,
 };
 use std::collections::BTreeSet;
+use trackdyn_model::EffectId;
 use trackdyn_model::VehicleFile;
 use trackdyn_model::effect::Symmetry;
 
@@ -80,12 +81,42 @@ pub fn diagnose(
         let grows = scale.iter().any(|scale| *scale > TOLERATED);
         if !grows || evidence.scale() != [1.0; 3] {
             if !options.held_out.is_empty() {
-                attempt.judge_on(&unseen, options);
+                let fits = [attempt.fit_before(), &attempt.base.fit, &attempt.best.fit];
+                let (held_out, unseen) =
+                    judged_by_unseen(&unseen, &attempt.evidence, fits, options.resampling);
+                (attempt.held_out, attempt.unseen) = (held_out, Some(unseen));
             }
             return Ok(completed(attempt, options));
         }
         evidence = evidence.with_scale(scale.map(|scale| scale.max(1.0)));
     }
+}
+
+/// A diagnosis that leaves something unexplained, with the law that is proposed for it: in `proposed`, and in the
+/// corrected vehicle.
+fn completed(mut diagnosis: Diagnosis, options: &Options) -> Diagnosis {
+    if diagnosis.status == Status::Unexplained {
+        let unexplained = Unexplained {
+            evidence: &diagnosis.evidence,
+            base: &diagnosis.base,
+            best: &diagnosis.best,
+            filed: &diagnosis.filed,
+            before: &diagnosis.before,
+            after: &diagnosis.after,
+            held_out: diagnosis.held_out,
+            unseen: diagnosis.unseen.as_ref(),
+        };
+        diagnosis.proposed = propose(&unexplained, options.resampling);
+        let Diagnosis { proposed, corrected, missing, friction_level, .. } = &mut diagnosis;
+        if let Some(Proposal { found, effect, .. }) = proposed {
+            // the law first: what it moves is no constant
+            if let Some(law) = found.fit.hypothesis.effect(*effect) {
+                corrected.effects.insert(law.clone());
+            }
+            correct(corrected, found, missing, sure(*friction_level));
+        }
+    }
+    diagnosis
 }
 
 /// By how much readings without stamps that jitter, or without ticks, may raise twice the misfit by chance.
@@ -102,13 +133,13 @@ fn attempt(
     is_first: bool,
     progress: &dyn Fn(&'static str),
 ) -> Diagnosis {
-    let Options { draws, seed, .. } = *options;
+    let resampling = options.resampling;
     let of_base = icr_columns(evidence, &base.fit);
     let of_filed = icr_columns(evidence, &base.as_filed);
     let as_filed = Residual { evidence, fit: &base.as_filed, icrs: &of_filed };
-    let filed = as_filed.locate(draws, seed);
+    let filed = as_filed.locate(resampling);
     let of_fit = Residual { evidence, fit: &base.fit, icrs: &of_base };
-    let located = of_fit.locate(draws, seed);
+    let located = of_fit.locate(resampling);
     progress(STAGES[1]);
 
     let tried = candidates(&base.instruments, evidence);
@@ -136,7 +167,7 @@ fn attempt(
 
     let of_best = icr_columns(evidence, &best.fit);
     let of_corrected = Residual { evidence, fit: &best.fit, icrs: &of_best };
-    let after = of_corrected.locate_in_waves(draws, seed);
+    let after = of_corrected.locate_in_waves(resampling);
     let left_over = after.left_over(Rules::tolerated(evidence, &base, &best));
     let status = status(&left_over, &missing);
     let broken = [located.broken(), filed.broken(), left_over].concat();
@@ -149,7 +180,7 @@ fn attempt(
     let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]
         .map(|(fit, icrs)| cells(evidence, &fit.residual, icrs));
     let place = crate::place::sentence(evidence, &base, [&located, &after], &broken);
-    let held_out = errors(evidence, [before(&base, &missing), &base.fit, &best.fit], options);
+    let held_out = errors(evidence, [before(&base, &missing), &base.fit, &best.fit], resampling);
     progress(STAGES[5]);
     Diagnosis {
         status,
@@ -194,7 +225,7 @@ fn judged(
     file: &VehicleFile,
     options: &Options,
 ) -> Judgement {
-    let Options { draws, seed, .. } = *options;
+    let resampling = options.resampling;
     let mut best = found;
     let mut refused: Vec<Verdict> = Vec::new();
     // What mostly moves constant ICRs is free in every hypothesis: it stays, claimed or not.
@@ -203,7 +234,7 @@ fn judged(
     let (physics, mut intervals) = loop {
         let mut asked = best.effects.clone();
         asked.retain(|effect| !refused.iter().any(|other| other.effect == *effect));
-        let mut physics = judge(search, &best, &asked, constants, file, draws, seed);
+        let mut physics = judge(search, &best, &asked, constants, file, resampling);
         let mut intervals = Vec::new();
         if physics.iter().all(|one| one.refused.is_none() || stays(one)) {
             intervals = Uncertainty::of(search, &best).intervals(&claimed(&physics));
@@ -217,12 +248,12 @@ fn judged(
         best = search.without(&best, weakest.effect);
         refused.push(weakest);
     };
-    let instruments = judge_instruments(search, &best, draws, seed);
+    let instruments = judge_instruments(search, &best, resampling);
     let own = claimed(&physics);
-    let wrong = judge_constants(search, &best, constants, file, &own, draws, seed);
+    let wrong = judge_constants(search, &best, constants, file, &own, resampling);
     let uncertainty = Uncertainty::of(search, &best);
     intervals.extend(uncertainty.intervals(&claimed(&instruments)));
-    let of = |effect: usize| -> Vec<Interval> {
+    let of = |effect: EffectId| -> Vec<Interval> {
         intervals.iter().filter(|interval| interval.unknown.is_of(effect)).copied().collect()
     };
     let physics = physics.into_iter().map(|verdict| (Kind::Physics, verdict));
@@ -242,7 +273,7 @@ fn judged(
 }
 
 /// The effects that are not refused.
-fn claimed(verdicts: &[Verdict]) -> Vec<usize> {
+fn claimed(verdicts: &[Verdict]) -> Vec<EffectId> {
     verdicts.iter().filter(|one| one.refused.is_none()).map(|one| one.effect).collect()
 }
 
@@ -264,7 +295,7 @@ fn exposures(
     best: &Fit,
     missing: &[Missing],
     screened: &[Screened],
-    constants: &[usize],
+    constants: &[EffectId],
 ) -> Vec<Exposure> {
     let claimed = missing.iter().filter(|missing| missing.kind != Kind::Constant);
     let claimed: Vec<Exposure> =

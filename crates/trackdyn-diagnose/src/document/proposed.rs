@@ -3,7 +3,6 @@
 use super::{ParameterTable, SupportTable, rounded};
 use crate::proposal::Proposal;
 use serde::{Deserialize, Serialize};
-use trackdyn_model::CATALOGUE;
 use trackdyn_model::effect::Symmetry;
 
 /// A term of a proposed law.
@@ -49,7 +48,7 @@ pub struct ProposalTable {
 
 /// The terms of a law.
 pub(super) fn terms(proposal: &Proposal) -> Vec<ProposedTable> {
-    let card = &CATALOGUE[proposal.effect];
+    let card = proposal.effect.card();
     proposal
         .terms
         .iter()

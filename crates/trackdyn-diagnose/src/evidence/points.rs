@@ -4,7 +4,7 @@ use super::{Evidence, Sample, Whitening};
 use crate::error::Error;
 use nalgebra::Vector3;
 use trackdyn_core::{PerSide, Pose};
-use trackdyn_recording::operating_points::scatter;
+use trackdyn_estimate::noise::scatter;
 use trackdyn_recording::{OperatingPoint, TrackSample};
 
 /// Time that stands for an instant, s.

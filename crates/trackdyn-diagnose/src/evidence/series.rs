@@ -5,11 +5,14 @@ use crate::error::Error;
 use nalgebra::Vector3;
 use std::borrow::Cow;
 use trackdyn_core::{PerSide, Pose};
+use trackdyn_estimate::noise::{Noise, noise};
 use trackdyn_estimate::observations::Observations;
+use trackdyn_estimate::regular::with_regular_poses;
 use trackdyn_estimate::spin_test;
-use trackdyn_estimate::weighting::{LEAST, SegmentNoise};
-use trackdyn_recording::noise::{Noise, noise};
-use trackdyn_recording::{Clock, Recording, SegmentOptions, TrackSample};
+use trackdyn_estimate::thinned::with_readings_every;
+use trackdyn_estimate::weighting::{MIN_POSE_NOISE, SegmentNoise};
+use trackdyn_estimate::{Clock, SegmentOptions};
+use trackdyn_recording::{Recording, TrackSample};
 
 /// How far a fitted clock offset may go beyond the one that the recording shows by itself, s.
 const TAU_MARGIN: f64 = 0.15;
@@ -38,7 +41,7 @@ impl Evidence {
         if found > FARTHEST {
             return Err(Error::FarFromOrigin { found, largest: FARTHEST });
         }
-        let recording = &*recording.with_readings_every(SHORTEST);
+        let recording = &*with_readings_every(recording, SHORTEST);
         let clock = Clock::of(recording, None);
         let tau = clock.tau();
         let (recording, measured) = quieter(recording, tau);
@@ -116,13 +119,13 @@ impl Evidence {
 /// stamped late by chance moves meanwhile.
 fn quieter(recording: &Recording, tau: f64) -> (Cow<'_, Recording>, Noise) {
     let as_stamped = noise(recording, tau);
-    let due = recording.with_regular_poses();
+    let due = with_regular_poses(recording);
     let as_due = noise(&due, tau);
     // logarithm of the product of the white noise's standard deviations
     let level = |noise: &Noise| -> Option<f64> {
         let poses = noise.moving.as_ref()?;
         let axes = [poses.forward, poses.lateral, poses.yaw];
-        Some(axes.iter().map(|axis| axis.white.max(LEAST).ln()).sum())
+        Some(axes.iter().map(|axis| axis.white.max(MIN_POSE_NOISE).ln()).sum())
     };
     match (level(&as_stamped), level(&as_due)) {
         (Some(stamped), Some(level)) if level < stamped => (Cow::Owned(due), as_due),

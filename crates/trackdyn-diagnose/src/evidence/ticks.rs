@@ -8,8 +8,8 @@
 
 use std::f64::consts::PI;
 use trackdyn_core::{PerSide, Side, real};
+use trackdyn_estimate::regular::stretches;
 use trackdyn_recording::TrackSample;
-use trackdyn_recording::regular::stretches;
 
 /// Order of the differences that are kept small.
 const ORDER: usize = 3;

@@ -4,6 +4,7 @@
 //! V_l + V_r and d that of V_r − V_l: c is odd under R, d under R and M, c d under M. Of the ICRs, the
 //! middle a = (x_l + x_r)/2 is odd under M, half their distance h and y are even.
 
+use super::departures::{Contrasts, middle_half_y};
 use super::{IcrColumns, past};
 use crate::evidence::{Evidence, Sample};
 use nalgebra::Vector3;
@@ -55,25 +56,6 @@ impl Manoeuvre {
             Self::Spin => "spins",
         }
     }
-}
-
-/// Departures that break one symmetry in one way.
-#[derive(Clone, Debug)]
-pub struct Contrasts {
-    /// The symmetry.
-    pub symmetry: Symmetry,
-    /// Symmetries whose plain contrasts, those beside nothing, do not count as departures of this kind.
-    pub beside: &'static [Symmetry],
-    /// The departures, not whitened.
-    pub columns: Vec<Vec<Vector3<f64>>>,
-}
-
-/// Derivatives of the prediction by a = (x_l + x_r)/2, h = (x_r − x_l)/2 and y, each ICR as far as it moves.
-pub fn middle_half_y([left, right, y]: &IcrColumns) -> [Vec<Vector3<f64>>; 3] {
-    let combine = |sign: f64| -> Vec<Vector3<f64>> {
-        left.iter().zip(right).map(|(left, right)| right + left * sign).collect()
-    };
-    [combine(1.0), combine(-1.0), y.clone()]
 }
 
 /// Columns that break a symmetry, not whitened; none of what the evidence has no spread in.

@@ -1,6 +1,6 @@
 //! Departures that hang on what the tracks did before: heat, soil that was worked, a tank that sloshes.
 
-use super::contrasts::Contrasts;
+use super::departures::Contrasts;
 use crate::evidence::Evidence;
 use nalgebra::Vector3;
 use trackdyn_core::PerSide;

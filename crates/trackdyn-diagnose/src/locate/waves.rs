@@ -9,9 +9,10 @@
 //! so that a wave k has six departures. Waves are as many as the area that was driven on resolves, the longest first.
 
 use super::IcrColumns;
-use super::contrasts::middle_half_y;
+use super::departures::middle_half_y;
 use crate::evidence::{Evidence, Sample};
 use crate::huber;
+use crate::resampling::Resampling;
 use crate::significance::{Group, Test, test_family};
 use nalgebra::{DMatrix, DVector, Vector2, Vector3};
 use rayon::prelude::*;
@@ -47,7 +48,7 @@ pub fn strongest_wave(
     residual: &[Vector3<f64>],
     beside: &[Vec<Vector3<f64>>],
     icrs: &IcrColumns,
-    (draws, seed): (usize, u64),
+    resampling: Resampling,
 ) -> Option<Wave> {
     if evidence.is_steady() {
         return None;
@@ -62,7 +63,7 @@ pub fn strongest_wave(
             weighted.group(&columns.map(|column| evidence.white(column)))
         })
         .collect();
-    let tests = test_family(&groups, draws, seed);
+    let tests = test_family(&groups, resampling);
     let waves = numbers.into_iter().zip(tests).map(|(number, test)| Wave {
         length: TAU / number.norm(),
         direction: (number.y / number.x).atan(),

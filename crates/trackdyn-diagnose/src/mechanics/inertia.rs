@@ -17,7 +17,7 @@ use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
 use trackdyn_model::contact::Resolution;
 use trackdyn_model::transient::Step;
-use trackdyn_model::{ActiveEffect, CATALOGUE, Circumstance, Drive, Effects, Model, Vehicle};
+use trackdyn_model::{ActiveEffect, Circumstance, Drive, EffectId, Effects, Model, Vehicle};
 use trackdyn_model::{Forces, Transient};
 use trackdyn_recording::TrackSample;
 
@@ -246,7 +246,7 @@ fn stepped(by: Unknown, case: &Case, sign: f64) -> Option<(Model, f64)> {
         }
         Unknown::Effect(effect, place) => {
             let mut values = find(effects, effect)?.values().to_vec();
-            let [low, high] = CATALOGUE[effect].parameters[place].range;
+            let [low, high] = effect.card().parameters[place].range;
             values[place] += step;
             if !(low..=high).contains(&values[place]) {
                 return None;
@@ -369,13 +369,13 @@ impl Inertia {
         let level = if level.abs() < SAME { 0.0 } else { level };
         let level = std::iter::once((Unknown::FrictionLevel, level));
         let cog = [0, 1].map(|k| (Unknown::Cog(k), vehicle.cog[k] - self.vehicle.cog[k]));
-        let change = |effect: usize, place: usize| {
+        let change = |effect: EffectId, place: usize| {
             let [here, there] =
                 [self.model.effects(), effects].map(|effects| value(effects, effect, place));
             (Unknown::Effect(effect, place), there - here)
         };
-        let of_effects = CATALOGUE.iter().enumerate().flat_map(|(effect, card)| {
-            (0..card.parameters.len()).map(move |place| change(effect, place))
+        let of_effects = EffectId::all().flat_map(|effect| {
+            (0..effect.card().parameters.len()).map(move |place| change(effect, place))
         });
         level.chain(cog).chain(of_effects).filter(|(_, change)| *change != 0.0).collect()
     }

@@ -2,7 +2,7 @@
 
 use super::{Answer, Options, Plan, measurement, rounded};
 use serde::Serialize;
-use trackdyn_model::CATALOGUE;
+use trackdyn_model::EffectId;
 use trackdyn_model::kinematics::Source;
 
 /// A plan file.
@@ -57,7 +57,7 @@ struct PairTable {
 impl PlanFile {
     /// The file of a plan.
     pub fn new(plan: &Plan, options: &Options, source: Source) -> Self {
-        let ids = |effects: [usize; 2]| effects.map(|effect| CATALOGUE[effect].id);
+        let ids = |effects: [EffectId; 2]| effects.map(|effect| effect.name());
         let duration = plan.duration();
         let manoeuvre = plan.steps.iter().map(|step| ManoeuvreTable {
             name: step.manoeuvre.name.clone(),
@@ -110,7 +110,7 @@ impl PlanFile {
 }
 
 /// The measurements that tell effects apart at rest.
-pub fn measurements(effects: impl IntoIterator<Item = usize>) -> Vec<&'static str> {
+pub fn measurements(effects: impl IntoIterator<Item = EffectId>) -> Vec<&'static str> {
     let mut all = Vec::new();
     for measurement in effects.into_iter().map(measurement) {
         if !all.contains(&measurement) {

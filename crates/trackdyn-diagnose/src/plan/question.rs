@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_model::effect::Role;
-use trackdyn_model::{CATALOGUE, effect::Stage};
+use trackdyn_model::{EffectId, effect::Stage};
 
 /// What of a diagnosis file is asked, with its places.
 #[derive(Deserialize)]
@@ -36,9 +36,9 @@ struct StatedParameter {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
     /// The one that was fitted, by its place in the catalogue.
-    pub effect: usize,
+    pub effect: EffectId,
     /// All of them, ascending.
-    pub members: Vec<usize>,
+    pub members: Vec<EffectId>,
     /// The fitted values of its parameters; typical ones where the file has none.
     pub values: Vec<f64>,
 }
@@ -60,7 +60,7 @@ impl Question {
         for missing in &file.missing {
             let members = missing.one_of.iter();
             let members = members.map(|id| place(document, "missing.one_of", id));
-            let mut members: Vec<usize> = members.collect::<Result<_, _>>()?;
+            let mut members: Vec<EffectId> = members.collect::<Result<_, _>>()?;
             let effect = place(document, "missing.effect", &missing.effect)?;
             if !members.contains(&effect) {
                 let ids: Vec<&str> =
@@ -74,7 +74,7 @@ impl Question {
             }
             members.sort_unstable();
             members.dedup();
-            let card = &CATALOGUE[effect];
+            let card = effect.card();
             let typical = |p: &trackdyn_model::effect::Parameter| p.typical;
             let mut values: Vec<f64> = card.parameters.iter().map(typical).collect();
             for StatedParameter { name, value } in &missing.parameters {
@@ -109,15 +109,15 @@ impl Question {
 }
 
 /// The place of an effect in the catalogue.
-fn place(document: &Document, key: &str, id: &Spanned<String>) -> Result<usize, DocumentError> {
-    let found = CATALOGUE.iter().position(|card| card.id == id.get_ref());
+fn place(document: &Document, key: &str, id: &Spanned<String>) -> Result<EffectId, DocumentError> {
+    let found = EffectId::of(id.get_ref());
     let expected = "an effect of the catalogue (see `trackdyn effects`)";
     found.ok_or_else(|| document.value_error(id.span(), key, expected))
 }
 
 /// What can be measured at rest where driving cannot tell an effect from another.
-pub fn measurement(effect: usize) -> &'static str {
-    match CATALOGUE[effect].stages.first() {
+pub fn measurement(effect: EffectId) -> &'static str {
+    match effect.card().stages.first() {
         None | Some(Stage::Body) => "weigh each track, front and rear (mass and its centre)",
         Some(Stage::Drive) => {
             "mark a belt and count its travel against its encoder, slowly and at a start"

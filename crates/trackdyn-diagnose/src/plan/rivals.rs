@@ -9,13 +9,13 @@ use crate::hypothesis::{Hypothesis, Unknown, active, typical, unknowns_of};
 use crate::mechanics::{Instruments, Mechanics, is_instrument};
 use crate::search::{Catalogue, Search};
 use nalgebra::Vector3;
-use trackdyn_model::{CATALOGUE, VehicleFile};
+use trackdyn_model::{EffectId, VehicleFile};
 
 /// One of the members of a class.
 #[derive(Clone)]
 pub struct Rival {
     /// Place in the catalogue.
-    pub effect: usize,
+    pub effect: EffectId,
     /// The vehicle with it.
     pub hypothesis: Hypothesis,
     /// What is free beside: constant ICRs, encoders and pose sensor, and its own parameters.
@@ -55,7 +55,7 @@ impl Rival {
         let without = self.hypothesis.without(self.effect);
         let driving = &weighed_coarsely(driving, &without);
         let vehicle = &self.hypothesis.vehicle;
-        let instruments: Vec<usize> = (0..CATALOGUE.len())
+        let instruments: Vec<EffectId> = EffectId::all()
             .filter(|effect| !question.members.contains(effect))
             .filter(|&effect| is_instrument(vehicle, &typical(effect)))
             .collect();

@@ -2,7 +2,6 @@
 
 use super::*;
 use trackdyn_core::document::Document;
-use trackdyn_model::CATALOGUE;
 
 /// The question of a diagnosis that names the first of these members, at this size.
 fn question(members: &[&str], parameters: &str) -> Vec<Question> {
@@ -24,7 +23,7 @@ fn planned(members: &[&str], parameters: &str, file: &VehicleFile) -> Plan {
     let plan = plan(&question(members, parameters), file, &Options::default(), &|_| ());
     let plan = plan.expect("a plan");
     for pair in &plan.pairs {
-        let [a, b] = pair.effects.map(|effect| CATALOGUE[effect].id);
+        let [a, b] = pair.effects.map(|effect| effect.name());
         println!("{a} | {b}: z {:.2}, menu {:.2}, {:?}", pair.z, pair.menu, pair.answer);
     }
     for step in &plan.steps {

@@ -1,11 +1,12 @@
 //! Which terms: forward selection, with elimination and exchange after every step.
 
-use crate::diagnosis::Options;
 use crate::hypothesis::Unknown;
 use crate::normal::{Normal, Prior};
+use crate::resampling::Resampling;
 use crate::significance::test;
 use crate::verdict::{Rules, Support};
 use rayon::prelude::*;
+use trackdyn_model::EffectId;
 use trackdyn_model::effect::Term;
 
 /// Terms that a law may have.
@@ -14,7 +15,7 @@ const MOST_TERMS: usize = 3;
 /// All admissible terms of a form beside a fit.
 pub(super) struct Library {
     /// The form, by its place in the catalogue.
-    pub effect: usize,
+    pub effect: EffectId,
     /// The terms.
     pub terms: Vec<Term>,
     /// Coefficients, ascending: the columns behind those of the fit.
@@ -87,7 +88,7 @@ impl Library {
     }
 
     /// What speaks for a term beside the others.
-    fn support(&self, term: usize, terms: &[usize], options: &Options) -> Support {
+    fn support(&self, term: usize, terms: &[usize], resampling: Resampling) -> Support {
         let others: Vec<usize> = terms.iter().copied().filter(|other| *other != term).collect();
         let base = self.columns(&others);
         let projected = self.normal.projected(&base, &self.priors);
@@ -99,7 +100,7 @@ impl Library {
                 self.group(term).into_iter().filter(|column| !base.contains(column)).collect()
             })
             .collect();
-        let tests = test(&projected, &groups, options.draws, options.seed);
+        let tests = test(&projected, &groups, resampling);
         let own = family.iter().position(|other| *other == term);
         let columns = own.map_or(&[][..], |own| &groups[own]);
         Support {
@@ -111,12 +112,12 @@ impl Library {
 }
 
 /// The terms that are worth it, most telling first; none where no term is.
-pub(super) fn select(library: &Library, options: &Options) -> Vec<Selected> {
+pub(super) fn select(library: &Library, resampling: Resampling) -> Vec<Selected> {
     let mut chosen = search(library);
     loop {
         let mut selected: Vec<Selected> = chosen
             .iter()
-            .map(|&term| Selected { term, support: library.support(term, &chosen, options) })
+            .map(|&term| Selected { term, support: library.support(term, &chosen, resampling) })
             .collect();
         let gain = |selected: &Selected| selected.support.ln_bayes_factor;
         selected.sort_by(|a, b| gain(b).total_cmp(&gain(a)));

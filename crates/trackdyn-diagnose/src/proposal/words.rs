@@ -110,13 +110,13 @@ mod tests {
     use super::*;
     use crate::hypothesis::Unknown;
     use crate::verdict::Support;
-    use trackdyn_model::CATALOGUE;
+    use trackdyn_model::EffectId;
 
     /// The term of a key, with these coefficients ± 0.004.
     fn proposed(key: &str, values: &[f64]) -> Proposed {
-        let form = CATALOGUE.iter().position(trackdyn_model::effect::Card::is_form);
+        let form = EffectId::all().find(|effect| effect.card().is_form());
         let effect = form.expect("a form");
-        let terms = CATALOGUE[effect].terms();
+        let terms = effect.card().terms();
         let term = terms.into_iter().find(|term| term.key == key).expect("a term");
         let coefficients = term.coefficients.iter().zip(values).map(|(&place, &value)| Interval {
             unknown: Unknown::Effect(effect, place),

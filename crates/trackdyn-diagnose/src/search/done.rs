@@ -6,6 +6,7 @@
 use super::Found;
 use crate::hypothesis::{Hypothesis, Unknown};
 use std::sync::{Mutex, PoisonError};
+use trackdyn_model::EffectId;
 
 /// All refits of a search.
 #[derive(Default)]
@@ -27,7 +28,7 @@ pub enum Step {
     /// Entries of the catalogue come in, with these sizes.
     Add(Vec<(usize, Vec<f64>)>),
     /// An effect is left out.
-    Leave(usize),
+    Leave(EffectId),
 }
 
 impl Key {

@@ -5,11 +5,12 @@ use crate::base::OFFSETS;
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of, with_friction};
 use crate::prior::measured;
+use crate::resampling::Resampling;
 use crate::search::{Found, Search};
 use std::collections::BTreeMap;
 use trackdyn_core::real;
 use trackdyn_model::effect::Symmetry;
-use trackdyn_model::{CATALOGUE, VehicleFile};
+use trackdyn_model::{EffectId, VehicleFile};
 
 /// Share of its own beyond constant ICRs below which an effect is of their class.
 const NOTHING_ELSE: f64 = 0.03;
@@ -21,12 +22,12 @@ const MOSTLY: f64 = 0.1;
 #[derive(Clone, Debug)]
 pub struct Constants {
     /// Those that move nothing else.
-    pub only: Vec<usize>,
+    pub only: Vec<EffectId>,
     /// Those that mostly do, the former among them.
-    pub mostly: Vec<usize>,
+    pub mostly: Vec<EffectId>,
     /// Those that constant ICRs may stand for: what moves nothing else, and all laws that by themselves break no
     /// symmetry but that of the sides. Where inertia acts at the centre of gravity, more is seen of these.
-    class: Vec<usize>,
+    class: Vec<EffectId>,
 }
 
 impl Constants {
@@ -51,18 +52,18 @@ impl Constants {
             }
             effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
         };
-        let only: Vec<usize> = within(NOTHING_ELSE);
-        let keeps = |effect: &usize| {
-            CATALOGUE[*effect].breaks.iter().all(|symmetry| *symmetry == Symmetry::Mirror)
+        let only: Vec<EffectId> = within(NOTHING_ELSE);
+        let keeps = |effect: &EffectId| {
+            effect.card().breaks.iter().all(|symmetry| *symmetry == Symmetry::Mirror)
         };
-        let seen: Vec<usize> = within(f64::INFINITY);
+        let seen: Vec<EffectId> = within(f64::INFINITY);
         let class =
             seen.into_iter().filter(|effect| only.contains(effect) || keeps(effect)).collect();
         Self { only, mostly: within(MOSTLY), class }
     }
 
     /// Whether an effect mostly moves constant ICRs, and breaks no symmetry that they do not.
-    pub(super) fn could_be_constant(&self, effect: usize) -> bool {
+    pub(super) fn could_be_constant(&self, effect: EffectId) -> bool {
         self.mostly.contains(&effect) && self.class.contains(&effect)
     }
 }
@@ -74,12 +75,12 @@ fn as_filed(
     best: &Found,
     constants: &Constants,
     file: &VehicleFile,
-    claimed: &[usize],
+    claimed: &[EffectId],
 ) -> (Hypothesis, Vec<Unknown>) {
     let base = &search.base.fit.hypothesis;
     let is_dropped =
-        |effect: &usize| constants.mostly.contains(effect) && !claimed.contains(effect);
-    let added: Vec<usize> = best.effects.iter().copied().filter(is_dropped).collect();
+        |effect: &EffectId| constants.mostly.contains(effect) && !claimed.contains(effect);
+    let added: Vec<EffectId> = best.effects.iter().copied().filter(is_dropped).collect();
     let without = added.iter().fold(best.fit.hypothesis.clone(), |hypothesis, &effect| {
         hypothesis.with_effect_of(base, effect)
     });
@@ -125,9 +126,8 @@ pub fn judge_constants(
     best: &Found,
     constants: &Constants,
     file: &VehicleFile,
-    claimed: &[usize],
-    draws: usize,
-    seed: u64,
+    claimed: &[EffectId],
+    resampling: Resampling,
 ) -> Option<Verdict> {
     let (filed, fixed) = as_filed(search, best, constants, file, claimed);
     let evidence = search.evidence;
@@ -143,23 +143,23 @@ pub fn judge_constants(
     let support = Support {
         ln_bayes_factor,
         z,
-        ..Support::of_columns(search, &free, &[0, 1, 2], &free.hypothesis.offset, draws, seed)
+        ..Support::of_columns(search, &free, &[0, 1, 2], &free.hypothesis.offset, resampling)
     };
     let refused = refusal(&support, 0.0).or_else(|| as_good_as_filed(&free));
     // What the owner measured can have moved within its uncertainty only: is that enough?
-    let can = |effect: &usize| {
+    let can = |effect: &EffectId| {
         if unknowns_of(*effect).all(|unknown| measured(&file.vehicle, unknown).is_none()) {
             return true;
         }
         let unknowns: Vec<Unknown> = fixed.iter().copied().chain(unknowns_of(*effect)).collect();
-        let none: Vec<f64> = CATALOGUE[*effect].parameters.iter().map(neutral).collect();
+        let none: Vec<f64> = effect.card().parameters.iter().map(neutral).collect();
         let start = filed.with_effect(active(*effect, &none));
         let fit = Fit::new(start, &unknowns, evidence, before);
         // Each unknown fewer than the three constants is worth two: chance alone gives one half.
         let fewer = OFFSETS.len().saturating_sub(unknowns_of(*effect).count());
         (fit.objective - free.objective) / 2.0 < Rules::SAME + 2.0 * real(fewer)
     };
-    let one_of: Vec<usize> = constants.class.iter().copied().filter(can).collect();
+    let one_of: Vec<EffectId> = constants.class.iter().copied().filter(can).collect();
     let effect = *one_of.first()?;
     Some(Verdict { effect, one_of, found: None, support, refused })
 }

@@ -5,11 +5,13 @@ use super::{Rules, Support, Verdict, refusal};
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, typical};
 use crate::mechanics::is_instrument;
+use crate::resampling::Resampling;
 use crate::search::{Found, Search};
 use std::cell::LazyCell;
+use trackdyn_model::EffectId;
 
 /// Judges the effects of encoders and pose sensor that are free in every hypothesis.
-pub fn judge_instruments(search: &Search, best: &Found, draws: usize, seed: u64) -> Vec<Verdict> {
+pub fn judge_instruments(search: &Search, best: &Found, resampling: Resampling) -> Vec<Verdict> {
     let filed = &search.base.as_filed.hypothesis;
     let mut verdicts = Vec::new();
     // What the form of any law leaves, be it known or named, may look like a sensor.
@@ -48,7 +50,7 @@ pub fn judge_instruments(search: &Search, best: &Found, draws: usize, seed: u64)
         let support = Support {
             ln_bayes_factor,
             z,
-            ..Support::of_columns(search, fit, &columns, &parts, draws, seed)
+            ..Support::of_columns(search, fit, &columns, &parts, resampling)
         };
         let refused = refusal(&support, *laws);
         let found = fit.hypothesis.effect(effect).cloned();
@@ -58,7 +60,7 @@ pub fn judge_instruments(search: &Search, best: &Found, draws: usize, seed: u64)
 }
 
 /// The best hypothesis with an instrument as the vehicle file has it.
-fn without_instrument(search: &Search, best: &Found, effect: usize) -> Found {
+fn without_instrument(search: &Search, best: &Found, effect: EffectId) -> Found {
     let hypothesis = best.fit.hypothesis.with_effect_of(&search.base.as_filed.hypothesis, effect);
     let unknowns = best.fit.unknowns_without(effect);
     let before = Some(&best.fit.mechanics);

@@ -5,8 +5,10 @@ use super::{Constants, Rules, Support};
 use crate::candidate::Signature;
 use crate::hypothesis::{Unknown, typical};
 use crate::mechanics::is_instrument;
+use crate::resampling::Resampling;
 use crate::search::{Found, Screened, Search};
 use std::slice;
+use trackdyn_model::EffectId;
 
 /// Effects that are named together at most because resampled recordings name now this one, now that.
 const UNSTABLE: usize = 3;
@@ -16,7 +18,7 @@ pub(super) const RIVALS: usize = 3;
 
 /// The rivals of an effect of the best hypothesis.
 pub(super) struct Rivals {
-    effect: usize,
+    effect: EffectId,
     /// The best hypothesis without it.
     pub without: Found,
     /// What refitting with it changed; none where none of its sizes is there.
@@ -25,14 +27,14 @@ pub(super) struct Rivals {
     /// Rivals that nobody asked, of which the screen says that they do as well.
     unasked: usize,
     /// The strongest of them in its place, refitted.
-    exchanged: Vec<(usize, Found)>,
+    exchanged: Vec<(EffectId, Found)>,
     /// Those of them that do as well.
-    alike: Vec<usize>,
+    alike: Vec<EffectId>,
 }
 
 impl Rivals {
     /// Puts what the screen leaves open in the place of an effect.
-    pub fn new(search: &Search, best: &Found, constants: &Constants, effect: usize) -> Self {
+    pub fn new(search: &Search, best: &Found, constants: &Constants, effect: EffectId) -> Self {
         let without = search.without(best, effect);
         let screened = search.screen(&without);
         let changed = support::change(effect, &without, best);
@@ -66,20 +68,25 @@ impl Rivals {
     }
 
     /// The effect and the rivals that were refitted, each with its hypothesis.
-    pub fn refitted<'a>(&'a self, best: &'a Found) -> impl Iterator<Item = (usize, &'a Found)> {
+    pub fn refitted<'a>(&'a self, best: &'a Found) -> impl Iterator<Item = (EffectId, &'a Found)> {
         let rivals = self.exchanged.iter().map(|(rival, found)| (*rival, found));
         std::iter::once((self.effect, best)).chain(rivals)
     }
 
     /// The effect with all that explains its part as well, ascending, and the share of resampled recordings that name one
     /// of them. What other recordings of the same robot would name instead is one answer with it.
-    pub fn answer(&self, search: &Search, best: &Found, seed: u64) -> (Vec<usize>, f64) {
-        let mut one_of: Vec<usize> =
+    pub fn answer(
+        &self,
+        search: &Search,
+        best: &Found,
+        resampling: Resampling,
+    ) -> (Vec<EffectId>, f64) {
+        let mut one_of: Vec<EffectId> =
             std::iter::once(self.effect).chain(self.alike.iter().copied()).collect();
-        let refitted: Vec<(usize, &Found)> = self.refitted(best).collect();
-        let named = support::named(search, &self.without, &self.screened, &refitted, seed);
+        let refitted: Vec<(EffectId, &Found)> = self.refitted(best).collect();
+        let named = support::named(search, &self.without, &self.screened, &refitted, resampling);
         let share =
-            |one_of: &[usize]| -> f64 { one_of.iter().filter_map(|one| named.get(one)).sum() };
+            |one_of: &[EffectId]| -> f64 { one_of.iter().filter_map(|one| named.get(one)).sum() };
         while one_of.len() < UNSTABLE && share(&one_of) < Rules::STABLE {
             let next = named.iter().filter(|(effect, _)| !one_of.contains(effect));
             let Some((&next, _)) = next.max_by(|a, b| a.1.total_cmp(b.1)) else { break };
@@ -95,9 +102,9 @@ impl Rivals {
         &self,
         search: &Search,
         best: &Found,
-        one_of: &[usize],
+        one_of: &[EffectId],
         stable: f64,
-        (draws, seed): (usize, u64),
+        resampling: Resampling,
     ) -> Support {
         let others = self.refitted(best).filter(|(effect, _)| !one_of.contains(effect));
         let strongest = others.map(|(_, found)| found.ln_evidence);
@@ -107,7 +114,7 @@ impl Rivals {
             ln_bayes_factor: best.ln_evidence - strongest,
             z: (self.without.fit.objective - best.fit.objective).max(0.0).sqrt(),
             stable,
-            ..Support::of_effect(search, &self.without, best, own, draws, seed)
+            ..Support::of_effect(search, &self.without, best, own, resampling)
         })
     }
 

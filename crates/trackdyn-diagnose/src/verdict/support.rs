@@ -5,18 +5,22 @@ use crate::candidate::{Signature, sizes};
 use crate::fit::Fit;
 use crate::hypothesis::Unknown;
 use crate::normal::{Normal, Prior};
+use crate::resampling::Resampling;
 use crate::search::{Found, Screened, Search};
 use crate::significance::test;
 use nalgebra::DVector;
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+use rand::RngExt;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::slice;
 use trackdyn_core::real;
+use trackdyn_model::EffectId;
 
 /// Draws of resampled recordings.
 const RESAMPLED: usize = 200;
+
+/// What tells the seed of resampled recordings from that of other draws.
+const RESAMPLED_SEED: u64 = 0x5eed;
 
 /// What speaks for a claim.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,8 +97,7 @@ impl Support {
         without: &Found,
         best: &Found,
         own: &Screened,
-        draws: usize,
-        seed: u64,
+        resampling: Resampling,
     ) -> Self {
         let found = change(own.effect, without, best).filter(|_| sizes(own.effect).len() == 1);
         let own_signatures = found.as_ref().map_or_else(
@@ -104,7 +107,7 @@ impl Support {
         let (normal, known, groups) = search.normal_of(&without.fit, &[own_signatures]);
         let base: Vec<usize> = (0..without.fit.columns.len()).collect();
         let projected = normal.projected(&base, &known);
-        let p = Self::chance(search, without, own.entry, own_signatures, draws, seed);
+        let p = Self::chance(search, without, own.entry, own_signatures, resampling);
         Self { p, ..Self::of_blocks(&projected, &known, &groups[0]) }
     }
 
@@ -122,8 +125,7 @@ impl Support {
         without: &Found,
         entry: usize,
         signatures: &[Signature],
-        draws: usize,
-        seed: u64,
+        resampling: Resampling,
     ) -> f64 {
         let variants = search.catalogue.entries.iter().enumerate();
         let family: Vec<(usize, &[Signature])> = variants
@@ -135,7 +137,7 @@ impl Support {
         let base: Vec<usize> = (0..without.fit.columns.len()).collect();
         let projected = normal.projected(&base, &known);
         let place = family.iter().position(|(other, _)| *other == entry);
-        place.map_or(1.0, |place| test(&projected, &groups, draws, seed)[place].p)
+        place.map_or(1.0, |place| test(&projected, &groups, resampling)[place].p)
     }
 
     /// The support of columns of a fit, asked of the residual with their part put back: `parts` are their
@@ -145,8 +147,7 @@ impl Support {
         fit: &Fit,
         columns: &[usize],
         parts: &[f64],
-        draws: usize,
-        seed: u64,
+        resampling: Resampling,
     ) -> Self {
         let mut fit = fit.clone();
         for (&column, part) in columns.iter().zip(parts) {
@@ -158,7 +159,7 @@ impl Support {
         let known: Vec<Prior> = known.iter().map(|prior| Prior { mean: 0.0, ..*prior }).collect();
         let base: Vec<usize> = (0..fit.columns.len()).filter(|k| !columns.contains(k)).collect();
         let projected = normal.projected(&base, &known);
-        let p = test(&projected, &[columns.to_vec()], draws, seed)[0].p;
+        let p = test(&projected, &[columns.to_vec()], resampling)[0].p;
         Self { p, stable: 1.0, ..Self::of_blocks(&projected, &known, columns) }
     }
 }
@@ -171,16 +172,16 @@ pub(super) fn named(
     search: &Search,
     without: &Found,
     screened: &[Screened],
-    refitted: &[(usize, &Found)],
-    seed: u64,
-) -> BTreeMap<usize, f64> {
-    let is_refitted = |effect: usize| refitted.iter().any(|(other, _)| *other == effect);
+    refitted: &[(EffectId, &Found)],
+    resampling: Resampling,
+) -> BTreeMap<EffectId, f64> {
+    let is_refitted = |effect: EffectId| refitted.iter().any(|(other, _)| *other == effect);
     let most = screened.iter().map(|one| one.gain).fold(0.0, f64::max);
     let takes_part = |one: &&Screened| one.gain > most - Rules::LN_BAYES_FACTOR;
     let screened = screened.iter().filter(takes_part).filter(|one| !is_refitted(one.effect));
     let screened =
         screened.map(|one| (one.effect, &search.catalogue.entries[one.entry].1[..], None));
-    let changes: Vec<(usize, Change, f64)> = refitted
+    let changes: Vec<(EffectId, Change, f64)> = refitted
         .iter()
         .filter_map(|(effect, found)| {
             let gain = found.ln_evidence - without.ln_evidence;
@@ -190,7 +191,7 @@ pub(super) fn named(
     let changes = changes
         .iter()
         .map(|(effect, change, gain)| (*effect, slice::from_ref(&change.signature), Some(*gain)));
-    let contenders: Vec<(usize, &[Signature], Option<f64>)> = screened.chain(changes).collect();
+    let contenders: Vec<(EffectId, &[Signature], Option<f64>)> = screened.chain(changes).collect();
     let signatures: Vec<&[Signature]> = contenders.iter().map(|(_, one, _)| *one).collect();
     let (normal, known, groups) = search.normal_of(&without.fit, &signatures);
     let base: Vec<usize> = (0..without.fit.columns.len()).collect();
@@ -204,10 +205,10 @@ pub(super) fn named(
         let beyond = gain.map_or(0.0, |gain| gain - (evidence_with(&normal, group) - before));
         (*effect, group, beyond)
     });
-    let contenders: Vec<(usize, &Vec<usize>, f64)> = contenders_beyond.collect();
-    let best_of = |draw: usize| -> Option<usize> {
-        let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x5eed);
-        random.set_stream(draw as u64);
+    let contenders: Vec<(EffectId, &Vec<usize>, f64)> = contenders_beyond.collect();
+    let resampling = Resampling { draws: RESAMPLED, seed: resampling.seed ^ RESAMPLED_SEED };
+    let best_of = |draw: usize| -> Option<EffectId> {
+        let mut random = resampling.random(draw);
         let mut times = vec![0.0; normal.blocks()];
         for _ in 0..normal.blocks() {
             times[random.random_range(0..normal.blocks())] += 1.0;
@@ -218,7 +219,7 @@ pub(super) fn named(
             .map(|(effect, group, beyond)| (effect, evidence_with(&resampled, group) + beyond));
         gains.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(effect, _)| *effect)
     };
-    let best: Vec<Option<usize>> = (0..RESAMPLED).into_par_iter().map(best_of).collect();
+    let best: Vec<Option<EffectId>> = (0..resampling.draws).into_par_iter().map(best_of).collect();
     let mut shares = BTreeMap::new();
     for effect in best.into_iter().flatten() {
         *shares.entry(effect).or_insert(0.0) += 1.0 / real(RESAMPLED);
@@ -235,7 +236,7 @@ pub(super) struct Change {
 }
 
 /// What refitting with an effect changed; none where none of its sizes is there.
-pub(super) fn change(effect: usize, without: &Found, with: &Found) -> Option<Change> {
+pub(super) fn change(effect: EffectId, without: &Found, with: &Found) -> Option<Change> {
     let unknowns = sizes(effect).into_iter().map(|place| Unknown::Effect(effect, place));
     let distance = |unknown| with.fit.hypothesis.get(unknown) - without.fit.hypothesis.get(unknown);
     let unknown = unknowns.into_iter().find(|unknown| distance(*unknown) != 0.0)?;

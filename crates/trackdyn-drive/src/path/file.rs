@@ -6,14 +6,14 @@ use std::fmt::Write;
 use trackdyn_recording::table::Table;
 
 /// Places further away than this are taken for a wrong unit, m.
-const FAR: f64 = 1e7;
+const MAX_PLACE: f64 = 1e7;
 
 impl Path {
     /// Reads a table `x,y` of points, m.
     ///
     /// # Errors
-    /// [`Error::Recording`] with line and column of a cell that is not a number, and of a point in the
-    /// place of the one before it; [`Error::TooLittle`] for fewer than two points.
+    /// [`Error::Recording`] with line and column of a cell that is not a number, and of a point in
+    /// the place of the one before it; [`Error::TooLittle`] for fewer than two points.
     pub fn read(path: &std::path::Path) -> Result<Self, Error> {
         let mut table = Table::open(path, &["x", "y"])?;
         let columns = ["x", "y"].map(|name| table.column(name).unwrap_or_default());
@@ -22,7 +22,7 @@ impl Path {
             let mut point = [0.0; 2];
             for (value, column) in point.iter_mut().zip(columns) {
                 *value = table.finite(column)?;
-                if value.abs() > FAR {
+                if value.abs() > MAX_PLACE {
                     return Err(table.cell_error(column, "at most 10000000 m").into());
                 }
             }

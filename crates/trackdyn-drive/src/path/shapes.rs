@@ -1,15 +1,11 @@
-//! Paths of simple shape.
+//! A path of simple shape.
 
 use super::Path;
 use crate::Error;
-use std::f64::consts::TAU;
-use trackdyn_core::real;
-
-/// Pieces of a whole circle: its polyline lies within R (1 − cos(π/720)), 0.01 mm for 1 m.
-const PIECES: usize = 720;
 
 impl Path {
-    /// A square from the origin along x, with corners to the left (or right), driven `laps` times, m.
+    /// A square from the origin along x, with corners to the left (or right), driven `laps` times,
+    /// m.
     ///
     /// # Errors
     /// [`Error::Option`].
@@ -19,20 +15,6 @@ impl Path {
         let corners = [[0.0, 0.0], [side, 0.0], [side, y], [0.0, y]];
         let points = corners.into_iter().cycle().take(4 * laps + 1).collect();
         Self::new(points)
-    }
-
-    /// A circle from the origin along x, to the left (or right), driven `laps` times, m.
-    ///
-    /// # Errors
-    /// [`Error::Option`].
-    pub fn circle(radius: f64, to_the_left: bool, laps: usize) -> Result<Self, Error> {
-        check("radius", radius, laps)?;
-        let side = if to_the_left { 1.0 } else { -1.0 };
-        let point = |k: usize| {
-            let (sin, cos) = (real(k) / real(PIECES) * TAU).sin_cos();
-            [radius * sin, side * radius * (1.0 - cos)]
-        };
-        Self::new((0..=laps * PIECES).map(point).collect())
     }
 }
 

@@ -1,10 +1,11 @@
 //! Manoeuvres that set each pattern of track speeds against the others.
 //!
-//! Spins, arcs with tracks of the same and of opposite sign, and straight runs, each both ways, forward
-//! and backward, and turns about either track at rest, forward, at a quarter, half, three quarters and
-//! all of the largest speed: a departure from constant ICRs shows as a difference between patterns, directions or speeds, and every manoeuvre
-//! starts and ends at rest, where inertia and delays show. The order is drawn, so that what drifts with
-//! time is not taken for one of them.
+//! Spins, arcs with tracks of the same and of opposite sign, and straight runs, each both ways,
+//! forward and backward, and turns about either track at rest, forward, at a quarter, half, three
+//! quarters and all of the largest speed: a departure from constant ICRs shows as a difference
+//! between patterns, directions or speeds, and every manoeuvre starts and ends at rest, where
+//! inertia and delays show. The order is drawn, so that what drifts with time is not taken for one
+//! of them.
 
 use super::ScheduleOptions;
 use super::ramp::Ramp;
@@ -13,9 +14,9 @@ use rand::seq::SliceRandom;
 use trackdyn_core::{PerSide, Schedule};
 
 /// Time at constant speeds, s: ten segments of 0.27 s.
-const STEADY: f64 = 2.7;
+const STEADY_DURATION: f64 = 2.7;
 /// Standing between manoeuvres, s.
-const REST: f64 = 1.2;
+const REST_DURATION: f64 = 1.2;
 /// Shares of the largest speed.
 const SPEEDS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// Track speeds (left, right) per speed of the faster one.
@@ -39,7 +40,8 @@ const PATTERNS: [(f64, f64); 14] = [
     (1.0, 0.0),
 ];
 
-/// All manoeuvres in the order of this run, again and again until the duration where one is asked for.
+/// All manoeuvres in the order of this run, again and again until the duration where one is asked
+/// for.
 pub(super) fn schedule(options: &ScheduleOptions, run: i64) -> Schedule {
     let mut manoeuvres: Vec<PerSide<f64>> = SPEEDS
         .iter()
@@ -52,11 +54,11 @@ pub(super) fn schedule(options: &ScheduleOptions, run: i64) -> Schedule {
     let mut random = stream(options.seed, run, Purpose::Order);
     manoeuvres.shuffle(&mut random);
     let mut ramp = Ramp::new(options);
-    ramp.hold(PerSide::default(), REST);
+    ramp.hold(PerSide::default(), REST_DURATION);
     loop {
         for speeds in &manoeuvres {
-            ramp.hold(*speeds, STEADY);
-            ramp.hold(PerSide::default(), REST);
+            ramp.hold(*speeds, STEADY_DURATION);
+            ramp.hold(PerSide::default(), REST_DURATION);
             if options.duration.is_some_and(|duration| ramp.time() >= duration) {
                 return ramp.finish();
             }

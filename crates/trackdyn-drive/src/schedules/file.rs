@@ -12,12 +12,13 @@ use trackdyn_recording::table::Table;
 
 const COLUMNS: [&str; 3] = ["t", "v_left", "v_right"];
 
-/// Reads a table of commands: s and m/s, forward positive. Each holds until the next; the last one of
-/// a run ends it.
+/// Reads a table of commands: s and m/s, forward positive. Each holds until the next; the last one
+/// of a run ends it.
 ///
 /// # Errors
 /// [`Error::Recording`] with line and column of a cell that is not a number, a time that does not
-/// increase within its run, or a speed above 1000 m/s; [`Error::TooLittle`] for a run with a single row.
+/// increase within its run, or a speed above 1000 m/s; [`Error::TooLittle`] for a run with a single
+/// row.
 pub fn read(path: &Path) -> Result<Vec<ScheduledRun>, Error> {
     let mut table = Table::open(path, &COLUMNS)?;
     let [time, left, right] = COLUMNS.map(|name| table.column(name).unwrap_or_default());

@@ -1,10 +1,10 @@
 //! A driver's hand on a joystick.
 //!
-//! The paper identifies from nine paths of about 20 m driven by hand and validates on two (Martinez et
-//! al. 2005, section 5.3); it does not print the speeds. Here the hand has an intention (cruise, curve,
-//! tight turn, reverse) for one and a half to four seconds, the stick follows it as two lags of a
-//! quarter second, and never rests quite: a wander of 2 % with a memory of one second. Throttle and
-//! steering mix to V_l = throttle − steer, V_r = throttle + steer.
+//! The paper identifies from nine paths of about 20 m driven by hand and validates on two (Martinez
+//! et al. 2005, section 5.3); it does not print the speeds. Here the hand has an intention (cruise,
+//! curve, tight turn, reverse) for one and a half to four seconds, the stick follows it as two lags
+//! of a quarter second, and never rests quite: a wander of 2 % with a memory of one second.
+//! Throttle and steering mix to V_l = throttle − steer, V_r = throttle + steer.
 
 use super::ScheduleOptions;
 use super::ramp::Ramp;
@@ -15,17 +15,17 @@ use std::ops::Range;
 use trackdyn_core::{PerSide, Schedule};
 
 /// Length of a path, m.
-const LENGTH: f64 = 20.0;
+const PATH_LENGTH: f64 = 20.0;
 /// Standing before and after, s.
-const REST: f64 = 1.0;
+const REST_DURATION: f64 = 1.0;
 /// Time constant of each of the two lags of the hand, s.
-const HAND: f64 = 0.25;
+const HAND_TIME_CONSTANT: f64 = 0.25;
 /// Standard deviation of the wander, per full deflection.
-const WANDER: f64 = 0.02;
+const WANDER_DEVIATION: f64 = 0.02;
 /// Memory of the wander, s.
-const MEMORY: f64 = 1.0;
+const WANDER_TIME_CONSTANT: f64 = 1.0;
 /// Time of an intention, s.
-const PATIENCE: Range<f64> = 1.5..4.0;
+const INTENTION_DURATION: Range<f64> = 1.5..4.0;
 
 /// What the driver means to do, as deflections of the stick.
 struct Intention {
@@ -47,7 +47,7 @@ const INTENTIONS: [Intention; 4] = [
 pub(super) fn schedule(options: &ScheduleOptions, run: i64) -> Schedule {
     let mut hand = Hand::new(stream(options.seed, run, Purpose::Hand), options.interval);
     let mut ramp = Ramp::new(options);
-    ramp.hold(PerSide::default(), REST);
+    ramp.hold(PerSide::default(), REST_DURATION);
     let mut length = 0.0;
     loop {
         let PerSide { left, right } = ramp.now();
@@ -57,9 +57,9 @@ pub(super) fn schedule(options: &ScheduleOptions, run: i64) -> Schedule {
         let arrived = match options.duration {
             Some(duration) => {
                 let fastest = left.abs().max(right.abs());
-                ramp.time() + fastest / options.acceleration + REST >= duration
+                ramp.time() + fastest / options.acceleration + REST_DURATION >= duration
             }
-            None => length + braking >= LENGTH,
+            None => length + braking >= PATH_LENGTH,
         };
         if arrived {
             break;
@@ -70,7 +70,7 @@ pub(super) fn schedule(options: &ScheduleOptions, run: i64) -> Schedule {
         let size = mixed.left.abs().max(mixed.right.abs()).max(1.0);
         ramp.towards(mixed.map(|deflection| options.fastest * deflection / size));
     }
-    ramp.hold(PerSide::default(), REST);
+    ramp.hold(PerSide::default(), REST_DURATION);
     ramp.finish()
 }
 
@@ -104,9 +104,9 @@ impl Hand {
         if self.left_of_intention <= 0.0 {
             self.intend();
         }
-        let follow = 1.0 - (-self.interval / HAND).exp();
-        let forget = (-self.interval / MEMORY).exp();
-        let kick = WANDER * (1.0 - forget * forget).sqrt();
+        let follow = 1.0 - (-self.interval / HAND_TIME_CONSTANT).exp();
+        let forget = (-self.interval / WANDER_TIME_CONSTANT).exp();
+        let kick = WANDER_DEVIATION * (1.0 - forget * forget).sqrt();
         std::array::from_fn(|k| {
             self.wander[k] = forget * self.wander[k] + kick * normal(&mut self.random);
             let aim = self.intended[k] + self.wander[k];
@@ -130,6 +130,6 @@ impl Hand {
             self.random.random_range(throttle.clone()),
             side * self.random.random_range(steer.clone()),
         ];
-        self.left_of_intention = self.random.random_range(PATIENCE);
+        self.left_of_intention = self.random.random_range(INTENTION_DURATION);
     }
 }

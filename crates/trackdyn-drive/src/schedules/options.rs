@@ -4,16 +4,16 @@ use crate::Error;
 use trackdyn_model::Grid;
 
 /// Most commands that a duration or a side may ask for, per run.
-const MOST_COMMANDS: f64 = 1e7;
+const MAX_COMMANDS: f64 = 1e7;
 
 /// Slowest driving, m/s: at less, 20 m take hours.
-const SLOWEST: f64 = 0.01;
+const MIN_SPEED: f64 = 0.01;
 
 /// Longest time to the largest speed, s.
-const LONGEST_START: f64 = 60.0;
+const MAX_START: f64 = 60.0;
 
 /// Most runs.
-const MOST_RUNS: usize = 10_000;
+const MAX_RUNS: usize = 10_000;
 
 /// How schedules are generated.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,8 @@ pub struct ScheduleOptions {
     pub seed: u64,
     /// Largest track speed, m/s.
     pub fastest: f64,
-    /// Time of each run, s, with a second at rest before and after a drive by hand; where absent, until the path or the plan is driven.
+    /// Time of each run, s, with a second at rest before and after a drive by hand; where absent,
+    /// until the path or the plan is driven.
     pub duration: Option<f64>,
     /// Time between commands, s.
     pub interval: f64,
@@ -59,22 +60,22 @@ impl ScheduleOptions {
     /// [`Error::Option`].
     pub fn check(&self) -> Result<(), Error> {
         let fail = |name, value: f64, expected: String| Err(Error::option(name, &value, expected));
-        if let Some(runs) = self.runs.filter(|runs| !(1..=MOST_RUNS).contains(runs)) {
-            return Err(Error::option("runs", &runs, format!("1 to {MOST_RUNS}")));
+        if let Some(runs) = self.runs.filter(|runs| !(1..=MAX_RUNS).contains(runs)) {
+            return Err(Error::option("runs", &runs, format!("1 to {MAX_RUNS}")));
         }
-        if !(self.fastest >= SLOWEST && self.fastest <= Grid::MAX_SPEED) {
-            let expected = format!("{SLOWEST} to {} m/s", Grid::MAX_SPEED);
+        if !(self.fastest >= MIN_SPEED && self.fastest <= Grid::MAX_SPEED) {
+            let expected = format!("{MIN_SPEED} to {} m/s", Grid::MAX_SPEED);
             return fail("fastest", self.fastest, expected);
         }
         if !(self.interval >= 1e-3 && self.interval <= 1.0) {
             return fail("interval", self.interval, "0.001 to 1 s between commands".to_owned());
         }
-        let longest = MOST_COMMANDS * self.interval;
+        let longest = MAX_COMMANDS * self.interval;
         let in_range = |time: &f64| *time >= self.interval && *time <= longest;
         if let Some(time) = self.duration.filter(|time| !in_range(time)) {
             return fail("duration", time, format!("{} to {longest} s", self.interval));
         }
-        let least = self.fastest / LONGEST_START;
+        let least = self.fastest / MAX_START;
         if self.acceleration.is_nan() || self.acceleration < least {
             return fail("acceleration", self.acceleration, format!("at least {least} m/s²"));
         }
@@ -94,7 +95,7 @@ impl ScheduleOptions {
                 return fail(name, value, format!("a positive length in m, at most {most}"));
             }
         }
-        let longest = MOST_COMMANDS * self.interval;
+        let longest = MAX_COMMANDS * self.interval;
         if 4.0 * self.side / self.fastest > longest {
             return fail("side", self.side, format!("a square driven within {longest} s"));
         }

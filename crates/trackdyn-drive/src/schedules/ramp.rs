@@ -53,8 +53,8 @@ impl Ramp {
         }
     }
 
-    /// From rest to rest so that the tracks run exactly these distances, m, the longer of them at most
-    /// at `fastest` (m/s).
+    /// From rest to rest so that the tracks run exactly these distances, m, the longer of them at
+    /// most at `fastest` (m/s).
     pub(super) fn travel(&mut self, distance: PerSide<f64>, fastest: f64) {
         let longest = distance.left.abs().max(distance.right.abs());
         if longest == 0.0 {

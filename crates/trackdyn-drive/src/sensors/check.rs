@@ -1,6 +1,6 @@
 //! Values that no sensor has.
 
-use super::stamps::MOST_JITTER;
+use super::stamps::MAX_JITTER;
 use super::{Dropout, Encoder, Imu, Outlier, PoseSensor, Sensors};
 
 /// A value that is not accepted.
@@ -28,7 +28,7 @@ fn interval(key: &'static str, value: f64) -> Result<(), Problem> {
 
 fn jitter(key: &'static str, value: f64, interval: f64) -> Result<(), Problem> {
     let expected = "0 to a quarter of interval_s, so that stamps keep their order";
-    holds((0.0..=MOST_JITTER * interval).contains(&value), key, value, expected)
+    holds((0.0..=MAX_JITTER * interval).contains(&value), key, value, expected)
 }
 
 /// Standard deviations, strengths and delays.

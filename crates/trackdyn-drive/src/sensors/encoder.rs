@@ -11,11 +11,11 @@ use trackdyn_recording::TrackSample;
 /// The encoders of both tracks.
 ///
 /// # Law
-/// At the moments t_k = k T the counter of a side shows n_k = ⌊S(t_k)/(α q) + φ⌋, with the belt's travel
-/// S, the tick q, and a phase φ that nobody knows, uniform in \[0, 1). The driver reports
-/// v_k = q (n_k − n_{k−1})/T. With f the fraction of a tick in a step of travel, its error has mean zero over
-/// φ and variance f (1 − f) q²/T²: on average over speeds q²/(6 T²). Errors do not add up: travel is always
-/// known to a tick.
+/// At the moments t_k = k T the counter of a side shows n_k = ⌊S(t_k)/(α q) + φ⌋, with the belt's
+/// travel S, the tick q, and a phase φ that nobody knows, uniform in \[0, 1). The driver reports
+/// v_k = q (n_k − n_{k−1})/T. With f the fraction of a tick in a step of travel, its error has mean
+/// zero over φ and variance f (1 − f) q²/T²: on average over speeds q²/(6 T²). Errors do not add
+/// up: travel is always known to a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Encoder {

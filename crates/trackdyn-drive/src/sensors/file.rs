@@ -11,7 +11,8 @@ use trackdyn_core::document::Document;
 
 const SCHEMA: &str = "trackdyn.sensors/1";
 
-/// Keys that are absent have the values of [`Sensors::default`]; without a table `[imu]` there is none.
+/// Keys that are absent have the values of [`Sensors::default`]; without a table `[imu]` there is
+/// none.
 #[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct Tables {

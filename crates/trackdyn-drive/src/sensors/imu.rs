@@ -9,14 +9,14 @@ use trackdyn_recording::ImuSample;
 /// An IMU on level ground.
 ///
 /// # Law
-/// A reading is the mean over its interval, as the filters before the sampling make it: the yaw rate
-/// (ψ_k − ψ_{k−1})/T, and the change of the sensor's velocity over the ground, v_p = v + ω × r, per T in
-/// the body's axes at the middle. That contains r ω' , ω × (ω × r) and ω × v. A bias drawn for the run and
-/// white noise are added.
+/// A reading is the mean over its interval, as the filters before the sampling make it: the yaw
+/// rate (ψ_k − ψ_{k−1})/T, and the change of the sensor's velocity over the ground, v_p = v + ω ×
+/// r, per T in the body's axes at the middle. That contains r ω' , ω × (ω × r) and ω × v. A bias
+/// drawn for the run and white noise are added.
 ///
 /// # Assumes
-/// Level ground: gravity has no part in the plane. Twists between moments are linear in time, so that
-/// a motion with steps of speed must have moments on both sides of them.
+/// Level ground: gravity has no part in the plane. Twists between moments are linear in time, so
+/// that a motion with steps of speed must have moments on both sides of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Imu {

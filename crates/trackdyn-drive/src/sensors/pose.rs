@@ -11,7 +11,7 @@ use trackdyn_core::{Pose, Trajectory};
 use trackdyn_recording::PoseSample;
 
 /// Half the width of the square in which frames of runs are laid, m.
-const FAR: f64 = 10.0;
+const MAX_FRAME_OFFSET: f64 = 10.0;
 
 /// What measures poses.
 ///
@@ -206,8 +206,8 @@ impl PoseSensor {
             PoseFrame::World => Pose::default(),
             PoseFrame::Start => first.inverse(),
             PoseFrame::Random => Pose::new(
-                random.random_range(-FAR..FAR),
-                random.random_range(-FAR..FAR),
+                random.random_range(-MAX_FRAME_OFFSET..MAX_FRAME_OFFSET),
+                random.random_range(-MAX_FRAME_OFFSET..MAX_FRAME_OFFSET),
                 random.random_range(0.0..TAU),
             ),
         }
@@ -221,8 +221,9 @@ impl PoseSensor {
     }
 }
 
-/// A sensor that fails and comes back: two states with exponential times, of which the share p and the
-/// mean absence D are given, so that it fails at the rate p/((1 − p) D) and comes back at the rate 1/D.
+/// A sensor that fails and comes back: two states with exponential times, of which the share p and
+/// the mean absence D are given, so that it fails at the rate p/((1 − p) D) and comes back at the
+/// rate 1/D.
 struct Absence {
     dropout: Dropout,
     random: ChaCha8Rng,

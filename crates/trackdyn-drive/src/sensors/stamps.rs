@@ -5,9 +5,10 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use trackdyn_core::real;
 
-/// Largest standard deviation of stamps, per interval: a uniform scatter of this one spans √12 · 0.25 =
+/// Largest standard deviation of stamps, per interval: a uniform scatter of this one spans √12 ·
+/// 0.25 =
 /// 0.87 intervals, so that stamps keep their order.
-pub(super) const MOST_JITTER: f64 = 0.25;
+pub(super) const MAX_JITTER: f64 = 0.25;
 
 /// Moments at equal intervals from the start of a motion to its end.
 ///

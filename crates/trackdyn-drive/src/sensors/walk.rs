@@ -1,9 +1,10 @@
-//! Coloured noise: an Ornstein-Uhlenbeck process, or the random walk that it is without a memory's end.
+//! Coloured noise: an Ornstein-Uhlenbeck process, or the random walk that it is without a memory's
+//! end.
 //!
 //! # Law
-//! dx = −x/τ dt + √q dW. Over a step h, x' = x e^(−h/τ) + ξ with Var ξ = q τ/2 (1 − e^(−2h/τ)), exactly
-//! (Gillespie, Phys. Rev. E 54(2), 1996, 2084-2091). With a memory τ it starts in its stationary
-//! state, Var x = q τ/2; a walk (τ = ∞, Var ξ = q h) starts at zero.
+//! dx = −x/τ dt + √q dW. Over a step h, x' = x e^(−h/τ) + ξ with Var ξ = q τ/2 (1 − e^(−2h/τ)),
+//! exactly (Gillespie, Phys. Rev. E 54(2), 1996, 2084-2091). With a memory τ it starts in its
+//! stationary state, Var x = q τ/2; a walk (τ = ∞, Var ξ = q h) starts at zero.
 
 use crate::random::normal;
 use rand_chacha::ChaCha8Rng;

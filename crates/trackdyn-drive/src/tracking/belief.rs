@@ -9,7 +9,8 @@ pub enum Estimate {
     /// Someone tells it the truth.
     #[default]
     Truth,
-    /// Dead reckoning from its encoders by its own kinematics, (7)-(9), from the true pose at the start.
+    /// Dead reckoning from its encoders by its own kinematics, (7)-(9), from the true pose at the
+    /// start.
     Odometry,
 }
 
@@ -29,8 +30,9 @@ impl<'a> Belief<'a> {
         self.pose
     }
 
-    /// Takes in the moments since the last time, that one among them, in which the encoders showed these speeds, m/s: they
-    /// sit on the sprockets, which do as they are told, whatever the belts lose to them.
+    /// Takes in the moments since the last time, that one among them, in which the encoders showed
+    /// these speeds, m/s: they sit on the sprockets, which do as they are told, whatever the belts
+    /// lose to them.
     pub(super) fn moved(&mut self, moments: &[Moment], shown: PerSide<f64>) {
         let [first, .., last] = moments else { return };
         if self.estimate == Estimate::Truth {

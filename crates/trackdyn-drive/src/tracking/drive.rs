@@ -10,7 +10,7 @@ use trackdyn_core::pose::wrap_angle;
 use trackdyn_core::{Command, PerSide, Plant, Pose, Trajectory, real};
 
 /// Time for which the tracks are held still at the end, s: what rolls on does so within it.
-const SETTLING: f64 = 0.3;
+const SETTLING_TIME: f64 = 0.3;
 
 /// What a drive depends on beside robot, path, tracker and kinematics.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,12 +27,13 @@ impl Default for DriveOptions {
     }
 }
 
-/// Drives a robot along a path in its world, from where it is. `progress` is told, at each command, the
-/// share of the path that is behind.
+/// Drives a robot along a path in its world, from where it is. `progress` is told, at each command,
+/// the share of the path that is behind.
 ///
 /// # Errors
-/// [`Error::Option`] for values that no tracker has, and for a look-ahead too short for a point that far
-/// behind the ICRs. A robot that stops or strays is no error: the [ending](Ending) says so.
+/// [`Error::Option`] for values that no tracker has, and for a look-ahead too short for a point
+/// that far behind the ICRs. A robot that stops or strays is no error: the [ending](Ending) says
+/// so.
 pub fn drive(
     plant: &mut impl Plant,
     path: &Path,
@@ -49,7 +50,8 @@ pub fn drive(
     let shortest = 2.0 * (constants.icrs.y - tracker.point[0]);
     if tracker.look_ahead <= shortest {
         let expected = format!(
-            "more than {shortest} m, twice the distance by which the tracked point lies behind the ICRs"
+            "more than {shortest} m, twice the distance by which the tracked point lies behind the \
+             ICRs"
         );
         return Err(Error::option("look-ahead", &tracker.look_ahead, expected));
     }
@@ -77,7 +79,7 @@ pub fn drive(
                 let (speeds, _) = steering.track_speeds(forward, yaw_rate);
                 (limited(speeds, tracker.belt_speed), until)
             }
-            None => (PerSide::default(), until + SETTLING),
+            None => (PerSide::default(), until + SETTLING_TIME),
         };
         if wanted.is_none() {
             ending = Some(Ending::Arrived);

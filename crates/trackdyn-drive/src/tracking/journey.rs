@@ -38,8 +38,8 @@ pub struct CrossTrack {
     pub t: f64,
     /// Way that the point has gone, m.
     pub travelled: f64,
-    /// Length along the path of the nearest place, m. Places within a look-ahead of where the tracker
-    /// is count: a path may cross itself.
+    /// Length along the path of the nearest place, m. Places within a look-ahead of where the
+    /// tracker is count: a path may cross itself.
     pub along: f64,
     /// Distance to the path, left positive, m.
     pub offset: f64,
@@ -56,7 +56,7 @@ pub struct Summary {
     pub max: f64,
     /// Distance between the end of the path and that of the drive, m.
     pub end_distance: f64,
-    /// The same between believed and true pose, m.
+    /// Distance between believed and true pose at the end of the drive, m.
     pub end_belief: f64,
     /// Way that the tracked point has gone, m.
     pub travelled: f64,

@@ -6,17 +6,17 @@ use trackdyn_core::Pose;
 use trackdyn_core::pose::wrap_angle;
 
 /// The look-ahead shrinks towards the end of a leg, down to this share.
-const SHORTEST: f64 = 0.2;
+const MIN_LOOK_AHEAD_SHARE: f64 = 0.2;
 
-/// But not below this many times the distance by which the point lags behind the pivot; twice is the
-/// limit of stability.
-const STABLE: f64 = 3.0;
+/// But not below this many times the distance by which the point lags behind the pivot; twice is
+/// the limit of stability.
+const MIN_LOOK_AHEAD_RATIO: f64 = 3.0;
 
 /// Largest tan θ/2 of a corner that is taken into account, θ = 127°: beyond it lines meet far away.
-const STEEPEST: f64 = 2.0;
+const MAX_CORNER_TANGENT: f64 = 2.0;
 
 /// What is left of a way or a turn shrinks by one part in this many per command, at the end.
-const APPROACH: f64 = 5.0;
+const APPROACH_COMMANDS: f64 = 5.0;
 
 /// Forward speed and yaw rate that are asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -112,9 +112,10 @@ impl<'a> Pursuit<'a> {
         cos * (point[0] - last[0]) + sin * (point[1] - last[1])
     }
 
-    /// How far before the end of a leg the tracked point has to stop, so that a turn on the spot by θ
-    /// brings it onto the next leg: the pivot runs beside the path by −p_y and turns where both its
-    /// lines meet, y − p_x − p_y tan θ/2 later than the point. At the end of the path nothing turns.
+    /// How far before the end of a leg the tracked point has to stop, so that a turn on the spot by
+    /// θ brings it onto the next leg: the pivot runs beside the path by −p_y and turns where both
+    /// its lines meet, y − p_x − p_y tan θ/2 later than the point. At the end of the path nothing
+    /// turns.
     fn stop_before(&self, end: f64, pivot: f64) -> f64 {
         if self.leg + 1 == self.legs.len() {
             return 0.0;
@@ -122,7 +123,7 @@ impl<'a> Pursuit<'a> {
         let [before, after] = [end.next_down(), end].map(|along| self.path.direction_at(along));
         let half = wrap_angle(after - before) / 2.0;
         let [p_x, p_y] = self.tracker.point;
-        pivot - p_x - p_y * half.tan().clamp(-STEEPEST, STEEPEST)
+        pivot - p_x - p_y * half.tan().clamp(-MAX_CORNER_TANGENT, MAX_CORNER_TANGENT)
     }
 
     /// Towards a goal, with a length remaining to the next stop.
@@ -165,7 +166,8 @@ impl<'a> Pursuit<'a> {
         let goal = self.path.leaves_circle(point, look_ahead, [self.along, end]);
         goal.unwrap_or_else(|| {
             let last = self.path.point_at(end);
-            let shortest = (SHORTEST * look_ahead).max(STABLE * lag).min(look_ahead);
+            let shortest =
+                (MIN_LOOK_AHEAD_SHARE * look_ahead).max(MIN_LOOK_AHEAD_RATIO * lag).min(look_ahead);
             let distance = crate::path::distance(point, last);
             let away = if passed > 0.0 { -distance } else { distance };
             let beyond = (shortest - away).max(0.0);
@@ -185,10 +187,10 @@ impl<'a> Pursuit<'a> {
     }
 }
 
-/// The rate at which something that is left can still be brought to a stop: √(2 a d), and for the last
-/// bit a fixed part of it per command.
+/// The rate at which something that is left can still be brought to a stop: √(2 a d), and for the
+/// last bit a fixed part of it per command.
 fn approach(left: f64, acceleration: f64, interval: f64) -> f64 {
-    (2.0 * acceleration * left).sqrt().min(left / (APPROACH * interval))
+    (2.0 * acceleration * left).sqrt().min(left / (APPROACH_COMMANDS * interval))
 }
 
 /// Where a body point is.

@@ -7,8 +7,8 @@ use trackdyn_model::kinematics::KinematicsFile;
 
 /// A kinematic model, both ways.
 pub trait Steering {
-    /// Track speeds as encoders show them, m/s, for a forward speed (m/s) and a yaw rate (rad/s), eqs
-    /// (10)-(11); and the constants that give them.
+    /// Track speeds as encoders show them, m/s, for a forward speed (m/s) and a yaw rate (rad/s),
+    /// eqs (10)-(11); and the constants that give them.
     fn track_speeds(&self, forward: f64, yaw_rate: f64) -> (PerSide<f64>, Kinematics);
 
     /// Twist in ROS axes at the track speeds that encoders show, m/s, eqs (7)-(9).

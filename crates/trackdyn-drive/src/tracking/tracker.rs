@@ -6,18 +6,18 @@ use crate::Error;
 ///
 /// # Law
 /// The body point p shall follow the path. The goal g is where the path leaves the circle of the
-/// look-ahead L around p. At a forward speed v and a yaw rate ω the body turns about (y, v/ω) in ROS axes,
-/// with y of the kinematics: the point for which |c − p| = |c − g| has
+/// look-ahead L around p. At a forward speed v and a yaw rate ω the body turns about (y, v/ω) in
+/// ROS axes, with y of the kinematics: the point for which |c − p| = |c − g| has
 ///
 /// v/ω = p_y + (L²/2 − (y − p_x) Δ_x)/Δ_y,  Δ = g − p in the axes of the body.
 ///
-/// For p between the tracks at y = 0 that is ω = v · 2 Δ_y/L², Amidi's law. With y it stays exact: on a
-/// circle p runs on the circle, though the hull points aside.
+/// For p between the tracks at y = 0 that is ω = v · 2 Δ_y/L², Amidi's law. With y it stays exact:
+/// on a circle p runs on the circle, though the hull points aside.
 ///
 /// # Assumes
-/// p lies less than half a look-ahead behind y: linearised about a straight path, with a = y − p_x and
-/// k = v/(L (L/2 − a)), offset and heading have the trace −k (L − a) and the determinant k v, and settle
-/// for L > 2 a only.
+/// p lies less than half a look-ahead behind y: linearised about a straight path, with a = y − p_x
+/// and k = v/(L (L/2 − a)), offset and heading have the trace −k (L − a) and the determinant k v,
+/// and settle for L > 2 a only.
 ///
 /// # Sources
 /// Amidi, Integrated Mobile Robot Control, CMU-RI-TR-90-17, 1990; Coulter, CMU-RI-TR-92-01, 1992.
@@ -69,7 +69,7 @@ impl Default for Tracker {
 
 impl Tracker {
     /// Farthest point of the robot that follows a path, m from the middle.
-    pub const FARTHEST: f64 = 100.0;
+    pub const MAX_POINT_DISTANCE: f64 = 100.0;
 
     /// Checks the values.
     ///
@@ -95,8 +95,8 @@ impl Tracker {
             }
         }
         for (name, value) in [("point forward", self.point[0]), ("point left", self.point[1])] {
-            if !(-Self::FARTHEST..=Self::FARTHEST).contains(&value) {
-                let expected = format!("at most {} m from the middle", Self::FARTHEST);
+            if !(-Self::MAX_POINT_DISTANCE..=Self::MAX_POINT_DISTANCE).contains(&value) {
+                let expected = format!("at most {} m from the middle", Self::MAX_POINT_DISTANCE);
                 return Err(Error::option(name, &value, expected));
             }
         }

@@ -1,17 +1,17 @@
 //! Smooth functions on a rectangle, as sums of Chebyshev polynomials.
 //!
 //! # Law
-//! A function whose waves run through Ω radians from the middle of an interval to its end is given by
-//! n polynomials up to an error of 2 (Ω/2)ⁿ/n!, the first Bessel coefficient that is left out.
+//! A function whose waves run through Ω radians from the middle of an interval to its end is given
+//! by n polynomials up to an error of 2 (Ω/2)ⁿ/n!, the first Bessel coefficient that is left out.
 //!
 //! # Sources
 //! Trefethen, Approximation Theory and Approximation Practice, 2013, chapters 3 and 8.
 
 /// Error, in sizes of the function, to which an axis has polynomials enough.
-const ERROR: f64 = 1e-14;
+const MAX_ERROR: f64 = 1e-14;
 
 /// More polynomials than this are not tried: what waves so fast is not smooth here.
-const MOST: usize = 64;
+const MAX_POLYNOMIALS: usize = 64;
 
 /// One side of the rectangle.
 #[derive(Clone, Copy, Debug)]
@@ -23,18 +23,18 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// From low to high, for functions that wave by at most `frequency` radians per unit; none where they
-    /// wave too fast.
+    /// From low to high, for functions that wave by at most `frequency` radians per unit; none
+    /// where they wave too fast.
     pub(super) fn new([low, high]: [f64; 2], frequency: f64) -> Option<Self> {
         let half = 0.5 * (high - low);
         let quarter = 0.5 * frequency * half;
         let mut term = 2.0;
-        for count in 1..=MOST {
+        for count in 1..=MAX_POLYNOMIALS {
             #[expect(clippy::cast_precision_loss, reason = "at most 64")]
             let order = count as f64;
             term *= quarter / order;
             // Past the largest term they fall faster and faster.
-            if term < ERROR && quarter < order {
+            if term < MAX_ERROR && quarter < order {
                 return Some(Self { middle: 0.5 * (low + high), half, count });
             }
         }
@@ -59,7 +59,7 @@ impl Axis {
     }
 
     /// T₀ to Tₙ₋₁ at a place between −1 and 1.
-    fn polynomials(&self, x: f64, values: &mut [f64; MOST]) {
+    fn polynomials(&self, x: f64, values: &mut [f64; MAX_POLYNOMIALS]) {
         (values[0], values[1]) = (1.0, x);
         for k in 2..self.count {
             values[k] = 2.0 * x * values[k - 1] - values[k - 2];
@@ -101,7 +101,7 @@ impl<const N: usize> Surface<N> {
     pub(super) fn new(axes: [Axis; 2], values: &[[f64; N]]) -> Self {
         let tables = axes.map(|axis| {
             let at = |k: usize| {
-                let mut polynomials = [0.0; MOST];
+                let mut polynomials = [0.0; MAX_POLYNOMIALS];
                 axis.polynomials(axis.node(k), &mut polynomials);
                 polynomials
             };
@@ -129,7 +129,7 @@ impl<const N: usize> Surface<N> {
 
     /// The functions at a place.
     pub(super) fn at(&self, [a, b]: [f64; 2]) -> [f64; N] {
-        let (mut first, mut second) = ([0.0; MOST], [0.0; MOST]);
+        let (mut first, mut second) = ([0.0; MAX_POLYNOMIALS], [0.0; MAX_POLYNOMIALS]);
         self.axes[0].polynomials(self.axes[0].place(a), &mut first);
         self.axes[1].polynomials(self.axes[1].place(b), &mut second);
         let mut sum = [0.0; N];

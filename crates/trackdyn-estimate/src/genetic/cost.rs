@@ -5,8 +5,8 @@ use crate::parameters::Parameters;
 use crate::prediction::batch::{Batch, LANES};
 use crate::prediction::{any_arc, arc};
 
-/// Cost (17) over fixed observations: the squared distance between observed and predicted positions, with
-/// yaw errors turned into distances by a lever, summed over the segments, m².
+/// Cost (17) over fixed observations: the squared distance between observed and predicted
+/// positions, with yaw errors turned into distances by a lever, summed over the segments, m².
 pub struct Cost {
     lever: f64,
     batches: Vec<Batch>,
@@ -73,9 +73,9 @@ fn cost(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::SegmentOptions;
     use crate::prediction::predict;
-    use trackdyn_recording::SegmentOptions;
-    use trackdyn_recording::synthetic::{Synthetic, random_steps};
+    use crate::synthetic::{Synthetic, random_steps};
 
     #[test]
     fn fast_cost_equals_the_plain_sum() {

@@ -1,15 +1,16 @@
 //! The cost (17) as a quadratic form.
 //!
 //! # Law
-//! With a = α_l/(x_r − x_l) and b = α_r/(x_r − x_l) the heading in a segment is ψ = b R − a L, where L and
-//! R are the distances that the tracks have run: it knows nothing of the other parameters. Forward and left
-//! motion, as a complex number, is
+//! With a = α_l/(x_r − x_l) and b = α_r/(x_r − x_l) the heading in a segment is ψ = b R − a L,
+//! where L and R are the distances that the tracks have run: it knows nothing of the other
+//! parameters. Forward and left motion, as a complex number, is
 //!
 //!   p = α_l P − (x_l + i y) E,  P = ∫ V_l e^{iψ} dt,  E = ∫ ω e^{iψ} dt = sin Ψ + i (1 − cos Ψ),
 //!
-//! with Ψ at the segment's end. The sum of |observed − p|² over the segments is therefore quadratic in α_l, x_l
-//! and y, and its seven factors are sums of waves in a and b that run through no more than 2 L and 2 R radians per
-//! unit. They are computed at a few hundred places and are known everywhere else, to rounding.
+//! with Ψ at the segment's end. The sum of |observed − p|² over the segments is therefore quadratic
+//! in α_l, x_l and y, and its seven factors are sums of waves in a and b that run through no more
+//! than 2 L and 2 R radians per unit. They are computed at a few hundred places and are known
+//! everywhere else, to rounding.
 
 use super::chebyshev::{Axis, Surface, places};
 use crate::observations::{Observation, Observations, Piece};
@@ -18,7 +19,8 @@ use crate::prediction::batch::{Batch, LANES, Lane};
 use crate::prediction::{any_arc, arc};
 use rayon::prelude::*;
 
-/// Σ|P|², Σ|E|², Re Σ ō P, Σ ō E and Σ P̄ E, with the observed position o; the last two have two parts each.
+/// Σ|P|², Σ|E|², Re Σ ō P, Σ ō E and Σ P̄ E, with the observed position o; the last two have two
+/// parts each.
 const FACTORS: usize = 7;
 
 /// The cost (17) within ranges of the parameters.
@@ -192,10 +194,10 @@ impl Yaw {
 mod tests {
     use super::super::{Cost, ranges};
     use super::*;
+    use crate::SegmentOptions;
+    use crate::synthetic::{Synthetic, random_steps};
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
-    use trackdyn_recording::SegmentOptions;
-    use trackdyn_recording::synthetic::{Synthetic, random_steps};
 
     fn observations(pose_interval: f64) -> Observations {
         let noisy = Synthetic {

@@ -3,16 +3,17 @@
 use nalgebra::{DMatrix, DVector};
 use trackdyn_core::real;
 
-/// Covariance of an estimate by leaving out each block: (B − 1)/B Σ δᵦ δᵦᵀ, with the change
-/// δᵦ = (H − Hᵦ)⁻¹ gᵦ of one Newton step without block b, whose share of the normal equations H is Hᵦ
-/// and whose score is gᵦ.
+/// Covariance of an estimate by leaving out each block: (B − 1)/B Σ δᵦ δᵦᵀ, with the change δᵦ = (H
+/// − Hᵦ)⁻¹ gᵦ of one Newton step without block b, whose share of the normal equations H is Hᵦ and
+/// whose score is gᵦ.
 ///
-/// With a robust loss H is the curvature: the second derivative of the loss, and not the weight that
-/// stands in for it in the iteration.
+/// With a robust loss H is the curvature: the second derivative of the loss, and not the weight
+/// that stands in for it in the iteration.
 ///
 /// # Sources
-/// M-estimates: Huber, Ronchetti, Robust Statistics, 2nd ed. 2009, chapter 7. The block jackknife: Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3). Unlike the plain sandwich
-/// it does not shrink where single blocks steer the estimate, as manoeuvres do.
+/// M-estimates: Huber, Ronchetti, Robust Statistics, 2nd ed. 2009, chapter 7. The block jackknife:
+/// Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3). Unlike the plain sandwich it does not
+/// shrink where single blocks steer the estimate, as manoeuvres do.
 pub fn jackknife(curvature: &DMatrix<f64>, parts: &[(DMatrix<f64>, DVector<f64>)]) -> DMatrix<f64> {
     let count = curvature.nrows();
     let scatter = parts.iter().fold(DMatrix::zeros(count, count), |sum, (part, score)| {

@@ -4,24 +4,24 @@ use super::Unknowns;
 use super::covariance::{larger_deviation, with_deviations};
 use crate::parameters::{COUNT, Parameters};
 use crate::sensor::{Nuisance, Sensor};
+use crate::{Blocks, Interval};
 use nalgebra::{DMatrix, DVector};
-use trackdyn_recording::{Blocks, Interval};
 
 /// Fitted parameters.
 #[derive(Clone, Debug)]
 pub struct Estimate {
     /// The parameters; those that are not free keep their start.
     pub parameters: Parameters,
-    /// Clock and mount of the sensor: what is not fitted is the clock offset of the observations, and no
-    /// yaw.
+    /// Clock and mount of the sensor: what is not fitted is the clock offset of the observations,
+    /// and no yaw.
     pub sensor: Sensor,
     /// What was fitted.
     pub unknowns: Unknowns,
-    /// Covariance of the unknowns, kinematic parameters first, from the scatter between blocks: it holds
-    /// where the noise model is wrong.
+    /// Covariance of the unknowns, kinematic parameters first, from the scatter between blocks: it
+    /// holds where the noise model is wrong.
     pub covariance: DMatrix<f64>,
-    /// Covariance of the unknowns if the noise model is right; by the cost (17), which has no noise, that of
-    /// independent residuals as large as they are.
+    /// Covariance of the unknowns if the noise model is right; by the cost (17), which has no
+    /// noise, that of independent residuals as large as they are.
     pub covariance_of_noise: DMatrix<f64>,
     /// The blocks behind `covariance`.
     pub blocks: Blocks,
@@ -79,11 +79,12 @@ impl Estimate {
         self.interval_along(value, &gradient)
     }
 
-    /// The interval of a function of the unknowns with this gradient, whose last zeros may be left out.
+    /// The interval of a function of the unknowns with this gradient, whose last zeros may be left
+    /// out.
     ///
-    /// Its width is the larger of two: that of the noise model, which is right where the model is, and
-    /// that of the scatter between blocks, which holds where it is not but is itself uncertain where
-    /// few manoeuvres carry the information.
+    /// Its width is the larger of two: that of the noise model, which is right where the model is,
+    /// and that of the scatter between blocks, which holds where it is not but is itself uncertain
+    /// where few manoeuvres carry the information.
     fn interval_along(&self, value: f64, gradient: &[f64]) -> Interval {
         let gradient = DVector::from_column_slice(gradient);
         let variance = |of: &DMatrix<f64>| {
@@ -94,7 +95,8 @@ impl Estimate {
         Interval::new(value, larger_deviation(variances), self.filled_blocks, self.unknowns.count())
     }
 
-    /// The covariance of the free kinematic parameters, with the standard deviations of their intervals.
+    /// The covariance of the free kinematic parameters, with the standard deviations of their
+    /// intervals.
     pub fn covariance_of_parameters(&self) -> Vec<Vec<f64>> {
         let free = self.unknowns.free.count();
         with_deviations(&self.covariance, &self.deviations()[..free])

@@ -2,35 +2,35 @@
 
 use crate::doubt::Doubt;
 use crate::least_squares::Estimate;
+use crate::noise::Noise;
 use crate::observations::Observations;
 use crate::parameters::Free;
 use crate::sensor::Nuisance;
 use faer::Mat;
 use nalgebra::{DMatrix, Matrix2, Vector2};
 use trackdyn_core::Side;
-use trackdyn_recording::noise::Noise;
 
 /// Ratio of eigenvalues below which a direction is lost in rounding.
-const LOST: f64 = 1e-13;
+const MIN_EIGENVALUE_RATIO: f64 = 1e-13;
 
 /// Standard deviation of an ICR, in gauges, beyond which it is not a number to drive with.
-const ICR_LIMIT: f64 = 0.25;
+const MAX_ICR_DEVIATION: f64 = 0.25;
 
 /// Standard deviation of α beyond which it is not a number to drive with.
-const ALPHA_LIMIT: f64 = 0.1;
+const MAX_ALPHA_DEVIATION: f64 = 0.1;
 
-/// Variance of the driving over that of the encoders' noise, at least: below, noise passes for driving and
-/// pulls the estimate by a tenth or more.
-const EXCITATION: f64 = 10.0;
+/// Variance of the driving over that of the encoders' noise, at least: below, noise passes for
+/// driving and pulls the estimate by a tenth or more.
+const MIN_EXCITATION: f64 = 10.0;
 
 /// Change of the speeds over the noise of that change, in variance, below which it is mostly noise.
-const CHANGES: f64 = 1.0;
+const MIN_CHANGE_RATIO: f64 = 1.0;
 
-/// What the driving of a recording lacks for these parameters; none where it does. `noise` is that of the
-/// recording.
+/// What the driving of a recording lacks for these parameters; none where it does. `noise` is that
+/// of the recording.
 pub fn lacks(observations: &Observations, noise: &Noise, free: Free) -> Option<Doubt> {
     let ratio = poorest_excitation(observations, noise, free);
-    (ratio < EXCITATION).then_some(match free {
+    (ratio < MIN_EXCITATION).then_some(match free {
         Free::Icrs => Doubt::NoTurning,
         Free::IcrsAndAlphas => Doubt::OneRatio,
     })
@@ -46,11 +46,11 @@ pub fn lacks_nuisance(
         Nuisance::LeverArm => Some(Doubt::LeverArm),
         Nuisance::SensorYaw => {
             let ratio = translation(observations, noise);
-            (ratio < EXCITATION).then_some(Doubt::NoTranslation)
+            (ratio < MIN_EXCITATION).then_some(Doubt::NoTranslation)
         }
         Nuisance::TimeOffset => {
             let ratio = changes(observations, noise);
-            (ratio < CHANGES).then_some(Doubt::NoChange)
+            (ratio < MIN_CHANGE_RATIO).then_some(Doubt::NoChange)
         }
     }
 }
@@ -69,8 +69,8 @@ pub fn nuisance_doubts(estimate: &Estimate) -> Vec<Doubt> {
 
 /// Variance of (V_r + V_l)/2, as far as V_r − V_l does not explain it, over that of its noise.
 ///
-/// A point of the body moves with (V_r + V_l)/2 straight ahead plus ω times a vector that the ICRs fix. ψ turns
-/// the first; what it does to the second other ICRs do too.
+/// A point of the body moves with (V_r + V_l)/2 straight ahead plus ω times a vector that the ICRs
+/// fix. ψ turns the first; what it does to the second other ICRs do too.
 fn translation(observations: &Observations, noise: &Noise) -> f64 {
     let per_second = variance_per_second(noise);
     let (mut means, mut mixed, mut differences, mut variance) = (0.0, 0.0, 0.0, 0.0);
@@ -86,7 +86,8 @@ fn translation(observations: &Observations, noise: &Noise) -> f64 {
     over_noise(means - explained, variance, means)
 }
 
-/// Variance of the change of track speeds from the beginning to the end of segments over that of their noise.
+/// Variance of the change of track speeds from the beginning to the end of segments over that of
+/// their noise.
 fn changes(observations: &Observations, noise: &Noise) -> f64 {
     let variance =
         |side: Side| noise.encoders[side].map_or(0.0, |noise| 2.0 * noise.deviation.powi(2));
@@ -103,7 +104,8 @@ fn changes(observations: &Observations, noise: &Noise) -> f64 {
     over_noise(squares, expected, speeds)
 }
 
-/// Variance of the mean of an encoder's speeds over a second, m²/s²; zero where its noise was not measured.
+/// Variance of the mean of an encoder's speeds over a second, m²/s²; zero where its noise was not
+/// measured.
 fn variance_per_second(noise: &Noise) -> f64 {
     let encoder = |side: Side| {
         noise.encoders[side].map_or(0.0, |noise| noise.deviation.powi(2) * noise.update_interval)
@@ -111,12 +113,12 @@ fn variance_per_second(noise: &Noise) -> f64 {
     f64::midpoint(encoder(Side::Left), encoder(Side::Right))
 }
 
-/// Variance of driving over that of its noise, which it holds too. Without noise, infinite, unless it is rounding of all the
-/// driving there was.
+/// Variance of driving over that of its noise, which it holds too. Without noise, infinite, unless
+/// it is rounding of all the driving there was.
 fn over_noise(driven: f64, noise: f64, all: f64) -> f64 {
     if noise > 0.0 {
         driven / noise - 1.0
-    } else if driven > LOST * all {
+    } else if driven > MIN_EIGENVALUE_RATIO * all {
         f64::INFINITY
     } else {
         0.0
@@ -133,15 +135,15 @@ pub(crate) fn too_wide(deviations: &[f64], gauge: f64) -> Vec<Doubt> {
     let deviations = deviations.iter().copied().enumerate();
     deviations
         .filter_map(|(parameter, deviation)| {
-            let limit = if parameter < 3 { ICR_LIMIT * gauge } else { ALPHA_LIMIT };
+            let limit = if parameter < 3 { MAX_ICR_DEVIATION * gauge } else { MAX_ALPHA_DEVIATION };
             let wide = deviation.is_nan() || deviation > limit;
             wide.then_some(Doubt::Wide { parameter, deviation, limit })
         })
         .collect()
 }
 
-/// Variance of the driving over that of the encoders' noise: of V_r − V_l for the ICRs alone; with α, in the
-/// direction of the (V_l, V_r) plane in which the recording drives least.
+/// Variance of the driving over that of the encoders' noise: of V_r − V_l for the ICRs alone; with
+/// α, in the direction of the (V_l, V_r) plane in which the recording drives least.
 fn poorest_excitation(observations: &Observations, noise: &Noise, free: Free) -> f64 {
     let per_second = variance_per_second(noise);
     let mut moments = Matrix2::zeros();
@@ -178,7 +180,9 @@ pub(crate) fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let largest = (0..count).map(|k| values[k]).fold(0.0, f64::max);
     DMatrix::from_fn(count, count, |i, k| {
         let sum: f64 = (0..count)
-            .map(|m| vectors[(i, m)] * vectors[(k, m)] / values[m].max(LOST * largest))
+            .map(|m| {
+                vectors[(i, m)] * vectors[(k, m)] / values[m].max(MIN_EIGENVALUE_RATIO * largest)
+            })
             .sum();
         sum * scale[i] * scale[k]
     })

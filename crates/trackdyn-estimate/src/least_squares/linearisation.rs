@@ -1,4 +1,5 @@
-//! Whitened residuals and their derivatives at a point, and the sums that least squares needs of them.
+//! Whitened residuals and their derivatives at a point, and the sums that least squares needs of
+//! them.
 
 use super::covariance::jackknife;
 use super::identifiability::inverse;
@@ -12,7 +13,7 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use std::ops::Range;
 
 /// Unknowns that there can be.
-const MOST: usize = COUNT + Nuisance::ALL.len();
+const MAX_UNKNOWNS: usize = COUNT + Nuisance::ALL.len();
 
 /// Where the iteration stands.
 #[derive(Clone, Copy)]
@@ -124,8 +125,8 @@ impl Linearisation {
     /// What a range of segments adds to Jᵀ W J and Jᵀ W r.
     fn part(&self, range: Range<usize>, weights: &[Vector3<f64>]) -> (DMatrix<f64>, DVector<f64>) {
         let count = self.columns.len();
-        let mut sums = [[0.0; MOST]; MOST];
-        let mut scores = [0.0; MOST];
+        let mut sums = [[0.0; MAX_UNKNOWNS]; MAX_UNKNOWNS];
+        let mut scores = [0.0; MAX_UNKNOWNS];
         for k in range {
             let (weight, residual) = (weights[k], self.residuals[k]);
             for (i, first) in self.columns.iter().enumerate() {

@@ -9,7 +9,8 @@ pub use path::{Path, PathErrors};
 pub use span::{SetErrors, SpanErrors};
 
 use crate::odometry::{Error, ParameterSet, Span, Stretch, replay, stretch};
-use trackdyn_recording::{Blocks, Recording, SegmentOptions};
+use crate::{Blocks, SegmentOptions};
+use trackdyn_recording::Recording;
 
 /// The replays of runs with several parameter sets, and their errors.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,11 +73,11 @@ impl Comparison {
         self.spans.iter().find(|errors| errors.span == span)
     }
 
-    /// The spans that show growth, from segments on: distances, or durations where runs are too short
-    /// for two distances with [`Comparison::ENOUGH`] stretches.
+    /// The spans that show growth, from segments on: distances, or durations where runs are too
+    /// short for two distances with [`Comparison::MIN_STRETCHES`] stretches.
     pub fn growth(&self) -> Vec<&SpanErrors> {
         let of = |is: fn(&Span) -> bool| -> Vec<&SpanErrors> {
-            let often = |errors: &&SpanErrors| errors.count >= Self::ENOUGH;
+            let often = |errors: &&SpanErrors| errors.count >= Self::MIN_STRETCHES;
             self.spans.iter().filter(|errors| is(&errors.span)).filter(often).collect()
         };
         let distances = of(|span| matches!(span, Span::Segment | Span::Distance(_)));
@@ -90,7 +91,7 @@ impl Comparison {
     }
 
     /// Stretches that make a statistic worth showing.
-    pub const ENOUGH: usize = 20;
+    pub const MIN_STRETCHES: usize = 20;
 
     /// Time that was replayed, s.
     pub fn duration(&self) -> f64 {

@@ -1,16 +1,17 @@
-//! Statistics of sums over blocks of a recording, with the intervals that leaving out one block each gives ([`Interval`]).
+//! Statistics of sums over blocks of a recording, with the intervals that leaving out one block
+//! each gives ([`Interval`]).
 
-use trackdyn_recording::Interval;
+use crate::Interval;
 
 /// Fewer blocks have no interval.
-pub const FEWEST: usize = 5;
+pub const MIN_BLOCKS: usize = 5;
 
 /// A number with its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The number over all blocks.
     pub value: f64,
-    /// Half the width of the interval; none where there are fewer than [`FEWEST`] blocks.
+    /// Half the width of the interval; none where there are fewer than [`MIN_BLOCKS`] blocks.
     pub half_width: Option<f64>,
     /// Whether it is a size, never below zero.
     pub is_size: bool,
@@ -37,7 +38,7 @@ pub(crate) fn estimate<const N: usize>(
         blocks.iter().fold([0.0; N], |total, block| std::array::from_fn(|k| total[k] + block[k]));
     let value = statistic(&total);
     let count = blocks.len();
-    if count < FEWEST {
+    if count < MIN_BLOCKS {
         return Estimate { value, half_width: None, is_size: false };
     }
     let without: Vec<f64> = blocks
@@ -50,7 +51,7 @@ pub(crate) fn estimate<const N: usize>(
     Estimate { value, half_width, is_size: false }
 }
 
-/// The same of a statistic that is never below zero.
+/// The estimate of a statistic that is never below zero.
 pub(crate) fn size<const N: usize>(
     blocks: &[Sums<N>],
     statistic: impl Fn(&Sums<N>) -> f64,

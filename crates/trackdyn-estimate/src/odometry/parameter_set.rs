@@ -37,7 +37,7 @@ impl ParameterSet {
         Self { name: name.into(), parameters: Parameters::File(Box::new(file.clone())) }
     }
 
-    /// The same ICRs with the speeds as measured, α = 1; none where they are so already.
+    /// The set with its ICRs and α = 1; none where α is 1 already.
     pub fn without_alpha(&self) -> Option<Self> {
         let ones = PerSide::new(1.0, 1.0);
         if self.kinematics().alpha == ones {

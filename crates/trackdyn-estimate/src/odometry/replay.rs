@@ -17,15 +17,15 @@ pub struct DeadReckoning {
 }
 
 /// Slack for the rounding of stamps, s.
-const ROUNDING: f64 = 1e-9;
+const STAMP_ROUNDING: f64 = 1e-9;
 
 /// Indices of the poses whose motion the readings of the tracks cover: a reading holds until the
 /// next one, and the last one was measured until its stamp only.
 pub(crate) fn covered(run: &Run, tau: f64) -> Range<usize> {
     let (tracks, poses) = (run.tracks(), run.poses());
     let [first, .., last] = tracks else { return 0..0 };
-    let from = poses.partition_point(|pose| pose.t - tau < first.t - ROUNDING);
-    let until = poses.partition_point(|pose| pose.t - tau <= last.t + ROUNDING);
+    let from = poses.partition_point(|pose| pose.t - tau < first.t - STAMP_ROUNDING);
+    let until = poses.partition_point(|pose| pose.t - tau <= last.t + STAMP_ROUNDING);
     from..until.max(from)
 }
 
@@ -64,9 +64,9 @@ pub fn replay(run: &Run, set: &ParameterSet, tau: f64) -> Result<DeadReckoning, 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::synthetic::{ConstantIcr, Stretch, Synthetic};
     use trackdyn_core::PerSide;
     use trackdyn_recording::Recording;
-    use trackdyn_recording::synthetic::{ConstantIcr, Stretch, Synthetic};
 
     fn recording(speeds: PerSide<f64>, tau: f64) -> Recording {
         let kinematics =

@@ -1,7 +1,8 @@
 //! Pieces of a run over which motion is compared.
 
+use crate::{Segment, SegmentOptions, segments};
 use trackdyn_core::Pose;
-use trackdyn_recording::{Recording, Segment, SegmentOptions, hold, segments};
+use trackdyn_recording::{Recording, hold};
 
 /// How long a piece is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,11 +38,11 @@ impl Span {
 
     fn is_reached(self, distance: f64, duration: f64) -> bool {
         // Rounding must not lengthen a piece by a segment.
-        const SLACK: f64 = 1.0 - 1e-9;
+        const ROUNDING_SLACK: f64 = 1.0 - 1e-9;
         match self {
             Self::Segment => true,
-            Self::Distance(length) => distance >= length * SLACK,
-            Self::Duration(length) => duration >= length * SLACK,
+            Self::Distance(length) => distance >= length * ROUNDING_SLACK,
+            Self::Duration(length) => duration >= length * ROUNDING_SLACK,
         }
     }
 }
@@ -128,8 +129,8 @@ pub fn joined(segments: &[Stretch], span: Span) -> Vec<Stretch> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::synthetic::{Stretch as Drive, Synthetic};
     use trackdyn_core::PerSide;
-    use trackdyn_recording::synthetic::{Stretch as Drive, Synthetic};
 
     fn pieces(span: Span) -> Vec<Stretch> {
         let drive = |left, right| Drive { duration: 6.0, speeds: PerSide::new(left, right) };

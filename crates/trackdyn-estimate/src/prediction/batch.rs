@@ -1,6 +1,6 @@
 //! Segments side by side, for the compiler to put into vector registers.
 
-use super::series::REACH;
+use super::series::MAX_SERIES_ANGLE;
 use crate::observations::{Observations, Piece};
 
 /// Segments that are computed side by side.
@@ -9,8 +9,8 @@ pub const LANES: usize = 4;
 /// One number per segment of a batch.
 pub type Lane = [f64; LANES];
 
-/// Segments side by side. Shorter ones are filled up with pieces in which nothing moves, and so are the places in the last
-/// batch that no segment takes.
+/// Segments side by side. Shorter ones are filled up with pieces in which nothing moves, and so are
+/// the places in the last batch that no segment takes.
 pub struct Batch {
     /// Distances that the left and the right track run in each piece, m.
     pub pieces: Vec<[Lane; 2]>,
@@ -46,9 +46,10 @@ impl Batch {
         batches.collect()
     }
 
-    /// Whether no piece turns by more than the series of an arc reach where the tracks turn the robot by these angles
-    /// per metre, rad/m. Readings of fast robots at less than one a second may.
+    /// Whether no piece turns by more than the series of an arc reach where the tracks turn the
+    /// robot by these angles per metre, rad/m. Readings of fast robots at less than one a second
+    /// may.
     pub fn is_within_series(&self, [left, right]: [f64; 2]) -> bool {
-        left.abs() * self.longest[0] + right.abs() * self.longest[1] <= REACH
+        left.abs() * self.longest[0] + right.abs() * self.longest[1] <= MAX_SERIES_ANGLE
     }
 }

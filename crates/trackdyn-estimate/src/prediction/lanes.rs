@@ -1,13 +1,13 @@
 //! Predictions and derivatives of many segments, side by side.
 //!
 //! # Law
-//! With a = α_l/(x_r − x_l), b = α_r/(x_r − x_l) and the distances L and R that the tracks have run, the
-//! heading is ψ = b R − a L. Forward and left motion, as a complex number, is
+//! With a = α_l/(x_r − x_l), b = α_r/(x_r − x_l) and the distances L and R that the tracks have
+//! run, the heading is ψ = b R − a L. Forward and left motion, as a complex number, is
 //!
 //!   p = α_l P − (x_l + i y) E,  P = ∫ V_l e^{iψ} dt,  E = ∫ ω e^{iψ} dt = sin Ψ + i (1 − cos Ψ),
 //!
-//! so that ∂P/∂a = −i ∫ V_l L e^{iψ} dt and ∂P/∂b = i ∫ V_l R e^{iψ} dt are all that pieces are needed for;
-//! the derivatives by the parameters follow once per segment.
+//! so that ∂P/∂a = −i ∫ V_l L e^{iψ} dt and ∂P/∂b = i ∫ V_l R e^{iψ} dt are all that pieces are
+//! needed for; the derivatives by the parameters follow once per segment.
 
 use super::batch::{Batch, LANES};
 use super::series::{arc, moment};
@@ -17,10 +17,10 @@ use crate::parameters::{COUNT, Parameters};
 use rayon::prelude::*;
 
 /// Batches that one thread takes at least: fewer cost more to hand over than to compute.
-const FEWEST: usize = 64;
+const MIN_BATCHES_PER_THREAD: usize = 64;
 
 /// Angle of a piece, rad, up to which the series are exact to rounding.
-const SERIES: f64 = 0.8;
+const MAX_EXACT_ANGLE: f64 = 0.8;
 
 /// The segments of a recording, to be predicted again and again.
 pub struct Lanes<'a> {
@@ -45,7 +45,7 @@ impl<'a> Lanes<'a> {
             .batches
             .par_iter()
             .zip(self.observations.segments().par_chunks(LANES))
-            .with_min_len(FEWEST)
+            .with_min_len(MIN_BATCHES_PER_THREAD)
             .map(|(batch, segments)| predicted(batch, segments, parameters, self.observations))
             .collect();
         let mut predictions = batches.into_flattened();
@@ -93,7 +93,7 @@ fn predicted(
             sin[lane] = im * cos_a + re * sin_a;
         }
     }
-    if steepest.iter().any(|angle| *angle > SERIES) {
+    if steepest.iter().any(|angle| *angle > MAX_EXACT_ANGLE) {
         return std::array::from_fn(|lane| {
             let segment = segments.get(lane);
             predict(parameters, segment.map_or(&[], |s| observations.pieces(s)))
@@ -127,8 +127,8 @@ fn predicted(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use trackdyn_recording::SegmentOptions;
-    use trackdyn_recording::synthetic::{Synthetic, random_steps};
+    use crate::SegmentOptions;
+    use crate::synthetic::{Synthetic, random_steps};
 
     #[test]
     fn lanes_are_the_single_segments() {

@@ -1,8 +1,8 @@
-//! Integrals along an arc by their series: the same on every machine, which the system's sines need not be,
-//! and for the compiler to put side by side.
+//! Integrals along an arc by their series: the same on every machine, which the system's sines need
+//! not be, and for the compiler to put side by side.
 
 /// Angle, rad, up to which [`arc`] is exact to 1e-10.
-pub(crate) const REACH: f64 = 2.0;
+pub(crate) const MAX_SERIES_ANGLE: f64 = 2.0;
 
 /// sin a/a and (1 − cos a)/a by their series, to rounding up to a = 0.8 and to 1e-10 up to a = 2.
 #[inline]
@@ -28,9 +28,10 @@ pub(crate) fn arc(a: f64) -> (f64, f64) {
     (s, c)
 }
 
-/// The same of any angle, to 1e-10 for each 2 rad: sin 2h = 2 sin h cos h and 1 − cos 2h = 2 sin² h.
+/// What [`arc`] gives, for any angle and to 1e-10 for each 2 rad: the angle is halved, with
+/// sin 2h = 2 sin h cos h and 1 − cos 2h = 2 sin² h.
 pub(crate) fn any_arc(a: f64) -> (f64, f64) {
-    if a.abs() <= REACH {
+    if a.abs() <= MAX_SERIES_ANGLE {
         return arc(a);
     }
     let h = 0.5 * a;
@@ -85,7 +86,8 @@ mod tests {
             let pairs = [
                 (s, a.sin() / a),
                 (c, 2.0 * (0.5 * a).sin().powi(2) / a),
-                // ∫ u e^{iau} du = (e^{ia} − ∫ e^{iau} du)/(ia): a difference of near numbers, hence the a
+                // ∫ u e^{iau} du = (e^{ia} − ∫ e^{iau} du)/(ia): a difference of near numbers,
+                // hence the a
                 (a * real, a.sin() - c),
                 (a * imaginary, s - a.cos()),
             ];

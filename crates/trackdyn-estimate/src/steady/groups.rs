@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use trackdyn_recording::OperatingPoint;
 
 /// Groups beyond the parameters below which a jackknife says nothing.
-const SPARE: usize = 5;
+const MIN_SPARE_GROUPS: usize = 5;
 
 /// Points that are left out together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +71,7 @@ pub(super) fn widest(
     };
     let others = Grouping::ALL[1..].iter().map(|grouping| of(*grouping));
     let wider = others
-        .filter(|(_, count, _)| *count >= parameters + SPARE)
+        .filter(|(_, count, _)| *count >= parameters + MIN_SPARE_GROUPS)
         .max_by(|a, b| width(&a.2).total_cmp(&width(&b.2)))
         .filter(|(_, _, covariance)| width(covariance) > width(&single.2));
     wider.unwrap_or(single)

@@ -1,20 +1,21 @@
 //! Points that turn less than others that are driven less.
 //!
 //! # Law
-//! Whatever the ICRs are, more speed on the outer track and less on the inner one does not turn a robot
-//! more slowly. A point that turns more slowly than one that is so driven less has a track that did not run
-//! as fast as its speed says: a motor that saturates or stalls, or a belt that slips on its sprocket.
+//! Whatever the ICRs are, more speed on the outer track and less on the inner one does not turn a
+//! robot more slowly. A point that turns more slowly than one that is so driven less has a track
+//! that did not run as fast as its speed says: a motor that saturates or stalls, or a belt that
+//! slips on its sprocket.
 //!
 //! # Assumes
-//! The scatter of yaw rates, found without a model: of each point between its neighbours on a line of
-//! constant track speed, against the straight line through these.
+//! The scatter of yaw rates, found without a model: of each point between its neighbours on a line
+//! of constant track speed, against the straight line through these.
 
+use crate::noise::scatter;
 use trackdyn_recording::OperatingPoint;
-use trackdyn_recording::operating_points::scatter;
 
-/// A shortfall of this many standard deviations is none of chance: of a hundred thousand pairs of points
-/// one exceeds 4.4, and the worst of many pairs is what is looked at.
-const CERTAIN: f64 = 5.0;
+/// A shortfall of this many standard deviations is none of chance: of a hundred thousand pairs of
+/// points one exceeds 4.4, and the worst of many pairs is what is looked at.
+const MIN_SHORTFALL: f64 = 5.0;
 
 /// A point that lags.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,11 +26,12 @@ pub struct Lagging {
     pub than: usize,
     /// By how much that one turns faster, rad/s.
     pub shortfall: f64,
-    /// The same in standard deviations of a difference.
+    /// The shortfall in standard deviations of a difference.
     pub certainty: f64,
 }
 
-/// The points that lag, in their order; none where the table does not show the scatter of yaw rates.
+/// The points that lag, in their order; none where the table does not show the scatter of yaw
+/// rates.
 pub fn lagging(points: &[OperatingPoint]) -> Vec<Lagging> {
     let turning: Vec<(usize, &OperatingPoint, f64)> = points
         .iter()
@@ -49,7 +51,7 @@ pub fn lagging(points: &[OperatingPoint]) -> Vec<Lagging> {
         let Some(&(than, _, other_rate)) = fastest else { continue };
         let shortfall = sense * (other_rate - rate);
         let certainty = shortfall / (scatter * std::f64::consts::SQRT_2);
-        if point.v_right != point.v_left && certainty > CERTAIN {
+        if point.v_right != point.v_left && certainty > MIN_SHORTFALL {
             found.push(Lagging { point: index, than, shortfall, certainty });
         }
     }

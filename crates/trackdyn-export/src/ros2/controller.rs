@@ -16,8 +16,10 @@ pub(super) fn parameters(
     let (icr, odom, base) = (frames.icr(), frames.odom(), frames.base());
     let notes = format!(
         "Parameters of ros2_control's diff_drive_controller for a tracked robot.\n\
-         {icr} is the point midway between the ICRs of the tracks, at which the robot moves as an ideal\n\
-         differential drive; icr_frame.launch.py (or the URDF of `trackdyn export urdf-frames`) ties it\n\
+         {icr} is the point midway between the ICRs of the tracks, at which the robot moves as an \
+         ideal\n\
+         differential drive; icr_frame.launch.py (or the URDF of `trackdyn export urdf-frames`) \
+         ties it\n\
          to {base}. Commands and odometry are those of {icr}.\n"
     );
     let left = list(&wheels.left);
@@ -59,10 +61,11 @@ pub(super) fn parameters(
     TextFile { name: "diff_drive_controller.yaml", text }
 }
 
-const NO_COVARIANCES: &str =
-    "    # pose_covariance_diagonal and twist_covariance_diagonal keep the defaults of the controller: no
-    # residuals were given (--residuals). The defaults are zeros; set them before a filter reads them.
-";
+const NO_COVARIANCES: &str = concat!(
+    "    # pose_covariance_diagonal and twist_covariance_diagonal keep the defaults of the ",
+    "controller: no\n    # residuals were given (--residuals). The defaults are zeros; set them ",
+    "before a filter reads them.\n",
+);
 
 /// The rate and both diagonals, with where they come from.
 fn covariances(drive: &EquivalentDrive, icr: &Name, published: &Published) -> String {
@@ -84,11 +87,11 @@ fn covariances(drive: &EquivalentDrive, icr: &Name, published: &Published) -> St
 
     # Hz; the variance of the twist goes with it
     publish_rate: {rate}
-    # (m/s)^2, (rad/s)^2: residual^2 * rate / time, over {pieces} pieces of {duration:.2} s. y is the slip
-    # aside of {icr}, which the controller reports as 0.
+    # (m/s)^2, (rad/s)^2: residual^2 * rate / time, over {pieces} pieces of {duration:.2} s. y is \
+         the slip\n    # aside of {icr}, which the controller reports as 0.
     twist_covariance_diagonal: {twist}
-    # m^2, rad^2: at the end of a drive of {distance:.1} m (mean of {runs} runs); less before, more after.
-    # Let a filter fuse the twist and not the pose.
+    # m^2, rad^2: at the end of a drive of {distance:.1} m (mean of {runs} runs); less before, \
+         more after.\n    # Let a filter fuse the twist and not the pose.
     pose_covariance_diagonal: {pose}
 "
     )

@@ -14,8 +14,10 @@ pub(super) fn launch_file(
     let (x, y) = (metres(pose.x), metres(pose.y));
     let notes = format!(
         "Static transform {icr} -> {base}, in m.\n\
-         {icr} is the parent: the controller publishes {odom} -> {icr}, and a frame has one parent.\n\
-         {base} must be the root of the robot's URDF, and nothing else may publish {odom} -> {base}.\n"
+         {icr} is the parent: the controller publishes {odom} -> {icr}, and a frame has one \
+         parent.\n\
+         {base} must be the root of the robot's URDF, and nothing else may publish {odom} -> \
+         {base}.\n"
     );
     let body = format!(
         "

@@ -23,22 +23,23 @@ use trackdyn_core::{Scalar, Wrench};
 
 /// Distance to the ICR, in half diagonals of the patch, up to which the closed form is used.
 ///
-/// The sum over the edges loses digits with the distance, while the Gauss rule of the far field gains
-/// them as the integrand turns smooth: at this distance both are exact to rounding.
-const REACH: f64 = 6.0;
+/// The sum over the edges loses digits with the distance, while the Gauss rule of the far field
+/// gains them as the integrand turns smooth: at this distance both are exact to rounding.
+const MAX_DISTANCE: f64 = 6.0;
 
-/// The same where half the digits are enough, which the closed form keeps farther out, at a half to a quarter of the cost.
-const REACH_COARSE: f64 = 50.0;
+/// Distance to the ICR, in half diagonals of the patch, up to which the closed form is used where
+/// half the digits are enough. It keeps these farther out, at a half to a quarter of the cost.
+const MAX_COARSE_DISTANCE: f64 = 50.0;
 
 /// Whether the closed form keeps its digits for this patch and slip.
 #[inline]
 pub fn applies<S: Scalar>(patch: &Patch, slip: &SlipField<S>, resolution: Resolution) -> bool {
-    let reach = if resolution == Resolution::Fine { REACH } else { REACH_COARSE };
+    let reach = if resolution == Resolution::Fine { MAX_DISTANCE } else { MAX_COARSE_DISTANCE };
     distance_squared(patch, slip) < reach * reach
 }
 
-/// Squared distance from the centre of the patch to the ICR, in half diagonals of the patch; infinite where
-/// the field does not rotate.
+/// Squared distance from the centre of the patch to the ICR, in half diagonals of the patch;
+/// infinite where the field does not rotate.
 #[inline]
 pub fn distance_squared<S: Scalar>(patch: &Patch, slip: &SlipField<S>) -> f64 {
     let [x, y] = patch.centre();

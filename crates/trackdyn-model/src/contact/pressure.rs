@@ -69,8 +69,8 @@ impl Footprint {
         }
     }
 
-    /// Rearmost and foremost centre of pressure (y, m) at which the pressure is positive everywhere;
-    /// ±l/6 for one track.
+    /// Rearmost and foremost centre of pressure (y, m) at which the pressure is positive
+    /// everywhere; ±l/6 for one track.
     pub fn support(&self) -> [f64; 2] {
         // 1 + (y_p − ȳ)(y_end − ȳ)/ρ² = 0 at the opposite end
         let [rear, front] = self.ends;
@@ -88,7 +88,8 @@ impl Footprint {
         Pressure { at_origin: mean - gradient * self.centroid, gradient }
     }
 
-    /// The centre of pressure (y, m) of a `normal_load` (N) that bears on the ground with this pressure.
+    /// The centre of pressure (y, m) of a `normal_load` (N) that bears on the ground with this
+    /// pressure.
     pub fn centre_of_pressure(&self, normal_load: f64, pressure: &Pressure) -> f64 {
         // y_p = ȳ + ρ² A p′/N
         self.centroid + self.gyration_squared * self.area * pressure.gradient / normal_load

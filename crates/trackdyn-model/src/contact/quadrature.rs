@@ -25,8 +25,8 @@ impl Rule {
         Self { across: nodes(across), along: nodes(along) }
     }
 
-    /// The rule with nodes along that crowd towards both ends of a panel, u → (3u − u³)/2: what builds up from where a
-    /// point enters the contact is steep there.
+    /// The rule with nodes along that crowd towards both ends of a panel, u → (3u − u³)/2: what
+    /// builds up from where a point enters the contact is steep there.
     fn graded(across: usize, along: usize) -> Self {
         let mut rule = Self::new(across, along);
         for (node, weight) in &mut rule.along {
@@ -37,31 +37,34 @@ impl Rule {
     }
 }
 
-/// Distances of the ICR, in half diagonals of the patch, from which on n nodes each way suffice. Pressure and
-/// lever are linear along the track, so the error falls as (2 d)^(2−2n): 10⁻¹⁶ at these, but for the last,
-/// whose ICRs begin where the closed form ends.
-const FAR: [(f64, usize); 6] = [(5000.0, 3), (232.0, 4), (50.0, 5), (20.0, 6), (10.8, 7), (0.0, 8)];
+/// Distances of the ICR, in half diagonals of the patch, from which on n nodes each way suffice.
+/// Pressure and lever are linear along the track, so the error falls as (2 d)^(2−2n): 10⁻¹⁶ at
+/// these, but for the last, whose ICRs begin where the closed form ends.
+const NODES_BY_DISTANCE: [(f64, usize); 6] =
+    [(5000.0, 3), (232.0, 4), (50.0, 5), (20.0, 6), (10.8, 7), (0.0, 8)];
 
-/// The rules of [`FAR`].
-static FAR_FIELD: LazyLock<[Rule; FAR.len()]> = LazyLock::new(|| FAR.map(|(_, n)| Rule::new(n, n)));
+/// The rules of [`NODES_BY_DISTANCE`].
+static FAR_FIELD: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
+    LazyLock::new(|| NODES_BY_DISTANCE.map(|(_, n)| Rule::new(n, n)));
 
-/// The same to half the digits, 10⁻⁸: the exponent 2n − 2 is halved.
-static FAR_FIELD_COARSE: LazyLock<[Rule; FAR.len()]> =
-    LazyLock::new(|| FAR.map(|(_, n)| n / 2 + 1).map(|n| Rule::new(n, n)));
+/// The rules for half the digits, 10⁻⁸: the exponent 2n − 2 is halved.
+static FAR_FIELD_COARSE: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
+    LazyLock::new(|| NODES_BY_DISTANCE.map(|(_, n)| n / 2 + 1).map(|n| Rule::new(n, n)));
 
 /// Resolves a shear stress that builds up over a percent of the track's length.
 static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(8, 24));
 
-/// Resolves it to a thousandth of what it changes where it builds up over a few percent, in a quarter of the time.
+/// Resolves it to a thousandth of what it changes where it builds up over a few percent, in a
+/// quarter of the time.
 static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(4, 12));
 
-/// The same for a patch that is hardly longer than wide.
+/// [`COARSE`] for a patch that is hardly longer than wide.
 static COARSE_SHORT: LazyLock<Rule> = LazyLock::new(|| Rule::graded(6, 8));
 
 /// Resolves what a law changes to some hundredths of it, in an eighth of that time again.
 static ROUGH: LazyLock<Rule> = LazyLock::new(|| Rule::graded(1, 5));
 
-/// The same for a patch that is hardly longer than wide.
+/// [`ROUGH`] for a patch that is hardly longer than wide.
 static ROUGH_SHORT: LazyLock<Rule> = LazyLock::new(|| Rule::graded(2, 3));
 
 /// How finely the shear stress is integrated.
@@ -70,9 +73,11 @@ pub enum Resolution {
     /// The base law to all digits, and what other laws change to all that their kinks allow.
     #[default]
     Fine,
-    /// The base law to eight digits, and what others change to a thousandth: for comparing with noisy data.
+    /// The base law to eight digits, and what others change to a thousandth: for comparing with
+    /// noisy data.
     Coarse,
-    /// The same, but what others change to some hundredths only: for what is a correction itself.
+    /// The base law to eight digits, and what others change to some hundredths: for what is a
+    /// correction itself.
     Rough,
 }
 
@@ -89,8 +94,8 @@ pub fn far_field_wrench<'p, S: Scalar>(
     let mut wrench = Wrench::zero();
     for patch in patches {
         let distance = distance_squared(patch, slip).sqrt();
-        let reached = FAR.iter().position(|(from, _)| distance >= *from);
-        let rule = &rules[reached.unwrap_or(FAR.len() - 1)];
+        let reached = NODES_BY_DISTANCE.iter().position(|(from, _)| distance >= *from);
+        let rule = &rules[reached.unwrap_or(NODES_BY_DISTANCE.len() - 1)];
         wrench += integrate(rule, &Panels::whole(patch), slip, |site| {
             site.traction(friction, pressure, [unit, unit])
         });
@@ -100,9 +105,9 @@ pub fn far_field_wrench<'p, S: Scalar>(
 
 /// Wrench about the origin of the stress that a shear law adds to the base law.
 ///
-/// `law` gives factor f and added stress at a site. Only the departure f (τ + τ_added) − τ from the base
-/// law is integrated, on panels cut at the ICR: the base law itself stays exact, and a weak effect has a
-/// small error.
+/// `law` gives factor f and added stress at a site. Only the departure f (τ + τ_added) − τ from the
+/// base law is integrated, on panels cut at the ICR: the base law itself stays exact, and a weak
+/// effect has a small error.
 pub fn departure_wrench<S: Scalar>(
     patches: &[Patch],
     friction: Friction,
@@ -199,9 +204,9 @@ struct Panels<S> {
     rows: [Option<[S; 2]>; 2],
 }
 
-/// Turn of the unit slip over the patch below which the ICR is so far that a cut would run through the
-/// patch faster than digits follow.
-const NO_TURN: f64 = 1e-9;
+/// Turn of the unit slip over the patch below which the ICR is so far that a cut would run through
+/// the patch faster than digits follow.
+const MIN_TURN: f64 = 1e-9;
 
 impl<S: Scalar> Panels<S> {
     /// The whole patch.
@@ -212,10 +217,10 @@ impl<S: Scalar> Panels<S> {
 
     /// The patch, cut at the ICR.
     ///
-    /// The slip direction jumps there, and its components change sign along the lines through it. The
-    /// nodes move with the cuts: the sum stays a smooth function of the motion.
+    /// The slip direction jumps there, and its components change sign along the lines through it.
+    /// The nodes move with the cuts: the sum stays a smooth function of the motion.
     fn cut(patch: &Patch, slip: &SlipField<S>) -> Self {
-        if slip.rotation.value().abs() * patch.width().hypot(patch.length()) < NO_TURN {
+        if slip.rotation.value().abs() * patch.width().hypot(patch.length()) < MIN_TURN {
             return Self::whole(patch);
         }
         let [icr_x, icr_y] = slip.icr();

@@ -2,10 +2,11 @@
 
 use trackdyn_core::Scalar;
 
-/// Slip velocity field of one side: `s(x, y) = speed · (lateral − rotation·y, forward + rotation·x)`.
+/// Slip velocity field of one side: `s(x, y) = speed · (lateral − rotation·y, forward +
+/// rotation·x)`.
 ///
-/// Coulomb friction sees the direction alone, so the field keeps its scale apart: the direction stays
-/// well defined when the robot drives straight and the slip vanishes.
+/// Coulomb friction sees the direction alone, so the field keeps its scale apart: the direction
+/// stays well defined when the robot drives straight and the slip vanishes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipField<S = f64> {
     /// Unit slip of the origin along x, 1.

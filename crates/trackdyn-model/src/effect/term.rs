@@ -7,8 +7,8 @@ use super::Symmetry;
 pub enum Nature {
     /// A cause with a law: a candidate of a diagnosis.
     Mechanism,
-    /// An empirical form that describes without a cause. No candidate: it may be proposed for what no
-    /// mechanism explains.
+    /// An empirical form that describes without a cause. No candidate: it may be proposed for what
+    /// no mechanism explains.
     Form,
 }
 
@@ -40,7 +40,7 @@ pub enum Pairing {
     Heading(u8),
     /// Components along the axes x and y of the world: a size and a direction.
     World,
-    /// Stiffness k per length ℓ of the contact, and the force (a, b) at the origin of the world: a spring
-    /// towards ℓ (a, b)/k.
+    /// Stiffness k per length ℓ of the contact, and the force (a, b) at the origin of the world: a
+    /// spring towards ℓ (a, b)/k.
     Spring,
 }

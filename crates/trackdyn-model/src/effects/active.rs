@@ -1,6 +1,6 @@
 //! Effects that are switched on.
 
-use super::{CATALOGUE, EffectError, INERTIA, Law};
+use super::{CATALOGUE, EffectError, EffectId, INERTIA, Law};
 use crate::contact::ShearStress;
 use crate::effect::{Card, Parameter, Symmetry};
 use crate::pipeline::{Drive, Ground, Sensor, Site, Situation};
@@ -10,7 +10,7 @@ use trackdyn_core::{PerSide, Scalar, Wrench};
 /// An effect of the catalogue with the values of its parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ActiveEffect {
-    index: usize,
+    effect: EffectId,
     values: Vec<f64>,
     law: Law,
 }
@@ -23,11 +23,8 @@ impl ActiveEffect {
     /// Unknown effect or parameter (with the nearest name), a parameter given twice, or a value
     /// outside its physical range.
     pub fn new(id: &str, settings: &[(&str, f64)]) -> Result<Self, EffectError> {
-        let index = CATALOGUE
-            .iter()
-            .position(|card| card.id == id)
-            .ok_or_else(|| EffectError::UnknownEffect { id: id.to_owned() })?;
-        let card = &CATALOGUE[index];
+        let effect: EffectId = id.parse()?;
+        let card = effect.card();
         let mut values: Vec<Option<f64>> = vec![None; card.parameters.len()];
         for &(key, value) in settings {
             let position = card
@@ -49,12 +46,17 @@ impl ActiveEffect {
             .zip(card.parameters)
             .map(|(value, parameter)| value.unwrap_or_else(|| card.default_of(parameter)))
             .collect();
-        Ok(Self { index, law: Law::from_values(index, &values), values })
+        Ok(Self { effect, law: Law::from_values(effect, &values), values })
+    }
+
+    /// Which effect it is.
+    pub fn effect(&self) -> EffectId {
+        self.effect
     }
 
     /// The effect's card.
     pub fn card(&self) -> &'static Card {
-        &CATALOGUE[self.index]
+        self.effect.card()
     }
 
     /// Parameter values in the order and units of the card.
@@ -140,7 +142,7 @@ impl Effects {
 
     /// Switches an effect on; it replaces one of the same id.
     pub fn insert(&mut self, effect: ActiveEffect) {
-        match self.0.binary_search_by_key(&effect.index, |present| present.index) {
+        match self.0.binary_search_by_key(&effect.effect, |present| present.effect) {
             Ok(position) => self.0[position] = effect,
             Err(position) => self.0.insert(position, effect),
         }

@@ -24,11 +24,11 @@ macro_rules! catalogue {
         }
 
         impl Law {
-            /// The effect of `CATALOGUE[index]`.
-            fn from_values(index: usize, values: &[f64]) -> Self {
+            /// An effect with the values of its parameters, in the order of its card.
+            fn from_values(effect: EffectId, values: &[f64]) -> Self {
                 let constructors: &[fn(&[f64]) -> Self] =
                     &[$(|values| Self::$effect(Effect::from_values(values))),+];
-                constructors[index](values)
+                constructors[effect.index()](values)
             }
 
             fn body(&self, vehicle: &mut Vehicle) {

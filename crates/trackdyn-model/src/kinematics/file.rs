@@ -8,9 +8,13 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 use trackdyn_core::PerSide;
 use trackdyn_core::document::{Document, DocumentError};
+use trackdyn_core::rounding::Digits;
 
 const SCHEMA: &str = "trackdyn.kinematics/1";
 const FRAME: &str = "paper";
+
+/// Digits of the numbers of a file, apart from covariances.
+const DIGITS: Digits = Digits::Decimals(12);
 
 /// Where the numbers of a file come from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -24,7 +28,8 @@ pub struct Source {
     pub vehicle: String,
     /// Fingerprint of the vehicle file with its effects, or of the recording.
     pub fingerprint: String,
-    /// Fingerprint of the poses of the recording, which tells driving that was fitted from other driving.
+    /// Fingerprint of the poses of the recording, which tells driving that was fitted from other
+    /// driving.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose_fingerprint: Option<String>,
     /// Name of the recording, where the numbers come from one.
@@ -140,24 +145,25 @@ impl KinematicsFile {
     pub fn of_map(statistics: &Statistics, sectors: &[Sector], source: Source) -> Self {
         let Statistics { mean, spread, .. } = *statistics;
         Self {
-            mean_steering_efficiency: Some(rounded(statistics.mean_steering_efficiency)),
-            mean_eccentricity: Some(rounded(statistics.mean_eccentricity)),
+            mean_steering_efficiency: Some(DIGITS.round(statistics.mean_steering_efficiency)),
+            mean_eccentricity: Some(DIGITS.round(statistics.mean_eccentricity)),
             spread: Some(Spread {
-                x_icr_left_m: rounded(spread.x_left),
-                x_icr_right_m: rounded(spread.x_right),
-                y_icr_m: rounded(spread.y),
+                x_icr_left_m: DIGITS.round(spread.x_left),
+                x_icr_right_m: DIGITS.round(spread.x_right),
+                y_icr_m: DIGITS.round(spread.y),
             }),
             sector: sectors.iter().map(SectorTable::of).collect(),
             ..Self::of_icrs(&mean, statistics.steering_efficiency, source)
         }
     }
 
-    /// The same with belt speeds per speeds that the encoders show, α; as it is where both are 1.
+    /// This file with α, the belt speeds per speeds that the encoders show; unchanged where both
+    /// are 1.
     pub fn with_alpha(self, alpha: PerSide<f64>) -> Self {
         if alpha == PerSide::new(1.0, 1.0) {
             return self;
         }
-        let (left, right) = (rounded(alpha.left), rounded(alpha.right));
+        let (left, right) = (DIGITS.round(alpha.left), DIGITS.round(alpha.right));
         Self { alpha_left: Some(left), alpha_right: Some(right), ..self }
     }
 
@@ -171,8 +177,8 @@ impl KinematicsFile {
     ) -> Self {
         let Kinematics { icrs, alpha } = *kinematics;
         Self {
-            alpha_left: with_alphas.then_some(rounded(alpha.left)),
-            alpha_right: with_alphas.then_some(rounded(alpha.right)),
+            alpha_left: with_alphas.then_some(DIGITS.round(alpha.left)),
+            alpha_right: with_alphas.then_some(DIGITS.round(alpha.right)),
             covariance: Some(covariance),
             ..Self::of_icrs(&icrs, icrs.steering_efficiency(gauge), source)
         }
@@ -180,15 +186,15 @@ impl KinematicsFile {
 
     /// What every file has.
     fn of_icrs(icrs: &Icrs, steering_efficiency: f64, source: Source) -> Self {
-        let unplaced = |value| Spanned::new(0..0, rounded(value));
+        let unplaced = |value| Spanned::new(0..0, DIGITS.round(value));
         Self {
             schema: Spanned::new(0..0, SCHEMA.to_owned()),
             frame: Spanned::new(0..0, FRAME.to_owned()),
             x_icr_left_m: unplaced(icrs.x_left),
             x_icr_right_m: unplaced(icrs.x_right),
-            y_icr_m: rounded(icrs.y),
-            steering_efficiency: rounded(steering_efficiency),
-            eccentricity: rounded(icrs.eccentricity()),
+            y_icr_m: DIGITS.round(icrs.y),
+            steering_efficiency: DIGITS.round(steering_efficiency),
+            eccentricity: DIGITS.round(icrs.eccentricity()),
             mean_steering_efficiency: None,
             mean_eccentricity: None,
             alpha_left: None,
@@ -239,8 +245,8 @@ impl KinematicsFile {
         sector.map_or_else(|| self.kinematics(), |sector| self.with_icrs(sector.icrs()))
     }
 
-    /// Track speeds, m/s, for a forward speed and a yaw rate, and the model that gives them: one whose
-    /// sector holds the speeds, else that of the whole map.
+    /// Track speeds, m/s, for a forward speed and a yaw rate, and the model that gives them: one
+    /// whose sector holds the speeds, else that of the whole map.
     pub fn track_speeds(&self, forward: f64, yaw_rate: f64) -> (PerSide<f64>, Kinematics) {
         let of = |kinematics: Kinematics| (kinematics.track_speeds(forward, yaw_rate), kinematics);
         self.sector
@@ -270,7 +276,7 @@ struct Divisors {
     sector: Vec<SectorDivisors>,
 }
 
-/// The same of a sector.
+/// What a sector is divided by.
 #[derive(Deserialize)]
 struct SectorDivisors {
     x_icr_left_m: Spanned<f64>,
@@ -307,14 +313,14 @@ impl Divisors {
 }
 
 /// Distance from which on an ICR is none that a robot turns about, m.
-const FARTHEST: f64 = 1e4;
+const MAX_ICR_DISTANCE: f64 = 1e4;
 
 /// Refuses a coordinate of an ICR that is no place near a robot, m.
 fn near(document: &Document, value: &Spanned<f64>, key: &str) -> Result<(), DocumentError> {
-    if value.get_ref().abs() <= FARTHEST {
+    if value.get_ref().abs() <= MAX_ICR_DISTANCE {
         return Ok(());
     }
-    let expected = format!("a number of m, at most {FARTHEST} from the robot");
+    let expected = format!("a number of m, at most {MAX_ICR_DISTANCE} from the robot");
     Err(document.value_error(value.span(), key, expected))
 }
 
@@ -349,18 +355,13 @@ impl SectorTable {
             sign_left,
             sign_right,
             sign_difference,
-            x_icr_left_m: rounded(mean.x_left),
-            x_icr_right_m: rounded(mean.x_right),
-            y_icr_m: rounded(mean.y),
-            steering_efficiency: rounded(sector.statistics.steering_efficiency),
-            eccentricity: rounded(sector.statistics.eccentricity),
+            x_icr_left_m: DIGITS.round(mean.x_left),
+            x_icr_right_m: DIGITS.round(mean.x_right),
+            y_icr_m: DIGITS.round(mean.y),
+            steering_efficiency: DIGITS.round(sector.statistics.steering_efficiency),
+            eccentricity: DIGITS.round(sector.statistics.eccentricity),
         }
     }
-}
-
-/// The number to twelve decimals: what is below is rounding, and would differ between machines.
-fn rounded(value: f64) -> f64 {
-    (value * 1e12).round() / 1e12
 }
 
 #[cfg(test)]

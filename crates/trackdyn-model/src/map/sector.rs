@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use trackdyn_core::{PerSide, real};
 
 /// Spread, m, below which ICRs are equal: rounding of the solver, with room.
-const EQUAL: f64 = 1e-9;
+const ICR_ROUNDING: f64 = 1e-9;
 
 /// The ICRs of one sector.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,9 +34,10 @@ impl Sector {
 }
 
 /// Share of the variance of a coordinate that a piecewise map leaves within its sectors, at most.
-const WITHIN: f64 = 0.1;
+const MAX_WITHIN_SHARE: f64 = 0.1;
 
-/// The sectors of a map if they explain nine tenths of the variance of x_l, x_r or y; empty otherwise.
+/// The sectors of a map if they explain nine tenths of the variance of x_l, x_r or y; empty
+/// otherwise.
 pub(super) fn sectors(map: &IcrMap) -> Vec<Sector> {
     let Some(whole) = map.statistics() else { return Vec::new() };
     let mut members: BTreeMap<[i8; 3], Vec<Icrs>> = BTreeMap::new();
@@ -59,9 +60,10 @@ pub(super) fn sectors(map: &IcrMap) -> Vec<Sector> {
                 count(&sector.statistics) * sector.statistics.spread.to_array()[k].powi(2)
             })
             .sum();
-        // A mean of each sector takes up as many numbers: of few pairs of speeds it would explain all.
+        // A mean of each sector takes up as many numbers: of few pairs of speeds it would explain
+        // all.
         let free = count(&whole) - real(sectors.len());
-        variance > EQUAL.powi(2) && within < WITHIN * variance * free
+        variance > ICR_ROUNDING.powi(2) && within < MAX_WITHIN_SHARE * variance * free
     });
     if explained { sectors } else { Vec::new() }
 }

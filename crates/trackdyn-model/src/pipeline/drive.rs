@@ -25,8 +25,8 @@ impl Drive {
         PerSide::from_fn(|side| self.gain[side] * shown[side])
     }
 
-    /// Speeds of the belts, m/s, behind sprockets of these speeds, m/s, at the traction of each side over its normal
-    /// load, forward positive, 1.
+    /// Speeds of the belts, m/s, behind sprockets of these speeds, m/s, at the traction of each
+    /// side over its normal load, forward positive, 1.
     pub fn belt_speed<S: Scalar>(&self, driven: PerSide<f64>, traction: PerSide<S>) -> PerSide<S> {
         PerSide::from_fn(|side| {
             // V = V_d − κ |V_d| T/N

@@ -48,7 +48,8 @@ pub struct Ground {
 }
 
 impl Ground {
-    /// Level ground with the same friction everywhere, under a vehicle with this contact on each side.
+    /// Level ground with the same friction everywhere, under a vehicle with this contact on each
+    /// side.
     pub fn level(vehicle: &Vehicle, footprint: &Footprint, circumstance: Circumstance) -> Self {
         let line = |side: Side| footprint.ends.map(|y| [side.sign() * vehicle.gauge / 2.0, y]);
         Self {

@@ -34,8 +34,8 @@ impl Sensor {
         Pose::new(x, y, self.yaw)
     }
 
-    /// The path that is reported of a hull's path: the sensor's poses with late stamps, on the path that
-    /// the reported twists draw. Speeds of the belts do not belong to it and keep their time.
+    /// The path that is reported of a hull's path: the sensor's poses with late stamps, on the path
+    /// that the reported twists draw. Speeds of the belts do not belong to it and keep their time.
     pub fn reported_path(&self, path: &Trajectory) -> Trajectory {
         let mut reported = Trajectory::default();
         let mut pose = None;

@@ -1,7 +1,6 @@
 //! What a solve returns.
 
 use super::{Linearised, Near};
-use crate::Sensor;
 use crate::icr::Icrs;
 use trackdyn_core::{PerSide, Side, Twist};
 
@@ -17,14 +16,15 @@ pub struct Solution {
     /// Twist of the hull, paper's frame.
     pub twist: Twist,
     /// The ICRs of the tracks by the speeds α V that odometry knows, which a belt that slips on its
-    /// sprocket does not reach; none where one track holds the robot, or both do. At equal speeds of belts that
-    /// do not slip they are the limit of a vanishing turn.
+    /// sprocket does not reach; none where one track holds the robot, or both do. At equal speeds
+    /// of belts that do not slip they are the limit of a vanishing turn.
     pub icrs: Option<Icrs>,
     /// Norm of the sum of forces over the weight and moments over weight times gauge.
     pub residual: f64,
     /// Newton steps.
     pub iterations: usize,
-    /// Where a search for what a similar model does at these speeds starts; none where no derivatives were found.
+    /// Where a search for what a similar model does at these speeds starts; none where no
+    /// derivatives were found.
     pub linearised: Option<Linearised>,
 }
 
@@ -37,16 +37,6 @@ impl Solution {
             Status::Lifts | Status::NotConverged => None,
         }
     }
-
-    /// The twist that a pose sensor reports of it, in the sensor's axes.
-    pub fn reported_twist(&self, sensor: &Sensor) -> Twist {
-        sensor.reported(&self.twist)
-    }
-
-    /// The ICRs that encoders and pose sensor show of it; none where no yaw rate is reported.
-    pub fn reported_icrs(&self, sensor: &Sensor) -> Option<Icrs> {
-        Icrs::of_motion(self.track_speed, &self.reported_twist(sensor))
-    }
 }
 
 /// Kind of stationary motion.
@@ -54,8 +44,8 @@ impl Solution {
 pub enum Status {
     /// The robot turns, and both tracks slip about their ICRs.
     Turning,
-    /// Both tracks stick, and the robot drives straight: the track speeds are equal, or belts that slip on their
-    /// sprockets take up the difference.
+    /// Both tracks stick, and the robot drives straight: the track speeds are equal, or belts that
+    /// slip on their sprockets take up the difference.
     Straight,
     /// The track speeds differ, but this track holds the robot straight while the other one slips.
     Holds(Side),

@@ -8,11 +8,13 @@ use trackdyn_core::{Dual, PerSide, Scalar, Twist};
 /// Residual over the weight: 10⁻⁹ of gravity is far below what moves a robot.
 const TOLERANCE: Tolerance = Tolerance { converged: 1e-11, rounding: 1e-9 };
 
-/// Unknowns of belts that follow their sprockets: the departure from straight driving at the left belt's speed.
-const FIRM: usize = 3;
+/// Unknowns of belts that follow their sprockets: the departure from straight driving at the left
+/// belt's speed.
+const UNKNOWNS_WITHOUT_SLIP: usize = 3;
 
-/// Unknowns of belts that slip on them: the traction of both sides over their normal load beside it.
-const SLIPPING: usize = 5;
+/// Unknowns of belts that slip on them: the traction of both sides over their normal load beside
+/// it.
+const UNKNOWNS_WITH_SLIP: usize = 5;
 
 /// What is held fixed while the twist is sought.
 pub struct Stage<'a> {
@@ -42,7 +44,8 @@ pub struct Start {
 /// Where the forces balance.
 pub struct Balanced {
     pub motion: Motion,
-    /// Traction over normal load, forward positive, of belts that slip on their sprockets; else zero.
+    /// Traction over normal load, forward positive, of belts that slip on their sprockets; else
+    /// zero.
     pub traction: PerSide<f64>,
     pub inverse: Inverse,
 }
@@ -52,8 +55,8 @@ pub struct Balanced {
 pub enum Inverse {
     #[default]
     Unknown,
-    Firm(SMatrix<f64, FIRM, FIRM>),
-    Slipping(SMatrix<f64, SLIPPING, SLIPPING>),
+    Firm(SMatrix<f64, UNKNOWNS_WITHOUT_SLIP, UNKNOWNS_WITHOUT_SLIP>),
+    Slipping(SMatrix<f64, UNKNOWNS_WITH_SLIP, UNKNOWNS_WITH_SLIP>),
 }
 
 impl Stage<'_> {
@@ -105,7 +108,8 @@ impl Stage<'_> {
         if let Some(near) = near {
             return near;
         }
-        // Stick in the direction in which the robot slid before; of a robot that did not, held back.
+        // Stick in the direction in which the robot slid before; of a robot that did not, held
+        // back.
         let slid = follows.norm();
         let sticks = if slid > 0.0 {
             follows * (self.creep / slid.max(self.creep))
@@ -126,8 +130,8 @@ impl Stage<'_> {
         newton::first_root(ends, |end| end).expect("several starts were tried")
     }
 
-    /// A turn at this difference of the belt speeds, about a point a quarter of the contact length outside the slower
-    /// track's centre-line.
+    /// A turn at this difference of the belt speeds, about a point a quarter of the contact length
+    /// outside the slower track's centre-line.
     fn turning(&self, difference: f64) -> Vector3<f64> {
         let [rear, front] = self.model.footprint().ends;
         let x = self.model.vehicle().gauge / 2.0 + (front - rear) / 4.0;
@@ -152,8 +156,8 @@ impl Stage<'_> {
         Motion::departing(belt_speed, departure, acceleration, self.model.extent())
     }
 
-    /// Force over weight and moment over weight times gauge; of belts that slip, what the friction of each side is off
-    /// its traction too, over the weight.
+    /// Force over weight and moment over weight times gauge; of belts that slip, what the friction
+    /// of each side is off its traction too, over the weight.
     #[inline]
     fn residual<S: Scalar, const N: usize>(&self, z: [S; N]) -> [S; N] {
         let motion = self.motion(&z);
@@ -176,10 +180,11 @@ impl Stage<'_> {
 #[inline]
 fn traction<S: Scalar, const N: usize>(z: &[S; N]) -> PerSide<S> {
     let at = |k: usize| z.get(k).copied().unwrap_or(S::from(0.0));
-    PerSide::new(at(FIRM), at(FIRM + 1))
+    PerSide::new(at(UNKNOWNS_WITHOUT_SLIP), at(UNKNOWNS_WITHOUT_SLIP + 1))
 }
 
-/// The forces on the body with the friction of tracks that stick below the slip velocity `creep`, m/s.
+/// The forces on the body with the friction of tracks that stick below the slip velocity `creep`,
+/// m/s.
 #[inline]
 pub fn gripping<S: Scalar>(
     model: &Model,

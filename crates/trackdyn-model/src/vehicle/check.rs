@@ -70,7 +70,8 @@ impl Vehicle {
         Ok(())
     }
 
-    /// The pressure must be positive on the whole contact: |x_c| < L/2, and for one track |y_c| < l/6.
+    /// The pressure must be positive on the whole contact: |x_c| < L/2, and for one track |y_c| <
+    /// l/6.
     fn check_support(&self) -> Result<(), VehicleError> {
         let [x, y] = self.cog;
         let error = |expected: String| VehicleError {

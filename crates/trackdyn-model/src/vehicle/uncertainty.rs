@@ -2,7 +2,8 @@
 
 use crate::vehicle::VehicleError;
 
-/// Standard deviations of the values of a vehicle that were measured; none where they are not known.
+/// Standard deviations of the values of a vehicle that were measured; none where they are not
+/// known.
 ///
 /// Zero says that a value is exact.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -117,7 +118,8 @@ mu_y_sd = 0.1
             (
                 "mass_kg_sd = 0.5",
                 "mass_kg_sd = -0.5",
-                "robot.toml:4: mass_kg_sd = -0.5: expected a standard deviation in kg, zero or more",
+                "robot.toml:4: mass_kg_sd = -0.5: expected a standard deviation in kg, zero or \
+                 more",
             ),
             (
                 "gauge_m_sd = 0.0",
@@ -127,18 +129,20 @@ mu_y_sd = 0.1
             (
                 "[0.005, 0.01]",
                 "[0.005, -0.01]",
-                "robot.toml:8: cog_m_sd = [0.005, -0.01]: expected two standard deviations, right and \
-                 forward, in m, zero or more",
+                "robot.toml:8: cog_m_sd = [0.005, -0.01]: expected two standard deviations, right \
+                 and forward, in m, zero or more",
             ),
             (
                 "mu_x_sd = 0.2",
                 "mu_x_sd = nan",
-                "robot.toml:16: friction.mu_x_sd = nan: expected a standard deviation, zero or more",
+                "robot.toml:16: friction.mu_x_sd = nan: expected a standard deviation, zero or \
+                 more",
             ),
             (
                 "mu_y_sd = 0.1",
                 "mu_y_sd = -1e-9",
-                "robot.toml:18: friction.mu_y_sd = -1e-9: expected a standard deviation, zero or more",
+                "robot.toml:18: friction.mu_y_sd = -1e-9: expected a standard deviation, zero or \
+                 more",
             ),
         ] {
             let refusal = read(&MEASURED.replace(from, to)).expect_err("no deviation");

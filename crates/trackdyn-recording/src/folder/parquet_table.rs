@@ -5,7 +5,7 @@
 
 use super::rows::Rows;
 use crate::Error;
-use crate::recording::{Cells, Column, Sample, Series};
+use crate::sample::{Cells, Column, Sample, Series};
 use crate::table::unreadable;
 use parquet::basic::LogicalType;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};

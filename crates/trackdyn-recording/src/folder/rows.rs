@@ -1,7 +1,7 @@
 //! The rows of one CSV file, sorted into runs.
 
 use crate::Error;
-use crate::recording::{Cells, Column, Sample, Series};
+use crate::sample::{Cells, Column, Sample, Series};
 use crate::table::{Table, number};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

@@ -2,7 +2,8 @@
 
 use super::{MANIFEST, Manifest};
 use crate::Error;
-use crate::recording::{Cells, Recording, Run, Sample, Series};
+use crate::recording::{Recording, Run};
+use crate::sample::{Cells, Sample, Series};
 use std::fmt::Write;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -10,8 +11,9 @@ use trackdyn_core::output;
 
 /// Writes a recording folder; numbers are printed so that reading gives the same bits.
 ///
-/// `recording.toml` is written last, and an old one removed first: a folder without it is not a recording. Files that are there
-/// already are replaced, and those of an IMU removed where the recording has none.
+/// An old `recording.toml` is removed first and the new one written last: a folder without it is
+/// not a recording. Other files are replaced. Those of an IMU are removed where the recording has
+/// none.
 ///
 /// # Errors
 /// [`Error::Output`], [`Error::Unreadable`] when an old file cannot be removed.

@@ -1,18 +1,20 @@
 //! Rows that cannot be used as they are.
 
 use super::warning::{Cleaning, Finding};
-use super::{PoseSample, Sample, Series, Stream, TrackSample};
-use crate::gaps::GAP;
 use crate::hold::travelled;
-use crate::robust::median;
+use crate::sample::{PoseSample, Sample, Series, Stream, TrackSample};
 use std::f64::consts::{PI, TAU};
 use trackdyn_core::PerSide;
+use trackdyn_core::robust::median;
+
+/// An interval of more than this many medians is a gap: nobody knows what happened in it.
+pub const MIN_GAP_RATIO: f64 = 5.0;
 
 /// An interval below this part of the median one is too short for two separate measurements.
-const CROWDED: f64 = 0.1;
+const MIN_INTERVAL_RATIO: f64 = 0.1;
 
 /// Way of a track, m, that no pose sensor overlooks.
-const STANDING: f64 = 0.005;
+const MAX_STANDING_DISTANCE: f64 = 0.005;
 
 /// Drops rows that are not finite, sorts by time, and keeps the first row of each stamp.
 pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut Vec<Cleaning>) {
@@ -60,8 +62,9 @@ pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut
     intervals(&series.samples, report);
 }
 
-/// Finds poses that are the one before to the last digit while a track moves: a link that is sent more often than it is
-/// measured says the same again. They stay, for a robot without noise may be stuck.
+/// Finds poses that are the one before to the last digit while a track moves: a link that is sent
+/// more often than it is measured says the same again. They stay, for a robot without noise may be
+/// stuck.
 pub(super) fn held(
     poses: &[PoseSample],
     tracks: &[TrackSample],
@@ -71,7 +74,7 @@ pub(super) fn held(
     let mut repeated = Vec::new();
     for equal in poses.chunk_by(|a, b| a.pose == b.pose) {
         let PerSide { left, right } = travelled(tracks, equal[0].t, equal[equal.len() - 1].t, 0.0);
-        if left.abs().max(right.abs()) > STANDING {
+        if left.abs().max(right.abs()) > MAX_STANDING_DISTANCE {
             repeated.extend(equal[1..].iter().map(|sample| sample.t));
         }
     }
@@ -100,8 +103,8 @@ fn intervals<S: Sample>(samples: &[S], mut report: impl FnMut(Finding, usize, f6
         }
         report(finding(longest), count, first);
     };
-    of(&|length| length < CROWDED * usual, &|_| Finding::Crowded);
-    of(&|length| length > GAP * usual, &|longest| Finding::Gap { longest });
+    of(&|length| length < MIN_INTERVAL_RATIO * usual, &|_| Finding::Crowded);
+    of(&|length| length > MIN_GAP_RATIO * usual, &|longest| Finding::Gap { longest });
 }
 
 /// Adds whole turns so that yaw never jumps by more than half a turn.
@@ -130,7 +133,7 @@ pub(super) fn unwrap_yaw(poses: &mut [PoseSample], run: i64, cleanings: &mut Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recording::{Cells, Column};
+    use crate::sample::{Cells, Column};
     use trackdyn_core::Pose;
 
     fn tracks(stamps: &[f64]) -> Series<TrackSample> {
@@ -199,7 +202,8 @@ mod tests {
         let samples: Vec<PoseSample> = (0..=100).map(pose).collect();
         let mut cleanings = Vec::new();
         held(&samples, &drive, 0, &mut cleanings);
-        // a robot that stands may say so again; the poses of step 51 on are told three times, the last one twice
+        // a robot that stands may say so again; the poses of step 51 on are told three times, the
+        // last one twice
         assert_eq!(found(&cleanings), [(Finding::Held, 33)]);
         assert!((cleanings[0].t - 1.04).abs() < 1e-9, "{}", cleanings[0].t);
     }

@@ -1,6 +1,7 @@
 //! The numbers of a recording as bytes.
 
-use super::{Cells, Run, Sample, Series};
+use super::Run;
+use crate::sample::{Cells, Sample, Series};
 use trackdyn_core::output;
 
 /// Fingerprint of ids, samples and further columns; the name, the robot and the format do not

@@ -2,7 +2,7 @@
 
 use super::cleaning::{clean, held, unwrap_yaw};
 use super::warning::Cleaning;
-use super::{ImuSample, PoseSample, Series, TrackSample};
+use crate::sample::{ImuSample, PoseSample, Series, TrackSample};
 
 /// The rows of a run as a reader found them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,7 +27,8 @@ pub struct Run {
 }
 
 impl Run {
-    pub(crate) fn new(mut rows: UncheckedRun, cleanings: &mut Vec<Cleaning>) -> Self {
+    /// Cleans the rows; `cleanings` takes what was found.
+    pub fn new(mut rows: UncheckedRun, cleanings: &mut Vec<Cleaning>) -> Self {
         clean(&mut rows.tracks, rows.id, cleanings);
         clean(&mut rows.poses, rows.id, cleanings);
         clean(&mut rows.imu, rows.id, cleanings);

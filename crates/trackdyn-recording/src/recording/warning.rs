@@ -1,6 +1,6 @@
 //! What was done to a recording on its way in.
 
-use super::Stream;
+use crate::sample::Stream;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -108,7 +108,8 @@ pub enum Finding {
     Repeated,
     /// A pose that is the one before to the last digit while a track moves: it stays.
     Held,
-    /// Stamps closer than a tenth of the median interval: both stay, but one of them is likely wrong.
+    /// Stamps closer than a tenth of the median interval: both stay, but one of them is likely
+    /// wrong.
     Crowded,
     /// An interval of more than five times the median one.
     Gap {
@@ -186,14 +187,14 @@ impl fmt::Display for Warning {
             }
             Self::PartMissing { path } => write!(
                 f,
-                "{}: listed in metadata.yaml, and not there or packed (zstd -d unpacks .zstd files); \
-                 what it holds is missing",
+                "{}: listed in metadata.yaml, and not there or packed (zstd -d unpacks .zstd \
+                 files); what it holds is missing",
                 path.display()
             ),
             Self::OwnOdometry { poses } => write!(
                 f,
-                "{poses}: if it comes from the tracks themselves, it agrees with any model of them: poses have \
-                 to come from something else"
+                "{poses}: if it comes from the tracks themselves, it agrees with any model of \
+                 them: poses have to come from something else"
             ),
             Self::MessagesSkipped { topic, count, reason } => {
                 write!(f, "{topic}: {count} messages skipped, the first because {reason}")
@@ -206,8 +207,8 @@ impl fmt::Display for Warning {
             }
             Self::JointJumps { joint, count, t } => write!(
                 f,
-                "{joint}: {count} jumps of its position by more than half a turn that are no wraps, \
-                 left as they are (the first at t = {t} s)"
+                "{joint}: {count} jumps of its position by more than half a turn that are no \
+                 wraps, left as they are (the first at t = {t} s)"
             ),
             Self::Chosen { what, taken } => write!(f, "{what}: took {taken}"),
         }

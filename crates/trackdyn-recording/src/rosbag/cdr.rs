@@ -1,8 +1,8 @@
 //! Reading the Common Data Representation.
 //!
 //! # Sources
-//! OMG DDSI-RTPS 2.5, section 10 (encapsulation header); OMG DDS-XTypes 1.3, section 7.4 (alignment:
-//! XCDR1 aligns to the size of the primitive, XCDR2 to at most 4).
+//! OMG DDSI-RTPS 2.5, section 10 (encapsulation header); OMG DDS-XTypes 1.3, section 7.4
+//! (alignment: XCDR1 aligns to the size of the primitive, XCDR2 to at most 4).
 
 /// Why a payload cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,17 +1,18 @@
 //! Poses along a chain of transforms, such as map → odom → base_link.
 //!
 //! The poses stand at the stamps of the link that changes most often. The other links are
-//! interpolated between their neighbouring stamps, as tf2 does it (translation along a line, rotation
-//! about one axis), and never beyond them: poses there are left out. Links of a topic that ends in
-//! `_static` hold at all times.
+//! interpolated between their neighbouring stamps, as tf2 does it (translation along a line,
+//! rotation about one axis), and never beyond them: poses there are left out. Links of a topic that
+//! ends in `_static` hold at all times.
 
 use super::cdr::{Cdr, CdrError};
 use super::date::{Received, Stamped, dated};
 use super::frames::{Frames, Hop, is_of_odometry};
 use super::message::{header, planar, rigid};
 use super::options::RosbagOptions;
-use super::storage::{self, Visitor};
+use super::storage;
 use super::topic::{Layout, Topic};
+use super::visitor::Visitor;
 use crate::Error;
 use crate::recording::Warning;
 use nalgebra::Isometry3;

@@ -16,8 +16,9 @@ pub(super) struct Received<T> {
 
 /// Values of a topic with the times at which they were measured, and what is to be said of these.
 ///
-/// Where no message has a stamp, all are dated by their logging. Where others have one, those without are left
-/// out: the first message of a simulation is stamped zero, and was logged years after its time.
+/// Where no message has a stamp, all are dated by their logging. Where others have one, those
+/// without are left out: the first message of a simulation is stamped zero, and was logged years
+/// after its time.
 pub(super) fn dated<T>(
     topic: &str,
     received: Vec<Received<T>>,

@@ -41,7 +41,8 @@ pub(super) fn is_of_odometry(parent: &str) -> bool {
     same_frame(parent, ODOMETRY)
 }
 
-/// Whether messages of this type may hold the odometry of the tracks: those of an Odometry, and transforms out of its frame.
+/// Whether messages of this type may hold the odometry of the tracks: those of an Odometry, and
+/// transforms out of its frame.
 pub(super) fn may_be_odometry<'a>(kind: &str, mut parents: impl Iterator<Item = &'a str>) -> bool {
     kind.ends_with("/Odometry") || (kind.ends_with("/TFMessage") && parents.any(is_of_odometry))
 }
@@ -67,7 +68,8 @@ impl Frames {
         self.links.is_empty()
     }
 
-    /// The shortest way from a frame to another, up and down the links; none where nothing leads there.
+    /// The shortest way from a frame to another, up and down the links; none where nothing leads
+    /// there.
     pub(super) fn way(&self, from: &str, to: &str) -> Option<Vec<Hop>> {
         let mut reached: Vec<(&str, Option<(usize, Hop)>)> = vec![(bare(from), None)];
         let mut next = VecDeque::from([0]);

@@ -5,8 +5,9 @@ use super::frames::{Frames, may_be_odometry};
 use super::joints;
 use super::message::header;
 use super::options::RosbagOptions;
-use super::storage::{self, Visitor};
+use super::storage;
 use super::topic::{Layout, Role, STATIC, Topic};
+use super::visitor::Visitor;
 use crate::Error;
 use crate::recording::Warning;
 use std::collections::BTreeMap;
@@ -149,8 +150,8 @@ impl Seen {
     }
 }
 
-/// The topic of the poses and their frames: the only Odometry or stamped pose, else the only topic of
-/// transforms, whose chain from the root to the body of the robot is taken.
+/// The topic of the poses and their frames: the only Odometry or stamped pose, else the only topic
+/// of transforms, whose chain from the root to the body of the robot is taken.
 fn suggest_poses(topics: Vec<&TopicSummary>) -> (Option<String>, Option<(String, String)>) {
     let is_tf = |topic: &&TopicSummary| topic.kind.ends_with("/TFMessage");
     let (transforms, direct): (Vec<_>, Vec<_>) = topics.into_iter().partition(is_tf);

@@ -225,7 +225,8 @@ pub(super) fn names<'a>(cdr: &mut Cdr<'a>) -> Result<(Vec<&'a str>, bool, bool),
 mod tests {
     use super::*;
 
-    /// A message after its header: names, positions, velocities, no effort, as CDR of little-endian numbers.
+    /// A message after its header: names, positions, velocities, no effort, as CDR of little-endian
+    /// numbers.
     fn message(names: &[&str], numbers: [&[f64]; 2]) -> Vec<u8> {
         let mut bytes = vec![0, 1, 0, 0];
         let pad = |bytes: &mut Vec<u8>, to: usize| {

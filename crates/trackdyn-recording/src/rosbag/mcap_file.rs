@@ -1,7 +1,7 @@
 //! `.mcap` files, read as a stream.
 
-use super::storage::Visitor;
 use super::topic::Topic;
+use super::visitor::Visitor;
 use crate::Error;
 use crate::recording::Warning;
 use crate::table::unreadable;
@@ -13,10 +13,10 @@ use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 /// Bytes taken from the file at a time.
-const PIECE: usize = 1 << 20;
+const READ_SIZE: usize = 1 << 20;
 
 /// A longer record is taken for damage, bytes.
-const LONGEST_RECORD: usize = 1 << 28;
+const MAX_RECORD_SIZE: usize = 1 << 28;
 
 /// Topics by the ids that the file gives them.
 #[derive(Default)]
@@ -33,14 +33,14 @@ pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Option<Warn
     let mut file = File::open(path).map_err(|cause| unreadable(path, cause))?;
     let options = LinearReaderOptions::default()
         .with_validate_chunk_crcs(true)
-        .with_record_length_limit(LONGEST_RECORD);
+        .with_record_length_limit(MAX_RECORD_SIZE);
     let mut reader = LinearReader::new_with_options(options);
     let mut channels = Channels::default();
     let (mut messages, mut has_begun) = (0, false);
     while let Some(event) = reader.next_event() {
         let problem = match event {
             Ok(LinearReadEvent::ReadRequest(least)) => {
-                let target = reader.insert(least.max(PIECE));
+                let target = reader.insert(least.max(READ_SIZE));
                 let count =
                     read_some(&mut file, target).map_err(|cause| unreadable(path, cause))?;
                 reader.notify_read(count);

@@ -18,8 +18,8 @@ pub struct RosbagOptions {
     pub wheel_radius: Option<f64>,
     /// Topic of the poses.
     pub pose_topic: Option<String>,
-    /// Frame that the poses are expressed in. Where both frames are named and no topic has their poses,
-    /// they are composed along a chain of transforms.
+    /// Frame that the poses are expressed in. Where both frames are named and no topic has their
+    /// poses, they are composed along a chain of transforms.
     pub parent_frame: Option<String>,
     /// Frame whose poses they are.
     pub child_frame: Option<String>,
@@ -33,8 +33,8 @@ impl RosbagOptions {
         Some([self.parent_frame.as_deref()?, self.child_frame.as_deref()?])
     }
 
-    /// Whether poses may come from a topic: from the one that is named, and from transforms that hold at
-    /// all times beside it.
+    /// Whether poses may come from a topic: from the one that is named, and from transforms that
+    /// hold at all times beside it.
     pub(super) fn may_hold_poses(&self, topic: &str) -> bool {
         self.pose_topic.as_deref().is_none_or(|named| {
             topic == named || topic.strip_suffix(STATIC).is_some_and(|moving| moving == named)

@@ -1,7 +1,7 @@
 //! `.db3` files: `SQLite` with the tables `topics` and `messages`.
 
-use super::storage::Visitor;
 use super::topic::Topic;
+use super::visitor::Visitor;
 use crate::Error;
 use crate::recording::Warning;
 use rusqlite::{Connection, OpenFlags};

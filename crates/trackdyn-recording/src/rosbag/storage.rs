@@ -1,6 +1,6 @@
 //! The files of a bag.
 
-use super::topic::Topic;
+use super::visitor::Visitor;
 use super::{mcap_file, sqlite_file};
 use crate::Error;
 use crate::recording::Warning;
@@ -8,15 +8,6 @@ use crate::table::unreadable;
 use std::path::{Path, PathBuf};
 
 const METADATA: &str = "metadata.yaml";
-
-/// Who looks at the messages of a bag.
-pub(super) trait Visitor {
-    /// A topic turns up; whether its messages are wanted.
-    fn wants(&mut self, topic: &Topic) -> bool;
-
-    /// A message of a wanted topic. `log_ns` is when it was logged, Unix time in nanoseconds.
-    fn message(&mut self, topic: &Topic, log_ns: i64, payload: &[u8]);
-}
 
 /// Whether the path is a bag: a file that ends in `.mcap` or `.db3`, or a folder with such files.
 ///
@@ -62,7 +53,8 @@ pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Vec<Warning
     Ok(warnings)
 }
 
-/// The files of a bag: those that `metadata.yaml` lists, there or not, else those in the folder by name.
+/// The files of a bag: those that `metadata.yaml` lists, there or not, else those in the folder by
+/// name.
 fn parts(path: &Path) -> Result<Vec<PathBuf>, Error> {
     if !path.is_dir() {
         return Ok(if is_part(path) { vec![path.to_owned()] } else { Vec::new() });

@@ -9,7 +9,7 @@ use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::locate::cells::Cell;
 use trackdyn_diagnose::proposal::Proposal;
 use trackdyn_diagnose::verdict::Verdict;
-use trackdyn_model::CATALOGUE;
+use trackdyn_model::EffectId;
 use trackdyn_model::effect::Parameter;
 
 /// The status in words, and what kind of news it is.
@@ -142,7 +142,7 @@ fn named(subject: &Subject, missing: &Missing) -> String {
         })
         .collect();
     let sizes = if sizes.is_empty() { String::new() } else { format!(", {}", sizes.join(", ")) };
-    let title = |effect: usize| CATALOGUE[effect].title;
+    let title = |effect: EffectId| effect.card().title;
     if effects.len() > 1 {
         let names: Vec<String> = effects
             .iter()
@@ -170,7 +170,7 @@ fn is(parameter: &Parameter, value: f64) -> String {
 }
 
 /// Names of a few effects, or how many they are.
-pub(super) fn some(effects: &[usize]) -> String {
+pub(super) fn some(effects: &[EffectId]) -> String {
     const FEW: usize = 3;
     if effects.len() > FEW { format!("{} effects", effects.len()) } else { ids(effects, " or ") }
 }

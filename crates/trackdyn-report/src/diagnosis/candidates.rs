@@ -7,7 +7,7 @@ use trackdyn_diagnose::candidate;
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::search::Screened;
-use trackdyn_model::CATALOGUE;
+use trackdyn_model::EffectId;
 use trackdyn_model::effect::{Parameter, Role};
 
 /// Gain of ln evidence below which nothing is kept.
@@ -33,7 +33,7 @@ pub(super) enum Outcome {
 
 /// An effect of the catalogue.
 pub(super) struct Candidate {
-    pub effect: usize,
+    pub effect: EffectId,
     /// Gain of ln evidence, of a claimed one against the best model without it, of others each by itself; none where it
     /// was not, or could not be, asked.
     pub gain: Option<f64>,
@@ -92,7 +92,7 @@ pub(super) fn candidates(subject: &Subject) -> Vec<Candidate> {
     all
 }
 
-fn claim<'a>(subject: &Subject<'a>, effect: usize) -> Option<&'a Missing> {
+fn claim<'a>(subject: &Subject<'a>, effect: EffectId) -> Option<&'a Missing> {
     let missing = subject.diagnosis.missing.iter();
     missing.filter(|missing| missing.kind != Kind::Constant).find(|m| m.verdict.effect == effect)
 }
@@ -148,7 +148,7 @@ fn weaker(subject: &Subject, one: &Screened) -> String {
     let diagnosis = subject.diagnosis;
     let answer = &diagnosis.best.effects;
     let resemblance = &diagnosis.resemblance;
-    let place = |effect: usize| resemblance.effects.iter().position(|other| *other == effect);
+    let place = |effect: EffectId| resemblance.effects.iter().position(|other| *other == effect);
     let alike = answer.iter().filter_map(|&other| {
         let cosine = resemblance.cosines[(place(one.effect)?, place(other)?)];
         Some((cosine, other))
@@ -185,7 +185,7 @@ fn values<'a>(subject: &'a Subject, one: &'a Screened) -> impl Iterator<Item = (
 
 fn sizes(subject: &Subject, one: &Screened) -> String {
     let texts = values(subject, one).map(|(place, value)| {
-        let parameter = &CATALOGUE[one.effect].parameters[place];
+        let parameter = &one.effect.card().parameters[place];
         shown(parameter, value, 4)
     });
     texts.collect::<Vec<_>>().join(", ")
@@ -197,9 +197,9 @@ fn shown(parameter: &Parameter, value: f64, digits: i32) -> String {
 }
 
 /// All numbers of an effect as they were fitted.
-fn fitted(subject: &Subject, effect: usize) -> String {
+fn fitted(subject: &Subject, effect: EffectId) -> String {
     let hypothesis = &subject.diagnosis.best.fit.hypothesis;
-    let texts = CATALOGUE[effect].parameters.iter().enumerate().map(|(place, parameter)| {
+    let texts = effect.card().parameters.iter().enumerate().map(|(place, parameter)| {
         let value = hypothesis.get(Unknown::Effect(effect, place));
         shown(parameter, value, 4)
     });
@@ -208,7 +208,7 @@ fn fitted(subject: &Subject, effect: usize) -> String {
 
 fn unphysical(subject: &Subject, one: &Screened) -> String {
     let outside = values(subject, one).find_map(|(place, value)| {
-        let parameter = &CATALOGUE[one.effect].parameters[place];
+        let parameter = &one.effect.card().parameters[place];
         let [low, high] = parameter.range;
         let shown = shown(parameter, value, 2);
         let Role::Size { neutral: none } = parameter.role else { return None };

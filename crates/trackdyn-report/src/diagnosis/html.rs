@@ -13,7 +13,6 @@ use std::collections::BTreeSet;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::document::separate_by;
 use trackdyn_diagnose::verdict::Rules;
-use trackdyn_model::CATALOGUE;
 
 const NAME: &str = "report.html";
 
@@ -157,7 +156,7 @@ fn missing(subject: &Subject) -> Vec<Missing> {
     let missing = subject.diagnosis.missing.iter();
     missing
         .map(|missing| {
-            let card = &CATALOGUE[missing.verdict.effect];
+            let card = missing.verdict.effect.card();
             let support = &missing.verdict.support;
             let parameters = missing.parameters.iter().filter_map(|interval| {
                 let parameter = interval.unknown.parameter()?;
@@ -223,7 +222,7 @@ fn classes(subject: &Subject) -> Vec<Class> {
                 .iter()
                 .map(|&effect| Row {
                     name: id(effect).to_owned(),
-                    text: CATALOGUE[effect].title.to_owned(),
+                    text: effect.card().title.to_owned(),
                 })
                 .collect(),
             decides: separate_by(missing),
@@ -236,7 +235,7 @@ fn rows(subject: &Subject) -> Vec<Candidate> {
         .into_iter()
         .map(|one| Candidate {
             id: id(one.effect).to_owned(),
-            title: CATALOGUE[one.effect].title.to_owned(),
+            title: one.effect.card().title.to_owned(),
             gain: one.gain.map_or("–".to_owned(), |gain| number(gain, 1)),
             z: one.z.map_or("–".to_owned(), |z| number(z, 1)),
             sizes: one.sizes,
@@ -256,7 +255,7 @@ fn limits(subject: &Subject) -> Vec<Limit> {
     detectable
         .iter()
         .map(|one| {
-            let parameter = &CATALOGUE[one.effect].parameters[one.parameter];
+            let parameter = &one.effect.card().parameters[one.parameter];
             let typical = trackdyn_diagnose::hypothesis::typical_size(parameter);
             Limit {
                 id: id(one.effect).to_owned(),

@@ -12,6 +12,7 @@ use crate::panel::{TICK_SIZE, TITLE_SIZE};
 use crate::text::{Horizontal, Style, Vertical};
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::isolability::Isolability;
+use trackdyn_model::EffectId;
 
 const TOP: i32 = sheet::TOP + 90;
 const CELL: i32 = 50;
@@ -65,7 +66,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     let bar = Area::new(LABELS + side + 40, TOP, 28, 400.min(side));
     colour_bar::draw(&mut canvas, bar, &BLUES, [0.0, 1.0], "|cosine|");
     strengths(&mut canvas, subject, &order, LABELS + side + 190);
-    let unseen: Vec<usize> =
+    let unseen: Vec<EffectId> =
         (0..of.effects.len()).filter(|k| !order.contains(k)).map(|k| of.effects[k]).collect();
     if !unseen.is_empty() {
         let text =
@@ -108,7 +109,7 @@ fn strengths(canvas: &mut Canvas, subject: &Subject, order: &[usize], left: i32)
 }
 
 /// Writes a name; that of what is claimed in ink, others in grey.
-fn name(canvas: &mut Canvas, subject: &Subject, effect: usize, at: [i32; 2], upwards: bool) {
+fn name(canvas: &mut Canvas, subject: &Subject, effect: EffectId, at: [i32; 2], upwards: bool) {
     let claimed =
         subject.diagnosis.missing.iter().any(|missing| {
             missing.kind != Kind::Constant && missing.verdict.one_of.contains(&effect)

@@ -3,7 +3,7 @@
 use crate::panel::ticks::number;
 use trackdyn_diagnose::proposal::words::decimals;
 use trackdyn_diagnose::uncertainty::Interval;
-use trackdyn_model::CATALOGUE;
+use trackdyn_model::EffectId;
 use trackdyn_model::effect::Symmetry;
 
 /// Channels of a motion.
@@ -27,12 +27,12 @@ pub(super) fn symmetry(symmetry: Symmetry) -> [&'static str; 2] {
 }
 
 /// Name of an effect in files.
-pub(super) fn id(effect: usize) -> &'static str {
-    CATALOGUE[effect].id
+pub(super) fn id(effect: EffectId) -> &'static str {
+    effect.name()
 }
 
 /// Names of effects in a row.
-pub(super) fn ids(effects: &[usize], between: &str) -> String {
+pub(super) fn ids(effects: &[EffectId], between: &str) -> String {
     effects.iter().map(|&effect| id(effect)).collect::<Vec<_>>().join(between)
 }
 

@@ -57,7 +57,8 @@ pub struct Quantity {
     of_none: f64,
 }
 
-/// The quantities that can be checked, under their names in `kinematics.toml`; and how many pairs of speeds turn.
+/// The quantities that can be checked, under their names in `kinematics.toml`; and how many pairs
+/// of speeds turn.
 const QUANTITIES: [Quantity; 8] = [
     Quantity::mean("x_icr_left_m", |s| s.mean.x_left),
     Quantity::mean("x_icr_right_m", |s| s.mean.x_right),

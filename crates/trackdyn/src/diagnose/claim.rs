@@ -1,7 +1,6 @@
 //! What a diagnosis claims.
 
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
-use trackdyn_model::CATALOGUE;
 
 /// Something that the model of a vehicle lacks.
 #[derive(Clone, Copy, Debug)]
@@ -34,12 +33,12 @@ impl<'a> Claim<'a> {
 
     /// The effect that was fitted, by its id in the catalogue.
     pub fn effect(&self) -> &'static str {
-        CATALOGUE[self.missing.verdict.effect].id
+        self.missing.verdict.effect.name()
     }
 
     /// All effects that explain the recordings alike, by their ids: the fitted one among them.
     pub fn one_of(&self) -> Vec<&'static str> {
-        self.missing.verdict.one_of.iter().map(|&effect| CATALOGUE[effect].id).collect()
+        self.missing.verdict.one_of.iter().map(|effect| effect.name()).collect()
     }
 
     /// Parameters of the fitted effect; empty where it stands for a class of constants.

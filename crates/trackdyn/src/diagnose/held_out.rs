@@ -49,11 +49,12 @@ impl HeldOut {
     }
 }
 
-/// Fewest runs of which some are held out unless the caller says otherwise: of fewer, none can be spared.
+/// Fewest runs of which some are held out unless the caller says otherwise: of fewer, none can be
+/// spared.
 const FEWEST: usize = 8;
 
-/// The rule by which runs are held out unless the caller says otherwise: indices of every fourth of so many
-/// runs, or points of a table, where there are eight or more.
+/// The rule by which runs are held out unless the caller says otherwise: indices of every fourth of
+/// so many runs, or points of a table, where there are eight or more.
 ///
 /// ```
 /// assert_eq!(trackdyn::diagnose::every_fourth(9), [3, 7]);

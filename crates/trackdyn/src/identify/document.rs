@@ -3,11 +3,11 @@
 use super::{FILES, MotionFit};
 use crate::document::{ClockTable, Rounded, to_toml};
 use serde::Serialize;
+use trackdyn_estimate::Interval;
 use trackdyn_estimate::identification::Fit;
+use trackdyn_estimate::noise::Component;
 use trackdyn_estimate::{Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest};
 use trackdyn_model::kinematics::Source;
-use trackdyn_recording::Interval;
-use trackdyn_recording::noise::Component;
 
 #[derive(Serialize)]
 struct File<'a> {

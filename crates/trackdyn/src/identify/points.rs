@@ -11,8 +11,8 @@ use trackdyn_model::kinematics::{KinematicsFile, Source};
 /// What a table of steady operating points says of the kinematic parameters.
 #[derive(Clone, Debug)]
 pub struct PointsFit {
-    /// With the ICRs free, and with the ICRs and the factors on the track speeds free, by Huber's loss; or why
-    /// not.
+    /// With the ICRs free, and with the ICRs and the factors on the track speeds free, by Huber's
+    /// loss; or why not.
     pub fits: [(Free, Result<SteadyEstimate, Error>); 2],
     /// With the ICRs free, by plain squares; or why not.
     pub squares: Result<SteadyEstimate, Error>,

@@ -12,13 +12,14 @@ use trackdyn_diagnose::evidence::{Evidence, Sample};
 use trackdyn_diagnose::locate::{IcrColumns, icr_columns};
 use trackdyn_diagnose::normal::{Normal, Prior};
 use trackdyn_diagnose::prior::priors;
-use trackdyn_model::{CATALOGUE, VehicleFile};
-use trackdyn_recording::synthetic::{Synthetic, random_steps};
+use trackdyn_estimate::synthetic::{Synthetic, random_steps};
+use trackdyn_model::{EffectId, VehicleFile};
 
 /// Placebos in a library.
 pub const PLACEBOS: usize = 20;
 
-/// A size that a roboticist may meet: of a change of an ICR, m, and of a speed or yaw rate, m/s or rad/s.
+/// A size that a roboticist may meet: of a change of an ICR, m, and of a speed or yaw rate, m/s or
+/// rad/s.
 const TYPICAL: [f64; 2] = [0.03, 0.02];
 
 /// Whitened columns of a family of candidates on one recording.
@@ -53,7 +54,7 @@ impl Library {
         let file = VehicleFile::auriga_alpha();
         let evidence = Evidence::of_recording(&recording, file.vehicle.gauge).expect("enough");
         let Base { fit, instruments, .. } = Base::new(&file, &evidence);
-        let tried: Vec<_> = (0..CATALOGUE.len())
+        let tried: Vec<_> = EffectId::all()
             .filter(|effect| !instruments.contains(effect))
             .flat_map(|effect| variants(effect, &evidence))
             .collect();
@@ -75,8 +76,8 @@ impl Library {
         Self { base: fit.columns, candidates, groups, placebos, known, evidence }
     }
 
-    /// The normal equations of a residual that is scaled by this, with the base and more columns that
-    /// are not.
+    /// The normal equations of a residual that is scaled by this, with the base and more columns
+    /// that are not.
     pub fn normal(
         &self,
         scale: [f64; 3],
@@ -99,8 +100,8 @@ impl Library {
     }
 }
 
-/// A random smooth function of how, where and when the robot was driven, at its typical size: a change of an
-/// ICR, or of a component of the twist.
+/// A random smooth function of how, where and when the robot was driven, at its typical size: a
+/// change of an ICR, or of a component of the twist.
 fn placebo(
     place: usize,
     evidence: &Evidence,
@@ -124,7 +125,8 @@ fn placebo(
         .collect()
 }
 
-/// A sum of three waves over some arguments, each of at most one period over the range of the recording.
+/// A sum of three waves over some arguments, each of at most one period over the range of the
+/// recording.
 struct Smooth {
     arguments: fn(&Sample) -> [f64; 2],
     scale: [f64; 2],

@@ -51,10 +51,11 @@ pub fn root_mean_square(values: &[f64]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / count).sqrt()
 }
 
-/// The ratio of two errors that were observed in pairs: geometric mean, and the limits of its interval.
+/// The ratio of two errors that were observed in pairs: geometric mean, and the limits of its
+/// interval.
 ///
-/// Student's t at 99 %, two-sided, of the logarithms, which are alike in size between seeds where errors are
-/// not.
+/// Student's t at 99 %, two-sided, of the logarithms, which are alike in size between seeds where
+/// errors are not.
 pub fn ratio(better: &[f64], worse: &[f64]) -> [f64; 3] {
     /// Student's t, 99.5 % point, with seven degrees of freedom.
     const T: f64 = 3.499;

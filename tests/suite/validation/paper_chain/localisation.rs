@@ -1,10 +1,9 @@
 //! Drives, scans, matches, poses, identification.
 //!
-//! Source: Martinez et al., IJRR 24(10), 2005, section 5.3: a laser of 180 degrees, one scan every 0.27 s,
-//! consecutive scans matched.
-//! Goal: matches to 5 mm and 0.2 degrees; the ICRs of the simulated map.
-//! Conditions: nine eights of about 20 m in a furnished room, ranges with 10 mm of noise, first guess by the
-//! encoders and the ideal drive.
+//! Source: Martinez et al., IJRR 24(10), 2005, section 5.3: a laser of 180 degrees, one scan every
+//! 0.27 s, consecutive scans matched. Goal: matches to 5 mm and 0.2 degrees; the ICRs of the
+//! simulated map. Conditions: nine eights of about 20 m in a furnished room, ranges with 10 mm of
+//! noise, first guess by the encoders and the ideal drive.
 
 use super::ALPHA;
 use super::errors::root_mean_square;
@@ -92,8 +91,8 @@ impl Accuracy {
     }
 }
 
-/// The parameters with α, against the mean ICRs of the motions that were driven; `tolerance` is that of a
-/// parameter with this standard deviation.
+/// The parameters with α, against the mean ICRs of the motions that were driven; `tolerance` is
+/// that of a parameter with this standard deviation.
 fn check_parameters(
     model: &Model,
     drives: &[Drive],
@@ -140,7 +139,8 @@ fn laser_localisation_gives_the_parameters_of_the_motions() {
             check_parameters(&model, &drives, &localised, tolerance);
             accuracy
         });
-    // 5 mm are three standard deviations where the room shows least: up to three in a thousand beyond.
+    // 5 mm are three standard deviations where the room shows least: up to three in a thousand
+    // beyond.
     let Deviations { distances, angles } = &previous.matches;
     let beyond = distances.iter().filter(|distance| **distance > 0.005).count();
     assert!(1000 * beyond <= 3 * distances.len(), "{beyond} of {} beyond 5 mm", distances.len());

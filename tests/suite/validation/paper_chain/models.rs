@@ -3,16 +3,18 @@
 use super::robot::auriga_without_alpha;
 use crate::validation::map_statistics;
 use trackdyn_core::PerSide;
+use trackdyn_estimate::SegmentOptions;
 use trackdyn_estimate::identification::{Identification, Options, identify};
 use trackdyn_estimate::odometry::ParameterSet;
 use trackdyn_estimate::{Estimate, GeneticOptions, Observations, spin_test};
 use trackdyn_model::{Icrs, Kinematics};
-use trackdyn_recording::{Recording, SegmentOptions, Source, TrackSample, UncheckedRun};
+use trackdyn_recording::{Recording, Source, TrackSample, UncheckedRun};
 
 /// Gauge of Auriga-alpha, m.
 pub const GAUGE: f64 = 0.42;
 
-/// Names of the models, in the order of [`Trained::sets`]: the first half without α, the second with.
+/// Names of the models, in the order of [`Trained::sets`]: the first half without α, the second
+/// with.
 pub const NAMES: [&str; 10] = [
     "ideal",
     "symmetric",
@@ -26,8 +28,8 @@ pub const NAMES: [&str; 10] = [
     "asymmetric, α",
 ];
 
-/// The order of the paper: each better than the other in the position over a metre. α improve only what has no
-/// greater fault.
+/// The order of the paper: each better than the other in the position over a metre. α improve only
+/// what has no greater fault.
 pub const ORDER: [(usize, usize); 11] =
     [(1, 0), (2, 1), (3, 2), (4, 2), (6, 5), (7, 6), (8, 7), (9, 7), (7, 2), (8, 3), (9, 4)];
 
@@ -48,8 +50,8 @@ pub struct Trained {
 }
 
 impl Trained {
-    /// Identifies, the symmetric models from spins, the others from paths; the genetic algorithm draws
-    /// from `seed`.
+    /// Identifies, the symmetric models from spins, the others from paths; the genetic algorithm
+    /// draws from `seed`.
     pub fn new(recording: &Recording, spins: &Recording, seed: u64) -> Self {
         let genetic = GeneticOptions { seed, ..GeneticOptions::default() };
         let options =

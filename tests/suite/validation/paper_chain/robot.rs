@@ -16,21 +16,22 @@ const SPIN_SPEED: f64 = 0.4;
 /// Readings from one motion that is solved to the next: 0.27 s.
 const READINGS: usize = 9;
 
-/// Auriga-alpha as the paper's section 5 has it: the centre of gravity to the left and to the front, in
-/// motion with its inertia, and with belts that run at `ALPHA` times the speeds that are shown.
+/// Auriga-alpha as the paper's section 5 has it: the centre of gravity to the left and to the
+/// front, in motion with its inertia, and with belts that run at `ALPHA` times the speeds that are
+/// shown.
 ///
-/// No motion resistance: on the floor of a laboratory what resists is inside the running gear, which no
-/// force on the hull shows.
+/// No motion resistance: on the floor of a laboratory what resists is inside the running gear,
+/// which no force on the hull shows.
 pub fn auriga() -> Model {
     with_effects(&[&encoder_scale()])
 }
 
-/// The same with belts that run as shown: what a simulation knows that was not told of α.
+/// The robot with belts that run as shown: what a simulation knows that was not told of α.
 pub fn auriga_without_alpha() -> Model {
     with_effects(&[])
 }
 
-/// The same at a crawl: the base model, whose ICRs are constant.
+/// The robot at a crawl: the base model, whose ICRs are constant.
 pub fn crawling_auriga() -> Model {
     Model::new(VehicleFile::auriga_alpha().vehicle, parse_effects(&[&encoder_scale()]))
 }
@@ -64,8 +65,8 @@ pub fn recorded_spins(model: &Model, seed: u64) -> Recording {
     drive_and_record(model, &[spin(0, 1.0), spin(1, -1.0)], seed)
 }
 
-/// Mean ICRs of the stationary motions at the track speeds of a recording, weighted by ω²: residuals are
-/// ω times the error of an ICR.
+/// Mean ICRs of the stationary motions at the track speeds of a recording, weighted by ω²:
+/// residuals are ω times the error of an ICR.
 pub fn driven_icrs(model: &Model, recording: &Recording) -> Icrs {
     let solver = Stationary::new(model, &Circumstance::default());
     let (mut sum, mut weights) = ([0.0; 3], 0.0);

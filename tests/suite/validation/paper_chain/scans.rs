@@ -17,8 +17,8 @@ use trackdyn_model::Model;
 use trackdyn_model::{Kinematics, Transient};
 use trackdyn_recording::{PoseSample, TrackSample, UncheckedRun, hold};
 
-/// Corner of Auriga-alpha's tracks as seen from their centre, half of 0.70 m by 0.57 m: what must not touch
-/// a wall, m.
+/// Corner of Auriga-alpha's tracks as seen from their centre, half of 0.70 m by 0.57 m: what must
+/// not touch a wall, m.
 const REACH: f64 = 0.452;
 
 /// A drive along a figure of eight, with what was measured on it.
@@ -36,8 +36,8 @@ pub fn mount() -> Pose {
     Pose::new(0.25, 0.05, 0.02)
 }
 
-/// An eight in the middle of the room, one and a half times, about 20 m: wide or narrow by its number,
-/// and every second one the other way.
+/// An eight in the middle of the room, one and a half times, about 20 m: wide or narrow by its
+/// number, and every second one the other way.
 fn eight(id: i64) -> Path {
     let (size, sense) =
         (f64::from(u8::try_from(id).expect("few")), [1.0, -1.0][usize::from(id % 2 == 1)]);

@@ -11,11 +11,12 @@ use crate::random::{Purpose, stream};
 use nalgebra::{DMatrix, DVector, Vector3};
 use trackdyn_core::real;
 use trackdyn_drive::sensors::Preset;
+use trackdyn_estimate::SegmentOptions;
 use trackdyn_estimate::least_squares::Loss;
 use trackdyn_estimate::sensor::{Sensor, report};
 use trackdyn_estimate::weighting::{SegmentNoise, Weighting, Whitener};
 use trackdyn_estimate::{Free, Observations, Parameters, Unknowns, least_squares};
-use trackdyn_recording::{Recording, SegmentOptions, Source, StatedNoise};
+use trackdyn_recording::{Recording, Source, StatedNoise};
 
 /// A drive of a robot with the bench that the oracle makes of it.
 struct Stage {

@@ -11,7 +11,7 @@ use trackdyn::crates::diagnose::proposal::Proposal;
 use trackdyn::crates::diagnose::proposal::words::decimals;
 use trackdyn::crates::diagnose::uncertainty::{Interval, Level};
 use trackdyn::crates::diagnose::{Diagnosis as Found, Status};
-use trackdyn::crates::model::CATALOGUE;
+use trackdyn::crates::model::EffectId;
 use trackdyn::crates::model::effect::Symmetry;
 
 /// Effects whose limits are printed where nothing is missing.
@@ -52,7 +52,7 @@ pub fn text(diagnosis: &Diagnosis) -> String {
         let _ = writeln!(text, "friction {}", friction(level));
     }
     for verdict in &diagnosis.refused {
-        let id = CATALOGUE[verdict.effect].id;
+        let id = verdict.effect.name();
         let why = verdict.refused.as_deref().unwrap_or_default();
         let _ = writeln!(text, "refused  {id}: {why}");
     }
@@ -85,7 +85,8 @@ pub fn text(diagnosis: &Diagnosis) -> String {
     });
     let _ = writeln!(
         text,
-        "fit      on {on}: {:.3} before, {:.3} with instruments and constants alone, {:.3} after, noise floor {:.3} ({share})",
+        "fit      on {on}: {:.3} before, {:.3} with instruments and constants alone, {:.3} after, \
+        noise floor {:.3} ({share})",
         fit.before, fit.instruments, fit.after, fit.noise_floor
     );
     if let Some(sentence) = diagnosis.contradiction() {
@@ -98,7 +99,8 @@ pub fn text(diagnosis: &Diagnosis) -> String {
 fn friction(Level { value, half }: Level) -> String {
     let [factor, low, high] = [value, value - half, value + half].map(f64::exp);
     format!(
-        "both coefficients times {factor:.2} [{low:.2}, {high:.2}]: steady turns do not tell, but mass slides that far"
+        "both coefficients times {factor:.2} [{low:.2}, {high:.2}]: steady turns do not tell, but \
+        mass slides that far"
     )
 }
 
@@ -133,7 +135,7 @@ fn nothing(diagnosis: &Found) -> String {
         .detectable
         .iter()
         .filter_map(|one| {
-            let card = &CATALOGUE[one.effect];
+            let card = one.effect.card();
             let parameter = &card.parameters[one.parameter];
             Some(format!("{} {:.2e}{}", card.id, one.size?, parameter.unit_behind()))
         })
@@ -149,12 +151,13 @@ fn nothing(diagnosis: &Found) -> String {
 }
 
 fn line(missing: &Missing) -> String {
-    let id = |effect: &usize| CATALOGUE[*effect].id;
+    let id = |effect: &EffectId| effect.name();
     let verdict = &missing.verdict;
     if missing.kind == Kind::Constant {
         let ids: Vec<&str> = verdict.one_of.iter().map(id).collect();
         return format!(
-            "a wrong number, not physics: the constant ICRs differ from the vehicle file's. One of {}",
+            "a wrong number, not physics: the constant ICRs differ from the vehicle file's. One \
+            of {}",
             ids.join(", ")
         );
     }

@@ -93,7 +93,8 @@ pub fn lagging_points(points: &[OperatingPoint]) -> String {
         return String::new();
     }
     let mut text = String::from(
-        "\n  points that turn less than one that is driven less: a track did not run at its speed\n",
+        "\n  points that turn less than one that is driven less: a track did not run at its \
+        speed\n",
     );
     for lag in lags {
         let (point, than) = (points[lag.point], points[lag.than]);

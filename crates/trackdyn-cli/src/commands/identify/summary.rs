@@ -2,8 +2,10 @@
 
 use std::fmt::Write;
 use trackdyn::crates::estimate::identification::Fit;
-use trackdyn::crates::estimate::{Estimate, Free, Identification, Nuisance, Parameters};
-use trackdyn::crates::recording::{Clock, Interval, Run};
+use trackdyn::crates::estimate::{
+    Clock, Estimate, Free, Identification, Interval, Nuisance, Parameters,
+};
+use trackdyn::crates::recording::Run;
 use trackdyn::{Recording, Vehicle};
 
 /// One screen: the recording, its clock and noise, the methods side by side.
@@ -105,7 +107,8 @@ fn fit(text: &mut String, fit: &Fit, gauge: f64, by_noise: bool) {
         let rms = estimate.whitened_rms;
         writeln!(
             text,
-            "    residuals {rms:.2} times the noise; intervals from the noise and from {count} {cut}"
+            "    residuals {rms:.2} times the noise; intervals from the noise and from {count} \
+            {cut}"
         )
     } else {
         writeln!(text, "    intervals from the residuals and from {count} {cut}")

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use trackdyn::crates::diagnose::Plan;
 use trackdyn::crates::diagnose::plan::menu::Manoeuvre;
 use trackdyn::crates::diagnose::plan::{Answer, DECIDED, Separation, measurements};
-use trackdyn::crates::model::CATALOGUE;
+use trackdyn::crates::model::EffectId;
 
 /// The text of a plan.
 pub fn text(plan: &Plan) -> String {
@@ -18,10 +18,11 @@ pub fn text(plan: &Plan) -> String {
         let _ = writeln!(text, "[{}] {}", index + 1, answer(&plan.pairs[column], plan));
     }
     for members in never(plan) {
-        let ids: Vec<&str> = members.iter().map(|&effect| CATALOGUE[effect].id).collect();
+        let ids: Vec<&str> = members.iter().map(|&effect| effect.name()).collect();
         let _ = writeln!(
             text,
-            "{}: driving cannot decide, z is below {DECIDED} over all {} manoeuvres of the menu ({:.0} s)",
+            "{}: driving cannot decide, z is below {DECIDED} over all {} manoeuvres of the menu \
+            ({:.0} s)",
             ids.join(" or "),
             plan.menu.0,
             plan.menu.1
@@ -35,7 +36,8 @@ pub fn text(plan: &Plan) -> String {
     }
     let _ = writeln!(
         text,
-        "\n{} manoeuvres, {:.2} s, each from rest to rest; z of each pair (z per second). z² adds up, z does \
+        "\n{} manoeuvres, {:.2} s, each from rest to rest; z of each pair (z per second). z² adds \
+        up, z does \
          not.",
         plan.steps.len(),
         plan.duration()
@@ -58,9 +60,10 @@ pub fn text(plan: &Plan) -> String {
     text
 }
 
-/// The members of each question that no driving tells from one another: those of pairs that share one.
-fn never(plan: &Plan) -> Vec<BTreeSet<usize>> {
-    let mut groups: Vec<(usize, BTreeSet<usize>)> = Vec::new();
+/// The members of each question that no driving tells from one another: those of pairs that share
+/// one.
+fn never(plan: &Plan) -> Vec<BTreeSet<EffectId>> {
+    let mut groups: Vec<(usize, BTreeSet<EffectId>)> = Vec::new();
     for pair in plan.pairs.iter().filter(|pair| pair.answer == Answer::Never) {
         let known = groups.iter_mut().find(|(question, members)| {
             *question == pair.question && pair.effects.iter().any(|effect| members.contains(effect))
@@ -74,10 +77,11 @@ fn never(plan: &Plan) -> Vec<BTreeSet<usize>> {
 }
 
 fn answer(pair: &Separation, plan: &Plan) -> String {
-    let [one, other] = pair.effects.map(|effect| CATALOGUE[effect].id);
+    let [one, other] = pair.effects.map(|effect| effect.name());
     match pair.answer {
         Answer::Longer(time) => format!(
-            "{one} or {other}: this plan does not decide, z = {:.1} is below {DECIDED}; it would take some \
+            "{one} or {other}: this plan does not decide, z = {:.1} is below {DECIDED}; it would \
+            take some \
              {time:.0} s. Instead: {}",
             pair.z,
             measurements(pair.effects).join("; ")

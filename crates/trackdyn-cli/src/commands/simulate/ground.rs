@@ -5,7 +5,8 @@ use trackdyn::simulate::{Ground, Motion};
 use trackdyn::{ActiveEffect, SimulateSettings, Vehicle};
 use trackdyn_second_simulator::{ActiveMechanism, Robot, Setup, sheet_of};
 
-/// The independent mechanisms of the names of the vehicle's effects, and those outside the catalogue.
+/// The independent mechanisms of the names of the vehicle's effects, and those outside the
+/// catalogue.
 pub struct Independent<'a> {
     vehicle: &'a Vehicle,
     mechanisms: &'a [ActiveMechanism],
@@ -59,8 +60,8 @@ impl Ground for Independent<'_> {
     }
 }
 
-/// The mechanism of an effect's name. Its law has constants where the effect's has parameters: these are then to be left as
-/// they are.
+/// The mechanism of an effect's name. Its law has constants where the effect's has parameters:
+/// these are then to be left as they are.
 fn mechanism_of(effect: &ActiveEffect) -> Result<ActiveMechanism, String> {
     let card = effect.card();
     let sheet = sheet_of(card.id);
@@ -73,7 +74,8 @@ fn mechanism_of(effect: &ActiveEffect) -> Result<ActiveMechanism, String> {
             settings.push((parameter.key, value));
         } else if value != card.default_of(parameter) {
             return Err(format!(
-                "--effect {}:{} = {value}: expected it left out on the independent ground, whose law has no such \
+                "--effect {}:{} = {value}: expected it left out on the independent ground, whose \
+                law has no such \
                  parameter",
                 card.id, parameter.key
             ));

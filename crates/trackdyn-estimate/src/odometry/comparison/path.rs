@@ -1,10 +1,11 @@
 //! One run with all its predicted paths.
 
+use crate::Extent;
 use crate::odometry::pose_error::{self, Delta, Statistics};
 use crate::odometry::{DeadReckoning, Residual};
 use trackdyn_core::Pose;
 use trackdyn_core::pose::wrap_angle;
-use trackdyn_recording::{Extent, Run, hold};
+use trackdyn_recording::{Run, hold};
 
 /// A run: what was recorded and what each parameter set predicts, pose by pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +18,8 @@ pub struct Path {
     pub stamps: Vec<f64>,
     /// Recorded poses.
     pub recorded: Vec<Pose>,
-    /// Distance travelled up to each pose, m, as in [`Stretch::distance`](crate::odometry::Stretch::distance).
+    /// Distance travelled up to each pose, m, as in
+    /// [`Stretch::distance`](crate::odometry::Stretch::distance).
     pub travelled: Vec<f64>,
     /// Predictions in the order of the parameter sets.
     pub trajectories: Vec<DeadReckoning>,
@@ -28,7 +30,8 @@ pub struct Path {
 /// Errors of one parameter set over a whole run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathErrors {
-    /// Observed minus predicted motion from the first to the last pose; yaw without turns that no pose shows.
+    /// Observed minus predicted motion from the first to the last pose; yaw without turns that no
+    /// pose shows.
     pub last: Residual,
     /// Absolute error of the places, m; both paths start at the same pose.
     pub absolute: Statistics,
@@ -125,8 +128,8 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// A robot spins on while no pose is seen: the turns that the poses cannot show are no error, those of a drive that turns
-    /// too fast all the time are.
+    /// A robot spins on while no pose is seen: the turns that the poses cannot show are no error,
+    /// those of a drive that turns too fast all the time are.
     #[test]
     fn turns_that_no_pose_shows_are_no_error() {
         let path = |recorded: [f64; 4], predicted: [f64; 4]| Path {

@@ -2,9 +2,9 @@
 
 use super::component::Piece;
 use super::{Component, Path};
+use crate::Blocks;
 use crate::odometry::{Residual, Span, Stretch};
 use trackdyn_core::real;
-use trackdyn_recording::Blocks;
 
 /// Errors of all parameter sets over pieces of one length.
 #[derive(Clone, Debug, PartialEq)]

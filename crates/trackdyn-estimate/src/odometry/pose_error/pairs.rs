@@ -13,7 +13,7 @@ pub enum Delta {
 
 /// Largest deviation from the distance asked for, of that distance, where all pairs count: evo's
 /// default.
-const TOLERANCE: f64 = 0.1;
+const DISTANCE_TOLERANCE: f64 = 0.1;
 
 /// Indices of pairs along a path: one after the other, or for `all` one from every pose.
 ///
@@ -57,7 +57,7 @@ fn every_pair(travelled: &[f64], distance: f64) -> Vec<[usize; 2]> {
             .map(|to| to.clamp(from + 1, travelled.len() - 1))
             .map(|to| first_of(travelled, from, to));
         let nearest = candidates.min_by(|a, b| miss(*a).total_cmp(&miss(*b)));
-        if let Some(to) = nearest.filter(|to| miss(*to) <= TOLERANCE * distance) {
+        if let Some(to) = nearest.filter(|to| miss(*to) <= DISTANCE_TOLERANCE * distance) {
             pairs.push([from, to]);
         }
     }

@@ -2,9 +2,8 @@
 
 use super::{Collected, Reading, RosbagOptions, Stamped, turns};
 use crate::Error;
-use crate::recording::{
-    Cleaning, ImuSample, PoseSample, Series, TrackSample, UncheckedRun, Warning, clean,
-};
+use crate::recording::{Cleaning, UncheckedRun, Warning, clean};
+use crate::sample::{ImuSample, PoseSample, Series, TrackSample};
 use std::path::Path;
 use trackdyn_core::Pose;
 

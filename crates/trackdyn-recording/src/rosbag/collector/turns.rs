@@ -1,13 +1,14 @@
 //! Positions of joints that are reported modulo a turn.
 //!
 //! # Law
-//! A joint whose positions all lie within one turn and that steps by more than half a turn has wrapped
-//! where the shortest way goes on as the step before did, to a quarter turn. Whole turns are added from
-//! there on.
+//! A joint whose positions all lie within one turn and that steps by more than half a turn has
+//! wrapped where the shortest way goes on as the step before did, to a quarter turn. Whole turns
+//! are added from there on.
 //!
 //! # Assumes
-//! A wheel turns by less than half a turn between two readings. Any other step by more than half a turn,
-//! such as that of an encoder that starts anew, is left as it is and told: what happened is not known.
+//! A wheel turns by less than half a turn between two readings. Any other step by more than half a
+//! turn, such as that of an encoder that starts anew, is left as it is and told: what happened is
+//! not known.
 
 use super::{Reading, Stamped};
 use crate::recording::Warning;
@@ -15,10 +16,10 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Positions of one joint may span this much beyond a turn and still be modulo a turn, rad: single
 /// precision and coarse encoders round them.
-const ROUNDING: f64 = 1e-3;
+const POSITION_ROUNDING: f64 = 1e-3;
 
-/// Adds whole turns to the positions of joints that wrap. `joints` are their names, `seconds` the time
-/// of a stamp.
+/// Adds whole turns to the positions of joints that wrap. `joints` are their names, `seconds` the
+/// time of a stamp.
 pub(super) fn unwrap(
     readings: &mut [Stamped<Reading>],
     joints: &[String],
@@ -73,7 +74,7 @@ impl Steps {
         let values = || angles.iter().map(|&(_, angle)| angle);
         let span =
             values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
-        let within_a_turn = span <= TAU + ROUNDING;
+        let within_a_turn = span <= TAU + POSITION_ROUNDING;
         let mut steps = Self { turns: Vec::new(), wraps: 0, jumps: Vec::new() };
         let (mut turns, mut before) = (0.0, 0.0);
         steps.turns.extend(values().take(1).map(|_| 0.0));

@@ -1,0 +1,127 @@
+//! Errors before and after, on runs that nothing was fitted or chosen on where there are any.
+
+use crate::evidence::Evidence;
+use crate::fit::Fit;
+use crate::locate::{Residual, excess, icr_columns};
+use crate::noise::without_outliers;
+use crate::resampling::Resampling;
+use nalgebra::Vector3;
+use trackdyn_core::real;
+
+/// What is left of runs that nothing was fitted or chosen on.
+#[derive(Clone)]
+pub struct Unseen {
+    /// What they show.
+    pub evidence: Evidence,
+    /// Whitened residuals before.
+    pub before: Vec<Vector3<f64>>,
+    /// After.
+    pub after: Vec<Vector3<f64>>,
+}
+
+/// Errors on runs that were held out, in units of the noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldOut {
+    /// Root mean square of the whitened residual before.
+    pub before: f64,
+    /// With nothing but the base fitted: constants, encoders and pose sensor.
+    pub instruments: f64,
+    /// After.
+    pub after: f64,
+    /// What is left when everything that moves ICRs or instruments, model or not, is fitted away.
+    pub noise_floor: f64,
+    /// Whether the runs really were held out; else these are the runs of the fit.
+    pub are_held_out: bool,
+}
+
+impl HeldOut {
+    /// What these errors say against what is claimed beside constants, physics or instruments; none where that does better than
+    /// what it was compared with.
+    pub(crate) fn contradiction(&self, claims: bool, claims_physics: bool) -> Option<String> {
+        let Self { before, instruments, after, are_held_out, .. } = *self;
+        if !are_held_out {
+            None
+        } else if claims && after >= before {
+            Some(format!(
+                "What is claimed does not help there: the error is {after:.3} with it and {before:.3} without. It may be true \
+                 of what it was learned from alone: drive on without it."
+            ))
+        } else if claims_physics && after >= instruments {
+            Some(format!(
+                "The physics that is claimed does not help there: the error is {after:.3} with it and {instruments:.3} with \
+                 encoders, pose sensor and constants at their best alone. It may be true of what it was learned from alone."
+            ))
+        } else {
+            None
+        }
+    }
+
+    /// Share of the excess over the noise floor that the corrected model explains; none where there is no
+    /// excess.
+    pub fn excess_explained(&self) -> Option<f64> {
+        let excess = self.before.powi(2) - self.noise_floor.powi(2);
+        (excess > 1e-3 * self.noise_floor.powi(2))
+            .then(|| (self.before.powi(2) - self.after.powi(2)) / excess)
+    }
+}
+
+/// The errors on evidence, with the fits to it.
+pub(crate) fn errors(
+    evidence: &Evidence,
+    [before, instruments, after]: [&Fit; 3],
+    resampling: Resampling,
+) -> HeldOut {
+    let [before, instruments, error] =
+        [before, instruments, after].map(|fit| excess(evidence, &fit.residual));
+    let icrs = icr_columns(evidence, after);
+    let residual = Residual { evidence, fit: after, icrs: &icrs };
+    let flexible = residual.locate(resampling.once());
+    let count = real(evidence.measured().max(1));
+    let floor = error * error - flexible.explicable.max(0.0) / count;
+    let noise_floor = floor.max(0.0).sqrt().min(error);
+    HeldOut { before, instruments, after: error, noise_floor, are_held_out: false }
+}
+
+/// Judges three fits, of what was there before, of the base and of the best hypothesis, by runs that nothing was fitted or
+/// chosen on, in the noise that `seen` has.
+pub(crate) fn judged(
+    unseen: &Evidence,
+    seen: &Evidence,
+    [before, instruments, best]: [&Fit; 3],
+    resampling: Resampling,
+) -> (HeldOut, Unseen) {
+    let unseen = unseen.with_scale(seen.scale());
+    let unseen = seen.noise().map_or_else(|| unseen.clone(), |noise| unseen.with_noise(*noise));
+    let evidence = without_outliers(&unseen, &best.on(&unseen));
+    let [before, instruments, after] = [before, instruments, best].map(|fit| fit.on(&evidence));
+    let errors = errors(&evidence, [&before, &instruments, &after], resampling);
+    let (before, after) = (before.residual, after.residual);
+    (HeldOut { are_held_out: true, ..errors }, Unseen { evidence, before, after })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn held_out_runs_contradict_what_does_no_better_than_what_was_there_before() {
+        let errors = |before, instruments, after| HeldOut {
+            before,
+            instruments,
+            after,
+            noise_floor: 1.0,
+            are_held_out: true,
+        };
+        assert_eq!(errors(1.5, 1.3, 1.1).contradiction(true, true), None);
+        let filed = errors(1.2, 1.3, 1.25).contradiction(true, true).expect("the file does better");
+        assert!(filed.contains("1.250 with it and 1.200 without"), "{filed}");
+        // what encoders did wrong is explained, and the physics beside it makes it worse
+        let physics =
+            errors(3.0, 1.1, 1.2).contradiction(true, true).expect("instruments do better");
+        assert!(physics.contains("1.200 with it and 1.100 with encoders"), "{physics}");
+        assert_eq!(errors(3.0, 1.1, 1.2).contradiction(true, false), None);
+        assert_eq!(errors(1.1, 1.1, 1.1).contradiction(false, false), None);
+        let fitted = HeldOut { are_held_out: false, ..errors(1.2, 1.3, 1.25) };
+        assert_eq!(fitted.contradiction(true, true), None);
+    }
+}

@@ -1,0 +1,216 @@
+//! Triples of poses and the noise they show.
+
+use super::{Component, Method, PoseNoise};
+use crate::gaps::Gaps;
+use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median};
+use trackdyn_core::{PerSide, Pose, Side, real};
+use trackdyn_recording::hold::travelled;
+use trackdyn_recording::{PoseSample, Recording, Run};
+
+/// Steps between the poses of a triple.
+const STEPS: [usize; 4] = [1, 2, 4, 8];
+
+/// Longer triples show driving, not noise, s.
+const MAX_DURATION: f64 = 2.5;
+
+/// Triples that turn more between two of their poses are left out, rad: the propagation of noise
+/// through [`body_velocity`] is that of small turns.
+const MAX_TURN: f64 = 1.0;
+
+/// Fewer triples than this say nothing.
+const MIN_TRIPLES: usize = 30;
+
+/// Time after which a robot whose encoders show zero stands, also in late poses, s.
+const SETTLING_TIME: f64 = 0.5;
+
+/// Speeds of the two halves of a triple may differ by this many standard deviations.
+const MAX_SPEED_CHANGE: f64 = 2.0;
+
+/// Triples of one number of steps.
+#[derive(Default)]
+struct Group {
+    /// e of forward, lateral and yaw.
+    distances: [Vec<f64>; 3],
+    /// Σ (1 + λ² + (1 − λ)²).
+    white: f64,
+    /// Σ T₁ T₂/(T₁ + T₂), s.
+    walk: f64,
+}
+
+impl Group {
+    fn add(&mut self, [a, b, c]: [&PoseSample; 3]) {
+        let (t_1, t_2) = (b.t - a.t, c.t - b.t);
+        let first = body_velocity(&a.pose.relative(&b.pose), t_1);
+        let second = body_velocity(&b.pose.relative(&c.pose), t_2);
+        let lever = t_1 * t_2 / (t_1 + t_2);
+        let lambda = t_1 / (t_1 + t_2);
+        for (distances, (v_1, v_2)) in self.distances.iter_mut().zip(first.iter().zip(second)) {
+            distances.push((v_2 - v_1) * lever);
+        }
+        self.white += 1.0 + lambda * lambda + (1.0 - lambda) * (1.0 - lambda);
+        self.walk += lever;
+    }
+
+    fn count(&self) -> usize {
+        self.distances[0].len()
+    }
+}
+
+/// Body velocity of the constant twist that makes a motion: the inverse of [`Pose::exp`].
+fn body_velocity(motion: &Pose, duration: f64) -> [f64; 3] {
+    let angle = motion.yaw;
+    let (s, c) = if angle.abs() < 1e-4 {
+        (1.0 - angle * angle / 6.0, angle / 2.0)
+    } else {
+        (angle.sin() / angle, (1.0 - angle.cos()) / angle)
+    };
+    let scale = duration * (s * s + c * c);
+    [(s * motion.x + c * motion.y) / scale, (s * motion.y - c * motion.x) / scale, angle / duration]
+}
+
+/// Pose noise while the encoders of both sides show zero.
+pub(super) fn standing(recording: &Recording) -> Option<PoseNoise> {
+    let mut groups: [Group; 4] = Default::default();
+    for run in recording.runs() {
+        for [from, until] in still(run) {
+            let poses = run.poses();
+            let first = poses.partition_point(|sample| sample.t < from);
+            let after = poses.partition_point(|sample| sample.t <= until);
+            gather(poses.get(first..after).unwrap_or_default(), &mut groups, |_| true);
+        }
+    }
+    figures(&groups, Method::StandStill)
+}
+
+/// Pose noise while the speeds of both sides stay the same within their noise.
+pub(super) fn moving(
+    recording: &Recording,
+    tau: f64,
+    deviation: PerSide<Option<f64>>,
+) -> Option<PoseNoise> {
+    let mut groups: [Group; 4] = Default::default();
+    for run in recording.runs() {
+        let gaps = Gaps::of(run.tracks());
+        let is_known = |a: &PoseSample, c: &PoseSample| !gaps.meet(a.t - tau, c.t - tau);
+        gather(run.poses(), &mut groups, |triple| {
+            is_known(triple[0], triple[2]) && is_steady(run, triple, tau, deviation)
+        });
+    }
+    figures(&groups, Method::SteadyIncrements)
+}
+
+/// Times of a run during which the robot stands.
+fn still(run: &Run) -> Vec<[f64; 2]> {
+    let tracks = run.tracks();
+    let stretches = tracks.chunk_by(|a, b| {
+        let stands = |v_left: f64, v_right: f64| v_left == 0.0 && v_right == 0.0;
+        stands(a.v_left, a.v_right) == stands(b.v_left, b.v_right)
+    });
+    stretches
+        .filter(|stretch| stretch[0].v_left == 0.0 && stretch[0].v_right == 0.0)
+        .map(|stretch| [stretch[0].t + SETTLING_TIME, stretch[stretch.len() - 1].t])
+        .collect()
+}
+
+/// Whether the tracks move, and in the second half as in the first.
+fn is_steady(
+    run: &Run,
+    [a, b, c]: [&PoseSample; 3],
+    tau: f64,
+    deviation: PerSide<Option<f64>>,
+) -> bool {
+    let tracks = run.tracks();
+    let (Some(first), Some(last)) = (tracks.first(), tracks.last()) else { return false };
+    if a.t - tau < first.t || c.t - tau > last.t {
+        return false;
+    }
+    let mean = |from: &PoseSample, to: &PoseSample| {
+        travelled(tracks, from.t, to.t, tau).map(|distance| distance / (to.t - from.t))
+    };
+    let (before, after) = (mean(a, b), mean(b, c));
+    let readings = |from: &PoseSample, to: &PoseSample| {
+        let index = |t: f64| tracks.partition_point(|sample| sample.t <= t - tau);
+        real((index(to.t) - index(from.t)).max(1))
+    };
+    let spread = (1.0 / readings(a, b) + 1.0 / readings(b, c)).sqrt();
+    let moves = Side::BOTH.iter().any(|&side| before[side] != 0.0);
+    moves
+        && Side::BOTH.iter().all(|&side| {
+            let allowed = deviation[side].unwrap_or(0.0) * MAX_SPEED_CHANGE * spread;
+            // Without noise, rounding of the means is what is left.
+            (after[side] - before[side]).abs() <= allowed.max(1e-9)
+        })
+}
+
+fn gather(
+    poses: &[PoseSample],
+    groups: &mut [Group; 4],
+    accept: impl Fn([&PoseSample; 3]) -> bool,
+) {
+    for (group, steps) in groups.iter_mut().zip(STEPS) {
+        for triple in poses.windows(2 * steps + 1) {
+            let triple = [&triple[0], &triple[steps], &triple[2 * steps]];
+            let turn = |from: usize| triple[from + 1].pose.yaw - triple[from].pose.yaw;
+            let is_small = turn(0).abs() <= MAX_TURN && turn(1).abs() <= MAX_TURN;
+            if is_small && triple[2].t - triple[0].t <= MAX_DURATION && accept(triple) {
+                group.add(triple);
+            }
+        }
+    }
+}
+
+fn figures(groups: &[Group; 4], method: Method) -> Option<PoseNoise> {
+    let triples = groups[0].count();
+    if triples < MIN_TRIPLES {
+        return None;
+    }
+    let component = |coordinate: usize| {
+        let mut rows = Vec::new();
+        for (group, steps) in groups.iter().zip(STEPS) {
+            if group.count() < MIN_TRIPLES {
+                continue;
+            }
+            let count = real(group.count());
+            let (white, walk) = (group.white / count, group.walk / count);
+            // Triples overlap: about one in `steps` is independent of the others.
+            let independent = count / real(steps);
+            let mut squares: Vec<f64> =
+                group.distances[coordinate].iter().map(|distance| distance * distance).collect();
+            let variance = median(&mut squares)? / MEDIAN_OF_CHI_SQUARE;
+            rows.push(([white, walk], variance, independent));
+        }
+        Some(split(&rows))
+    };
+    Some(PoseNoise {
+        forward: component(0)?,
+        lateral: component(1)?,
+        yaw: component(2)?,
+        triples,
+        method,
+    })
+}
+
+/// R ≥ 0 and q ≥ 0 from variances = R white + q walk. A variance is known to a part of itself, so
+/// its weight is its inverse square times the count of independent triples.
+fn split(rows: &[([f64; 2], f64, f64)]) -> Component {
+    let [mut aa, mut ab, mut bb, mut ay, mut by] = [0.0; 5];
+    for &([a, b], y, count) in rows {
+        if y <= 0.0 {
+            return Component { white: 0.0, walk: 0.0 };
+        }
+        let weight = count / (y * y);
+        aa += weight * a * a;
+        ab += weight * a * b;
+        bb += weight * b * b;
+        ay += weight * a * y;
+        by += weight * b * y;
+    }
+    let determinant = aa * bb - ab * ab;
+    let both = [(ay * bb - by * ab) / determinant, (by * aa - ay * ab) / determinant];
+    let [r, q] = match both {
+        [r, q] if determinant > 1e-12 * aa * bb && r >= 0.0 && q >= 0.0 => [r, q],
+        [r, _] if determinant > 1e-12 * aa * bb && r < 0.0 => [0.0, (by / bb).max(0.0)],
+        _ => [(ay / aa).max(0.0), 0.0],
+    };
+    Component { white: r.sqrt(), walk: q.sqrt() }
+}

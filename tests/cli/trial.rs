@@ -36,6 +36,13 @@ pub fn tool(place: &Workplace, body: &str) -> String {
     path.display().to_string()
 }
 
+/// The answers of the trial `cases`, beside the key.
+pub fn answers(place: &Workplace) -> String {
+    let commitment = text(place, "cases/commitment.txt");
+    let hash = commitment.split('"').nth(1).expect("a hash");
+    format!("secret/answers.key.{}.toml", &hash[..8])
+}
+
 fn stamp(path: &Path) -> SystemTime {
     std::fs::metadata(path).and_then(|file| file.modified()).expect("a stamp")
 }
@@ -68,8 +75,8 @@ fn cases_are_alike_outside_and_the_same_on_any_number_of_threads() {
             assert!(!["424242", "null", "seed", "secret"].iter().any(|word| text.contains(word)));
         }
     }
-    let sealed = place.read("cases/answers.sealed");
-    assert!(!sealed.windows(7).any(|part| part == b"stratum"));
+    let answers = answers(&place);
+    assert!(text(&place, &answers).contains("stratum"), "they lie beside the key");
 
     let (again, other) = (Workplace::new(), Workplace::new());
     again.write("answers.key", KEY);
@@ -78,7 +85,7 @@ fn cases_are_alike_outside_and_the_same_on_any_number_of_threads() {
         assert_eq!(run.status, 0, "{}", run.stderr);
     }
     assert!(made(&place, "cases") == made(&again, "cases"));
-    assert_eq!(sealed, again.read("cases/answers.sealed"));
+    assert_eq!(place.read(&answers), again.read(answers.trim_start_matches("secret/")));
     let vehicle = |place: &Workplace| text(place, "cases/case-0001/vehicle.toml");
     assert_ne!(vehicle(&place), vehicle(&other), "a seed without its key leads to no case");
     assert_ne!(text(&other, "answers.key").trim(), KEY);
@@ -108,7 +115,7 @@ fn a_diagnosis_reaches_nothing_of_the_trial_and_is_scored_by_the_sealed_answers(
     assert!(run.stdout.contains("0 diagnosed now, 0 failed, 2 before"), "{}", run.stdout);
     assert!(!run.stderr.contains("within reach"), "{}", run.stderr);
 
-    // a key where a process may look for it is said to be there, and of what is not sealed yet
+    // a key where a process may look for it is said to be there, and of what is not committed to yet
     // nothing is diagnosed
     place.write("cases.key", KEY);
     let run = place.run(&format!("trial run cases --program {spy}"));
@@ -145,6 +152,13 @@ fn a_diagnosis_reaches_nothing_of_the_trial_and_is_scored_by_the_sealed_answers(
     place.write("cases/case-0001/recording/poses.csv", &poses.replacen("0,0.", "0,1.", 1));
     let run = place.run("trial score cases --name tool --key secret/answers.key");
     assert!(run.status == 1 && run.stderr.contains("fingerprint"), "{}", run.stderr);
+    place.write("cases/case-0001/recording/poses.csv", &poses);
+    let (file, sealed) = (answers(&place), text(&place, &answers(&place)));
+    place.write(&file, &sealed.replacen("plain-null", "hard-null", 1));
+    let run = place.run("trial score cases --name tool --key secret/answers.key");
+    assert!(run.status == 1 && run.stderr.contains("SHA-256"), "{}", run.stderr);
+    place.write(&file, &sealed);
+    assert_eq!(place.run("trial score cases --name tool --key secret/answers.key").status, 0);
     place.write(
         "cases/commitment.txt",
         &commitment.replacen("answers_sha256 = \"", "answers_sha256 = \"0", 1),
@@ -356,7 +370,7 @@ fn a_trial_is_not_made_twice_and_its_key_not_into_its_folder() {
     let run = place.run("trial make --cases 1 --seed 1 --out cases --key sub/../cases/x.key");
     assert!(run.status == 1 && run.stderr.contains("outside"), "{}", run.stderr);
     std::fs::create_dir(place.path().join("cases")).expect("a folder");
-    place.write("cases/answers.sealed", "");
+    place.write("cases/commitment.txt", "");
     let run = place.run("trial make --cases 1 --seed 1 --out cases");
     assert!(run.status == 1 && run.stderr.contains("made once"), "{}", run.stderr);
     assert_eq!(place.run("trial run cases").status, 1);
@@ -370,5 +384,5 @@ fn a_trial_is_not_made_twice_and_its_key_not_into_its_folder() {
     place.write("other.key", KEY);
     let run = place.run("trial make --cases 1 --seed 1 --out cases --key other.key");
     assert!(run.status == 1 && run.stderr.contains("made once"), "{}", run.stderr);
-    assert!(place.read("cases/answers.sealed").is_empty());
+    assert!(place.read("cases/commitment.txt").is_empty());
 }

@@ -6,7 +6,7 @@ use trackdyn_diagnose::candidate::{Beside, Variant};
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::hypothesis::{Hypothesis, Unknown, neutral};
 use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
-use trackdyn_diagnose::{Diagnosis, Evidence};
+use trackdyn_diagnose::{Diagnosis, Evidence, Weighted};
 use trackdyn_drive::ScheduleKind;
 use trackdyn_drive::sensors::Preset;
 use trackdyn_estimate::weighting::SegmentNoise;
@@ -54,7 +54,7 @@ fn what_inertia_adds_is_what_small_steps_make_it() {
     let yaw = [0.17_f64, 0.07].map(|degrees| degrees.to_radians().powi(2));
     let noise =
         SegmentNoise { pose: [pose, pose, yaw[0]], walk: [walk, walk, 0.0], heading: yaw[1] };
-    let evidence = evidence.with_noise(noise);
+    let evidence = Weighted::new(evidence).with_noise(noise);
     let exact = in_time(&hypothesis, &evidence, (0.002, 1e-5));
     let off = evidence.white(minus(&predicted(&hypothesis, &evidence), &exact));
     let off = off.iter().map(Vector3::norm_squared).sum::<f64>().sqrt();
@@ -117,6 +117,7 @@ fn a_law_of_the_slip_speed_takes_no_part_in_what_other_numbers_change() {
 #[test]
 fn signatures_of_laws_of_the_slip_speed_know_the_answer_to_acceleration() {
     let (plain, evidence) = by_hand();
+    let evidence = Weighted::new(evidence);
     let beside = Beside::new(&plain, &evidence);
     for law in MILD.into_iter().chain(STRONG) {
         let law: ActiveEffect = law.parse().expect("an effect");

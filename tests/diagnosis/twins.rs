@@ -137,7 +137,7 @@ fn separations(found: &Diagnosis, effect: EffectId) -> Vec<(EffectId, f64)> {
     let entries = Beside::new(&base.fit.hypothesis, evidence).signatures(&tried);
     let catalogue = Catalogue { entries };
     let search = Search::new(evidence, base, &catalogue);
-    let apart = |rival: EffectId| {
+    let apart = |rival: usize| {
         let (normal, known, groups) = search.normal(&base.fit, &[0, rival]);
         let free = (0..base.fit.columns.len()).chain(groups[1].iter().copied());
         let projected = normal.projected(&free.collect::<Vec<_>>(), &known);

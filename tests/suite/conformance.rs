@@ -1,8 +1,10 @@
 //! What the project promises of its own structure and catalogue.
 
+mod adding_an_effect;
 mod arrows;
 mod circles;
 mod crates;
+mod literals;
 mod packages;
 mod parity;
 mod words;

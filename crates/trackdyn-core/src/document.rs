@@ -103,8 +103,8 @@ impl Document {
         })
     }
 
-    /// The contents as a `T`, if the file says that it has this schema. What keys another kind of
-    /// file has is no help.
+    /// The contents as a `T`, if the file says that it has this schema. A file of another kind is
+    /// refused by its schema, and not by the keys that it lacks.
     ///
     /// # Errors
     /// [`DocumentError::Value`] where it says otherwise; those of [`Document::parse`].

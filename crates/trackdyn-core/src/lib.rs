@@ -14,6 +14,7 @@ pub mod rounding;
 pub mod scalar;
 pub mod schedule;
 pub mod side;
+pub mod status;
 pub mod trajectory;
 pub mod twist;
 pub mod wrench;

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{PoisonError, RwLock, RwLockWriteGuard};
 
-/// Held by everyone who writes a file, and alone by who is about to end the program.
+/// Read-locked by each writer of a file, and write-locked by who is about to end the program.
 static WRITING: RwLock<()> = RwLock::new(());
 
 /// A file that could not be written.
@@ -56,8 +56,8 @@ fn write(
 
 /// Waits until no file is being written, and lets none be begun while what it gives is kept.
 ///
-/// For ends that run no destructors, such as a signal's: inside [`write_file`] they would leave its
-/// temporary file.
+/// For an end of the program that runs no destructors, such as a signal: inside [`write_file`] it
+/// would leave the temporary file.
 pub fn files_at_rest() -> RwLockWriteGuard<'static, ()> {
     WRITING.write().unwrap_or_else(PoisonError::into_inner)
 }

@@ -90,7 +90,7 @@ pub trait Scalar:
     }
 }
 
-/// Size from which on a sum with one keeps all digits of what is added.
+/// Smallest size of a number that keeps all its digits when it is added to one.
 const MIN_EXACT_SUMMAND: f64 = 0.5;
 
 /// A count as a real number.

@@ -1,36 +1,9 @@
 //! What is said of a robot: a status, and what was left out of its model.
 
+pub use trackdyn_core::status::Status;
+
 use crate::uncertainty::Interval;
 use crate::verdict::Verdict;
-
-/// What a diagnosis says in a word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    /// What was left out is named.
-    Explained,
-    /// Nothing that this evidence could show was left out.
-    NothingMissing,
-    /// Something is missing that several effects explain alike.
-    Ambiguous,
-    /// Something is there that the catalogue does not explain.
-    Unexplained,
-}
-
-impl Status {
-    /// All of them.
-    pub const ALL: [Self; 4] =
-        [Self::Explained, Self::NothingMissing, Self::Ambiguous, Self::Unexplained];
-
-    /// Its word in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Explained => "explained",
-            Self::NothingMissing => "nothing-missing",
-            Self::Ambiguous => "ambiguous",
-            Self::Unexplained => "unexplained",
-        }
-    }
-}
 
 /// What kind of thing was left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

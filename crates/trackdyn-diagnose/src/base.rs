@@ -4,7 +4,6 @@
 //! encoders and pose sensor make of the motion: gains, clock, mount; and the level of friction and the centre of gravity where
 //! mass shows them.
 
-use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::hypothesis::{
     Hypothesis, Unknown, active, neutral, typical, unknowns_of, with_friction,
@@ -12,6 +11,7 @@ use crate::hypothesis::{
 use crate::mechanics::{Mechanics, is_instrument};
 use crate::normal::{Columns, Normal, Prior};
 use crate::prior::prior;
+use crate::weighted::Weighted;
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::PerSide;
 use trackdyn_model::{ActiveEffect, Circumstance, EffectId, Effects, Model, Vehicle, VehicleFile};
@@ -47,7 +47,7 @@ const BY_MASS: [Unknown; 3] = [Unknown::FrictionLevel, Unknown::Cog(0), Unknown:
 
 impl Base {
     /// The base of a vehicle for this evidence.
-    pub fn new(file: &VehicleFile, evidence: &Evidence) -> Self {
+    pub fn new(file: &VehicleFile, evidence: &Weighted) -> Self {
         let hypothesis = Hypothesis::filed(file);
         let as_filed = Fit::new(hypothesis.clone(), &OFFSETS, evidence, None);
         let start = with_clock(&hypothesis, evidence);
@@ -81,7 +81,7 @@ impl Base {
     }
 
     /// The same at its best for the evidence with another noise, or another scale of residuals.
-    pub fn refitted(&self, evidence: &Evidence) -> Self {
+    pub fn refitted(&self, evidence: &Weighted) -> Self {
         let again = |fit: &Fit| {
             let (start, before) = (fit.hypothesis.clone(), Some(&fit.mechanics));
             Fit::new(start, &fit.unknowns, evidence, before)
@@ -91,7 +91,7 @@ impl Base {
 }
 
 /// The hypothesis with the clock offset that the recording shows by itself, in whatever effect delays poses.
-fn with_clock(hypothesis: &Hypothesis, evidence: &Evidence) -> Hypothesis {
+fn with_clock(hypothesis: &Hypothesis, evidence: &Weighted) -> Hypothesis {
     let own = Model::new(hypothesis.vehicle.clone(), hypothesis.effects.clone()).sensor().delay;
     for effect in EffectId::all() {
         let effects: Effects = std::iter::once(typical(effect)).collect();
@@ -114,7 +114,7 @@ fn with_clock(hypothesis: &Hypothesis, evidence: &Evidence) -> Hypothesis {
 /// ICRs, in the catalogue's order.
 fn free_instruments(
     hypothesis: &Hypothesis,
-    evidence: &Evidence,
+    evidence: &Weighted,
     mechanics: &Mechanics,
 ) -> Vec<EffectId> {
     let mut unknowns = OFFSETS.to_vec();

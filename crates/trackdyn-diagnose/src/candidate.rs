@@ -7,10 +7,11 @@
 mod between;
 mod places;
 
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, Origin};
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
 use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument};
 use crate::prior::area;
+use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -94,7 +95,7 @@ const STEPS: [f64; 3] = [1.0, 0.2, -0.2];
 /// What signatures are taken beside.
 pub struct Beside<'a> {
     hypothesis: &'a Hypothesis,
-    evidence: &'a Evidence,
+    evidence: &'a Weighted,
     /// The hypothesis as it is.
     moving: Prepared,
     /// The hypothesis without inertia: the signature of what neither stands against acceleration nor changes the answer to it
@@ -141,7 +142,8 @@ pub fn variants(effect: EffectId, evidence: &Evidence) -> Vec<Variant> {
     let parameters = card.parameters;
     let of_the_world =
         |parameter: &Parameter| matches!(parameter.role, Role::Place { .. } | Role::Direction);
-    if evidence.is_steady() && parameters.iter().any(of_the_world) {
+    let has_world = matches!(evidence.origin(), Origin::Drive(_));
+    if !has_world && parameters.iter().any(of_the_world) {
         return Vec::new();
     }
     let mut all = vec![Vec::new()];
@@ -216,7 +218,7 @@ fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f
 
 impl<'a> Beside<'a> {
     /// A hypothesis for this evidence.
-    pub fn new(hypothesis: &'a Hypothesis, evidence: &'a Evidence) -> Self {
+    pub fn new(hypothesis: &'a Hypothesis, evidence: &'a Weighted) -> Self {
         let vehicle = &hypothesis.vehicle;
         let still = hypothesis.effects.iter().filter(|effect| !feels_inertia(vehicle, effect));
         let still = Hypothesis { effects: still.cloned().collect(), ..hypothesis.clone() };

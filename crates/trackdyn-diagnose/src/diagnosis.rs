@@ -7,7 +7,6 @@ pub use crate::held_out::{HeldOut, Unseen};
 pub use steps::{STAGES, diagnose};
 
 use crate::base::Base;
-use crate::evidence::Evidence;
 use crate::exposure::Exposure;
 use crate::fit::Fit;
 use crate::isolability::{Detectable, Isolability};
@@ -18,6 +17,7 @@ use crate::resampling::Resampling;
 use crate::search::{Found, Screened};
 use crate::uncertainty::Level;
 use crate::verdict::Verdict;
+use crate::weighted::Weighted;
 use trackdyn_model::EffectId;
 use trackdyn_model::VehicleFile;
 use trackdyn_model::effect::Symmetry;
@@ -75,7 +75,7 @@ pub struct Diagnosis {
     /// The level of friction in it; none where it is not free.
     pub friction_level: Option<Level>,
     /// The evidence of the fit, with the noise that its residuals show.
-    pub evidence: Evidence,
+    pub evidence: Weighted,
     /// The vehicle that explains the evidence.
     pub corrected: VehicleFile,
     /// A law for what no effect explains, where something is left and one was found.

@@ -10,6 +10,7 @@ use crate::hypothesis::{Hypothesis, Unknown, neutral, typical, typical_size};
 use crate::mechanics::{Instruments, Mechanics, is_instrument};
 use crate::normal::{Prior, Solution};
 use crate::prior::priors;
+use crate::weighted::Weighted;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
 use trackdyn_model::EffectId;
@@ -93,7 +94,7 @@ pub fn columns(
     mechanics: &Mechanics,
     prediction: &[Vector3<f64>],
     unknowns: &[Unknown],
-    evidence: &Evidence,
+    evidence: &Weighted,
 ) -> Vec<Vec<Vector3<f64>>> {
     let columns = derivatives(hypothesis, mechanics, prediction, unknowns, evidence).into_iter();
     columns.map(|column| evidence.white(column)).collect()
@@ -149,7 +150,7 @@ impl Point {
     pub fn new(
         hypothesis: Hypothesis,
         unknowns: &[Unknown],
-        evidence: &Evidence,
+        evidence: &Weighted,
         before: Option<&Mechanics>,
     ) -> Self {
         let mechanics = Mechanics::beside(before, &hypothesis, unknowns, evidence);
@@ -160,7 +161,7 @@ impl Point {
         hypothesis: Hypothesis,
         mechanics: Mechanics,
         unknowns: &[Unknown],
-        evidence: &Evidence,
+        evidence: &Weighted,
     ) -> Self {
         let prediction = mechanics.predict(&Instruments::of(&hypothesis), evidence);
         let residual = evidence.residual(&prediction);
@@ -175,7 +176,7 @@ impl Point {
 }
 
 /// What these numbers cost by being where they were not expected.
-fn penalty(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Evidence) -> f64 {
+fn penalty(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Weighted) -> f64 {
     let known = priors(hypothesis, unknowns, evidence);
     known.iter().map(|prior| (prior.mean / prior.deviation).powi(2)).sum()
 }
@@ -186,7 +187,7 @@ impl Fit {
     pub fn new(
         start: Hypothesis,
         unknowns: &[Unknown],
-        evidence: &Evidence,
+        evidence: &Weighted,
         before: Option<&Mechanics>,
     ) -> Self {
         let start = Point::new(start, unknowns, evidence, before);
@@ -209,7 +210,7 @@ impl Fit {
     /// What inertia adds stays that of one motion in time, with its derivatives, as long as what it does not come from
     /// resembles what it was found for. Where the fit ends it is found anew unless that is near, and the fit goes on from
     /// there, or from a share of the way if these derivatives led astray.
-    pub fn from_point(start: Point, unknowns: &[Unknown], evidence: &Evidence) -> Self {
+    pub fn from_point(start: Point, unknowns: &[Unknown], evidence: &Weighted) -> Self {
         let mut fit = Self::linearised(start, unknowns, evidence);
         for _ in 0..FOUND_ANEW {
             let end = fit.clone().descended(evidence);
@@ -253,7 +254,7 @@ impl Fit {
     ///
     /// With it comes what the objective fell by since the derivatives were found; `are_own` says that those to begin with are of
     /// this point.
-    fn descent(self, are_own: bool, evidence: &Evidence) -> (Self, f64) {
+    fn descent(self, are_own: bool, evidence: &Weighted) -> (Self, f64) {
         let mut fit = self;
         let (mut are_own, mut since) = (are_own, 0.0);
         for _ in 0..ITERATIONS {
@@ -283,7 +284,7 @@ impl Fit {
     }
 
     /// The end of the descent from here, with derivatives that describe it.
-    fn descended(self, evidence: &Evidence) -> Self {
+    fn descended(self, evidence: &Weighted) -> Self {
         let (end, since) = self.descent(true, evidence);
         if since < NEAR {
             return end;
@@ -295,7 +296,7 @@ impl Fit {
 
     /// The point of a share of the step that lowers the objective; none where no share does, or where the
     /// whole step promises next to nothing.
-    fn next(&self, evidence: &Evidence) -> Option<Point> {
+    fn next(&self, evidence: &Weighted) -> Option<Point> {
         if self.solution.gain < NOTHING {
             return None;
         }
@@ -310,7 +311,7 @@ impl Fit {
 
     /// Twice the objective where the number at this place of the unknowns is held at a value and the others are refitted,
     /// from where the linear fit takes them. What inertia adds stays that of one motion in time, with its derivatives.
-    pub fn profile(&self, place: usize, value: f64, evidence: &Evidence) -> f64 {
+    pub fn profile(&self, place: usize, value: f64, evidence: &Weighted) -> f64 {
         let held = self.unknowns[place];
         let covariance = &self.solution.covariance;
         let moved = (value - self.hypothesis.get(held)) / covariance[(place, place)];
@@ -329,7 +330,7 @@ impl Fit {
     pub fn at(
         hypothesis: Hypothesis,
         unknowns: &[Unknown],
-        evidence: &Evidence,
+        evidence: &Weighted,
         before: Option<&Mechanics>,
     ) -> Self {
         let point = Point::new(hypothesis, unknowns, evidence, before);
@@ -337,11 +338,11 @@ impl Fit {
     }
 
     /// The same hypothesis on other evidence, with its derivatives.
-    pub fn on(&self, evidence: &Evidence) -> Self {
+    pub fn on(&self, evidence: &Weighted) -> Self {
         Self::at(self.hypothesis.clone(), &self.unknowns, evidence, None)
     }
 
-    fn linearised(point: Point, unknowns: &[Unknown], evidence: &Evidence) -> Self {
+    fn linearised(point: Point, unknowns: &[Unknown], evidence: &Weighted) -> Self {
         let Point { hypothesis, mechanics, prediction, .. } = &point;
         let columns = columns(hypothesis, mechanics, prediction, unknowns, evidence);
         Self::with_columns(point, unknowns, columns, evidence)
@@ -352,7 +353,7 @@ impl Fit {
         point: Point,
         unknowns: &[Unknown],
         columns: Vec<Vec<Vector3<f64>>>,
-        evidence: &Evidence,
+        evidence: &Weighted,
     ) -> Self {
         let Point { hypothesis, mechanics, residual, objective, .. } = point;
         let priors = priors(&hypothesis, unknowns, evidence);

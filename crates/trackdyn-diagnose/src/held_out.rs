@@ -5,6 +5,7 @@ use crate::fit::Fit;
 use crate::locate::{Residual, excess, icr_columns};
 use crate::noise::without_outliers;
 use crate::resampling::Resampling;
+use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use trackdyn_core::real;
 
@@ -12,7 +13,7 @@ use trackdyn_core::real;
 #[derive(Clone)]
 pub struct Unseen {
     /// What they show.
-    pub evidence: Evidence,
+    pub evidence: Weighted,
     /// Whitened residuals before.
     pub before: Vec<Vector3<f64>>,
     /// After.
@@ -67,7 +68,7 @@ impl HeldOut {
 
 /// The errors on evidence, with the fits to it.
 pub(crate) fn errors(
-    evidence: &Evidence,
+    evidence: &Weighted,
     [before, instruments, after]: [&Fit; 3],
     resampling: Resampling,
 ) -> HeldOut {
@@ -86,12 +87,11 @@ pub(crate) fn errors(
 /// chosen on, in the noise that `seen` has.
 pub(crate) fn judged(
     unseen: &Evidence,
-    seen: &Evidence,
+    seen: &Weighted,
     [before, instruments, best]: [&Fit; 3],
     resampling: Resampling,
 ) -> (HeldOut, Unseen) {
-    let unseen = unseen.with_scale(seen.scale());
-    let unseen = seen.noise().map_or_else(|| unseen.clone(), |noise| unseen.with_noise(*noise));
+    let unseen = seen.weigh(unseen);
     let evidence = without_outliers(&unseen, &best.on(&unseen));
     let [before, instruments, after] = [before, instruments, best].map(|fit| fit.on(&evidence));
     let errors = errors(&evidence, [&before, &instruments, &after], resampling);

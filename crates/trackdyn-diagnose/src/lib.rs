@@ -1,6 +1,6 @@
 //! Which physics: what a model of a tracked robot lacks, from its recordings.
 //!
-//! - [`evidence`]: what was seen, drives and tables of steady motion alike, and what its residuals weigh.
+//! - [`evidence`]: what was seen, drives and tables of steady motion alike; [`weighted`]: what its residuals weigh.
 //! - [`noise`]: how noisy that is, from what driving cannot explain.
 //! - [`hypothesis`]: a vehicle with effects; [`mechanics`], [`surface`]: what it predicts of the evidence.
 //! - [`huber`], [`prior`]: what residuals far out weigh, and what is known of its unknowns beforehand.
@@ -40,10 +40,12 @@ pub mod prior;
 pub mod proposal;
 pub mod resampling;
 pub mod search;
+pub mod settings;
 pub mod significance;
 pub mod surface;
 pub mod uncertainty;
 pub mod verdict;
+pub mod weighted;
 
 pub use diagnosis::{Diagnosis, Options, Status, diagnose};
 pub use document::DiagnosisFile;
@@ -51,3 +53,4 @@ pub use error::Error;
 pub use evidence::Evidence;
 pub use plan::{Plan, PlanFile, plan};
 pub use resampling::Resampling;
+pub use weighted::Weighted;

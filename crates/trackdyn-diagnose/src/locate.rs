@@ -23,6 +23,7 @@ use crate::mechanics::Instruments;
 use crate::normal::Prior;
 use crate::resampling::Resampling;
 use crate::significance::{Test, test};
+use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use trackdyn_core::real;
 use trackdyn_model::effect::Symmetry;
@@ -96,7 +97,7 @@ impl Location {
 #[derive(Clone, Copy)]
 pub struct Residual<'a> {
     /// The evidence.
-    pub evidence: &'a Evidence,
+    pub evidence: &'a Weighted,
     /// The fit.
     pub fit: &'a Fit,
     /// Derivatives of its prediction by x_l, x_r and y, not whitened.
@@ -174,13 +175,13 @@ impl Residual<'_> {
 }
 
 /// Root mean square of the whitened residual over what was measured.
-pub fn excess(evidence: &Evidence, residual: &[Vector3<f64>]) -> f64 {
+pub fn excess(evidence: &Weighted, residual: &[Vector3<f64>]) -> f64 {
     excess_of(evidence, residual, |_, _| true)
 }
 
 /// The same over those samples and channels that count.
 pub fn excess_of(
-    evidence: &Evidence,
+    evidence: &Weighted,
     residual: &[Vector3<f64>],
     counts: impl Fn(&Sample, usize) -> bool,
 ) -> f64 {
@@ -197,7 +198,7 @@ pub fn excess_of(
     (sum / f64::max(count, 1.0)).sqrt()
 }
 
-fn shares(evidence: &Evidence, residual: &[Vector3<f64>]) -> [f64; 3] {
+fn shares(evidence: &Weighted, residual: &[Vector3<f64>]) -> [f64; 3] {
     let weights = huber::weights(residual);
     let beyond: [f64; 3] = std::array::from_fn(|channel| {
         let measured = (0..residual.len()).filter(|&index| evidence.is_measured(index, channel));

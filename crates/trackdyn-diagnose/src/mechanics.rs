@@ -18,7 +18,7 @@ mod ground;
 mod inertia;
 mod sheared;
 
-use crate::evidence::{Evidence, Sample};
+use crate::evidence::{Evidence, Origin, Sample};
 use crate::hypothesis::{Hypothesis, Unknown};
 use crate::surface::{Steady, Surface};
 use belts::lagging;
@@ -53,15 +53,47 @@ pub struct Mechanics {
     drive: Drive,
     /// What changing ground adds to the twist during each sample, paper's frame.
     ground: Option<Arc<Vec<Twist>>>,
-    /// What inertia adds, of a model without laws of the shear stress.
-    inertia: Option<InertiaNear>,
-    /// What laws of the shear stress change in that, at each reading.
-    sheared: Option<Arc<Vec<Vec<Twist>>>>,
-    /// These laws.
+    /// What inertia adds.
+    in_time: InTime,
+    /// The laws of the shear stress.
     shear: Vec<ActiveEffect>,
-    /// Whether inertia is that of another robot, for no motion in time goes through with this one.
-    stands_in: bool,
-    failed: Option<String>,
+}
+
+/// What inertia adds to the stationary motion.
+#[derive(Clone)]
+enum InTime {
+    /// Nothing: no effect stands against acceleration, or the evidence has none.
+    Stationary,
+    /// What was found for this robot, or near it.
+    Found {
+        /// What is added without the laws of the shear stress.
+        inertia: InertiaNear,
+        /// What these laws change in that, at each reading; none where there are none, or where what it was taken from knew no
+        /// inertia.
+        sheared: Option<Arc<Vec<Vec<Twist>>>>,
+    },
+    /// What was found for another robot, without laws of the shear stress: no motion in time goes through with this one.
+    OfAnother(InertiaNear),
+    /// The hypothesis cannot be: no forces balance over a good part of the speeds, or no motion in time goes through with it.
+    Impossible(String),
+}
+
+impl InTime {
+    /// What is added without the laws of the shear stress; none where nothing is.
+    fn inertia(&self) -> Option<&InertiaNear> {
+        match self {
+            Self::Found { inertia, .. } | Self::OfAnother(inertia) => Some(inertia),
+            Self::Stationary | Self::Impossible(_) => None,
+        }
+    }
+
+    /// What laws of the shear stress change in that, at each reading.
+    fn sheared(&self) -> Option<&Arc<Vec<Vec<Twist>>>> {
+        match self {
+            Self::Found { sheared, .. } => sheared.as_ref(),
+            Self::Stationary | Self::OfAnother(_) | Self::Impossible(_) => None,
+        }
+    }
 }
 
 /// Encoders and pose sensor of a hypothesis, and the offset of its ICRs: the cheap part.
@@ -132,7 +164,7 @@ impl Mechanics {
         within: Within,
     ) -> Self {
         Self::found(before, None, hypothesis, evidence, |inert, case| {
-            let known = before.and_then(|before| before.inertia.as_ref());
+            let known = before.and_then(|before| before.in_time.inertia());
             let free = free.iter().copied().filter(|by| has_slope(*by, case.model));
             let free: Vec<Unknown> = free.collect();
             let delay = Instruments::of(hypothesis).sensor.delay;
@@ -146,8 +178,13 @@ impl Mechanics {
     /// What laws of the shear stress change in that stays too, unless it is one of these that differs.
     pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
         let inertia = |inert: Vec<ActiveEffect>, case: &Case| {
-            let Some(known) = &self.inertia else { return InertiaNear::here(inert, case) };
-            let moved = known.moved(&inert, case, Within::A_STEP).filter(|_| !self.stands_in);
+            let moved = match &self.in_time {
+                InTime::Stationary | InTime::Impossible(_) => {
+                    return InertiaNear::here(inert, case);
+                }
+                InTime::Found { inertia, .. } => inertia.moved(&inert, case, Within::A_STEP),
+                InTime::OfAnother(_) => None,
+            };
             moved.ok_or_else(|| "found for another robot".to_owned())
         };
         Self::found(Some(self), Some(self), hypothesis, evidence, inertia)
@@ -179,64 +216,61 @@ impl Mechanics {
         let model = coarse(vehicle, constant.iter().cloned().collect());
         let surface = Surface::new(&model, largest, before.map(|before| &before.surface));
         let steady = Arc::new(steady(&surface, &drive, evidence.tracks()));
-        let mut mechanics = Self {
-            surface,
-            steady,
-            drive,
-            ground: None,
-            inertia: None,
-            sheared: None,
-            shear: constant.iter().filter(|effect| effect.card().shears()).cloned().collect(),
-            stands_in: false,
-            failed: None,
-        };
+        let shear: Vec<ActiveEffect> =
+            constant.iter().filter(|effect| effect.card().shears()).cloned().collect();
+        let still =
+            Self { surface, steady, drive, ground: None, in_time: InTime::Stationary, shear };
         // What cannot be needs no departures, which cost most where no forces balance.
-        if mechanics.failure().is_some() {
-            return mechanics;
+        if let Some(reason) = unbalanced(&still.surface) {
+            return Self { in_time: InTime::Impossible(reason), ..still };
         }
         let simple = coarse(vehicle, without_shear(&constant));
-        if !varying.is_empty() {
+        let ground = (!varying.is_empty()).then(|| {
             let mut effects = without_shear(&constant);
             for effect in varying {
                 effects.insert(effect);
             }
             let with = coarse(vehicle, effects);
-            let departure = by_ground(&with, &simple, &mechanics.surface, &drive, evidence);
-            mechanics.ground = Some(Arc::new(departure));
-        }
+            Arc::new(by_ground(&with, &simple, &still.surface, &drive, evidence))
+        });
         let inert = simple.effects().iter().filter(|effect| feels_inertia(vehicle, effect));
         let inert: Vec<ActiveEffect> = inert.cloned().collect();
-        if inert.is_empty() || evidence.is_steady() {
-            return mechanics;
+        if inert.is_empty() || matches!(evidence.origin(), Origin::SteadyPoints(_)) {
+            return Self { ground, ..still };
         }
         let case = Case { vehicle, model: &simple, largest, drive: &drive, evidence };
         // Where no motion in time goes through, that of a hypothesis that resembles this one is taken.
-        let known = before.and_then(|before| before.inertia.as_ref());
-        let found = match (inertia(inert, &case), known) {
-            (Ok(found), _) => found,
-            (Err(_), Some(known)) => {
-                mechanics.inertia = Some(known.unmoved());
-                mechanics.stands_in = true;
-                return mechanics;
+        let known = before.and_then(|before| before.in_time.inertia());
+        let in_time = match (inertia(inert, &case), known) {
+            (Ok(inertia), _) => {
+                let sheared = still.sheared(kept, &inertia, &case);
+                InTime::Found { inertia, sheared }
             }
-            (Err(reason), None) => {
-                mechanics.failed = Some(reason);
-                return mechanics;
-            }
+            (Err(_), Some(known)) => InTime::OfAnother(known.unmoved()),
+            (Err(reason), None) => InTime::Impossible(reason),
         };
-        let kept = kept.filter(|kept| !kept.stands_in && kept.shear == mechanics.shear);
-        mechanics.sheared = match kept {
-            Some(kept) => kept.sheared.clone(),
-            None if mechanics.shear.is_empty() => None,
-            None => Some(Arc::new(found.sheared(&mechanics.shear, &mechanics.surface, &case))),
-        };
-        mechanics.inertia = Some(found);
-        mechanics
+        Self { ground, in_time, ..still }
+    }
+
+    /// What the laws of the shear stress change in what inertia adds: as it was `kept` where they are the same.
+    fn sheared(
+        &self,
+        kept: Option<&Self>,
+        inertia: &InertiaNear,
+        case: &Case,
+    ) -> Option<Arc<Vec<Vec<Twist>>>> {
+        let kept = kept.filter(|kept| kept.shear == self.shear);
+        match kept.map(|kept| &kept.in_time) {
+            Some(InTime::Found { sheared, .. }) => sheared.clone(),
+            Some(InTime::Stationary | InTime::Impossible(_)) => None,
+            Some(InTime::OfAnother(_)) | None => (!self.shear.is_empty())
+                .then(|| Arc::new(inertia.sheared(&self.shear, &self.surface, case))),
+        }
     }
 
     /// Whether what inertia adds comes from the same motion in time.
     pub fn has_inertia_of(&self, other: &Self) -> bool {
-        match (&self.inertia, &other.inertia) {
+        match (self.in_time.inertia(), other.in_time.inertia()) {
             (Some(here), Some(there)) => here.is_from(there),
             (None, None) => true,
             _ => false,
@@ -244,19 +278,12 @@ impl Mechanics {
     }
 
     /// Why the hypothesis cannot be: part of the contact lifts, or no motion balances the forces, over a
-    /// good part of the speeds. None where it can.
-    pub fn failure(&self) -> Option<String> {
-        const MOST: f64 = 0.2;
-        if let Some(reason) = &self.failed {
-            return Some(reason.clone());
+    /// good part of the speeds, or no motion in time goes through. None where it can.
+    pub fn failure(&self) -> Option<&str> {
+        match &self.in_time {
+            InTime::Impossible(reason) => Some(reason),
+            InTime::Stationary | InTime::Found { .. } | InTime::OfAnother(_) => None,
         }
-        let share = self.surface.unsolved();
-        (share > MOST).then(|| {
-            format!(
-                "at {:.0} % of the speeds part of the contact lifts or no forces balance",
-                100.0 * share
-            )
-        })
     }
 
     /// Whether the forces hang on where the robot is, where it heads, or when.
@@ -280,14 +307,14 @@ impl Mechanics {
                 let sample = &samples[index];
                 let by_ground = self.ground.as_ref().map(|departures| departures[index]);
                 let by_inertia = self
-                    .inertia
-                    .as_ref()
+                    .in_time
+                    .inertia()
                     .map(|inertia| inertia.departure(index, sample, drive, sensor.delay));
                 let departure = [by_ground, by_inertia].into_iter().flatten().reduce(|a, b| a + b);
                 let departure = departure.map(|departure| seen_from(&departure, offset));
                 let tracks = &evidence.tracks()[sample.run];
                 let steady = &steady[sample.run];
-                let sheared = self.sheared.as_ref().map(|departures| &departures[sample.run]);
+                let sheared = self.in_time.sheared().map(|departures| &departures[sample.run]);
                 let pose = motion_over(tracks, sample, sensor.delay, |reading| {
                     let mut twist = steady[reading].twist(offset);
                     if let Some(departure) = &departure {
@@ -302,6 +329,19 @@ impl Mechanics {
             })
             .collect()
     }
+}
+
+/// Why no robot moves so that has these stationary motions; none where one may.
+fn unbalanced(surface: &Surface) -> Option<String> {
+    /// Share of the speeds without a balance of forces up to which a hypothesis may be.
+    const MOST: f64 = 0.2;
+    let share = surface.unsolved();
+    (share > MOST).then(|| {
+        format!(
+            "at {:.0} % of the speeds part of the contact lifts or no forces balance",
+            100.0 * share
+        )
+    })
 }
 
 /// The stationary motion at each reading of each run.

@@ -30,8 +30,8 @@
 
 mod flexible;
 
-use crate::evidence::Evidence;
 use crate::fit::Fit;
+use crate::weighted::Weighted;
 use flexible::Flexible;
 use nalgebra::{Cholesky, SMatrix, SVector, Vector3};
 use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median};
@@ -71,15 +71,15 @@ const NO_WALK: f64 = 1e-5;
 const SHARPER: f64 = 1.3;
 
 /// The evidence with the noise that the residuals beside a fit show. Tables of steady points keep theirs.
-pub fn with_remaining_noise(evidence: &Evidence, fit: &Fit) -> Evidence {
+pub fn with_remaining_noise(evidence: &Weighted, fit: &Fit) -> Weighted {
     let Some(&measured) = evidence.noise() else { return evidence.clone() };
     remaining(evidence, measured, &Flexible::new(evidence, fit))
 }
 
 /// The evidence with the noise that is left beside what is flexible, from what was measured on.
-fn remaining(evidence: &Evidence, measured: SegmentNoise, flexible: &Flexible) -> Evidence {
+fn remaining(evidence: &Weighted, measured: SegmentNoise, flexible: &Flexible) -> Weighted {
     let mut noise = noise_of(&start(&measured));
-    let mut evidence = evidence.with_all().with_noise(noise);
+    let mut evidence = evidence.with_all_in(noise);
     for _ in 0..ROUNDS {
         let left = flexible.left(&evidence);
         let taken = flexible.taken(&evidence, &noise, &left.columns);
@@ -101,7 +101,7 @@ fn start(measured: &SegmentNoise) -> Variances {
 }
 
 /// The evidence without the samples at whose poses the sensor erred, beside a fit, in the noise that it has.
-pub fn without_outliers(evidence: &Evidence, fit: &Fit) -> Evidence {
+pub fn without_outliers(evidence: &Weighted, fit: &Fit) -> Weighted {
     let mut evidence = evidence.clone();
     let Some(&noise) = evidence.noise() else { return evidence };
     let flexible = Flexible::new(&evidence, fit);
@@ -129,7 +129,7 @@ pub fn sentence(noise: &SegmentNoise) -> String {
 
 /// The evidence with the noise beside a hypothesis that explains more than contrasts can; none where this does
 /// not make it smaller along any axis.
-pub fn sharper(evidence: &Evidence, fit: &Fit) -> Option<Evidence> {
+pub fn sharper(evidence: &Weighted, fit: &Fit) -> Option<Weighted> {
     let before = evidence.noise()?;
     let again = with_remaining_noise(evidence, fit);
     let after = again.noise()?;
@@ -146,7 +146,7 @@ pub fn sharper(evidence: &Evidence, fit: &Fit) -> Option<Evidence> {
 }
 
 /// Mean time of a run that has samples, s; none where there are none.
-fn run_time(evidence: &Evidence) -> Option<f64> {
+fn run_time(evidence: &Weighted) -> Option<f64> {
     let samples = evidence.samples();
     let runs = samples.chunk_by(|a, b| a.run == b.run).count();
     let time: f64 = samples.iter().map(|sample| sample.duration).sum();
@@ -154,7 +154,7 @@ fn run_time(evidence: &Evidence) -> Option<f64> {
 }
 
 /// Samples at whose shared pose the sensor erred: the one that ends there is far off, both together are not.
-fn outlying(evidence: &Evidence, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
+fn outlying(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
     let mut white = left.to_vec();
     evidence.whiten(&mut white);
     let samples = evidence.samples();
@@ -196,7 +196,7 @@ fn outlying(evidence: &Evidence, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
 /// A variance that is next to nothing has no slope in its logarithm: what starts there stays. So the search starts
 /// from what was measured, and from white noise alone.
 fn most_likely(
-    evidence: &Evidence,
+    evidence: &Weighted,
     measured: SegmentNoise,
     residual: &[Vector3<f64>],
     taken: &Variances,
@@ -221,7 +221,7 @@ fn most_likely(
 
 /// Residuals whose noise is looked for.
 struct Likelihood<'a> {
-    evidence: &'a Evidence,
+    evidence: &'a Weighted,
     residual: &'a [Vector3<f64>],
     /// Of how many of them each variance was taken by what was fitted.
     taken: &'a Variances,
@@ -269,7 +269,7 @@ impl Likelihood<'_> {
         (here, value)
     }
 
-    fn white(&self, noise: &SegmentNoise) -> (Evidence, Vec<Vector3<f64>>) {
+    fn white(&self, noise: &SegmentNoise) -> (Weighted, Vec<Vector3<f64>>) {
         let evidence = self.evidence.with_noise(*noise);
         let mut white = self.residual.to_vec();
         evidence.whiten(&mut white);
@@ -327,8 +327,8 @@ fn noise_of(variances: &Variances) -> SegmentNoise {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evidence::Sample;
     use crate::evidence::planned::{PlannedRun, READINGS};
+    use crate::evidence::{Evidence, Sample};
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
     use trackdyn_recording::TrackSample;
@@ -363,7 +363,7 @@ mod tests {
     }
 
     /// Noise of that kind: white numbers with its correlations.
-    fn noisy(evidence: &Evidence, seed: u64) -> Vec<Vector3<f64>> {
+    fn noisy(evidence: &Weighted, seed: u64) -> Vec<Vector3<f64>> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         // A sum of twelve uniform numbers is normal enough, and has variance one.
         let mut normal = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
@@ -373,7 +373,7 @@ mod tests {
         residual
     }
 
-    fn found(evidence: &Evidence, residual: &[Vector3<f64>]) -> SegmentNoise {
+    fn found(evidence: &Weighted, residual: &[Vector3<f64>]) -> SegmentNoise {
         let wrong =
             SegmentNoise { pose: [4e-5, 1e-6, 1e-5], walk: [0.0, 1e-4, 1e-5], heading: 0.0 };
         most_likely(evidence, wrong, residual, &Variances::zeros())
@@ -381,7 +381,7 @@ mod tests {
 
     #[test]
     fn a_start_without_white_noise_is_left() {
-        let evidence = drive(&[]);
+        let evidence = Weighted::new(drive(&[]));
         let residual = noisy(&evidence, 4);
         let start = SegmentNoise { pose: [1e-12; 3], walk: [3e-5; 3], heading: 0.0 };
         let noise = most_likely(&evidence, start, &residual, &Variances::zeros());
@@ -392,7 +392,7 @@ mod tests {
 
     #[test]
     fn colour_undoes_whitening() {
-        let evidence = drive(&[]);
+        let evidence = Weighted::new(drive(&[]));
         let residual = noisy(&evidence, 1);
         let mut there = residual.clone();
         evidence.whiten(&mut there);
@@ -404,7 +404,7 @@ mod tests {
 
     #[test]
     fn white_noise_walk_and_heading_are_found_from_a_wrong_start() {
-        let evidence = drive(&[]);
+        let evidence = Weighted::new(drive(&[]));
         for seed in 1..6 {
             let noise = found(&evidence, &noisy(&evidence, seed));
             // A variance is known to √(2/n) of itself from n independent numbers: 1500 for a pose; a walk
@@ -429,7 +429,7 @@ mod tests {
     fn a_walk_is_found_beside_what_takes_all_that_is_slow() {
         const COLUMNS: usize = 60;
         const SEEDS: u32 = 6;
-        let evidence = drive(&[]);
+        let evidence = Weighted::new(drive(&[]));
         let samples = evidence.samples();
         let span = samples.last().map_or(1.0, |last| last.start + last.duration);
         let column = |k: usize| -> Vec<Vector3<f64>> {
@@ -472,7 +472,7 @@ mod tests {
 
     #[test]
     fn poses_far_off_are_lost_and_change_nothing_else() {
-        let evidence = drive(&[]);
+        let evidence = Weighted::new(drive(&[]));
         let clean = noisy(&evidence, 7);
         let mut residual = clean.clone();
         let far: Vec<usize> = (20..1480).step_by(40).collect();
@@ -492,7 +492,7 @@ mod tests {
                 residual[k] += Vector3::new(wrong.x, wrong.y, wrong.yaw) - motion;
             }
         }
-        let seen = drive(&residual);
+        let seen = Weighted::new(drive(&residual));
         let noise = found(&seen, &residual);
         let lost = outlying(&seen.with_noise(noise), &noise, &residual);
         let expected: Vec<usize> = far.iter().flat_map(|&index| [index, index + 1]).collect();

@@ -16,6 +16,7 @@ pub use question::{Question, measurement};
 use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::evidence::planned::PlannedRun;
+use crate::weighted::Weighted;
 use menu::{INTERVAL, Manoeuvre, menu};
 use nalgebra::DMatrix;
 use rivals::Rival;
@@ -205,6 +206,7 @@ impl Class {
         let all: Vec<&Manoeuvre> = menu.iter().collect();
         let driving = evidence(&[run(&all, 0.0, Pose::default())], &fitted, options);
         if let Some(reason) = fitted.mechanics(&driving).failure() {
+            let reason = reason.to_owned();
             return Err(Error::NoMotion(reason));
         }
         let mut rivals = vec![fitted.clone()];
@@ -230,8 +232,9 @@ impl Class {
 }
 
 /// What runs would show if the fitted member is the one.
-fn evidence(runs: &[PlannedRun], fitted: &Rival, options: &Options) -> Evidence {
-    Evidence::planned(runs, options.noise(), fitted.delay(), |evidence| fitted.moves(evidence))
+fn evidence(runs: &[PlannedRun], fitted: &Rival, options: &Options) -> Weighted {
+    let moves = |evidence: &Evidence| fitted.moves(evidence);
+    Weighted::new(Evidence::planned(runs, options.noise(), fitted.delay(), moves))
 }
 
 /// Manoeuvres in a row as a run, each a block of its own.

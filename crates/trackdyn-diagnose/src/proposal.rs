@@ -13,7 +13,6 @@ pub mod symmetry;
 pub mod words;
 
 use crate::base::Base;
-use crate::evidence::Evidence;
 use crate::fit::{Fit, columns};
 use crate::held_out::{HeldOut, Unseen};
 use crate::hypothesis::Unknown;
@@ -24,6 +23,7 @@ use crate::resampling::Resampling;
 use crate::search::{Catalogue, Found, Search};
 use crate::uncertainty::{Interval, Uncertainty};
 use crate::verdict::{Rules, Support};
+use crate::weighted::Weighted;
 use selection::{Library, Selected};
 use trackdyn_core::real;
 use trackdyn_model::effect::{Symmetry, Term};
@@ -85,7 +85,7 @@ impl Proposal {
 #[derive(Clone, Copy)]
 pub struct Unexplained<'a> {
     /// The evidence of the fit.
-    pub evidence: &'a Evidence,
+    pub evidence: &'a Weighted,
     /// The base.
     pub base: &'a Base,
     /// The best hypothesis.

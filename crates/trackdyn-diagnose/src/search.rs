@@ -9,11 +9,11 @@ mod done;
 
 use crate::base::{Base, Calibration, with_vehicle};
 use crate::candidate::{Beside, Signature, Variant};
-use crate::evidence::Evidence;
 use crate::fit::{Fit, Point};
 use crate::hypothesis::{Hypothesis, Unknown, active, beyond_none, unknowns_of};
 use crate::normal::{Normal, Prior};
 use crate::prior::{prior, priors};
+use crate::weighted::Weighted;
 use done::{Done, Key, Step};
 use rayon::prelude::*;
 use trackdyn_model::EffectId;
@@ -99,7 +99,7 @@ pub struct Found {
 /// Everything that a search looks at.
 pub struct Search<'a> {
     /// The evidence.
-    pub evidence: &'a Evidence,
+    pub evidence: &'a Weighted,
     /// The base.
     pub base: &'a Base,
     /// The candidates.
@@ -109,7 +109,7 @@ pub struct Search<'a> {
 
 impl<'a> Search<'a> {
     /// A search of evidence beside a base.
-    pub fn new(evidence: &'a Evidence, base: &'a Base, catalogue: &'a Catalogue) -> Self {
+    pub fn new(evidence: &'a Weighted, base: &'a Base, catalogue: &'a Catalogue) -> Self {
         Self { evidence, base, catalogue, done: Done::default() }
     }
 

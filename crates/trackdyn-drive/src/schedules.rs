@@ -24,10 +24,10 @@ pub struct ScheduledRun {
     pub schedule: Schedule,
 }
 
-/// A driven path with the speeds that were commanded in place of those of the belts: what encoders
-/// on the sprockets see. A step of the command is a step, whatever the steps of the simulation.
+/// A driven path with the commanded speeds in place of those of the belts: what encoders on the
+/// sprockets see. A step of the command stays a step, whatever the steps of the simulation.
 pub fn as_commanded(schedule: &Schedule, path: &Trajectory) -> Trajectory {
-    /// Time after which a new command holds, s: far below what any sensor resolves.
+    /// Time from a command to its effect, s: far below what any sensor resolves.
     const COMMAND_DELAY: f64 = 1e-6;
     let mut commanded = Trajectory::default();
     let mut moments = path.moments().iter().peekable();

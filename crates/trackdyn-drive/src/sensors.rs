@@ -34,7 +34,7 @@ pub struct Sensors {
     pub imu: Option<Imu>,
 }
 
-/// What there is to see of a motion, where the sensors do not see the same.
+/// The motion as each of the sensors sees it, where they do not see the same.
 #[derive(Clone, Copy, Debug)]
 pub struct Views<'a> {
     /// Speeds at the encoders, which belts may not follow.
@@ -61,10 +61,9 @@ impl Sensors {
     /// Clock offset τ of their recordings, s, as [`hold`](trackdyn_recording::hold) defines it.
     ///
     /// # Law
-    /// A pose shows the moment that lies its delay before its stamp. A reading that is held from
-    /// its stamp t on stands for t to t + T there, and shows what happened from t − d_e − s to t −
-    /// d_e − s + T, with s = T where it is stamped at the end of its interval, else 0. So τ = d_p −
-    /// d_e − s.
+    /// A pose with the stamp t shows the moment t − d_p. A reading with the stamp t is held from t
+    /// to t + T, and shows what happened from t − d_e − s to t − d_e − s + T; s = T where a reading
+    /// is stamped at the end of its interval, else s = 0. So τ = d_p − d_e − s.
     pub fn clock_offset(&self) -> f64 {
         let shown_before = match self.encoder.stamp_at {
             StampAt::Start => 0.0,
@@ -73,8 +72,8 @@ impl Sensors {
         self.pose.delay - self.encoder.delay - shown_before
     }
 
-    /// What they report of a run, of which all see the same motion. It depends on the motion, the
-    /// seed and the number of the run only.
+    /// The run that they report of one motion. It depends on the motion, the seed and the number of
+    /// the run only.
     ///
     /// # Errors
     /// As [`Sensors::observe_views`].
@@ -88,7 +87,7 @@ impl Sensors {
         self.observe_views(run, &views, seed)
     }
 
-    /// What they report of a run of which each sees its own.
+    /// The run that they report where each sees its own motion.
     ///
     /// # Errors
     /// [`Error::NoMotion`] for a trajectory without moments, [`Error::Option`] for values that no

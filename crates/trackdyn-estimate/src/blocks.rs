@@ -1,8 +1,9 @@
 //! Parts of a recording that count as independent.
 //!
-//! Residuals of one run are related: neighbouring segments share a noisy pose, and a robot slips
-//! alike for a while. What is independent are runs, and where there are few, pieces of them that
-//! are long against both. Confidence intervals come from leaving out one block at a time.
+//! Residuals of one run are correlated: neighbouring segments share a noisy pose, and a robot slips
+//! in the same way for a while. Runs are independent. Where there are few runs, pieces of them
+//! count as independent if they are long against both. Confidence intervals come from leaving out
+//! one block at a time.
 
 use trackdyn_core::real;
 

@@ -53,7 +53,8 @@ impl Default for ClockSearch {
 pub struct ClockOffset {
     /// τ, s: positive where poses are late ([`hold`](trackdyn_recording::hold)).
     pub tau: f64,
-    /// Standard error of τ, s, by leaving out blocks of time: correlated and uneven noise is in it.
+    /// Standard error of τ, s, by leaving out blocks of time: it includes correlated noise and
+    /// noise of changing size.
     pub standard_error: f64,
     /// Correlation of yaw increments and encoders at its peak.
     pub correlation: f64,
@@ -70,12 +71,12 @@ pub enum Clock {
     Given(f64),
     /// Estimated from the recording.
     Estimated(ClockOffset),
-    /// Taken as zero, for the recording does not show it: why.
+    /// Taken as zero, with the reason why the recording does not show it.
     Unknown(String),
 }
 
 impl Clock {
-    /// The offset that is given, s, else that of the recording.
+    /// The given offset, s, or else the one that is estimated from the recording.
     pub fn of(recording: &Recording, given: Option<f64>) -> Self {
         match given {
             Some(tau) => Self::Given(tau),
@@ -124,10 +125,10 @@ impl Clock {
 /// Step of the first search, s.
 const SEARCH_STEP: f64 = 0.02;
 
-/// Fewer pose intervals than this say nothing.
+/// Smallest number of pose intervals for an estimate.
 const MIN_INTERVALS: usize = 20;
 
-/// Encoders and poses that correlate less than this do not show the same turning.
+/// Smallest correlation of encoders and poses that show the same turning.
 const MIN_CORRELATION: f64 = 0.5;
 
 /// Estimates the clock offset.

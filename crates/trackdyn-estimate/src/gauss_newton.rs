@@ -15,8 +15,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Whitened residuals beyond this size count linearly (Huber): 95 % efficient on normal noise.
-const HUBER_THRESHOLD: f64 = 1.345;
+/// The loss of single residuals: 95 % efficient on normal noise.
+const HUBER: Huber = Huber { threshold: 1.345 };
 
 /// Relative increase of the cost that is rounding.
 const COST_ROUNDING: f64 = 1e-14;
@@ -33,6 +33,41 @@ const DAMPING_INCREASE: f64 = 10.0;
 /// Factor of the damping after an accepted step.
 const DAMPING_DECREASE: f64 = 0.1;
 
+/// Huber's loss: sizes beyond a threshold count linearly.
+///
+/// # Law
+/// ρ(z) = z² up to the threshold c, c (2 z − c) beyond it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Huber {
+    /// c, in standard deviations of a whitened residual.
+    pub threshold: f64,
+}
+
+impl Huber {
+    /// Weight of a residual of this size in iteratively reweighted least squares.
+    #[inline]
+    pub fn weight(self, size: f64) -> f64 {
+        if size > self.threshold { self.threshold / size } else { 1.0 }
+    }
+
+    /// Half the second derivative of the loss: an outlier adds nothing to the curvature, although
+    /// it has a weight.
+    #[inline]
+    pub fn curvature(self, size: f64) -> f64 {
+        if size > self.threshold { 0.0 } else { 1.0 }
+    }
+
+    /// What a residual of this size adds to the cost.
+    #[inline]
+    pub fn value(self, size: f64) -> f64 {
+        if size > self.threshold {
+            self.threshold * (2.0 * size - self.threshold)
+        } else {
+            size * size
+        }
+    }
+}
+
 /// How residuals are summed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loss {
@@ -47,27 +82,23 @@ impl Loss {
     pub fn weight(self, residual: f64) -> f64 {
         match self {
             Self::Squares => 1.0,
-            Self::Huber => (HUBER_THRESHOLD / residual.abs()).min(1.0),
+            Self::Huber => HUBER.weight(residual.abs()),
         }
     }
 
-    /// Half the second derivative of the loss: what an outlier does not add to the curvature,
-    /// although it has a weight.
+    /// Half the second derivative of the loss.
     pub fn curvature(self, residual: f64) -> f64 {
         match self {
-            Self::Huber if residual.abs() > HUBER_THRESHOLD => 0.0,
-            _ => 1.0,
+            Self::Squares => 1.0,
+            Self::Huber => HUBER.curvature(residual.abs()),
         }
     }
 
     /// What a whitened residual adds to the cost.
     pub fn value(self, residual: f64) -> f64 {
-        let size = residual.abs();
         match self {
-            Self::Huber if size > HUBER_THRESHOLD => {
-                HUBER_THRESHOLD * (2.0 * size - HUBER_THRESHOLD)
-            }
-            _ => size * size,
+            Self::Squares => residual * residual,
+            Self::Huber => HUBER.value(residual.abs()),
         }
     }
 }
@@ -330,6 +361,18 @@ mod tests {
         let (far, farther) = (off(20.0, Loss::Huber), off(40.0, Loss::Huber));
         assert!((far - farther).abs() < 1e-6 && far < 0.5, "{far} {farther}");
         assert!(off(40.0, Loss::Squares) > 1.5 * off(20.0, Loss::Squares));
+    }
+
+    #[test]
+    fn weight_and_curvature_are_those_of_the_loss() {
+        const STEP: f64 = 1e-4;
+        for size in [0.3, 1.3, 1.4, 5.0] {
+            let [before, here, after] = [-STEP, 0.0, STEP].map(|step| HUBER.value(size + step));
+            let slope = (after - before) / (2.0 * STEP);
+            assert!((slope - 2.0 * size * HUBER.weight(size)).abs() < 1e-9, "{size}");
+            let curvature = (after - 2.0 * here + before) / (STEP * STEP);
+            assert!((curvature - 2.0 * HUBER.curvature(size)).abs() < 1e-6, "{size}");
+        }
     }
 
     #[test]

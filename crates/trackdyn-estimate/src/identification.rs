@@ -116,7 +116,7 @@ pub fn identify_unless_stopped(
     let noise = noise(recording, tau);
     let lever = options.gauge / 2.0;
     let spin_test = spin_test(&observations, options.gauge);
-    // Only the weights of the encoders' noise hang on it, and they need no more than its size.
+    // Only the weights of the encoders' noise depend on it, and roughly: its size is enough.
     let gap = spin_test.as_ref().map_or(1.5 * options.gauge, |spin| spin.gap);
     let stated = recording.stated_noise().map(SegmentNoise::stated);
     let known = SegmentNoise::measured(&noise, gap).or(stated);
@@ -154,7 +154,7 @@ fn cut(recording: &Recording, segments: &SegmentOptions, options: &Options) -> O
 }
 
 /// Least squares with those of the wanted properties of the sensor that the recording shows, and
-/// why not with the others.
+/// the reasons against the others.
 fn fit_with_sensor(
     observations: &Observations,
     cut: &dyn Fn(f64) -> Observations,

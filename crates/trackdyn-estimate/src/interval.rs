@@ -20,9 +20,9 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Student's interval of a number by the numbers with one block left out each, as many as
-    /// degrees of freedom and one; none with fewer than two. For the mean over blocks of equal size
-    /// it is Student's interval over the block means.
+    /// Student's interval by the jackknife: `without` are the numbers with one block left out each,
+    /// one more than there are degrees of freedom. None with fewer than two blocks. For the mean
+    /// over blocks of equal size it is Student's interval over the block means.
     ///
     /// θ ± t₀.₉₇₅(B − 1) σ, σ² = (B − 1)/B Σ (θ₋ᵦ − θ̄)²
     pub fn of_jackknife(value: f64, without: &[f64]) -> Option<Self> {
@@ -36,7 +36,7 @@ impl Interval {
         Some(Self::new(value, deviation, without.len(), 1)).filter(|_| deviation.is_finite())
     }
 
-    /// Student's interval with as many degrees of freedom as blocks exceed parameters.
+    /// Student's interval; the degrees of freedom are the blocks less the parameters.
     pub fn new(value: f64, deviation: f64, blocks: usize, parameters: usize) -> Self {
         let freedom = real(blocks.saturating_sub(parameters).max(1));
         let quantile =

@@ -79,7 +79,7 @@ impl Observations {
     /// The segments of a recording over which, and for `settle` seconds before, neither track
     /// changes its speed by more than a tenth of the faster one's.
     ///
-    /// In between the drivetrain and the slip settle, which is not what constant ICRs describe.
+    /// Before that, the drivetrain and the slip settle, which constant ICRs do not describe.
     pub fn steady(recording: &Recording, options: &SegmentOptions, settle: f64) -> Self {
         Self::of(recording, options, |run, segment| {
             let start = segment.start - settle;

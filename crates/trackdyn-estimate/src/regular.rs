@@ -1,11 +1,11 @@
 //! Stamps of samples that come at even intervals and are stamped late by chance.
 //!
 //! # Law
-//! A sample was due where a straight line through the stamps of its neighbours has it. More
-//! neighbours average more of what came late by chance, and follow a clock that wanders less well.
-//! As many are taken as foretell a stamp best from the others: the sum of (r/(1 − h))² is least, r
-//! the residual of a stamp and h the part of it that the line took over, which is the residual of
-//! the line without it.
+//! A sample was due where a straight line through the stamps of its neighbours passes. More
+//! neighbours average more of the random lateness, but follow a wandering clock less well. The
+//! number of neighbours is the one that predicts each stamp best from the others: Σ (r/(1 − h))² is
+//! least. Here r is the residual of a stamp and h its leverage on its own line, so that r/(1 − h)
+//! is the residual from the line without it.
 //!
 //! # Sources
 //! Stone, Journal of the Royal Statistical Society B 36(2), 1974 (leaving one out); Cleveland,
@@ -15,10 +15,10 @@ use std::ops::Range;
 use trackdyn_core::real;
 use trackdyn_recording::{Recording, Run, UncheckedRun};
 
-/// Fewest samples on either side that tell when a sample was due; then twice as many, and so on.
+/// Smallest number of neighbours on either side; then twice as many, and so on.
 const MIN_NEIGHBOURS: usize = 5;
 
-/// Fewer samples than this in a row have no interval.
+/// Smallest number of samples in a row that have an interval.
 const MIN_SAMPLES: usize = 4;
 
 /// The times at which samples were due, by a straight line through the stamps (s) of their
@@ -63,21 +63,21 @@ pub fn stretches(stamps: &[f64]) -> Vec<(Range<usize>, f64)> {
     stamps.chunk_by(even).map(stretch).collect()
 }
 
-/// Stamps in a row, by what they are off from even ones between the first and the last.
+/// Stamps in a row, as deviations from evenly spaced ones between the first and the last.
 struct Row {
     first: f64,
     interval: f64,
     off: Vec<f64>,
-    /// Sums over the first stamps, none to all, of what they are off, and of that times their
-    /// place.
+    /// Cumulative sums of the deviations, and of each deviation times its place; the first is
+    /// empty.
     sums: Vec<[f64; 2]>,
 }
 
 /// The line through some stamps, at one of them.
 struct Line {
-    /// What it is off from the even stamp there, s.
+    /// Deviation from the evenly spaced stamp there, s.
     off: f64,
-    /// h: the part of that stamp in it.
+    /// h: leverage of that stamp on the line.
     own: f64,
 }
 
@@ -95,8 +95,8 @@ impl Row {
         Self { first, interval, off, sums }
     }
 
-    /// The line through a sample and so many on either side, at that sample; none where they have
-    /// no interval.
+    /// The line through a sample and so many neighbours on either side, at that sample; none where
+    /// they have no interval.
     fn line(&self, at: usize, neighbours: usize) -> Option<Line> {
         let near = at.saturating_sub(neighbours)..(at + neighbours + 1).min(self.off.len());
         if near.len() < MIN_SAMPLES {
@@ -113,7 +113,7 @@ impl Row {
         Some(Line { off, own: 1.0 / count + from_middle * from_middle / spread })
     }
 
-    /// Sum of the squares by which lines through the others miss each stamp, s².
+    /// Sum of the squared residuals of each stamp from the line through the others, s².
     fn missed(&self, neighbours: usize) -> f64 {
         let by = |at: usize| {
             let line = self.line(at, neighbours)?;
@@ -145,7 +145,7 @@ pub fn with_regular_poses(recording: &Recording) -> Recording {
 mod tests {
     use super::*;
 
-    /// Root mean square by which stamps are off from when samples were due, s.
+    /// Root mean square difference between stamps and the times at which samples were due, s.
     fn off(stamps: &[f64], due: &[f64]) -> f64 {
         let squares = stamps.iter().zip(due).map(|(stamp, due)| (stamp - due).powi(2));
         (squares.sum::<f64>() / real(due.len())).sqrt()
@@ -160,8 +160,8 @@ mod tests {
         numbers.map(|number| f64::from(number) / f64::from(u32::MAX / 2) - 1.0)
     }
 
-    /// By what 500 stamps of a clock, each up to 10 ms early or late, are off as they are and as
-    /// they were due.
+    /// Root mean square errors of 500 stamps of a clock, each up to 10 ms early or late: as they
+    /// are, and made regular.
     fn off_by(clock: impl Fn(f64) -> f64) -> [f64; 2] {
         let due: Vec<f64> = (0..500).map(|k| clock(f64::from(k))).collect();
         let stamps: Vec<f64> =
@@ -204,8 +204,8 @@ mod tests {
         assert!(after < 3.0 * (2.0_f64 / 500.0).sqrt() * before, "{before} {after}");
     }
 
-    /// Of a clock that runs now fast, now slow, by more than its stamps are late, near samples
-    /// alone tell the time.
+    /// A clock that runs now fast, now slow, by more than its stamps are late: only near samples
+    /// tell the time.
     #[test]
     fn a_clock_that_wanders_is_followed() {
         let [before, after] = off_by(|k| 3.0 + 0.1 * k + 0.2 * (k / 20.0).sin());

@@ -53,9 +53,9 @@ pub struct Segment {
     pub run: usize,
     /// Indices of its first and last pose in the run.
     pub poses: [usize; 2],
-    /// Stamps of these poses, s of the pose clock.
+    /// Stamp of its first pose, s of the pose clock.
     pub start: f64,
-    /// See `start`.
+    /// Stamp of its last pose, s of the pose clock.
     pub end: f64,
     /// Indices of the readings that hold at some time within it, at the clock offset of the
     /// options.
@@ -80,8 +80,8 @@ pub fn segments(recording: &Recording, options: &SegmentOptions) -> Vec<Segment>
     runs.flat_map(|(index, run)| Cut::new(index, run, options).segments()).collect()
 }
 
-/// A segment that spans its pose intervals in less than this share of the shortest duration takes
-/// more of them: its stamps are crowded.
+/// Share of the shortest duration below which a segment takes more pose intervals: its stamps are
+/// crowded.
 const MIN_DURATION_SHARE: f64 = 0.5;
 
 /// Pose intervals that last for a time, at least one. Rounding must not add one.
@@ -156,8 +156,8 @@ impl<'a> Cut<'a> {
         segments
     }
 
-    /// The readings that hold between two times of the pose clock; none where there are none for
-    /// every clock offset within the margin, or a gap lies within.
+    /// The readings that hold between two times of the pose clock. None where a gap lies within, or
+    /// where readings are missing for a clock offset within the margin.
     fn covered(&self, start: f64, end: f64) -> Option<Range<usize>> {
         let SegmentOptions { tau, tau_margin, .. } = *self.options;
         let tracks = self.run.tracks();

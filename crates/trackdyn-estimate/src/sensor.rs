@@ -48,8 +48,8 @@ impl Nuisance {
         }
     }
 
-    /// Standard deviation from which on the value is of no use: a twentieth of a second, an
-    /// interval of readings at 20 Hz; two degrees, 35 mm aside per metre.
+    /// Standard deviation from which on the value is of no use: 50 ms, an interval of readings at
+    /// 20 Hz; two degrees, 35 mm aside per metre.
     pub fn limit(self) -> f64 {
         match self {
             Self::TimeOffset => 0.05,
@@ -122,9 +122,9 @@ pub struct Report {
 /// What a sensor reports of the motion of these pieces, which are cut at its τ.
 ///
 /// # Law
-/// With ψ the motion's translation turns by −ψ. With τ the segment moves over the track speeds: to
-/// first order it wins ε times the twist ξ_a at its beginning and loses ε times the twist ξ_b at
-/// its end, M → exp(ε ξ_a) M exp(−ε ξ_b).
+/// ψ turns the translation of the motion by −ψ. A change ε of τ moves the segment over the track
+/// speeds: to first order it gains ε times the twist ξ_a at its beginning and loses ε times the
+/// twist ξ_b at its end, M → exp(ε ξ_a) M exp(−ε ξ_b).
 pub fn report(parameters: &Parameters, sensor: &Sensor, pieces: &[Piece]) -> Report {
     Report::of(&predict(parameters, pieces), parameters, sensor, pieces)
 }

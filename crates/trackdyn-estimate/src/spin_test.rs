@@ -5,10 +5,10 @@ use crate::error::Error;
 use crate::observations::Observations;
 use std::ops::Range;
 
-/// Yaw that a spin test needs in all, rad: half a turn.
+/// Smallest yaw of a spin test in all, rad: half a turn.
 const MIN_YAW: f64 = std::f64::consts::PI;
 
-/// Slower over faster track, in a spin, at least.
+/// Smallest ratio of the slower to the faster track in a spin.
 const MIN_SPEED_RATIO: f64 = 0.5;
 
 /// Result of the spin test.

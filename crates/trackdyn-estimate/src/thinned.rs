@@ -1,8 +1,8 @@
 //! Readings of encoders that report more often than a robot changes its motion.
 //!
 //! # Law
-//! n readings in a row become one, at the stamp of the first and with the speed that runs as far as
-//! they did:
+//! n readings in a row become one, with the stamp of the first and the mean speed of all, so that
+//! the tracks run as far:
 //!
 //! v̄ = Σ v_k h_k / Σ h_k,   h_k the time that reading k holds
 
@@ -14,8 +14,8 @@ use trackdyn_recording::{Recording, Run, TrackSample, UncheckedRun};
 /// Part of an interval that is rounding.
 const INTERVAL_ROUNDING: f64 = 1e-6;
 
-/// A recording in which as many readings of the tracks are put together as usually fit into this
-/// time, s. The fingerprint stays.
+/// This recording with fewer readings of the tracks: as many are put together as usually fit into
+/// the interval, s. The fingerprint stays.
 pub fn with_readings_every(recording: &Recording, interval: f64) -> Cow<'_, Recording> {
     let runs = recording.runs();
     let usual = |run: &Run| usual_interval(run.tracks().iter().map(|reading| reading.t));

@@ -27,17 +27,17 @@ pub struct SegmentNoise {
     pub pose: [f64; 3],
     /// Variance per second that a segment adds, in the same units per s.
     pub walk: [f64; 3],
-    /// Variance per second by which the sensor's heading wanders beside the way that it reports,
-    /// rad²/s: all later segments are seen turned by it.
+    /// Variance per second of a random walk of the sensor's heading, rad²/s. It turns all later
+    /// segments as the sensor sees them, and not the motion within one.
     pub heading: f64,
 }
 
-/// Less noise of a pose, m and rad, no model explains: poses of a simulator have none, and no
-/// covariance without it.
+/// Smallest standard deviation of a pose that is assumed, m and rad: poses of a simulator have no
+/// noise, and a covariance without noise has no inverse.
 pub const MIN_POSE_NOISE: f64 = 1e-4;
 
 impl SegmentNoise {
-    /// From what the maker of the recording states of its poses.
+    /// From the noise that the maker of the recording states for its poses.
     pub fn stated(stated: StatedNoise) -> Self {
         let position = stated.position.max(MIN_POSE_NOISE).powi(2);
         let pose = [position, position, stated.yaw.max(MIN_POSE_NOISE).powi(2)];
@@ -64,7 +64,7 @@ impl SegmentNoise {
     }
 }
 
-/// What of a segment its noise depends on.
+/// What the noise of a segment depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seen {
     /// Motion over the segment from its first pose: forward (m), left (m), yaw (rad).
@@ -75,7 +75,7 @@ pub struct Seen {
     pub run: usize,
     /// Whether its first pose is the last one of the segment before it.
     pub follows: bool,
-    /// Whether it tells nothing.
+    /// Whether it carries no information.
     pub is_lost: bool,
 }
 
@@ -97,13 +97,13 @@ pub struct Whitener {
 struct Block {
     /// L⁻¹; zero where the segment is lost.
     inverse: Matrix3<f64>,
-    /// K: what the segment before tells of the pose between them.
+    /// K: gain of the segment before on the pose that both share.
     gain: Matrix3<f64>,
-    /// c: what an error e of the heading does to the residual.
+    /// c: derivative of the residual by the error e of the heading.
     turned: Vector3<f64>,
-    /// k: what the residual tells of that error.
+    /// k: gain of the whitened residual on the error e.
     tells: RowVector3<f64>,
-    /// Whether nothing is known of that error yet but that it is none.
+    /// Whether the error e is still exactly zero, at the beginning of a run.
     begins: bool,
 }
 
@@ -112,7 +112,7 @@ struct Block {
 #[derive(Clone, Copy)]
 struct Known {
     covariance: Matrix4<f64>,
-    /// What a white residual tells of the pose.
+    /// Gain of a whitened residual on the pose.
     tells: Matrix3<f64>,
 }
 
@@ -152,13 +152,13 @@ impl Whitener {
         Self { blocks: blocks.collect() }
     }
 
-    /// Logarithm of the determinant of what whitens each segment, given those before it; −∞ of one
-    /// that is lost.
+    /// Logarithm of the determinant of each segment's whitening, given the segments before it; −∞
+    /// of a segment that is lost.
     pub fn ln_determinants(&self) -> impl Iterator<Item = f64> + '_ {
         self.blocks.iter().map(|block| block.inverse.determinant().ln())
     }
 
-    /// Gives a white column the noise's correlations, in place: the inverse of
+    /// Colours a white column with the correlations of the noise, in place: the inverse of
     /// [`Whitener::whiten`].
     pub fn colour(&self, column: &mut [Vector3<f64>]) {
         let (mut before, mut heading) = (Vector3::zeros(), 0.0);
@@ -187,7 +187,8 @@ impl Whitener {
 }
 
 impl SegmentNoise {
-    /// What makes a segment white beside what is known from its run, and what is known after it.
+    /// The whitening of a segment, given what is known from its run before it, and what is known
+    /// after it.
     fn block(&self, segment: &Seen, before: Option<Known>) -> (Block, Known) {
         let pose = Matrix3::from_diagonal(&Vector3::from(self.pose));
         let heading = before.map_or(0.0, |known| known.covariance[(3, 3)]);

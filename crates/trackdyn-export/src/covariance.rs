@@ -13,16 +13,16 @@ const SCHEMA: &str = "trackdyn.odometry/1";
 /// shorter than most manoeuvres.
 const HORIZON: f64 = 1.0;
 
-/// Fewer pieces of that time than this are replaced by segments.
+/// Smallest number of pieces of that time; with fewer, segments are used.
 const MIN_PIECES: usize = 20;
 
 /// Variance of what a robot on the ground does not measure: up and down, roll, pitch; m² and rad².
 const UNKNOWN_VARIANCE: f64 = 1e6;
 
-/// Least variance, m² and rad²: zero is certainty.
+/// Smallest variance, m² and rad²: zero would claim certainty.
 const MIN_VARIANCE: f64 = 1e-12;
 
-/// Most that is taken for a residual, a time or a distance, in m, rad and s.
+/// Largest residual, time or distance that is accepted, in m, rad and s.
 const MAX_RESIDUAL: f64 = 1e9;
 
 /// Root mean squares of what odometry with one parameter set got wrong.

@@ -1,10 +1,10 @@
 //! Numbers as every one of the languages reads them.
 
-/// Largest length that is meant, m.
+/// Largest length that is accepted, m.
 pub(crate) const MAX_LENGTH: f64 = 1e4;
 
-/// The shortest decimal text that reads back as the same number: with a point, for ROS takes `1`
-/// for an integer and refuses it, and without an exponent, for YAML 1.1 takes `1e-7` for a text.
+/// The shortest decimal text that reads back as the same number. It has a point, because ROS takes
+/// `1` for an integer and refuses it. It has no exponent, because YAML 1.1 takes `1e-7` for a text.
 pub(crate) fn number(value: f64) -> String {
     // The sum turns −0 into 0.
     let text = format!("{}", value + 0.0);

@@ -24,6 +24,9 @@ pub trait Effect: Copy + Sized {
     /// Whether it is a mechanism or a form.
     const NATURE: Nature = Nature::Mechanism;
 
+    /// Whether it is a part of Newton's second law: all of them together are the law in full.
+    const IS_INERTIA: bool = false;
+
     /// The terms of a form; none of a mechanism.
     fn terms() -> Vec<Term> {
         Vec::new()
@@ -90,8 +93,8 @@ impl Card {
         self.stages.contains(&Stage::Shear)
     }
 
-    /// Whether it acts where its place is, over an extent that is its shape, and not from there on
-    /// the robot wherever that is.
+    /// Whether it acts around a place of the world, over an extent that is its shape, and not on
+    /// the robot wherever it is.
     pub fn has_extent(&self) -> bool {
         let is_place = |one: &Parameter| matches!(one.role, Role::Place { .. });
         let is_shape = |one: &Parameter| one.role == Role::Shape;
@@ -132,8 +135,8 @@ pub enum Role {
     /// other parameters are.
     Size {
         /// Value at which the law is that of the base model, in the parameter's unit. It may lie
-        /// below the physical range: then it is a limit, which the law approaches towards that end
-        /// of the range.
+        /// below the physical range: then the law approaches the base model towards that end of the
+        /// range.
         neutral: f64,
     },
     /// A coordinate of a place in the world, m.

@@ -51,6 +51,3 @@ catalogue! {
     friction_drift::FrictionDrift,
     force_law::ForceLaw,
 }
-
-/// The effects that together are Newton's second law.
-const INERTIA: [&str; 2] = ["yaw-inertia", "centripetal"];

@@ -14,7 +14,7 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// For friction that has half the digits.
+    /// The tolerance for friction with half the digits.
     const COARSE: Self = Self { converged: 1e-8, rounding: 1e-7 };
 
     /// The tolerance for friction of this resolution: a root is no finer than that.
@@ -23,8 +23,8 @@ impl Tolerance {
     }
 }
 
-/// Residual below which one more step of a quadratic method is expected to be the last, so that
-/// its derivatives are not asked for.
+/// Residual below which one more step of a quadratic method is expected to be the last: its
+/// derivatives are then not computed.
 const LAST_STEP_RESIDUAL: f64 = 1e-6;
 
 const MAX_ITERATIONS: usize = 80;
@@ -32,8 +32,8 @@ const MAX_ITERATIONS: usize = 80;
 /// Share of the predicted decrease of the residual's norm that a step must bring.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 
-/// Smallest fraction of a Newton step that is tried: where less is needed, there is no root near,
-/// and another start is tried sooner.
+/// Smallest share of a Newton step that is tried. Where a smaller one would be needed, no root is
+/// near, and another start is tried sooner.
 const MIN_STEP_SHARE: f64 = 1e-3;
 
 /// Residual and Jacobian at a point.
@@ -68,7 +68,7 @@ pub struct Convergence<const N: usize> {
     pub inverse: Option<SMatrix<f64, N, N>>,
 }
 
-/// What a step without derivatives must leave of the residual at most.
+/// Largest ratio of the residuals after and before a step without derivatives.
 const MAX_RESIDUAL_RATIO: f64 = 0.6;
 
 /// Iterates from a `start` near a root without derivatives, by Broyden's method; none where that
@@ -161,7 +161,8 @@ pub fn solve<const N: usize>(
     ended(point, norm, iterations, inverse)
 }
 
-/// The first end that is a root, else the one with the least residual; later ones are not sought.
+/// The first end that is a root, else the one with the smallest residual. Starts after a root are
+/// not tried.
 pub fn first_root<E, const N: usize>(
     ends: impl Iterator<Item = E>,
     convergence: impl Fn(&E) -> &Convergence<N>,

@@ -33,12 +33,12 @@ const SPIN_SPEED: f64 = 1e-6;
 /// traction agree.
 const TOLERANCE: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11 };
 
-/// Residual at which a search beside a known motion stops at the latest: what differs between the
-/// two is asked for.
+/// Residual below which a search from a known motion may stop: the result is compared with that
+/// motion.
 const MAX_COMPARED_RESIDUAL: f64 = 1e-10;
 
-/// Turns between belt speeds and traction after which the search is given up.
-const MAX_TURNS: usize = 100;
+/// Largest number of alternations between belt speeds and traction.
+const MAX_ALTERNATIONS: usize = 100;
 
 /// A motion that is nearly the wanted one: where a search starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +51,7 @@ pub enum Near {
     Linearised(Linearised),
 }
 
-/// A motion with what a small force would change in it: a search from there takes no derivatives.
+/// A motion with its linearisation: a search from there needs no derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Linearised {
     anchor: Side,
@@ -108,11 +108,11 @@ impl<'m> Stationary<'m> {
 
     /// The stationary motion at the track speeds that the encoders show, m/s.
     ///
-    /// No pair of speeds knows of another, so the order of solves does not matter. The result
+    /// Each pair of speeds is solved by itself, so the order of solves does not matter. The result
     /// carries its status; read it before the numbers.
     ///
-    /// Where belts slip on their sprockets, speeds and traction are found in turns: Coulomb's
-    /// friction knows speeds by their ratios alone, so the next traction hardly differs.
+    /// Where belts slip on their sprockets, speeds and traction are found by alternation: Coulomb's
+    /// friction depends on ratios of speeds alone, so the next traction hardly differs.
     pub fn solve(&self, track_speed: PerSide<f64>) -> Solution {
         let driven = self.model.drive().driven(track_speed);
         let mut solution = self.solve_belts(driven);
@@ -131,7 +131,7 @@ impl<'m> Stationary<'m> {
         let mut solution = firm;
         let (mut share, mut last) = (1.0, PerSide::new(0.0, 0.0));
         let mut may_be_straight = true;
-        for _ in 0..MAX_TURNS {
+        for _ in 0..MAX_ALTERNATIONS {
             let Some(traction) = self.traction(&solution) else { break };
             let belts = solution.belt_speed;
             let next = self.model.drive().belt_speed(driven, traction);

@@ -7,11 +7,11 @@
 //!
 //! # Stick and slip
 //! Coulomb friction has no value where a whole track sticks. There, and only there, it is
-//! regularised: the friction wrench of a side is multiplied by σ/√(σ² + ε²), σ the root mean square
-//! of its slip velocity. A wrench of the exact law opposes the slip, so a fraction of it does, and
-//! energy never grows out of nothing. With ε = [`STICKING_SLIP_VELOCITY`], unless another one is
-//! asked for, a track that slips at 1 cm/s has friction exact to 5·10⁻⁹, and a parked robot creeps
-//! less than 0.1 mm in a minute up to 80 % of what friction bears.
+//! regularised: the friction wrench of a side is multiplied by σ/√(σ² + ε²), where σ is the root
+//! mean square of its slip velocity. A wrench of the exact law opposes the slip, and so does a
+//! fraction of it: energy never grows. With the default ε = [`STICKING_SLIP_VELOCITY`], a track
+//! that slips at 1 cm/s has friction exact to 5·10⁻⁹, and a parked robot creeps less than 0.1 mm in
+//! a minute at up to 80 % of the friction limit.
 //!
 //! # Method
 //! The two-stage singly diagonal implicit Runge-Kutta method of order 2 (Alexander 1977), which
@@ -40,10 +40,10 @@ pub const STICKING_SLIP_VELOCITY: f64 = 1e-6;
 /// Coefficient γ = 1 − 1/√2 of the method: it makes the second stage the end of the step.
 pub const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
-/// Halvings of a step for its error at most.
+/// Largest number of halvings of a step for its error.
 const MAX_REFINEMENTS: u32 = 2;
 
-/// Halvings of a step after which it is given up.
+/// Largest number of halvings of a step for convergence.
 const MAX_HALVINGS: u32 = 10;
 
 /// A step as it was taken.
@@ -78,10 +78,10 @@ pub struct Transient<'m> {
     tolerance: f64,
     /// Slip velocity below which a track sticks, m/s.
     creep: f64,
-    /// Whether some force stands against acceleration: a body without inertia jumps, and its
+    /// Whether some force depends on acceleration. A body without inertia jumps, and its
     /// acceleration means nothing.
     has_inertia: bool,
-    /// Whether it goes on where some of the contact would have to pull.
+    /// Whether the motion continues where some of the contact would have to pull.
     may_pull: bool,
     /// The steps so far; none where they are not asked for.
     steps: Option<Vec<Step>>,
@@ -103,7 +103,7 @@ struct State {
     traction: PerSide<f64>,
     /// Whether some of the contact would have to pull.
     lifts: bool,
-    /// Whether that would not do either.
+    /// Whether no pressure, not even a pulling one, can bear the load.
     tips: bool,
     /// What is known of the Jacobian of the last balance.
     inverse: Inverse,

@@ -5,8 +5,8 @@
 //! poses are late. What a pose shows between `start` and `end` the tracks did between `start − tau`
 //! and `end − tau`.
 //!
-//! Stamps that are meant to be the same differ where they are rounded. What would hold for no
-//! longer than that is not a reading of its own: its time goes to its neighbour.
+//! Stamps that should be equal differ by rounding. A reading that would hold for no longer than
+//! that does not count: its time goes to its neighbour.
 
 use crate::sample::TrackSample;
 use std::ops::Range;
@@ -26,9 +26,8 @@ pub fn holding(tracks: &[TrackSample], t: f64) -> Option<usize> {
     tracks.partition_point(|sample| sample.t <= t).checked_sub(1)
 }
 
-/// Largest difference between two times that are meant to be the same, s: each stamp is rounded by
-/// half a unit in its last place, which is at most ε times the stamp, and so is the difference to
-/// `tau`.
+/// Largest difference between two times that should be equal, s: each stamp is rounded by half a
+/// unit in its last place, which is at most ε times the stamp, and so is the difference to `tau`.
 fn rounding(start: f64, end: f64, tau: f64) -> f64 {
     2.0 * f64::EPSILON * start.abs().max(end.abs()).max(tau.abs())
 }

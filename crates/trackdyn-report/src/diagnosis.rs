@@ -21,7 +21,7 @@ use trackdyn_diagnose::diagnosis::{Diagnosis, Kind, Unseen};
 use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::locate::cells::Cell;
 use trackdyn_diagnose::locate::icr_columns;
-use trackdyn_diagnose::{DiagnosisFile, Evidence};
+use trackdyn_diagnose::{DiagnosisFile, Weighted};
 use trackdyn_model::VehicleFile;
 
 pub use html::diagnosis_html;
@@ -56,7 +56,7 @@ pub struct Figure {
 /// Evidence with whitened residuals before and after.
 #[derive(Clone, Copy)]
 struct View<'a> {
-    evidence: &'a Evidence,
+    evidence: &'a Weighted,
     residuals: [&'a [Vector3<f64>]; 2],
     is_held_out: bool,
 }
@@ -68,7 +68,7 @@ impl<'a> Subject<'a> {
     }
 
     /// What it was made from.
-    fn evidence(&self) -> &'a Evidence {
+    fn evidence(&self) -> &'a Weighted {
         &self.diagnosis.evidence
     }
 

@@ -1,5 +1,6 @@
 //! The order in which candidates stand says nothing.
 
+use trackdyn_diagnose::Weighted;
 use trackdyn_diagnose::base::Base;
 use trackdyn_diagnose::candidate::{Beside, candidates};
 use trackdyn_diagnose::evidence::Evidence;
@@ -36,6 +37,7 @@ fn owned() -> VehicleFile {
 fn both_ways() -> [Found; 2] {
     let file = owned();
     let evidence = Evidence::of_recording(&recording(), file.vehicle.gauge).expect("enough");
+    let evidence = Weighted::new(evidence);
     let base = Base::new(&file, &evidence);
     let tried = candidates(&base.instruments, &evidence);
     let mut entries = Beside::new(&base.fit.hypothesis, &evidence).signatures(&tried);

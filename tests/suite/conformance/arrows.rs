@@ -52,8 +52,10 @@ fn a_diagnosis_cannot_know_its_judge() {
     }
 }
 
-/// What the second simulator may take from the model: the description of a vehicle.
-const DESCRIPTION: [&str; 4] = ["RunningGear", "Vehicle", "VehicleError", "VehicleFile"];
+/// What the second simulator may take from the model: the description of a vehicle, and the names of
+/// the symmetries that it is measured to break.
+const DESCRIPTION: [&str; 6] =
+    ["RunningGear", "Symmetry", "Vehicle", "VehicleError", "VehicleFile", "effect"];
 
 #[test]
 fn the_second_simulator_shares_no_physics() {

@@ -36,21 +36,25 @@ pub fn all() -> Vec<Crate> {
 impl Crate {
     /// Paths below `src` and texts of its sources, sorted.
     pub fn sources(&self) -> Vec<(PathBuf, String)> {
-        let root = self.folder.join("src");
-        let mut folders = vec![root.clone()];
-        let mut found = Vec::new();
-        while let Some(folder) = folders.pop() {
-            for entry in fs::read_dir(folder).expect("sources") {
-                let path = entry.expect("readable").path();
-                if path.is_dir() {
-                    folders.push(path);
-                } else if path.extension().is_some_and(|ending| ending == "rs") {
-                    let text = fs::read_to_string(&path).expect("a source");
-                    found.push((path.strip_prefix(&root).expect("below").to_owned(), text));
-                }
+        sources_below(&self.folder.join("src"))
+    }
+}
+
+/// Paths below a folder and texts of the sources in it, sorted.
+pub fn sources_below(root: &Path) -> Vec<(PathBuf, String)> {
+    let mut folders = vec![root.to_owned()];
+    let mut found = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).expect("sources") {
+            let path = entry.expect("readable").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "rs") {
+                let text = fs::read_to_string(&path).expect("a source");
+                found.push((path.strip_prefix(root).expect("below").to_owned(), text));
             }
         }
-        found.sort();
-        found
     }
+    found.sort();
+    found
 }

@@ -1,6 +1,6 @@
 //! Sources are readable: lines are short, and a doc comment stands alone.
 
-use super::crates::all;
+use super::crates::{all, sources_below};
 use std::path::Path;
 
 /// Largest number of characters in a line.
@@ -43,18 +43,22 @@ fn is_exempt(name: &str, source: &Path) -> bool {
 
 #[test]
 fn lines_are_short_and_doc_comments_stand_alone() {
+    let suite = Path::new(env!("CARGO_MANIFEST_DIR")).join("suite");
+    let suite = sources_below(&suite).into_iter().map(|source| ("suite".to_owned(), source));
+    let crates = all().into_iter().flat_map(|of| {
+        let sources = of.sources().into_iter().map(move |source| (of.name.clone(), source));
+        sources.collect::<Vec<_>>()
+    });
     let mut found = Vec::new();
     let mut lines = 0;
-    for of in all() {
-        for (path, text) in of.sources() {
-            if is_exempt(&of.name, &path) {
-                continue;
-            }
-            lines += text.lines().count();
-            let place = format!("{}/src/{}", of.name, path.display());
-            let faults = faults(&text).into_iter();
-            found.extend(faults.map(|(line, fault)| format!("{place}:{line}: {fault}")));
+    for (name, (path, text)) in crates.chain(suite) {
+        if is_exempt(&name, &path) {
+            continue;
         }
+        lines += text.lines().count();
+        let faults = faults(&text).into_iter();
+        let place = path.display();
+        found.extend(faults.map(|(line, fault)| format!("{name}: {place}:{line}: {fault}")));
     }
     assert!(lines > 10_000, "only {lines} lines were seen");
     assert!(found.is_empty(), "{}", found.join("\n"));

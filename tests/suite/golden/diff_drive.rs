@@ -1,5 +1,5 @@
-//! `diff_drive_controller` with our parameters and our static transform drives and locates the robot as
-//! our own kinematics do.
+//! `diff_drive_controller` with our parameters and our static transform drives and locates the
+//! robot as our own kinematics do.
 //!
 //! Source: ros2_controllers, `diff_drive_controller/src/odometry.cpp` and
 //! `diff_drive_controller.cpp`; the equations are in `docs/theory/export.md`.

@@ -81,7 +81,7 @@ fn ten_thousand_random_vehicles_converge() {
 }
 
 #[test]
-#[ignore = "a million solves take seconds in release and minutes in debug: cargo test --release -p trackdyn-tests -- --ignored"]
+#[ignore = "a million solves: cargo test --release -p trackdyn-tests -- --ignored"]
 fn a_million_random_vehicles_converge() {
     solve_random(1_000_000, 2);
 }

@@ -106,8 +106,8 @@ fn poses_are_composed_along_moving_and_static_transforms() {
     assert_poses(&recording, truth);
     let text = recording.warnings().iter().map(Warning::to_string).collect::<String>();
     for part in [
-        "base_link in /map by map -> odom (5 stamps, at most 0.200 s apart), odom -> base_footprint \
-         (20 stamps",
+        "base_link in /map by map -> odom (5 stamps, at most 0.200 s apart), odom -> \
+         base_footprint (20 stamps",
         "base_footprint -> base_link (static)",
         "at the stamps of odom -> base_footprint",
         "3 stamps that a link does not reach are left out",

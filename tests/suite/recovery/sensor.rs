@@ -141,7 +141,8 @@ fn without_noise_they_are_exact() {
 fn a_lever_arm_moves_the_icrs_and_nothing_else() {
     let fitted = |mount| fit_exactly(&without_noise(mount), Free::IcrsAndAlphas, &BOTH);
     let (bare, mounted) = (fitted(Pose::default()), fitted(Pose::new(0.3, 0.2, 0.0)));
-    // 0.3 m forward, 0.2 m to the left: ICRs 0.2 m further right and 0.3 m further back. 1 µm: rounding.
+    // 0.3 m forward, 0.2 m to the left: ICRs 0.2 m further right and 0.3 m further back. 1 µm is
+    // rounding.
     for (k, shift) in [0.2, 0.2, -0.3, 0.0, 0.0].into_iter().enumerate() {
         let moved = mounted.parameters.0[k] - bare.parameters.0[k];
         assert!((moved - shift).abs() < 1e-6, "{}: {moved}", Parameters::NAMES[k]);

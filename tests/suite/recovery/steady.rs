@@ -91,8 +91,8 @@ fn errors_that_a_track_speed_shares_widen_the_intervals() {
 
 #[test]
 fn motors_that_saturate_are_noticed_without_a_model() {
-    // 0.1 m/s where 0.4 is asked for: 0.24 rad/s less than with the left track at rest, 8 times the scatter
-    // of a difference
+    // 0.1 m/s where 0.4 is asked for: 0.24 rad/s less than with the left track at rest, 8 times
+    // the scatter of a difference
     let saturated = points(3, 0.1);
     let found = lagging(&saturated);
     assert!(!found.is_empty());

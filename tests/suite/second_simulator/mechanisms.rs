@@ -64,8 +64,9 @@ fn effects_of_the_catalogue_have_their_names_and_parameters_here() {
 
 #[test]
 fn mistakes_are_refused() {
-    let unknown = ActiveMechanism::new("centripedal", &[]);
-    assert_eq!(unknown, Err(Error::UnknownMechanism("centripedal".to_owned())));
+    let unknown = ActiveMechanism::new("centripedal", &[]).expect_err("a mistake").to_string();
+    assert!(unknown.contains("no mechanism \"centripedal\""), "{unknown}");
+    assert!(MECHANISMS.iter().all(|sheet| unknown.contains(sheet.id)), "{unknown}");
     let message = |settings: &[(&str, f64)]| {
         ActiveMechanism::new("slope", settings).expect_err("a mistake").to_string()
     };

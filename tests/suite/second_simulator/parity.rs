@@ -1,11 +1,11 @@
-//! Which invariances each mechanism breaks, measured in time and compared with its sheet.
+//! Which symmetries each mechanism breaks, measured in time and compared with its sheet.
 
 use crate::second_simulator::turn::{Turn, auriga, distance, typical};
 use rayon::prelude::*;
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory};
-use trackdyn_second_simulator::{ActiveMechanism, Invariance, MECHANISMS, Robot, Setup};
+use trackdyn_second_simulator::{ActiveMechanism, MECHANISMS, Robot, Setup, Symmetry};
 
-/// Change of an ICR, m, that breaks an invariance: what a spin test can see.
+/// Change of an ICR, m, that breaks a symmetry: what a spin test can see.
 const BROKEN: f64 = 1e-3;
 
 /// Change that the shoes' draw and the shoes that come and go may cause in the base case, m: a
@@ -48,27 +48,27 @@ impl Subject {
         HEADINGS.map(|yaw| PATTERNS.map(|pattern| self.icrs(pattern, Pose::new(0.0, 0.0, yaw))))
     }
 
-    /// Largest change of an ICR from `bases` under the transformation of an invariance, m.
-    fn change(&self, invariance: Invariance, bases: &[[[f64; 3]; 3]; 2]) -> f64 {
+    /// Largest change of an ICR from `bases` under the transformation of a symmetry, m.
+    fn change(&self, symmetry: Symmetry, bases: &[[[f64; 3]; 3]; 2]) -> f64 {
         let mut worst = 0.0_f64;
         for (heading, at_heading) in HEADINGS.into_iter().zip(bases) {
             let at = Pose::new(0.0, 0.0, heading);
             for (k, (left, right)) in PATTERNS.into_iter().enumerate() {
-                let other = match invariance {
-                    Invariance::SpeedScale => self.icrs((0.25 * left, 0.25 * right), at),
-                    Invariance::Reversal => self.icrs((-left, -right), at),
-                    Invariance::Manoeuvre => at_heading[0],
-                    Invariance::Mirror => {
+                let other = match symmetry {
+                    Symmetry::SpeedScale => self.icrs((0.25 * left, 0.25 * right), at),
+                    Symmetry::Reversal => self.icrs((-left, -right), at),
+                    Symmetry::Manoeuvre => at_heading[0],
+                    Symmetry::Mirror => {
                         let [x_left, x_right, y] = self.icrs((right, left), at);
                         [-x_right, -x_left, y]
                     }
-                    Invariance::Heading => bases[0][k],
-                    Invariance::Place => self.icrs((left, right), Pose::new(1.3, -2.6, heading)),
-                    Invariance::Time => {
+                    Symmetry::Heading => bases[0][k],
+                    Symmetry::Place => self.icrs((left, right), Pose::new(1.3, -2.6, heading)),
+                    Symmetry::Time => {
                         let (active, setup) = (self.active.clone(), self.setup.clone());
                         Self { active, setup, at: 120.0 }.icrs((left, right), at)
                     }
-                    Invariance::Transient | Invariance::Straight => unreachable!("not of turns"),
+                    Symmetry::Transient | Symmetry::Straight => unreachable!("not of turns"),
                 };
                 worst = worst.max(distance(at_heading[k], other));
             }
@@ -113,10 +113,10 @@ impl Subject {
 fn the_base_case_breaks_nothing() {
     let subject = Subject::new(Vec::new());
     let bases = subject.bases();
-    for invariance in &Invariance::ALL[..7] {
-        let change = subject.change(*invariance, &bases);
-        println!("{}: {:.2} mm", invariance.letter(), 1e3 * change);
-        assert!(change < INTACT, "{}: {change} m", invariance.letter());
+    for symmetry in &Symmetry::ALL[..7] {
+        let change = subject.change(*symmetry, &bases);
+        println!("{}: {:.2} mm", symmetry.letter(), 1e3 * change);
+        assert!(change < INTACT, "{}: {change} m", symmetry.letter());
     }
     assert!(subject.strays() < 1e-5 && subject.lags() < 1e-4);
 }
@@ -126,16 +126,16 @@ fn every_mechanism_breaks_what_its_sheet_says() {
     println!(
         "worst change of an ICR, mm; way off the line in 1 m, mm; belt's way lost at a start, mm"
     );
-    println!("{:24}{}", "", Invariance::ALL.map(|i| format!("{:>8}", i.letter())).concat());
-    let measured: Vec<[f64; Invariance::ALL.len()]> = MECHANISMS
+    println!("{:24}{}", "", Symmetry::ALL.map(|i| format!("{:>8}", i.letter())).concat());
+    let measured: Vec<[f64; Symmetry::ALL.len()]> = MECHANISMS
         .par_iter()
         .map(|sheet| {
             let subject = Subject::new(typical(&[sheet.id]));
             let bases = subject.bases();
-            Invariance::ALL.map(|invariance| match invariance {
-                Invariance::Straight => subject.strays(),
-                Invariance::Transient => subject.lags(),
-                _ => subject.change(invariance, &bases),
+            Symmetry::ALL.map(|symmetry| match symmetry {
+                Symmetry::Straight => subject.strays(),
+                Symmetry::Transient => subject.lags(),
+                _ => subject.change(symmetry, &bases),
             })
         })
         .collect();
@@ -146,15 +146,15 @@ fn every_mechanism_breaks_what_its_sheet_says() {
             sheet.id,
             changes.map(|change| format!("{:8.2}", 1e3 * change)).concat()
         );
-        for (invariance, change) in Invariance::ALL.into_iter().zip(changes) {
-            let breaks = sheet.breaks.contains(&invariance);
+        for (symmetry, change) in Symmetry::ALL.into_iter().zip(changes) {
+            let breaks = sheet.breaks.contains(&symmetry);
             // what depends on heading, place or time changes during the turn that shows transients
-            let moves = [Invariance::Heading, Invariance::Place, Invariance::Time]
+            let moves = [Symmetry::Heading, Symmetry::Place, Symmetry::Time]
                 .iter()
                 .any(|of| sheet.breaks.contains(of));
-            let hidden = invariance == Invariance::Transient && moves;
+            let hidden = symmetry == Symmetry::Transient && moves;
             if breaks != (change > BROKEN) && !hidden {
-                wrong.push(format!("{} {}: {change:.2e} m", sheet.id, invariance.letter()));
+                wrong.push(format!("{} {}: {change:.2e} m", sheet.id, symmetry.letter()));
             }
         }
     }

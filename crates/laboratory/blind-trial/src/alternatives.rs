@@ -1,28 +1,26 @@
-//! What else of the catalogue could have left a signature: effects at typical sizes, with a few choices
-//! of the places and speeds that their size does not say.
+//! What else of the catalogue could have left a signature: effects at typical sizes, with a few
+//! choices of the places, directions and shapes that their size does not say.
 
-use crate::dose::{Dose, Scene};
-use crate::plan::ISOLABLE;
-use rand::RngExt;
+use crate::dose::{Dose, Scene, concealment, polar};
+use crate::plan::{close, isolable};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::FRAC_PI_2;
 use trackdyn_core::Pose;
+use trackdyn_second_simulator::Sheet;
+use trackdyn_second_simulator::sheet::{Anchor, Role};
 
-/// Distance of an anchor that is out of sight, m.
-const FAR: f64 = 500.0;
-/// Distance of an anchor nearby, m.
-const NEAR: f64 = 5.0;
-/// Strengths of friction that creeps: its law is anything but linear in them.
-const CREEPS: [f64; 4] = [0.3, 1.0, 3.0, 10.0];
-/// Places of a patch that are tried.
-const PATCHES: usize = 2;
-/// Radius of a patch, m.
-const PATCH: f64 = 1.5;
+/// Distance of an anchor from where its pull has the same direction everywhere, m.
+const DISTANT_ANCHOR: f64 = 500.0;
+/// Distance of an anchor that the robot drives around, m.
+const NEAR_ANCHOR: f64 = 5.0;
+/// Places on the path that are tried.
+const PLACES_ON_PATH: usize = 2;
 
-/// Effects that stand for one hypothesis; what is spanned by their signatures cannot be told from it.
+/// Effects that stand for one hypothesis; what is spanned by their signatures cannot be told from
+/// it.
 pub(crate) struct Alternative {
-    /// Id of the mechanism.
-    pub(crate) id: &'static str,
+    /// The mechanism.
+    pub(crate) sheet: &'static Sheet,
     /// Doses with their strengths.
     pub(crate) members: Vec<(Dose, f64)>,
 }
@@ -33,48 +31,66 @@ pub(crate) fn alternatives(
     scene: Scene,
     random: &mut ChaCha8Rng,
 ) -> Vec<Alternative> {
-    let ids = ISOLABLE.into_iter().chain(["drivetrain-lag"]);
-    let mut all = Vec::new();
-    for id in ids.filter(|id| !excluded.contains(id)) {
-        for members in choices(id, scene, random) {
-            all.push(Alternative { id, members });
-        }
-    }
-    all
+    let confusable = close().filter(|sheet| !isolable().any(|other| other.id == sheet.id));
+    let sheets = isolable().chain(confusable).filter(|sheet| !excluded.contains(&sheet.id));
+    let all = sheets.flat_map(|sheet| {
+        let choices = choices(sheet, scene, random);
+        choices.into_iter().map(move |members| Alternative { sheet, members })
+    });
+    all.collect()
 }
 
-fn choices(id: &'static str, scene: Scene, random: &mut ChaCha8Rng) -> Vec<Vec<(Dose, f64)>> {
-    let usual = Dose::draw(id, scene, random);
-    let with = |key, values: &[f64]| {
-        values.iter().map(|value| vec![(usual.clone().with(key, *value), 1.0)]).collect()
-    };
-    let weight = scene.machine.weight();
-    let anchored = |distance: f64, quarter: f64| {
-        let (sin, cos) = (quarter * FRAC_PI_2).sin_cos();
-        Dose::tether(weight, [distance * cos, distance * sin])
-    };
-    match id {
-        "stribeck-friction" => with("speed_m_per_s", &[0.03, 0.06, 0.12, 0.25, 0.5]),
-        "friction-creep" => CREEPS.map(|strength| vec![(usual.clone(), strength)]).to_vec(),
-        "hitch-drag" => {
-            let length = scene.machine.length();
-            with("distance_m", &[0.5 * length, 1.5 * length])
+fn choices(sheet: &'static Sheet, scene: Scene, random: &mut ChaCha8Rng) -> Vec<Vec<(Dose, f64)>> {
+    let shapes = shapes(Dose::draw(sheet, scene, random), scene);
+    let strengths = concealment(sheet).map_or(&[1.0][..], |law| law.compared_at);
+    shapes.into_iter().flat_map(|dose| placed(&dose, strengths, scene, random)).collect()
+}
+
+/// A dose at all values of its shapes that are compared.
+fn shapes(usual: Dose, scene: Scene) -> Vec<Dose> {
+    let mut doses = vec![usual];
+    for parameter in doses[0].sheet().parameters {
+        if let Role::Shape { compared_at: values @ [_, ..], .. } = parameter.draw.role {
+            let with =
+                |dose: &Dose, value: f64| dose.clone().with(parameter.key, scene.machine, value);
+            doses = doses
+                .iter()
+                .flat_map(|dose| values.iter().map(move |value| with(dose, *value)))
+                .collect();
         }
-        // both directions of the world span all of them
-        "slope" => vec![of_all_sizes([Dose::slope(0.0), Dose::slope(90.0)])],
-        "tether" => {
-            let near = [0.5, 1.5, 2.5, 3.5].map(|quarter| vec![(anchored(NEAR, quarter), 1.0)]);
-            let far = of_all_sizes([0.0, 1.0].map(|quarter| anchored(FAR, quarter)));
+    }
+    doses
+}
+
+/// A dose in the directions and at the places that are compared.
+fn placed(
+    dose: &Dose,
+    strengths: &[f64],
+    scene: Scene,
+    random: &mut ChaCha8Rng,
+) -> Vec<Vec<(Dose, f64)>> {
+    let roles = || dose.sheet().parameters.iter().map(|parameter| parameter.draw.role);
+    if roles().any(|role| role == Role::Direction) {
+        // two directions of the world span all of them
+        return vec![of_all_sizes([0.0, 90.0].map(|degrees| dose.clone().towards(degrees)))];
+    }
+    let anchor = roles().find_map(|role| match role {
+        Role::Place { anchor, .. } => Some(anchor),
+        _ => None,
+    });
+    let anchored =
+        |distance: f64, quarter: f64| dose.clone().at_place(polar(distance, quarter * FRAC_PI_2));
+    match anchor {
+        None => strengths.iter().map(|strength| vec![(dose.clone(), *strength)]).collect(),
+        Some(Anchor::Around(_)) => {
+            let quarters = [0.5, 1.5, 2.5, 3.5];
+            let near = quarters.map(|quarter| vec![(anchored(NEAR_ANCHOR, quarter), 1.0)]);
+            let far = of_all_sizes([0.0, 1.0].map(|quarter| anchored(DISTANT_ANCHOR, quarter)));
             near.into_iter().chain([far]).collect()
         }
-        "terrain-patch" => (0..PATCHES)
-            .map(|_| {
-                let count = scene.visited.len().max(1);
-                let place = scene.visited.get(random.random_range(0..count)).copied();
-                vec![(Dose::patch(place.unwrap_or_default(), PATCH, 1.3), 1.0)]
-            })
+        Some(Anchor::OnPath) => (0..PLACES_ON_PATH)
+            .map(|_| vec![(dose.clone().at_place(scene.visited(random)), 1.0)])
             .collect(),
-        _ => vec![vec![(usual, 1.0)]],
     }
 }
 

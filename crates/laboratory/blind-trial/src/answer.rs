@@ -1,10 +1,12 @@
 //! What was concealed: the answers of a trial.
 
+use crate::difficulty::Difficulty;
 use crate::key::Root;
-use crate::plan::{CONSTANTS, Difficulty, Stratum};
+use crate::plan::Stratum;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use trackdyn_second_simulator::{ActiveMechanism, Origin};
+use trackdyn_second_simulator::sheet::Trial;
+use trackdyn_second_simulator::{ActiveMechanism, MECHANISMS, Origin, Sheet, sheet_of};
 
 /// Schema of the answers.
 pub const SCHEMA: &str = "trackdyn.answers/1";
@@ -13,6 +15,10 @@ pub const SCHEMA: &str = "trackdyn.answers/1";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Answers {
+    /// A text that nobody guesses, so that the hash of the answers says nothing; it comes of the
+    /// key. Answers that are sealed in `answers.sealed` have none.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub salt: String,
     /// [`SCHEMA`].
     pub schema: String,
     /// Version of the program that made them.
@@ -95,9 +101,10 @@ pub struct Concealed {
     pub z_wanted: Option<f64>,
     /// Norm of the whitened difference that it makes, outside the nuisances.
     pub z_det: f64,
-    /// The same outside the alternative that comes closest.
+    /// Norm of the difference outside the nuisances and the alternative that comes closest.
     pub z_iso: f64,
-    /// The same outside three alternatives together, those that take most of it; older answers have none.
+    /// Norm of the difference outside the nuisances and the three alternatives together that take
+    /// most of it; older answers have none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub z_beyond: Option<f64>,
     /// The alternative that comes closest.
@@ -106,21 +113,30 @@ pub struct Concealed {
     pub class: Vec<String>,
 }
 
-/// The error of an instrument that a clock offset is, and its parameter.
-const CLOCK: [&str; 2] = ["time-offset", "delay_s"];
+/// The error of an instrument that a clock offset is.
+fn clock_offset() -> Option<&'static Sheet> {
+    MECHANISMS.iter().find(|sheet| match sheet.trial {
+        Trial::Instrument(error) => error.is_clock_offset,
+        Trial::Law(_) => false,
+    })
+}
 
 impl Answer {
-    /// Errors of instruments as a recording shows them: those that were put in, and the clock offset that the sensors
-    /// have as such.
+    /// Errors of instruments as a recording shows them: those that were put in, and the clock
+    /// offset that the sensors have as such.
     pub fn shown_errors(&self) -> Vec<Instrument> {
-        let [clock, delay] = CLOCK;
         let mut shown = self.instruments.clone();
-        if self.clock_offset_s != 0.0 {
-            if !shown.iter().any(|error| error.mechanism == clock) {
-                shown.push(Instrument { mechanism: clock.to_owned(), parameters: BTreeMap::new() });
-            }
-            for error in shown.iter_mut().filter(|error| error.mechanism == clock) {
-                *error.parameters.entry(delay.to_owned()).or_default() += self.clock_offset_s;
+        let Some(clock) = clock_offset().filter(|_| self.clock_offset_s != 0.0) else {
+            return shown;
+        };
+        if !shown.iter().any(|error| error.mechanism == clock.id) {
+            let (mechanism, parameters) = (clock.id.to_owned(), BTreeMap::new());
+            shown.push(Instrument { mechanism, parameters });
+        }
+        for error in shown.iter_mut().filter(|error| error.mechanism == clock.id) {
+            for parameter in clock.parameters {
+                *error.parameters.entry(parameter.key.to_owned()).or_default() +=
+                    self.clock_offset_s;
             }
         }
         shown
@@ -140,31 +156,40 @@ pub struct Instrument {
 impl Concealed {
     /// Whether the recording shows it at all.
     pub fn is_detectable(&self) -> bool {
-        self.z_det >= crate::oracle::DETECTABLE
+        self.z_det >= crate::oracle::MIN_DETECTABLE_Z
     }
 
-    /// Whether it is a member of the class of constants: nothing that a recording shows beside constant ICRs.
+    /// Whether it is a member of the class of constants: a recording shows nothing of it beside
+    /// constant ICRs.
     pub fn is_constant(&self) -> bool {
-        CONSTANTS.contains(&self.mechanism.as_str())
+        is_constant(&self.mechanism)
     }
 
-    /// Whether the recording can tell it from everything else in the catalogue. A member of the class of constants never is:
-    /// what its z_iso was compared with are the effects outside that class.
+    /// Whether the recording can tell it from everything else in the catalogue. No member of the
+    /// class of constants can be: its z_iso compares it with effects outside that class.
     pub fn is_isolable(&self) -> bool {
-        self.is_detectable() && self.z_iso >= crate::oracle::DISTINCT && !self.is_constant()
+        self.is_detectable() && self.z_iso >= crate::oracle::MIN_DISTINCT_Z && !self.is_constant()
     }
 
-    /// Whether the recording is known to show it beside what three effects of the catalogue together may take of it.
+    /// Whether the recording is known to show it beside what three effects of the catalogue
+    /// together may take of it.
     pub fn is_beyond_others(&self) -> bool {
-        self.z_beyond.is_some_and(|z| z >= crate::oracle::DETECTABLE)
+        self.z_beyond.is_some_and(|z| z >= crate::oracle::MIN_DETECTABLE_Z)
     }
 
-    /// Members of the smallest set that the recording allows: it, and all that cannot be told from it.
+    /// Members of the smallest set that the recording allows: it, and all that cannot be told from
+    /// it.
     pub fn smallest_set(&self) -> usize {
         let class = self.class.iter().map(String::as_str).chain([self.mechanism.as_str()]);
-        let constants = CONSTANTS.into_iter().filter(|_| self.is_constant());
+        let constants = MECHANISMS.iter().filter(|sheet| self.is_constant() && sheet.is_constant());
+        let constants = constants.map(|sheet| sheet.id);
         class.chain(constants).collect::<BTreeSet<_>>().len()
     }
+}
+
+/// Whether the mechanism of an id belongs to the class of constants.
+pub(crate) fn is_constant(id: &str) -> bool {
+    sheet_of(id).is_some_and(Sheet::is_constant)
 }
 
 impl Instrument {

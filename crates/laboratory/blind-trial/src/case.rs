@@ -2,38 +2,39 @@
 
 use crate::alternatives::places;
 use crate::answer::{Answer, Concealed, Instrument, is_in_catalogue, letters, parameters};
-use crate::dose::{Dose, Scene};
+use crate::dose::{Dose, Scene, concealment, polar};
 use crate::driving::Driving;
 use crate::error::Error;
+use crate::failure::Failure;
 use crate::ground::{Fineness, Ground, observations};
-use crate::instruments::{Instruments, mechanism};
+use crate::instruments::Instruments;
 use crate::key::Root;
 use crate::machine::Machine;
 use crate::oracle::{Judge, Sized, Standing};
 use crate::order::Order;
-use crate::plan::{CONSTANTS, PlannedCase, Stratum};
+use crate::plan::{PlannedCase, Stratum};
 use crate::random::{Purpose, log_uniform, stream, uniform};
 use crate::recorded::recorded;
 use crate::signature::Bench;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use trackdyn_core::real;
-use trackdyn_model::{ActiveEffect, VehicleFile};
+use trackdyn_model::{ActiveEffect, CATALOGUE, VehicleFile};
 use trackdyn_recording::Recording;
-use trackdyn_second_simulator::ActiveMechanism;
+use trackdyn_second_simulator::sheet::{Anchor, Identifiability, Role};
+use trackdyn_second_simulator::{ActiveMechanism, Sheet, sheet_of};
 
 /// Draws of a case before it is given up.
 pub(crate) const ATTEMPTS: u64 = 12;
-/// Share of the robots that move without `yaw-inertia`, and as many without `centripetal`, where neither
-/// is concealed: an effect that is absent from a vehicle file is not for that reason concealed.
-const WITHOUT_INERTIA: f64 = 0.06;
-/// The same of nulls. Effects of inertia are concealed in a tenth of the other cases: absence from the
-/// file is as frequent in both.
-const NULLS_WITHOUT_INERTIA: f64 = 0.11;
-/// Effects of inertia, which owners know.
-const INERTIA: [&str; 2] = ["yaw-inertia", "centripetal"];
+/// Share of the robots without one effect of inertia, and as many without each other one, where
+/// none is concealed: an effect that is absent from a vehicle file is not for that reason
+/// concealed.
+const ABSENT_INERTIA_SHARE: f64 = 0.06;
+/// Share of nulls without one effect of inertia. Such effects are concealed in a tenth of the other
+/// cases: absence from the file is as frequent in both.
+const ABSENT_INERTIA_SHARE_OF_NULLS: f64 = 0.11;
 /// Factor of friction by which its level is told from effects: owners know it roughly.
-const ROUGHER: f64 = 1.15;
+const FRICTION_LEVEL_FACTOR: f64 = 1.15;
 
 /// A case with its answer.
 #[derive(Clone, Debug)]
@@ -58,7 +59,7 @@ impl Case {
         root: &Root,
     ) -> Result<Self, Error> {
         let id = name(number);
-        let mut reason = String::new();
+        let mut reason = Failure::NoCase;
         for attempt in 0..ATTEMPTS {
             let draw = Draw { planned, id: &id, order, root, number: number + 1, attempt };
             match draw.case() {
@@ -89,7 +90,7 @@ impl Draw<'_> {
         stream(self.root, self.number, self.attempt, purpose)
     }
 
-    fn case(&self) -> Result<Case, String> {
+    fn case(&self) -> Result<Case, Failure> {
         let mut random = self.random(Purpose::Machine);
         let machine = Machine::draw(&mut random);
         let known = self.known(&machine, &mut random);
@@ -98,7 +99,7 @@ impl Draw<'_> {
         let instruments = Instruments::draw(
             self.planned.difficulty,
             self.planned.stratum == Stratum::PlainNull,
-            machine.vehicle.gauge,
+            &machine,
             &mut self.random(Purpose::Instruments),
         );
         let concealed = self.concealed(&machine, &known, &driving, &instruments)?;
@@ -133,33 +134,32 @@ impl Draw<'_> {
     fn known(&self, machine: &Machine, random: &mut ChaCha8Rng) -> Vec<ActiveMechanism> {
         let drawn: f64 = random.random();
         let is_null = self.planned.stratum.is_null();
-        let share = if is_null { NULLS_WITHOUT_INERTIA } else { WITHOUT_INERTIA };
-        let left_out = INERTIA.iter().enumerate().find(|(place, _)| {
-            let from = share * real(*place);
-            (from..from + share).contains(&drawn)
-        });
-        let is_concealed = |id: &str| self.planned.concealed.contains(&id);
-        let conceals_inertia = INERTIA.iter().any(|id| is_concealed(id));
-        let absent = |id: &str| {
-            is_concealed(id) || (!conceals_inertia && left_out.is_some_and(|(_, left)| *left == id))
+        let share = if is_null { ABSENT_INERTIA_SHARE_OF_NULLS } else { ABSENT_INERTIA_SHARE };
+        let inertia: Vec<&'static Sheet> = inertia().collect();
+        let is_concealed =
+            |sheet: &Sheet| self.planned.concealed.iter().any(|one| one.id == sheet.id);
+        let conceals_inertia = inertia.iter().any(|sheet| is_concealed(sheet));
+        let is_left_out = |place: usize| {
+            let from = share * real(place);
+            !conceals_inertia && (from..from + share).contains(&drawn)
         };
-        let all = [
-            mechanism("yaw-inertia", &[("strength", 1.0), ("gyration_m", machine.gyration)]),
-            mechanism("centripetal", &[("strength", 1.0)]),
-        ];
-        all.into_iter().filter(|known| !absent(known.sheet().id)).collect()
+        let scene = Scene { machine, visited: &[] };
+        let known = inertia.into_iter().enumerate();
+        let known = known.filter(|(place, sheet)| !is_concealed(sheet) && !is_left_out(*place));
+        // nothing of them is left to the draw: strength 1, and the inertia of the machine
+        known.map(|(_, sheet)| Dose::draw(sheet, scene, random).at(1.0)).collect()
     }
 
-    fn owned(&self, machine: &Machine, known: &[ActiveMechanism]) -> Result<VehicleFile, String> {
+    fn owned(&self, machine: &Machine, known: &[ActiveMechanism]) -> Result<VehicleFile, Failure> {
         let vehicle = match self.planned.stratum {
             Stratum::PlainNull => machine.vehicle.clone(),
             _ => machine.as_owned(&mut self.random(Purpose::Owner)),
         };
-        vehicle.check().map_err(|error| error.to_string())?;
+        vehicle.check()?;
         let effects = known.iter().map(|known| {
             let keys = known.sheet().parameters.iter().map(|parameter| parameter.key);
             let settings: Vec<_> = keys.zip(known.values().iter().copied()).collect();
-            ActiveEffect::new(known.sheet().id, &settings).map_err(|error| error.to_string())
+            ActiveEffect::new(known.sheet().id, &settings)
         });
         Ok(VehicleFile { vehicle, effects: effects.collect::<Result<_, _>>()? })
     }
@@ -171,7 +171,7 @@ impl Draw<'_> {
         known: &[ActiveMechanism],
         driving: &Driving,
         instruments: &Instruments,
-    ) -> Result<Vec<(Sized, Concealed)>, String> {
+    ) -> Result<Vec<(Sized, Concealed)>, Failure> {
         if self.planned.concealed.is_empty() {
             return Ok(Vec::new());
         }
@@ -187,8 +187,8 @@ impl Draw<'_> {
         let seen = observations(&driven, &instruments.sensors)?;
         drop(driven);
         let mut rougher = machine.clone();
-        rougher.vehicle.friction.across *= ROUGHER;
-        rougher.vehicle.friction.along *= ROUGHER;
+        rougher.vehicle.friction.across *= FRICTION_LEVEL_FACTOR;
+        rougher.vehicle.friction.along *= FRICTION_LEVEL_FACTOR;
         let rougher = self.ground(&rougher, known, Fineness::Signature);
         let rougher = rougher.observe(driving.training(), &instruments.sensors)?;
         let bench = Bench::new(seen, noise, instruments.presence(), machine.vehicle.gauge)?;
@@ -198,8 +198,8 @@ impl Draw<'_> {
         let judge = Judge { bench: &bench, ground: &ground, runs, sensors };
         let mut sizes = Vec::new();
         let mut wanted = Vec::new();
-        for id in &self.planned.concealed {
-            let (dose, size) = self.dose(id, scene, &mut random);
+        for sheet in &self.planned.concealed {
+            let (dose, size) = self.dose(sheet, scene, &mut random);
             sizes.push(match size {
                 Size::Z { wanted, otherwise } => judge.sized(dose, wanted, otherwise)?,
                 Size::Strength(strength) => {
@@ -220,8 +220,8 @@ impl Draw<'_> {
     }
 
     /// A mechanism with its places, and how its size is found.
-    fn dose(&self, id: &'static str, scene: Scene, random: &mut ChaCha8Rng) -> (Dose, Size) {
-        let dose = Dose::draw(id, scene, random);
+    fn dose(&self, sheet: &'static Sheet, scene: Scene, random: &mut ChaCha8Rng) -> (Dose, Size) {
+        let dose = Dose::draw(sheet, scene, random);
         let otherwise = log_uniform(random, 0.5, 2.0);
         let z = |low, high, random: &mut ChaCha8Rng| Size::Z {
             wanted: log_uniform(random, low, high),
@@ -233,17 +233,14 @@ impl Draw<'_> {
             }
             Stratum::Pair => (dose, z(5.0, 40.0, random)),
             Stratum::Outside => (dose, z(4.0, 60.0, random)),
-            Stratum::Equivalence if CONSTANTS.contains(&id) => {
-                (dose, Size::Strength(log_uniform(random, 0.3, 2.0)))
+            Stratum::Equivalence if is_indistinct(sheet) => {
+                let largest = if sheet.is_constant() { 2.0 } else { 1.5 };
+                (dose, Size::Strength(log_uniform(random, 0.3, largest)))
             }
-            Stratum::Equivalence if id == "drivetrain-lag" => {
-                (dose, Size::Strength(log_uniform(random, 0.3, 1.5)))
-            }
-            Stratum::Equivalence if id == "tether" => {
+            Stratum::Equivalence if has_anchor(sheet) => {
                 let bearing = uniform(random, -180.0, 180.0).to_radians();
-                let away = log_uniform(random, 40.0, 200.0);
-                let anchor = [away * bearing.cos(), away * bearing.sin()];
-                (Dose::tether(scene.machine.weight(), anchor), z(6.0, 40.0, random))
+                let place = polar(log_uniform(random, 40.0, 200.0), bearing);
+                (dose.at_place(place), z(6.0, 40.0, random))
             }
             Stratum::Equivalence => (dose, z(4.0, 12.0, random)),
         }
@@ -267,7 +264,7 @@ impl Draw<'_> {
         driving: &Driving,
         instruments: &Instruments,
         concealed: &[(Sized, Concealed)],
-    ) -> Result<Recording, String> {
+    ) -> Result<Recording, Failure> {
         let hidden = concealed.iter().map(|(sized, _)| sized.dose.at(sized.strength));
         let errors = instruments.errors.iter().cloned();
         let active: Vec<_> = known.iter().cloned().chain(hidden).chain(errors).collect();
@@ -275,6 +272,22 @@ impl Draw<'_> {
         let driven = ground.drive(&driving.runs)?;
         recorded(self.id, &driven, instruments, self.random(Purpose::Noise).random())
     }
+}
+
+/// The effects of inertia, which owners know.
+fn inertia() -> impl Iterator<Item = &'static Sheet> {
+    CATALOGUE.iter().filter(|card| card.is_inertia()).filter_map(|card| sheet_of(card.id))
+}
+
+/// Whether other effects leave the trace of a law at all sizes.
+fn is_indistinct(sheet: &Sheet) -> bool {
+    concealment(sheet).is_some_and(|law| law.identifiability == Identifiability::Indistinct)
+}
+
+/// Whether a law has a place that the robot does not pass, so that from far away it is a direction.
+fn has_anchor(sheet: &Sheet) -> bool {
+    let is_anchor = |role: Role| matches!(role, Role::Place { anchor: Anchor::Around(_), .. });
+    sheet.parameters.iter().any(|parameter| is_anchor(parameter.draw.role))
 }
 
 /// What stands in the answers of an effect at its size.

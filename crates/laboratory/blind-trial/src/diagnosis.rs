@@ -2,6 +2,8 @@
 //!
 //! Further keys and tables are passed over: a tool may say more than is asked.
 
+pub use trackdyn_core::status::Status;
+
 use crate::error::Error;
 use serde::Deserialize;
 use std::path::Path;
@@ -24,32 +26,6 @@ pub struct Diagnosis {
     /// How well the diagnosis predicts runs that it did not learn from.
     #[serde(default)]
     pub fit: Fit,
-}
-
-/// The conclusion of a diagnosis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Status {
-    /// The named effects explain the recording.
-    Explained,
-    /// The base model does.
-    NothingMissing,
-    /// Several explanations fit alike.
-    Ambiguous,
-    /// Something is there that no effect of the catalogue explains.
-    Unexplained,
-}
-
-impl Status {
-    /// Its word in files and tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Explained => "explained",
-            Self::NothingMissing => "nothing-missing",
-            Self::Ambiguous => "ambiguous",
-            Self::Unexplained => "unexplained",
-        }
-    }
 }
 
 /// Where the excess is.

@@ -5,9 +5,10 @@
 //! KEY.making/case-0001/{answer.toml, vehicle.toml, recording/...}
 //! ```
 //!
-//! Answers and seed lie with the key, which is drawn first, and never in the trial's folder. That is filled when all cases are
-//! there, in the order of their numbers: neither its places on the disk nor the times at which files came
-//! to be say how long a case took, and an interrupted trial is the same as any other.
+//! Answers and seed lie with the key, which is drawn first, and never in the trial's folder. That
+//! is filled when all cases are there, in the order of their numbers. So neither its places on the
+//! disk nor the times of its files say how long a case took, and an interrupted trial looks like
+//! any other.
 
 use crate::answer::{Answer, Answers, SCHEMA};
 use crate::case::{self, Case};
@@ -30,18 +31,21 @@ const ANSWER: &str = "answer.toml";
 /// A trial in the making.
 pub struct Draft {
     folder: PathBuf,
+    key_file: PathBuf,
     key: Key,
     order: Order,
 }
 
 impl Draft {
-    /// Begins a trial with the key in a file, or with a new one that is written to it; or takes up what was begun there.
+    /// Begins a trial with the key in a file, or with a new one that is written to it; or takes up
+    /// what was begun there.
     ///
     /// With the key and the order of a trial it is made once more, byte for byte.
     ///
     /// # Errors
     /// [`Error::Made`] where another trial is there already, [`Error::OtherOrder`] where what was
-    /// begun is another trial; [`Error::Output`], [`Error::Document`], [`Error::File`], [`Error::Key`].
+    /// begun is another trial; [`Error::Output`], [`Error::Document`], [`Error::File`],
+    /// [`Error::Key`].
     ///
     /// # Panics
     /// Never: an order is TOML.
@@ -56,14 +60,18 @@ impl Draft {
                 let (begun, asked) = (begun.to_string(), order.to_string());
                 return Err(Error::OtherOrder { folder, begun, asked });
             }
-            let is_other =
-                trial.join(folder::SEALED).exists() && folder::open_answers(trial, key).is_err();
+            let is_other = folder::is_made(trial) && folder::open_answers(trial, key).is_err();
             if is_other {
                 return Err(Error::Made { path: trial.to_owned() });
             }
-            return Ok(Self { folder, key: Key::read(key)?, order: begun });
+            return Ok(Self {
+                folder,
+                key: Key::read(key)?,
+                key_file: key.to_owned(),
+                order: begun,
+            });
         }
-        if trial.join(folder::SEALED).exists() || folder::cases(trial).is_ok() {
+        if folder::is_made(trial) || folder::cases(trial).is_ok() {
             return Err(Error::Made { path: trial.to_owned() });
         }
         prepare_folder(trial)?;
@@ -77,7 +85,7 @@ impl Draft {
         };
         let text = toml::to_string(order).expect("numbers and texts are TOML");
         write_file(&path, text.as_bytes())?;
-        Ok(Self { folder, key: drawn, order: order.clone() })
+        Ok(Self { folder, key: drawn, key_file: key.to_owned(), order: order.clone() })
     }
 
     /// What its cases are drawn from.
@@ -106,11 +114,12 @@ impl Draft {
         })
     }
 
-    /// Writes cases, sealed answers and commitment to the trial's folder, and is gone.
+    /// Writes cases and commitment to the trial's folder and the answers beside the key, and is
+    /// gone.
     ///
     /// # Errors
-    /// [`Error::Made`] where a case of another trial is there; [`Error::File`], [`Error::Document`] where one is not
-    /// finished; [`Error::Output`].
+    /// [`Error::Made`] where a case of another trial is there; [`Error::File`], [`Error::Document`]
+    /// where one is not finished; [`Error::Output`].
     pub fn publish(self, trial: &Path) -> Result<(Answers, Commitment), Error> {
         prepare_folder(trial)?;
         let numbers = (0..).take(self.order.cases);
@@ -126,6 +135,7 @@ impl Draft {
             Ok(answer)
         });
         let answers = Answers {
+            salt: self.key.salt(self.order.seed),
             schema: SCHEMA.to_owned(),
             version: self.order.version.clone(),
             seed: self.order.seed,
@@ -133,7 +143,7 @@ impl Draft {
             run_time_s: self.order.unusual_run_time(),
             cases: cases.collect::<Result<_, Error>>()?,
         };
-        let commitment = folder::write_answers(trial, &answers, &self.key)?;
+        let commitment = folder::write_answers(trial, &answers, &self.key_file)?;
         fs::remove_dir_all(&self.folder).map_err(Error::file(self.folder))?;
         Ok((answers, commitment))
     }

@@ -1,5 +1,6 @@
 //! Who drives, for how long and from where.
 
+use crate::failure::Failure;
 use crate::machine::Machine;
 use crate::random::uniform;
 use rand::RngExt;
@@ -14,10 +15,11 @@ pub const TRAINING_RUNS: usize = 9;
 pub const HELD_OUT_RUNS: usize = 3;
 /// The held-out runs as the diagnosis is told of them.
 pub const HELD_OUT: &str = "9-11";
-/// Usual time of a run, s: 1807 segments of 0.27 s over nine runs (Martinez et al. 2005, section 5).
+/// Usual time of a run, s: 1807 segments of 0.27 s over nine runs (Martinez et al. 2005, section
+/// 5).
 pub const RUN_TIME: f64 = 54.0;
 /// Half the width of the square in which runs start, m.
-const START: f64 = 1.5;
+const START_REACH: f64 = 1.5;
 
 /// One run that is to be driven.
 #[derive(Clone, Debug)]
@@ -47,7 +49,7 @@ impl Driving {
         machine: &Machine,
         run_time: f64,
         random: &mut ChaCha8Rng,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Failure> {
         let kinds = [ScheduleKind::Manual, ScheduleKind::Designed];
         let [style, other] = if random.random() { kinds } else { [kinds[1], kinds[0]] };
         // larger robots are faster, and the yaw rates of a spin stay alike
@@ -61,12 +63,12 @@ impl Driving {
             duration: Some(run_time),
             ..ScheduleOptions::default()
         };
-        let schedules = |kind: ScheduleKind| kind.generate(&options).map_err(|e| e.to_string());
+        let schedules = |kind: ScheduleKind| kind.generate(&options);
         let (training, held_out) = (schedules(style)?, schedules(other)?);
         let scheduled = training.into_iter().take(TRAINING_RUNS);
         let scheduled = scheduled.chain(held_out.into_iter().skip(TRAINING_RUNS));
         let runs = scheduled.map(|run| {
-            let place = |random: &mut ChaCha8Rng| uniform(random, -START, START);
+            let place = |random: &mut ChaCha8Rng| uniform(random, -START_REACH, START_REACH);
             let start = Pose::new(place(random), place(random), uniform(random, -PI, PI));
             Drive { id: run.id, schedule: run.schedule, start }
         });

@@ -2,12 +2,13 @@
 
 use crate::diagnosis;
 use crate::error::Error;
-use crate::folder::DIAGNOSIS;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// Longest name.
-const LONGEST: usize = 40;
+/// Folder for what this project's own diagnosis of a case writes.
+pub const DIAGNOSIS: &str = "diagnosis";
+/// Largest number of letters of a name.
+const MAX_NAME_LENGTH: usize = 40;
 
 /// A program that is put to a trial, by the name under which its diagnoses are kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,7 +63,7 @@ impl FromStr for Entry {
 
     fn from_str(name: &str) -> Result<Self, Error> {
         let sign = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-        if (1..=LONGEST).contains(&name.len()) && name.chars().all(sign) {
+        if (1..=MAX_NAME_LENGTH).contains(&name.len()) && name.chars().all(sign) {
             return Ok(Self(name.to_owned()));
         }
         Err(Error::Option {

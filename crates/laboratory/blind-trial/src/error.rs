@@ -1,5 +1,6 @@
 //! What a trial cannot do.
 
+use crate::failure::Failure;
 use std::path::PathBuf;
 use trackdyn_core::document::DocumentError;
 use trackdyn_core::output::OutputError;
@@ -14,7 +15,7 @@ pub enum Error {
         /// The case.
         case: String,
         /// What happened.
-        reason: String,
+        reason: Failure,
     },
     /// A file that cannot be written.
     #[error(transparent)]
@@ -38,6 +39,18 @@ pub enum Error {
     NoCases {
         /// The folder.
         path: PathBuf,
+    },
+    /// Answers that are not where they were put.
+    #[error(
+        "{}: not there: expected the answers of SHA-256 {committed}, which trial make puts beside \
+         the key",
+        path.display()
+    )]
+    NoAnswers {
+        /// The file.
+        path: PathBuf,
+        /// What was committed to.
+        committed: String,
     },
     /// A key that is none.
     #[error("{}: expected 64 hexadecimal digits, the key of a trial", path.display())]
@@ -69,7 +82,8 @@ pub enum Error {
     },
     /// Files that are not those the answers belong to.
     #[error(
-        "{case}: recording and vehicle file have the fingerprint {found}, and the sealed answer {sealed}"
+        "{case}: recording and vehicle file have the fingerprint {found}, and the sealed answer \
+         {sealed}"
     )]
     OtherFiles {
         /// The case.
@@ -90,8 +104,8 @@ pub enum Error {
     },
     /// A trial that was begun, and is another one than is asked for.
     #[error(
-        "{}: begun for {begun}, and asked for {asked}: expected what it was begun for, or a new --out \
-         and --key",
+        "{}: begun for {begun}, and asked for {asked}: expected what it was begun for, or a new \
+         --out and --key",
         folder.display()
     )]
     OtherOrder {

@@ -1,14 +1,18 @@
 //! The folder of a trial.
 //!
 //! ```text
-//! DIR/answers.sealed
 //! DIR/commitment.txt
 //! DIR/case-0001/vehicle.toml
 //! DIR/case-0001/recording/{recording.toml,tracks.csv,poses.csv}
+//! KEY                    the key, which lies elsewhere
+//! KEY.75cbaebc.toml      the answers, called by the first digits of their hash
 //! ```
 //!
 //! What a diagnosis writes goes to `DIR/case-0001/diagnosis`, and why a process failed to
-//! `DIR/case-0001/failure.txt`; those of another program NAME to `diagnosis.NAME` and `failure.NAME.txt`. Names, layout, rounding and stamps of the files are the same in all cases.
+//! `DIR/case-0001/failure.txt`; those of another program NAME to `diagnosis.NAME` and
+//! `failure.NAME.txt`. Names, layout, rounding and stamps of the files are the same in all cases.
+//!
+//! Trials until November 2026 have their answers in `DIR/answers.sealed`.
 
 use crate::answer::{Answer, Answers};
 use crate::case::Case;
@@ -16,26 +20,28 @@ use crate::diagnosis::Diagnosis;
 use crate::entry::Entry;
 use crate::error::Error;
 use crate::key::Key;
+use crate::old_seal;
 use crate::score::{Judged, Reply};
 use crate::seal::{self, Commitment};
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use trackdyn_core::document::Document;
-use trackdyn_core::output::{fingerprint, write_file};
+use trackdyn_core::output::{fingerprint, write_file, write_private};
 use trackdyn_model::{Vehicle, VehicleFile};
 use trackdyn_recording::folder;
+use trackdyn_second_simulator::MECHANISMS;
+use trackdyn_second_simulator::sheet::{Filed, Trial};
 
-/// The sealed answers.
-pub const SEALED: &str = "answers.sealed";
-/// The published hashes.
+/// The sealed answers of older trials.
+const SEALED: &str = "answers.sealed";
+/// The published hash.
 pub const COMMITMENT: &str = "commitment.txt";
 /// The recording of a case.
 pub const RECORDING: &str = "recording";
 /// The vehicle of a case.
 pub const VEHICLE: &str = "vehicle.toml";
-/// What this project's own diagnosis of a case wrote.
-pub const DIAGNOSIS: &str = "diagnosis";
 /// Stamp of all files: 1 December 2005, when the paper's issue had appeared, s of Unix time.
 const STAMP: u64 = 1_133_395_200;
 
@@ -48,7 +54,7 @@ pub(crate) fn write_case(home: &Path, case: &Case) -> Result<(), Error> {
     Ok(write_file(&home.join(VEHICLE), case.vehicle.to_toml().as_bytes())?)
 }
 
-/// Copies what a diagnosis gets of a case from one folder to another, all with the same stamp.
+/// Copies what a diagnosis gets of a case from one folder to another. All files get one stamp.
 ///
 /// # Errors
 /// [`Error::File`].
@@ -80,30 +86,55 @@ pub(crate) fn place(
     fs::rename(&partial, &complete).map_err(Error::file(complete))
 }
 
-/// Seals the answers into the folder of a trial, and publishes the commitment.
+/// Whether a trial was made in a folder, or may have been.
+pub fn is_made(trial: &Path) -> bool {
+    trial.join(COMMITMENT).exists() || trial.join(SEALED).exists()
+}
+
+/// Writes the answers beside the file of the key, where nobody but its owner reads them, and
+/// publishes the commitment in the folder of the trial.
 ///
 /// # Errors
 /// [`Error::Output`].
 ///
 /// # Panics
 /// Never: hashes are TOML.
-pub fn write_answers(trial: &Path, answers: &Answers, key: &Key) -> Result<Commitment, Error> {
-    let (sealed, commitment) = seal::seal(&seal::text(answers), key);
-    write_file(&trial.join(SEALED), &sealed)?;
+pub fn write_answers(trial: &Path, answers: &Answers, key: &Path) -> Result<Commitment, Error> {
+    let text = seal::text(answers);
+    let commitment = Commitment::to(&text);
+    write_private(&answers_file(key, &commitment), text.as_bytes())?;
     let text = toml::to_string(&commitment).expect("texts are TOML");
     write_file(&trial.join(COMMITMENT), text.as_bytes())?;
     Ok(commitment)
 }
 
-/// Opens the answers of a trial with the key in a file.
-/// With them comes their text.
+/// Opens the answers of a trial with the key in a file. With them comes their text.
 ///
 /// # Errors
-/// Those of [`seal::open`] and [`Key::read`]; [`Error::File`], [`Error::Document`].
+/// [`Error::NoAnswers`] where they do not lie beside the key; [`Error::Broken`] where they are not
+/// those that were committed to; [`Error::File`], [`Error::Key`], [`Error::Document`].
 pub fn open_answers(trial: &Path, key: &Path) -> Result<(Answers, String), Error> {
-    let path = trial.join(SEALED);
-    let sealed = fs::read(&path).map_err(Error::file(path))?;
-    seal::open(&sealed, &Key::read(key)?, &commitment(trial)?)
+    let commitment = commitment(trial)?;
+    let sealed = trial.join(SEALED);
+    let text = if sealed.exists() {
+        let bytes = fs::read(&sealed).map_err(Error::file(sealed))?;
+        old_seal::unseal(&bytes, &Key::read(key)?, &commitment)?
+    } else {
+        let path = answers_file(key, &commitment);
+        if !path.exists() {
+            return Err(Error::NoAnswers { path, committed: commitment.answers_sha256 });
+        }
+        fs::read_to_string(&path).map_err(Error::file(path))?
+    };
+    Ok((commitment.open(&text)?, text))
+}
+
+/// Where the answers of a trial lie until they are opened.
+pub fn answers_file(key: &Path, commitment: &Commitment) -> PathBuf {
+    let hash: String = commitment.answers_sha256.chars().take(8).collect();
+    let mut path = OsString::from(key);
+    path.push(format!(".{hash}.toml"));
+    PathBuf::from(path)
 }
 
 /// What is committed to: there as soon as the trial is complete.
@@ -138,8 +169,8 @@ pub fn cases(trial: &Path) -> Result<Vec<PathBuf>, Error> {
 /// Puts what came back of every case from a program beside its answer.
 ///
 /// # Errors
-/// [`Error::OtherFiles`] or [`Error::OtherRecording`] where files were changed after the answers were sealed; files that
-/// cannot be read.
+/// [`Error::OtherFiles`] or [`Error::OtherRecording`] where files were changed after the answers
+/// were committed to; files that cannot be read.
 pub fn judge(trial: &Path, answers: &Answers, entry: &Entry) -> Result<Vec<Judged>, Error> {
     answers.cases.iter().map(|answer| judge_case(trial, answer, entry)).collect()
 }
@@ -215,17 +246,60 @@ fn outside(home: &Path) -> Result<Vec<f64>, Error> {
 
 /// Effects of the class of constants by which a vehicle file is off.
 fn owner_errors(owned: &Vehicle, truth: &Vehicle) -> Vec<&'static str> {
-    let mut errors = Vec::new();
-    if owned.cog != truth.cog {
-        errors.push("cog-shift");
-    }
-    if owned.friction != truth.friction {
-        errors.push("friction-anisotropy");
-    }
-    errors
+    let is_wrong = |filed: Filed| match filed {
+        Filed::CentreOfGravity => owned.cog != truth.cog,
+        Filed::FrictionRatio => owned.friction != truth.friction,
+    };
+    let wrong = MECHANISMS.iter().filter(|sheet| match sheet.trial {
+        Trial::Law(law) => law.filed.is_some_and(is_wrong),
+        Trial::Instrument(_) => false,
+    });
+    wrong.map(|sheet| sheet.id).collect()
 }
 
 fn stamp(path: &Path) -> Result<(), Error> {
     let time = SystemTime::UNIX_EPOCH + Duration::from_secs(STAMP);
     File::open(path).and_then(|file| file.set_modified(time)).map_err(Error::file(path))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::answer::SCHEMA;
+
+    #[test]
+    fn trials_open_whose_answers_are_sealed_in_their_folder() {
+        let fixture =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../tests/fixtures/old-seal");
+        assert!(is_made(&fixture));
+        let (answers, text) = open_answers(&fixture, &fixture.join("answers.key")).expect("opens");
+        assert_eq!(answers.cases[0].id, "case-0001");
+        assert!(text.contains("plain-null"));
+    }
+
+    #[test]
+    fn answers_lie_beside_the_key_and_open_with_it() {
+        let (trial, elsewhere) = (tempfile::tempdir(), tempfile::tempdir());
+        let (trial, elsewhere) = (trial.expect("a folder"), elsewhere.expect("a folder"));
+        let key = elsewhere.path().join("x.key");
+        let of_seed = |seed| Answers {
+            salt: Key::new().salt(seed),
+            schema: SCHEMA.to_owned(),
+            version: "1".to_owned(),
+            seed,
+            root: None,
+            run_time_s: None,
+            cases: Vec::new(),
+        };
+        // a key that is used twice loses no answers
+        write_answers(elsewhere.path(), &of_seed(1), &key).expect("written");
+        write_answers(trial.path(), &of_seed(2), &key).expect("written");
+        let [first, second] = [elsewhere.path(), trial.path()]
+            .map(|folder| open_answers(folder, &key).expect("opens").0.seed);
+        assert_eq!([first, second], [1, 2]);
+        let names = fs::read_dir(trial.path()).expect("a folder").count();
+        assert_eq!(names, 1, "the commitment and nothing else");
+        let error = open_answers(trial.path(), &elsewhere.path().join("y.key")).expect_err("none");
+        assert!(error.to_string().contains("beside the key"), "{error}");
+    }
 }

@@ -1,6 +1,7 @@
 //! Driving on the independent ground.
 
 use crate::driving::Drive;
+use crate::failure::Failure;
 use rayon::prelude::*;
 use trackdyn_core::{Plant, Trajectory};
 use trackdyn_drive::schedules::as_commanded;
@@ -17,7 +18,7 @@ pub(crate) enum Fineness {
     /// For recordings: the independent ground's own settings; prints of wheels are short and take
     /// fewer shoes for the same error.
     Recording,
-    /// For signatures: the error of few shoes is the same with and without an effect.
+    /// For signatures: the error of few shoes cancels between drives with and without an effect.
     Signature,
 }
 
@@ -38,8 +39,9 @@ impl Fineness {
     }
 }
 
-/// Largest clock offset that a signature may be taken for, s; runs begin and end with a longer rest.
-const CLOCK_MARGIN: f64 = 0.4;
+/// Largest clock offset that may be fitted to a signature, s; runs begin and end with a longer
+/// rest.
+const MAX_CLOCK_OFFSET: f64 = 0.4;
 
 /// A run as it was driven.
 pub(crate) struct Driven {
@@ -63,7 +65,7 @@ pub(crate) struct Ground<'a> {
 }
 
 impl Ground<'_> {
-    /// The same with one more mechanism.
+    /// Adds one more mechanism.
     pub(crate) fn and(&self, mechanism: ActiveMechanism) -> Self {
         let mut active = self.active.clone();
         active.push(mechanism);
@@ -71,18 +73,17 @@ impl Ground<'_> {
     }
 
     /// Drives all runs, each from rest.
-    pub(crate) fn drive(&self, runs: &[Drive]) -> Result<Vec<Driven>, String> {
+    pub(crate) fn drive(&self, runs: &[Drive]) -> Result<Vec<Driven>, Failure> {
         runs.par_iter().map(|run| self.drive_one(run)).collect()
     }
 
-    fn drive_one(&self, run: &Drive) -> Result<Driven, String> {
+    fn drive_one(&self, run: &Drive) -> Result<Driven, Failure> {
         let [start_time, _] = run.schedule.span();
         let seed = self.seed.wrapping_add(run.id.cast_unsigned());
         let setup =
             Setup { start: run.start, start_time, seed, ..self.fineness.setup(self.vehicle) };
-        let mut robot =
-            Robot::new(self.vehicle, &self.active, &setup).map_err(|error| error.to_string())?;
-        let body = robot.follow(&run.schedule).map_err(|stopped| stopped.to_string())?;
+        let mut robot = Robot::new(self.vehicle, &self.active, &setup)?;
+        let body = robot.follow(&run.schedule)?;
         let poses = robot.report(&body);
         Ok(Driven { id: run.id, encoders: as_commanded(&run.schedule, &body), body, poses })
     }
@@ -92,21 +93,20 @@ impl Ground<'_> {
         &self,
         runs: &[Drive],
         sensors: &Sensors,
-    ) -> Result<Observations, String> {
+    ) -> Result<Observations, Failure> {
         observations(&self.drive(runs)?, sensors)
     }
 }
 
 /// Segments of driven runs without noise.
-pub(crate) fn observations(driven: &[Driven], sensors: &Sensors) -> Result<Observations, String> {
+pub(crate) fn observations(driven: &[Driven], sensors: &Sensors) -> Result<Observations, Failure> {
     let mut perfect = Preset::Perfect.sensors();
     perfect.encoder.interval = sensors.encoder.interval;
     perfect.pose.interval = sensors.pose.interval;
     perfect.imu = None;
     let runs = seen(driven, &perfect, 0)?;
-    let recording = Recording::new("signature", "robot", runs, Source::computed(), Vec::new())
-        .map_err(|error| error.to_string())?;
-    let options = SegmentOptions { tau_margin: CLOCK_MARGIN, ..SegmentOptions::default() };
+    let recording = Recording::new("signature", "robot", runs, Source::computed(), Vec::new())?;
+    let options = SegmentOptions { tau_margin: MAX_CLOCK_OFFSET, ..SegmentOptions::default() };
     Ok(Observations::new(&recording, &options))
 }
 
@@ -115,10 +115,10 @@ pub(crate) fn seen(
     driven: &[Driven],
     sensors: &Sensors,
     seed: u64,
-) -> Result<Vec<UncheckedRun>, String> {
+) -> Result<Vec<UncheckedRun>, Failure> {
     let runs = driven.iter().map(|run| {
         let views = Views { encoders: &run.encoders, body: &run.body, poses: &run.poses };
-        sensors.observe_views(run.id, &views, seed).map_err(|error| error.to_string())
+        Ok(sensors.observe_views(run.id, &views, seed)?)
     });
     runs.collect()
 }

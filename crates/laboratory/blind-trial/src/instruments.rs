@@ -1,13 +1,17 @@
 //! The instruments of a case: how good they are, and what the recording says of that.
 
+use crate::difficulty::Difficulty;
+use crate::dose;
 use crate::ground::Driven;
-use crate::plan::Difficulty;
+use crate::machine::Machine;
 use crate::random::{happens, log_uniform, normal, sign, uniform};
 use rand_chacha::ChaCha8Rng;
+use trackdyn_core::rounding::Digits;
 use trackdyn_drive::sensors::{PoseFrame, Preset, Sensors, Walk};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_recording::StatedNoise;
-use trackdyn_second_simulator::ActiveMechanism;
+use trackdyn_second_simulator::sheet::{InstrumentError, Role, Trial};
+use trackdyn_second_simulator::{ActiveMechanism, MECHANISMS, Sheet};
 
 /// Sensors, their mounting, and what is said of them.
 #[derive(Clone, Debug)]
@@ -20,28 +24,13 @@ pub(crate) struct Instruments {
     pub(crate) stated: StatedNoise,
 }
 
-/// Instruments of most cases are slightly off, whether something is concealed or not.
-const OFTEN: [(f64, Small); 3] = [
-    (0.35, Small::EncoderScale(0.005)),
-    (0.3, Small::LeverArm(0.05)),
-    (0.2, Small::SensorYaw(0.5)),
-];
-
-/// Small errors with their standard deviations: 1, m, degrees.
-#[derive(Clone, Copy)]
-enum Small {
-    EncoderScale(f64),
-    LeverArm(f64),
-    SensorYaw(f64),
-}
-
 impl Instruments {
-    /// Sensors of a preset with noise of 0.6 to 1.6 times it. `difficulty` is that of a hard null, beside small errors of
-    /// other instruments; a plain null has perfect mounts and clocks.
+    /// Sensors of a preset with noise of 0.6 to 1.6 times it. `difficulty` is that of a hard null,
+    /// beside small errors of other instruments; a plain null has perfect mounts and clocks.
     pub(crate) fn draw(
         difficulty: Option<Difficulty>,
         is_plain: bool,
-        gauge: f64,
+        machine: &Machine,
         random: &mut ChaCha8Rng,
     ) -> Self {
         let preset = if happens(random, 0.65) { Preset::Laboratory } else { Preset::Field };
@@ -61,11 +50,6 @@ impl Instruments {
             sensors.pose.delay -= sensors.clock_offset();
         }
         let pose = &mut sensors.pose;
-        // drawn whether used or not, so that what follows does not hang on it
-        let small = OFTEN.map(|(share, small)| {
-            let (used, first, second) = (happens(random, share), normal(random), normal(random));
-            (used && !is_plain).then(|| small.error(first, second, gauge))
-        });
         let mut errors = Vec::new();
         let mut stated = StatedNoise { position: pose.white.position, yaw: pose.white.yaw };
         match difficulty {
@@ -90,13 +74,17 @@ impl Instruments {
                     memory: Some(memory),
                 };
             }
-            Some(other) => errors.extend(of_difficulty(other, gauge, random)),
-            None => {}
+            Some(Difficulty::Instruments(_)) | None => {}
         }
-        for error in small.into_iter().flatten() {
-            let is_there = |other: &ActiveMechanism| other.sheet().id == error.sheet().id;
-            if !errors.iter().any(is_there) {
-                errors.push(error);
+        for (sheet, error) in instruments() {
+            // drawn whether used or not, so that what follows does not depend on it
+            let small = small_error(sheet, machine, random);
+            let is_small = happens(random, error.small_share);
+            let large = large_error(sheet, machine, random);
+            if difficulty == Some(Difficulty::Instruments(error.large_in)) {
+                errors.push(large);
+            } else if is_small && !is_plain {
+                errors.push(small);
             }
         }
         Self { sensors, errors, stated }
@@ -106,8 +94,9 @@ impl Instruments {
     /// distance `gap` (m) between the ICRs.
     ///
     /// # Law
-    /// White noise of a pose, and what jitter of its stamp and of the encoders' makes of the speeds;
-    /// travel is known to a tick, q²/12 at each end of a segment and each side; the walk per second.
+    /// White noise of a pose, and what jitter of its stamp and of the encoders' makes of the
+    /// speeds; travel is known to a tick, q²/12 at each end of a segment and each side; the walk
+    /// per second.
     pub(crate) fn noise(&self, driven: &[Driven], gap: f64) -> SegmentNoise {
         let [speed, rate] = mean_squares(driven);
         let (pose, encoder) = (&self.sensors.pose, &self.sensors.encoder);
@@ -132,56 +121,58 @@ impl Instruments {
     }
 }
 
-impl Small {
-    fn error(self, first: f64, second: f64, gauge: f64) -> ActiveMechanism {
-        match self {
-            Self::EncoderScale(size) => scale(1.0 + size * first, 1.0 + size * second),
-            Self::LeverArm(size) => {
-                lever(size * gauge / 0.42 * first, size * gauge / 0.42 * second)
-            }
-            Self::SensorYaw(size) => mechanism("sensor-yaw", &[("yaw_deg", size * first)]),
-        }
-    }
+/// Errors of instruments.
+fn instruments() -> impl Iterator<Item = (&'static Sheet, InstrumentError)> {
+    MECHANISMS.iter().filter_map(|sheet| match sheet.trial {
+        Trial::Instrument(error) => Some((sheet, error)),
+        Trial::Law(_) => None,
+    })
 }
 
-fn of_difficulty(
-    difficulty: Difficulty,
-    gauge: f64,
+/// An error as instruments of most cases have it, whether something is concealed or not.
+fn small_error(
+    sheet: &'static Sheet,
+    machine: &Machine,
     random: &mut ChaCha8Rng,
-) -> Vec<ActiveMechanism> {
-    let mut signed = |low: f64, high: f64| sign(random) * uniform(random, low, high);
-    match difficulty {
-        Difficulty::LeverArm => {
-            vec![lever(gauge * signed(0.1, 0.5), gauge * signed(0.1, 0.5))]
-        }
-        Difficulty::EncoderScale => vec![scale(1.0 + signed(0.01, 0.04), 1.0 + signed(0.01, 0.04))],
-        Difficulty::ClockAndYaw => vec![
-            mechanism("time-offset", &[("delay_s", signed(0.03, 0.15))]),
-            mechanism("sensor-yaw", &[("yaw_deg", signed(0.5, 3.0))]),
-        ],
-        Difficulty::HeadingDrift => {
-            vec![mechanism("heading-drift", &[("rate_deg_per_s", signed(0.05, 0.4))])]
-        }
-        Difficulty::NoiseStatement | Difficulty::Outliers | Difficulty::ColouredNoise => Vec::new(),
-    }
+) -> ActiveMechanism {
+    reading(sheet, machine, |deviation, _| deviation * normal(random))
 }
 
-fn scale(left: f64, right: f64) -> ActiveMechanism {
-    mechanism("encoder-scale", &[("left", left), ("right", right)])
+/// An error that a hard null consists of.
+fn large_error(
+    sheet: &'static Sheet,
+    machine: &Machine,
+    random: &mut ChaCha8Rng,
+) -> ActiveMechanism {
+    reading(sheet, machine, |_, [low, high]| sign(random) * uniform(random, low, high))
 }
 
-fn lever(x: f64, y: f64) -> ActiveMechanism {
-    mechanism("sensor-lever-arm", &[("x_m", x), ("y_m", y)])
+/// A mechanism whose readings are off by an error that is drawn by its standard deviation where it
+/// is small, or by its limits where it is large.
+fn reading(
+    sheet: &'static Sheet,
+    machine: &Machine,
+    mut error: impl FnMut(f64, [f64; 2]) -> f64,
+) -> ActiveMechanism {
+    let values = sheet.parameters.iter().map(|parameter| {
+        let scale = dose::of(machine, parameter.draw.scale);
+        let value = match parameter.draw.role {
+            Role::Reading { exact, small, large } => exact + scale * error(small, large),
+            _ => parameter.typical,
+        };
+        (parameter.key, value)
+    });
+    mechanism(sheet.id, &values.collect::<Vec<_>>())
 }
 
 /// A mechanism whose parameters are in range.
+///
+/// # Panics
+/// Where they are not.
 pub(crate) fn mechanism(id: &str, settings: &[(&str, f64)]) -> ActiveMechanism {
-    let settings: Vec<_> =
-        settings.iter().map(|(key, value)| (*key, (value * 1e5).round() / 1e5)).collect();
-    match ActiveMechanism::new(id, &settings) {
-        Ok(active) => active,
-        Err(error) => panic!("{error}"),
-    }
+    let round = |value: f64| Digits::Decimals(5).round(value);
+    let settings: Vec<_> = settings.iter().map(|(key, value)| (*key, round(*value))).collect();
+    ActiveMechanism::new(id, &settings).expect("keys of a sheet, and values within its ranges")
 }
 
 /// Mean squares of forward speed (m²/s²) and yaw rate (rad²/s²).

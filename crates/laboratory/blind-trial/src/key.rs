@@ -1,8 +1,8 @@
 //! Keys of trials, and what comes of one.
 
 use crate::error::Error;
-use rand::{Rng, SeedableRng};
-use rand_chacha::{ChaCha8Rng, ChaCha20Rng};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -43,17 +43,15 @@ impl Key {
         Root(digest.chain_update(self.0).finalize().into())
     }
 
-    /// Adds the stream of this key and a text's hash to bytes; twice gives them back.
-    ///
-    /// Texts under one key have streams of their own: no sealed file opens another one.
-    pub(crate) fn apply(&self, hash: &str, bytes: &[u8]) -> Vec<u8> {
-        let digest = Sha256::new().chain_update("trackdyn seal").chain_update(self.0);
-        add_stream(digest.chain_update(hash).finalize().into(), bytes)
+    /// What the answers of a trial with this seed begin with, so that their hash cannot be guessed:
+    /// SHA-256 of both, hexadecimal.
+    pub fn salt(&self, seed: u64) -> String {
+        let digest = Sha256::new().chain_update("trackdyn salt").chain_update(seed.to_le_bytes());
+        hexadecimal(&digest.chain_update(self.0).finalize())
     }
 
-    /// Adds the stream of the key alone, as the first forty sealed trials did.
-    pub(crate) fn apply_alone(&self, bytes: &[u8]) -> Vec<u8> {
-        add_stream(self.0, bytes)
+    pub(crate) fn bytes(&self) -> &[u8; 32] {
+        &self.0
     }
 }
 
@@ -65,8 +63,8 @@ impl Default for Key {
 
 /// What all numbers of a trial are drawn from.
 ///
-/// Recordings and vehicle files show some of them, the gauge for one: from a seed that is short enough to be tried out, all that
-/// is concealed would follow. The key is not.
+/// Recordings and vehicle files show some of them, the gauge for one. A seed is short enough to be
+/// tried out, and all that is concealed would follow from it. The key is not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Root([u8; 32]);
@@ -97,13 +95,6 @@ impl TryFrom<String> for Root {
     fn try_from(text: String) -> Result<Self, Self::Error> {
         bytes(&text).map(Self).ok_or("expected 64 hexadecimal digits")
     }
-}
-
-/// Adds a ChaCha20 stream to bytes.
-fn add_stream(seed: [u8; 32], bytes: &[u8]) -> Vec<u8> {
-    let mut stream = vec![0; bytes.len()];
-    ChaCha20Rng::from_seed(seed).fill_bytes(&mut stream);
-    bytes.iter().zip(stream).map(|(byte, key)| byte ^ key).collect()
 }
 
 /// SHA-256, hexadecimal.

@@ -8,9 +8,9 @@ use trackdyn_model::contact::Friction;
 use trackdyn_model::{RunningGear, Vehicle};
 
 /// Share of owners whose friction ratio is off.
-const WRONG_RATIO: f64 = 0.6;
+const WRONG_RATIO_SHARE: f64 = 0.6;
 /// Share of owners whose centre of gravity is off.
-const WRONG_COG: f64 = 0.5;
+const WRONG_COG_SHARE: f64 = 0.5;
 
 /// A robot.
 #[derive(Clone, Debug)]
@@ -68,17 +68,17 @@ impl Machine {
         self.weight() / area
     }
 
-    /// The vehicle as its owner knows it: geometry and mass right, and √(μ_x μ_y) with them; the ratio
-    /// of friction and the centre of gravity sometimes off.
+    /// The vehicle as its owner knows it: geometry and mass right, and √(μ_x μ_y) with them; the
+    /// ratio of friction and the centre of gravity sometimes off.
     pub(crate) fn as_owned(&self, random: &mut ChaCha8Rng) -> Vehicle {
         let mut vehicle = self.vehicle.clone();
         let (ratio, [x, y]) = (0.08 * normal(random), [normal(random), normal(random)]);
-        if happens(random, WRONG_RATIO) {
+        if happens(random, WRONG_RATIO_SHARE) {
             let factor = (ratio / 2.0).clamp(-0.1, 0.1).exp();
             vehicle.friction.across = rounded(vehicle.friction.across * factor);
             vehicle.friction.along = rounded(vehicle.friction.along / factor);
         }
-        if happens(random, WRONG_COG) {
+        if happens(random, WRONG_COG_SHARE) {
             vehicle.cog[0] =
                 rounded(vehicle.cog[0] + 0.012 * self.vehicle.gauge * x.clamp(-2.0, 2.0));
             vehicle.cog[1] = rounded(vehicle.cog[1] + 0.015 * self.length() * y.clamp(-2.0, 2.0));

@@ -27,8 +27,8 @@ impl Opened {
     /// Opens trials, each a folder with the file of its key.
     ///
     /// # Errors
-    /// Those of [`folder::open_answers`]; [`Error::Option`] where a trial comes twice, or where runs
-    /// have another length than in the first.
+    /// Those of [`folder::open_answers`]; [`Error::Option`] where a trial comes twice, or where
+    /// runs have another length than in the first.
     pub fn open<'a>(trials: impl IntoIterator<Item = (&'a Path, PathBuf)>) -> Result<Self, Error> {
         let mut opened = Self { trials: Vec::new() };
         for (folder, key) in trials {
@@ -43,8 +43,8 @@ impl Opened {
         self.trials.iter().map(|trial| sha256(trial.text.as_bytes())).collect()
     }
 
-    /// Compares the answers with hashes that were published elsewhere, in the order of the trials: files of one folder may all
-    /// be replaced.
+    /// Compares the answers with hashes that were published elsewhere, in the order of the trials:
+    /// files of one folder may all be replaced.
     ///
     /// # Errors
     /// [`Error::Broken`].
@@ -80,7 +80,8 @@ impl Opened {
 
     /// The cases of all trials beside what came back of them from a program.
     ///
-    /// Cases of several trials are called by the hash of their answers and their name there, as `8e5c0b8d/case-0001`.
+    /// Cases of several trials are called by the hash of their answers and their name there, as
+    /// `8e5c0b8d/case-0001`.
     ///
     /// # Errors
     /// Those of [`folder::judge`].

@@ -3,6 +3,7 @@
 use crate::alternatives::{Alternative, alternatives};
 use crate::dose::{Dose, Scene};
 use crate::driving::Drive;
+use crate::failure::Failure;
 use crate::ground::Ground;
 use crate::signature::Bench;
 use crate::subspace::Subspace;
@@ -13,31 +14,35 @@ use trackdyn_core::real;
 use trackdyn_drive::Sensors;
 use trackdyn_estimate::Observations;
 
-/// z from which on an effect can be detected.
-pub const DETECTABLE: f64 = 5.0;
-/// z from which on an effect can be told from every other one.
-pub const DISTINCT: f64 = 4.0;
-/// Alternatives that may together stand for an effect, as many as a diagnosis names laws.
-const TOGETHER: usize = 3;
-/// Smallest z at which sizes are found: above what the phases of shoes make of any change, one or two. Only strengths of
-/// smaller sizes are taken in proportion: between z = 10 and 40 laws of the slip speed are anything but linear, and sheared
-/// soil changes the sign of what it shows.
-const CLEAR: f64 = 5.0;
-/// Logarithm of the ratio of two strengths that count as one: what is stated is the z that the size leaves, not what was wanted.
-const CLOSE_ENOUGH: f64 = 0.15;
-/// Logarithm of the ratio of z to the wanted one from which on a size that few runs gave is looked for on all of them.
-const FAR_OFF: f64 = 0.5;
-/// Sizes that are tried on few runs.
-const SEARCHES: usize = 5;
-/// Powers of the strength with which z is taken to go.
-const POWERS: [f64; 2] = [0.5, 3.0];
+/// Smallest z of an effect that can be detected.
+pub const MIN_DETECTABLE_Z: f64 = 5.0;
+/// Smallest z that an effect leaves beside every other one where it can be told from all of them.
+pub const MIN_DISTINCT_Z: f64 = 4.0;
+/// Largest number of alternatives that together stand for an effect: as many laws as a diagnosis
+/// names.
+const MAX_ALTERNATIVES: usize = 3;
+/// Smallest z for which a size is searched: above one or two, which the phases of shoes make of any
+/// change. Strengths of smaller sizes are taken in proportion. Larger ones cannot be: between z =
+/// 10 and 40 laws of the slip speed are not linear, and sheared soil changes the sign of its trace.
+const MIN_SEARCHED_Z: f64 = 5.0;
+/// Logarithm of the ratio of two strengths that count as one. What is stated is the z that the size
+/// leaves, not the one that was wanted.
+const STRENGTH_TOLERANCE: f64 = 0.15;
+/// Logarithm of the ratio of z to the wanted one above which a size that was found on few runs is
+/// searched for on all of them.
+const MAX_Z_ERROR: f64 = 0.5;
+/// Largest number of sizes that are tried on few runs.
+const MAX_SEARCHES: usize = 5;
+/// Limits of the power of the strength that z is taken to grow with.
+const POWER_LIMITS: [f64; 2] = [0.5, 3.0];
 /// Smallest z per unit of strength by which a size can be set.
-const VISIBLE: f64 = 0.5;
-/// Runs on which sizes are searched for and effects are told from each other, where they show there.
+const MIN_Z_PER_STRENGTH: f64 = 0.5;
+/// Number of runs on which sizes are searched for and effects are told from each other, where they
+/// show there.
 const FEW_RUNS: usize = 4;
-/// Part of what a few runs show of an effect that is alike in all of them, below which all runs are looked at: the others
-/// pass its place.
-const MISSED: f64 = 0.5;
+/// Share of an effect's z, were it alike in all runs, that few runs have to show. Below it all runs
+/// are used: the others pass its place.
+const MIN_SHARE_IN_FEW_RUNS: f64 = 0.5;
 
 /// The runs and sensors by which effects are judged.
 pub(crate) struct Judge<'a> {
@@ -62,31 +67,33 @@ pub(crate) struct Standing {
     pub(crate) z_det: f64,
     /// Length outside the nuisances and the alternative that comes closest.
     pub(crate) z_iso: f64,
-    /// Length outside the nuisances and the three alternatives that take most of it, one after the other.
+    /// Length outside the nuisances and the three alternatives that take most of it, one after the
+    /// other.
     pub(crate) z_beyond: f64,
     /// The alternative that comes closest.
     pub(crate) nearest: &'static str,
-    /// All alternatives that leave less than [`DISTINCT`].
+    /// All alternatives that leave less than [`MIN_DISTINCT_Z`].
     pub(crate) class: Vec<&'static str>,
 }
 
 impl Judge<'_> {
     /// An effect of a strength.
-    pub(crate) fn at(&self, dose: Dose, strength: f64) -> Result<Sized, String> {
+    pub(crate) fn at(&self, dose: Dose, strength: f64) -> Result<Sized, Failure> {
         let signature = self.signature(&dose, strength, self.runs)?;
         Ok(Sized { dose, strength, signature })
     }
 
-    /// An effect at about the wanted z, with what it really leaves; at its smallest or largest strength where that shows
-    /// more or less; or at `otherwise` where it does not show at all.
-    pub(crate) fn sized(&self, dose: Dose, wanted: f64, otherwise: f64) -> Result<Sized, String> {
+    /// An effect at about the wanted z, with what it really leaves; at its smallest or largest
+    /// strength where that shows more or less; or at `otherwise` where it does not show at all.
+    pub(crate) fn sized(&self, dose: Dose, wanted: f64, otherwise: f64) -> Result<Sized, Failure> {
         let few = FEW_RUNS.min(self.runs.len());
-        let clear = wanted.max(CLEAR);
+        let clear = wanted.max(MIN_SEARCHED_Z);
         let off = |sized: &Sized| (self.z(&sized.signature) / clear).ln().abs();
         let mut best: Option<Sized> = None;
-        // a place may lie off the ways of the first runs, or be grazed by them and crossed by the others
+        // a place may lie off the ways of the first runs, or be grazed by them and crossed by the
+        // others
         for runs in [few, self.runs.len()] {
-            if best.as_ref().is_some_and(|best| off(best) < FAR_OFF) {
+            if best.as_ref().is_some_and(|best| off(best) < MAX_Z_ERROR) {
                 break;
             }
             let Some(strength) = self.strength(&dose, clear, &self.runs[..runs])? else { continue };
@@ -100,10 +107,10 @@ impl Judge<'_> {
             return self.at(dose, strength);
         };
         let shown = self.z(&sized.signature);
-        if shown < VISIBLE {
-            return Err(format!("{} shows nothing at the size for z = {clear:.1}", dose.id()));
+        if shown < MIN_Z_PER_STRENGTH {
+            return Err(Failure::Invisible { mechanism: dose.sheet().id, wanted: clear });
         }
-        if wanted >= CLEAR {
+        if wanted >= MIN_SEARCHED_Z {
             return Ok(sized);
         }
         let share = wanted / shown;
@@ -111,19 +118,20 @@ impl Judge<'_> {
         self.at(dose, sized.strength * share.max(least).min(1.0))
     }
 
-    /// The strength at which an effect shows with about this z, by what some runs show of it; none where it does not show.
-    fn strength(&self, dose: &Dose, clear: f64, runs: &[Drive]) -> Result<Option<f64>, String> {
+    /// The strength at which an effect shows with about this z, by what some runs show of it; none
+    /// where it does not show.
+    fn strength(&self, dose: &Dose, clear: f64, runs: &[Drive]) -> Result<Option<f64>, Failure> {
         let more_runs = (real(self.runs.len()) / real(runs.len())).sqrt();
-        let z = |strength: f64| -> Result<f64, String> {
+        let z = |strength: f64| -> Result<f64, Failure> {
             Ok(more_runs * self.z(&self.signature(dose, strength, runs)?))
         };
         let mut strength = dose.largest().min(1.0);
         let mut shown = z(strength)?;
-        if shown < VISIBLE * strength {
+        if shown < MIN_Z_PER_STRENGTH * strength {
             return Ok(None);
         }
         let (mut power, mut bracket) = (1.0, [0.0, dose.largest()]);
-        for _ in 0..SEARCHES {
+        for _ in 0..MAX_SEARCHES {
             bracket[usize::from(shown > clear)] = strength;
             let [low, high] = bracket;
             let next = strength * (clear / shown).powf(1.0 / power);
@@ -131,7 +139,7 @@ impl Judge<'_> {
             let next =
                 if low > 0.0 && !(low..high).contains(&next) { (low * high).sqrt() } else { next };
             let next = next.clamp(dose.smallest(), dose.largest());
-            if (next / strength).ln().abs() < CLOSE_ENOUGH {
+            if (next / strength).ln().abs() < STRENGTH_TOLERANCE {
                 break;
             }
             // a size beyond what the robot can do is met half-way
@@ -139,7 +147,8 @@ impl Judge<'_> {
                 Ok(found) => (next, found),
                 Err(_) => ((strength * next).sqrt(), z((strength * next).sqrt())?),
             };
-            power = ((found / shown).ln() / (there / strength).ln()).clamp(POWERS[0], POWERS[1]);
+            power = ((found / shown).ln() / (there / strength).ln())
+                .clamp(POWER_LIMITS[0], POWER_LIMITS[1]);
             (strength, shown) = (there, found);
         }
         Ok(Some(strength))
@@ -152,18 +161,18 @@ impl Judge<'_> {
         known: &[&str],
         scene: Scene,
         random: &mut ChaCha8Rng,
-    ) -> Result<Vec<Standing>, String> {
-        let ids: Vec<&str> = concealed.iter().map(|sized| sized.dose.id()).collect();
+    ) -> Result<Vec<Standing>, Failure> {
+        let ids: Vec<&str> = concealed.iter().map(|sized| sized.dose.sheet().id).collect();
         let excluded: Vec<&str> = known.iter().chain(&ids).copied().collect();
         let others = alternatives(&excluded, scene, random);
-        let shapes_in = |still: &Still| -> Result<Vec<Vec<f64>>, String> {
+        let shapes_in = |still: &Still| -> Result<Vec<Vec<f64>>, Failure> {
             concealed.iter().map(|sized| still.column(&sized.dose, sized.strength)).collect()
         };
         let mut still = self.still(FEW_RUNS)?;
         let mut shapes = shapes_in(&still)?;
         let part = (real(still.runs.len()) / real(self.runs.len())).sqrt();
         let is_missed = |(sized, shape): (&Sized, &Vec<f64>)| {
-            self.z(shape) < MISSED * part * self.z(&sized.signature)
+            self.z(shape) < MIN_SHARE_IN_FEW_RUNS * part * self.z(&sized.signature)
         };
         if concealed.iter().zip(&shapes).any(is_missed) {
             still = self.still(self.runs.len())?;
@@ -187,7 +196,12 @@ impl Judge<'_> {
             let left: Vec<_> = others
                 .iter()
                 .zip(&columns)
-                .map(|(other, columns)| (other.id, scaled(space.with(columns).outside(part))))
+                .map(|(other, columns)| {
+                    (
+                        other.sheet.id,
+                        scaled(space.with(columns.iter().map(Vec::as_slice)).outside(part)),
+                    )
+                })
                 .collect();
             let z_beyond = scaled(beyond(space, part, &others, &columns));
             standing(z_det, z_beyond, &left)
@@ -197,14 +211,10 @@ impl Judge<'_> {
 
     /// What nuisances and further signatures span in the first rows.
     fn taken(&self, rows: usize, beside: &[&[f64]]) -> Subspace {
-        let mut space = self.bench.nuisances(rows);
-        for column in beside {
-            space.add(column[..rows].to_vec());
-        }
-        space
+        self.bench.nuisances(rows).with(beside.iter().map(|column| &column[..rows]))
     }
 
-    fn signature(&self, dose: &Dose, strength: f64, runs: &[Drive]) -> Result<Vec<f64>, String> {
+    fn signature(&self, dose: &Dose, strength: f64, runs: &[Drive]) -> Result<Vec<f64>, Failure> {
         let ground = self.ground.and(dose.at(strength));
         self.bench.signature(&ground.observe(runs, self.sensors)?)
     }
@@ -215,7 +225,7 @@ impl Judge<'_> {
     }
 
     /// So many first runs of the robot without the inertia that its owner knows.
-    fn still(&self, runs: usize) -> Result<Still<'_>, String> {
+    fn still(&self, runs: usize) -> Result<Still<'_>, Failure> {
         let runs = &self.runs[..runs.min(self.runs.len())];
         let ground = Ground { active: Vec::new(), ..*self.ground };
         let without = ground.observe(runs, self.sensors)?;
@@ -235,21 +245,22 @@ struct Still<'a> {
 }
 
 impl Still<'_> {
-    fn column(&self, dose: &Dose, strength: f64) -> Result<Vec<f64>, String> {
+    fn column(&self, dose: &Dose, strength: f64) -> Result<Vec<f64>, Failure> {
         let with = self.ground.and(dose.at(strength)).observe(self.runs, self.sensors)?;
         self.bench.difference(&with, &self.without, &self.residuals)
     }
 
-    fn columns(&self, others: &[Alternative]) -> Result<Vec<Vec<Vec<f64>>>, String> {
+    fn columns(&self, others: &[Alternative]) -> Result<Vec<Vec<Vec<f64>>>, Failure> {
         let column = |(dose, strength): &(Dose, f64)| self.column(dose, *strength);
         let all = others.par_iter().map(|alternative| {
-            alternative.members.par_iter().map(column).collect::<Result<Vec<_>, String>>()
+            alternative.members.par_iter().map(column).collect::<Result<Vec<_>, Failure>>()
         });
         all.collect()
     }
 }
 
-/// What the alternatives that take most of a signature leave of it, one after the other, each effect once.
+/// What the alternatives that take most of a signature leave of it, one after the other, each
+/// effect once.
 fn beyond(
     mut space: Subspace,
     signature: &[f64],
@@ -257,11 +268,11 @@ fn beyond(
     columns: &[Vec<Vec<f64>>],
 ) -> f64 {
     let mut taken: Vec<&str> = Vec::new();
-    for _ in 0..TOGETHER {
-        let free = others.iter().zip(columns).filter(|(other, _)| !taken.contains(&other.id));
+    for _ in 0..MAX_ALTERNATIVES {
+        let free = others.iter().zip(columns).filter(|(other, _)| !taken.contains(&other.sheet.id));
         let with = free.map(|(other, columns)| {
-            let space = space.with(columns);
-            (space.outside(signature), other.id, space)
+            let space = space.with(columns.iter().map(Vec::as_slice));
+            (space.outside(signature), other.sheet.id, space)
         });
         let Some((_, id, next)) = with.min_by(|a, b| a.0.total_cmp(&b.0)) else { break };
         taken.push(id);
@@ -273,7 +284,8 @@ fn beyond(
 fn standing(z_det: f64, z_beyond: f64, left: &[(&'static str, f64)]) -> Standing {
     let nearest = left.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1));
     let (nearest, z_iso) = nearest.unwrap_or(("", z_det));
-    let mut class: Vec<_> = left.iter().filter(|(_, z)| *z < DISTINCT).map(|(id, _)| *id).collect();
+    let mut class: Vec<_> =
+        left.iter().filter(|(_, z)| *z < MIN_DISTINCT_Z).map(|(id, _)| *id).collect();
     class.sort_unstable();
     class.dedup();
     Standing { z_det, z_iso, z_beyond, nearest, class }

@@ -1,73 +1,50 @@
 //! Which cases a trial has: the strata, and what is concealed in each of their cases.
 
+use crate::difficulty::Difficulty;
+use crate::dose::concealment;
 use crate::key::Root;
 use crate::random::{Purpose, stream};
 use rand::seq::{IndexedRandom, SliceRandom};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
 use trackdyn_core::real;
+use trackdyn_second_simulator::sheet::{Concealment, Identifiability};
+use trackdyn_second_simulator::{MECHANISMS, Origin, Sheet};
 
 /// Effects that a recording can name, each by itself.
-pub const ISOLABLE: [&str; 16] = [
-    "yaw-inertia",
-    "centripetal",
-    "load-transfer",
-    "viscous-friction",
-    "stribeck-friction",
-    "friction-creep",
-    "motion-resistance",
-    "resistance-split",
-    "hitch-drag",
-    "belt-slip",
-    "shear-displacement",
-    "directional-lugs",
-    "slope",
-    "tether",
-    "terrain-patch",
-    "friction-drift",
-];
-
-/// The class of constants: what moves the constant ICRs and nothing else. The last one is an error of an instrument as well.
-pub const CONSTANTS: [&str; 8] = [
-    "friction-anisotropy",
-    "cog-shift",
-    "friction-split",
-    "friction-gradient",
-    "pressure-concentration",
-    "cohesion",
-    "bulldozing",
-    "sensor-lever-arm",
-];
-
-/// Errors of instruments, which are truths of their own wherever they are.
-pub const INSTRUMENTS: [&str; 5] =
-    ["sensor-lever-arm", "encoder-scale", "sensor-yaw", "time-offset", "heading-drift"];
-
-/// Laws that no catalogue has.
-pub const OUTSIDE: [&str; 10] = [
-    "brushed-ground",
-    "spring-cable",
-    "steering-grip",
-    "washboard",
-    "splayed-belts",
-    "twisted-frame",
-    "stiff-hull",
-    "side-wind",
-    "warm-rubber",
-    "drive-backlash",
-];
+pub(crate) fn isolable() -> impl Iterator<Item = &'static Sheet> {
+    use Identifiability::{Distinct, DistinctWhenLarge};
+    effects().filter_map(|(sheet, law)| {
+        matches!(law.identifiability, Distinct | DistinctWhenLarge).then_some(sheet)
+    })
+}
 
 /// Effects close to another one: a small size, or a far place, and the recording cannot split them.
-const CLOSE: [&str; 8] = [
-    "drivetrain-lag",
-    "tether",
-    "viscous-friction",
-    "friction-creep",
-    "stribeck-friction",
-    "motion-resistance",
-    "hitch-drag",
-    "belt-slip",
-];
+pub(crate) fn close() -> impl Iterator<Item = &'static Sheet> {
+    use Identifiability::{DistinctWhenLarge, Indistinct};
+    effects().filter_map(|(sheet, law)| match law.identifiability {
+        DistinctWhenLarge => Some(sheet),
+        Indistinct if !sheet.is_constant() => Some(sheet),
+        _ => None,
+    })
+}
+
+/// The class of constants without errors of instruments: what moves the constant ICRs and nothing
+/// else.
+fn constants() -> impl Iterator<Item = &'static Sheet> {
+    effects().filter_map(|(sheet, _)| sheet.is_constant().then_some(sheet))
+}
+
+/// Laws that no catalogue has.
+fn outside() -> impl Iterator<Item = &'static Sheet> {
+    MECHANISMS.iter().filter(|sheet| sheet.origin == Origin::Outside)
+}
+
+/// Laws of the catalogue.
+fn effects() -> impl Iterator<Item = (&'static Sheet, &'static Concealment)> {
+    let laws = MECHANISMS.iter().filter(|sheet| sheet.origin == Origin::Catalogue);
+    laws.filter_map(|sheet| Some((sheet, concealment(sheet)?)))
+}
 
 /// What kind of case it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -128,64 +105,19 @@ impl Stratum {
     }
 }
 
-/// What is wrong in a hard null.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Difficulty {
-    /// The recording states half or twice the noise that it has.
-    NoiseStatement,
-    /// Two to five poses in a hundred are far off.
-    Outliers,
-    /// The pose sensor sits elsewhere.
-    LeverArm,
-    /// The encoders show a few percent too much or too little.
-    EncoderScale,
-    /// Errors of poses go on for seconds.
-    ColouredNoise,
-    /// Poses are late, and their sensor is turned.
-    ClockAndYaw,
-    /// The heading turns away.
-    HeadingDrift,
-}
-
-impl Difficulty {
-    /// All of them, in the order of tables.
-    pub const ALL: [Self; 7] = [
-        Self::NoiseStatement,
-        Self::Outliers,
-        Self::LeverArm,
-        Self::EncoderScale,
-        Self::ColouredNoise,
-        Self::ClockAndYaw,
-        Self::HeadingDrift,
-    ];
-
-    /// Its name in files and tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::NoiseStatement => "noise-statement",
-            Self::Outliers => "outliers",
-            Self::LeverArm => "lever-arm",
-            Self::EncoderScale => "encoder-scale",
-            Self::ColouredNoise => "coloured-noise",
-            Self::ClockAndYaw => "clock-and-yaw",
-            Self::HeadingDrift => "heading-drift",
-        }
-    }
-}
-
 /// A case before anything of it is drawn but its kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedCase {
     /// Its stratum.
     pub stratum: Stratum,
-    /// Ids of what is concealed.
-    pub concealed: Vec<&'static str>,
+    /// What is concealed.
+    pub concealed: Vec<&'static Sheet>,
     /// What is wrong, in a hard null.
     pub difficulty: Option<Difficulty>,
 }
 
-/// The cases of a trial in shuffled order; every kind comes up as often as the others of its stratum.
+/// The cases of a trial in shuffled order; every kind comes up as often as the others of its
+/// stratum.
 pub fn plan(cases: usize, root: &Root) -> Vec<PlannedCase> {
     let mut random = stream(root, 0, 0, Purpose::Plan);
     let mut planned = Vec::with_capacity(cases);
@@ -224,27 +156,26 @@ fn counts(cases: usize) -> Vec<(Stratum, usize)> {
 
 fn stratum_cases(stratum: Stratum, count: usize, random: &mut ChaCha8Rng) -> Vec<PlannedCase> {
     let case = |concealed, difficulty| PlannedCase { stratum, concealed, difficulty };
+    let isolable: Vec<&'static Sheet> = isolable().collect();
     match stratum {
         Stratum::PlainNull => vec![case(Vec::new(), None); count],
-        Stratum::HardNull => in_turn(&Difficulty::ALL, count, random)
+        Stratum::HardNull => in_turn(&Difficulty::all(), count, random)
             .into_iter()
             .map(|difficulty| case(Vec::new(), Some(difficulty)))
             .collect(),
-        Stratum::Single => single(&ISOLABLE, count, random, case),
-        Stratum::Outside => single(&OUTSIDE, count, random, case),
+        Stratum::Single => single(isolable.into_iter(), count, random, case),
+        Stratum::Outside => single(outside(), count, random, case),
         Stratum::Equivalence => {
-            let close = count / 2;
-            let concealed = CONSTANTS.into_iter().filter(|id| !INSTRUMENTS.contains(id));
-            let concealed: Vec<&'static str> = concealed.collect();
-            let mut cases = single(&concealed, count - close, random, case);
-            cases.extend(single(&CLOSE, close, random, case));
+            let half = count / 2;
+            let mut cases = single(constants(), count - half, random, case);
+            cases.extend(single(close(), half, random, case));
             cases
         }
-        Stratum::Pair => in_turn(&ISOLABLE, count, random)
+        Stratum::Pair => in_turn(&isolable, count, random)
             .into_iter()
             .map(|first| {
                 let second = loop {
-                    let other = *ISOLABLE.choose(random).unwrap_or(&first);
+                    let other = *isolable.choose(random).unwrap_or(&first);
                     if other != first {
                         break other;
                     }
@@ -256,12 +187,13 @@ fn stratum_cases(stratum: Stratum, count: usize, random: &mut ChaCha8Rng) -> Vec
 }
 
 fn single(
-    ids: &[&'static str],
+    of: impl Iterator<Item = &'static Sheet>,
     count: usize,
     random: &mut ChaCha8Rng,
-    case: impl Fn(Vec<&'static str>, Option<Difficulty>) -> PlannedCase,
+    case: impl Fn(Vec<&'static Sheet>, Option<Difficulty>) -> PlannedCase,
 ) -> Vec<PlannedCase> {
-    in_turn(ids, count, random).into_iter().map(|id| case(vec![id], None)).collect()
+    let of: Vec<&'static Sheet> = of.collect();
+    in_turn(&of, count, random).into_iter().map(|one| case(vec![one], None)).collect()
 }
 
 /// `count` of these, all as often but for one, in an order that is drawn.
@@ -298,20 +230,23 @@ mod tests {
     }
 
     #[test]
-    fn every_mechanism_of_the_independent_ground_has_its_place() {
-        for sheet in trackdyn_second_simulator::MECHANISMS {
-            let lists: [&[&str]; 5] = [&ISOLABLE, &CONSTANTS, &INSTRUMENTS, &OUTSIDE, &CLOSE];
-            assert!(lists.iter().any(|list| list.contains(&sheet.id)), "{}", sheet.id);
+    fn every_mechanism_has_a_place_in_trials() {
+        for sheet in MECHANISMS {
+            let lists = isolable().chain(close()).chain(constants()).chain(outside());
+            let is_planned = lists.into_iter().any(|planned| planned.id == sheet.id);
+            assert!(is_planned != sheet.is_instrument(), "{}", sheet.id);
         }
+        let counts = [isolable().count(), close().count(), constants().count(), outside().count()];
+        assert!(counts.iter().all(|count| *count >= 7), "{counts:?}");
     }
 
     #[test]
     fn singles_are_of_all_kinds_and_the_order_says_nothing() {
         let planned = plan(400, &Root::of_seed(5));
-        for id in ISOLABLE {
+        for sheet in isolable() {
             let found =
-                |case: &&PlannedCase| case.stratum == Stratum::Single && case.concealed == [id];
-            assert!((8..=12).contains(&planned.iter().filter(found).count()), "{id}");
+                |case: &&PlannedCase| case.stratum == Stratum::Single && case.concealed == [sheet];
+            assert!((8..=12).contains(&planned.iter().filter(found).count()), "{}", sheet.id);
         }
         let nulls = |half: &[PlannedCase]| half.iter().filter(|c| c.stratum.is_null()).count();
         // 96 nulls fall into halves as 48 ± 4.3

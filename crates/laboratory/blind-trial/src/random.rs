@@ -3,7 +3,7 @@
 use crate::key::Root;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use std::f64::consts::TAU;
+use rand_distr::StandardNormal;
 
 /// What random numbers are for.
 #[derive(Clone, Copy, Debug)]
@@ -47,10 +47,9 @@ pub(crate) fn uniform(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * random.random::<f64>()
 }
 
-/// A number from the standard normal distribution (Box and Muller).
+/// A number from the standard normal distribution.
 pub(crate) fn normal(random: &mut ChaCha8Rng) -> f64 {
-    let radius = (-2.0 * (1.0 - random.random::<f64>()).ln()).sqrt();
-    radius * (TAU * random.random::<f64>()).cos()
+    random.sample(StandardNormal)
 }
 
 /// Plus or minus one.

@@ -1,5 +1,6 @@
 //! What is recorded of driven runs.
 
+use crate::failure::Failure;
 use crate::ground::{Driven, seen};
 use crate::instruments::Instruments;
 use trackdyn_core::rounding::Digits;
@@ -14,11 +15,10 @@ pub(crate) fn recorded(
     driven: &[Driven],
     instruments: &Instruments,
     noise: u64,
-) -> Result<Recording, String> {
+) -> Result<Recording, Failure> {
     let mut runs = seen(driven, &instruments.sensors, noise)?;
     runs.iter_mut().for_each(round);
-    let recording = Recording::new(name, "robot", runs, Source::computed(), Vec::new());
-    let recording = recording.map_err(|error| error.to_string())?;
+    let recording = Recording::new(name, "robot", runs, Source::computed(), Vec::new())?;
     Ok(recording.with_stated_noise(Some(rounded(instruments.stated))))
 }
 

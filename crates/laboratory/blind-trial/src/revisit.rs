@@ -1,9 +1,11 @@
-//! A case once more: the robot, the ground and the instruments of a case, driven by another schedule.
+//! A case once more: the robot, the ground and the instruments of a case, driven by another
+//! schedule.
 
 use crate::answer::{Answer, Answers};
 use crate::case::ATTEMPTS;
 use crate::driving::{Drive, HELD_OUT_RUNS, TRAINING_RUNS};
 use crate::error::Error;
+use crate::failure::Failure;
 use crate::ground::{Fineness, Ground};
 use crate::instruments::Instruments;
 use crate::key::Root;
@@ -19,25 +21,25 @@ use trackdyn_model::{Vehicle, VehicleFile};
 use trackdyn_recording::Recording;
 use trackdyn_second_simulator::ActiveMechanism;
 
-/// The recording of a case that follows a schedule from the origin, heading along x: everything is as it
-/// was in the case but for the noise, which is drawn anew.
+/// The recording of a case that follows a schedule from the origin, heading along x: everything is
+/// as it was in the case but for the noise, which is drawn anew.
 ///
 /// # Errors
 /// [`Error::Ground`] where there is no such case, or the robot cannot follow; [`Error::Document`].
 pub fn revisit(answers: &Answers, id: &str, schedule: Schedule) -> Result<Recording, Error> {
-    let failed = |reason: String| Error::Ground { case: id.to_owned(), reason };
+    let failed = |reason: Failure| Error::Ground { case: id.to_owned(), reason };
     let numbered = (1..).zip(&answers.cases).find(|(_, answer)| answer.id == id);
-    let (number, answer) = numbered.ok_or_else(|| failed("no such case".to_owned()))?;
+    let (number, answer) = numbered.ok_or_else(|| failed(Failure::NoCase))?;
     let document = Document::new(format!("{id}, sealed vehicle"), &answer.vehicle);
     let VehicleFile { vehicle, .. } = VehicleFile::from_document(&document)?;
     let root = answers.drawn_from();
-    let attempt = attempt(&root, number, &vehicle)
-        .ok_or_else(|| failed("its robot is not of the trial's seed and key".to_owned()))?;
+    let (attempt, machine) =
+        attempt(&root, number, &vehicle).ok_or_else(|| failed(Failure::OtherRobot))?;
     let random = |purpose| stream(&root, number, attempt, purpose);
     let instruments = Instruments::draw(
         answer.difficulty,
         answer.stratum == Stratum::PlainNull,
-        vehicle.gauge,
+        &machine,
         &mut random(Purpose::Instruments),
     );
     let active = active(answer).map_err(failed)?;
@@ -50,27 +52,25 @@ pub fn revisit(answers: &Answers, id: &str, schedule: Schedule) -> Result<Record
     recorded(id, &driven, &instruments, random(Purpose::Revisit).random()).map_err(failed)
 }
 
-/// The attempt that drew a robot.
-fn attempt(root: &Root, number: u64, vehicle: &Vehicle) -> Option<u64> {
-    let drawn = |attempt| Machine::draw(&mut stream(root, number, attempt, Purpose::Machine));
-    (0..ATTEMPTS).find(|attempt| drawn(*attempt).vehicle == *vehicle)
+/// The attempt that drew a robot, and the robot.
+fn attempt(root: &Root, number: u64, vehicle: &Vehicle) -> Option<(u64, Machine)> {
+    let drawn = (0..ATTEMPTS).map(|attempt| {
+        (attempt, Machine::draw(&mut stream(root, number, attempt, Purpose::Machine)))
+    });
+    drawn.into_iter().find(|(_, machine)| machine.vehicle == *vehicle)
 }
 
 /// All that acts in a case.
-fn active(answer: &Answer) -> Result<Vec<ActiveMechanism>, String> {
+fn active(answer: &Answer) -> Result<Vec<ActiveMechanism>, Failure> {
     let of = |id: &str, parameters: &BTreeMap<String, f64>| {
         let settings: Vec<_> =
             parameters.iter().map(|(key, value)| (key.as_str(), *value)).collect();
-        ActiveMechanism::new(id, &settings)
+        Ok(ActiveMechanism::new(id, &settings)?)
     };
-    let known = answer.known.iter().map(|text| text.parse());
+    let known = answer.known.iter().map(|text| Ok(text.parse()?));
     let concealed = answer.concealed.iter().map(|one| of(&one.mechanism, &one.parameters));
     let errors = answer.instruments.iter().map(|one| of(&one.mechanism, &one.parameters));
-    let all = known
-        .chain(concealed)
-        .chain(errors)
-        .collect::<Result<_, trackdyn_second_simulator::Error>>();
-    all.map_err(|error| error.to_string())
+    known.chain(concealed).chain(errors).collect()
 }
 
 #[cfg(test)]
@@ -90,7 +90,15 @@ mod tests {
         let case = Case::make(&planned, 0, &order, &Root::of_seed(8)).expect("a case");
         let version = String::new();
         let (schema, cases) = (SCHEMA.to_owned(), vec![case.answer]);
-        Answers { schema, version, seed: order.seed, root: None, run_time_s: Some(10.0), cases }
+        Answers {
+            salt: String::new(),
+            schema,
+            version,
+            seed: order.seed,
+            root: None,
+            run_time_s: Some(10.0),
+            cases,
+        }
     }
 
     fn end(answers: &Answers) -> Pose {

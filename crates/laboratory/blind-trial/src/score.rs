@@ -1,8 +1,9 @@
 //! Scores: what the diagnoses of a trial are worth.
 //!
-//! Every score is a list of cases that count and of those among them that succeed. A further score is
-//! one more function in [`rates`], [`means`] or a table of its own. [`resolution`] stands apart: whether the
-//! manoeuvre that is planned for an ambiguous diagnosis resolves it is known after driving it only.
+//! Every score is a list of cases that count and of those among them that succeed. A further score
+//! is one more function in [`rates`], [`means`] or a table of its own. [`resolution`] stands apart:
+//! whether the manoeuvre that is planned for an ambiguous diagnosis resolves it is known after
+//! driving it only.
 
 mod confusion;
 pub mod coverage;
@@ -10,6 +11,7 @@ pub mod interval;
 pub mod means;
 mod metadata;
 mod power;
+mod rate;
 pub mod rates;
 mod reach;
 pub mod resolution;
@@ -19,7 +21,7 @@ mod verdict;
 pub use confusion::Confusion;
 pub use means::Mean;
 pub use power::PowerBin;
-pub use rates::Rate;
+pub use rate::Rate;
 pub use reach::Reach;
 pub use resolution::{Outcome, Revisited};
 pub use tables::{

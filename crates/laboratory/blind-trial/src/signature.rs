@@ -1,5 +1,6 @@
 //! What an effect leaves in a recording, in units of its noise.
 
+use crate::failure::Failure;
 use crate::subspace::Subspace;
 use nalgebra::Vector3;
 use trackdyn_core::{Pose, Twist};
@@ -10,8 +11,8 @@ use trackdyn_estimate::sensor::{Nuisance, Sensor, report};
 use trackdyn_estimate::weighting::{SegmentNoise, Weighting, Whitener};
 use trackdyn_estimate::{Free, Observations, Parameters, Unknowns, least_squares};
 
-/// Step of the gyro's bias, rad/s.
-const BIAS: f64 = 1e-4;
+/// Step of the gyro's bias in difference quotients, rad/s.
+const BIAS_STEP: f64 = 1e-4;
 
 /// A drive without the effect, and what instruments and constant ICRs can make of it.
 pub(crate) struct Bench {
@@ -27,8 +28,8 @@ pub(crate) struct Bench {
 }
 
 impl Bench {
-    /// The bench of a drive that perfect sensors saw, for a recording with this noise in which poses are
-    /// there for the share `presence` of the time.
+    /// The bench of a drive that perfect sensors saw, for a recording with this noise in which
+    /// poses are there for the share `presence` of the time.
     ///
     /// # Errors
     /// Where constant ICRs cannot be fitted: a robot that hardly turns.
@@ -37,7 +38,7 @@ impl Bench {
         noise: SegmentNoise,
         presence: f64,
         gauge: f64,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, Failure> {
         let weighting = Weighting::Noise(noise);
         let ideal = Parameters([-gauge, gauge, 0.0, 1.0, 1.0]);
         let (start, residuals) = fitted(&observations, &ideal, &weighting)?;
@@ -50,11 +51,11 @@ impl Bench {
         Ok(bench)
     }
 
-    /// The same with what another drive differs by as one more nuisance.
+    /// Adds what another drive differs by as one more nuisance.
     ///
     /// # Errors
     /// Where segments of both drives do not match.
-    pub(crate) fn with_nuisance(mut self, of: &Observations) -> Result<Self, String> {
+    pub(crate) fn with_nuisance(mut self, of: &Observations) -> Result<Self, Failure> {
         let column = self.signature(of)?;
         self.nuisances.push(column);
         Ok(self)
@@ -62,11 +63,7 @@ impl Bench {
 
     /// What nuisances span in the first `rows` rows of a signature.
     pub(crate) fn nuisances(&self, rows: usize) -> Subspace {
-        let mut space = Subspace::default();
-        self.nuisances
-            .iter()
-            .for_each(|column| space.add(column[..rows.min(column.len())].to_vec()));
-        space
+        Subspace::spanned_by(self.nuisances.iter().map(|column| &column[..rows.min(column.len())]))
     }
 
     /// The whitened difference that an effect makes of this drive, or of its first runs, with what
@@ -74,11 +71,12 @@ impl Bench {
     ///
     /// # Errors
     /// Where segments of both drives do not match.
-    pub(crate) fn signature(&self, with: &Observations) -> Result<Vec<f64>, String> {
+    pub(crate) fn signature(&self, with: &Observations) -> Result<Vec<f64>, Failure> {
         self.difference(with, &self.observations, &self.residuals)
     }
 
-    /// The same of two drives on another ground, the first ones with these residuals.
+    /// The whitened difference of two drives on another ground, of which the one without the effect
+    /// has these residuals.
     ///
     /// # Errors
     /// Where segments do not match.
@@ -87,7 +85,7 @@ impl Bench {
         with: &Observations,
         without: &Observations,
         residuals: &[Vector3<f64>],
-    ) -> Result<Vec<f64>, String> {
+    ) -> Result<Vec<f64>, Failure> {
         let own = self.observations.segments();
         let matches = |other: &[Observation]| {
             other.len() <= own.len()
@@ -95,17 +93,19 @@ impl Bench {
         };
         let (rows, others) = (with.segments(), without.segments());
         if !(matches(rows) && matches(others)) || rows.len() > others.len() {
-            return Err(format!("{}, {} and {} segments", own.len(), others.len(), rows.len()));
+            let (own, without, with) = (own.len(), others.len(), rows.len());
+            return Err(Failure::Segments { own, without, with });
         }
         let changed = self.residuals(with)?;
         Ok(self.whitened(changed.iter().zip(residuals).map(|(a, b)| a - b).collect()))
     }
 
-    /// Residuals of a drive against the constant ICRs, clock offset and yaw of the sensor that fit it best.
+    /// Residuals of a drive against the constant ICRs, clock offset and yaw of the sensor that fit
+    /// it best.
     ///
     /// # Errors
     /// Where there are none: a robot that hardly turns.
-    pub(crate) fn residuals(&self, of: &Observations) -> Result<Vec<Vector3<f64>>, String> {
+    pub(crate) fn residuals(&self, of: &Observations) -> Result<Vec<Vector3<f64>>, Failure> {
         fitted(of, &self.start, &self.weighting).map(|(_, residuals)| residuals)
     }
 
@@ -120,20 +120,19 @@ impl Bench {
     }
 }
 
-/// The constant ICRs that fit best beside a clock offset and a turned sensor, and their residuals. Large
-/// changes of ICRs and clocks are not linear: they have to be fitted, not projected out.
+/// The constant ICRs that fit best beside a clock offset and a turned sensor, and their residuals.
+/// Large changes of ICRs and clocks are not linear: they have to be fitted, not projected out.
 fn fitted(
     observations: &Observations,
     start: &Parameters,
     weighting: &Weighting,
-) -> Result<(Parameters, Vec<Vector3<f64>>), String> {
+) -> Result<(Parameters, Vec<Vector3<f64>>), Failure> {
     let with_sensor =
         Unknowns { free: Free::Icrs, nuisances: vec![Nuisance::TimeOffset, Nuisance::SensorYaw] };
     let fit = |unknowns: &Unknowns| {
         least_squares(observations, start, unknowns, weighting, Loss::Squares)
     };
-    let estimate = fit(&with_sensor).or_else(|_| fit(&Unknowns::from(Free::Icrs)));
-    let estimate = estimate.map_err(|error| error.to_string())?;
+    let estimate = fit(&with_sensor).or_else(|_| fit(&Unknowns::from(Free::Icrs)))?;
     let (parameters, sensor) = (estimate.parameters, estimate.sensor);
     let at = observations.at(sensor.tau);
     let residuals = at.segments().iter().map(|segment| {
@@ -143,8 +142,8 @@ fn fitted(
     Ok((parameters, residuals.collect()))
 }
 
-/// Derivatives of the motion of constant ICRs, segment by segment, by x_l, x_r, y, α_l, α_r, the clock
-/// offset, the yaw of the sensor and the bias of the gyro.
+/// Derivatives of the motion of constant ICRs, segment by segment, by x_l, x_r, y, α_l, α_r, the
+/// clock offset, the yaw of the sensor and the bias of the gyro.
 fn nuisance_columns(
     observations: &Observations,
     parameters: &Parameters,
@@ -164,7 +163,8 @@ fn nuisance_columns(
     columns
 }
 
-/// Derivative by a constant error of the yaw rate, per rad/s: the way is laid on along the wrong heading.
+/// Derivative by a constant error of the yaw rate, per rad/s: the way is laid on along the wrong
+/// heading.
 fn by_bias(segment: &Observation, parameters: &Parameters, pieces: &[Piece]) -> [f64; 3] {
     let end = |bias: f64| {
         let steps = pieces.iter().map(|piece| {
@@ -173,7 +173,7 @@ fn by_bias(segment: &Observation, parameters: &Parameters, pieces: &[Piece]) -> 
         });
         steps.fold(Pose::default(), |pose, step| pose.compose(&step))
     };
-    let (ahead, behind) = (end(BIAS), end(-BIAS));
-    let quotient = |a: f64, b: f64| (a - b) / (2.0 * BIAS);
+    let (ahead, behind) = (end(BIAS_STEP), end(-BIAS_STEP));
+    let quotient = |a: f64, b: f64| (a - b) / (2.0 * BIAS_STEP);
     [quotient(ahead.x, behind.x), quotient(ahead.y, behind.y), segment.duration]
 }

@@ -53,7 +53,8 @@ pub enum Error {
     },
     /// Scans out of order.
     #[error(
-        "scan {index} is stamped {stamp} s: expected a time after {before} s, that of the scan before"
+        "scan {index} is stamped {stamp} s: expected a time after {before} s, that of the scan \
+         before"
     )]
     Order {
         /// Index of the scan, from 0.

@@ -29,7 +29,8 @@ impl PoseEstimate {
     pub fn compose(&self, b_from_c: &Self) -> Self {
         let pose = self.pose.compose(&b_from_c.pose);
         let (sin, cos) = self.pose.yaw.sin_cos();
-        // δ(a_from_c) = [1 0 −Δy; 0 1 Δx; 0 0 1] δ(a_from_b) + R δ(b_from_c), Δ = place of c from b in a
+        // δ(a_from_c) = [1 0 −Δy; 0 1 Δx; 0 0 1] δ(a_from_b) + R δ(b_from_c), Δ = place of c from b
+        // in a
         let (dx, dy) = (pose.x - self.pose.x, pose.y - self.pose.y);
         let lever = Matrix3::new(1.0, 0.0, -dy, 0.0, 1.0, dx, 0.0, 0.0, 1.0);
         let turn = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);

@@ -1,8 +1,8 @@
 //! The poses of a series of scans.
 //!
 //! Scans are matched against keyframes: a scan stays the reference of those that follow for as long
-//! as they share enough with it. Errors add up from keyframe to keyframe, not from scan to scan, and
-//! stop adding up where the robot comes back to a place that an earlier keyframe saw.
+//! as they share enough with it. Errors add up from keyframe to keyframe, not from scan to scan,
+//! and stop adding up where the robot comes back to a place that an earlier keyframe saw.
 
 use crate::error::{Error, accept, finite};
 use crate::estimate::PoseEstimate;
@@ -73,12 +73,13 @@ pub struct LocalisedPose {
 /// where a match fails or is degenerate.
 ///
 /// # Assumes
-/// Scans as [`Reference::locate`](crate::Reference::locate) does. Errors of matches along a chain of
-/// keyframes are taken as independent; a keyframe that is matched and matched against has errors of
-/// opposite sign in the two, so that the covariance is on the safe side.
+/// Scans as [`Reference::locate`](crate::Reference::locate) does. Errors of matches along a chain
+/// of keyframes are taken as independent; a keyframe that is matched and matched against has errors
+/// of opposite sign in the two, so that the covariance is on the safe side.
 ///
 /// # Errors
-/// [`Error::Odometry`], [`Error::Order`], and [`Error::Value`] for odometry or options that cannot be.
+/// [`Error::Odometry`], [`Error::Order`], and [`Error::Value`] for odometry or options that cannot
+/// be.
 pub fn localise(
     scans: &[Scan],
     odometry: &[Pose],

@@ -5,8 +5,8 @@
 //! about themselves is taken into account exactly: they are unknowns beside the motion, and are
 //! eliminated from the normal equations.
 //!
-//! The match stands on the scans alone. The guess opens the search, and takes the place of the scans
-//! in directions about which they say less than it does.
+//! The match stands on the scans alone. The guess opens the search, and takes the place of the
+//! scans in directions about which they say less than it does.
 
 use crate::error::{Error, positive};
 use crate::estimate::PoseEstimate;
@@ -16,7 +16,6 @@ use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::Pose;
 
 mod association;
-pub(crate) mod beam;
 mod descent;
 mod normal;
 mod observable;
@@ -40,8 +39,8 @@ pub struct Deviation {
 }
 
 impl Default for MatchOptions {
-    /// A laser with 10 mm noise, and the guess of a robot that slips by a third at 1 m/s and 1 rad/s,
-    /// over 0.27 s.
+    /// A laser with 10 mm noise, and the guess of a robot that slips by a third at 1 m/s and 1
+    /// rad/s, over 0.27 s.
     fn default() -> Self {
         Self { range_noise: 0.01, guess: Deviation { position: 0.1, yaw: 0.1 } }
     }
@@ -75,8 +74,8 @@ pub enum Status {
         direction: [f64; 3],
     },
     /// Fewer than half of the returns that look at a known line agree with it, or fewer than a
-    /// quarter of all returns do: the scans do not show the same place, the guess was too far off, or
-    /// there is little that is straight. The motion and its covariance are those of the guess.
+    /// quarter of all returns do: the scans do not show the same place, the guess was too far off,
+    /// or there is little that is straight. The motion and its covariance are those of the guess.
     Unmatched,
     /// The residuals have more than twice the variance that the noise explains: the range noise is
     /// understated, or small steps in the walls were mistaken for each other. The motion and its
@@ -99,8 +98,8 @@ pub struct Match {
     pub candidates: usize,
     /// All returns of the scan.
     pub returns: usize,
-    /// Squared residuals over their variance, per degree of freedom: near 1 where the range noise is
-    /// as stated and the lines are straight.
+    /// Squared residuals over their variance, per degree of freedom: near 1 where the range noise
+    /// is as stated and the lines are straight.
     pub reduced_chi_square: f64,
 }
 
@@ -123,9 +122,9 @@ impl Reference {
     /// [`Error::Value`] for options, or a guess, that cannot be.
     ///
     /// # Sources
-    /// Residuals to lines: Censi, An ICP variant using a point-to-line metric, ICRA 2008. Covariance
-    /// that counts the noise of both scans: Censi, An accurate closed-form estimate of ICP's
-    /// covariance, ICRA 2007. Degenerate directions: Zhang, Kaess and Singh, On degeneracy of
+    /// Residuals to lines: Censi, An ICP variant using a point-to-line metric, ICRA 2008.
+    /// Covariance that counts the noise of both scans: Censi, An accurate closed-form estimate of
+    /// ICP's covariance, ICRA 2007. Degenerate directions: Zhang, Kaess and Singh, On degeneracy of
     /// optimization-based state estimation problems, ICRA 2016.
     pub fn locate(
         &self,

@@ -4,28 +4,13 @@
 //! of a wall has a direction that is worth using, with a covariance that says how much.
 
 use crate::error::{Error, positive};
+use crate::line::Line;
 use crate::scan::{Return, Scan};
-use nalgebra::Matrix2;
 use trackdyn_core::real;
 
 mod curve;
 mod fit;
 mod partition;
-
-/// A straight line n · p = d in the frame of a sensor, with n = (cos θ, sin θ) and d > 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Line {
-    /// Bearing of its normal, away from the sensor, θ, rad.
-    pub angle: f64,
-    /// Distance from the sensor, d, m.
-    pub distance: f64,
-    /// Covariance of (θ, d), in rad², rad m and m².
-    pub covariance: Matrix2<f64>,
-    /// Index of the first beam that surely hits it.
-    pub first_beam: usize,
-    /// Index of the last beam that surely hits it.
-    pub last_beam: usize,
-}
 
 /// The lines of a scan.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,17 +22,17 @@ pub struct Reference {
     line_of_beam: Vec<Option<usize>>,
 }
 
-/// Returns on either end of a piece that do not enter its line: where the piece ends was chosen to
-/// fit best, which biases those next to it.
-const UNSURE: usize = 1;
+/// Number of returns on either end of a piece that do not enter its line: where the piece ends was
+/// chosen to fit best, which biases those next to it.
+const EXCLUDED_END_RETURNS: usize = 1;
 
-/// Fewest returns that enter a line. With fewer, direction and offset say little more than the
-/// returns did.
-const FEWEST: usize = 5;
+/// Smallest number of returns that enter a line. With fewer, direction and offset say little more
+/// than the returns did.
+const MIN_RETURNS: usize = 5;
 
-/// Standard deviation of a direction beyond which a line is none, rad: 3 degrees. The law of a match
+/// Largest standard deviation of the direction of a line, rad: 3 degrees. The law of a match
 /// is linear in the direction for errors much below one radian.
-const VAGUE: f64 = 0.05;
+const MAX_DIRECTION_DEVIATION: f64 = 0.05;
 
 impl Reference {
     /// Finds the lines of a scan, given the standard deviation of its ranges in m.
@@ -59,11 +44,13 @@ impl Reference {
         let returns: Vec<Return> = scan.returns().collect();
         let found: Vec<(Line, &[Return])> = partition::pieces(&returns, range_noise)
             .into_iter()
-            .filter(|piece| piece.len() >= FEWEST + 2 * UNSURE)
+            .filter(|piece| piece.len() >= MIN_RETURNS + 2 * EXCLUDED_END_RETURNS)
             .filter_map(|piece| {
-                let sure = &returns[piece.start + UNSURE..piece.end - UNSURE];
+                let sure =
+                    &returns[piece.start + EXCLUDED_END_RETURNS..piece.end - EXCLUDED_END_RETURNS];
                 let line = fit::line(sure, range_noise)?;
-                (line.covariance[(0, 0)] < VAGUE * VAGUE).then_some((line, sure))
+                (line.covariance[(0, 0)] < MAX_DIRECTION_DEVIATION * MAX_DIRECTION_DEVIATION)
+                    .then_some((line, sure))
             })
             .collect();
         let chord: Vec<bool> = found
@@ -107,7 +94,8 @@ impl Reference {
         *self.line_of_beam.get(self.beam_at(bearing)?)?
     }
 
-    /// Indices of the lines within `window` rad of a bearing, not across the seam of a scan all round.
+    /// Indices of the lines within `window` rad of a bearing, not across the seam of a scan all
+    /// round.
     pub(crate) fn lines_around(&self, bearing: f64, window: f64) -> std::ops::Range<usize> {
         let Some(beam) = self.beam_at(bearing) else { return 0..0 };
         let reach = to_index(window / self.angle_step);

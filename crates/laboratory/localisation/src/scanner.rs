@@ -12,8 +12,8 @@ use trackdyn_core::Pose;
 /// A planar laser and where it sits on the robot.
 ///
 /// # Law
-/// range = distance to the first segment + `range_noise` · ε, ε standard normal and independent from
-/// beam to beam.
+/// range = distance to the first segment + `range_noise` · ε, ε standard normal and independent
+/// from beam to beam.
 ///
 /// # Assumes
 /// Beams without width, segments that reflect from every angle, a level robot.
@@ -147,7 +147,8 @@ mod tests {
         let robot_from_sensor = Pose::new(0.4, -0.1, FRAC_PI_2);
         let mounted = Scanner { robot_from_sensor, range_noise: 0.0, ..Scanner::default() };
         let scan = mounted.scan(&Room::furnished(), 0.0, 0, middle).expect("a scan");
-        // Beam 0 looks along the robot's x axis, from (5.4, 3.9): into the corridor, whose end is 8.1 m away.
+        // Beam 0 looks along the robot's x axis, from (5.4, 3.9): into the corridor, whose end is
+        // 8.1 m away.
         assert_eq!(scan.ranges()[0], f64::INFINITY);
         // Beam 180 looks along y to the far wall at y = 8.
         assert!((scan.ranges()[180] - 4.1).abs() < 1e-12);

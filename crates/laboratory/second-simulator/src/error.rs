@@ -1,6 +1,5 @@
 //! What cannot be simulated.
 
-use crate::mechanisms::MECHANISMS;
 use crate::sheet::{Parameter, Sheet};
 use trackdyn_model::VehicleError;
 
@@ -9,8 +8,13 @@ use trackdyn_model::VehicleError;
 #[non_exhaustive]
 pub enum Error {
     /// No mechanism of this id.
-    #[error("no mechanism \"{0}\": expected one of {ids}", ids = ids())]
-    UnknownMechanism(String),
+    #[error("no mechanism \"{id}\": expected one of {known}")]
+    UnknownMechanism {
+        /// The id that was asked for.
+        id: String,
+        /// Those that there are, separated by commas.
+        known: String,
+    },
     /// No such parameter.
     #[error("{} has no parameter \"{key}\"; it has {}", sheet.id, sheet.keys())]
     UnknownParameter {
@@ -43,7 +47,7 @@ pub enum Error {
     /// Text that does not name a mechanism.
     #[error("\"{0}\": expected ID or ID:PARAMETER=VALUE,...")]
     Malformed(String),
-    /// The same mechanism twice.
+    /// A mechanism that is switched on twice.
     #[error("{0} is switched on twice")]
     Repeated(&'static str),
     /// A vehicle that cannot be.
@@ -59,9 +63,4 @@ pub enum Error {
         /// What was expected.
         expected: &'static str,
     },
-}
-
-/// The ids of all mechanisms.
-fn ids() -> String {
-    MECHANISMS.iter().map(|sheet| sheet.id).collect::<Vec<_>>().join(", ")
 }

@@ -1,10 +1,10 @@
 //! Belts as moving shoes.
 //!
-//! A contact is cut lengthwise into strips and each strip into shoes, which travel with the belt: they
-//! come to the ground at one end of the contact undeflected and leave it at the other. A shoe that
-//! stands across an end carries on the part that is inside. The strips' widths and the shoes' phases are
-//! random, so that no grid is aligned with the motion; since each strip and shoe acts at its own middle,
-//! area and first moments are exact whatever the draw.
+//! A contact is cut lengthwise into strips and each strip into shoes, which travel with the belt:
+//! they come to the ground at one end of the contact undeflected and leave it at the other. A shoe
+//! that stands across an end carries on the part that is inside. The strips' widths and the shoes'
+//! phases are random, so that no grid is aligned with the motion; since each strip and shoe acts at
+//! its own middle, area and first moments are exact whatever the draw.
 
 mod bed;
 mod strip;
@@ -73,8 +73,8 @@ impl Gear {
         }
     }
 
-    /// Spreads a side's load (N) with its centre of pressure at y (m) over the shoes, through springs of
-    /// the given relative stiffness at (y, ends of the contact there).
+    /// Spreads a side's load (N) with its centre of pressure at y (m) over the shoes, through
+    /// springs of the given relative stiffness at (y, ends of the contact there).
     ///
     /// # Errors
     /// A centre of pressure beyond what the contacts reach.

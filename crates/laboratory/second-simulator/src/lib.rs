@@ -1,15 +1,16 @@
-//! An independent simulator of tracked robots in time: the ground on which the diagnosis has to prove
-//! itself.
+//! An independent simulator of tracked robots in time: the ground on which the diagnosis has to
+//! prove itself.
 //!
-//! A diagnosis that is tried on data of its own simulator proves that it can undo itself. So this crate
-//! shares nothing with `trackdyn-model` and the laws of `trackdyn-model`: of the latter it takes the
-//! description of a vehicle and the names of effects. No crate that diagnoses may depend on it; a
-//! conformance test reads the manifests.
+//! A diagnosis that is tried on data of its own simulator proves that it can undo itself. So this
+//! crate shares nothing with `trackdyn-model` and the laws of `trackdyn-model`: of the latter it
+//! takes the description of a vehicle and the names of effects. No crate that diagnoses may depend
+//! on it; a conformance test reads the manifests.
 //!
-//! - [`Robot`]: Newton's law for a rigid body whose tracks stand on the ground with shoes that stick,
-//!   deflect and slip; a [`Plant`](trackdyn_core::Plant).
-//! - [`mechanism`]: what a mechanism can touch; [`mechanisms`]: all of them, one file each, with other
-//!   functional forms than the catalogue's where there are any, and some that no catalogue has.
+//! - [`Robot`]: Newton's law for a rigid body whose tracks stand on the ground with shoes that
+//!   stick, deflect and slip; a [`Plant`](trackdyn_core::Plant).
+//! - [`mechanism`]: what a mechanism can touch; [`mechanisms`]: all of them, one file each, with
+//!   other functional forms than the catalogue's where there are any, and some that no catalogue
+//!   has.
 //! - [`gear`]: belts as moving shoes, and what each of them carries.
 //!
 //! Bodies are described in the paper's frame (x right, y forward), the world in REP-103.
@@ -24,4 +25,4 @@ pub mod sheet;
 pub use error::Error;
 pub use mechanisms::{ActiveMechanism, MECHANISMS, sheet_of};
 pub use robot::{Robot, Setup};
-pub use sheet::{Invariance, Origin, Parameter, Sheet};
+pub use sheet::{Origin, Parameter, Sheet, Symmetry};

@@ -7,8 +7,8 @@ use crate::sheet::Sheet;
 
 /// Physics of the simulated robot, its ground or its sensors, that may be switched on.
 ///
-/// A hook adds to or multiplies what it is given. Hooks see the state at the start of a step, or a trial
-/// of its end; they do not change the mechanism. What a mechanism remembers it updates in
+/// A hook adds to or multiplies what it is given. Hooks see the state at the start of a step, or a
+/// trial of its end; they do not change the mechanism. What a mechanism remembers it updates in
 /// [`Mechanism::advance`], once for every step that is taken.
 pub trait Mechanism: std::fmt::Debug + Send + Sync {
     /// Changes the machine before it is put on the ground.
@@ -17,8 +17,8 @@ pub trait Mechanism: std::fmt::Debug + Send + Sync {
     /// What follows Newton's law beyond the quasi-static balance.
     fn inertia(&self, _inertia: &mut Inertia) {}
 
-    /// Mean speeds of the sprockets as speeds of their belts, m/s, in a step of `dt` seconds, from what the encoders
-    /// show.
+    /// Mean speeds of the sprockets as speeds of their belts, m/s, in a step of `dt` seconds, from
+    /// what the encoders show.
     fn drive(&self, _scene: &Scene, _dt: f64, _sprocket: &mut PerSide<f64>) {}
 
     /// Whether belts slip on their sprockets ([`Mechanism::slip`]).
@@ -26,8 +26,8 @@ pub trait Mechanism: std::fmt::Debug + Send + Sync {
         false
     }
 
-    /// Mean part of its sprocket's speed that a belt loses in a step of `dt` seconds, with this traction over load in the sense
-    /// of the sprocket.
+    /// Mean part of its sprocket's speed that a belt loses in a step of `dt` seconds, with this
+    /// traction over load in the sense of the sprocket.
     fn slip(&self, _side: Side, _traction: f64, _dt: f64) -> f64 {
         0.0
     }
@@ -41,8 +41,8 @@ pub trait Mechanism: std::fmt::Debug + Send + Sync {
     /// Where the weight acts.
     fn load(&self, _scene: &Scene, _load: &mut Load) {}
 
-    /// Relative stiffness of the running gear above a point of a contact that reaches from `extent[0]` to
-    /// `extent[1]` along y, m.
+    /// Relative stiffness of the running gear above a point of a contact that reaches from
+    /// `extent[0]` to `extent[1]` along y, m.
     fn bed(&self, _y: f64, _extent: [f64; 2], _stiffness: &mut f64) {}
 
     /// Friction coefficients μ_x and μ_y under a shoe.
@@ -54,7 +54,8 @@ pub trait Mechanism: std::fmt::Debug + Send + Sync {
     /// Force along the track that holds a shoe's frame back, beside what the belt delivers, N.
     fn resistance(&self, _contact: &Contact, _force: &mut f64) {}
 
-    /// Friction, traction and resistance of many shoes: one call, in which those of a mechanism are inlined.
+    /// Friction, traction and resistance of many shoes: one call, in which those of a mechanism are
+    /// inlined.
     fn act(&self, contacts: &[Contact], shoes: &mut [Acting]) {
         for (contact, Acting { mu, force, resistance }) in contacts.iter().zip(shoes) {
             self.friction(contact, mu);
@@ -135,7 +136,8 @@ pub struct Scene<'a> {
     pub twist: Twist,
     /// Speeds that the encoders show during the step, m/s.
     pub encoder: PerSide<f64>,
-    /// Mean speeds of the sprockets as speeds of their belts, m/s; those of the step before in the stage `drive`.
+    /// Mean speeds of the sprockets as speeds of their belts, m/s; those of the step before in the
+    /// stage `drive`.
     pub sprocket: PerSide<f64>,
     /// Shear force of the ground along each track in the step before, forward positive, N.
     pub traction: PerSide<f64>,
@@ -185,8 +187,8 @@ pub struct Contact<'a> {
     pub extent: [f64; 2],
     /// Slip velocity over the ground, paper's axes, m/s.
     pub slip: [f64; 2],
-    /// Deflection over its elastic range: the slip direction where the shoe slides, shorter where it
-    /// sticks.
+    /// Deflection over its elastic range: the slip direction where the shoe slides, shorter where
+    /// it sticks.
     pub deflection: [f64; 2],
     /// Way that it has slid since it came to the ground, until the middle of the step, m.
     pub slid: f64,

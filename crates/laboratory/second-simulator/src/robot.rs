@@ -11,21 +11,21 @@ use crate::gear::Gear;
 use crate::mechanism::{Gravity, Inertia, Load, Mechanism, Scene, Step};
 use crate::mechanisms::ActiveMechanism;
 use balance::{Balance, Trial};
-use newton::{FIRM, Newton, SLIPPING};
+use newton::{Newton, SLIPPING_BELT_UNKNOWNS, TWIST_UNKNOWNS};
 use trackdyn_core::{
     Moment, PerSide, Plant, Pose, STANDARD_GRAVITY, Side, Stopped, Trajectory, Twist, frames,
 };
 use trackdyn_model::Vehicle;
 
-/// Step below which the motion is given up, s.
-const GIVE_UP: f64 = 1e-7;
+/// Shortest step, s. A motion that needs a shorter one is given up.
+const MIN_STEP: f64 = 1e-7;
 
 /// A simulated robot.
 ///
 /// # Law
 /// `m (v' + ω × v) = F`, `I ω' = M` at the centre of gravity, with friction, gravity and what the
-/// mechanisms add; eqs (14)-(15) are its quasi-static case. Mass is in the terms of inertia only as far
-/// as mechanisms put it there; [`Setup::residual_mass`] of it remains.
+/// mechanisms add; eqs (14)-(15) are its quasi-static case. Mass is in the terms of inertia only as
+/// far as mechanisms put it there; [`Setup::residual_mass`] of it remains.
 ///
 /// # Sources
 /// Martinez et al., IJRR 24(10), 2005, eqs (14)-(15), (22)-(23).
@@ -37,8 +37,8 @@ pub struct Robot {
     inertia: Inertia,
     gear: Gear,
     trial: Gear,
-    firm: Newton<FIRM>,
-    slipping: Newton<SLIPPING>,
+    firm: Newton<TWIST_UNKNOWNS>,
+    slipping: Newton<SLIPPING_BELT_UNKNOWNS>,
     t: f64,
     step: f64,
     pose: Pose,
@@ -134,8 +134,8 @@ impl Robot {
         transient * self.vehicle.mass * (v_x * v_x + v_y * v_y + spin * spin) / 2.0
     }
 
-    /// Makes the next step such that speeds change by what the setup wants, after a change by `change` (m/s); by a
-    /// factor within these limits.
+    /// Makes the next step such that speeds change by what the setup wants, after a change by
+    /// `change` (m/s); by a factor within these limits.
     fn adapt(&mut self, change: f64, [least, most]: [f64; 2]) {
         let factor = self.setup.speed_change / change.max(f64::MIN_POSITIVE);
         self.step = (self.step * factor.clamp(least, most))
@@ -269,7 +269,7 @@ impl Plant for Robot {
                 }
                 Err(reason) => {
                     self.step = dt / 4.0;
-                    if self.step < GIVE_UP {
+                    if self.step < MIN_STEP {
                         return Err(Stopped { t: self.t, reason });
                     }
                 }

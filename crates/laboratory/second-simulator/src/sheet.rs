@@ -1,4 +1,11 @@
-//! What a reader sees of a mechanism.
+//! What a reader, and a blind trial, see of a mechanism.
+
+mod draw;
+mod trial;
+
+pub use draw::{Anchor, Draw, Role, Scale};
+pub use trackdyn_model::effect::Symmetry;
+pub use trial::{Concealment, Filed, Identifiability, InstrumentError, Trial};
 
 /// Description of a mechanism and its parameters.
 #[derive(Debug, PartialEq)]
@@ -11,8 +18,13 @@ pub struct Sheet {
     pub law: &'static str,
     /// How its size compares with that of the catalogue's law, or where it stems from.
     pub size: &'static str,
-    /// Invariances of the ICR triple that it breaks.
-    pub breaks: &'static [Invariance],
+    /// Whether its parameters mean what those of the catalogue's law mean, so that an estimate by
+    /// the one can be compared with the value of the other.
+    pub shares_size: bool,
+    /// Symmetries of the ICR triple that it breaks.
+    pub breaks: &'static [Symmetry],
+    /// What a blind trial does with it.
+    pub trial: Trial,
     /// Parameters, in the order in which the law takes them.
     pub parameters: &'static [Parameter],
 }
@@ -21,6 +33,23 @@ impl Sheet {
     /// The keys of the parameters, separated by commas.
     pub fn keys(&self) -> String {
         self.parameters.iter().map(|parameter| parameter.key).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The parameter of this key.
+    pub fn parameter(&self, key: &str) -> Option<&'static Parameter> {
+        self.parameters.iter().find(|parameter| parameter.key == key)
+    }
+
+    /// Whether it belongs to the class of constants: effects that move the constant ICRs and
+    /// nothing else. ICRs that are constant break the mirror alone, where they lie unevenly.
+    pub fn is_constant(&self) -> bool {
+        self.origin == Origin::Catalogue
+            && self.breaks.iter().all(|broken| *broken == Symmetry::Mirror)
+    }
+
+    /// Whether it is an error of an instrument.
+    pub fn is_instrument(&self) -> bool {
+        matches!(self.trial, Trial::Instrument(_))
     }
 }
 
@@ -44,57 +73,6 @@ pub struct Parameter {
     pub range: [f64; 2],
     /// A size that a roboticist may meet.
     pub typical: f64,
-}
-
-/// An invariance that the ICR triple (x_l, x_r, y) has where nothing is missing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Invariance {
-    /// S: all speeds scaled by one factor.
-    SpeedScale,
-    /// R: all speeds reversed.
-    Reversal,
-    /// P: same-sign arc, counter-rotation, spin.
-    Manoeuvre,
-    /// M: left and right exchanged.
-    Mirror,
-    /// H: turned to another heading.
-    Heading,
-    /// X: moved to another place.
-    Place,
-    /// T: driven at another time.
-    Time,
-    /// D: speeds that change.
-    Transient,
-    /// 0: equal speeds lead straight ahead.
-    Straight,
-}
-
-impl Invariance {
-    /// All of them, in the order of tables.
-    pub const ALL: [Self; 9] = [
-        Self::SpeedScale,
-        Self::Reversal,
-        Self::Manoeuvre,
-        Self::Mirror,
-        Self::Heading,
-        Self::Place,
-        Self::Time,
-        Self::Transient,
-        Self::Straight,
-    ];
-
-    /// The letter that tables use.
-    pub fn letter(self) -> char {
-        match self {
-            Self::SpeedScale => 'S',
-            Self::Reversal => 'R',
-            Self::Manoeuvre => 'P',
-            Self::Mirror => 'M',
-            Self::Heading => 'H',
-            Self::Place => 'X',
-            Self::Time => 'T',
-            Self::Transient => 'D',
-            Self::Straight => '0',
-        }
-    }
+    /// How a blind trial draws its value.
+    pub draw: Draw,
 }

@@ -23,13 +23,16 @@ pub struct Options {
 /// The steps of a trial.
 #[derive(Subcommand)]
 enum Step {
-    /// Make cases: recordings on the independent ground with concealed physics, and the sealed answers
+    /// Make cases: recordings on the independent ground with concealed physics, and the answers
+    /// apart from them
     Make(make::Options),
-    /// Diagnose the cases, each by a process of its own that gets the recording and the vehicle only
+    /// Diagnose the cases, each by a process of its own that gets the recording and the vehicle
+    /// only
     Run(run::Options),
     /// Check the commitment, open the answers and score the diagnoses
     Score(score::Options),
-    /// Drive what is planned for ambiguous diagnoses on their concealed ground, and score what it resolves
+    /// Drive what is planned for ambiguous diagnoses on their concealed ground, and score what it
+    /// resolves
     Drive(drive::Options),
 }
 
@@ -57,7 +60,7 @@ fn key_file(asked: Option<&Path>, trial: &Path) -> Result<PathBuf, Box<dyn std::
     Ok(trial.with_file_name(name))
 }
 
-/// The same of a trial whose answers are to be opened: the key is there.
+/// The key of a trial whose answers are to be opened: it has to be there.
 fn key_to_open(asked: Option<&Path>, trial: &Path) -> Result<PathBuf, Box<dyn std::error::Error>> {
     let key = key_file(asked, trial)?;
     if asked.is_none() && !key.exists() {

@@ -5,7 +5,7 @@ use crate::base::Base;
 use crate::candidate::{Beside, candidates};
 use crate::corrected::{correct, corrected, sure};
 use crate::error::Error;
-use crate::evidence::{Evidence, FEWEST};
+use crate::evidence::{Evidence, FEWEST, Origin};
 use crate::exposure::Exposure;
 use crate::fit::Fit;
 use crate::held_out::{errors, judged as judged_by_unseen};
@@ -19,6 +19,7 @@ use crate::uncertainty::{Interval, Level, Uncertainty};
 use crate::verdict::{
     Constants, Rules, Verdict, judge, judge_constants, judge_instruments, refuse_unsure,
 };
+use crate::weighted::Weighted;
 use std::collections::BTreeSet;
 use trackdyn_model::EffectId;
 use trackdyn_model::VehicleFile;
@@ -40,8 +41,9 @@ pub fn diagnose(
     let held_out: Vec<bool> =
         (0..evidence.runs().len()).map(|run| options.held_out.contains(&run)).collect();
     let seen: Vec<bool> = held_out.iter().map(|held_out| !held_out).collect();
-    let (mut unseen, mut evidence) = (evidence.of_runs(&held_out), evidence.of_runs(&seen));
-    if evidence.samples().len() < FEWEST && !evidence.is_steady() {
+    let (mut unseen, evidence) = (evidence.of_runs(&held_out), evidence.of_runs(&seen));
+    let mut evidence = Weighted::new(evidence);
+    if evidence.samples().len() < FEWEST && matches!(evidence.origin(), Origin::Drive(_)) {
         let durations = evidence.samples().iter().map(|sample| sample.duration);
         return Err(Error::too_few_segments(durations, FEWEST));
     }
@@ -50,6 +52,7 @@ pub fn diagnose(
     }
     let base = Base::new(file, &evidence);
     if let Some(reason) = base.as_filed.mechanics.failure() {
+        let reason = reason.to_owned();
         return Err(Error::NoMotion(reason));
     }
     if !turns(&base.as_filed) {
@@ -64,7 +67,7 @@ pub fn diagnose(
         [&Evidence::with_regular_stamps, &between_ticks];
     for cleaned in cleanings {
         let base = base.refitted(&evidence);
-        let tried = cleaned(&evidence);
+        let tried = evidence.with_readings(cleaned);
         let again = base.refitted(&tried);
         if again.fit.objective < base.fit.objective + CLEANED {
             evidence = with_remaining_noise(&tried, &again.fit);
@@ -126,7 +129,7 @@ const CLEANED: f64 = 4.0;
 const TOLERATED: f64 = 1.1;
 
 fn attempt(
-    evidence: &Evidence,
+    evidence: &Weighted,
     file: &VehicleFile,
     options: &Options,
     base: Base,

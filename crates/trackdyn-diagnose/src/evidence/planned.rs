@@ -1,6 +1,6 @@
 //! Evidence of driving that is planned: what a drive would show.
 
-use super::{Evidence, Sample, Whitening};
+use super::{Evidence, Origin, Sample};
 use nalgebra::Vector3;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_estimate::weighting::SegmentNoise;
@@ -37,23 +37,17 @@ impl Evidence {
             samples.extend(samples_of(index, run, blocks, tau));
             blocks += run.blocks.len();
         }
-        let mut evidence = Self {
-            samples,
+        let still = Self {
+            samples: samples.into(),
             tracks: runs.iter().map(|run| run.tracks.clone()).collect(),
-            whitening: Whitening::Points(Vec::new()),
-            scale: [1.0; 3],
             blocks,
             runs: (0..).take(runs.len()).collect(),
             tau,
-            is_steady: false,
+            origin: Origin::Drive(noise),
             description: format!("{blocks} planned manoeuvres"),
         };
-        for _ in 0..2 {
-            let motions = moves(&evidence);
-            evidence.place(runs, &motions);
-        }
-        evidence.whitening = Whitening::of(noise, &evidence.samples);
-        evidence
+        let first = still.moved(runs, &moves(&still));
+        first.moved(runs, &moves(&first))
     }
 
     /// The pose at which the last sample of a run ends.
@@ -62,17 +56,19 @@ impl Evidence {
         Some(last.pose.compose(&pose(&last.motion)))
     }
 
-    fn place(&mut self, runs: &[PlannedRun], motions: &[Vector3<f64>]) {
+    /// What it would be with these motions of the samples, one after the other from where each run begins.
+    fn moved(&self, runs: &[PlannedRun], motions: &[Vector3<f64>]) -> Self {
         let mut at = Pose::default();
         let mut run = None;
-        for (sample, motion) in self.samples.iter_mut().zip(motions) {
+        let samples = self.samples.iter().zip(motions).map(|(sample, motion)| {
             if run.replace(sample.run) != Some(sample.run) {
                 at = runs[sample.run].pose;
             }
-            sample.pose = at;
-            sample.motion = *motion;
+            let moved = Sample { pose: at, motion: *motion, ..*sample };
             at = at.compose(&pose(motion));
-        }
+            moved
+        });
+        Self { samples: samples.collect(), ..self.clone() }
     }
 }
 

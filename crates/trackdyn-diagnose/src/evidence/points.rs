@@ -1,6 +1,6 @@
 //! Evidence of tables of steady motion.
 
-use super::{Evidence, Sample, Whitening};
+use super::{Evidence, Origin, Sample};
 use crate::error::Error;
 use nalgebra::Vector3;
 use trackdyn_core::{PerSide, Pose};
@@ -69,14 +69,12 @@ impl Evidence {
         }
         let list = scatter.map(|scatter| scatter.map_or("-".to_owned(), |s| format!("{s:.4}")));
         Ok(Self {
-            samples,
+            samples: samples.into(),
             tracks,
-            whitening: Whitening::Points(inverse),
-            scale: [1.0; 3],
             blocks,
             runs: (0..).take(points.len()).collect(),
             tau: 0.0,
-            is_steady: true,
+            origin: Origin::SteadyPoints(inverse.into()),
             description: format!(
                 "{} steady points in {blocks} blocks of neighbours in the table; scatter against \
                  neighbours on lines of one track speed: {} m/s forward, {} m/s left, {} rad/s",

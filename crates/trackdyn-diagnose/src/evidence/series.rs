@@ -1,18 +1,19 @@
 //! Evidence of recordings of driving.
 
-use super::{Evidence, Sample, Whitening};
+use super::{Evidence, Origin, Sample};
 use crate::error::Error;
 use nalgebra::Vector3;
 use std::borrow::Cow;
 use trackdyn_core::{PerSide, Pose};
+use trackdyn_estimate::blocks::Blocks;
 use trackdyn_estimate::noise::{Noise, noise};
-use trackdyn_estimate::observations::Observations;
+use trackdyn_estimate::observations::{Observation, Observations, Piece};
 use trackdyn_estimate::regular::with_regular_poses;
 use trackdyn_estimate::spin_test;
 use trackdyn_estimate::thinned::with_readings_every;
 use trackdyn_estimate::weighting::{MIN_POSE_NOISE, SegmentNoise};
 use trackdyn_estimate::{Clock, SegmentOptions};
-use trackdyn_recording::{Recording, TrackSample};
+use trackdyn_recording::{Recording, Run, TrackSample};
 
 /// How far a fitted clock offset may go beyond the one that the recording shows by itself, s.
 const TAU_MARGIN: f64 = 0.15;
@@ -35,84 +36,117 @@ impl Evidence {
     /// # Errors
     /// Too few segments, no noise measured or stated, or poses far from the origin of their frame.
     pub fn of_recording(recording: &Recording, gauge: f64) -> Result<Self, Error> {
-        let poses = recording.runs().iter().flat_map(trackdyn_recording::Run::poses);
-        let along = |at: &Pose| at.x.abs().max(at.y.abs());
-        let found = poses.map(|sample| along(&sample.pose)).fold(0.0, f64::max);
-        if found > FARTHEST {
-            return Err(Error::FarFromOrigin { found, largest: FARTHEST });
-        }
-        let recording = &*with_readings_every(recording, SHORTEST);
-        let clock = Clock::of(recording, None);
-        let tau = clock.tau();
-        let (recording, measured) = quieter(recording, tau);
-        let recording = &*recording;
-        // Cut so that readings are there for every offset from none at all to beyond that of the clock.
-        let options = SegmentOptions {
-            tau: tau / 2.0,
-            tau_margin: tau.abs() / 2.0 + TAU_MARGIN,
-            ..SegmentOptions::default()
-        };
-        let observations = Observations::new(recording, &options).at(tau);
-        if observations.len() < FEWEST {
-            let durations = observations.segments().iter().map(|segment| segment.duration);
-            return Err(Error::too_few_segments(durations, FEWEST));
-        }
-        let gap = spin_test(&observations, gauge).map_or(1.5 * gauge, |spin| spin.gap);
-        let stated = recording.stated_noise().map(SegmentNoise::stated);
-        let noise = SegmentNoise::measured(&measured, gap).or(stated).ok_or(Error::NoNoise)?;
+        check_places(recording)?;
+        let recording = with_readings_every(recording, SHORTEST);
+        let tau = Clock::of(&recording, None).tau();
+        let (recording, measured) = quieter(&recording, tau);
+        let observations = segments(&recording, tau)?;
+        let noise = noise_of_segments(&recording, &measured, &observations, gauge)?;
         let blocks = observations.blocks();
-        let tracks = recording.runs().iter().map(|run| run.tracks().to_vec());
-        let mut tracks: Vec<Vec<TrackSample>> = tracks.collect();
-        // Time is that of the recording: laws that know it begin where it begins, whatever its clock shows.
-        let first = tracks.iter().flatten().fold(f64::INFINITY, |first, track| first.min(track.t));
-        let origin = first.floor();
-        tracks.iter_mut().flatten().for_each(|track| track.t -= origin);
-        let mut samples = Vec::with_capacity(observations.len());
-        for segment in observations.segments() {
-            let run = &recording.runs()[segment.run];
-            let first = run.poses().partition_point(|pose| pose.t < segment.start);
-            let travelled = observations.travelled(segment);
-            let pieces = observations.pieces(segment);
-            let change = |speed: fn(&trackdyn_estimate::observations::Piece) -> f64| {
-                let (first, last) =
-                    (pieces.first().map_or(0.0, speed), pieces.last().map_or(0.0, speed));
-                (last - first) / segment.duration
-            };
-            samples.push(Sample {
-                run: segment.run,
-                block: blocks.of(segment.run, segment.start).unwrap_or(0),
-                start: segment.start - origin,
-                duration: segment.duration,
-                motion: Vector3::from(segment.motion),
-                pose: run.poses().get(first).map_or(Pose::default(), |sample| sample.pose),
-                speeds: travelled.map(|distance| distance / segment.duration),
-                acceleration: PerSide::new(
-                    change(|piece| piece.v_left),
-                    change(|piece| piece.v_right),
-                ),
-                follows: segment.follows,
-            });
-        }
-        for (run, tracks) in tracks.iter_mut().enumerate() {
-            if !samples.iter().any(|sample| sample.run == run) {
-                tracks.clear();
-            }
-        }
+        let begin = begin(&recording);
+        let samples = samples(&recording, &observations, &blocks, begin);
         Ok(Self {
-            whitening: Whitening::of(noise, &samples),
-            scale: [1.0; 3],
-            samples,
-            tracks,
+            tracks: tracks(&recording, &samples, begin),
+            samples: samples.into(),
             blocks: blocks.count(),
-            runs: recording.runs().iter().map(trackdyn_recording::Run::id).collect(),
+            runs: recording.runs().iter().map(Run::id).collect(),
             tau,
-            is_steady: false,
+            origin: Origin::Drive(noise),
             description: format!(
                 "{}; noise measured on what driving cannot explain",
                 blocks.description()
             ),
         })
     }
+}
+
+/// Whether all poses lie where places are looked for.
+fn check_places(recording: &Recording) -> Result<(), Error> {
+    let poses = recording.runs().iter().flat_map(Run::poses);
+    let along = |at: &Pose| at.x.abs().max(at.y.abs());
+    let found = poses.map(|sample| along(&sample.pose)).fold(0.0, f64::max);
+    if found > FARTHEST {
+        return Err(Error::FarFromOrigin { found, largest: FARTHEST });
+    }
+    Ok(())
+}
+
+/// Its segments with a clock offset of `tau` (s), cut so that readings are there for every offset from none at all to
+/// beyond that one.
+fn segments(recording: &Recording, tau: f64) -> Result<Observations, Error> {
+    let options = SegmentOptions {
+        tau: tau / 2.0,
+        tau_margin: tau.abs() / 2.0 + TAU_MARGIN,
+        ..SegmentOptions::default()
+    };
+    let observations = Observations::new(recording, &options).at(tau);
+    if observations.len() < FEWEST {
+        let durations = observations.segments().iter().map(|segment| segment.duration);
+        return Err(Error::too_few_segments(durations, FEWEST));
+    }
+    Ok(observations)
+}
+
+/// Noise of the segments: measured, or else as the maker of the recording states it.
+fn noise_of_segments(
+    recording: &Recording,
+    measured: &Noise,
+    observations: &Observations,
+    gauge: f64,
+) -> Result<SegmentNoise, Error> {
+    let gap = spin_test(observations, gauge).map_or(1.5 * gauge, |spin| spin.gap);
+    let stated = recording.stated_noise().map(SegmentNoise::stated);
+    SegmentNoise::measured(measured, gap).or(stated).ok_or(Error::NoNoise)
+}
+
+/// When the recording begins, in whole seconds of its clock. Time is counted from there: laws that know it begin where the
+/// recording begins, whatever its clock shows.
+fn begin(recording: &Recording) -> f64 {
+    let readings = recording.runs().iter().flat_map(Run::tracks);
+    readings.fold(f64::INFINITY, |first, track| first.min(track.t)).floor()
+}
+
+/// A sample of each segment, with times that are counted from where the recording begins.
+fn samples(
+    recording: &Recording,
+    observations: &Observations,
+    blocks: &Blocks,
+    begin: f64,
+) -> Vec<Sample> {
+    let sample = |segment: &Observation| {
+        let run = &recording.runs()[segment.run];
+        let first = run.poses().partition_point(|pose| pose.t < segment.start);
+        let travelled = observations.travelled(segment);
+        let pieces = observations.pieces(segment);
+        let change = |speed: fn(&Piece) -> f64| {
+            let (first, last) =
+                (pieces.first().map_or(0.0, speed), pieces.last().map_or(0.0, speed));
+            (last - first) / segment.duration
+        };
+        Sample {
+            run: segment.run,
+            block: blocks.of(segment.run, segment.start).unwrap_or(0),
+            start: segment.start - begin,
+            duration: segment.duration,
+            motion: Vector3::from(segment.motion),
+            pose: run.poses().get(first).map_or(Pose::default(), |sample| sample.pose),
+            speeds: travelled.map(|distance| distance / segment.duration),
+            acceleration: PerSide::new(change(|piece| piece.v_left), change(|piece| piece.v_right)),
+            follows: segment.follows,
+        }
+    };
+    observations.segments().iter().map(sample).collect()
+}
+
+/// The readings of each run that has samples, with times that are counted from where the recording begins.
+fn tracks(recording: &Recording, samples: &[Sample], begin: f64) -> Vec<Vec<TrackSample>> {
+    let of_run = |(run, of): (usize, &Run)| {
+        if !samples.iter().any(|sample| sample.run == run) {
+            return Vec::new();
+        }
+        of.tracks().iter().map(|track| TrackSample { t: track.t - begin, ..*track }).collect()
+    };
+    recording.runs().iter().enumerate().map(of_run).collect()
 }
 
 /// The recording and its noise, with poses at the times at which they were due if these are less noisy: what is

@@ -2,9 +2,10 @@
 
 use super::IcrColumns;
 use super::contrasts::Manoeuvre;
-use crate::evidence::{Evidence, Sample};
+use crate::evidence::Sample;
 use crate::huber;
 use crate::normal::{Columns, Normal, Prior};
+use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use trackdyn_core::real;
 
@@ -29,7 +30,7 @@ pub struct Cell {
 }
 
 /// The cells with enough turning.
-pub fn cells(evidence: &Evidence, residual: &[Vector3<f64>], icrs: &IcrColumns) -> Vec<Cell> {
+pub fn cells(evidence: &Weighted, residual: &[Vector3<f64>], icrs: &IcrColumns) -> Vec<Cell> {
     let samples = evidence.samples();
     let fast = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs());
     let mut speeds: Vec<f64> = samples.iter().map(fast).filter(|speed| *speed > 0.0).collect();

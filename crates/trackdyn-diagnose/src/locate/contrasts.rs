@@ -6,7 +6,7 @@
 
 use super::departures::{Contrasts, middle_half_y};
 use super::{IcrColumns, past};
-use crate::evidence::{Evidence, Sample};
+use crate::evidence::{Evidence, Origin, Sample};
 use nalgebra::Vector3;
 use trackdyn_core::{PerSide, Side};
 use trackdyn_model::effect::Symmetry;
@@ -67,7 +67,7 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Contrasts> {
     let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
     collector.of_speed_and_direction(fastest);
     collector.of_straight_driving();
-    if evidence.is_steady() {
+    if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
         return collector.all;
     }
     collector.of_heading();

@@ -10,10 +10,11 @@
 
 use super::IcrColumns;
 use super::departures::middle_half_y;
-use crate::evidence::{Evidence, Sample};
+use crate::evidence::{Evidence, Origin, Sample};
 use crate::huber;
 use crate::resampling::Resampling;
 use crate::significance::{Group, Test, test_family};
+use crate::weighted::Weighted;
 use nalgebra::{DMatrix, DVector, Vector2, Vector3};
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -44,23 +45,23 @@ const FINENESS: f64 = 1.3;
 ///
 /// `residual` and the columns `beside` are whitened, `icrs` are not.
 pub fn strongest_wave(
-    evidence: &Evidence,
+    evidence: &Weighted,
     residual: &[Vector3<f64>],
     beside: &[Vec<Vector3<f64>>],
     icrs: &IcrColumns,
     resampling: Resampling,
 ) -> Option<Wave> {
-    if evidence.is_steady() {
+    if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
         return None;
     }
     let numbers = numbers(evidence);
-    let weighted = Weighted::new(evidence, residual, beside);
+    let remainder = Remainder::new(evidence, residual, beside);
     let departures = middle_half_y(icrs);
     let groups: Vec<Group> = numbers
         .par_iter()
         .map(|number| {
             let columns = columns(evidence, &departures, *number);
-            weighted.group(&columns.map(|column| evidence.white(column)))
+            remainder.group(&columns.map(|column| evidence.white(column)))
         })
         .collect();
     let tests = test_family(&groups, resampling);
@@ -125,7 +126,7 @@ fn columns(
 }
 
 /// A residual from which what may explain it is projected out, with the weights of the samples.
-struct Weighted {
+struct Remainder {
     roots: Vec<f64>,
     blocks: Vec<Range<usize>>,
     /// Orthonormal columns of what may explain it.
@@ -133,7 +134,7 @@ struct Weighted {
     residual: DVector<f64>,
 }
 
-impl Weighted {
+impl Remainder {
     fn new(evidence: &Evidence, residual: &[Vector3<f64>], beside: &[Vec<Vector3<f64>>]) -> Self {
         let weights = huber::weights(residual);
         let roots: Vec<f64> = weights.into_iter().map(f64::sqrt).collect();

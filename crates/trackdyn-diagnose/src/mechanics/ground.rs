@@ -1,7 +1,7 @@
 //! Ground that changes with place, heading or time.
 
 use super::{TASK, coarse, single};
-use crate::evidence::{Evidence, Sample};
+use crate::evidence::{Evidence, Origin, Sample};
 use crate::surface::Surface;
 use rayon::prelude::*;
 use trackdyn_core::{PerSide, Pose, Side, Twist, Wrench};
@@ -35,7 +35,7 @@ pub enum Acts {
 /// How an effect acts on this evidence.
 pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Acts {
     const PROBES: usize = 200;
-    if evidence.is_steady() {
+    if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
         return Acts::Alike;
     }
     let forces = |model: &Model, at: &Circumstance| probed(model, at, PerSide::new(-0.2, 0.5));

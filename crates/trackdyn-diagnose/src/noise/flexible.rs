@@ -7,6 +7,7 @@ use crate::hypothesis::Unknown;
 use crate::locate::{contrasts, icr_columns};
 use crate::mechanics::{Instruments, Mechanics};
 use crate::normal::{Columns, Normal};
+use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use trackdyn_estimate::weighting::SegmentNoise;
@@ -46,7 +47,7 @@ fn answer_to_acceleration(evidence: &Evidence, fit: &Fit) -> Vec<Vec<Vector3<f64
 }
 
 /// White by the noise alone, whatever its scale: this is where noise is looked for.
-fn white(evidence: &Evidence, column: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+fn white(evidence: &Weighted, column: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let mut column = column.to_vec();
     evidence.whiten(&mut column);
     column
@@ -59,7 +60,7 @@ pub(super) struct Left {
 }
 
 impl Flexible {
-    pub(super) fn new(evidence: &Evidence, fit: &Fit) -> Self {
+    pub(super) fn new(evidence: &Weighted, fit: &Fit) -> Self {
         let Fit { hypothesis, mechanics, unknowns, .. } = fit;
         let prediction = mechanics.predict(&Instruments::of(hypothesis), evidence);
         let mut columns = derivatives(hypothesis, mechanics, &prediction, unknowns, evidence);
@@ -77,7 +78,7 @@ impl Flexible {
 
     /// What is left when all columns are fitted in the evidence's noise, or the fit's own where a recording is so short
     /// that all would leave less than half.
-    pub(super) fn left(&self, evidence: &Evidence) -> Left {
+    pub(super) fn left(&self, evidence: &Weighted) -> Left {
         let mut residual = white(evidence, &self.residual);
         let columns: Vec<_> = self.columns.iter().map(|column| white(evidence, column)).collect();
         let normal = evidence.normal(&residual, &columns);
@@ -93,7 +94,7 @@ impl Flexible {
     /// Of how many residuals these columns, fitted, took the part that each variance has in them: −d ln det(Xᵀ V⁻¹ X)/d ln v.
     pub(super) fn taken(
         &self,
-        evidence: &Evidence,
+        evidence: &Weighted,
         noise: &SegmentNoise,
         fitted: &[usize],
     ) -> Variances {

@@ -8,6 +8,7 @@ use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, active, typical, unknowns_of};
 use crate::mechanics::{Instruments, Mechanics, is_instrument};
 use crate::search::{Catalogue, Search};
+use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use trackdyn_model::{EffectId, VehicleFile};
 
@@ -51,7 +52,7 @@ impl Rival {
     }
 
     /// The others of the class, each at what mimics this one best on driving where this one acts.
-    pub fn mimicked(&self, question: &Question, driving: &Evidence) -> Vec<Self> {
+    pub fn mimicked(&self, question: &Question, driving: &Weighted) -> Vec<Self> {
         let without = self.hypothesis.without(self.effect);
         let driving = &weighed_coarsely(driving, &without);
         let vehicle = &self.hypothesis.vehicle;
@@ -83,7 +84,7 @@ impl Rival {
 
 /// The same driving so coarsely weighed that no part of what an effect changes counts as an outlier: here it is what is
 /// looked for.
-fn weighed_coarsely(driving: &Evidence, without: &Hypothesis) -> Evidence {
+fn weighed_coarsely(driving: &Weighted, without: &Hypothesis) -> Weighted {
     /// Length of the longest residual.
     const LONGEST: f64 = 3.0;
     let mechanics = Mechanics::new(without, driving);

@@ -10,6 +10,7 @@ use crate::fit::columns;
 use crate::mechanics::Instruments;
 use crate::normal::{Columns, Normal, Scaled};
 use crate::prior::prior;
+use crate::weighted::Weighted;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
 
@@ -51,7 +52,7 @@ struct Predicted {
 }
 
 /// The products of differences and derivatives of each pair, block by block.
-pub fn products(pairs: &[[usize; 2]], rivals: &[Rival], evidence: &Evidence) -> Vec<Normal> {
+pub fn products(pairs: &[[usize; 2]], rivals: &[Rival], evidence: &Weighted) -> Vec<Normal> {
     let is_second = |k: usize| pairs.iter().any(|pair| pair[1] == k);
     let seen: Vec<Predicted> = rivals
         .par_iter()

@@ -1,8 +1,8 @@
 //! What a claim must reach.
 
 use crate::base::Base;
-use crate::evidence::Evidence;
 use crate::search::Found;
+use crate::weighted::Weighted;
 use trackdyn_core::real;
 
 /// What a claim must reach.
@@ -35,7 +35,7 @@ impl Rules {
     pub const FORM_LEFT: f64 = 0.2;
 
     /// χ² that may be left in one symmetry beside a hypothesis: a part of what its laws took away, and of the noise.
-    pub fn tolerated(evidence: &Evidence, base: &Base, best: &Found) -> f64 {
+    pub fn tolerated(evidence: &Weighted, base: &Base, best: &Found) -> f64 {
         let whole = (base.fit.objective - best.fit.objective).max(0.0);
         Self::FORM_LEFT * Self::FORM_LEFT * whole + Self::LEFT * real(evidence.measured())
     }

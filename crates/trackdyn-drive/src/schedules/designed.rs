@@ -1,11 +1,11 @@
 //! Manoeuvres that set each pattern of track speeds against the others.
 //!
-//! Spins, arcs with tracks of the same and of opposite sign, and straight runs, each both ways,
-//! forward and backward, and turns about either track at rest, forward, at a quarter, half, three
-//! quarters and all of the largest speed: a departure from constant ICRs shows as a difference
-//! between patterns, directions or speeds, and every manoeuvre starts and ends at rest, where
-//! inertia and delays show. The order is drawn, so that what drifts with time is not taken for one
-//! of them.
+//! Spins, arcs with tracks of the same and of opposite sign, straight runs, and turns about either
+//! track at rest. Each is driven both ways, forward and backward, at a quarter, half, three
+//! quarters and all of the largest speed; turns about a track at rest are driven forward only. A
+//! departure from constant ICRs shows as a difference between patterns, directions or speeds. Every
+//! manoeuvre starts and ends at rest, where inertia and delays show. The order is random, so that a
+//! drift in time is not taken for one of them.
 
 use super::ScheduleOptions;
 use super::ramp::Ramp;

@@ -3,16 +3,16 @@
 use crate::Error;
 use trackdyn_model::Grid;
 
-/// Most commands that a duration or a side may ask for, per run.
+/// Largest number of commands per run that a duration or a side may ask for.
 const MAX_COMMANDS: f64 = 1e7;
 
-/// Slowest driving, m/s: at less, 20 m take hours.
+/// Smallest speed, m/s: at less, 20 m take hours.
 const MIN_SPEED: f64 = 0.01;
 
 /// Longest time to the largest speed, s.
 const MAX_START: f64 = 60.0;
 
-/// Most runs.
+/// Largest number of runs.
 const MAX_RUNS: usize = 10_000;
 
 /// How schedules are generated.

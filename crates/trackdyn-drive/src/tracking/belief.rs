@@ -30,9 +30,9 @@ impl<'a> Belief<'a> {
         self.pose
     }
 
-    /// Takes in the moments since the last time, that one among them, in which the encoders showed
-    /// these speeds, m/s: they sit on the sprockets, which do as they are told, whatever the belts
-    /// lose to them.
+    /// Updates the estimate with the moments since the last call, the present one included. In them
+    /// the encoders showed these speeds, m/s. Encoders sit on the sprockets and show the commands,
+    /// whatever the belts do.
     pub(super) fn moved(&mut self, moments: &[Moment], shown: PerSide<f64>) {
         let [first, .., last] = moments else { return };
         if self.estimate == Estimate::Truth {

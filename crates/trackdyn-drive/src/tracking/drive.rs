@@ -9,7 +9,7 @@ use crate::path::{Path, distance};
 use trackdyn_core::pose::wrap_angle;
 use trackdyn_core::{Command, PerSide, Plant, Pose, Trajectory, real};
 
-/// Time for which the tracks are held still at the end, s: what rolls on does so within it.
+/// Time for which the tracks are held still at the end, s: the robot comes to rest within it.
 const SETTLING_TIME: f64 = 0.3;
 
 /// What a drive depends on beside robot, path, tracker and kinematics.

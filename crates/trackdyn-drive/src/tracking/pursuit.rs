@@ -5,17 +5,18 @@ use crate::path::Path;
 use trackdyn_core::Pose;
 use trackdyn_core::pose::wrap_angle;
 
-/// The look-ahead shrinks towards the end of a leg, down to this share.
+/// Smallest share of the look-ahead: it shrinks towards the end of a leg.
 const MIN_LOOK_AHEAD_SHARE: f64 = 0.2;
 
-/// But not below this many times the distance by which the point lags behind the pivot; twice is
-/// the limit of stability.
+/// Smallest ratio of the look-ahead to the distance by which the tracked point lies behind the
+/// pivot: 2 is the limit of stability.
 const MIN_LOOK_AHEAD_RATIO: f64 = 3.0;
 
-/// Largest tan θ/2 of a corner that is taken into account, θ = 127°: beyond it lines meet far away.
+/// Largest tan θ/2 of a corner that is taken into account (θ = 127°): sharper lines meet far away.
 const MAX_CORNER_TANGENT: f64 = 2.0;
 
-/// What is left of a way or a turn shrinks by one part in this many per command, at the end.
+/// Number of commands in which the remaining distance or turn would be covered: each command at the
+/// end takes one part in this many.
 const APPROACH_COMMANDS: f64 = 5.0;
 
 /// Forward speed and yaw rate that are asked for.

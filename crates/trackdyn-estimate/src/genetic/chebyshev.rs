@@ -7,10 +7,10 @@
 //! # Sources
 //! Trefethen, Approximation Theory and Approximation Practice, 2013, chapters 3 and 8.
 
-/// Error, in sizes of the function, to which an axis has polynomials enough.
+/// Largest error of the polynomials of an axis, relative to the size of the function.
 const MAX_ERROR: f64 = 1e-14;
 
-/// More polynomials than this are not tried: what waves so fast is not smooth here.
+/// Largest number of polynomials on an axis: a function that needs more oscillates too fast.
 const MAX_POLYNOMIALS: usize = 64;
 
 /// One side of the rectangle.

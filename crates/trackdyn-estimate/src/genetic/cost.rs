@@ -1,4 +1,4 @@
-//! The cost (17), fast: a genetic algorithm asks for little else.
+//! The cost (17), computed fast: a genetic algorithm spends its time there.
 
 use crate::observations::Observations;
 use crate::parameters::Parameters;

@@ -24,9 +24,9 @@ pub fn jackknife(curvature: &DMatrix<f64>, parts: &[(DMatrix<f64>, DVector<f64>)
     scatter * ((blocks - 1.0) / blocks)
 }
 
-/// The larger standard deviation of two variances; no number where one of them is none.
+/// The larger standard deviation of two variances; NaN where one of them is NaN.
 pub fn larger_deviation([one, other]: [f64; 2]) -> f64 {
-    // of a number and none, `max` is the number
+    // `max` of a number and NaN is the number
     if one.is_nan() || other.is_nan() { f64::NAN } else { one.max(other).max(0.0).sqrt() }
 }
 

@@ -10,20 +10,21 @@ use faer::Mat;
 use nalgebra::{DMatrix, Matrix2, Vector2};
 use trackdyn_core::Side;
 
-/// Ratio of eigenvalues below which a direction is lost in rounding.
+/// Smallest ratio of an eigenvalue to the largest: below, a direction is lost in rounding.
 const MIN_EIGENVALUE_RATIO: f64 = 1e-13;
 
-/// Standard deviation of an ICR, in gauges, beyond which it is not a number to drive with.
+/// Largest standard deviation of an ICR, in gauges, with which a robot can be driven.
 const MAX_ICR_DEVIATION: f64 = 0.25;
 
-/// Standard deviation of α beyond which it is not a number to drive with.
+/// Largest standard deviation of α with which a robot can be driven.
 const MAX_ALPHA_DEVIATION: f64 = 0.1;
 
-/// Variance of the driving over that of the encoders' noise, at least: below, noise passes for
-/// driving and pulls the estimate by a tenth or more.
+/// Smallest ratio of the variance of the driving to that of the encoders' noise: below, noise
+/// passes for driving and biases the estimate by a tenth or more.
 const MIN_EXCITATION: f64 = 10.0;
 
-/// Change of the speeds over the noise of that change, in variance, below which it is mostly noise.
+/// Smallest ratio of the variance of speed changes to that of their noise: below, they are mostly
+/// noise.
 const MIN_CHANGE_RATIO: f64 = 1.0;
 
 /// What the driving of a recording lacks for these parameters; none where it does. `noise` is that
@@ -69,8 +70,8 @@ pub fn nuisance_doubts(estimate: &Estimate) -> Vec<Doubt> {
 
 /// Variance of (V_r + V_l)/2, as far as V_r − V_l does not explain it, over that of its noise.
 ///
-/// A point of the body moves with (V_r + V_l)/2 straight ahead plus ω times a vector that the ICRs
-/// fix. ψ turns the first; what it does to the second other ICRs do too.
+/// A point of the body moves straight ahead with (V_r + V_l)/2, plus ω times a vector that the ICRs
+/// fix. ψ turns the first part. Its effect on the second part equals that of other ICRs.
 fn translation(observations: &Observations, noise: &Noise) -> f64 {
     let per_second = variance_per_second(noise);
     let (mut means, mut mixed, mut differences, mut variance) = (0.0, 0.0, 0.0, 0.0);
@@ -113,8 +114,8 @@ fn variance_per_second(noise: &Noise) -> f64 {
     f64::midpoint(encoder(Side::Left), encoder(Side::Right))
 }
 
-/// Variance of driving over that of its noise, which it holds too. Without noise, infinite, unless
-/// it is rounding of all the driving there was.
+/// Variance of driving over that of its noise; `driven` contains both. Infinite without noise,
+/// unless what was driven is rounding of `all`.
 fn over_noise(driven: f64, noise: f64, all: f64) -> f64 {
     if noise > 0.0 {
         driven / noise - 1.0
@@ -165,8 +166,8 @@ fn poorest_excitation(observations: &Observations, noise: &Noise, free: Free) ->
     over_noise(least, variance, moments.trace())
 }
 
-/// The inverse of a normal matrix, by its eigenvalues; directions that are lost get a variance that
-/// says so.
+/// The inverse of a normal matrix, by its eigenvalues. Directions that are lost in rounding get a
+/// large variance.
 pub(crate) fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let count = matrix.nrows();
     // Parameters differ in unit and size: the diagonal is scaled to 1 first.

@@ -5,15 +5,16 @@ use trackdyn_core::Side;
 use trackdyn_core::robust::{deviation_about_zero, median};
 use trackdyn_recording::{Recording, TrackSample};
 
-/// Fewer triples than this say nothing.
+/// Smallest number of triples for an estimate.
 const MIN_TRIPLES: usize = 30;
 
-/// A speed that is held for longer, s, or for more readings, is told, not measured.
+/// Longest time, s, and largest number of readings for which a measured speed stays the same: a
+/// speed that is held longer is a command, not a measurement.
 const MAX_HOLD_TIME: f64 = 0.5;
 const MAX_HOLD_READINGS: f64 = 10.0;
 
-/// The noise of one side while its track runs; none of speeds that are told, whose changes are the
-/// driving.
+/// The noise of one side while its track runs. None where the speeds are commands, whose changes
+/// are the driving.
 pub(super) fn noise(recording: &Recording, side: Side) -> Option<EncoderNoise> {
     let speed = |sample: &TrackSample| match side {
         Side::Left => sample.v_left,

@@ -41,7 +41,7 @@ fn line_triples(
     triples
 }
 
-/// Triples of neighbours that a scatter needs.
+/// Smallest number of triples of neighbours for an estimate.
 const MIN_TRIPLES: usize = 10;
 
 /// Standard deviation of a channel, in its unit, from neighbours on lines of one track speed; no

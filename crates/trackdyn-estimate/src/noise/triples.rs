@@ -10,20 +10,20 @@ use trackdyn_recording::{PoseSample, Recording, Run};
 /// Steps between the poses of a triple.
 const STEPS: [usize; 4] = [1, 2, 4, 8];
 
-/// Longer triples show driving, not noise, s.
+/// Longest triple, s: longer ones show driving, not noise.
 const MAX_DURATION: f64 = 2.5;
 
-/// Triples that turn more between two of their poses are left out, rad: the propagation of noise
-/// through [`body_velocity`] is that of small turns.
+/// Largest turn between two poses of a triple, rad: the propagation of noise through
+/// [`body_velocity`] is that of small turns.
 const MAX_TURN: f64 = 1.0;
 
-/// Fewer triples than this say nothing.
+/// Smallest number of triples for an estimate.
 const MIN_TRIPLES: usize = 30;
 
 /// Time after which a robot whose encoders show zero stands, also in late poses, s.
 const SETTLING_TIME: f64 = 0.5;
 
-/// Speeds of the two halves of a triple may differ by this many standard deviations.
+/// Largest difference of the speeds of the two halves of a triple, in standard deviations.
 const MAX_SPEED_CHANGE: f64 = 2.0;
 
 /// Triples of one number of steps.

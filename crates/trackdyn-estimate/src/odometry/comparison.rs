@@ -85,12 +85,12 @@ impl Comparison {
         if distances.len() > 2 || durations.len() < 2 { distances } else { durations }
     }
 
-    /// The span that a drift is told by: the longest that shows growth, else segments.
+    /// The span over which a drift is reported: the longest that shows growth, else segments.
     pub fn drift(&self) -> Option<&SpanErrors> {
         self.growth().last().copied().or_else(|| self.segments())
     }
 
-    /// Stretches that make a statistic worth showing.
+    /// Smallest number of stretches for a statistic that is shown.
     pub const MIN_STRETCHES: usize = 20;
 
     /// Time that was replayed, s.
@@ -104,7 +104,7 @@ impl Comparison {
     }
 }
 
-/// Whether there is anything to compare.
+/// Checks that there is something to compare.
 fn check(segments: &[Stretch], paths: &[Path], options: &SegmentOptions) -> Result<(), Error> {
     let runs = paths.len();
     if segments.is_empty() {

@@ -3,7 +3,7 @@
 
 use crate::Interval;
 
-/// Fewer blocks have no interval.
+/// Smallest number of blocks for an interval.
 pub const MIN_BLOCKS: usize = 5;
 
 /// A number with its 95 % confidence interval.

@@ -1,7 +1,7 @@
 //! Relative and absolute pose errors, as the Python package `evo` defines them, in the plane.
 //!
-//! Paths are compared pose by pose: both have the same stamps. `evo` is the judge in
-//! `tests/evo.rs`.
+//! Paths are compared pose by pose: both have the same stamps. `tests/suite/odometry/evo.rs`
+//! compares the results with those of `evo`.
 //!
 //! # Sources
 //! Sturm et al., A Benchmark for the Evaluation of RGB-D SLAM Systems, IROS 2012, section IV;

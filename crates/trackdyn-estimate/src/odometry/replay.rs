@@ -16,7 +16,7 @@ pub struct DeadReckoning {
     pub poses: Vec<Pose>,
 }
 
-/// Slack for the rounding of stamps, s.
+/// Largest difference of stamps by rounding, s.
 const STAMP_ROUNDING: f64 = 1e-9;
 
 /// Indices of the poses whose motion the readings of the tracks cover: a reading holds until the

@@ -1,5 +1,5 @@
-//! Integrals along an arc by their series: the same on every machine, which the system's sines need
-//! not be, and for the compiler to put side by side.
+//! Integrals along an arc by their series. They give the same bits on every machine, unlike the
+//! sines of the system, and the compiler can vectorise them.
 
 /// Angle, rad, up to which [`arc`] is exact to 1e-10.
 pub(crate) const MAX_SERIES_ANGLE: f64 = 2.0;

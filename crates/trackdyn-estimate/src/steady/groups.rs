@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 use trackdyn_recording::OperatingPoint;
 
-/// Groups beyond the parameters below which a jackknife says nothing.
+/// Smallest number of groups beyond that of the parameters for a jackknife.
 const MIN_SPARE_GROUPS: usize = 5;
 
 /// Points that are left out together.

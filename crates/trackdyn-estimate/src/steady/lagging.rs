@@ -1,4 +1,4 @@
-//! Points that turn less than others that are driven less.
+//! Points that turn less than others that are driven less hard.
 //!
 //! # Law
 //! Whatever the ICRs are, more speed on the outer track and less on the inner one does not turn a
@@ -13,8 +13,8 @@
 use crate::noise::scatter;
 use trackdyn_recording::OperatingPoint;
 
-/// A shortfall of this many standard deviations is none of chance: of a hundred thousand pairs of
-/// points one exceeds 4.4, and the worst of many pairs is what is looked at.
+/// Smallest shortfall in standard deviations that is not chance: of a hundred thousand pairs of
+/// points one exceeds 4.4, and the worst of many pairs is looked at.
 const MIN_SHORTFALL: f64 = 5.0;
 
 /// A point that lags.

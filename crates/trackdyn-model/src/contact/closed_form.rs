@@ -28,7 +28,8 @@ use trackdyn_core::{Scalar, Wrench};
 const MAX_DISTANCE: f64 = 6.0;
 
 /// Distance to the ICR, in half diagonals of the patch, up to which the closed form is used where
-/// half the digits are enough. It keeps these farther out, at a half to a quarter of the cost.
+/// half the digits are enough: it keeps these farther out, and costs a half to a quarter of a
+/// quadrature.
 const MAX_COARSE_DISTANCE: f64 = 50.0;
 
 /// Whether the closed form keeps its digits for this patch and slip.

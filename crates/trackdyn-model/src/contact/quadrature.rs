@@ -54,14 +54,14 @@ static FAR_FIELD_COARSE: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
 /// Resolves a shear stress that builds up over a percent of the track's length.
 static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(8, 24));
 
-/// Resolves it to a thousandth of what it changes where it builds up over a few percent, in a
-/// quarter of the time.
+/// Resolves a shear stress that builds up over a few percent of the length, to a thousandth of what
+/// the law changes, in a quarter of the time of [`FINE`].
 static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(4, 12));
 
 /// [`COARSE`] for a patch that is hardly longer than wide.
 static COARSE_SHORT: LazyLock<Rule> = LazyLock::new(|| Rule::graded(6, 8));
 
-/// Resolves what a law changes to some hundredths of it, in an eighth of that time again.
+/// Resolves what a law changes to some hundredths of it, in an eighth of the time of [`COARSE`].
 static ROUGH: LazyLock<Rule> = LazyLock::new(|| Rule::graded(1, 5));
 
 /// [`ROUGH`] for a patch that is hardly longer than wide.
@@ -204,8 +204,8 @@ struct Panels<S> {
     rows: [Option<[S; 2]>; 2],
 }
 
-/// Turn of the unit slip over the patch below which the ICR is so far that a cut would run through
-/// the patch faster than digits follow.
+/// Smallest turn of the unit slip over the patch at which it is cut at the ICR: below, the ICR is
+/// so far that the place of a cut has no digits.
 const MIN_TURN: f64 = 1e-9;
 
 impl<S: Scalar> Panels<S> {

@@ -1,6 +1,6 @@
 //! Effects that are switched on.
 
-use super::{CATALOGUE, EffectError, EffectId, INERTIA, Law};
+use super::{CATALOGUE, EffectError, EffectId, Law};
 use crate::contact::ShearStress;
 use crate::effect::{Card, Parameter, Symmetry};
 use crate::pipeline::{Drive, Ground, Sensor, Site, Situation};
@@ -64,8 +64,8 @@ impl ActiveEffect {
         &self.values
     }
 
-    /// Parameters with the values that a text has to give: all of a mechanism, and of a form those that it
-    /// has.
+    /// Parameters with the values that a text has to give: all of a mechanism, and of a form those
+    /// that it has.
     pub fn stated(&self) -> impl Iterator<Item = (&'static Parameter, f64)> {
         let card = self.card();
         let values = card.parameters.iter().zip(self.values.iter().copied());
@@ -116,13 +116,12 @@ impl Effects {
         Self::default()
     }
 
-    /// The same with Newton's second law in full: the effects of inertia that are not there yet, with
-    /// their typical sizes.
+    /// Adds what is not there yet of Newton's second law, with typical sizes.
     ///
     /// # Panics
     /// Never: both are of the catalogue.
     pub fn with_inertia(mut self) -> Self {
-        for card in CATALOGUE.iter().filter(|card| INERTIA.contains(&card.id)) {
+        for card in CATALOGUE.iter().filter(|card| card.is_inertia()) {
             if self.get(card.id).is_none() {
                 let typical = ActiveEffect::new(card.id, &[]);
                 self.insert(typical.expect("typical sizes are in range"));
@@ -131,11 +130,10 @@ impl Effects {
         self
     }
 
-    /// The same without what of Newton's second law stands against changes of speed: the robot is at its stationary motion
-    /// at once, be it with the forces of a steady turn.
+    /// Removes the inertia that resists changes of speed: the robot is at its stationary motion at
+    /// once. The inertial forces of a steady turn stay.
     pub fn quasi_static(mut self) -> Self {
-        let is_kept =
-            |card: &Card| !INERTIA.contains(&card.id) || card.breaks != [Symmetry::Transient];
+        let is_kept = |card: &Card| !card.is_inertia() || card.breaks != [Symmetry::Transient];
         self.0.retain(|effect| is_kept(effect.card()));
         self
     }

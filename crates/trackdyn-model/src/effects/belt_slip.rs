@@ -14,8 +14,8 @@ impl Effect for BeltSlip {
         id: "belt-slip",
         title: "Belt that slips on its sprocket under traction",
         law: "V = V_e − κ |V_e| T/N, T traction of the track, forward positive",
-        assumes: "Slip in proportion to traction over normal load and to speed; the encoder sits on \
-                  the sprocket.",
+        assumes: "Slip in proportion to traction over normal load and to speed; the encoder sits \
+                  on the sprocket.",
         shows: "The outer belt runs slower and the inner one faster than shown: the ICRs move \
                 outwards, and differ between manoeuvres.",
         breaks: &[Symmetry::Manoeuvre],

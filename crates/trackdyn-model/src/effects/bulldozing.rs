@@ -5,9 +5,10 @@ use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::pipeline::Site;
 use trackdyn_core::Scalar;
 
-/// Sine of the angle of the slip to the track within which the wall of soil changes sides. A force that jumped there could
-/// not balance one that is less than the jump: a robot that speeds up straight ahead would not move at all.
-const CHANGES_SIDES: f64 = 0.01;
+/// Sine of the angle of the slip to the track within which the wall of soil changes sides. A force
+/// that jumped there could not balance one that is less than the jump: a robot that speeds up
+/// straight ahead would not move at all.
+const WALL_TURN_SINE: f64 = 0.01;
 
 /// A resistance to lateral slip that knows its sign alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +39,8 @@ impl Effect for Bulldozing {
             typical: 0.1,
         }],
         sources: &[
-            "Hegedus, A simplified method for the determination of bulldozing resistance, LLRL report 61, 1960",
+            "Hegedus, A simplified method for the determination of bulldozing resistance, LLRL \
+             report 61, 1960",
             "Steeds, Tracked vehicles, Automobile Engineer 40, 1950",
         ],
     };
@@ -50,7 +52,7 @@ impl Effect for Bulldozing {
     fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
         // τ_x = −μ_b p s_x/√(s_x² + (ε |s|)²)
         let [across, _] = site.slip_direction();
-        let side = across / (across * across + CHANGES_SIDES * CHANGES_SIDES).sqrt();
+        let side = across / (across * across + WALL_TURN_SINE * WALL_TURN_SINE).sqrt();
         stress.added[0] += site.normal_pressure() * side * -self.coefficient;
     }
 }

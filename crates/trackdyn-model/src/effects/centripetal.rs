@@ -15,9 +15,9 @@ impl Effect for Centripetal {
         id: "centripetal",
         title: "Centripetal force of the turning body",
         law: "F = −k m a, a = ω × v_cog, at the centre of gravity",
-        assumes: "Stationary motion. k = 1 where the vehicle's absolute friction is right: the force \
-                  is felt in units of the friction μ m g, so k also absorbs a common error of μ_x \
-                  and μ_y.",
+        assumes: "Stationary motion. k = 1 where the vehicle's absolute friction is right: the \
+                  force is felt in units of the friction μ m g, so k also absorbs a common error \
+                  of μ_x and μ_y.",
         shows: "Fast turns: y grows with speed and changes sides between forward and reverse. It \
                 makes the absolute friction visible.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Reversal, Symmetry::Manoeuvre],
@@ -33,6 +33,8 @@ impl Effect for Centripetal {
         }],
         sources: &["Newton's second law in the body's axes; left out in eqs (14)-(15)"],
     };
+
+    const IS_INERTIA: bool = true;
 
     fn from_values(values: &[f64]) -> Self {
         Self { strength: values[0] }

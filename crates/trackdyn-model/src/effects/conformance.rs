@@ -26,7 +26,7 @@ fn turn<S: Scalar>(z: [S; 3]) -> Motion<S> {
 
 const ICR: [f64; 3] = [-0.37, 0.05, 1.2];
 
-/// The same turn while it changes.
+/// A fast left turn while it changes.
 fn changing_turn() -> Motion {
     let acceleration = Twist { v_x: 0.1, v_y: 0.3, w: -0.2 };
     Motion { acceleration, ..turn(ICR) }
@@ -172,7 +172,8 @@ fn total<S: Scalar>(model: &Model, ground: &Ground, motion: &Motion<S>) -> [S; 3
     [sum.force_x, sum.force_y, sum.moment]
 }
 
-/// All that a model says of a turn: the wrench on the body over its weight, the drive and the sensor, SI.
+/// All that a model says of a turn: the wrench on the body over its weight, the drive and the
+/// sensor, SI.
 fn behaviour(effects: Effects) -> Vec<f64> {
     let vehicle = VehicleFile::auriga_alpha().vehicle;
     let weight = vehicle.mass * trackdyn_core::STANDARD_GRAVITY;
@@ -199,7 +200,8 @@ fn departure(card: &Card, value: impl Fn(&Parameter) -> f64) -> f64 {
     changes.map(|(with, without)| (with - without).abs()).fold(0.0, f64::max)
 }
 
-/// The neutral value of a size, or the physical one that is nearest to it; none of other parameters.
+/// The neutral value of a size, or the physical one that is nearest to it; none of other
+/// parameters.
 fn neutral(parameter: &Parameter) -> Option<f64> {
     let [low, high] = parameter.range;
     match parameter.role {
@@ -210,8 +212,8 @@ fn neutral(parameter: &Parameter) -> Option<f64> {
 
 #[test]
 fn an_effect_is_there_where_one_of_its_sizes_is_not_neutral_and_nowhere_else() {
-    /// Most that neutral sizes leave of what typical ones do. It is nothing but for sizes whose neutral
-    /// value is a limit: their ranges begin at a two-hundredth or less of what is typical.
+    /// Most that neutral sizes leave of what typical ones do. It is nothing but for sizes whose
+    /// neutral value is a limit: their ranges begin at a two-hundredth or less of what is typical.
     const LEFT: f64 = 0.01;
     for card in CATALOGUE {
         let least = LEFT * departure(card, |parameter| parameter.typical);

@@ -24,7 +24,8 @@ impl Effect for DirectionalLugs {
             key: "excess",
             symbol: "δ",
             unit: "1",
-            meaning: "relative excess of friction where the belt slips backward, that is, where it pushes forward",
+            meaning: "relative excess of friction where the belt slips backward, that is, where it \
+                      pushes forward",
             role: Role::Size { neutral: 0.0 },
             range: [-0.9, 0.9],
             typical: 0.05,

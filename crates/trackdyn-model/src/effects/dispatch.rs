@@ -13,6 +13,9 @@ macro_rules! catalogue {
         /// What each effect of the catalogue is.
         const NATURES: &[Nature] = &[$(<$module::$effect as Effect>::NATURE),+];
 
+        /// Whether each effect of the catalogue is a part of Newton's second law.
+        const INERTIAL: &[bool] = &[$(<$module::$effect as Effect>::IS_INERTIA),+];
+
         /// The terms of each effect of the catalogue.
         const TERMS: &[fn() -> Vec<Term>] = &[$(<$module::$effect as Effect>::terms),+];
 
@@ -49,7 +52,9 @@ macro_rules! catalogue {
 
             #[inline]
             fn load<S: Scalar>(&self, situation: &Situation<S>, centre_of_pressure: &mut [S; 2]) {
-                match self { $(Self::$effect(effect) => effect.load(situation, centre_of_pressure)),+ }
+                match self {
+                    $(Self::$effect(effect) => effect.load(situation, centre_of_pressure)),+
+                }
             }
 
             #[inline]

@@ -21,13 +21,13 @@ impl Effect for ForceLaw {
     const CARD: Card = Card {
         id: "force-law",
         title: "Force on the body of an empirical form",
-        law: "F_x, F_y = m g Σ c_k b_k, M = m g ℓ/2 Σ c_k b_k, b_k of v/√(g ℓ), ω √(ℓ/g), the signs of \
-              V_l + V_r and V_r − V_l, heading, place/ℓ and t/T",
-        assumes: "A form and no mechanism: it describes what was seen, within what was driven. ℓ is the \
-                  length of the contact, v and ω are those of the hull at the origin. Changes of speed and \
-                  what sensors and encoders do have no term.",
-        shows: "Where its terms say. The diagnosis never names it as what is missing; it proposes terms \
-                where no effect of the catalogue explains what is left.",
+        law: "F_x, F_y = m g Σ c_k b_k, M = m g ℓ/2 Σ c_k b_k, b_k of v/√(g ℓ), ω √(ℓ/g), the \
+              signs of V_l + V_r and V_r − V_l, heading, place/ℓ and t/T",
+        assumes: "A form and no mechanism: it describes what was seen, within what was driven. ℓ \
+                  is the length of the contact, v and ω are those of the hull at the origin. \
+                  Changes of speed and what sensors and encoders do have no term.",
+        shows: "Where its terms say. The diagnosis never names it as what is missing; it proposes \
+                terms where no effect of the catalogue explains what is left.",
         breaks: &[
             Symmetry::SpeedScale,
             Symmetry::Reversal,
@@ -40,8 +40,9 @@ impl Effect for ForceLaw {
         stages: &[Stage::Wrench],
         parameters: PARAMETERS,
         sources: &[
-            "Dimensional analysis: Buckingham, Physical Review 4(4), 1914; sparse regression of laws: Brunton, \
-             Proctor, Kutz, Proceedings of the National Academy of Sciences 113(15), 2016",
+            "Dimensional analysis: Buckingham, Physical Review 4(4), 1914; sparse regression of \
+             laws: Brunton, Proctor, Kutz, Proceedings of the National Academy of Sciences \
+             113(15), 2016",
         ],
     };
 

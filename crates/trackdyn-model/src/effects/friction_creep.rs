@@ -18,8 +18,8 @@ impl Effect for FrictionCreep {
         title: "Friction that is reached only above a slip speed",
         law: "τ = −[μ] p (1 − (1 + |s|/(n v_c))^−n) s/|s|",
         assumes: "Viscous creep at small slip, Coulomb friction at large slip; the same in both \
-                  directions. Friction is full soon above v_c where n is large, as 1 − exp(−|s|/v_c) \
-                  is, and comes slowly, as 1/|s|, where n = 1.",
+                  directions. Friction is full soon above v_c where n is large, as 1 − \
+                  exp(−|s|/v_c) is, and comes slowly, as 1/|s|, where n = 1.",
         shows: "Slow turns see less friction near the ICRs, which move outwards; fast turns do \
                 not.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],

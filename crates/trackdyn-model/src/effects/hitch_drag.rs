@@ -11,16 +11,17 @@ pub struct HitchDrag {
     distance: f64,
 }
 
-/// Speed, m/s, far below any that drives, over which the drag turns round: it has no direction at rest.
-const AT_REST: f64 = 1e-7;
+/// Speed, m/s, far below any that drives, over which the drag turns round: it has no direction at
+/// rest.
+const REST_SPEED: f64 = 1e-7;
 
 impl Effect for HitchDrag {
     const CARD: Card = Card {
         id: "hitch-drag",
         title: "Passive drag behind the robot",
         law: "F = −d m g v_h/|v_h| at (0, −r)",
-        assumes: "Dry friction of what is dragged, at a point fixed to the hull; a point at rest is held \
-                  by up to d m g, as it creeps at less than 1 µm/s.",
+        assumes: "Dry friction of what is dragged, at a point fixed to the hull; a point at rest \
+                  is held by up to d m g, as it creeps at less than 1 µm/s.",
         shows: "The drag turns with the motion of the hitch: counter-rotation sees it across, arcs \
                 along the tracks. Close to motion resistance.",
         breaks: &[Symmetry::Manoeuvre],
@@ -60,7 +61,7 @@ impl Effect for HitchDrag {
     ) {
         let hitch = [0.0, -self.distance];
         let [v_x, v_y] = situation.motion.twist.velocity_at(hitch);
-        let speed = (v_x * v_x + v_y * v_y + AT_REST * AT_REST).sqrt();
+        let speed = (v_x * v_x + v_y * v_y + REST_SPEED * REST_SPEED).sqrt();
         // F = −d m g v_h/|v_h|
         let drag = self.drag * situation.vehicle.mass * STANDARD_GRAVITY;
         wrench.add_force([v_x, v_y].map(|v| v * -drag / speed), hitch);

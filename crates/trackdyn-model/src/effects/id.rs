@@ -5,7 +5,8 @@ use crate::effect::Card;
 use std::fmt;
 use std::str::FromStr;
 
-/// An effect of the catalogue. Ids are ordered as the catalogue is; written, they are the id of vehicle files.
+/// An effect of the catalogue. Ids are ordered as the catalogue is; written, they are the id of
+/// vehicle files.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct EffectId {
     /// Index in [`CATALOGUE`], below its length.
@@ -18,7 +19,8 @@ impl EffectId {
         (0..CATALOGUE.len()).map(|index| Self { index })
     }
 
-    /// The effect with this id of vehicle files, such as `yaw-inertia`; none where the catalogue has no such effect.
+    /// The effect with this id of vehicle files, such as `yaw-inertia`; none where the catalogue
+    /// has no such effect.
     pub fn of(id: &str) -> Option<Self> {
         let index = CATALOGUE.iter().position(|card| card.id == id)?;
         Some(Self { index })

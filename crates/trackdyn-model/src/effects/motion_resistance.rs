@@ -33,8 +33,9 @@ impl Effect for MotionResistance {
         id: "motion-resistance",
         title: "Motion resistance of the ground",
         law: "R = −c_rr N sign(V) along each track",
-        assumes: "Compaction and rolling of the track over the ground; losses inside the running gear \
-                  do not count, for belt speeds are measured. A belt that stands still has none.",
+        assumes: "Compaction and rolling of the track over the ground; losses inside the running \
+                  gear do not count, for belt speeds are measured. A belt that stands still has \
+                  none.",
         shows: "The map is constant in each sector of the signs of V_l, V_r and |V_r| − |V_l|, and \
                 jumps between sectors.",
         breaks: &[Symmetry::Manoeuvre],

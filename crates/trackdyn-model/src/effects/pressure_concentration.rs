@@ -16,9 +16,9 @@ impl Effect for PressureConcentration {
         id: "pressure-concentration",
         title: "Pressure concentrated at the ends of a patch",
         law: "p ← p + κ p̄ (3 η² − 1)/2, η = ±1 at the ends of the patch, p̄ its mean pressure",
-        assumes: "The second Legendre polynomial changes neither the load of a patch nor its centre \
-                  of pressure. κ > 0 stands for rollers at the ends of a stiff track, κ < 0 for a \
-                  belly or a soft tyre.",
+        assumes: "The second Legendre polynomial changes neither the load of a patch nor its \
+                  centre of pressure. κ > 0 stands for rollers at the ends of a stiff track, κ < 0 \
+                  for a belly or a soft tyre.",
         shows: "Ends count for more: the ICRs move outwards. It moves the constant ICRs and \
                 nothing else: with the centre of gravity, the friction ratio and their like it \
                 forms the class that ICRs alone cannot split.",
@@ -51,7 +51,8 @@ impl Effect for PressureConcentration {
         let pressure = mean * (eta * eta * 1.5 - 0.5) * self.concentration;
         let Friction { across, along } = site.friction();
         let direction = site.slip_direction();
-        for ((added, component), mu) in stress.added.iter_mut().zip(direction).zip([across, along]) {
+        let added = stress.added.iter_mut();
+        for ((added, component), mu) in added.zip(direction).zip([across, along]) {
             // τ_added = −[μ] Δp s/|s|
             *added += component * pressure * -mu;
         }

@@ -5,13 +5,13 @@ use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Site;
 use trackdyn_core::Scalar;
 
-/// Way over which soil with a hump gives way again, in shear deformation moduli: the peak lies at two to three of them,
-/// when nearly all friction is mobilised.
-const GIVES_WAY: f64 = 4.0;
+/// Way over which soil with a hump gives way again, in shear deformation moduli: the peak lies at
+/// two to three of them, when nearly all friction is mobilised.
+const HUMP_LENGTH_IN_MODULI: f64 = 4.0;
 
-/// Speed up to which a belt stands still, m/s: in a year it creeps a tenth of a millimetre. Behind a lag a belt that stops gets
-/// slower than numbers that have a reciprocal.
-const STANDS: f64 = 1e-12;
+/// Smallest speed of a belt that moves, m/s: in a year it creeps a tenth of a millimetre. Behind
+/// a lag a belt that stops gets slower than numbers that have a reciprocal.
+const MIN_BELT_SPEED: f64 = 1e-12;
 
 /// Soil or rubber that must be sheared some way before it resists fully.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +48,8 @@ impl Effect for ShearDisplacement {
                 key: "residual",
                 symbol: "r",
                 unit: "1",
-                meaning: "friction after long shearing, as part of what it is before soil gives way",
+                meaning: "friction after long shearing, as part of what it is before soil gives \
+                          way",
                 role: Role::Shape,
                 range: [0.3, 1.0],
                 typical: 1.0,
@@ -67,7 +68,7 @@ impl Effect for ShearDisplacement {
 
     fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
         let belt_speed = site.belt_speed();
-        if belt_speed.value().abs() <= STANDS {
+        if belt_speed.value().abs() <= MIN_BELT_SPEED {
             return;
         }
         let [x, y] = site.slip.position;
@@ -92,7 +93,7 @@ impl ShearDisplacement {
             return build_up;
         }
         // 1 + (1/r − 1)/cosh(j/4K), with 1/cosh x = 2 q/(1 + q²), q = exp(−x)
-        let q = (ratio * (-1.0 / GIVES_WAY)).exp();
+        let q = (ratio * (-1.0 / HUMP_LENGTH_IN_MODULI)).exp();
         build_up * (q / (q * q + 1.0) * (2.0 * excess) + 1.0)
     }
 }

@@ -16,8 +16,8 @@ impl Effect for Slope {
         title: "Sloping ground",
         law: "g_along = −g sin β · uphill, g_normal = g cos β; uphill in the robot's axes",
         assumes: "A plane; the robot's heading stays what it is while it turns by a little.",
-        shows: "ICRs that move with the heading; nothing in straight driving where the tracks stick, as they \
-                do unless friction or belts need slip to bear a load.",
+        shows: "ICRs that move with the heading; nothing in straight driving where the tracks \
+                stick, as they do unless friction or belts need slip to bear a load.",
         breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading],
         stages: &[Stage::Ground],
         parameters: &[
@@ -34,7 +34,8 @@ impl Effect for Slope {
                 key: "uphill_deg",
                 symbol: "φ",
                 unit: "deg",
-                meaning: "direction of steepest ascent in the world, counter-clockwise from its x axis",
+                meaning: "direction of steepest ascent in the world, counter-clockwise from its x \
+                          axis",
                 role: Role::Direction,
                 range: [-360.0, 360.0],
                 typical: 0.0,

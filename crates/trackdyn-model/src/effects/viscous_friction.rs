@@ -17,7 +17,8 @@ impl Effect for ViscousFriction {
         title: "Friction that grows with slip speed",
         law: "τ = −[μ] p (1 + c |s|) s/|s|",
         assumes: "Both directions of friction grow by the same factor.",
-        shows: "The ICRs of fast turns differ from those of slow ones, alike forward and in reverse.",
+        shows: "The ICRs of fast turns differ from those of slow ones, alike forward and in \
+                reverse.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
         stages: &[Stage::Shear],
         parameters: &[Parameter {

@@ -15,7 +15,8 @@ impl Effect for YawInertia {
     const CARD: Card = Card {
         id: "yaw-inertia",
         title: "Inertia of the body in transients",
-        law: "F = −k m dv_c/dt at the centre of gravity, M = −k m r² dω/dt; derivatives in the body's axes",
+        law: "F = −k m dv_c/dt at the centre of gravity, M = −k m r² dω/dt; derivatives in the \
+              body's axes",
         assumes: "Together with the centripetal force it is Newton's law in full. k = 1 where the \
                   vehicle's absolute friction is right.",
         shows: "The robot follows changes of the track speeds late, the more so the faster they \
@@ -43,9 +44,12 @@ impl Effect for YawInertia {
             },
         ],
         sources: &[
-            "Martinez et al., IJRR 24(10), 2005, eqs (14)-(15) before the accelerations are set to zero",
+            "Martinez et al., IJRR 24(10), 2005, eqs (14)-(15) before the accelerations are set to \
+             zero",
         ],
     };
+
+    const IS_INERTIA: bool = true;
 
     fn from_values(values: &[f64]) -> Self {
         Self { strength: values[0], gyration: values[1] }

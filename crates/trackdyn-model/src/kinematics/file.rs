@@ -28,8 +28,8 @@ pub struct Source {
     pub vehicle: String,
     /// Fingerprint of the vehicle file with its effects, or of the recording.
     pub fingerprint: String,
-    /// Fingerprint of the poses of the recording, which tells driving that was fitted from other
-    /// driving.
+    /// Fingerprint of the poses of the recording: it tells the drive that was fitted from other
+    /// drives.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose_fingerprint: Option<String>,
     /// Name of the recording, where the numbers come from one.
@@ -312,10 +312,10 @@ impl Divisors {
     }
 }
 
-/// Distance from which on an ICR is none that a robot turns about, m.
+/// Largest distance of an ICR from the robot, m.
 const MAX_ICR_DISTANCE: f64 = 1e4;
 
-/// Refuses a coordinate of an ICR that is no place near a robot, m.
+/// Refuses a coordinate of an ICR that is too far from the robot, m.
 fn near(document: &Document, value: &Spanned<f64>, key: &str) -> Result<(), DocumentError> {
     if value.get_ref().abs() <= MAX_ICR_DISTANCE {
         return Ok(());
@@ -324,7 +324,7 @@ fn near(document: &Document, value: &Spanned<f64>, key: &str) -> Result<(), Docu
     Err(document.value_error(value.span(), key, expected))
 }
 
-/// Refuses an ICR of the right track that is not right of the left one's, m.
+/// Refuses ICRs of which the right one is not to the right of the left one, m.
 fn separated(
     document: &Document,
     left: &Spanned<f64>,

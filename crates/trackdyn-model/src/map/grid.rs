@@ -38,7 +38,7 @@ impl Grid {
     /// Most points per track: four million pairs.
     pub const MAX_POINTS: usize = 2001;
 
-    /// Largest speed that is taken for one, m/s.
+    /// Largest speed of a grid, m/s.
     pub const MAX_SPEED: f64 = 1000.0;
 
     /// A grid with `points` speeds per track from −`max_speed` to `max_speed` (m/s).

@@ -5,7 +5,7 @@ use crate::map::{IcrMap, Statistics};
 use std::collections::BTreeMap;
 use trackdyn_core::{PerSide, real};
 
-/// Spread, m, below which ICRs are equal: rounding of the solver, with room.
+/// Largest spread of equal ICRs, m: rounding of the solver, with room.
 const ICR_ROUNDING: f64 = 1e-9;
 
 /// The ICRs of one sector.
@@ -33,7 +33,7 @@ impl Sector {
     }
 }
 
-/// Share of the variance of a coordinate that a piecewise map leaves within its sectors, at most.
+/// Largest share of the variance of a coordinate within the sectors of a piecewise map.
 const MAX_WITHIN_SHARE: f64 = 0.1;
 
 /// The sectors of a map if they explain nine tenths of the variance of x_l, x_r or y; empty
@@ -60,8 +60,8 @@ pub(super) fn sectors(map: &IcrMap) -> Vec<Sector> {
                 count(&sector.statistics) * sector.statistics.spread.to_array()[k].powi(2)
             })
             .sum();
-        // A mean of each sector takes up as many numbers: of few pairs of speeds it would explain
-        // all.
+        // Each sector takes one mean: with few pairs of speeds, the means would explain all of the
+        // variance.
         let free = count(&whole) - real(sectors.len());
         variance > ICR_ROUNDING.powi(2) && within < MAX_WITHIN_SHARE * variance * free
     });

@@ -5,15 +5,15 @@ use crate::{Balance, Ground, Model, Motion};
 use nalgebra::{SMatrix, SVector, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Twist};
 
-/// Residual over the weight: 10⁻⁹ of gravity is far below what moves a robot.
+/// Tolerance of the residual over the weight: 10⁻⁹ of gravity is far below what moves a robot.
 const TOLERANCE: Tolerance = Tolerance { converged: 1e-11, rounding: 1e-9 };
 
-/// Unknowns of belts that follow their sprockets: the departure from straight driving at the left
-/// belt's speed.
+/// Number of unknowns where belts follow their sprockets: the departure from straight driving at
+/// the left belt's speed.
 const UNKNOWNS_WITHOUT_SLIP: usize = 3;
 
-/// Unknowns of belts that slip on them: the traction of both sides over their normal load beside
-/// it.
+/// Number of unknowns where belts slip on their sprockets: the traction of both sides over their
+/// normal load is unknown too.
 const UNKNOWNS_WITH_SLIP: usize = 5;
 
 /// What is held fixed while the twist is sought.
@@ -156,8 +156,8 @@ impl Stage<'_> {
         Motion::departing(belt_speed, departure, acceleration, self.model.extent())
     }
 
-    /// Force over weight and moment over weight times gauge; of belts that slip, what the friction
-    /// of each side is off its traction too, over the weight.
+    /// Force over weight and moment over weight times gauge. Where belts slip, also the difference
+    /// of friction and traction of each side, over the weight.
     #[inline]
     fn residual<S: Scalar, const N: usize>(&self, z: [S; N]) -> [S; N] {
         let motion = self.motion(&z);
@@ -176,7 +176,7 @@ impl Stage<'_> {
     }
 }
 
-/// Traction of each side over its normal load among the unknowns; zero where it is none of them.
+/// Traction of each side over its normal load, by the unknowns; zero where they do not hold it.
 #[inline]
 fn traction<S: Scalar, const N: usize>(z: &[S; N]) -> PerSide<S> {
     let at = |k: usize| z.get(k).copied().unwrap_or(S::from(0.0));

@@ -7,13 +7,13 @@ use std::f64::consts::{PI, TAU};
 use trackdyn_core::PerSide;
 use trackdyn_core::robust::median;
 
-/// An interval of more than this many medians is a gap: nobody knows what happened in it.
+/// Intervals of more than this many medians are gaps: nobody knows what happened within.
 pub const MIN_GAP_RATIO: f64 = 5.0;
 
-/// An interval below this part of the median one is too short for two separate measurements.
+/// Smallest interval, in medians, of two separate measurements.
 const MIN_INTERVAL_RATIO: f64 = 0.1;
 
-/// Way of a track, m, that no pose sensor overlooks.
+/// Largest distance of a track, m, that a pose sensor may overlook.
 const MAX_STANDING_DISTANCE: f64 = 0.005;
 
 /// Drops rows that are not finite, sorts by time, and keeps the first row of each stamp.
@@ -62,9 +62,8 @@ pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut
     intervals(&series.samples, report);
 }
 
-/// Finds poses that are the one before to the last digit while a track moves: a link that is sent
-/// more often than it is measured says the same again. They stay, for a robot without noise may be
-/// stuck.
+/// Finds poses that repeat the one before to the last digit while a track moves, as a link does
+/// that sends more often than it measures. They stay: a robot without noise may be stuck.
 pub(super) fn held(
     poses: &[PoseSample],
     tracks: &[TrackSample],

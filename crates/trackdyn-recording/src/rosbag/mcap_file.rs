@@ -15,7 +15,7 @@ use std::path::Path;
 /// Bytes taken from the file at a time.
 const READ_SIZE: usize = 1 << 20;
 
-/// A longer record is taken for damage, bytes.
+/// Largest size of a record, bytes: a longer one is damage.
 const MAX_RECORD_SIZE: usize = 1 << 28;
 
 /// Topics by the ids that the file gives them.

@@ -11,7 +11,7 @@ use crate::panel::ticks::{Ticks, number};
 use crate::panel::{LABEL_SIZE, Panel, TICK_SIZE, TITLE_SIZE};
 use crate::text::{Horizontal, Style, Vertical};
 use trackdyn_core::real;
-use trackdyn_diagnose::evidence::Sample;
+use trackdyn_diagnose::evidence::{Origin, Sample};
 use trackdyn_diagnose::locate::excess_of;
 
 const HEIGHT: i32 = 1000;
@@ -52,7 +52,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
     ];
     sheet::legend(&mut canvas, [158, sheet::TOP + 20], &entries);
     let which = if fit.are_held_out { "held-out" } else { "all" };
-    let what = if subject.evidence().is_steady() { "points" } else { "runs" };
+    let what = subject.evidence().origin().runs();
     let place = |text: &str, bars: Vec<(Rgb, f64)>| (text.to_owned(), bars);
     let whole = Bars {
         title: format!("{which} {what}"),
@@ -98,7 +98,8 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
 fn runs(subject: &Subject, colours: [Rgb; 2]) -> Bars {
     let names = subject.evidence().runs();
     let mut bars = Bars { title: "run by run (* held out)".to_owned(), places: Vec::new() };
-    if subject.evidence().is_steady() || names.len() > MOST_RUNS {
+    let is_table = matches!(subject.evidence().origin(), Origin::SteadyPoints(_));
+    if is_table || names.len() > MOST_RUNS {
         return bars;
     }
     for (run, name) in names.iter().enumerate() {

@@ -12,6 +12,7 @@ use serde::Serialize;
 use std::collections::BTreeSet;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::document::separate_by;
+use trackdyn_diagnose::evidence::Origin;
 use trackdyn_diagnose::verdict::Rules;
 
 const NAME: &str = "report.html";
@@ -123,12 +124,15 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Page<'a> {
         reading: figure.reading,
         base64: base64(&figure.png),
     });
-    let unit = if evidence.is_steady() { "points of steady motion" } else { "segments of driving" };
+    let unit = match evidence.origin() {
+        Origin::Drive(_) => "segments of driving",
+        Origin::SteadyPoints(_) => "points of steady motion",
+    };
     let samples: usize = subject.views().iter().map(|view| view.evidence.samples().len()).sum();
     let held_out = diagnosis.unseen.as_ref().map_or("none were held out".to_owned(), |unseen| {
         let samples = unseen.evidence.samples().iter();
         let held_out = samples.map(|sample| sample.run).collect::<BTreeSet<usize>>().len();
-        let what = if evidence.is_steady() { "points" } else { "runs" };
+        let what = evidence.origin().runs();
         format!("{held_out} of {} {what} were held out", evidence.runs().len())
     });
     Page {

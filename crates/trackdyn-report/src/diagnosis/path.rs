@@ -11,6 +11,7 @@ use crate::panel::{Labels, Panel};
 use nalgebra::Vector3;
 use trackdyn_core::Pose;
 use trackdyn_diagnose::Evidence;
+use trackdyn_diagnose::evidence::Origin;
 use trackdyn_diagnose::hypothesis::Hypothesis;
 use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
 use trackdyn_model::VehicleFile;
@@ -63,7 +64,7 @@ pub(super) fn draw(subject: &Subject) -> Result<Option<Vec<u8>>, Error> {
 /// The longest of the held-out runs, or of all where none was held out.
 fn replay(subject: &Subject) -> Option<Replay> {
     let View { evidence, is_held_out, .. } = subject.judging();
-    if evidence.is_steady() {
+    if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
         return None;
     }
     let samples = evidence.samples();

@@ -10,6 +10,7 @@ use crate::colour_bar;
 use crate::panel::{Labels, Panel, TICK_SIZE};
 use crate::text::{Horizontal, Style, Vertical};
 use trackdyn_core::real;
+use trackdyn_diagnose::evidence::Origin;
 
 const HEIGHT: i32 = 1420;
 const SIDE: i32 = 400;
@@ -42,24 +43,30 @@ pub(super) fn draw(subject: &Subject) -> Result<Vec<u8>, Error> {
         .flat_map(|view| view.evidence.samples())
         .map(|sample| sample.speeds.left.abs().max(sample.speeds.right.abs()))
         .fold(0.0, f64::max);
-    let room = if subject.evidence().is_steady() { 1.08 } else { 1.03 };
+    let shape = match subject.evidence().origin() {
+        Origin::Drive(_) => Shape::Cells,
+        Origin::SteadyPoints(_) => Shape::Points,
+    };
+    let room = match shape {
+        Shape::Cells => 1.03,
+        Shape::Points => 1.08,
+    };
     let extent = if fastest > 0.0 { room * fastest } else { 1.0 };
     let means = [0, 1].map(|when| {
         [0, 1, 2].map(|channel| {
-            spots(&views, extent, |view, index| {
+            spots(&views, shape, extent, |view, index| {
                 let measured = view.evidence.is_measured(index, channel);
                 measured.then(|| view.residuals[when][index][channel])
             })
         })
     });
     let sizes = [0, 1].map(|when| {
-        let mut spots = spots(&views, extent, |view, index| square(view, when, index));
+        let mut spots = spots(&views, shape, extent, |view, index| square(view, when, index));
         for spot in &mut spots {
             spot.value = spot.value.sqrt();
         }
         spots
     });
-    let shape = if subject.evidence().is_steady() { Shape::Points } else { Shape::Cells };
     let limit = |values: &mut dyn Iterator<Item = f64>, least: f64| {
         quantile(values, 0.98).unwrap_or(0.0).max(least)
     };
@@ -102,8 +109,12 @@ enum Shape {
 }
 
 /// Means over cells of the plane; of a table of steady motions each point for itself.
-fn spots(views: &[View], extent: f64, of: impl Fn(&View, usize) -> Option<f64>) -> Vec<Spot> {
-    let is_steady = views.iter().all(|view| view.evidence.is_steady());
+fn spots(
+    views: &[View],
+    shape: Shape,
+    extent: f64,
+    of: impl Fn(&View, usize) -> Option<f64>,
+) -> Vec<Spot> {
     let samples = views.iter().flat_map(|view| {
         view.evidence.samples().iter().enumerate().map(move |(index, sample)| (view, index, sample))
     });
@@ -111,7 +122,7 @@ fn spots(views: &[View], extent: f64, of: impl Fn(&View, usize) -> Option<f64>) 
         let value = of(view, index).filter(|value| value.is_finite())?;
         Some(Spot { at: [sample.speeds.left, sample.speeds.right], value })
     });
-    if is_steady {
+    if let Shape::Points = shape {
         return values.collect();
     }
     let mut sums = vec![(0.0, 0.0); CELLS * CELLS];

@@ -6,6 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 use trackdyn_core::real;
+use trackdyn_diagnose::Weighted;
 use trackdyn_diagnose::base::Base;
 use trackdyn_diagnose::candidate::{Beside, variants};
 use trackdyn_diagnose::evidence::{Evidence, Sample};
@@ -25,7 +26,7 @@ const TYPICAL: [f64; 2] = [0.03, 0.02];
 /// Whitened columns of a family of candidates on one recording.
 pub struct Library {
     /// The recording.
-    pub evidence: Evidence,
+    pub evidence: Weighted,
     /// What is free in every hypothesis.
     pub base: Vec<Vec<Vector3<f64>>>,
     /// The signatures of the catalogue.
@@ -53,6 +54,7 @@ impl Library {
         let recording = synthetic.recording().expect("long enough");
         let file = VehicleFile::auriga_alpha();
         let evidence = Evidence::of_recording(&recording, file.vehicle.gauge).expect("enough");
+        let evidence = Weighted::new(evidence);
         let Base { fit, instruments, .. } = Base::new(&file, &evidence);
         let tried: Vec<_> = EffectId::all()
             .filter(|effect| !instruments.contains(effect))

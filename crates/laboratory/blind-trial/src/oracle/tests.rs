@@ -1,4 +1,5 @@
-//! The oracle against computations of another kind: what fits to noisy recordings really scatter by.
+//! The oracle against computations of another kind: what fits to noisy recordings really scatter
+//! by.
 
 use super::*;
 use crate::alternatives::places;
@@ -17,6 +18,7 @@ use trackdyn_estimate::sensor::{Sensor, report};
 use trackdyn_estimate::weighting::{SegmentNoise, Weighting, Whitener};
 use trackdyn_estimate::{Free, Observations, Parameters, Unknowns, least_squares};
 use trackdyn_recording::{Recording, Source, StatedNoise};
+use trackdyn_second_simulator::{Sheet, sheet_of};
 
 /// A drive of a robot with the bench that the oracle makes of it.
 struct Stage {
@@ -29,8 +31,8 @@ struct Stage {
 }
 
 impl Stage {
-    /// Sensors have no jitter and no delay, so that segments of noisy recordings begin where those of the
-    /// noise-free one do.
+    /// Sensors have no jitter and no delay, so that segments of noisy recordings begin where those
+    /// of the noise-free one do.
     fn new(seed: u64) -> Self {
         let random = |purpose| stream(&Root::of_seed(seed), 1, 0, purpose);
         let machine = Machine::draw(&mut random(Purpose::Machine));
@@ -74,6 +76,10 @@ impl Stage {
     }
 }
 
+fn sheet(id: &str) -> &'static Sheet {
+    sheet_of(id).expect("a mechanism")
+}
+
 fn ground(machine: &Machine) -> Ground<'_> {
     let inertia = mechanism("yaw-inertia", &[("strength", 1.0), ("gyration_m", machine.gyration)]);
     let vehicle = &machine.vehicle;
@@ -86,8 +92,8 @@ fn difference(a: &Observations, b: &Observations) -> Vec<Vector3<f64>> {
     pairs.map(|(a, b)| Vector3::from(a.motion) - Vector3::from(b.motion)).collect()
 }
 
-/// Columns of the nuisances by quotients of differences: five parameters, clock, yaw of the sensor; and the
-/// bias of a gyro, by which half a segment's turn lies under the way.
+/// Columns of the nuisances by quotients of differences: five parameters, clock, yaw of the sensor;
+/// and the bias of a gyro, by which half a segment's turn lies under the way.
 fn nuisances(stage: &Stage, of: &Observations) -> Vec<DVector<f64>> {
     const STEP: f64 = 1e-4;
     let gauge = stage.machine.vehicle.gauge;
@@ -132,7 +138,7 @@ fn fits_to_noisy_recordings_scatter_by_one_over_z_det() {
     let stage = Stage::new(21);
     let (dose, z_det) = stage.with(|judge, scene| {
         let dose = Dose::draw(
-            "motion-resistance",
+            sheet("motion-resistance"),
             scene,
             &mut stream(&Root::of_seed(1), 1, 0, Purpose::Concealed),
         );
@@ -177,7 +183,7 @@ fn z_grows_in_proportion_and_is_largest_without_alternatives() {
     stage.with(|judge, scene| {
         let mut random = stream(&Root::of_seed(2), 1, 0, Purpose::Concealed);
         for id in ["motion-resistance", "slope", "centripetal"] {
-            let dose = Dose::draw(id, scene, &mut random);
+            let dose = Dose::draw(sheet(id), scene, &mut random);
             let [one, two] = [0.1, 0.2].map(|strength| {
                 judge.z(&judge.at(dose.clone(), strength).expect("it drives").signature)
             });
@@ -185,11 +191,11 @@ fn z_grows_in_proportion_and_is_largest_without_alternatives() {
             assert!((two / one - 2.0).abs() < 0.1, "{id}: {one} and {two}");
         }
         // what shows is about what was wanted
-        let dose = Dose::slope(15.0);
+        let dose = Dose::draw(sheet("slope"), scene, &mut random).towards(15.0);
         let sized = judge.sized(dose, 60.0, 1.0).expect("a size");
         let standing = judge.standings(&[sized], &[], scene, &mut random).expect("compared");
         let Standing { z_det, z_iso, z_beyond, nearest, .. } = &standing[0];
-        assert!((z_det / 60.0).ln().abs() < 2.0 * CLOSE_ENOUGH, "{z_det}");
+        assert!((z_det / 60.0).ln().abs() < 2.0 * STRENGTH_TOLERANCE, "{z_det}");
         // a cable from afar pulls as a slope does; phases of shoes leave one or two
         assert!(*nearest == "tether" && *z_iso < 0.1 * z_det, "{nearest}: {z_iso} of {z_det}");
         assert!(z_beyond <= z_iso, "{z_beyond} beside three, {z_iso} beside one");
@@ -199,19 +205,19 @@ fn z_grows_in_proportion_and_is_largest_without_alternatives() {
 /// Three alternatives take of a signature what they span, each effect once.
 #[test]
 fn alternatives_together_take_what_each_leaves() {
-    let dose = || vec![(Dose::slope(0.0), 1.0)];
     let others: Vec<Alternative> = ["slope", "slope", "tether", "hitch-drag", "belt-slip"]
-        .map(|id| Alternative { id, members: dose() })
+        .map(|id| Alternative { sheet: sheet(id), members: Vec::new() })
         .into();
     let axis = |k: usize| (0..5).map(|row| f64::from(row == k)).collect::<Vec<f64>>();
     let columns: Vec<Vec<Vec<f64>>> = (0..5).map(|k| vec![axis(k)]).collect();
-    // the second variant of the first effect may not come beside it: 4, then 2, then 1, and 3 is left with 0.5
-    let left = beyond(Subspace::default(), &[4.0, 3.0, 2.0, 1.0, 0.5], &others, &columns);
+    // the second variant of the first effect may not come beside it: 4, then 2, then 1, and 3 is
+    // left with 0.5
+    let left = beyond(Subspace::spanned_by([]), &[4.0, 3.0, 2.0, 1.0, 0.5], &others, &columns);
     assert!((left - 9.25_f64.sqrt()).abs() < 1e-12, "{left}");
 }
 
-/// What is stated is what the size really leaves, in length and in shape: laws of the slip speed are not linear, what
-/// sheared soil shows changes its sign, and phases of shoes show of any size.
+/// What is stated is what the size really leaves, in length and in shape: laws of the slip speed
+/// are not linear, what sheared soil shows changes its sign, and phases of shoes show of any size.
 #[test]
 fn a_size_shows_by_the_z_that_is_stated() {
     const SLIP_SPEED: [&str; 3] = ["stribeck-friction", "viscous-friction", "friction-creep"];
@@ -232,7 +238,7 @@ fn a_size_shows_by_the_z_that_is_stated() {
             let weak = SLIP_SPEED.into_iter().chain(OTHERS).flat_map(|id| [(id, 3.0), (id, 10.0)]);
             let strong = SLIP_SPEED.into_iter().flat_map(|id| [(id, 20.0), (id, 50.0)]);
             for (id, wanted) in weak.chain(strong) {
-                let dose = Dose::draw(id, scene, &mut random);
+                let dose = Dose::draw(sheet(id), scene, &mut random);
                 let sized = judge.sized(dose, wanted, 1.0).expect("a size");
                 let at = judge.at(sized.dose, sized.strength).expect("it drives");
                 let [stated, shown] = [&sized.signature, &at.signature].map(|s| judge.z(s));
@@ -240,17 +246,22 @@ fn a_size_shows_by_the_z_that_is_stated() {
                     sized.signature.iter().zip(&at.signature).map(|(a, b)| a + b).collect();
                 let cosine = (judge.z(&sum).powi(2) - stated * stated - shown * shown)
                     / (2.0 * stated * shown);
-                assert!((shown / stated).ln().abs() < CLOSE_ENOUGH, "{id}: {shown} for {stated}");
+                assert!(
+                    (shown / stated).ln().abs() < STRENGTH_TOLERANCE,
+                    "{id}: {shown} for {stated}"
+                );
                 assert!(cosine > 0.95, "{id}: cosine {cosine}");
-                of_wanted += usize::from((stated / wanted).ln().abs() < 2.0 * CLOSE_ENOUGH);
+                of_wanted += usize::from((stated / wanted).ln().abs() < 2.0 * STRENGTH_TOLERANCE);
             }
         });
     }
-    // the least soil can be shows more on sensitive robots, and laws of the slip speed saturate on others: four of five
+    // the least soil can be shows more on sensitive robots, and laws of the slip speed saturate on
+    // others: four of five
     assert!(of_wanted >= 42, "{of_wanted} of 52");
 }
 
-/// A place that the first runs never pass can be told from other effects all the same, by those that do.
+/// A place that the first runs never pass can be told from other effects all the same, by those
+/// that do.
 #[test]
 fn a_patch_stands_where_only_later_runs_pass_it() {
     let stage = Stage::new(21);
@@ -269,7 +280,9 @@ fn a_patch_stands_where_only_later_runs_pass_it() {
     assert!(radius > 0.5, "the first runs pass everything: {radius} m");
     stage.with(|judge, scene| {
         let mut random = stream(&Root::of_seed(1), 1, 0, Purpose::Concealed);
-        let sized = judge.sized(Dose::patch(*place, radius, 1.3), 20.0, 1.0).expect("a size");
+        let dose = Dose::draw(sheet("terrain-patch"), scene, &mut random).at_place(*place);
+        let dose = dose.with("radius_m", scene.machine, radius);
+        let sized = judge.sized(dose, 20.0, 1.0).expect("a size");
         let standing = judge.standings(&[sized], &[], scene, &mut random).expect("compared");
         let Standing { z_det, z_iso, nearest, .. } = &standing[0];
         assert!(*z_det > 10.0 && *z_iso > 0.2 * z_det, "{nearest}: {z_iso} of {z_det}");

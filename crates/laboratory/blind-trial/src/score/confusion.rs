@@ -70,7 +70,8 @@ impl Confusion {
         Self { counts }
     }
 
-    /// What there was: nothing, effects of the catalogue, those of the class of constants, pairs, laws outside the catalogue.
+    /// What there was: nothing, effects of the catalogue, those of the class of constants, pairs,
+    /// laws outside the catalogue.
     pub fn rows(&self) -> Vec<&str> {
         self.counts.keys().map(|truth| truth.name.as_str()).collect()
     }

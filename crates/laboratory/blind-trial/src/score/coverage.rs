@@ -1,9 +1,8 @@
 //! Whether intervals hold the true sizes.
 
-use super::rates::Rate;
+use super::rate::Rate;
 use super::verdict::Judged;
 use crate::diagnosis::{Missing, Size};
-use crate::plan::INSTRUMENTS;
 use std::collections::BTreeMap;
 use trackdyn_second_simulator::sheet_of;
 
@@ -16,13 +15,13 @@ pub fn coverage(judged: &[Judged]) -> Vec<Rate> {
     by_effect.into_iter().map(|(effect, outcomes)| Rate::of(effect, outcomes)).collect()
 }
 
-/// Effect by effect whether the 95 % interval holds the true size, over all parameters that mean the same in
-/// the catalogue.
+/// Effect by effect whether the 95 % interval holds the true size, over all parameters that mean
+/// what they mean in the catalogue.
 pub(super) fn outcomes(judged: &[Judged]) -> Vec<(&str, bool)> {
     judged.iter().flat_map(of_case).collect()
 }
 
-/// The same of one case.
+/// Whether the intervals of one case hold the true sizes.
 pub(super) fn of_case(case: &Judged) -> Vec<(&str, bool)> {
     let claims = case.diagnosis().map_or(&[][..], |diagnosis| &diagnosis.missing);
     let alone = claims.iter().filter(|claim| claim.members().len() == 1);
@@ -38,26 +37,26 @@ fn covered(case: &Judged, claim: &Missing) -> Vec<bool> {
     let shown = case.answer.shown_errors();
     let instruments = shown.iter().map(|i| (&i.mechanism, &i.parameters));
     let truth = concealed.chain(instruments).find(|(id, _)| **id == claim.effect);
-    let Some((id, parameters)) = truth.filter(|(id, _)| means_the_same(id)) else {
+    let Some((id, parameters)) = truth.filter(|(id, _)| shares_size(id)) else {
         return Vec::new();
     };
     let inside = |size: &Size| {
         let truth = parameters.get(&size.name)?;
         let (low, high) = (size.low95?, size.high95?);
         // directions come back after a whole turn
-        let turns = if is_direction(id, &size.name) { [-360.0, 0.0, 360.0] } else { [0.0; 3] };
+        let turns = if comes_round(id, &size.name) { [-360.0, 0.0, 360.0] } else { [0.0; 3] };
         Some(turns.iter().any(|turn| (low..=high).contains(&(truth + turn))))
     };
     claim.parameters.iter().filter_map(inside).collect()
 }
 
-/// Whether a size of the independent ground is that of the catalogue: the sheet says so.
-fn means_the_same(id: &str) -> bool {
-    INSTRUMENTS.contains(&id)
-        || sheet_of(id).is_some_and(|sheet| sheet.size.starts_with("the same"))
+/// Whether a size of the second simulator is that of the catalogue.
+fn shares_size(id: &str) -> bool {
+    sheet_of(id).is_some_and(|sheet| sheet.shares_size)
 }
 
-fn is_direction(id: &str, key: &str) -> bool {
-    let parameters = sheet_of(id).map_or(&[][..], |sheet| sheet.parameters);
-    parameters.iter().any(|p| p.key == key && p.unit == "deg" && p.range[1] >= 180.0)
+/// Whether a parameter is an angle that comes back after a whole turn.
+fn comes_round(id: &str, key: &str) -> bool {
+    let parameter = sheet_of(id).and_then(|sheet| sheet.parameter(key));
+    parameter.is_some_and(|one| one.unit == "deg" && one.range[1] >= 180.0)
 }

@@ -7,8 +7,8 @@ use crate::diagnosis::Fit;
 use statrs::distribution::{ContinuousCDF, Normal};
 use trackdyn_core::real;
 
-/// ln Bayes factor that a claim needs.
-const LN_BAYES_FACTOR: f64 = 5.0;
+/// Smallest ln Bayes factor of a claim.
+const MIN_LN_BAYES_FACTOR: f64 = 5.0;
 
 /// The middle of a quantity over cases.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,15 +45,16 @@ impl Mean {
     }
 }
 
-/// How often noise lets an answer be told from another one that is z standard errors away, by the ln Bayes factor that a
-/// claim needs: whoever knows both exactly sees ln L₁/L₂ with mean z²/2 and standard deviation z.
+/// How often noise lets an answer be told from another one that is z standard errors away, by the
+/// ln Bayes factor that a claim needs: whoever knows both exactly sees ln L₁/L₂ with mean z²/2 and
+/// standard deviation z.
 fn told_apart(z: f64) -> f64 {
-    let more = z / 2.0 - LN_BAYES_FACTOR / z;
+    let more = z / 2.0 - MIN_LN_BAYES_FACTOR / z;
     if z > 0.0 { Normal::standard().cdf(more) } else { 0.0 }
 }
 
-/// Share of what constants and instruments leave above the floor that is explained; none where they leave less than a hundredth of
-/// the floor, in squares.
+/// Share of what constants and instruments leave above the floor that is explained; none where they
+/// leave less than a hundredth of the floor, in squares.
 fn beyond_instruments(fit: &Fit) -> Option<f64> {
     let [before, after, floor] =
         [fit.held_out_instruments?, fit.held_out_after?, fit.noise_floor?].map(|rms| rms * rms);
@@ -71,7 +72,8 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
     let over_floor = |of: fn(&Fit) -> Option<f64>| {
         fits().filter_map(move |fit| Some(of(fit)? / fit.noise_floor?))
     };
-    // Both figures are the program's own; how they come out where it found nothing says what they are worth.
+    // Both figures are the program's own; how they come out where it found nothing says what they
+    // are worth.
     let missed = || {
         let missed = judged.iter().filter(|case| {
             let truth = case.only().filter(|truth| truth.is_detectable());

@@ -1,10 +1,11 @@
 //! Whether files tell by their outside what is inside.
 //!
-//! A classifier that sees no number of a recording, only sizes and stamps of its files, is asked which
-//! cases are nulls: nearest neighbour, leaving out the case itself, among as many nulls as others, taken evenly from the whole
-//! list. It has to stay at chance: the neighbour is one of n - 1 of its own kind and n of the other, a little less than a half.
+//! A classifier that sees no number of a recording, only sizes and stamps of its files, is asked
+//! which cases are nulls: nearest neighbour, leaving out the case itself, among as many nulls as
+//! others, taken evenly from the whole list. It has to stay at chance: the neighbour is one of n -
+//! 1 of its own kind and n of the other, a little less than a half.
 
-use super::rates::Rate;
+use super::rate::Rate;
 use super::verdict::Judged;
 use trackdyn_core::real;
 

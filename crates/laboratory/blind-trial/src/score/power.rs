@@ -3,7 +3,7 @@
 use super::verdict::Judged;
 
 /// Limits of z between bins: those of what is distinct and what is detectable are among them.
-const LIMITS: [f64; 10] = [0.0, 2.0, 3.0, 4.0, 5.0, 8.0, 12.5, 20.0, 32.0, f64::INFINITY];
+const Z_LIMITS: [f64; 10] = [0.0, 2.0, 3.0, 4.0, 5.0, 8.0, 12.5, 20.0, 32.0, f64::INFINITY];
 
 /// Single effects of the catalogue within limits of z.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct PowerBin {
 pub(super) fn power(judged: &[Judged]) -> Vec<PowerBin> {
     let mut bins = Vec::new();
     for of in ["z_det", "z_iso"] {
-        for limits in LIMITS.windows(2) {
+        for limits in Z_LIMITS.windows(2) {
             let mut bin =
                 PowerBin { of, limits: [limits[0], limits[1]], cases: 0, in_set: 0, exact: 0 };
             for case in judged.iter().filter(|case| !case.is_constant()) {

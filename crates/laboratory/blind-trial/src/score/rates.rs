@@ -1,48 +1,15 @@
 //! Rates: of how many cases how many succeed.
 
 use super::coverage;
-use super::interval::clopper_pearson;
+use super::rate::Rate;
 use super::verdict::Judged;
 use crate::answer::Concealed;
 use crate::diagnosis::Status;
-use crate::plan::{Difficulty, Stratum};
-use trackdyn_core::real;
+use crate::difficulty::Difficulty;
+use crate::plan::Stratum;
 
-/// A share of cases.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Rate {
-    /// What is counted.
-    pub name: String,
-    /// Cases of which it is true.
-    pub successes: usize,
-    /// Cases that count.
-    pub cases: usize,
-}
-
-impl Rate {
-    /// A rate over cases that are told to succeed or not.
-    pub(super) fn of(name: impl Into<String>, outcomes: impl IntoIterator<Item = bool>) -> Self {
-        let mut rate = Self { name: name.into(), successes: 0, cases: 0 };
-        for success in outcomes {
-            rate.cases += 1;
-            rate.successes += usize::from(success);
-        }
-        rate
-    }
-
-    /// The share; none without cases.
-    pub fn share(&self) -> Option<f64> {
-        (self.cases > 0).then(|| real(self.successes) / real(self.cases))
-    }
-
-    /// Its interval of 95 %.
-    pub fn interval(&self) -> Option<[f64; 2]> {
-        clopper_pearson(self.successes, self.cases)
-    }
-}
-
-/// All rates of a trial. A process that failed has found nothing; it does not count where false claims
-/// and over-claims are counted.
+/// All rates of a trial. A process that failed has found nothing; it does not count where false
+/// claims and over-claims are counted.
 pub fn rates(judged: &[Judged]) -> Vec<Rate> {
     let mut rates = nulls(judged);
     rates.extend(singles(judged));
@@ -69,7 +36,7 @@ fn nulls(judged: &[Judged]) -> Vec<Rate> {
         rate("false claim: plain nulls".to_owned(), &|case| case.is_of(&[Stratum::PlainNull])),
         rate("false claim: hard nulls".to_owned(), &|case| case.is_of(&[Stratum::HardNull])),
     ];
-    for difficulty in Difficulty::ALL {
+    for difficulty in Difficulty::all() {
         let name = format!("false claim: hard nulls, {}", difficulty.name());
         rates.push(rate(name, &|case| case.answer.difficulty == Some(difficulty)));
     }

@@ -1,9 +1,9 @@
 //! Whether driving on tells apart what a diagnosis could not.
 
-use super::rates::Rate;
+use super::rate::Rate;
 use super::verdict::Judged;
+use crate::answer::is_constant;
 use crate::diagnosis::{Diagnosis, Missing, Status};
-use crate::plan::CONSTANTS;
 
 /// A case whose diagnosis left something open, and what further driving made of it.
 #[derive(Clone, Debug)]
@@ -25,20 +25,19 @@ pub enum Outcome {
     Diagnosed(Box<Diagnosis>),
 }
 
-/// The sets of effects that the diagnosis of a case leaves open. Those of constants alone are none of them: all
-/// that moves the constant ICRs is the same to every driver.
+/// The sets of effects that the diagnosis of a case leaves open. Those of constants alone are none
+/// of them: all that moves the constant ICRs is the same to every driver.
 pub fn open_sets(case: &Judged) -> Vec<Vec<&str>> {
     let diagnosis = case.diagnosis().filter(|diagnosis| diagnosis.status == Status::Ambiguous);
     let claims = diagnosis.map_or(&[][..], |diagnosis| &diagnosis.missing);
     let sets = claims.iter().map(Missing::members);
-    let is_open =
-        |set: &Vec<&str>| set.len() > 1 && !set.iter().all(|member| CONSTANTS.contains(member));
+    let is_open = |set: &Vec<&str>| set.len() > 1 && !set.iter().all(|id| is_constant(id));
     sets.filter(is_open).collect()
 }
 
 impl Revisited<'_> {
-    /// The open set: the smallest that holds what is concealed, else the smallest that holds something true, else the
-    /// smallest.
+    /// The open set: the smallest that holds what is concealed, else the smallest that holds
+    /// something true, else the smallest.
     pub fn set_before(&self) -> Vec<&str> {
         let key = |set: &Vec<&str>| {
             let holds = |of: &dyn Fn(&str) -> bool| set.iter().any(|member| of(member));
@@ -48,7 +47,8 @@ impl Revisited<'_> {
         open_sets(self.before).into_iter().min_by_key(key).unwrap_or_default()
     }
 
-    /// What is true of the open set: what is concealed, else an error of an instrument or of the vehicle file.
+    /// What is true of the open set: what is concealed, else an error of an instrument or of the
+    /// vehicle file.
     pub fn truth(&self) -> Option<&str> {
         let set = self.set_before();
         let concealed = set.iter().find(|member| self.conceals(member));

@@ -5,7 +5,7 @@ use super::coverage;
 use super::interval::clopper_pearson;
 use super::means::Mean;
 use super::power::PowerBin;
-use super::rates::Rate;
+use super::rate::Rate;
 use super::resolution::{self, Outcome, Revisited};
 use crate::diagnosis::Fit;
 use std::fmt::Write;
@@ -15,7 +15,10 @@ use trackdyn_core::real;
 pub fn markdown(score: &Score) -> String {
     let mut text = String::from("# Scores of the trial\n\n");
     let _ = writeln!(text, "{} cases diagnosed, {} not yet.", score.judged.len(), score.absent);
-    text.push_str("Intervals: 95 %; of rates by Clopper and Pearson, of means by their standard errors, of medians by ranks.\n\n");
+    text.push_str(
+        "Intervals: 95 %; of rates by Clopper and Pearson, of means by their standard \
+                   errors, of medians by ranks.\n\n",
+    );
     text.push_str("## Rates\n\n");
     rate_table(&mut text, &score.rates);
     text.push_str("\n## Means\n\n| what | cases | mean | interval | median | interval |\n");
@@ -65,7 +68,10 @@ fn reach_table(text: &mut String, score: &Score) {
         return;
     }
     text.push_str("\n## What a rule could reach\n\n");
-    text.push_str("Expected of a rule that sees how far an effect is from the next other one with an error of one standard\n");
+    text.push_str(
+        "Expected of a rule that sees how far an effect is from the next other one with \
+                   an error of one standard\n",
+    );
     text.push_str("deviation, as the best one does, and names it alone from t on.\n\n");
     text.push_str("| t | isolable singles named | others named alone |\n|---|---|---|\n");
     for reach in &score.reach {
@@ -174,8 +180,9 @@ pub fn confusion_csv(score: &Score) -> String {
 /// One row per case: what was there and what was said.
 pub fn cases_csv(score: &Score) -> String {
     let mut text = String::from(
-        "case,stratum,concealed,z_det,z_iso,nearest,status,named,broken,false_claim,absent_law,intervals_hold,intervals,\
-         excess_explained,held_out_before,held_out_instruments,held_out_after,noise_floor,z_beyond\n",
+        "case,stratum,concealed,z_det,z_iso,nearest,status,named,broken,false_claim,absent_law,\
+         intervals_hold,intervals,excess_explained,held_out_before,held_out_instruments,\
+         held_out_after,noise_floor,z_beyond\n",
     );
     for case in &score.judged {
         let answer = &case.answer;

@@ -55,7 +55,8 @@ fn what_cannot_be_told_apart_makes_the_smallest_set() {
     let near =
         Concealed { class: vec!["tether".to_owned(), "cohesion".to_owned()], ..alone.clone() };
     let of_class = Concealed { class: near.class.clone(), ..concealed("cohesion", 20.0, 9.0) };
-    // the seven of constants, of which one is in its class as well, where a sensor sits, and a tether
+    // the seven of constants, of which one is in its class as well, where a sensor sits, and a
+    // tether
     assert_eq!([alone, near, of_class].map(|truth| truth.smallest_set()), [1, 3, 9]);
 }
 
@@ -82,7 +83,8 @@ fn only_what_is_not_there_is_a_false_claim() {
     assert_eq!(rate(&cases, "false claim: nulls"), (2, 4));
     assert_eq!(rate(&cases, "nothing missing: nulls"), (1, 4));
     // a law beside an encoder that is truly off is excused as a claim, and counted as absent
-    let beside = "status = 'ambiguous'\n[[missing]]\neffect = 'slope'\none_of = ['slope', 'encoder-scale']\n";
+    let beside = "status = 'ambiguous'\n[[missing]]\neffect = 'slope'\n\
+                  one_of = ['slope', 'encoder-scale']\n";
     let cases = [null(NOTHING), null(SCALE), null(beside)];
     assert_eq!(rate(&cases, "false claim: nulls"), (0, 3));
     assert_eq!(rate(&cases, "an absent law is named"), (1, 3));
@@ -122,7 +124,8 @@ fn naming_one_of_a_class_that_cannot_be_split_is_an_over_claim() {
 fn pairs_intervals_and_laws_outside() {
     let pair = vec![concealed("slope", 20.0, 9.0), concealed("motion-resistance", 20.0, 9.0)];
     let resistance = "[[missing]]\neffect = 'motion-resistance'\n\
-                      parameters = [{ name = 'coefficient', value = 0.05, low95 = 0.04, high95 = 0.06 }]\n";
+                      parameters = [{ name = 'coefficient', value = 0.05, \
+                      low95 = 0.04, high95 = 0.06 }]\n";
     let both = case(Stratum::Pair, pair.clone(), &format!("{SLOPE}{resistance}"));
     let one = case(Stratum::Pair, pair, SLOPE);
     assert_eq!(rate(&[both.clone(), one], "both named"), (1, 2));
@@ -172,7 +175,8 @@ fn the_line_of_a_case_is_enough_to_count_it_again() {
     let line =
         cases_csv(&Score::of(vec![case(Stratum::PlainNull, Vec::new(), &format!("{SCALE}{fit}"))]));
     let line = line.lines().nth(1);
-    let expected = "case-0001,plain-null,,,,,explained,encoder-scale,,false,false,1,1,0.9877,2.0000,,1.0200,1.0100,";
+    let expected = "case-0001,plain-null,,,,,explained,encoder-scale,,false,false,1,1,0.9877,\
+                    2.0000,,1.0200,1.0100,";
     assert_eq!(line, Some(expected));
 }
 
@@ -193,7 +197,8 @@ fn further_driving_resolves_what_it_leaves_the_truth_of_alone() {
     ];
     let rates = resolution::rates(&revisited);
     let counts: Vec<_> = rates.iter().map(|rate| (rate.successes, rate.cases)).collect();
-    // planned; truth before; still there, smaller, resolved, of what is concealed and of other errors; misled; failed
+    // planned; truth before; still there, smaller, resolved, of what is concealed and of other
+    // errors; misled; failed
     let expected = [(5, 6), (4, 5), (2, 4), (1, 4), (1, 4), (0, 0), (0, 0), (0, 0), (2, 5), (1, 5)];
     assert_eq!(counts, expected);
     assert!(

@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, Concealed};
 use crate::diagnosis::{Diagnosis, Missing, Status};
-use crate::plan::{CONSTANTS, INSTRUMENTS, Stratum};
+use crate::plan::Stratum;
 use trackdyn_second_simulator::sheet_of;
 
 /// What came back of a case.
@@ -51,14 +51,15 @@ impl Judged {
         }
     }
 
-    /// Whether an effect is truly there: concealed, an error of an instrument, or of the vehicle file.
+    /// Whether an effect is truly there: concealed, an error of an instrument, or of the vehicle
+    /// file.
     pub fn is_true(&self, effect: &str) -> bool {
         self.answer.concealed.iter().any(|concealed| concealed.mechanism == effect)
             || self.is_known_error(effect)
     }
 
-    /// Whether it is an error of an instrument or of the vehicle file, which is right to name and no
-    /// physics of the trial.
+    /// Whether it is an error of an instrument or of the vehicle file, which is right to name and
+    /// no physics of the trial.
     fn is_known_error(&self, effect: &str) -> bool {
         self.answer.shown_errors().iter().any(|error| error.mechanism == effect)
             || self.owner_errors.contains(&effect)
@@ -69,23 +70,27 @@ impl Judged {
         self.claims().iter().any(|claim| !claim.members().iter().any(|m| self.is_true(m)))
     }
 
-    /// Whether a law of forces or of the drive is named that is not there, be it in a set with what is true.
+    /// Whether a law of forces or of the drive is named that is not there, be it in a set with what
+    /// is true.
     pub fn names_absent_law(&self) -> bool {
         self.claims().iter().any(|claim| self.has_absent_law(claim))
     }
 
     fn has_absent_law(&self, claim: &Missing) -> bool {
-        let is_law = |id: &str| !CONSTANTS.contains(&id) && !INSTRUMENTS.contains(&id);
+        let is_law = |id: &str| {
+            sheet_of(id).is_none_or(|sheet| !sheet.is_constant() && !sheet.is_instrument())
+        };
         claim.members().iter().any(|member| is_law(member) && !self.is_true(member))
     }
 
-    /// Whether an effect is named and nothing beside it, nor any absent law in a set with an error of an instrument or of
-    /// the vehicle file.
+    /// Whether an effect is named and nothing beside it, nor any absent law in a set with an error
+    /// of an instrument or of the vehicle file.
     pub fn names_strictly(&self, effect: &str) -> bool {
         self.names_exactly(&[effect]) && !self.names_absent_law()
     }
 
-    /// Letters of the symmetries that all that is truly there breaks: what is concealed, and known errors.
+    /// Letters of the symmetries that all that is truly there breaks: what is concealed, and known
+    /// errors.
     pub fn truly_broken(&self) -> Vec<String> {
         let errors = self.answer.shown_errors();
         let errors = errors.iter().map(|error| error.mechanism.as_str());
@@ -122,13 +127,14 @@ impl Judged {
         sets.filter(|members| members.contains(&effect)).min_by_key(Vec::len)
     }
 
-    /// Whether one effect is named by itself that is not an error of instruments or of the vehicle file.
+    /// Whether one effect is named by itself that is not an error of instruments or of the vehicle
+    /// file.
     pub fn names_one_alone(&self) -> bool {
         self.physics().iter().any(|claim| claim.members().len() == 1)
     }
 
-    /// Whether the vehicle or the class of constants alone is concerned: nothing that a recording shows beside
-    /// constant ICRs.
+    /// Whether the vehicle or the class of constants alone is concerned: nothing that a recording
+    /// shows beside constant ICRs.
     pub fn is_constant(&self) -> bool {
         self.only().is_some_and(Concealed::is_constant)
     }

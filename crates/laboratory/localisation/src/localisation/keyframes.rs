@@ -41,9 +41,9 @@ pub(super) struct Tracker<'a> {
     before: (usize, &'a Scan, PoseEstimate),
 }
 
-/// Earlier keyframes that are tried before a new one is made, nearest first. Those further off share
-/// less.
-const TRIED: usize = 3;
+/// Largest number of earlier keyframes that are tried before a new one is made, nearest first.
+/// Those further off share less.
+const MAX_KEYFRAMES_TRIED: usize = 3;
 
 impl<'a> Tracker<'a> {
     pub(super) fn new(first: &'a Scan, options: &'a Localisation) -> Result<Self, Error> {
@@ -101,7 +101,7 @@ impl<'a> Tracker<'a> {
         if self.overlap <= 1.0 {
             let mut tried = self.nearest(predicted);
             tried.retain(|keyframe| *keyframe != self.current);
-            tried.truncate(TRIED);
+            tried.truncate(MAX_KEYFRAMES_TRIED);
             for keyframe in std::iter::once(self.current).chain(tried) {
                 let found = self.against(keyframe, scan, predicted)?;
                 if found.status != Status::Converged {

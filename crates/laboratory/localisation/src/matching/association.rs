@@ -1,7 +1,8 @@
 //! Which line each return looks at.
 
-use crate::matching::beam::{self, Beam};
-use crate::reference::{Line, Reference};
+use crate::beam::{self, Beam};
+use crate::line::Line;
+use crate::reference::Reference;
 use crate::scan::Return;
 use nalgebra::Matrix3;
 use trackdyn_core::Pose;
@@ -15,12 +16,12 @@ pub(super) struct Pair {
     pub(super) hit: usize,
 }
 
-/// Returns further from their line than this many standard deviations belong to something else. Of
-/// a normal distribution one in 16 000 lies beyond.
-const GATE: f64 = 4.0;
+/// Largest distance of a return from its line, in standard deviations. Returns further away belong
+/// to something else; of a normal distribution one in 16 000 lies beyond.
+const MAX_DEVIATIONS: f64 = 4.0;
 
-/// Returns that suffice to come near: 20 on each of half a dozen lines.
-const ENOUGH: usize = 120;
+/// Largest number of returns that are used to come near: 20 on each of half a dozen lines.
+const MAX_RETURNS: usize = 120;
 
 /// Sines and cosines of the lines' normals.
 pub(super) type Normals = Vec<(f64, f64)>;
@@ -56,7 +57,7 @@ pub(super) fn close(
         let at = beam::on_normal(normals[line], lines[line].distance, pose, yaw, hit.direction);
         let Some(beam) = at else { continue };
         let variance = variance(&beam, &lines[line], range_noise);
-        if (hit.range - beam.range).powi(2) <= GATE * GATE * variance {
+        if (hit.range - beam.range).powi(2) <= MAX_DEVIATIONS * MAX_DEVIATIONS * variance {
             association.pairs.push(Pair { line, hit: index });
         }
     }
@@ -79,7 +80,7 @@ pub(super) fn wide(
     let yaw = pose.yaw.sin_cos();
     let across = covariance[(0, 0)].max(covariance[(1, 1)]).sqrt();
     let turn = covariance[(2, 2)].sqrt();
-    let every = (returns.len() / ENOUGH).max(1);
+    let every = (returns.len() / MAX_RETURNS).max(1);
     let mut pairs = Vec::with_capacity(returns.len() / every + 1);
     for (index, hit) in returns.iter().enumerate().step_by(every) {
         let (bearing, distance) = bearing(hit, pose, yaw);
@@ -91,7 +92,9 @@ pub(super) fn wide(
             let variance = variance(&beam, &lines[line], range_noise)
                 + beam.by_pose.dot(&(covariance * beam.by_pose));
             let squared = (hit.range - beam.range).powi(2) / variance;
-            if squared <= GATE * GATE && best.is_none_or(|(least, ..)| squared < least) {
+            if squared <= MAX_DEVIATIONS * MAX_DEVIATIONS
+                && best.is_none_or(|(least, ..)| squared < least)
+            {
                 best = Some((squared, line, beam, variance));
             }
         }

@@ -1,8 +1,8 @@
 //! From a start to the best pose.
 //!
-//! First wide: the pose has the covariance of the guess, which shrinks from step to step, and with it
-//! the window in which lines are looked for and the gate. Then close: each return belongs to the line
-//! it looks at. At last the pairs are kept, and the pose is polished on them.
+//! First wide: the pose has the covariance of the guess, which shrinks from step to step, and with
+//! it the window in which lines are looked for and the gate. Then close: each return belongs to the
+//! line it looks at. At last the pairs are kept, and the pose is polished on them.
 
 use crate::PoseEstimate;
 use crate::matching::association::{self, Association, Normals};
@@ -14,17 +14,19 @@ use crate::scan::Return;
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::Pose;
 
-/// Wide steps; each halves the deviations, at last to a hundredth of the guess's, about what a match
-/// is exact to.
-const WIDE: usize = 7;
-/// Close steps; where pairs still come and go after them, the pose moves by less than its deviation.
-const CLOSE: usize = 20;
-/// Steps on kept pairs. Newton's method gains digits twofold, so that four suffice.
-const POLISH: usize = 10;
+/// Number of wide steps; each halves the deviations, at last to a hundredth of the guess's, about
+/// what a match is exact to.
+const WIDE_STEPS: usize = 7;
+/// Largest number of close steps; where pairs still come and go after them, the pose moves by less
+/// than its deviation.
+const MAX_CLOSE_STEPS: usize = 20;
+/// Largest number of steps on kept pairs. Newton's method gains digits twofold, so that four
+/// suffice.
+const MAX_POLISH_STEPS: usize = 10;
 
-/// Largest squared residual per degree of freedom. With 100 returns noise reaches 1.4 in one of 1000
-/// matches; twice the variance leaves room for a range noise that is stated too small by 40 %.
-const CONSISTENT: f64 = 2.0;
+/// Largest squared residual per degree of freedom. With 100 returns noise reaches 1.4 in one of
+/// 1000 matches; twice the variance leaves room for a range noise that is stated too small by 40 %.
+const MAX_REDUCED_CHI_SQUARE: f64 = 2.0;
 
 struct Problem<'a> {
     reference: &'a Reference,
@@ -52,7 +54,7 @@ pub(super) fn descend(
     };
     match problem.polish(pose, &association) {
         None => failed(Status::NotConverged),
-        Some(found) if found.reduced_chi_square > CONSISTENT => {
+        Some(found) if found.reduced_chi_square > MAX_REDUCED_CHI_SQUARE => {
             let Match { matched, candidates, reduced_chi_square, .. } = found;
             Match { matched, candidates, reduced_chi_square, ..failed(Status::Inconsistent) }
         }
@@ -65,7 +67,7 @@ impl Problem<'_> {
         let deviations = self.options.deviations();
         let mut covariance = Matrix3::from_diagonal(&deviations.component_mul(&deviations));
         let mut pose = start;
-        for _ in 0..WIDE {
+        for _ in 0..WIDE_STEPS {
             let pairs = association::wide(
                 self.reference,
                 &self.normals,
@@ -74,7 +76,8 @@ impl Problem<'_> {
                 &covariance,
                 self.options.range_noise,
             );
-            // Beside the pairs stands the pose itself, with its covariance: what no pair sees stays.
+            // Beside the pairs stands the pose itself, with its covariance: what no pair sees
+            // stays.
             let mut information = covariance.try_inverse()?;
             let mut gradient = Vector3::zeros();
             for (pair, beam, variance) in pairs {
@@ -109,10 +112,10 @@ impl Problem<'_> {
             let delta = cholesky.solve(&gradient);
             pose = moved(&pose, &delta);
             let size = delta.dot(&(information * delta)).sqrt();
-            if size < 0.01 || (step >= CLOSE && size < 1.0) {
+            if size < 0.01 || (step >= MAX_CLOSE_STEPS && size < 1.0) {
                 return Ok((pose, association));
             }
-            if step >= CLOSE {
+            if step >= MAX_CLOSE_STEPS {
                 break;
             }
         }
@@ -121,7 +124,7 @@ impl Problem<'_> {
 
     fn polish(&self, mut pose: Pose, association: &Association) -> Option<Match> {
         let weak = self.weak(&self.equations(association, &pose)?);
-        for _ in 0..POLISH {
+        for _ in 0..MAX_POLISH_STEPS {
             let normal = self.equations(association, &pose)?;
             let (information, gradient) = self.with_guess(&normal, weak.as_ref(), &pose);
             let cholesky = information.cholesky()?;

@@ -1,15 +1,15 @@
 //! The normal equations of a match, with the lines eliminated.
 //!
 //! Unknown are the motion x and, for each line k, its error δₖ, of which the reference knows the
-//! covariance Cₖ. With residuals e = ρ − h and derivatives a = ∂h/∂x, b = ∂h/∂δ, the likelihood asks
-//! for the least
+//! covariance Cₖ. With residuals e = ρ − h and derivatives a = ∂h/∂x, b = ∂h/∂δ, the likelihood
+//! asks for the least
 //!
 //! Σₖ ( Σ_j (e − a · δx − b · δₖ)²/σ² + δₖᵀ Cₖ⁻¹ δₖ ).
 //!
 //! Each δₖ occurs in its own term only, so that it can be eliminated line by line.
 
+use crate::beam;
 use crate::matching::association::{Normals, Pair};
-use crate::matching::beam;
 use crate::reference::Reference;
 use crate::scan::Return;
 use nalgebra::{Matrix2, Matrix3, Matrix3x2, Vector2, Vector3};
@@ -24,8 +24,8 @@ pub(super) struct Normal {
     pub(super) gradient: Vector3<f64>,
     /// Least of the sum at δx = 0.
     pub(super) chi_square: f64,
-    /// Information along the lines, F, that H holds or lacks by noise: a wall whose direction is off
-    /// by two standard deviations 2σ_θ takes a displacement along it for one of 2σ_θ times that
+    /// Information along the lines, F, that H holds or lacks by noise: a wall whose direction is
+    /// off by two standard deviations 2σ_θ takes a displacement along it for one of 2σ_θ times that
     /// across.
     pub(super) feigned: Matrix3<f64>,
 }

@@ -1,13 +1,13 @@
 //! The line of greatest likelihood through returns.
 
-use super::Line;
-use crate::matching::beam::{self, Beam};
+use crate::beam::{self, Beam};
+use crate::line::Line;
 use crate::scan::Return;
 use nalgebra::{Matrix2, Vector2};
 use trackdyn_core::Pose;
 
-/// Newton's steps; from the start below, three reach rounding.
-const STEPS: usize = 10;
+/// Largest number of Newton's steps; from the start below, three reach rounding.
+const MAX_STEPS: usize = 10;
 
 /// The line that minimises Σ (ρ − d/(n · u))²; `None` where the returns lie on none, or graze it.
 ///
@@ -21,7 +21,7 @@ pub(super) fn line(returns: &[Return], range_noise: f64) -> Option<Line> {
         last_beam: last.beam,
         ..start(returns)?
     };
-    for _ in 0..STEPS {
+    for _ in 0..MAX_STEPS {
         let mut normal = Matrix2::zeros();
         let mut gradient = Vector2::zeros();
         for hit in returns {

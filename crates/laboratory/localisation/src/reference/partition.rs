@@ -9,8 +9,8 @@
 //! found exactly.
 //!
 //! # Sources
-//! Killick, Fearnhead and Eckley, Optimal detection of changepoints with a linear computational cost,
-//! JASA 107 (2012), 1590-1598: what is pruned can never again be part of the optimum.
+//! Killick, Fearnhead and Eckley, Optimal detection of changepoints with a linear computational
+//! cost, JASA 107 (2012), 1590-1598: what is pruned can never again be part of the optimum.
 
 use crate::scan::Return;
 use std::ops::Range;

@@ -1,8 +1,8 @@
 //! What a ray hits first.
 //!
-//! A ray o + ρ u meets the segment a-b where u × (a − o) and u × (b − o) differ in sign, at
-//! ρ = (a − o) × (b − a) / (u × (b − a)). Segments that share a corner compute its cross product from
-//! the same numbers, so that no ray slips through between them.
+//! A ray o + ρ u meets the segment a-b where u × (a − o) and u × (b − o) differ in sign, at ρ = (a
+//! − o) × (b − a) / (u × (b − a)). Segments that share a corner compute its cross product from the
+//! same numbers, so that no ray slips through between them.
 
 use super::{Room, Segment};
 use std::f64::consts::{PI, TAU};
@@ -26,14 +26,16 @@ const BEARING_ROUNDING: f64 = 1e-9;
 impl Room {
     /// Distance in m from a point to the first segment along a bearing (rad); `None` in the open.
     ///
-    /// A ray along a segment meets its nearer end. A ray that starts on a segment has distance zero.
+    /// A ray along a segment meets its nearer end. A ray that starts on a segment has distance
+    /// zero.
     pub fn range(&self, origin: [f64; 2], bearing: f64) -> Option<f64> {
         let (sin, cos) = bearing.sin_cos();
         let hits = self.segments().iter().filter_map(|segment| meet(segment, origin, [cos, sin]));
         hits.min_by(f64::total_cmp)
     }
 
-    /// The ranges of a fan of rays, m, infinite in the open; the same bits as [`Room::range`] gives.
+    /// The ranges of a fan of rays, m, infinite in the open; the same bits as [`Room::range`]
+    /// gives.
     ///
     /// Each segment is intersected with the rays between the bearings of its ends only.
     pub(crate) fn ranges(&self, pose: &Pose, fan: &Fan) -> Vec<f64> {
@@ -66,7 +68,8 @@ impl Fan {
         self.first_angle + self.angle_step * ray as f64
     }
 
-    /// Rays that can meet a segment: two ranges of indices, for it may lie at both ends of a wide fan.
+    /// Rays that can meet a segment: two ranges of indices, for it may lie at both ends of a wide
+    /// fan.
     fn rays_across(&self, segment: &Segment, pose: &Pose) -> [std::ops::Range<usize>; 2] {
         let at_end = |end: [f64; 2]| end == [pose.x, pose.y];
         if at_end(segment.from) || at_end(segment.to) {

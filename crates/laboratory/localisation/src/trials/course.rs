@@ -41,7 +41,8 @@ pub(super) fn path(seed: u64, length: f64, period: f64) -> Vec<Pose> {
             rate = between(&mut random, -1.0, 1.0);
         }
         left -= 1;
-        // A second and a half ahead, the robot must still be on free ground; else it turns to the middle.
+        // A second and a half ahead, the robot must still be on free ground; else it turns to the
+        // middle.
         let ahead = pose.compose(&Pose::exp(&Twist { v_x: speed, v_y: 0.0, w: rate }, 1.5));
         if !((2.3..7.7).contains(&ahead.x) && (2.0..6.2).contains(&ahead.y)) {
             let to_middle = (4.0 - pose.y).atan2(5.0 - pose.x);

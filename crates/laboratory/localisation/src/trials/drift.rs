@@ -17,7 +17,7 @@ struct Drift {
     position: f64,
     yaw: f64,
     normalised: f64,
-    /// The same of the motion from scan to scan.
+    /// Squared error of the motion from scan to scan, m² and rad².
     step_position: f64,
     step_yaw: f64,
     time: Duration,
@@ -164,23 +164,35 @@ fn nonsense_is_refused() {
     assert!(localise(&[], &[], &Localisation::default()).expect("nothing").is_empty());
 }
 
-/// The table of `docs/theory/localisation.md`: run with `--release -- --ignored --nocapture`.
+/// The figures of `docs/theory/localisation.md`, and those of other overlaps: run with
+/// `--release -- --ignored --nocapture`.
 #[test]
-#[ignore = "prints a table"]
-fn table() {
-    let keyframes = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8];
-    let keyframes = keyframes.map(|overlap| MatchAgainst::Keyframes { overlap });
+#[ignore = "drives 77 paths"]
+fn paths_are_off_by_what_is_documented() {
+    let overlaps = [0.6, 0.3, 0.4, 0.5, 0.7, 0.8];
+    let keyframes = overlaps.map(|overlap| MatchAgainst::Keyframes { overlap });
     println!("against | position mm | yaw deg | step mm | step deg | normalised | us per scan");
-    for against in std::iter::once(MatchAgainst::Previous).chain(keyframes) {
-        let drift = drift(against, 11);
-        println!(
-            "{against:?} | {:.1} | {:.3} | {:.2} | {:.4} | {:.2} | {:.0}",
-            drift.rms(drift.position) * 1e3,
-            drift.rms(drift.yaw).to_degrees(),
-            drift.rms(drift.step_position) * 1e3,
-            drift.rms(drift.step_yaw).to_degrees(),
-            drift.normalised / drift.scans,
-            drift.time.as_secs_f64() / drift.scans * 1e6
-        );
+    let found: Vec<[f64; 3]> = std::iter::once(MatchAgainst::Previous)
+        .chain(keyframes)
+        .map(|against| {
+            let drift = drift(against, 11);
+            let position = drift.rms(drift.position) * 1e3;
+            let yaw = drift.rms(drift.yaw).to_degrees();
+            let step = drift.rms(drift.step_position) * 1e3;
+            println!(
+                "{against:?} | {position:.1} | {yaw:.3} | {step:.2} | {:.4} | {:.2} | {:.0}",
+                drift.rms(drift.step_yaw).to_degrees(),
+                drift.normalised / drift.scans,
+                drift.time.as_secs_f64() / drift.scans * 1e6
+            );
+            [position, yaw, step]
+        })
+        .collect();
+    // the documented digits
+    let digits = [0.05, 5e-4, 5e-3];
+    for (found, documented) in found.iter().zip([[5.9, 0.062, 1.60], [2.7, 0.037, 2.03]]) {
+        for ((found, documented), digit) in found.iter().zip(documented).zip(digits) {
+            assert!((found - documented).abs() < 1.01 * digit, "{found} for {documented}");
+        }
     }
 }

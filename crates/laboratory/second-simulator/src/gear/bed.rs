@@ -2,19 +2,19 @@
 
 use super::Shoe;
 
-/// Part of the load, and of the load a metre away, that rounding may lose.
-const ROUNDING: f64 = 1e-9;
+/// Largest part of the load, and of the load a metre away, that rounding may lose.
+const MAX_LOAD_ERROR: f64 = 1e-9;
 
 /// Replaces each shoe's spring stiffness, which stands in its load, by the load it carries.
 ///
 /// # Law
-/// The frame sinks by d and pitches by θ; a spring carries `k A (d + θ y)` where that presses and nothing
-/// where it would pull. d and θ are those at which the springs carry N with its moment N y_p. Springs
-/// that lift are taken out and the frame settles anew, until none changes.
+/// The frame sinks by d and pitches by θ; a spring carries `k A (d + θ y)` where that presses and
+/// nothing where it would pull. d and θ are those at which the springs carry N with its moment N
+/// y_p. Springs that lift are taken out and the frame settles anew, until none changes.
 ///
 /// # Assumes
-/// Both sides bear their part of the weight at the same y_p: the hull lies on two cross-beams and does
-/// not resist torsion. Under equal springs this is the linear pressure of the paper's Fig. 5.
+/// Both sides bear their part of the weight at the same y_p: the hull lies on two cross-beams and
+/// does not resist torsion. Under equal springs this is the linear pressure of the paper's Fig. 5.
 ///
 /// # Errors
 /// No springs carry the load there: the machine pitches over.
@@ -49,7 +49,7 @@ pub(super) fn settle(shoes: &mut [Shoe], load: f64, y_pressure: f64) -> Result<(
         carried[1] += shoe.load * shoe.position[1];
     }
     let off = (carried[0] - load).abs() + (carried[1] - load * y_pressure).abs();
-    if off <= ROUNDING * load {
+    if off <= MAX_LOAD_ERROR * load {
         return Ok(());
     }
     let end = if y_pressure > 0.0 { "front" } else { "rear" };

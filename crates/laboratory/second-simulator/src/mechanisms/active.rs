@@ -13,16 +13,17 @@ pub struct ActiveMechanism {
 }
 
 impl ActiveMechanism {
-    /// The mechanism `id` with `settings` (key, value) and the typical size of every parameter that they
-    /// leave out.
+    /// The mechanism `id` with `settings` (key, value) and the typical size of every parameter that
+    /// they leave out.
     ///
     /// # Errors
-    /// Unknown mechanism or parameter, one that is given twice, or a value outside its physical range.
+    /// Unknown mechanism or parameter, one that is given twice, or a value outside its physical
+    /// range.
     pub fn new(id: &str, settings: &[(&str, f64)]) -> Result<Self, Error> {
         let index = MECHANISMS
             .iter()
             .position(|sheet| sheet.id == id)
-            .ok_or_else(|| Error::UnknownMechanism(id.to_owned()))?;
+            .ok_or_else(|| Error::UnknownMechanism { id: id.to_owned(), known: ids() })?;
         let sheet = &MECHANISMS[index];
         let mut values = vec![None; sheet.parameters.len()];
         for &(key, value) in settings {
@@ -62,6 +63,11 @@ impl ActiveMechanism {
     pub(crate) fn mechanism(&self) -> Box<dyn Mechanism> {
         from_values(self.index, &self.values)
     }
+}
+
+/// The ids of all mechanisms, separated by commas.
+fn ids() -> String {
+    MECHANISMS.iter().map(|sheet| sheet.id).collect::<Vec<_>>().join(", ")
 }
 
 /// Reads `id` or `id:key=value,key=value`.

@@ -1,16 +1,17 @@
 //! A belt that slips on its sprocket under load.
 
 use crate::mechanism::{Described, Mechanism, Step};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::{PerSide, Side};
 
 /// Traction over load at which the law equals the linear one.
-const EQUAL_AT: f64 = 0.3;
+const EQUAL_TRACTION_RATIO: f64 = 0.3;
 
 /// Time that the belt takes to stretch, s.
 const STRETCH_TIME: f64 = 0.02;
 
-/// The sprocket loses speed to the belt by a power of the traction, and the belt's stretch delays it.
+/// The sprocket loses speed to the belt by a power of the traction, and the belt's stretch delays
+/// it.
 #[derive(Clone, Copy, Debug)]
 pub struct BeltSlip {
     slip: f64,
@@ -24,8 +25,16 @@ impl Described for BeltSlip {
         law: "V = V_shown (1 − q), q' = (λ x √(|x|/0.3) − q)/0.02 s, x = shear force over load, in \
               the sprocket's direction",
         size: "equal to the linear V_shown (1 − λ x) at a traction of 0.3 of the load",
-        breaks: &[Invariance::Manoeuvre],
-        parameters: &[Parameter { key: "slip", unit: "1", range: [0.0, 0.5], typical: 0.1 }],
+        shares_size: false,
+        breaks: &[Symmetry::Manoeuvre],
+        trial: Trial::law(Identifiability::DistinctWhenLarge, 5.0),
+        parameters: &[Parameter {
+            key: "slip",
+            unit: "1",
+            range: [0.0, 0.5],
+            typical: 0.1,
+            draw: Draw::size(0.1),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {
@@ -59,7 +68,7 @@ impl BeltSlip {
     /// Part of the speed that is lost under a steady traction over load.
     fn settled(&self, traction: f64) -> f64 {
         // λ x √(|x|/0.3)
-        let slip = self.slip * traction * (traction.abs() / EQUAL_AT).sqrt();
+        let slip = self.slip * traction * (traction.abs() / EQUAL_TRACTION_RATIO).sqrt();
         slip.clamp(-1.0, 1.0)
     }
 }

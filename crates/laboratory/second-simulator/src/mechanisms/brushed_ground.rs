@@ -1,7 +1,7 @@
 //! Ground with a grain.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Brushed concrete, rolled grass, furrows: friction depends on the way of the slip over the world.
 #[derive(Clone, Copy, Debug)]
@@ -16,10 +16,24 @@ impl Described for BrushedGround {
         origin: Origin::Outside,
         law: "μ (1 + a sin² φ), φ between slip and grain",
         size: "a is the excess across the grain; 0.3 is a guess, for want of a published figure",
-        breaks: &[Invariance::Mirror, Invariance::Heading],
+        shares_size: false,
+        breaks: &[Symmetry::Mirror, Symmetry::Heading],
+        trial: Trial::law(Identifiability::Distinct, 10.0),
         parameters: &[
-            Parameter { key: "excess", unit: "1", range: [-0.9, 5.0], typical: 0.3 },
-            Parameter { key: "grain_deg", unit: "deg", range: [-360.0, 360.0], typical: 0.0 },
+            Parameter {
+                key: "excess",
+                unit: "1",
+                range: [-0.9, 5.0],
+                typical: 0.3,
+                draw: Draw::size(0.3),
+            },
+            Parameter {
+                key: "grain_deg",
+                unit: "deg",
+                range: [-360.0, 360.0],
+                typical: 0.0,
+                draw: Draw::direction(),
+            },
         ],
     };
 

@@ -1,7 +1,7 @@
 //! Soil that a track pushes aside.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Trial};
 
 /// A wedge of soil on the side to which a shoe moves.
 #[derive(Clone, Copy, Debug)]
@@ -16,8 +16,16 @@ impl Described for Bulldozing {
         law: "F_x = −c N tanh(20 z_x/z₀)",
         size: "the law −c N sign(s_x), with a wedge that changes sides while the slip turns \
                through ±3°",
+        shares_size: false,
         breaks: &[],
-        parameters: &[Parameter { key: "coefficient", unit: "1", range: [0.0, 1.0], typical: 0.1 }],
+        trial: Trial::law(Identifiability::Indistinct, 5.0),
+        parameters: &[Parameter {
+            key: "coefficient",
+            unit: "1",
+            range: [0.0, 1.0],
+            typical: 0.1,
+            draw: Draw::size(0.1),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -1,7 +1,7 @@
 //! Centripetal force of the turning body.
 
 use crate::mechanism::{Described, Inertia, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Mass in Newton's law of turning.
 #[derive(Clone, Copy, Debug)]
@@ -15,8 +15,16 @@ impl Described for Centripetal {
         origin: Origin::Catalogue,
         law: "m k ω × v",
         size: "the same",
-        breaks: &[Invariance::SpeedScale, Invariance::Reversal, Invariance::Manoeuvre],
-        parameters: &[Parameter { key: "strength", unit: "1", range: [0.0, 10.0], typical: 1.0 }],
+        shares_size: true,
+        breaks: &[Symmetry::SpeedScale, Symmetry::Reversal, Symmetry::Manoeuvre],
+        trial: Trial::law(Identifiability::Distinct, 4.0),
+        parameters: &[Parameter {
+            key: "strength",
+            unit: "1",
+            range: [0.0, 10.0],
+            typical: 1.0,
+            draw: Draw::size(1.0),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

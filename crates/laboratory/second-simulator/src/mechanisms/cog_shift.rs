@@ -1,7 +1,9 @@
 //! Ballast that shifts the centre of gravity.
 
 use crate::mechanism::{Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{
+    Draw, Filed, Identifiability, Origin, Parameter, Scale, Sheet, Symmetry, Trial,
+};
 use trackdyn_model::Vehicle;
 
 /// A payload that nobody entered in the vehicle file.
@@ -16,10 +18,24 @@ impl Described for CogShift {
         origin: Origin::Catalogue,
         law: "(x_c, y_c) + (x, y)",
         size: "the same: the weight and the inertia move together",
-        breaks: &[Invariance::Mirror],
+        shares_size: true,
+        breaks: &[Symmetry::Mirror],
+        trial: Trial::law(Identifiability::Indistinct, 2.0).filed(Filed::CentreOfGravity),
         parameters: &[
-            Parameter { key: "x_m", unit: "m", range: [-1.0, 1.0], typical: 0.02 },
-            Parameter { key: "y_m", unit: "m", range: [-2.0, 2.0], typical: 0.03 },
+            Parameter {
+                key: "x_m",
+                unit: "m",
+                range: [-1.0, 1.0],
+                typical: 0.02,
+                draw: Draw::size(0.05).times(Scale::Gauge).signed(),
+            },
+            Parameter {
+                key: "y_m",
+                unit: "m",
+                range: [-2.0, 2.0],
+                typical: 0.03,
+                draw: Draw::size(0.03).times(Scale::ContactLength).signed(),
+            },
         ],
     };
 

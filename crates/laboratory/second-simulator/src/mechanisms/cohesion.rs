@@ -1,7 +1,7 @@
 //! Soil or rubber that adheres beside its friction.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Scale, Sheet, Trial};
 
 /// A shear strength that does not depend on the load.
 #[derive(Clone, Copy, Debug)]
@@ -15,12 +15,15 @@ impl Described for Cohesion {
         origin: Origin::Catalogue,
         law: "F = −c A z/z₀ beside friction",
         size: "the same; adhesion has the elastic range of friction",
+        shares_size: true,
         breaks: &[],
+        trial: Trial::law(Identifiability::Indistinct, 4.0),
         parameters: &[Parameter {
             key: "stress_pa",
             unit: "Pa",
             range: [0.0, 1e5],
             typical: 2000.0,
+            draw: Draw::size(0.15).times(Scale::NormalPressure),
         }],
     };
 

@@ -1,7 +1,7 @@
 //! Lugs that grip better one way than the other.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Friction grows with the share of slip that goes backward.
 #[derive(Clone, Copy, Debug)]
@@ -16,8 +16,16 @@ impl Described for DirectionalLugs {
         law: "μ_y (1 − d z_y/z₀)",
         size: "equal to μ_y (1 − d sign(s_y)) where the slip is along the track; in between it \
                follows its cosine",
-        breaks: &[Invariance::Reversal],
-        parameters: &[Parameter { key: "excess", unit: "1", range: [-0.9, 0.9], typical: 0.05 }],
+        shares_size: false,
+        breaks: &[Symmetry::Reversal],
+        trial: Trial::law(Identifiability::Distinct, 12.0),
+        parameters: &[Parameter {
+            key: "excess",
+            unit: "1",
+            range: [-0.9, 0.9],
+            typical: 0.05,
+            draw: Draw::size(0.05).signed(),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -1,7 +1,7 @@
 //! Play between encoders and belts.
 
 use crate::mechanism::{Described, Mechanism, Scene, Step};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::{PerSide, Side};
 
 /// After every change of sense a belt waits until the play is taken up.
@@ -17,8 +17,16 @@ impl Described for DriveBacklash {
         origin: Origin::Outside,
         law: "V = 0 while the encoder's way is inside the play, else V_shown",
         size: "a worn final drive; nothing shows until the sense changes",
-        breaks: &[Invariance::Transient],
-        parameters: &[Parameter { key: "play_m", unit: "m", range: [0.0, 0.2], typical: 0.01 }],
+        shares_size: false,
+        breaks: &[Symmetry::Transient],
+        trial: Trial::law(Identifiability::Distinct, 10.0),
+        parameters: &[Parameter {
+            key: "play_m",
+            unit: "m",
+            range: [0.0, 0.2],
+            typical: 0.01,
+            draw: Draw::size(0.01),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -1,7 +1,7 @@
 //! Belts that follow the encoders late.
 
 use crate::mechanism::{Described, Mechanism, Scene, Step};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::{PerSide, Side};
 
 /// Two lags in a row: the motor's and the belt's.
@@ -18,12 +18,15 @@ impl Described for DrivetrainLag {
         origin: Origin::Catalogue,
         law: "u' = (V_shown − u)/(T/2), V' = (u − V)/(T/2)",
         size: "two lags of T/2 delay a ramp by T, as one lag of T does",
-        breaks: &[Invariance::Transient],
+        shares_size: false,
+        breaks: &[Symmetry::Transient],
+        trial: Trial::law(Identifiability::Indistinct, 4.0),
         parameters: &[Parameter {
             key: "time_constant_s",
             unit: "s",
             range: [0.001, 2.0],
             typical: 0.15,
+            draw: Draw::size(0.15),
         }],
     };
 

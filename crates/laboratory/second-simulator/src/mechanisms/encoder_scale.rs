@@ -1,7 +1,7 @@
 //! Encoders that do not show the belts' speeds.
 
 use crate::mechanism::{Described, Mechanism, Scene};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::PerSide;
 
 /// Wrong sprocket radii, eqs (20)-(21) of Martinez et al. 2005.
@@ -16,10 +16,24 @@ impl Described for EncoderScale {
         origin: Origin::Catalogue,
         law: "V = α V_shown",
         size: "the same",
-        breaks: &[Invariance::Manoeuvre, Invariance::Mirror, Invariance::Straight],
+        shares_size: true,
+        breaks: &[Symmetry::Manoeuvre, Symmetry::Mirror, Symmetry::Straight],
+        trial: Trial::instrument("encoder-scale", 0.35),
         parameters: &[
-            Parameter { key: "left", unit: "1", range: [0.5, 2.0], typical: 1.03 },
-            Parameter { key: "right", unit: "1", range: [0.5, 2.0], typical: 0.97 },
+            Parameter {
+                key: "left",
+                unit: "1",
+                range: [0.5, 2.0],
+                typical: 1.03,
+                draw: Draw::reading(1.0, 0.005, [0.01, 0.04]),
+            },
+            Parameter {
+                key: "right",
+                unit: "1",
+                range: [0.5, 2.0],
+                typical: 0.97,
+                draw: Draw::reading(1.0, 0.005, [0.01, 0.04]),
+            },
         ],
     };
 

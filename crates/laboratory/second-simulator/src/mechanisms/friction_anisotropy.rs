@@ -1,7 +1,7 @@
 //! Another ratio of friction across to along the tracks.
 
 use crate::mechanism::{Contact, Described, Mechanism, scale_ratio};
-use crate::sheet::{Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Filed, Identifiability, Origin, Parameter, Sheet, Trial};
 
 /// Both coefficients change, their product does not.
 #[derive(Clone, Copy, Debug)]
@@ -15,8 +15,16 @@ impl Described for FrictionAnisotropy {
         origin: Origin::Catalogue,
         law: "μ_x √f, μ_y/√f",
         size: "the same: f multiplies μ_x/μ_y",
+        shares_size: true,
         breaks: &[],
-        parameters: &[Parameter { key: "ratio", unit: "1", range: [0.2, 5.0], typical: 1.2 }],
+        trial: Trial::law(Identifiability::Indistinct, 3.0).filed(Filed::FrictionRatio),
+        parameters: &[Parameter {
+            key: "ratio",
+            unit: "1",
+            range: [0.2, 5.0],
+            typical: 1.2,
+            draw: Draw::factor(1.2),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -1,7 +1,7 @@
 //! Friction that is full only above a slip speed.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -16,13 +16,18 @@ impl Described for FrictionCreep {
         id: "friction-creep",
         origin: Origin::Catalogue,
         law: "μ (2/π) atan(π |s|/(2 v))",
-        size: "rises from rest with 1/v, as the catalogue's law does; at |s| = v it has reached 64 %",
-        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
+        size: "rises from rest with 1/v, as the catalogue's law does; at |s| = v it has reached 64 \
+               %",
+        shares_size: false,
+        breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
+        trial: Trial::law(Identifiability::DistinctWhenLarge, 10.0)
+            .compared_at(&[0.3, 1.0, 3.0, 10.0]),
         parameters: &[Parameter {
             key: "speed_m_per_s",
             unit: "m/s",
             range: [0.0001, 1.0],
             typical: 0.03,
+            draw: Draw::size(0.03),
         }],
     };
 

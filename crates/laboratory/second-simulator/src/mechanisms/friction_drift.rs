@@ -1,10 +1,10 @@
 //! Friction that changes in the course of a day.
 
 use crate::mechanism::{Contact, Described, Mechanism, scale_ratio};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Time in which 63 % of the change are done, s.
-const SETTLING: f64 = 120.0;
+const SETTLING_TIME: f64 = 120.0;
 
 /// The ratio of frictions goes exponentially to where it stays.
 #[derive(Clone, Copy, Debug)]
@@ -18,12 +18,15 @@ impl Described for FrictionDrift {
         origin: Origin::Catalogue,
         law: "f = 1 + r T (1 − exp(−t/T)), T = 120 s, on μ_x/μ_y",
         size: "starts as 1 + r t does, and ends at 1 + r T",
-        breaks: &[Invariance::Time],
+        shares_size: false,
+        breaks: &[Symmetry::Time],
+        trial: Trial::law(Identifiability::Distinct, 5.0),
         parameters: &[Parameter {
             key: "rate_1_per_s",
             unit: "1/s",
             range: [-0.005, 0.005],
             typical: 0.001,
+            draw: Draw::size(0.001).signed(),
         }],
     };
 
@@ -34,6 +37,7 @@ impl Described for FrictionDrift {
 
 impl Mechanism for FrictionDrift {
     fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
-        scale_ratio(mu, 1.0 - self.rate * SETTLING * (-contact.scene.t / SETTLING).exp_m1());
+        let time = contact.scene.t;
+        scale_ratio(mu, 1.0 - self.rate * SETTLING_TIME * (-time / SETTLING_TIME).exp_m1());
     }
 }

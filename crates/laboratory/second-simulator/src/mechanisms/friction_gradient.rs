@@ -1,7 +1,7 @@
 //! More friction under the front than under the rear.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Trial};
 
 /// A step of friction in the middle of the contact.
 #[derive(Clone, Copy, Debug)]
@@ -15,8 +15,16 @@ impl Described for FrictionGradient {
         origin: Origin::Catalogue,
         law: "μ (1 + (2/3) γ tanh(5 η)), η = y over the half length of a side's contact",
         size: "a step of 2/3 γ has the first moment along y of the linear law 1 + γ η",
+        shares_size: false,
         breaks: &[],
-        parameters: &[Parameter { key: "gradient", unit: "1", range: [-0.9, 0.9], typical: 0.1 }],
+        trial: Trial::law(Identifiability::Indistinct, 5.0),
+        parameters: &[Parameter {
+            key: "gradient",
+            unit: "1",
+            range: [-0.9, 0.9],
+            typical: 0.1,
+            draw: Draw::size(0.1).signed(),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -1,7 +1,7 @@
 //! Different friction under the two sides.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// One side runs on better ground than the other.
 #[derive(Clone, Copy, Debug)]
@@ -15,8 +15,16 @@ impl Described for FrictionSplit {
         origin: Origin::Catalogue,
         law: "μ_left (1 + δ), μ_right (1 − δ)",
         size: "the same",
-        breaks: &[Invariance::Mirror],
-        parameters: &[Parameter { key: "split", unit: "1", range: [-0.9, 0.9], typical: 0.1 }],
+        shares_size: true,
+        breaks: &[Symmetry::Mirror],
+        trial: Trial::law(Identifiability::Indistinct, 5.0),
+        parameters: &[Parameter {
+            key: "split",
+            unit: "1",
+            range: [-0.9, 0.9],
+            typical: 0.1,
+            draw: Draw::size(0.1).signed(),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -1,7 +1,7 @@
 //! A heading that turns away.
 
 use crate::mechanism::{Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::{Moment, Pose, Twist};
 
 /// The offset of the gyro from which a map is built: the way is laid on along the wrong heading.
@@ -16,18 +16,21 @@ impl Described for HeadingDrift {
         origin: Origin::Catalogue,
         law: "yaw_reported = yaw + r t, and the way from moment to moment in that heading",
         size: "the same",
+        shares_size: true,
         breaks: &[
-            Invariance::SpeedScale,
-            Invariance::Reversal,
-            Invariance::Manoeuvre,
-            Invariance::Mirror,
-            Invariance::Straight,
+            Symmetry::SpeedScale,
+            Symmetry::Reversal,
+            Symmetry::Manoeuvre,
+            Symmetry::Mirror,
+            Symmetry::Straight,
         ],
+        trial: Trial::instrument("heading-drift", 0.0),
         parameters: &[Parameter {
             key: "rate_deg_per_s",
             unit: "deg/s",
             range: [-10.0, 10.0],
             typical: 0.3,
+            draw: Draw::reading(0.0, 0.0, [0.05, 0.4]),
         }],
     };
 

@@ -1,12 +1,13 @@
 //! Load transfer of a hull that leans on its springs.
 
 use crate::mechanism::{Described, Load, Mechanism, Scene, Step};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Scale, Sheet, Symmetry, Trial};
 
 /// Time that the hull takes to lean, s.
 const LEAN_TIME: f64 = 0.06;
 
-/// The weight leans outwards in a turn, back where the robot speeds up, and downhill on a slope, with the hull's own delay.
+/// The weight leans outwards in a turn, back where the robot speeds up, and downhill on a slope,
+/// with the hull's own delay.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadTransfer {
     height: f64,
@@ -17,16 +18,20 @@ impl Described for LoadTransfer {
     const SHEET: Sheet = Sheet {
         id: "load-transfer",
         origin: Origin::Catalogue,
-        law: "q' = (h (g_along − a)/g_normal − q)/0.06 s, a = ω × v_cog + k dv_cog/dt, k the part of \
-              the mass that stands against changes of speed; the load acts at the centre of gravity + q",
+        law: "q' = (h (g_along − a)/g_normal − q)/0.06 s, a = ω × v_cog + k dv_cog/dt, k the part \
+              of the mass that stands against changes of speed; the load acts at the centre of \
+              gravity + q",
         size: "in steady turns the same; the hull takes 0.06 s to lean, the period of a \
                suspension of 2.7 Hz over 2π",
-        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
+        shares_size: false,
+        breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
+        trial: Trial::law(Identifiability::Distinct, 3.0),
         parameters: &[Parameter {
             key: "cog_height_m",
             unit: "m",
             range: [0.0, 5.0],
             typical: 0.3,
+            draw: Draw::size(0.5).times(Scale::Gauge),
         }],
     };
 

@@ -1,15 +1,15 @@
 //! Ground that holds the tracks back.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Belt speed at which the ground resists with 71 %, m/s.
-const ONSET: f64 = 2e-3;
+const ONSET_SPEED: f64 = 2e-3;
 
 /// Force along the track that holds a shoe back, N.
 pub(super) fn resistance(coefficient: f64, contact: &Contact) -> f64 {
     let speed = contact.scene.sprocket[contact.side];
-    -coefficient * contact.load * speed / (speed * speed + ONSET * ONSET).sqrt()
+    -coefficient * contact.load * speed / (speed * speed + ONSET_SPEED * ONSET_SPEED).sqrt()
 }
 
 /// Each shoe pays for the ground it presses in.
@@ -24,12 +24,15 @@ impl Described for MotionResistance {
         origin: Origin::Catalogue,
         law: "R = −c N V/√(V² + v₀²) on every shoe, v₀ = 2 mm/s",
         size: "the same above 2 cm/s; below, it comes up smoothly",
-        breaks: &[Invariance::Manoeuvre],
+        shares_size: true,
+        breaks: &[Symmetry::Manoeuvre],
+        trial: Trial::law(Identifiability::DistinctWhenLarge, 6.0),
         parameters: &[Parameter {
             key: "coefficient",
             unit: "1",
             range: [0.0, 0.5],
             typical: 0.05,
+            draw: Draw::size(0.05),
         }],
     };
 

@@ -1,7 +1,7 @@
 //! Ground that holds one track back more than the other.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 use super::motion_resistance::resistance;
 
@@ -17,12 +17,15 @@ impl Described for ResistanceSplit {
         origin: Origin::Catalogue,
         law: "c_left = +Δc/2, c_right = −Δc/2, as motion-resistance",
         size: "the same above 2 cm/s",
-        breaks: &[Invariance::Manoeuvre, Invariance::Mirror],
+        shares_size: true,
+        breaks: &[Symmetry::Manoeuvre, Symmetry::Mirror],
+        trial: Trial::law(Identifiability::Distinct, 6.0),
         parameters: &[Parameter {
             key: "difference",
             unit: "1",
             range: [-0.5, 0.5],
             typical: 0.05,
+            draw: Draw::size(0.05).signed(),
         }],
     };
 

@@ -1,7 +1,7 @@
 //! A pose sensor that is not mounted over the origin.
 
 use crate::mechanism::{Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Origin, Parameter, Scale, Sheet, Symmetry, Trial};
 use trackdyn_core::{Moment, Pose, Twist, frames};
 
 /// The reported pose is that of another point of the hull.
@@ -16,10 +16,24 @@ impl Described for SensorLeverArm {
         origin: Origin::Catalogue,
         law: "world_from_sensor = world_from_body · (x, y)",
         size: "the same",
-        breaks: &[Invariance::Mirror],
+        shares_size: true,
+        breaks: &[Symmetry::Mirror],
+        trial: Trial::instrument("lever-arm", 0.3),
         parameters: &[
-            Parameter { key: "x_m", unit: "m", range: [-5.0, 5.0], typical: 0.1 },
-            Parameter { key: "y_m", unit: "m", range: [-5.0, 5.0], typical: 0.2 },
+            Parameter {
+                key: "x_m",
+                unit: "m",
+                range: [-5.0, 5.0],
+                typical: 0.1,
+                draw: Draw::reading(0.0, 0.12, [0.1, 0.5]).times(Scale::Gauge),
+            },
+            Parameter {
+                key: "y_m",
+                unit: "m",
+                range: [-5.0, 5.0],
+                typical: 0.2,
+                draw: Draw::reading(0.0, 0.12, [0.1, 0.5]).times(Scale::Gauge),
+            },
         ],
     };
 

@@ -1,7 +1,7 @@
 //! A pose sensor that is mounted askew.
 
 use crate::mechanism::{Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::{Moment, Twist};
 
 /// The reported yaw is that of the sensor.
@@ -16,12 +16,15 @@ impl Described for SensorYaw {
         origin: Origin::Catalogue,
         law: "world_from_sensor = world_from_body · rotation(ψ)",
         size: "the same",
-        breaks: &[Invariance::Manoeuvre, Invariance::Mirror, Invariance::Straight],
+        shares_size: true,
+        breaks: &[Symmetry::Manoeuvre, Symmetry::Mirror, Symmetry::Straight],
+        trial: Trial::instrument("clock-and-yaw", 0.2),
         parameters: &[Parameter {
             key: "yaw_deg",
             unit: "deg",
             range: [-180.0, 180.0],
             typical: 2.0,
+            draw: Draw::reading(0.0, 0.5, [0.5, 3.0]),
         }],
     };
 

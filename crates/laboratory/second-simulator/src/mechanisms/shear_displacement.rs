@@ -1,22 +1,23 @@
 //! Soil that must be sheared before it resists, and resists less when it has been.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 use std::f64::consts::E;
 
 /// Shear stress that is left after long sliding, in parts of the peak, K_r.
-const RESIDUAL: f64 = 0.85;
+const RESIDUAL_STRESS_RATIO: f64 = 0.85;
 
-/// K_w over the K of Janosi and Hanamoto with which this law reaches 1 − 1/e at the same displacement.
+/// K_w over the K of Janosi and Hanamoto with which this law reaches 1 − 1/e at the same
+/// displacement.
 const PEAK_PER_MODULUS: f64 = 3.097;
 
 /// # Sources
 /// Wong, Theory of Ground Vehicles, 3rd ed., sec. 2.4.
 fn hump(ratio: f64) -> f64 {
     let rise = -(-ratio).exp_m1();
-    let excess = 1.0 / (RESIDUAL * (1.0 - 1.0 / E)) - 1.0;
-    RESIDUAL * (1.0 + excess * (1.0 - ratio).exp()) * rise
+    let excess = 1.0 / (RESIDUAL_STRESS_RATIO * (1.0 - 1.0 / E)) - 1.0;
+    RESIDUAL_STRESS_RATIO * (1.0 + excess * (1.0 - ratio).exp()) * rise
 }
 
 /// Wong's law with a hump.
@@ -33,12 +34,15 @@ impl Described for ShearDisplacement {
               j the way slid",
         size: "K_w = 3.1 K: then both this and 1 − exp(−j/K) of Janosi and Hanamoto are at 63 % \
                where j = K",
-        breaks: &[Invariance::Reversal, Invariance::Manoeuvre, Invariance::Transient],
+        shares_size: false,
+        breaks: &[Symmetry::Reversal, Symmetry::Manoeuvre, Symmetry::Transient],
+        trial: Trial::law(Identifiability::Distinct, 15.0),
         parameters: &[Parameter {
             key: "modulus_m",
             unit: "m",
             range: [0.001, 0.3],
             typical: 0.02,
+            draw: Draw::size(0.02),
         }],
     };
 
@@ -60,10 +64,11 @@ mod tests {
 
     #[test]
     fn the_hump_is_near_its_displacement_and_the_modulus_at_63_percent() {
-        // Wong's curve passes 1 at K_w and goes on to its maximum, 1.013 at 1.25 K_w for this residual
+        // Wong's curve passes 1 at K_w and goes on to its maximum, 1.013 at 1.25 K_w for this
+        // residual
         assert!((hump(1.0) - 1.0).abs() < 1e-12);
         assert!((hump(1.25) - 1.013).abs() < 1e-3 && hump(1.3) < hump(1.25));
-        assert!((hump(20.0) - RESIDUAL).abs() < 1e-6);
+        assert!((hump(20.0) - RESIDUAL_STRESS_RATIO).abs() < 1e-6);
         // 1 − exp(−1)
         assert!((hump(1.0 / PEAK_PER_MODULUS) - (1.0 - 1.0 / E)).abs() < 1e-4);
     }

@@ -1,7 +1,7 @@
 //! Wind on a tall body.
 
 use crate::mechanism::{Described, Mechanism, Scene};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Scale, Sheet, Symmetry, Trial};
 use trackdyn_core::{Twist, Wrench};
 
 /// The body is broader from the side than from the front, and moves through the air.
@@ -19,10 +19,24 @@ impl Described for SideWind {
               axis, at 0.1 m before the middle",
         size: "constant in the world like slope, but with the heading's second harmonic and a \
                moment",
-        breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading],
+        shares_size: false,
+        breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading],
+        trial: Trial::law(Identifiability::Distinct, 7.0),
         parameters: &[
-            Parameter { key: "force_n", unit: "N", range: [0.0, 10000.0], typical: 80.0 },
-            Parameter { key: "towards_deg", unit: "deg", range: [-360.0, 360.0], typical: 0.0 },
+            Parameter {
+                key: "force_n",
+                unit: "N",
+                range: [0.0, 10000.0],
+                typical: 80.0,
+                draw: Draw::size(0.03).times(Scale::Weight),
+            },
+            Parameter {
+                key: "towards_deg",
+                unit: "deg",
+                range: [-360.0, 360.0],
+                typical: 0.0,
+                draw: Draw::direction(),
+            },
         ],
     };
 

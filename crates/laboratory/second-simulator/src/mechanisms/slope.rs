@@ -1,7 +1,7 @@
 //! Sloping ground.
 
 use crate::mechanism::{Described, Gravity, Mechanism, Scene};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// A plane that rises in one direction of the world.
 #[derive(Clone, Copy, Debug)]
@@ -16,10 +16,24 @@ impl Described for Slope {
         origin: Origin::Catalogue,
         law: "g_along = −g sin β uphill, g_normal = g cos β",
         size: "the same",
-        breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading],
+        shares_size: true,
+        breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading],
+        trial: Trial::law(Identifiability::Distinct, 7.0),
         parameters: &[
-            Parameter { key: "angle_deg", unit: "deg", range: [0.0, 60.0], typical: 2.0 },
-            Parameter { key: "uphill_deg", unit: "deg", range: [-360.0, 360.0], typical: 0.0 },
+            Parameter {
+                key: "angle_deg",
+                unit: "deg",
+                range: [0.0, 60.0],
+                typical: 2.0,
+                draw: Draw::size(2.0),
+            },
+            Parameter {
+                key: "uphill_deg",
+                unit: "deg",
+                range: [-360.0, 360.0],
+                typical: 0.0,
+                draw: Draw::direction(),
+            },
         ],
     };
 

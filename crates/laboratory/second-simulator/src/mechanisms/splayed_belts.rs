@@ -1,7 +1,7 @@
 //! Belts that toe out with speed.
 
 use crate::mechanism::{Described, Mechanism, Scene};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::Side;
 
 /// Sprocket arms give way to the drive's reaction, and the belts walk outwards as they run faster.
@@ -16,12 +16,15 @@ impl Described for SplayedBelts {
         origin: Origin::Outside,
         law: "belt velocity V (± sin δ, cos δ), δ = c V",
         size: "3 degrees at 1 m/s; the belts walk outwards whichever way they run",
-        breaks: &[Invariance::SpeedScale, Invariance::Reversal, Invariance::Manoeuvre],
+        shares_size: false,
+        breaks: &[Symmetry::SpeedScale, Symmetry::Reversal, Symmetry::Manoeuvre],
+        trial: Trial::law(Identifiability::Distinct, 5.0),
         parameters: &[Parameter {
             key: "splay_deg_s_per_m",
             unit: "deg s/m",
             range: [-20.0, 20.0],
             typical: 3.0,
+            draw: Draw::size(3.0).signed(),
         }],
     };
 

@@ -1,7 +1,9 @@
 //! An elastic cable to a post.
 
 use crate::mechanism::{Described, Mechanism, Scene};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{
+    Anchor, Draw, Identifiability, Origin, Parameter, Scale, Sheet, Symmetry, Trial,
+};
 use trackdyn_core::{Twist, Wrench};
 
 /// It hangs loose within its length and pulls like a spring beyond.
@@ -19,12 +21,38 @@ impl Described for SpringCable {
         law: "F = k (|d| − l) d/|d| at 0.3 m behind the middle, for |d| > l",
         size: "a bungee: 2 m beyond its length it pulls with a twentieth \
                of Auriga-alpha's weight",
-        breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading, Invariance::Place],
+        shares_size: false,
+        breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading, Symmetry::Place],
+        trial: Trial::law(Identifiability::Distinct, 2.5),
         parameters: &[
-            Parameter { key: "rate_n_per_m", unit: "N/m", range: [0.0, 1e5], typical: 60.0 },
-            Parameter { key: "length_m", unit: "m", range: [0.0, 1000.0], typical: 1.0 },
-            Parameter { key: "x_m", unit: "m", range: [-1e4, 1e4], typical: 3.0 },
-            Parameter { key: "y_m", unit: "m", range: [-1e4, 1e4], typical: 0.0 },
+            Parameter {
+                key: "rate_n_per_m",
+                unit: "N/m",
+                range: [0.0, 1e5],
+                typical: 60.0,
+                draw: Draw::size(1.0 / 42.0).times(Scale::Weight),
+            },
+            Parameter {
+                key: "length_m",
+                unit: "m",
+                range: [0.0, 1000.0],
+                typical: 1.0,
+                draw: Draw::fixed(1.0),
+            },
+            Parameter {
+                key: "x_m",
+                unit: "m",
+                range: [-1e4, 1e4],
+                typical: 3.0,
+                draw: Draw::place(0, Anchor::Around([1.5, 5.0])),
+            },
+            Parameter {
+                key: "y_m",
+                unit: "m",
+                range: [-1e4, 1e4],
+                typical: 0.0,
+                draw: Draw::place(1, Anchor::Around([1.5, 5.0])),
+            },
         ],
     };
 

@@ -1,11 +1,11 @@
 //! Belts that lose their edge when they are steered hard.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::PerSide;
 
-/// The tension of a steered belt lifts its lugs: it holds less along, by the difference of the track
-/// speeds.
+/// The tension of a steered belt lifts its lugs: it holds less along, by the difference of the
+/// track speeds.
 #[derive(Clone, Copy, Debug)]
 pub struct SteeringGrip {
     loss: f64,
@@ -17,12 +17,15 @@ impl Described for SteeringGrip {
         origin: Origin::Outside,
         law: "μ_y/(1 + c |V_r − V_l|)",
         size: "depends on the commands and on no slip: a speed law of another argument",
-        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
+        shares_size: false,
+        breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
+        trial: Trial::law(Identifiability::Distinct, 13.0),
         parameters: &[Parameter {
             key: "loss_s_per_m",
             unit: "s/m",
             range: [0.0, 2.0],
             typical: 0.15,
+            draw: Draw::size(0.15),
         }],
     };
 

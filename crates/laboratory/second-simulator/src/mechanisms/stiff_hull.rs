@@ -1,7 +1,7 @@
 //! A hull that resists torsion.
 
 use crate::mechanism::{Described, Load, Mechanism, Scene};
-use crate::sheet::{Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Trial};
 use trackdyn_core::Side;
 
 /// Both tracks pitch alike, so the lighter side has the larger share of the pitching moment.
@@ -17,8 +17,16 @@ impl Described for StiffHull {
         law: "N_j y_j = W y_p/2 with a torsion-stiff hull; a share of the way from y_j = y_p",
         size: "acts only where the centre of gravity is off the middle both ways, and then \
                statically",
+        shares_size: false,
         breaks: &[],
-        parameters: &[Parameter { key: "share", unit: "1", range: [0.0, 1.0], typical: 1.0 }],
+        trial: Trial::law(Identifiability::Distinct, 1.0),
+        parameters: &[Parameter {
+            key: "share",
+            unit: "1",
+            range: [0.0, 1.0],
+            typical: 1.0,
+            draw: Draw::size(1.0),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -1,7 +1,7 @@
 //! Friction that falls from stick to slip.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// The steady law of LuGre bristles.
 #[derive(Clone, Copy, Debug)]
@@ -17,10 +17,24 @@ impl Described for StribeckFriction {
         law: "μ (1 + a exp(−(|s|/v)²))",
         size: "the excess is the same; half of it is lost at 0.83 v, where an exponential loses it \
                at 0.69 v",
-        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
+        shares_size: false,
+        breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
+        trial: Trial::law(Identifiability::DistinctWhenLarge, 3.0),
         parameters: &[
-            Parameter { key: "excess", unit: "1", range: [0.0, 2.0], typical: 0.25 },
-            Parameter { key: "speed_m_per_s", unit: "m/s", range: [0.001, 5.0], typical: 0.1 },
+            Parameter {
+                key: "excess",
+                unit: "1",
+                range: [0.0, 2.0],
+                typical: 0.25,
+                draw: Draw::size(0.25),
+            },
+            Parameter {
+                key: "speed_m_per_s",
+                unit: "m/s",
+                range: [0.001, 5.0],
+                typical: 0.1,
+                draw: Draw::log_shape(0.05, 0.3, &[0.03, 0.06, 0.12, 0.25, 0.5]),
+            },
         ],
     };
 

@@ -1,7 +1,9 @@
 //! A cable that pulls with a constant force.
 
 use crate::mechanism::{Described, Mechanism, Scene};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{
+    Anchor, Draw, Identifiability, Origin, Parameter, Scale, Sheet, Symmetry, Trial,
+};
 use trackdyn_core::{Pose, Twist, Wrench};
 
 /// A winch with a force control, at a place in the world.
@@ -17,11 +19,31 @@ impl Described for Tether {
         origin: Origin::Catalogue,
         law: "F = T d/√(|d|² + (0.1 m)²) at the middle of the robot, d from there to the anchor",
         size: "the same beyond a metre; over the anchor the pull fades",
-        breaks: &[Invariance::Reversal, Invariance::Mirror, Invariance::Heading, Invariance::Place],
+        shares_size: true,
+        breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading, Symmetry::Place],
+        trial: Trial::law(Identifiability::DistinctWhenLarge, 6.0),
         parameters: &[
-            Parameter { key: "tension_n", unit: "N", range: [0.0, 1e4], typical: 100.0 },
-            Parameter { key: "anchor_x_m", unit: "m", range: [-1000.0, 1000.0], typical: 10.0 },
-            Parameter { key: "anchor_y_m", unit: "m", range: [-1000.0, 1000.0], typical: 0.0 },
+            Parameter {
+                key: "tension_n",
+                unit: "N",
+                range: [0.0, 1e4],
+                typical: 100.0,
+                draw: Draw::size(0.04).times(Scale::Weight),
+            },
+            Parameter {
+                key: "anchor_x_m",
+                unit: "m",
+                range: [-1000.0, 1000.0],
+                typical: 10.0,
+                draw: Draw::place(0, Anchor::Around([3.0, 8.0])),
+            },
+            Parameter {
+                key: "anchor_y_m",
+                unit: "m",
+                range: [-1000.0, 1000.0],
+                typical: 0.0,
+                draw: Draw::place(1, Anchor::Around([3.0, 8.0])),
+            },
         ],
     };
 

@@ -1,7 +1,7 @@
 //! Clocks of poses and encoders that differ.
 
 use crate::mechanism::{Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::Moment;
 
 /// Poses carry stamps of another clock.
@@ -16,8 +16,16 @@ impl Described for TimeOffset {
         origin: Origin::Catalogue,
         law: "t_reported = t + τ",
         size: "the same",
-        breaks: &[Invariance::Transient],
-        parameters: &[Parameter { key: "delay_s", unit: "s", range: [-2.0, 2.0], typical: 0.1 }],
+        shares_size: true,
+        breaks: &[Symmetry::Transient],
+        trial: Trial::clock_offset("clock-and-yaw"),
+        parameters: &[Parameter {
+            key: "delay_s",
+            unit: "s",
+            range: [-2.0, 2.0],
+            typical: 0.1,
+            draw: Draw::reading(0.0, 0.0, [0.03, 0.15]),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -1,7 +1,7 @@
 //! A frame that stands on two corners.
 
 use crate::mechanism::{Described, Load, Mechanism, Scene};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Scale, Sheet, Symmetry, Trial};
 
 /// A bent chassis presses one track down at the front and the other at the rear.
 #[derive(Clone, Copy, Debug)]
@@ -15,8 +15,16 @@ impl Described for TwistedFrame {
         origin: Origin::Outside,
         law: "centre of pressure at y + d on the left, y − d on the right",
         size: "static, and odd in the sides as friction-split is",
-        breaks: &[Invariance::Mirror],
-        parameters: &[Parameter { key: "shift_m", unit: "m", range: [-1.0, 1.0], typical: 0.03 }],
+        shares_size: false,
+        breaks: &[Symmetry::Mirror],
+        trial: Trial::law(Identifiability::Distinct, 2.5),
+        parameters: &[Parameter {
+            key: "shift_m",
+            unit: "m",
+            range: [-1.0, 1.0],
+            typical: 0.03,
+            draw: Draw::size(0.04).times(Scale::ContactLength).signed(),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {

@@ -1,10 +1,10 @@
 //! Friction that grows with slip speed, by a power law.
 
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Slip speed at which the law equals the linear one, m/s.
-const EQUAL_AT: f64 = 0.3;
+const EQUAL_SLIP_SPEED: f64 = 0.3;
 
 /// Rubber and wet soil resist faster slip with more than friction.
 #[derive(Clone, Copy, Debug)]
@@ -18,12 +18,15 @@ impl Described for ViscousFriction {
         origin: Origin::Catalogue,
         law: "μ (1 + c v₀ (|s|/v₀)^0.6), v₀ = 0.3 m/s",
         size: "equal to 1 + c |s| at 0.3 m/s; more below, less above",
-        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre],
+        shares_size: false,
+        breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
+        trial: Trial::law(Identifiability::DistinctWhenLarge, 10.0),
         parameters: &[Parameter {
             key: "growth_s_per_m",
             unit: "s/m",
             range: [0.0, 10.0],
             typical: 0.5,
+            draw: Draw::size(0.5),
         }],
     };
 
@@ -34,8 +37,8 @@ impl Described for ViscousFriction {
 
 impl Mechanism for ViscousFriction {
     fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
-        let ratio = contact.slip_speed() / EQUAL_AT;
-        let factor = 1.0 + self.growth * EQUAL_AT * ratio.powf(0.6);
+        let ratio = contact.slip_speed() / EQUAL_SLIP_SPEED;
+        let factor = 1.0 + self.growth * EQUAL_SLIP_SPEED * ratio.powf(0.6);
         *mu = mu.map(|mu| mu * factor);
     }
 }

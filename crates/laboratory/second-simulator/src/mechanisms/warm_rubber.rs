@@ -1,11 +1,11 @@
 //! Rubber that softens with the heat of its own slip.
 
 use crate::mechanism::{Contact, Described, Mechanism, Step};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::{PerSide, Side};
 
 /// Time in which the rubber cools, s.
-const COOLING: f64 = 15.0;
+const COOLING_TIME: f64 = 15.0;
 
 /// Each side remembers the work that slip has done on it.
 #[derive(Clone, Copy, Debug)]
@@ -21,8 +21,16 @@ impl Described for WarmRubber {
         law: "T' = P/(W · 1 m/s) / τ − T/τ per side, τ = 15 s; μ_x/(1 + a T)",
         size: "history: the same command gives other ICRs after hard work than after rest, so a \
                recording shows it as a drift; in the end it acts as slip speed does",
-        breaks: &[Invariance::SpeedScale, Invariance::Manoeuvre, Invariance::Transient],
-        parameters: &[Parameter { key: "softening", unit: "1", range: [0.0, 5.0], typical: 1.0 }],
+        shares_size: false,
+        breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre, Symmetry::Transient],
+        trial: Trial::law(Identifiability::Distinct, 5.0),
+        parameters: &[Parameter {
+            key: "softening",
+            unit: "1",
+            range: [0.0, 5.0],
+            typical: 1.0,
+            draw: Draw::size(1.0),
+        }],
     };
 
     fn from_values(values: &[f64]) -> Self {
@@ -36,7 +44,7 @@ impl Mechanism for WarmRubber {
     }
 
     fn advance(&mut self, step: &Step) {
-        let share = -(-step.dt / COOLING).exp_m1();
+        let share = -(-step.dt / COOLING_TIME).exp_m1();
         for side in Side::BOTH {
             // P over the power of the side's weight moving at 1 m/s
             let power = step.heat[side] / step.scene.weight[side];

@@ -1,7 +1,7 @@
 //! Ground in waves.
 
 use crate::mechanism::{Contact, Described, Mechanism, scale_ratio};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 /// Crests and hollows that grip differently, periodic in place.
 #[derive(Clone, Copy, Debug)]
@@ -16,10 +16,24 @@ impl Described for Washboard {
         origin: Origin::Outside,
         law: "μ_x/μ_y (1 + a sin(2π x/λ)), x along the world",
         size: "waves of a gravel road are 0.5 to 1 m long",
-        breaks: &[Invariance::Mirror, Invariance::Heading, Invariance::Place],
+        shares_size: false,
+        breaks: &[Symmetry::Mirror, Symmetry::Heading, Symmetry::Place],
+        trial: Trial::law(Identifiability::Distinct, 2.8),
         parameters: &[
-            Parameter { key: "depth", unit: "1", range: [0.0, 0.9], typical: 0.3 },
-            Parameter { key: "wavelength_m", unit: "m", range: [0.05, 1000.0], typical: 0.9 },
+            Parameter {
+                key: "depth",
+                unit: "1",
+                range: [0.0, 0.9],
+                typical: 0.3,
+                draw: Draw::size(0.3),
+            },
+            Parameter {
+                key: "wavelength_m",
+                unit: "m",
+                range: [0.05, 1000.0],
+                typical: 0.9,
+                draw: Draw::log_shape(0.6, 2.0, &[]),
+            },
         ],
     };
 

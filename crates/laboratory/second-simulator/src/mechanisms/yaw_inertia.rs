@@ -1,7 +1,7 @@
 //! Mass that resists changes of speed.
 
 use crate::mechanism::{Described, Inertia, Mechanism};
-use crate::sheet::{Invariance, Origin, Parameter, Sheet};
+use crate::sheet::{Draw, Identifiability, Origin, Parameter, Scale, Sheet, Symmetry, Trial};
 
 /// Newton's law in transients.
 #[derive(Clone, Copy, Debug)]
@@ -17,10 +17,24 @@ impl Described for YawInertia {
         law: "k m v' and k m r² ω'",
         size: "the same; here it is the mass of the equations of motion themselves. The way lost \
                at a start grows with the square of the speed; steady turns do not change",
-        breaks: &[Invariance::Transient],
+        shares_size: true,
+        breaks: &[Symmetry::Transient],
+        trial: Trial::law(Identifiability::Distinct, 4.0),
         parameters: &[
-            Parameter { key: "strength", unit: "1", range: [0.01, 10.0], typical: 1.0 },
-            Parameter { key: "gyration_m", unit: "m", range: [0.01, 5.0], typical: 0.3 },
+            Parameter {
+                key: "strength",
+                unit: "1",
+                range: [0.01, 10.0],
+                typical: 1.0,
+                draw: Draw::size(1.0),
+            },
+            Parameter {
+                key: "gyration_m",
+                unit: "m",
+                range: [0.01, 5.0],
+                typical: 0.3,
+                draw: Draw::fixed(1.0).times(Scale::GyrationRadius),
+            },
         ],
     };
 

@@ -37,7 +37,7 @@ struct Shoes<'a> {
     contacts: Vec<Contact<'a>>,
     /// Deflection and way slid at the step's start.
     start: Vec<State>,
-    /// The same at its end.
+    /// State at the end of the step.
     end: Vec<State>,
     acting: Vec<Acting>,
 }
@@ -183,9 +183,9 @@ impl<'a> Balance<'a> {
     }
 
     /// # Law
-    /// A bristle z of elastic range z₀: `z' = s` while |z| < z₀, and z stays on |z| = z₀ while it slides;
-    /// `F = −[μ] N z/z₀`. Sliding steadily this is `−[μ] N s/|s|`. The end of a step is found by radial
-    /// return, which is stable whatever the step.
+    /// A bristle z of elastic range z₀: `z' = s` while |z| < z₀, and z stays on |z| = z₀ while it
+    /// slides; `F = −[μ] N z/z₀`. Sliding steadily this is `−[μ] N s/|s|`. The end of a step is
+    /// found by radial return, which is stable whatever the step.
     fn react(&mut self, side: Side, Trial { twist, belt }: &Trial) {
         let belt = self.belt_velocity(side, belt[side]);
         let friction = self.scene.vehicle.friction;

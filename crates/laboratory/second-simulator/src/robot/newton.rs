@@ -4,38 +4,40 @@ use super::balance::{Balance, Residual, Trial};
 use nalgebra::{SMatrix, SVector};
 use trackdyn_core::{PerSide, Twist, Wrench};
 
-/// Unknowns of belts that follow their sprockets: the twist.
-pub(super) const FIRM: usize = 3;
+/// Number of unknowns where belts follow their sprockets: the twist.
+pub(super) const TWIST_UNKNOWNS: usize = 3;
 
-/// Unknowns of belts that slip on them: their speeds too.
-pub(super) const SLIPPING: usize = 5;
+/// Number of unknowns where belts slip on them: the twist and the speeds of the belts.
+pub(super) const SLIPPING_BELT_UNKNOWNS: usize = 5;
 
-/// Residual, in parts of the weight, at which the balance is found. An ICR is off by about this part of a
+/// Largest residual of a balance, in parts of the weight. An ICR is off by about this part of a
 /// metre.
-const TOLERANCE: f64 = 1e-8;
+const MAX_RESIDUAL: f64 = 1e-8;
 
-/// Speed by which difference quotients reach out, m/s: far below what slides a shoe out of its elastic
-/// range within a step.
-const REACH: f64 = 1e-7;
+/// Step of difference quotients, m/s: far below what slides a shoe out of its
+/// elastic range within a step.
+const QUOTIENT_STEP: f64 = 1e-7;
 
-const ITERATIONS: usize = 60;
+/// Largest number of iterations of a step.
+const MAX_ITERATIONS: usize = 60;
 
-/// Halvings of a step that does not bring the residual down.
-const HALVINGS: u32 = 6;
+/// Largest number of halvings of a step that does not bring the residual down.
+const MAX_HALVINGS: u32 = 6;
 
-/// Contraction of the residual that is as good as none.
-const STALLED: f64 = 0.9;
-/// Iterations without contraction after which a shorter step is better than more of them.
-const STALLS: usize = 4;
+/// Smallest ratio of a residual to the one before that counts as no contraction.
+const MIN_STALLED_CONTRACTION: f64 = 0.9;
+/// Largest number of iterations without contraction. After them a shorter step is better.
+const MAX_STALLED_ITERATIONS: usize = 4;
 
-/// Newton's method with difference quotients, whose Jacobian is kept from step to step and corrected by
-/// Broyden's rule for as long as it serves.
+/// Newton's method with difference quotients, whose Jacobian is kept from step to step and
+/// corrected by Broyden's rule for as long as it serves.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Newton<const N: usize> {
     jacobian: Option<SMatrix<f64, N, N>>,
 }
 
-/// The balance over the scaled unknowns (v_x, v_y, ω L), in parts of the weight, and the speeds of belts that slip, m/s.
+/// The balance over the scaled unknowns (v_x, v_y, ω L), in parts of the weight, and the speeds of
+/// belts that slip, m/s.
 struct Scaled<'a, 'b> {
     balance: &'a mut Balance<'b>,
     length: f64,
@@ -67,14 +69,15 @@ impl Scaled<'_, '_> {
     ) -> SMatrix<f64, N, N> {
         SMatrix::from_columns(&std::array::from_fn::<_, N, _>(|k| {
             let mut ahead = *q;
-            ahead[k] += REACH;
-            (self.residual(&ahead) - residual) / REACH
+            ahead[k] += QUOTIENT_STEP;
+            (self.residual(&ahead) - residual) / QUOTIENT_STEP
         }))
     }
 }
 
 impl<const N: usize> Newton<N> {
-    /// The end of a step, looked for from where it starts, with belts at speeds `belt`; or why there is none.
+    /// The end of a step, looked for from where it starts, with belts at speeds `belt`; or why
+    /// there is none.
     pub(super) fn solve(
         &mut self,
         balance: &mut Balance,
@@ -88,8 +91,8 @@ impl<const N: usize> Newton<N> {
         let mut q = SVector::<f64, N>::from_fn(|row, _| start[row]);
         let mut residual = scaled.residual(&q);
         let mut stalls = 0;
-        for _ in 0..ITERATIONS {
-            if residual.norm() < TOLERANCE {
+        for _ in 0..MAX_ITERATIONS {
+            if residual.norm() < MAX_RESIDUAL {
                 return Ok(scaled.trial(&q));
             }
             let fresh = self.jacobian.is_none();
@@ -111,8 +114,8 @@ impl<const N: usize> Newton<N> {
             };
             let contraction = next.norm() / residual.norm();
             // where shoes stop, friction that creeps has a kink: a shorter step is the way past it
-            stalls = if contraction > STALLED { stalls + 1 } else { 0 };
-            if stalls == STALLS {
+            stalls = if contraction > MIN_STALLED_CONTRACTION { stalls + 1 } else { 0 };
+            if stalls == MAX_STALLED_ITERATIONS {
                 break;
             }
             let taken = step * share;
@@ -131,8 +134,8 @@ impl<const N: usize> Newton<N> {
     }
 }
 
-/// The share of a step that brings the residual down, and the residual there. A Jacobian that is not
-/// fresh gets one chance.
+/// The share of a step that brings the residual down, and the residual there. A Jacobian that is
+/// not fresh gets one chance.
 fn shorten<const N: usize>(
     scaled: &mut Scaled,
     q: &SVector<f64, N>,
@@ -141,7 +144,7 @@ fn shorten<const N: usize>(
     fresh: bool,
 ) -> Option<(f64, SVector<f64, N>)> {
     let mut share = 1.0;
-    for _ in 0..if fresh { HALVINGS } else { 1 } {
+    for _ in 0..if fresh { MAX_HALVINGS } else { 1 } {
         let next = scaled.residual(&(q + step * share));
         if next.norm() < (1.0 - 1e-4 * share) * residual.norm() {
             return Some((share, next));

@@ -18,9 +18,9 @@ pub struct Setup {
     pub longest_step: f64,
     /// Change of speed in a step, m/s, at which steps neither grow nor shrink.
     pub speed_change: f64,
-    /// Share of the mass that follows Newton's law where no mechanism puts all of it there. It gives the
-    /// equations a solution where all shoes slide alike; the robot follows a jump of v in v/(μ g) times
-    /// this share, some 0.1 ms for 1 m/s and the default.
+    /// Share of the mass that follows Newton's law where no mechanism puts all of it there. It
+    /// gives the equations a solution where all shoes slide alike; the robot follows a jump of v in
+    /// v/(μ g) times this share, some 0.1 ms for 1 m/s and the default.
     pub residual_mass: f64,
     /// Seed of the shoes' places.
     pub seed: u64,

@@ -26,7 +26,7 @@ pub fn text(diagnosis: &Diagnosis) -> String {
     let diagnosis = diagnosis.found();
     let mut text = String::new();
     let samples = evidence.samples().len();
-    let unit = if evidence.is_steady() { "points" } else { "segments" };
+    let unit = evidence.origin().samples();
     // Writing to a String cannot fail.
     let _ = writeln!(text, "{name}: {samples} {unit}, {}", evidence.description());
     if let Some(noise) = diagnosis.evidence.noise() {
@@ -76,7 +76,7 @@ pub fn text(diagnosis: &Diagnosis) -> String {
         let _ = writeln!(text, "form     {}", form(proposal));
     }
     let fit = &diagnosis.held_out;
-    let of = if diagnosis.evidence.is_steady() { "points" } else { "runs" };
+    let of = diagnosis.evidence.origin().runs();
     let on =
         if fit.are_held_out { format!("held-out {of}") } else { format!("the {of} of the fit") };
     let explained = fit.excess_explained();

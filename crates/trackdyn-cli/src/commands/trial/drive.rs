@@ -1,7 +1,8 @@
-//! `trackdyn trial drive`: whether the driving that is planned for an ambiguous diagnosis resolves it.
+//! `trackdyn trial drive`: whether the driving that is planned for an ambiguous diagnosis resolves
+//! it.
 //!
-//! After opening: each case with an open set is planned for by a process, driven on its own ground, and
-//! diagnosed anew, from the old recording and the new one together, by another process.
+//! After opening: each case with an open set is planned for by a process, driven on its own ground,
+//! and diagnosed anew, from the old recording and the new one together, by another process.
 
 use super::key_to_open;
 use super::room::{OUT, Program, Room};
@@ -19,6 +20,7 @@ use trackdyn::crates::core::Schedule;
 use trackdyn::crates::core::document::Document;
 use trackdyn::crates::core::output::{prepare_folder, write_file};
 use trackdyn_blind_trial::driving::HELD_OUT;
+use trackdyn_blind_trial::entry::DIAGNOSIS;
 use trackdyn_blind_trial::revisit::revisit;
 use trackdyn_blind_trial::score::resolution::{open_sets, rates};
 use trackdyn_blind_trial::score::{Judged, Outcome, Revisited, rates_csv, resolution_markdown};
@@ -42,10 +44,12 @@ pub struct Options {
     #[arg(long, value_name = "FILE")]
     key: Option<PathBuf>,
     /// Time of the planned driving, s
-    #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=3600))]
+    #[arg(long, value_name = "SECONDS", default_value_t = 60,
+          value_parser = clap::value_parser!(u32).range(1..=3600))]
     duration: u32,
     /// Time after which a process is ended and counts as failed, s
-    #[arg(long, value_name = "SECONDS", default_value_t = 3600, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "SECONDS", default_value_t = 3600,
+          value_parser = clap::value_parser!(u64).range(1..))]
     limit: u64,
     /// Folder for plans, recordings, diagnoses and scores [default: DIR/driven]
     #[arg(long, value_name = "DIR")]
@@ -117,7 +121,8 @@ fn take_up(out: &Path, asked: &Asked) -> Result<(), Box<dyn Error>> {
         }
         if before.duration_s != asked.duration_s {
             return Err(format!(
-                "{}: the plans here are for {} s: expected --duration {}, or another folder by --out",
+                "{}: the plans here are for {} s: expected --duration {}, or another folder by \
+                 --out",
                 out.display(),
                 before.duration_s,
                 before.duration_s,
@@ -135,7 +140,7 @@ impl Visit<'_> {
     /// What came of the case, now or before; a failure is tried again.
     fn outcome(&self) -> Result<Outcome, Box<dyn Error>> {
         prepare_folder(&self.home)?;
-        let written = self.home.join(folder::DIAGNOSIS);
+        let written = self.home.join(DIAGNOSIS);
         if !written.join(diagnosis::FILE).exists() {
             if let Some(reason) = self.plan()? {
                 return Ok(Outcome::Failed(reason));

@@ -4,7 +4,7 @@ use std::path::Path;
 use trackdyn::crates::core::output::write_file;
 use trackdyn::crates::report::{Entrant, Matrix, Power, Share, Shares, confusion, power, shares};
 use trackdyn_blind_trial::Score;
-use trackdyn_blind_trial::oracle::{DETECTABLE, DISTINCT};
+use trackdyn_blind_trial::oracle::{MIN_DETECTABLE_Z, MIN_DISTINCT_Z};
 use trackdyn_blind_trial::score::interval::clopper_pearson;
 use trackdyn_blind_trial::score::{PowerBin, Rate, distinct};
 
@@ -17,7 +17,7 @@ type Written = Result<(), Box<dyn std::error::Error>>;
 pub fn write(out: &Path, scores: &Named, caption: &str) -> Written {
     let panels = [("named by itself", false), ("truth in a named set", true)];
     let panels = panels.map(|(title, in_set)| {
-        [("z_det", (DETECTABLE, "detectable")), ("z_iso", (DISTINCT, "distinct"))]
+        [("z_det", (MIN_DETECTABLE_Z, "detectable")), ("z_iso", (MIN_DISTINCT_Z, "distinct"))]
             .map(|(z, mark)| (title, in_set, z, mark))
     });
     let limits = scores.first().map_or(Vec::new(), |(_, score)| limits(score));
@@ -58,9 +58,11 @@ pub fn write_confusion(out: &Path, (name, score): (&str, &Score), caption: &str)
 }
 
 /// What columns in brackets mean.
-const CONFUSION: &str = "(set with it), (set without it): one answer of several effects. (both): both effects of a pair, and \
-                         nothing else. (several): any other answer with more than one effect. (absent law in a true set): one answer of an \
-                         error that is there, of instruments or of the vehicle file, and a law that is not. (failed): no answer.";
+const CONFUSION: &str = "(set with it), (set without it): one answer of several effects. (both): \
+                         both effects of a pair, and nothing else. (several): any other answer \
+                         with more than one effect. (absent law in a true set): one answer of an \
+                         error that is there, of instruments or of the vehicle file, and a law \
+                         that is not. (failed): no answer.";
 
 /// Texts of a sheet of shares.
 struct Texts {
@@ -72,16 +74,18 @@ struct Texts {
 
 const RATES: Texts = Texts {
     title: "Rates",
-    explanation: "What each row counts stands in docs/trials.md. Of false claims, over-claims and failures less \
-                  is better, of all others more; files have to tell nulls in half of the cases.",
+    explanation: "What each row counts stands in docs/trials.md. Of false claims, over-claims and \
+                  failures less is better, of all others more; files have to tell nulls in half of \
+                  the cases.",
     of: "cases",
     wanted: None,
 };
 
 const COVERAGE: Texts = Texts {
     title: "Intervals that hold the true size",
-    explanation: "Of every effect that is rightly named by itself and has one law in both simulators (where it has two, its \
-                  size is another number): how many of the stated intervals of 95 % hold the true value. Dashed: 95 %.",
+    explanation: "Of every effect that is rightly named by itself and has one law in both \
+                  simulators (where it has two, its size is another number): how many of the \
+                  stated intervals of 95 % hold the true value. Dashed: 95 %.",
     of: "intervals",
     wanted: Some(0.95),
 };

@@ -1,4 +1,4 @@
-//! `trackdyn trial make`: cases, and the sealed answers.
+//! `trackdyn trial make`: cases, and the answers apart from them.
 
 use super::key_file;
 use crate::commands::Outcome;
@@ -12,37 +12,41 @@ use rayon::prelude::*;
 use std::io;
 use std::path::{Path, PathBuf};
 use trackdyn_blind_trial::driving::RUN_TIME;
-use trackdyn_blind_trial::{Case, Draft, Error, Order, PlannedCase, Stratum, plan};
+use trackdyn_blind_trial::{Case, Draft, Error, Order, PlannedCase, Stratum, folder, plan};
 
-/// Most cases.
-const MOST: i64 = 9999;
+/// Largest number of cases.
+const MAX_CASES: i64 = 9999;
 /// Shortest and longest run, s: a start, a stop and some driving between; an hour.
-const RUN_TIMES: [f64; 2] = [10.0, 3600.0];
+const RUN_TIME_LIMITS: [f64; 2] = [10.0, 3600.0];
 /// Largest seed: numbers in TOML have 63 bits.
-const LARGEST_SEED: u64 = i64::MAX as u64;
+const MAX_SEED: u64 = i64::MAX as u64;
 
 /// Options of `trackdyn trial make`.
 #[derive(Args)]
 pub struct Options {
     /// Number of cases
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST))]
+    #[arg(long, value_name = "N",
+          value_parser = clap::value_parser!(u32).range(1..=MAX_CASES))]
     cases: u32,
     /// Seed of everything that is drawn; whoever has it and the key can make the answers again
-    #[arg(long, value_name = "SEED", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED))]
+    #[arg(long, value_name = "SEED",
+          value_parser = clap::value_parser!(u64).range(..=MAX_SEED))]
     seed: u64,
-    /// Time of each of the twelve runs of a case, s; less makes a trial quicker, with larger effects for the same z
+    /// Time of each of the twelve runs of a case, s; less makes a trial quicker, with larger
+    /// effects for the same z
     #[arg(long, value_name = "SECONDS", default_value_t = RUN_TIME, value_parser = run_time)]
     duration: f64,
-    /// Folder for the cases, the sealed answers and the commitment to them
+    /// Folder for the cases and the commitment to the answers
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// File for the key to the answers; one that is there is taken, and with the number, the seed and the duration that it was
-    /// used with the same trial is made once more [default: beside DIR, NAME.key]
+    /// File for the key, beside which the answers are put; one that is there is taken, and with the
+    /// number, the seed and the duration that it was used with the same trial is made once more
+    /// [default: beside DIR, NAME.key]
     #[arg(long, value_name = "FILE")]
     key: Option<PathBuf>,
 }
 
-/// Makes the cases that are not there yet, and seals the answers when all are.
+/// Makes the cases that are not there yet, and commits to the answers when all are.
 pub fn run(options: &Options) -> Outcome {
     let key = key_file(options.key.as_deref(), &options.out)?;
     refuse_inside(&key, &options.out)?;
@@ -75,18 +79,22 @@ pub fn run(options: &Options) -> Outcome {
         format!("{} {}", of.count(), stratum.name())
     });
     show(&format!(
-        "{} cases: {}\nanswers  SHA-256 {}\nsealed   SHA-256 {}\n",
+        "{} cases: {}\nanswers  SHA-256 {}\n",
         options.cases,
         counts.join(", "),
-        commitment.answers_sha256,
-        commitment.sealed_sha256
+        commitment.answers_sha256
     ))?;
-    say(format_args!("wrote {} and the key to {}", options.out.display(), key.display()));
+    say(format_args!(
+        "wrote {}, the key to {}, and the answers to {}",
+        options.out.display(),
+        key.display(),
+        folder::answers_file(&key, &commitment).display()
+    ));
     Ok(Exit::Done)
 }
 
 fn run_time(text: &str) -> Result<f64, String> {
-    let [low, high] = RUN_TIMES;
+    let [low, high] = RUN_TIME_LIMITS;
     let value = finite(text)?;
     if (low..=high).contains(&value) {
         Ok(value)

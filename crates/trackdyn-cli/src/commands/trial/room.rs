@@ -1,4 +1,5 @@
-//! A room of its own for a process: a folder under a name that is drawn, without the caller's environment.
+//! A room of its own for a process: a folder under a name that is drawn, without the caller's
+//! environment.
 //!
 //! What the process gets is copied in, what it wrote is taken out when it has ended: neither its
 //! arguments nor its working folder lead to anything else.
@@ -13,12 +14,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// Time between looks at a process.
-const LOOK: Duration = Duration::from_millis(20);
-/// Characters of a failed process' last words that are kept.
-const LAST_WORDS: usize = 4000;
+/// Time between two looks at a process.
+const POLL_INTERVAL: Duration = Duration::from_millis(20);
+/// Largest number of characters that are kept of the last words of a failed process.
+const MAX_LAST_WORDS: usize = 4000;
 /// What the process says.
-const TALK: &str = "stderr.txt";
+const STDERR_FILE: &str = "stderr.txt";
 /// The folder that the process writes to, below its own.
 pub const OUT: &str = "out";
 
@@ -78,9 +79,9 @@ impl Room {
             Some(status) => format!("ended with {status}"),
             None => format!("was ended after {} s", program.limit.as_secs()),
         };
-        let words = fs::read(self.folder.path().join(TALK)).unwrap_or_default();
+        let words = fs::read(self.folder.path().join(STDERR_FILE)).unwrap_or_default();
         let words = String::from_utf8_lossy(&words);
-        let start = words.char_indices().rev().nth(LAST_WORDS).map_or(0, |(place, _)| place);
+        let start = words.char_indices().rev().nth(MAX_LAST_WORDS).map_or(0, |(place, _)| place);
         Ok(Some(format!("the process {how}\n{}", &words[start..])))
     }
 
@@ -116,7 +117,7 @@ impl Room {
             .env_clear()
             .stdin(Stdio::null())
             .stdout(Stdio::null())
-            .stderr(File::create(self.folder.path().join(TALK))?);
+            .stderr(File::create(self.folder.path().join(STDERR_FILE))?);
         lead_a_group(&mut command);
         for name in ["PATH", "RAYON_NUM_THREADS"] {
             if let Some(value) = std::env::var_os(name) {
@@ -144,7 +145,7 @@ impl Room {
                 return Ok(None);
             }
             drop(process);
-            std::thread::sleep(LOOK);
+            std::thread::sleep(POLL_INTERVAL);
         }
     }
 }
@@ -174,7 +175,8 @@ fn end(process: &mut Child) -> io::Result<()> {
     process.wait().map(drop)
 }
 
-/// Copies the files of a folder and of those in it. Links and pipes, which lead out of it, stay behind.
+/// Copies the files of a folder and of those in it. Links and pipes, which lead out of it, stay
+/// behind.
 fn copy(from: &Path, to: &Path) -> io::Result<()> {
     fs::create_dir_all(to)?;
     for entry in fs::read_dir(from)? {

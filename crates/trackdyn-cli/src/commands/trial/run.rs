@@ -15,6 +15,7 @@ use std::str::FromStr;
 use std::time::{Duration, Instant};
 use trackdyn::crates::core::output::write_file;
 use trackdyn_blind_trial::driving::HELD_OUT;
+use trackdyn_blind_trial::seal::Commitment;
 use trackdyn_blind_trial::{Diagnosis, Entry, folder};
 
 /// Options of `trackdyn trial run`.
@@ -25,8 +26,8 @@ pub struct Options {
     /// Take every N-th case only, from the I-th on (1 to N)
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Program that is called as `PROGRAM RECORDING --vehicle FILE --held-out LIST --out DIR` and writes
-    /// DIR/diagnosis.toml [default: `trackdyn diagnose`]
+    /// Program that is called as `PROGRAM RECORDING --vehicle FILE --held-out LIST --out DIR` and
+    /// writes DIR/diagnosis.toml [default: `trackdyn diagnose`]
     #[arg(long, value_name = "PROGRAM")]
     program: Option<PathBuf>,
     /// Name under which its diagnoses are kept and scored [default: that of the program's file]
@@ -66,8 +67,7 @@ pub fn run(options: &Options) -> Outcome {
     let entry = entry(options)?;
     let program = program(options)?;
     let cases = folder::cases(&options.trial)?;
-    folder::commitment(&options.trial)?;
-    note_a_key_within_reach(&options.trial);
+    note_what_is_within_reach(&options.trial, &folder::commitment(&options.trial)?);
     let Shard { index, of } = options.shard.unwrap_or(Shard { index: 1, of: 1 });
     let mine: Vec<&PathBuf> = cases.iter().skip(index - 1).step_by(of).collect();
     let is_done =
@@ -97,14 +97,16 @@ pub fn run(options: &Options) -> Outcome {
     Ok(if failed > 0 && diagnosed == 0 { Exit::NoResult } else { Exit::Done })
 }
 
-/// A process is free to look for what it was not given: rooms keep the answers from an honest one only.
-fn note_a_key_within_reach(trial: &Path) {
-    if let Ok(key) = key_file(None, trial)
-        && key.exists()
-    {
+/// A process is free to look for what it was not given: rooms keep the answers from an honest one
+/// only.
+fn note_what_is_within_reach(trial: &Path, commitment: &Commitment) {
+    let Ok(key) = key_file(None, trial) else { return };
+    let answers = folder::answers_file(&key, commitment);
+    for file in [key, answers].iter().filter(|file| file.exists()) {
         say(format_args!(
-            "note: {} is within reach of the processes that diagnose: for a proof keep it elsewhere meanwhile",
-            key.display()
+            "note: {} is within reach of the processes that diagnose: for a proof keep it \
+             elsewhere meanwhile",
+            file.display()
         ));
     }
 }
@@ -130,7 +132,8 @@ fn entry(options: &Options) -> Result<Entry, Box<dyn Error>> {
     }
 }
 
-/// Diagnoses a case in a room of its own, and takes back what was written, or says why there is nothing.
+/// Diagnoses a case in a room of its own, and takes back what was written, or says why there is
+/// nothing.
 fn diagnose(
     case: &Path,
     entry: &Entry,

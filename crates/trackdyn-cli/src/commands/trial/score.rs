@@ -16,17 +16,20 @@ pub struct Options {
     /// Folder of the trial; several trials count as one
     #[arg(required = true, value_name = "TRIAL")]
     trials: Vec<PathBuf>,
-    /// File with the key to the answers; of several trials one each, in their order [default: beside DIR, NAME.key]
+    /// File with the key to the answers; of several trials one each, in their order [default:
+    /// beside DIR, NAME.key]
     #[arg(long = "key", value_name = "FILE")]
     keys: Vec<PathBuf>,
-    /// SHA-256 of the answers as it was published elsewhere, to be compared; of several trials one each, in their order
+    /// SHA-256 of the answers as it was published elsewhere, to be compared; of several trials one
+    /// each, in their order
     #[arg(long = "commitment", value_name = "HASH")]
     commitments: Vec<String>,
-    /// Name of the program whose diagnoses are scored; several times for several programs beside each other
-    /// [default: trackdyn]
+    /// Name of the program whose diagnoses are scored; several times for several programs beside
+    /// each other [default: trackdyn]
     #[arg(long = "name", value_name = "NAME")]
     names: Vec<Entry>,
-    /// Folder for tables and figures [default: DIR/score, DIR/score.NAME of other programs; none of several trials]
+    /// Folder for tables and figures [default: DIR/score, DIR/score.NAME of other programs; none of
+    /// several trials]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

@@ -10,8 +10,8 @@ const QUADRATIC: f64 = 0.2;
 const PLACE: f64 = 0.01;
 const TIME: f64 = 0.03;
 
-/// A coefficient may be this many times the typical one.
-const MOST: f64 = 50.0;
+/// Largest coefficient, in multiples of the typical one.
+const MAX_PER_TYPICAL: f64 = 50.0;
 
 /// Unit of time, s.
 const TIME_SCALE: Parameter = Parameter {
@@ -27,8 +27,8 @@ const TIME_SCALE: Parameter = Parameter {
 /// Declares parameters and factors side by side.
 macro_rules! coefficients {
     ($(
-        $key:literal $component:ident $(($axis:expr))?, $sign:ident, $argument:ident $(($times:expr))?,
-        $typical:ident, $meaning:literal;
+        $key:literal $component:ident $(($axis:expr))?, $sign:ident,
+        $argument:ident $(($times:expr))?, $typical:ident, $meaning:literal;
     )+) => {
         /// What each coefficient multiplies.
         pub(super) const FACTORS: &[Factor] = &[$(Factor {
@@ -45,7 +45,7 @@ macro_rules! coefficients {
                 unit: "1",
                 meaning: $meaning,
                 role: Role::Size { neutral: 0.0 },
-                range: [-MOST * $typical, MOST * $typical],
+                range: [-MAX_PER_TYPICAL * $typical, MAX_PER_TYPICAL * $typical],
                 typical: $typical,
             },)+
             TIME_SCALE,
@@ -96,32 +96,55 @@ coefficients! {
     "turn_sin_heading" Turn, Any, Sin(1), CONSTANT, "turning, sin ψ";
     "turn_cos_double_heading" Turn, Any, Cos(2), CONSTANT, "turning, cos 2ψ";
     "turn_sin_double_heading" Turn, Any, Sin(2), CONSTANT, "turning, sin 2ψ";
-    "side_turning_cos_heading" Side, Turning, Cos(1), CONSTANT, "sideways, cos ψ, with the sign of V_r − V_l";
-    "side_turning_sin_heading" Side, Turning, Sin(1), CONSTANT, "sideways, sin ψ, with the sign of V_r − V_l";
-    "side_turning_cos_double_heading" Side, Turning, Cos(2), CONSTANT, "sideways, cos 2ψ, with the sign of V_r − V_l";
-    "side_turning_sin_double_heading" Side, Turning, Sin(2), CONSTANT, "sideways, sin 2ψ, with the sign of V_r − V_l";
-    "forward_turning_cos_heading" Forward, Turning, Cos(1), CONSTANT, "forward, cos ψ, with the sign of V_r − V_l";
-    "forward_turning_sin_heading" Forward, Turning, Sin(1), CONSTANT, "forward, sin ψ, with the sign of V_r − V_l";
-    "forward_turning_cos_double_heading" Forward, Turning, Cos(2), CONSTANT, "forward, cos 2ψ, with the sign of V_r − V_l";
-    "forward_turning_sin_double_heading" Forward, Turning, Sin(2), CONSTANT, "forward, sin 2ψ, with the sign of V_r − V_l";
-    "turn_turning_cos_heading" Turn, Turning, Cos(1), CONSTANT, "turning, cos ψ, with the sign of V_r − V_l";
-    "turn_turning_sin_heading" Turn, Turning, Sin(1), CONSTANT, "turning, sin ψ, with the sign of V_r − V_l";
-    "turn_turning_cos_double_heading" Turn, Turning, Cos(2), CONSTANT, "turning, cos 2ψ, with the sign of V_r − V_l";
-    "turn_turning_sin_double_heading" Turn, Turning, Sin(2), CONSTANT, "turning, sin 2ψ, with the sign of V_r − V_l";
-    "forward_direction_cos_heading" Forward, Along, Cos(1), CONSTANT, "forward, cos ψ, with the sign of V_l + V_r";
-    "forward_direction_sin_heading" Forward, Along, Sin(1), CONSTANT, "forward, sin ψ, with the sign of V_l + V_r";
-    "forward_direction_cos_double_heading" Forward, Along, Cos(2), CONSTANT, "forward, cos 2ψ, with the sign of V_l + V_r";
-    "forward_direction_sin_double_heading" Forward, Along, Sin(2), CONSTANT, "forward, sin 2ψ, with the sign of V_l + V_r";
+    "side_turning_cos_heading" Side, Turning, Cos(1), CONSTANT,
+        "sideways, cos ψ, with the sign of V_r − V_l";
+    "side_turning_sin_heading" Side, Turning, Sin(1), CONSTANT,
+        "sideways, sin ψ, with the sign of V_r − V_l";
+    "side_turning_cos_double_heading" Side, Turning, Cos(2), CONSTANT,
+        "sideways, cos 2ψ, with the sign of V_r − V_l";
+    "side_turning_sin_double_heading" Side, Turning, Sin(2), CONSTANT,
+        "sideways, sin 2ψ, with the sign of V_r − V_l";
+    "forward_turning_cos_heading" Forward, Turning, Cos(1), CONSTANT,
+        "forward, cos ψ, with the sign of V_r − V_l";
+    "forward_turning_sin_heading" Forward, Turning, Sin(1), CONSTANT,
+        "forward, sin ψ, with the sign of V_r − V_l";
+    "forward_turning_cos_double_heading" Forward, Turning, Cos(2), CONSTANT,
+        "forward, cos 2ψ, with the sign of V_r − V_l";
+    "forward_turning_sin_double_heading" Forward, Turning, Sin(2), CONSTANT,
+        "forward, sin 2ψ, with the sign of V_r − V_l";
+    "turn_turning_cos_heading" Turn, Turning, Cos(1), CONSTANT,
+        "turning, cos ψ, with the sign of V_r − V_l";
+    "turn_turning_sin_heading" Turn, Turning, Sin(1), CONSTANT,
+        "turning, sin ψ, with the sign of V_r − V_l";
+    "turn_turning_cos_double_heading" Turn, Turning, Cos(2), CONSTANT,
+        "turning, cos 2ψ, with the sign of V_r − V_l";
+    "turn_turning_sin_double_heading" Turn, Turning, Sin(2), CONSTANT,
+        "turning, sin 2ψ, with the sign of V_r − V_l";
+    "forward_direction_cos_heading" Forward, Along, Cos(1), CONSTANT,
+        "forward, cos ψ, with the sign of V_l + V_r";
+    "forward_direction_sin_heading" Forward, Along, Sin(1), CONSTANT,
+        "forward, sin ψ, with the sign of V_l + V_r";
+    "forward_direction_cos_double_heading" Forward, Along, Cos(2), CONSTANT,
+        "forward, cos 2ψ, with the sign of V_l + V_r";
+    "forward_direction_sin_double_heading" Forward, Along, Sin(2), CONSTANT,
+        "forward, sin 2ψ, with the sign of V_l + V_r";
     "world_x" World([1, 0]), Any, One, CONSTANT, "along the x axis of the world, constant";
     "world_y" World([0, 1]), Any, One, CONSTANT, "along the y axis of the world, constant";
     "spring" Spring, Any, One, PLACE, "towards the origin of the world, per ℓ of distance";
-    "side_turning_x" Side, Turning, X, PLACE, "sideways, ∝ place along x over ℓ, with the sign of V_r − V_l";
-    "side_turning_y" Side, Turning, Y, PLACE, "sideways, ∝ place along y over ℓ, with the sign of V_r − V_l";
-    "turn_turning_x" Turn, Turning, X, PLACE, "turning, ∝ place along x over ℓ, with the sign of V_r − V_l";
-    "turn_turning_y" Turn, Turning, Y, PLACE, "turning, ∝ place along y over ℓ, with the sign of V_r − V_l";
-    "forward_direction_x" Forward, Along, X, PLACE, "forward, ∝ place along x over ℓ, with the sign of V_l + V_r";
-    "forward_direction_y" Forward, Along, Y, PLACE, "forward, ∝ place along y over ℓ, with the sign of V_l + V_r";
+    "side_turning_x" Side, Turning, X, PLACE,
+        "sideways, ∝ place along x over ℓ, with the sign of V_r − V_l";
+    "side_turning_y" Side, Turning, Y, PLACE,
+        "sideways, ∝ place along y over ℓ, with the sign of V_r − V_l";
+    "turn_turning_x" Turn, Turning, X, PLACE,
+        "turning, ∝ place along x over ℓ, with the sign of V_r − V_l";
+    "turn_turning_y" Turn, Turning, Y, PLACE,
+        "turning, ∝ place along y over ℓ, with the sign of V_r − V_l";
+    "forward_direction_x" Forward, Along, X, PLACE,
+        "forward, ∝ place along x over ℓ, with the sign of V_l + V_r";
+    "forward_direction_y" Forward, Along, Y, PLACE,
+        "forward, ∝ place along y over ℓ, with the sign of V_l + V_r";
     "side_turning_time" Side, Turning, Time, TIME, "sideways, ∝ t/T, with the sign of V_r − V_l";
     "turn_turning_time" Turn, Turning, Time, TIME, "turning, ∝ t/T, with the sign of V_r − V_l";
-    "forward_direction_time" Forward, Along, Time, TIME, "forward, ∝ t/T, with the sign of V_l + V_r";
+    "forward_direction_time" Forward, Along, Time, TIME,
+        "forward, ∝ t/T, with the sign of V_l + V_r";
 }

@@ -163,9 +163,9 @@ impl Factor {
 
     /// Invariances of the ICRs that it breaks, ascending.
     ///
-    /// Friction changes its sign with the speeds and knows nothing of their size: reversal stays whole
-    /// where the force is odd, the speed scale where it is of degree zero. In the mirror sideways force
-    /// and moment change their signs, forward force does not.
+    /// Friction changes its sign with the speeds and knows nothing of their size: reversal stays
+    /// whole where the force is odd, the speed scale where it is of degree zero. In the mirror
+    /// sideways force and moment change their signs, forward force does not.
     fn breaks(&self) -> Vec<Symmetry> {
         let [reversed, mirrored] = self.is_odd();
         let in_world = matches!(self.component, Component::World(_) | Component::Spring);
@@ -217,7 +217,8 @@ impl Factor {
     }
 }
 
-/// The terms of all coefficients: cosine and sine of a heading, and the axes of the world, belong together.
+/// The terms of all coefficients: cosine and sine of a heading, and the axes of the world, belong
+/// together.
 pub(super) fn terms(factors: &[Factor], parameters: &'static [Parameter]) -> Vec<Term> {
     let mut terms = Vec::new();
     for (k, factor) in factors.iter().enumerate() {

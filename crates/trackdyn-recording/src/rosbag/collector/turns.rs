@@ -14,8 +14,8 @@ use super::{Reading, Stamped};
 use crate::recording::Warning;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Positions of one joint may span this much beyond a turn and still be modulo a turn, rad: single
-/// precision and coarse encoders round them.
+/// Largest span beyond a turn of positions that are modulo a turn, rad: single precision and coarse
+/// encoders round them.
 const POSITION_ROUNDING: f64 = 1e-3;
 
 /// Adds whole turns to the positions of joints that wrap. `joints` are their names, `seconds` the

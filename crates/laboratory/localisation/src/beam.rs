@@ -5,7 +5,7 @@
 //! for the line n · p = d in the reference's frame, from a sensor at (t, R) in it, along u in the
 //! sensor's own frame. The residual of a match is ρ − h.
 
-use crate::reference::Line;
+use crate::line::Line;
 use nalgebra::{Vector2, Vector3};
 use trackdyn_core::Pose;
 
@@ -20,9 +20,9 @@ pub(crate) struct Beam {
     pub(crate) by_line: Vector2<f64>,
 }
 
-/// Sine of the least angle between beam and line: 6 degrees. Below it the range moves by more than
-/// ten times what the line moves, and the law is no longer nearly linear.
-const GRAZING: f64 = 0.1;
+/// Smallest sine of the angle between beam and line: 6 degrees. Below it the range moves by more
+/// than ten times what the line moves, and the law is no longer nearly linear.
+const MIN_SINE_OF_INCIDENCE: f64 = 0.1;
 
 /// The range of a beam; `None` where it grazes the line, or the sensor is behind it.
 #[inline]
@@ -30,7 +30,8 @@ pub(crate) fn on_line(line: &Line, pose: &Pose, [u, v]: [f64; 2]) -> Option<Beam
     on_normal(line.angle.sin_cos(), line.distance, pose, pose.yaw.sin_cos(), [u, v])
 }
 
-/// The same with sines and cosines at hand: of θ, and of the yaw.
+/// The range of a beam on the line with the sine and cosine of θ, from a sensor with those of its
+/// yaw.
 #[inline]
 pub(crate) fn on_normal(
     (n_sin, n_cos): (f64, f64),
@@ -46,7 +47,7 @@ pub(crate) fn on_normal(
     // d − n · t, and n′ · t
     let height = distance - n_cos * pose.x - n_sin * pose.y;
     let shift = n_cos * pose.y - n_sin * pose.x;
-    if along < GRAZING || height <= 0.0 {
+    if along < MIN_SINE_OF_INCIDENCE || height <= 0.0 {
         return None;
     }
     let per = along.recip();

@@ -1,0 +1,259 @@
+//! All numbers that decide the answer of a diagnosis, in one tree: a group for each stage.
+//!
+//! Each number has a path such as `verdict.min_ln_bayes_factor`, a unit, a default, and in words what
+//! it is, why it has that value and what happens when it is wrong. [`page`](crate::settings::page)
+//! prints all of them: `docs/theory/diagnosis/settings.md` is that text.
+//!
+//! What stays a constant in the code is no choice: stand-ins for zero and infinity, the medians of
+//! distributions, the number of nodes of a table.
+
+mod answer;
+mod base;
+mod candidates;
+mod evidence;
+mod fit;
+mod group;
+mod limits;
+mod location;
+mod mechanics;
+mod noise;
+mod page;
+mod plan;
+mod prior;
+mod proposal;
+mod search;
+mod value;
+mod verdict;
+
+pub use answer::Answer;
+pub use base::Base;
+pub use candidates::Candidates;
+pub use evidence::Evidence;
+pub use fit::Fit;
+pub use limits::Limits;
+pub use location::Location;
+pub use mechanics::Mechanics;
+pub use noise::Noise;
+pub use page::page;
+pub use plan::Plan;
+pub use prior::Prior;
+pub use proposal::Proposal;
+pub use search::Search;
+pub use verdict::Verdict;
+
+use group::Group;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
+use toml::{Table, Value};
+use value::Number;
+
+/// A setting that does not exist, or a value that it cannot have.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SettingError {
+    /// No setting has this path.
+    #[error("{path}: expected one of {known}")]
+    Unknown {
+        /// The path as given.
+        path: String,
+        /// What there is in its place.
+        known: String,
+    },
+    /// A value of another kind, or outside the range.
+    #[error("{path} = {value}: expected {expected}")]
+    Value {
+        /// Path of the setting.
+        path: String,
+        /// The value as given.
+        value: String,
+        /// Kind and range that it must have.
+        expected: String,
+    },
+}
+
+/// What is known of one setting.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// Group and name, as in `verdict.min_ln_bayes_factor`.
+    pub path: String,
+    /// Unit; empty for a pure number.
+    pub unit: &'static str,
+    /// Smallest and largest value.
+    pub range: [f64; 2],
+    /// Value that it has unless it is set.
+    pub default: Value,
+    /// What it is.
+    pub meaning: String,
+    /// Why it has that value.
+    pub why: &'static str,
+    /// What happens when it is wrong; none of what is numerical accuracy alone.
+    pub if_wrong: Option<&'static str>,
+}
+
+/// The groups of the tree: a field of [`Settings`] for each, in the order of the stages.
+macro_rules! tree {
+    ($($(#[doc = $about:literal])+ $group:ident: $kind:ident,)+) => {
+        /// All numbers that decide the answer of a diagnosis.
+        #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+        #[non_exhaustive]
+        pub struct Settings {
+            $($(#[doc = $about])+ pub $group: $kind,)+
+        }
+
+        impl Settings {
+            /// Name, description and settings of each group.
+            fn groups() -> Vec<(&'static str, String, Vec<Entry>)> {
+                vec![$((
+                    stringify!($group),
+                    concat!($($about),+).trim().to_owned(),
+                    $kind::entries(stringify!($group)),
+                ),)+]
+            }
+
+            fn group(&self, name: &str) -> Option<&dyn Group> {
+                match name {
+                    $(stringify!($group) => Some(&self.$group),)+
+                    _ => None,
+                }
+            }
+
+            fn group_mut(&mut self, name: &str) -> Option<&mut dyn Group> {
+                match name {
+                    $(stringify!($group) => Some(&mut self.$group),)+
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+tree! {
+    /// What counts as evidence, and what its residuals weigh.
+    evidence: Evidence,
+    /// How noise is told from what driving could explain.
+    noise: Noise,
+    /// What is known of each number before the evidence.
+    prior: Prior,
+    /// What is free in every hypothesis.
+    base: Base,
+    /// How a hypothesis predicts motion.
+    mechanics: Mechanics,
+    /// How the numbers of a hypothesis are fitted.
+    fit: Fit,
+    /// Which symmetries the evidence breaks.
+    location: Location,
+    /// Which variants of each effect are tried.
+    candidates: Candidates,
+    /// Which hypotheses are refitted and kept.
+    search: Search,
+    /// What a claim must reach: each of these rules can refuse it.
+    verdict: Verdict,
+    /// Which effects are one answer together.
+    answer: Answer,
+    /// How far intervals and detection limits reach.
+    limits: Limits,
+    /// When a form is proposed for what no effect explains.
+    proposal: Proposal,
+    /// What driving tells rivals apart.
+    plan: Plan,
+}
+
+impl Settings {
+    /// What is known of every setting, in the order of the groups.
+    pub fn entries() -> Vec<Entry> {
+        Self::groups().into_iter().flat_map(|(_, _, entries)| entries).collect()
+    }
+
+    /// Value of a setting by its path; none where there is no such setting.
+    pub fn get(&self, path: &str) -> Option<Value> {
+        let (group, name) = path.split_once('.')?;
+        self.group(group)?.get(name)
+    }
+
+    /// Sets a value by its path.
+    ///
+    /// # Errors
+    /// [`SettingError`] for a path that does not exist or a value outside the range.
+    pub fn set(&mut self, path: &str, value: &Value) -> Result<(), SettingError> {
+        let (group, name) = path.split_once('.').unwrap_or((path, ""));
+        let Some(into) = self.group_mut(group) else { return Err(Self::no_group(path)) };
+        match into.set(name, value) {
+            Some(Ok(())) => Ok(()),
+            Some(Err(expected)) => {
+                let (path, value) = (path.to_owned(), value.to_string());
+                Err(SettingError::Value { path, value, expected })
+            }
+            None => {
+                let known: Vec<String> =
+                    into.names().iter().map(|name| format!("{group}.{name}")).collect();
+                Err(SettingError::Unknown { path: path.to_owned(), known: known.join(", ") })
+            }
+        }
+    }
+
+    /// The error of a path into no group.
+    fn no_group(path: &str) -> SettingError {
+        let known: Vec<&str> = Self::groups().into_iter().map(|(name, ..)| name).collect();
+        SettingError::Unknown { path: path.to_owned(), known: known.join(", ") }
+    }
+
+    /// Whether every value lies in its range.
+    ///
+    /// # Errors
+    /// [`SettingError`] for the first one that does not.
+    pub fn check(&self) -> Result<(), SettingError> {
+        let mut read = Self::default();
+        Self::entries().iter().try_for_each(|Entry { path, .. }| {
+            let value = self.get(path);
+            value.map_or(Ok(()), |value| read.set(path, &value))
+        })
+    }
+
+    /// The settings of a table of groups; what it does not name keeps its default.
+    ///
+    /// # Errors
+    /// [`SettingError`] for the first key that does not exist or value outside its range.
+    pub fn from_table(table: &Table) -> Result<Self, SettingError> {
+        let mut settings = Self::default();
+        for (group, values) in table {
+            if settings.group(group).is_none() {
+                return Err(Self::no_group(group));
+            }
+            let Some(values) = values.as_table() else {
+                let expected = "a table of settings".to_owned();
+                let (path, value) = (group.clone(), values.to_string());
+                return Err(SettingError::Value { path, value, expected });
+            };
+            for (name, value) in values {
+                settings.set(&format!("{group}.{name}"), value)?;
+            }
+        }
+        Ok(settings)
+    }
+
+    /// The settings that differ from their defaults, as a table of groups; empty where none does.
+    pub fn differences(&self) -> Table {
+        let (defaults, mut table) = (Self::default(), Table::new());
+        for path in Self::entries().into_iter().map(|entry| entry.path) {
+            let value = self.get(&path).filter(|value| Some(value) != defaults.get(&path).as_ref());
+            let (Some(value), Some((group, name))) = (value, path.split_once('.')) else {
+                continue;
+            };
+            let into = table.entry(group).or_insert_with(|| Value::Table(Table::new()));
+            if let Value::Table(into) = into {
+                into.insert(name.to_owned(), value);
+            }
+        }
+        table
+    }
+}
+
+impl<'de> Deserialize<'de> for Settings {
+    /// Reads the settings that a table of groups names; the others keep their defaults.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Self::from_table(&Table::deserialize(deserializer)?).map_err(D::Error::custom)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,70 @@
+//! How noise is told from what driving could explain.
+
+use super::group::group;
+
+group! {
+    /// How noise is told from what driving could explain.
+    Noise {
+        /// Degrees of freedom of the noise's heavy tails.
+        t_degrees: f64 = 5.0, "", [1.0, 1e6],
+            "Usual.",
+            "Higher: outliers raise the noise.";
+        /// Squared whitened residual from which a pose may be an outlier.
+        min_outlier_square: f64 = 30.7, "", [3.0, 1e6],
+            "Chance: 1e-6.",
+            "Lower: physics is thrown away; higher: bad poses stay.";
+        /// Square of both samples beside it together, up to which it is one.
+        max_pair_square: f64 = 11.3, "", [0.0, 1e6],
+            "Chance: 1 %.",
+            "Higher: slip is thrown away.";
+        /// Samples behind an outlier that wait a round.
+        outlier_distance: usize = 3, "", [0.0, 100.0],
+            "The filter's reach.",
+            "Lower: good samples fall too.";
+        /// Part of the residuals that contrasts may fit.
+        max_fitted_share: f64 = 0.5, "", [0.01, 0.99],
+            "Noise needs the rest.",
+            "Lower: physics passes for noise.";
+        /// Slip over twice the largest speed in which friction may settle.
+        friction_scales: [f64; 2] = [0.06, 0.2], "", [1e-3, 10.0],
+            "Those of the catalogue.",
+            "Other friction passes for a walk.";
+        /// Fall of a run's variance, as factor, for noise to be found anew.
+        min_variance_ratio: f64 = 1.3, "", [1.0, 1e6],
+            "Beyond chance.",
+            "Higher: a walk hides physics.";
+        /// Residuals over noise up to which noise stays.
+        max_residual_scale: f64 = 1.1, "", [1.0, 1e6],
+            "Their chance in short recordings.",
+            "Higher: unknown physics makes false claims sure.";
+        /// Walk variance per second to start from, of the white one.
+        start_walk: f64 = 0.03, "1/s", [1e-9, 1e3],
+            "Less has no slope.",
+            "Lower: no walk is found.";
+        /// Heading variance to start from, of the walk in yaw.
+        start_heading: f64 = 0.5, "", [1e-9, 1e3],
+            "Likewise.",
+            "Lower: no heading is found.";
+        /// Smallest walk, as start_walk.
+        min_walk: f64 = 1e-5, "1/s", [0.0, 1.0],
+            "Keeps the filter regular.";
+        /// Rounds of fit and noise.
+        rounds: usize = 3, "", [1.0, 100.0],
+            "A fourth changes nothing.";
+        /// Steps to the likeliest noise.
+        max_steps: usize = 20, "", [1.0, 1e4],
+            "Most take eight.";
+        /// ln likelihood that ends them.
+        min_gain: f64 = 0.05, "", [0.0, 10.0],
+            "Far below chance.";
+        /// Largest step of a ln variance.
+        max_step: f64 = 1.5, "", [0.01, 100.0],
+            "Longer ones overshoot.";
+        /// Difference step of a ln variance.
+        difference: f64 = 1e-3, "", [1e-6, 0.5],
+            "Between rounding and curvature.";
+        /// That for what the fit took.
+        taken_difference: f64 = 0.05, "", [1e-6, 0.5],
+            "Nearly linear.";
+    }
+}

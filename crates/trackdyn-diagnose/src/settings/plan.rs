@@ -1,0 +1,63 @@
+//! What driving tells rivals apart.
+
+use super::group::group;
+
+group! {
+    /// What driving tells rivals apart.
+    Plan {
+        /// Distance that tells rivals apart.
+        min_separation: f64 = 3.0, "sd", [0.1, 100.0],
+            "As of answers.",
+            "Lower: plans promise too much.";
+        /// Part of typical driving taken as known.
+        known_share: f64 = 0.05, "", [0.0, 1.0],
+            "A recording went before.",
+            "Higher: plans forget constants.";
+        /// Smallest weighted z² of a manoeuvre per time.
+        min_rate: f64 = 1e-3, "1/s", [0.0, 1e3],
+            "Less takes an hour.",
+            "Higher: hard pairs get no plan.";
+        /// Longest residual where rivals mimic each other.
+        max_mimicked_residual: f64 = 3.0, "sd", [0.1, 100.0],
+            "Below Huber's threshold.",
+            "Higher: differences count as outliers.";
+        /// Distances of ICRs that a spin may have.
+        gap_limits: [f64; 2] = [0.2, 20.0], "gauge", [1e-3, 1e3],
+            "Robots lie between.",
+            "Vehicles that cannot turn get plans.";
+        /// z of a plan that foretells times.
+        min_z_of_time: f64 = 1.0, "sd", [1e-3, 100.0],
+            "Less says nothing.",
+            "Times are guessed.";
+        /// Rounds of exchanges.
+        exchange_rounds: usize = 3, "", [0.0, 100.0],
+            "A fourth changes nothing.";
+        /// Speed of the spin that measures the gap.
+        spin_speed: f64 = 0.1, "m/s", [1e-3, 10.0],
+            "Slow.";
+        /// Intervals of 0.03 s of a gentle ramp.
+        gentle_ramp: usize = 17, "", [1.0, 1e4],
+            "Half a second.",
+            "Lower: inertia shows everywhere.";
+        /// Of a sharp ramp.
+        sharp_ramp: usize = 4, "", [1.0, 1e4],
+            "Belts follow.",
+            "Higher: lags look like clocks.";
+        /// Of steady driving.
+        steady: usize = 90, "", [1.0, 1e5],
+            "Ten samples.",
+            "Lower: ramps take the time.";
+        /// Of a rest.
+        rest: usize = 18, "", [1.0, 1e4],
+            "Delays show there.",
+            "Lower: delays are cut off.";
+        /// Of a square's side.
+        square_side: usize = 70, "", [1.0, 1e5],
+            "1.5 m.",
+            "Lower: places look alike.";
+        /// Creeping speeds.
+        creeping_speeds: [f64; 3] = [0.05, 0.1, 0.2], "m/s", [1e-3, 10.0],
+            "Friction settles there.",
+            "Higher: creep looks viscous.";
+    }
+}

@@ -1,0 +1,125 @@
+//! docs/adding-an-effect.md, followed word for word on a copy of the sources.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const PAGE: &str = include_str!("../../../docs/adding-an-effect.md");
+
+/// What the page adds.
+#[derive(Debug)]
+enum Addition {
+    /// A file with this text.
+    File(PathBuf, String),
+    /// A line at the end of the list of a file.
+    Line(PathBuf, String),
+}
+
+/// The blocks of Rust of a page, each with the sentence above it, which says where it goes.
+fn additions(page: &str) -> Vec<Addition> {
+    let mut found = Vec::new();
+    let (mut above, mut lines) = ("", page.lines());
+    while let Some(line) = lines.next() {
+        if line == "```rust" {
+            let block: Vec<&str> = lines.by_ref().take_while(|line| *line != "```").collect();
+            let path = above.split('`').nth(1).expect("a path in the sentence above a block");
+            let (path, text) = (PathBuf::from(path), block.join("\n") + "\n");
+            found.push(match above.strip_prefix("One line in the list of ") {
+                Some(_) => Addition::Line(path, text),
+                None => Addition::File(path, text),
+            });
+        } else if !line.is_empty() {
+            above = line;
+        }
+    }
+    found
+}
+
+/// The first command of the page.
+fn command(page: &str) -> Vec<&str> {
+    let (_, after) = page.split_once("```sh\n").expect("a block of commands");
+    after.lines().next().expect("a command").split_whitespace().collect()
+}
+
+/// All files below a folder of the project, by their paths from its root.
+fn read(root: &Path, below: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
+    for entry in fs::read_dir(root.join(below)).expect("a folder") {
+        let name = below.join(entry.expect("readable").file_name());
+        let path = root.join(&name);
+        if path.is_dir() {
+            read(root, &name, files);
+        } else {
+            files.insert(name, fs::read(path).expect("a file"));
+        }
+    }
+}
+
+/// Makes a folder hold these files and no others. Files that do not change keep their stamps, so that
+/// what was compiled of them is not compiled again.
+fn write(folder: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) {
+    let mut there = BTreeMap::new();
+    fs::create_dir_all(folder).expect("a folder");
+    read(folder, Path::new(""), &mut there);
+    for name in there.keys().filter(|name| !files.contains_key(*name)) {
+        fs::remove_file(folder.join(name)).expect("removed");
+    }
+    for (name, bytes) in files.iter().filter(|(name, bytes)| there.get(*name) != Some(bytes)) {
+        let path = folder.join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        fs::write(path, bytes).expect("written");
+    }
+}
+
+#[test]
+fn the_page_adds_an_effect_to_model_second_simulator_and_trial() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut files = BTreeMap::new();
+    for folder in ["crates", "tests", "benches"] {
+        read(&root, Path::new(folder), &mut files);
+    }
+    for name in ["Cargo.toml", "Cargo.lock"] {
+        files.insert(PathBuf::from(name), fs::read(root.join(name)).expect("a file"));
+    }
+    let additions = additions(PAGE);
+    assert_eq!(additions.len(), 4, "an effect and a mechanism, a file and a line each");
+    for addition in additions {
+        match addition {
+            Addition::File(path, text) => {
+                assert!(files.insert(path, text.into_bytes()).is_none(), "a file of its own");
+            }
+            Addition::Line(path, line) => {
+                let of = files.get_mut(&path).expect("a list");
+                let text = String::from_utf8(of.clone()).expect("text");
+                let (_, list) = text.split_once("! {\n").expect("a list");
+                let end = text.len() - list.len() + list.find("\n}").expect("its end") + 1;
+                *of = format!("{}    {line}{}", &text[..end], &text[end..]).into_bytes();
+            }
+        }
+    }
+    // The libraries that the project uses are compiled already, in the same profile.
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("adding-an-effect");
+    write(&folder, &files);
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().expect("the target folder");
+    let is_release = std::env::current_exe().expect("a path").starts_with(target.join("release"));
+    let words = command(PAGE);
+    let words = words.iter().skip(1).filter(|word| is_release || **word != "--release");
+    let (words, filter): (Vec<&&str>, Vec<&&str>) = {
+        let words: Vec<&&str> = words.collect();
+        let end = words.iter().position(|word| ***word == *"--").expect("names of tests");
+        (words[..end].to_vec(), words[end..].to_vec())
+    };
+    let run = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+        .args(words)
+        .args(["--offline", "--target-dir"])
+        .arg(target)
+        .args(filter)
+        .current_dir(&folder)
+        .output()
+        .expect("cargo runs");
+    let said = String::from_utf8_lossy(&run.stdout);
+    assert!(run.status.success(), "{said}\n{}", String::from_utf8_lossy(&run.stderr));
+    for test in ["cards_are_complete", "every_law_has_a_dose", "every_mechanism_has_a_place"] {
+        assert!(said.contains(test), "{test} did not run:\n{said}");
+    }
+}

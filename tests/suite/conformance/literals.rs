@@ -1,0 +1,85 @@
+//! Effects are known by their cards and sheets: no source but their own names one.
+
+use super::crates::all;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use trackdyn_model::CATALOGUE;
+use trackdyn_second_simulator::MECHANISMS;
+
+/// Sources, each with why it may write words that are ids as well.
+const ARGUED: [(&str, &str, &str); 1] = [(
+    "estimate",
+    "sensor.rs",
+    "names of the two quantities of a pose sensor that `identify --fit` takes and files state: they \
+     come of no catalogue, and identification knows no effects",
+)];
+
+/// Code that is not compiled for tests only, without comments.
+fn code(text: &str) -> String {
+    let tests = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
+    let lines = text[..tests].lines().map(|line| line.split("//").next().unwrap_or_default());
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Whether the module of a source is declared for tests only, or stands below one that is.
+fn is_of_tests(path: &Path, sources: &BTreeMap<PathBuf, String>) -> bool {
+    let Some((name, folder)) = path.file_stem().zip(path.parent()) else { return false };
+    if folder == Path::new("") {
+        let roots = ["lib.rs", "main.rs"].iter().filter_map(|root| sources.get(Path::new(root)));
+        return roots.into_iter().any(|root| declares_for_tests(root, &name.to_string_lossy()));
+    }
+    let parent = folder.with_extension("rs");
+    let declared = sources.get(&parent);
+    declared.is_some_and(|text| declares_for_tests(text, &name.to_string_lossy()))
+        || is_of_tests(&parent, sources)
+}
+
+fn declares_for_tests(text: &str, module: &str) -> bool {
+    text.contains(&format!("#[cfg(test)]\nmod {module};"))
+}
+
+/// Whether code names an id in a string: by itself, or with settings behind a colon.
+fn names(code: &str, id: &str) -> bool {
+    code.contains(&format!("\"{id}\"")) || code.contains(&format!("\"{id}:"))
+}
+
+#[test]
+fn no_source_names_an_effect_but_its_own() {
+    let ids = CATALOGUE.iter().map(|card| card.id).chain(MECHANISMS.iter().map(|sheet| sheet.id));
+    let ids: Vec<&str> = ids.collect();
+    let (mut found, mut own, mut argued) = (Vec::new(), 0, Vec::new());
+    for of in all() {
+        let sources: BTreeMap<PathBuf, String> = of.sources().into_iter().collect();
+        for (path, text) in &sources {
+            if is_of_tests(path, &sources) {
+                continue;
+            }
+            let code = code(text);
+            for id in ids.iter().filter(|id| names(&code, id)) {
+                let file = path.to_string_lossy();
+                let is_argued =
+                    ARGUED.iter().any(|(name, source, _)| *name == of.name && *source == file);
+                if path.file_stem().is_some_and(|stem| *stem == *id.replace('-', "_")) {
+                    own += 1;
+                } else if is_argued {
+                    argued.push(format!("{}/{file}", of.name));
+                } else {
+                    found.push(format!("{}/{file} names {id}", of.name));
+                }
+            }
+        }
+    }
+    found.dedup();
+    assert!(found.is_empty(), "what is to be known of an effect stands on its card:\n{found:#?}");
+    assert!(own >= 2 * CATALOGUE.len() - 1, "{own} own names: sources are not where they were");
+    for (name, source, _) in ARGUED {
+        assert!(argued.contains(&format!("{name}/{source}")), "{name}/{source} needs no argument");
+    }
+}
+
+#[test]
+fn a_name_is_seen() {
+    assert!(names("let it = \"slope\";", "slope") && names("\"slope:angle_deg=3\"", "slope"));
+    assert!(!names("let slope = \"slopes\";", "slope"));
+    assert!(!code("// \"slope\"\n#[cfg(test)]\nmod tests { \"slope\" }").contains("slope"));
+}

@@ -268,7 +268,7 @@ impl DrivingOptions {
             ("--time", self.time.is_some()),
             ("--tau", self.tau.is_some()),
         ];
-        let own = options.into_iter().filter_map(|(name, given)| given.then(|| name.to_owned()));
+        let own = options.into_iter().filter(|(_, given)| *given).map(|(name, _)| name.to_owned());
         self.recording.given().into_iter().chain(own).collect()
     }
 }

@@ -12,7 +12,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// A table: one line for each recording.
-pub fn run(arguments: &[String]) -> Result<String, Box<dyn Error>> {
+pub(crate) fn run(arguments: &[String]) -> Result<String, Box<dyn Error>> {
     let [vehicle, recordings @ ..] = arguments else {
         return Err("usage: custom_command VEHICLE RECORDING...".into());
     };
@@ -22,13 +22,14 @@ pub fn run(arguments: &[String]) -> Result<String, Box<dyn Error>> {
         let recording = Recording::open(path, &ReadOptions::default())?;
         let found = identify(&recording, &vehicle, &IdentifySettings::default())?;
         let Identification::Motion(fit) = &found else { continue };
-        table += &match &fit.found.fits[0].least_squares {
+        let row = match &fit.found.fits[0].least_squares {
             Ok(estimate) if found.parameters().is_some() => {
                 let chi = estimate.steering_efficiency(vehicle.gauge());
                 format!("{:19.3}  {:.3} to {:.3}   {path}\n", chi.value, chi.low, chi.high)
             }
             _ => format!("{:>19}  {:16} {path}\n", "-", "not determined"),
         };
+        table.push_str(&row);
     }
     Ok(table)
 }

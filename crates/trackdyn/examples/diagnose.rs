@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Diagnoses a simulated log and writes the report and the corrected vehicle.
-pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     prepare_folder(out)?;
     // The model knows the robot's inertia, but not how high it carries its weight.
     let model = Vehicle::auriga_alpha().with_inertia(true);

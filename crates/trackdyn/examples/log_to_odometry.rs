@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Records a robot in simulation, identifies its parameters and writes what its odometry needs.
-pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     // A log, where there is no robot at hand: three runs driven by hand, seen by sensors of a
     // laboratory.
     let provenance = Provenance::new("example log_to_odometry");

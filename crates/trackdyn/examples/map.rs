@@ -11,7 +11,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Solves both maps, prints where the robot turns about, and writes the second one.
-pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     let rigid = Vehicle::auriga_alpha();
     let tall = rigid.clone().with_effect("load-transfer:cog_height_m=0.3")?;
     for (name, vehicle) in [("on the ground", &rigid), ("0.3 m high", &tall)] {

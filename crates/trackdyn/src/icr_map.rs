@@ -43,6 +43,9 @@ pub struct IcrMap {
 }
 
 /// Solves the ICR map of a vehicle.
+///
+/// # Panics
+/// Never: nobody stops it.
 pub fn icr_map(vehicle: &Vehicle, settings: &MapSettings) -> IcrMap {
     IcrMap::solve(vehicle, settings, &unobserved).expect("nobody stops it")
 }

@@ -1,6 +1,7 @@
 //! Recordings of all kinds by one function, and what is refused.
 
 use super::driven;
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use trackdyn::{
     DiagnoseSettings, Error, HeldOut, IdentifySettings, OdometrySettings, Part, ReadOptions,
@@ -19,7 +20,8 @@ fn table(folder: &Path) -> Recording {
             let (left, right) = (0.2 * f64::from(left), 0.2 * f64::from(right));
             let yaw_rate = (right - left) / 0.832;
             let forward = f64::midpoint(left, right);
-            text += &format!("{left},{right},{forward},{},{yaw_rate}\n", -0.05 * yaw_rate);
+            let lateral = -0.05 * yaw_rate;
+            let _ = writeln!(text, "{left},{right},{forward},{lateral},{yaw_rate}");
         }
     }
     let path = folder.join("points.csv");

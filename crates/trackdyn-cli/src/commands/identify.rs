@@ -69,7 +69,7 @@ impl Options {
     fn of_motion(&self) -> Vec<String> {
         let mut given = self.driving.given();
         let own = [("--settle", self.settle.is_some()), ("--fit", !self.fit.is_empty())];
-        given.extend(own.into_iter().filter_map(|(name, given)| given.then(|| name.to_owned())));
+        given.extend(own.into_iter().filter(|(_, given)| *given).map(|(name, _)| name.to_owned()));
         given
     }
 }

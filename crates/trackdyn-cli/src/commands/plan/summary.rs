@@ -77,7 +77,7 @@ fn never(plan: &Plan) -> Vec<BTreeSet<EffectId>> {
 }
 
 fn answer(pair: &Separation, plan: &Plan) -> String {
-    let [one, other] = pair.effects.map(|effect| effect.name());
+    let [one, other] = pair.effects.map(EffectId::name);
     match pair.answer {
         Answer::Longer(time) => format!(
             "{one} or {other}: this plan does not decide, z = {:.1} is below {DECIDED}; it would \

@@ -7,6 +7,7 @@ use std::error::Error;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::time::Instant;
+use trackdyn::diagnose::every_fourth;
 use trackdyn_diagnose::{Evidence, Options, Progress, Stage, diagnose};
 use trackdyn_drive::sensors::Preset;
 use trackdyn_drive::{ScheduleKind, ScheduleOptions};
@@ -81,7 +82,7 @@ fn report(recording: &Recording, concealed: &[&str]) -> Result<(), Box<dyn Error
     let before = status("VmRSS:");
     let (begun, spent) = (Instant::now(), cpu_seconds());
     let evidence = Evidence::of_recording(recording, file.vehicle.gauge)?;
-    let held_out = (3..recording.runs().len()).step_by(4).collect();
+    let held_out = every_fourth(recording.runs().len());
     let options = Options { held_out, ..Options::default() };
     let times = Mutex::new(Times {
         last: Instant::now(),

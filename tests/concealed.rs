@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
+use trackdyn::diagnose::every_fourth;
 use trackdyn_core::{Plant, Pose, Trajectory};
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::{Diagnosis, Error, Evidence, Options, diagnose, unobserved};
@@ -143,8 +144,7 @@ pub fn owned(concealed: &[&str]) -> VehicleFile {
 /// # Errors
 /// Why there is none.
 pub fn diagnosed(recording: &Recording, file: &VehicleFile) -> Result<Diagnosis, Error> {
-    let count = recording.runs().len();
-    let held_out = if count < 8 { Vec::new() } else { (3..count).step_by(4).collect() };
+    let held_out = every_fourth(recording.runs().len());
     let evidence = Evidence::of_recording(recording, file.vehicle.gauge)?;
     diagnose(&evidence, file, &Options { held_out, ..Options::default() }, &unobserved)
 }

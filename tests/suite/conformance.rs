@@ -5,5 +5,6 @@ mod arrows;
 mod circles;
 mod crates;
 mod literals;
+mod packages;
 mod parity;
 mod words;

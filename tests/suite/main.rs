@@ -9,6 +9,7 @@ mod diagnoses;
 mod driving;
 mod figures;
 mod golden;
+mod library;
 mod odometry;
 mod properties;
 mod recording;

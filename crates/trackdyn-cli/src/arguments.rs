@@ -4,7 +4,8 @@ use crate::commands;
 use crate::commands::Outcome;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-/// Kinematics of tracked and skid-steer robots: simulate the ICRs of the tracks, check them, use them.
+/// Kinematics of tracked and skid-steer robots: simulate the ICRs of the tracks, check them, use
+/// them.
 #[derive(Parser)]
 #[command(name = "trackdyn", version, max_term_width = 100)]
 pub struct Arguments {
@@ -24,7 +25,8 @@ impl Arguments {
     }
 }
 
-/// An option takes what looks like a negative number for its value, and says what it expects in its place.
+/// An option takes what looks like a negative number for its value, and says what it expects in its
+/// place.
 fn with_negative_numbers(command: clap::Command) -> clap::Command {
     let command = command.mut_args(|arg| {
         let is_option = arg.get_action().takes_values() && !arg.is_positional();
@@ -36,15 +38,18 @@ fn with_negative_numbers(command: clap::Command) -> clap::Command {
 /// The commands, one file each in `commands`.
 #[derive(Subcommand)]
 pub enum Command {
-    /// Solve the stationary motion for every pair of track speeds: ICR map, kinematic parameters, picture
+    /// Solve the stationary motion for every pair of track speeds: ICR map, kinematic parameters,
+    /// picture
     Map(commands::map::Options),
     /// Evaluate the kinematics: track speeds to motion of the robot, or back
     Kinematics(commands::kinematics::Options),
-    /// Drive a robot in time over a ground with any of the effects, and record it with realistic sensors
+    /// Drive a robot in time over a ground with any of the effects, and record it with realistic
+    /// sensors
     Simulate(commands::simulate::Options),
     /// Follow a path with the path tracker: ideal differential drive against kinematic parameters
     Drive(commands::drive::Options),
-    /// Replay a recording by dead reckoning with parameter sets and the ideal drive: errors, paths, picture
+    /// Replay a recording by dead reckoning with parameter sets and the ideal drive: errors, paths,
+    /// picture
     Odometry(commands::odometry::Options),
     /// Recompute chi, e and the ICRs, and fail where they leave the tolerances of a reference file
     Check(commands::check::Options),
@@ -54,13 +59,15 @@ pub enum Command {
     Effects(commands::effects::Options),
     /// List what a recording holds, and the options with which it is read
     Inspect(commands::inspect::Options),
-    /// Identify the kinematic parameters from a recording: spin test, genetic algorithm, least squares
+    /// Identify the kinematic parameters from a recording: spin test, genetic algorithm, least
+    /// squares
     Identify(commands::identify::Options),
     /// Locate where a model and recordings differ, and say which physics was left out
     Diagnose(commands::diagnose::Options),
     /// Propose the driving that tells apart what a diagnosis could not
     Plan(commands::plan::Options),
-    /// Prove the diagnosis on concealed physics: make sealed cases, run it on them, score its answers
+    /// Prove the diagnosis on concealed physics: make sealed cases, run it on them, score its
+    /// answers
     Trial(commands::trial::Options),
     /// Print completions for a shell
     Completions(commands::completions::Options),

@@ -1,4 +1,5 @@
-//! Ctrl-C and requests to end: they end the program between two files, never inside one, and leave nothing behind.
+//! Ctrl-C and requests to end: they end the program between two files, never inside one, and leave
+//! nothing behind.
 
 use std::io;
 use std::sync::{Mutex, PoisonError};
@@ -30,7 +31,8 @@ impl Drop for Undo {
 
 /// From here on signals that end the program wait for the file that is being written.
 ///
-/// The program then ends by that signal, as it would have: a shell that runs a loop of commands ends too.
+/// The program then ends by that signal, as it would have: a shell that runs a loop of commands
+/// ends too.
 ///
 /// # Errors
 /// What the system says against it.
@@ -39,7 +41,7 @@ pub fn end_between_files() -> io::Result<()> {
     use signal_hook::consts::{SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
-    use trackdyn_core::output::files_at_rest;
+    use trackdyn::crates::core::output::files_at_rest;
 
     let mut signals = Signals::new([SIGINT, SIGTERM])?;
     std::thread::Builder::new().name("signals".to_owned()).spawn(move || {
@@ -47,7 +49,8 @@ pub fn end_between_files() -> io::Result<()> {
             let _rest = files_at_rest();
             let mut open = OPEN.lock().unwrap_or_else(PoisonError::into_inner);
             open.drain(..).rev().for_each(|(_, undo)| undo());
-            // It returns where the system does not let the program end: the next signal tries again.
+            // It returns where the system does not let the program end: the next signal tries
+            // again.
             let _ = emulate_default_handler(signal);
         }
     })?;

@@ -5,15 +5,16 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod arguments;
+mod changes;
 mod commands;
-mod earlier;
 mod exit;
 mod interrupt;
 mod options;
 mod progress;
+mod provenance;
 mod stderr;
 mod stdout;
-mod tables;
+mod wording;
 
 use arguments::Arguments;
 use exit::Exit;
@@ -37,7 +38,7 @@ fn main() -> ExitCode {
     match arguments.command.run() {
         Ok(exit) => exit.into(),
         Err(error) => {
-            say(format_args!("error: {error}"));
+            say(format_args!("error: {}", wording::message(&*error)));
             Exit::BadInput.into()
         }
     }

@@ -1,14 +1,17 @@
 //! Options that several commands share.
 
 use crate::stderr::say;
+use crate::wording::option;
 use clap::{Args, ValueEnum};
+use std::error::Error;
 use std::path::{Path, PathBuf};
-use trackdyn_core::Pose;
-use trackdyn_core::document::Document;
-use trackdyn_model::effect::{Stage, Symmetry};
-use trackdyn_model::{ActiveEffect, Circumstance, Effects, Model, VehicleFile};
-use trackdyn_recording::rosbag::{JointSignal, RosbagOptions};
-use trackdyn_recording::{Format, Recording, RunList, tum};
+use trackdyn::crates::core::Pose;
+use trackdyn::crates::model::Effects;
+use trackdyn::crates::model::effect::{Stage, Symmetry};
+use trackdyn::crates::recording::rosbag::JointSignal;
+use trackdyn::recording::BagOptions;
+use trackdyn::refuse_repeated;
+use trackdyn::{ActiveEffect, Circumstance, Part, ReadOptions, Recording, RunList, Vehicle};
 
 /// The vehicle and its effects.
 #[derive(Args)]
@@ -25,46 +28,29 @@ pub struct ModelOptions {
 }
 
 impl ModelOptions {
-    /// The vehicle file with the changes of the command line.
+    /// The vehicle with the changes of the command line.
     ///
     /// # Errors
     /// A message that names the file, line and key, or the option.
-    pub fn vehicle_file(&self) -> Result<VehicleFile, Box<dyn std::error::Error>> {
-        let mut file = match &self.vehicle {
-            Some(path) => read_vehicle(path)?,
-            None => VehicleFile::auriga_alpha(),
+    pub fn vehicle(&self) -> Result<Vehicle, Box<dyn Error>> {
+        let mut vehicle = match &self.vehicle {
+            Some(path) => Vehicle::open(path)?,
+            None => Vehicle::auriga_alpha(),
         };
         if let Some(cog) = self.cog {
-            file.vehicle.cog = cog;
-            file.vehicle.uncertainty.cog = None; // the file's is of the value that this one replaces
-            file.vehicle.check().map_err(|error| format!("--cog: {error}"))?;
+            vehicle = vehicle.with_cog(cog)?;
         }
-        if let Some(place) = repeated(&self.effects) {
-            let id = self.effects[place].card().id;
-            return Err(format!(
-                "--effect {id}: given twice: expected once, with all its parameters"
-            )
-            .into());
-        }
+        refuse_repeated(&self.effects)?;
         for effect in &self.effects {
-            let id = effect.card().id;
-            if file.effects.get(id).is_some() {
+            if vehicle.effects().get(effect.card().id).is_some() {
                 say(format_args!(
                     "note: --effect {effect} replaces the vehicle file's, all its parameters"
                 ));
             }
-            file.effects.insert(effect.clone());
+            vehicle = vehicle.with_active(effect.clone());
         }
-        Ok(file)
+        Ok(vehicle)
     }
-}
-
-/// Place of the first effect that is there before it already.
-pub fn repeated(effects: &[ActiveEffect]) -> Option<usize> {
-    let is_there = |place: &usize| {
-        effects[..*place].iter().any(|other| other.card().id == effects[*place].card().id)
-    };
-    (0..effects.len()).find(is_there)
 }
 
 /// Where the robot stands.
@@ -105,11 +91,6 @@ impl CircumstanceOptions {
     }
 }
 
-/// The effects of a drive in time: with inertia, unless it is to be left out.
-pub fn in_time(effects: Effects, quasi_static: bool) -> Effects {
-    if quasi_static { effects.quasi_static() } else { effects.with_inertia() }
-}
-
 /// Notes which effects do nothing where no pose sensor reports.
 pub fn note_what_no_sensor_reports(effects: &Effects) {
     for card in effects.iter().map(ActiveEffect::card).filter(|c| c.stages == [Stage::Sense]) {
@@ -120,8 +101,8 @@ pub fn note_what_no_sensor_reports(effects: &Effects) {
     }
 }
 
-/// Notes which effects do not change the steady motion of the hull, whose ICRs are computed: those of the pose sensor, and those that
-/// only changes of speed show.
+/// Notes which effects do not change the steady motion of the hull, whose ICRs are computed: those
+/// of the pose sensor, and those that only changes of speed show.
 pub fn note_what_steady_icrs_leave_out(effects: &Effects) {
     for card in effects.iter().map(ActiveEffect::card) {
         if card.stages == [Stage::Sense] || card.breaks == [Symmetry::Transient] {
@@ -136,9 +117,9 @@ pub fn note_what_steady_icrs_leave_out(effects: &Effects) {
 /// A recording, and how it is read.
 #[derive(Args)]
 pub struct RecordingOptions {
-    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory of the
-    /// TUM benchmark (.tum, .txt) with --tracks; for identify and diagnose also a table of steady operating points
-    /// (.csv)
+    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory
+    /// of the TUM benchmark (.tum, .txt) with --tracks; for identify and diagnose also a table of
+    /// steady operating points (.csv)
     pub recording: PathBuf,
     /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
     #[arg(long, value_name = "FILE")]
@@ -161,8 +142,8 @@ pub struct RecordingOptions {
     /// Bag: topic of the poses
     #[arg(long, value_name = "TOPIC")]
     pose_topic: Option<String>,
-    /// Bag: frame that the poses are expressed in; with --child-frame, transforms are chained where no
-    /// topic has these poses
+    /// Bag: frame that the poses are expressed in; with --child-frame, transforms are chained where
+    /// no topic has these poses
     #[arg(long, value_name = "FRAME")]
     parent_frame: Option<String>,
     /// Bag: frame whose poses they are
@@ -184,7 +165,7 @@ impl RecordingOptions {
     ///
     /// # Errors
     /// A message that names the file and, where there is one, line and column.
-    pub fn read(&self) -> Result<Recording, Box<dyn std::error::Error>> {
+    pub fn read(&self) -> Result<Recording, trackdyn::Error> {
         self.read_path(&self.recording)
     }
 
@@ -192,17 +173,8 @@ impl RecordingOptions {
     ///
     /// # Errors
     /// As [`RecordingOptions::read`].
-    pub fn read_path(&self, path: &Path) -> Result<Recording, Box<dyn std::error::Error>> {
-        if !matches!(Format::of(path)?, Format::Rosbag)
-            && let Some(option) = self.of_bags().first()
-        {
-            let name = path.display();
-            return Err(format!("{option}: {name} is no bag: expected with rosbag2 only").into());
-        }
-        let recording = match tracks_of(path, self.tracks.as_deref())? {
-            Some(tracks) => tum::read(path, tracks, "unknown")?,
-            None => trackdyn_recording::read(path, &self.rosbag())?,
-        };
+    pub fn read_path(&self, path: &Path) -> Result<Recording, trackdyn::Error> {
+        let recording = Recording::open(path, &self.options())?;
         for warning in recording.warnings() {
             say(format_args!("note: {warning}"));
         }
@@ -210,77 +182,47 @@ impl RecordingOptions {
     }
 
     /// The options given, all of which are about recordings of motion.
-    pub fn given(&self) -> Vec<&'static str> {
-        let tracks = self.tracks.as_ref().map(|_| "--tracks");
-        tracks.into_iter().chain(self.of_bags()).collect()
+    pub fn given(&self) -> Vec<String> {
+        self.options().given().into_iter().map(option).collect()
     }
 
-    /// The options given that only bags have something to say to.
-    fn of_bags(&self) -> Vec<&'static str> {
-        let options = [
-            ("--tracks-topic", self.tracks_topic.is_some()),
-            ("--left-joint", !self.left_joint.is_empty()),
-            ("--right-joint", !self.right_joint.is_empty()),
-            ("--joint-signal", self.joint_signal.is_some()),
-            ("--wheel-radius", self.wheel_radius.is_some()),
-            ("--pose-topic", self.pose_topic.is_some()),
-            ("--parent-frame", self.parent_frame.is_some()),
-            ("--child-frame", self.child_frame.is_some()),
-        ];
-        options.into_iter().filter_map(|(name, given)| given.then_some(name)).collect()
-    }
-
-    fn rosbag(&self) -> RosbagOptions {
-        RosbagOptions {
-            tracks_topic: self.tracks_topic.clone(),
-            left_joints: self.left_joint.clone(),
-            right_joints: self.right_joint.clone(),
-            joint_signal: match self.joint_signal {
-                None => JointSignal::Any,
-                Some(Signal::Velocity) => JointSignal::Velocity,
-                Some(Signal::Position) => JointSignal::Position,
+    fn options(&self) -> ReadOptions {
+        ReadOptions {
+            tracks: self.tracks.clone(),
+            bag: BagOptions {
+                tracks_topic: self.tracks_topic.clone(),
+                left_joints: self.left_joint.clone(),
+                right_joints: self.right_joint.clone(),
+                joint_signal: match self.joint_signal {
+                    None => JointSignal::Any,
+                    Some(Signal::Velocity) => JointSignal::Velocity,
+                    Some(Signal::Position) => JointSignal::Position,
+                },
+                wheel_radius: self.wheel_radius,
+                pose_topic: self.pose_topic.clone(),
+                parent_frame: self.parent_frame.clone(),
+                child_frame: self.child_frame.clone(),
+                ..BagOptions::default()
             },
-            wheel_radius: self.wheel_radius,
-            pose_topic: self.pose_topic.clone(),
-            parent_frame: self.parent_frame.clone(),
-            child_frame: self.child_frame.clone(),
-            ..RosbagOptions::default()
         }
     }
 }
 
-/// The track speeds that a trajectory needs; none for a recording that has its own.
+/// Refuses options of recordings of motion for a table of steady points, which has no runs and no
+/// time.
 ///
 /// # Errors
-/// Track speeds for a recording that has its own, a trajectory without any, no recording at all.
-pub fn tracks_of<'a>(
-    recording: &Path,
-    tracks: Option<&'a Path>,
-) -> Result<Option<&'a Path>, Box<dyn std::error::Error>> {
-    let name = recording.display();
-    match (Format::of(recording)?, tracks) {
-        (Format::Tum, None) => {
-            Err(format!("{name}: a trajectory has no track speeds: give them with --tracks").into())
+/// The options given, where there are any and the recording is a table.
+pub fn refuse_for_points(given: &[String], recording: &Path) -> Result<(), String> {
+    match Recording::points_file(recording) {
+        Some(table) if !given.is_empty() => {
+            let (given, name) = (given.join(", "), table.display());
+            Err(format!(
+                "{given}: {name} holds steady points: expected with recordings of motion only"
+            ))
         }
-        (Format::Tum, tracks) | (_, tracks @ None) => Ok(tracks),
-        (_, Some(_)) => Err(format!(
-            "--tracks: {name} has track speeds of its own: only a .tum or .txt trajectory \
-                         needs them"
-        )
-        .into()),
+        _ => Ok(()),
     }
-}
-
-/// Refuses options of recordings of motion for a table of steady points, which has no runs and no time.
-///
-/// # Errors
-/// The options given, where there are any.
-pub fn refuse_for_points(given: &[&str], table: &Path) -> Result<(), String> {
-    if given.is_empty() {
-        return Ok(());
-    }
-    let (given, name) = (given.join(", "), table.display());
-    Err(format!("{given}: {name} holds steady points: expected with recordings of motion only"))
 }
 
 /// Which part of a recording counts, and how late its poses are.
@@ -291,7 +233,8 @@ pub struct DrivingOptions {
     /// Take these runs only, such as 7,8,20-29: fit on some, judge on others [default: all]
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     runs: Option<RunList>,
-    /// Take this time of each run only, in s from its first reading: to split a recording of one run
+    /// Take this time of each run only, in s from its first reading: to split a recording of one
+    /// run
     #[arg(long, value_name = "FROM,UNTIL", value_parser = time)]
     time: Option<[f64; 2]>,
     /// Time in s by which poses lag behind the track speeds [default: estimated]
@@ -304,7 +247,7 @@ impl DrivingOptions {
     ///
     /// # Errors
     /// Those of [`RecordingOptions::read`].
-    pub fn recording(&self) -> Result<Recording, Box<dyn std::error::Error>> {
+    pub fn recording(&self) -> Result<Recording, trackdyn::Error> {
         self.recording.read()
     }
 
@@ -313,35 +256,20 @@ impl DrivingOptions {
         &self.recording.recording
     }
 
-    /// The part to take of a recording.
-    ///
-    /// # Errors
-    /// A message with the option and what is not there.
-    pub fn part(&self, recording: &Recording) -> Result<Recording, String> {
-        let runs = match &self.runs {
-            Some(list) => recording.of_runs(list).map_err(|error| format!("--runs: {error}"))?,
-            None => recording.clone(),
-        };
-        match self.time {
-            Some(time) => runs.within(time).map_err(|error| format!("--time: {error}")),
-            None => Ok(runs),
-        }
+    /// The part of the recording to take.
+    pub fn part(&self) -> Part {
+        Part { runs: self.runs.clone(), time: self.time }
     }
 
     /// The options given here that mean something to recordings of motion alone.
-    pub fn given(&self) -> Vec<&'static str> {
+    pub fn given(&self) -> Vec<String> {
         let options = [
             ("--runs", self.runs.is_some()),
             ("--time", self.time.is_some()),
             ("--tau", self.tau.is_some()),
         ];
-        let own = options.into_iter().filter_map(|(name, given)| given.then_some(name));
+        let own = options.into_iter().filter(|(_, given)| *given).map(|(name, _)| name.to_owned());
         self.recording.given().into_iter().chain(own).collect()
-    }
-
-    /// The time of each run that is taken, s; none: all of it.
-    pub fn time(&self) -> Option<[f64; 2]> {
-        self.time
     }
 }
 
@@ -362,37 +290,6 @@ fn seconds(text: &str) -> Result<f64, String> {
         Ok(value) if value.abs() <= 3600.0 => Ok(value),
         _ => Err("expected a number of seconds, such as 0.25, within an hour".to_owned()),
     }
-}
-
-/// What is wrong with a drive, in the words of the command line.
-pub fn of_drive(error: &trackdyn_drive::Error) -> String {
-    match error {
-        trackdyn_drive::Error::Option { name, value, expected } => {
-            format!("--{} {value}: expected {expected}", name.replace('_', "-"))
-        }
-        other => other.to_string(),
-    }
-}
-
-/// Reads a vehicle file.
-///
-/// # Errors
-/// A message that names file, line and key.
-pub fn read_vehicle(path: &Path) -> Result<VehicleFile, Box<dyn std::error::Error>> {
-    Ok(VehicleFile::from_document(&Document::read(path)?)?)
-}
-
-/// The model of a vehicle file.
-pub fn model(file: &VehicleFile) -> Model {
-    Model::new(file.vehicle.clone(), file.effects.clone())
-}
-
-/// The command line, for the head of files that are written.
-pub fn command_line() -> String {
-    let arguments = std::env::args_os().skip(1);
-    let arguments = arguments.map(|argument| argument.to_string_lossy().into_owned());
-    let words: Vec<String> = std::iter::once("trackdyn".to_owned()).chain(arguments).collect();
-    words.join(" ")
 }
 
 /// Two numbers, separated by a comma.

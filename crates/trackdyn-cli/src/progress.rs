@@ -3,9 +3,11 @@
 use crate::stderr::say;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, stderr};
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
+use trackdyn::{Error, Observer};
 
 /// Work shorter than this shows nothing.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -38,23 +40,38 @@ impl Progress {
         Self { total: total as u64, done: AtomicU64::new(0), start: Instant::now(), shown }
     }
 
+    /// A bar over the parts of a use case of the library, which does it meanwhile.
+    pub fn over<T>(work: impl FnOnce(&Observer) -> Result<T, Error>) -> Result<T, Error> {
+        let bar = Self::new(0);
+        let result = work(&|progress: trackdyn::Progress| {
+            bar.show(progress.done as u64, progress.total as u64);
+            ControlFlow::Continue(())
+        });
+        bar.finish();
+        result
+    }
+
     /// Notes `count` more finished items.
     pub fn advance(&self, count: usize) {
         let done = self.done.fetch_add(count as u64, Ordering::Relaxed) + count as u64;
+        self.show(done, self.total);
+    }
+
+    fn show(&self, done: u64, total: u64) {
         let elapsed = self.start.elapsed();
         match &self.shown {
             Shown::Bar(bar) if elapsed > PATIENCE => {
                 let bar = bar.get_or_init(|| {
                     let style = ProgressStyle::with_template("{bar:40} {percent}% {eta} left")
                         .unwrap_or_else(|_| ProgressStyle::default_bar());
-                    ProgressBar::new(self.total).with_style(style).with_elapsed(elapsed)
+                    ProgressBar::new(total).with_style(style).with_elapsed(elapsed)
                 });
                 bar.set_position(done);
             }
             Shown::Bar(_) => {}
             Shown::Lines(lines) => {
                 let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
-                if let Some(line) = lines.line(done, self.total, elapsed) {
+                if let Some(line) = lines.line(done, total, elapsed) {
                     say(format_args!("{line}"));
                 }
             }

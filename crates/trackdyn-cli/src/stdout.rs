@@ -2,8 +2,8 @@
 
 use std::io::{self, ErrorKind, Write};
 
-/// Prints results. Where nobody reads any more, as behind `| head`, what is left is dropped: files that were asked for, and
-/// the exit status, are the same.
+/// Prints results. Where nobody reads any more, as behind `| head`, what is left is dropped: files
+/// that were asked for, and the exit status, are the same.
 ///
 /// # Errors
 /// Why stdout cannot be written, such as a full disk.

@@ -73,4 +73,7 @@ pub enum Error {
         /// What is missing, with numbers.
         reason: String,
     },
+    /// The caller asked to stop.
+    #[error("stopped before the end")]
+    Cancelled,
 }

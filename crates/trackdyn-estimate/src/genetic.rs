@@ -13,6 +13,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::collections::HashMap;
+use std::ops::ControlFlow;
 
 /// Bits per parameter: 4096 steps of its range.
 const BITS_PER_PARAMETER: u32 = 12;
@@ -78,6 +79,27 @@ pub fn genetic(
     options: &GeneticOptions,
     progress: &dyn Fn(usize),
 ) -> GeneticEstimate {
+    let unstopped = |generation| {
+        progress(generation);
+        ControlFlow::Continue(())
+    };
+    genetic_unless_stopped(observations, gauge, lever, free, options, &unstopped)
+        .expect("progress never asks to stop")
+}
+
+/// As [`genetic`], until `progress` asks to stop after one of the generations: then there is no
+/// estimate.
+///
+/// # Panics
+/// Without a population.
+pub fn genetic_unless_stopped(
+    observations: &Observations,
+    gauge: f64,
+    lever: f64,
+    free: Free,
+    options: &GeneticOptions,
+    progress: &dyn Fn(usize) -> ControlFlow<()>,
+) -> Option<GeneticEstimate> {
     let ranges = ranges(gauge);
     let count = free.count();
     let bits = BITS_PER_PARAMETER * narrow(count);
@@ -131,10 +153,12 @@ pub fn genetic(
         ranked = evaluate(children);
         ranked.extend(elite);
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        progress(generation);
+        if progress(generation).is_break() {
+            return None;
+        }
     }
     let parameters = decode(ranked[0].1);
-    GeneticEstimate { parameters, cost: cost.at(&parameters) }
+    Some(GeneticEstimate { parameters, cost: cost.at(&parameters) })
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "at most five parameters")]

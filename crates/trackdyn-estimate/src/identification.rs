@@ -2,7 +2,7 @@
 
 use crate::doubt::Doubt;
 use crate::error::Error;
-use crate::genetic::{GeneticEstimate, GeneticOptions, genetic};
+use crate::genetic::{GeneticEstimate, GeneticOptions, genetic_unless_stopped};
 use crate::least_squares::{
     Estimate, Loss, Unknowns, doubts, estimate_at, lacks, lacks_nuisance, least_squares,
     nuisance_doubts,
@@ -14,6 +14,7 @@ use crate::sensor::Nuisance;
 use crate::spin_test::{SpinTest, spin_test};
 use crate::weighting::{SegmentNoise, Weighting};
 use crate::{Clock, SegmentOptions};
+use std::ops::ControlFlow;
 use trackdyn_model::Kinematics;
 use trackdyn_recording::Recording;
 
@@ -85,6 +86,22 @@ pub fn identify(
     options: &Options,
     progress: &dyn Fn(usize),
 ) -> Result<Identification, Error> {
+    let unstopped = |generation| {
+        progress(generation);
+        ControlFlow::Continue(())
+    };
+    identify_unless_stopped(recording, options, &unstopped)
+}
+
+/// As [`identify`], until `progress` asks to stop after one of the generations.
+///
+/// # Errors
+/// Those of [`identify`]; [`Error::Cancelled`] where `progress` asked to stop.
+pub fn identify_unless_stopped(
+    recording: &Recording,
+    options: &Options,
+    progress: &dyn Fn(usize) -> ControlFlow<()>,
+) -> Result<Identification, Error> {
     let clock = Clock::of(recording, options.tau);
     let tau = clock.tau();
     let tau_margin =
@@ -106,9 +123,9 @@ pub fn identify(
     let weighted_by_noise = known.is_some();
     let weighting = known.map_or(Weighting::Distance { lever }, Weighting::Noise);
 
-    let fits = [Free::Icrs, Free::IcrsAndAlphas].map(|free| {
-        let genetic =
-            genetic(&observations, options.gauge, lever, free, &options.genetic, progress);
+    let fit = |free: Free| -> Option<Fit> {
+        let (gauge, genetic) = (options.gauge, &options.genetic);
+        let genetic = genetic_unless_stopped(&observations, gauge, lever, free, genetic, progress)?;
         let by_distance = Weighting::Distance { lever };
         let genetic_estimate =
             estimate_at(&observations, &genetic.parameters, free, &by_distance, Loss::Squares);
@@ -120,8 +137,10 @@ pub fn identify(
         };
         let doubts =
             least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
-        Fit { free, genetic, genetic_estimate, least_squares, doubts, refused }
-    });
+        Some(Fit { free, genetic, genetic_estimate, least_squares, doubts, refused })
+    };
+    let fits = fit(Free::Icrs).and_then(|icrs| Some([icrs, fit(Free::IcrsAndAlphas)?]));
+    let fits = fits.ok_or(Error::Cancelled)?;
     let segments = observations.len();
     Ok(Identification { clock, noise, weighted_by_noise, segments, lever, spin_test, fits })
 }

@@ -11,6 +11,7 @@ pub use statistics::Statistics;
 use crate::stationary::{Solution, Stationary, Status};
 use crate::{Circumstance, Model};
 use rayon::prelude::*;
+use std::ops::ControlFlow;
 use trackdyn_core::PerSide;
 
 /// Stationary motions for every pair of track speeds of a grid.
@@ -29,24 +30,39 @@ impl IcrMap {
     ///
     /// Each pair is solved on its own from a cold start, so the map does not depend on the number
     /// of threads.
+    ///
+    /// # Panics
+    /// Never: `progress` cannot ask to stop.
     pub fn solve(
         model: &Model,
         grid: Grid,
         circumstance: &Circumstance,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Self {
+        let unstopped = |pairs| {
+            progress(pairs);
+            ControlFlow::Continue(())
+        };
+        Self::solve_unless_stopped(model, grid, circumstance, &unstopped)
+            .expect("progress never asks to stop")
+    }
+
+    /// As [`IcrMap::solve`], until `progress` asks to stop after one of the rows: then there is no
+    /// map.
+    pub fn solve_unless_stopped(
+        model: &Model,
+        grid: Grid,
+        circumstance: &Circumstance,
+        progress: &(dyn Fn(usize) -> ControlFlow<()> + Sync),
+    ) -> Option<Self> {
         let solver = Stationary::new(model, circumstance);
         let speeds = grid.speeds();
-        let rows: Vec<Vec<Solution>> = speeds
-            .par_iter()
-            .map(|&left| {
-                let row =
-                    speeds.iter().map(|&right| solver.solve(PerSide::new(left, right))).collect();
-                progress(speeds.len());
-                row
-            })
-            .collect();
-        Self { grid, solutions: rows.concat(), gauge: model.vehicle().gauge }
+        let row = |&left: &f64| -> Option<Vec<Solution>> {
+            let row = speeds.iter().map(|&right| solver.solve(PerSide::new(left, right))).collect();
+            progress(speeds.len()).is_continue().then_some(row)
+        };
+        let rows: Option<Vec<Vec<Solution>>> = speeds.par_iter().map(row).collect();
+        Some(Self { grid, solutions: rows?.concat(), gauge: model.vehicle().gauge })
     }
 
     /// The solutions in which the robot turns: only these define ICRs that a motion shows.

@@ -26,10 +26,8 @@ impl VehicleFile {
     /// # Panics
     /// Never: the file is part of the program, and a test reads it.
     pub fn auriga_alpha() -> Self {
-        let document = Document::new(
-            "auriga-alpha.toml (embedded)",
-            include_str!("../../../configs/vehicles/auriga-alpha.toml"),
-        );
+        let document =
+            Document::new("auriga-alpha.toml (embedded)", include_str!("auriga-alpha.toml"));
         match Self::from_document(&document) {
             Ok(file) => file,
             Err(error) => panic!("{error}"),

@@ -1,25 +1,22 @@
-//! `trackdyn drive`: a path, followed with the ideal differential drive and with kinematic parameters.
+//! `trackdyn drive`: a path, followed with the ideal differential drive and with kinematic
+//! parameters.
 
-mod document;
+mod summary;
 
+use crate::changes::say_removed;
 use crate::commands::Outcome;
-use crate::earlier::remove_of;
 use crate::exit::Exit;
-use crate::options::{ModelOptions, finite, in_time, model, note_what_no_sensor_reports, of_drive};
+use crate::options::{ModelOptions, finite, note_what_no_sensor_reports};
 use crate::progress::Progress;
+use crate::provenance::provenance;
 use crate::stderr::say;
 use crate::stdout::show;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use trackdyn_core::document::Document;
-use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
-use trackdyn_drive::tracking::{DriveOptions, Estimate};
-use trackdyn_drive::{Ending, Journey, Path, Steering, Tracker, drive};
-use trackdyn_model::Model;
-use trackdyn_model::kinematics::KinematicsFile;
-use trackdyn_model::{Kinematics, Transient};
-use trackdyn_report::{TrackedDrive, path_tracking};
+use trackdyn::crates::drive::Tracker;
+use trackdyn::crates::drive::tracking::Estimate;
+use trackdyn::drive::Prepared;
+use trackdyn::{DriveSettings, Parameters, Path, prepare_folder};
 
 /// Options of `trackdyn drive`.
 #[derive(Args)]
@@ -36,10 +33,12 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t = Knows::Truth)]
     estimate: Knows,
     /// Speed on open ground, m/s
-    #[arg(long, value_name = "SPEED", default_value_t = Tracker::default().speed, value_parser = finite)]
+    #[arg(long, value_name = "SPEED", default_value_t = Tracker::default().speed,
+          value_parser = finite)]
     speed: f64,
     /// Look-ahead of the path tracker, m
-    #[arg(long, value_name = "M", default_value_t = Tracker::default().look_ahead, value_parser = finite)]
+    #[arg(long, value_name = "M", default_value_t = Tracker::default().look_ahead,
+          value_parser = finite)]
     look_ahead: f64,
     /// Leave inertia out: the robot is at its stationary motion at once
     #[arg(long)]
@@ -51,126 +50,37 @@ pub struct Options {
 
 /// How the robot knows its pose.
 #[derive(Clone, Copy, ValueEnum)]
-pub enum Knows {
+enum Knows {
     /// By a perfect localisation
     Truth,
     /// By dead reckoning with the same kinematics
     Odometry,
 }
 
-/// One drive.
-pub struct Drive {
-    name: String,
-    fingerprint: Option<String>,
-    journey: Journey,
-}
-
 /// Drives, prints the table of errors and writes the files.
 pub fn run(options: &Options) -> Outcome {
-    let mut file = options.model.vehicle_file()?;
-    file.effects = in_time(file.effects, options.quasi_static);
-    note_what_no_sensor_reports(&file.effects);
+    let vehicle = options.model.vehicle()?;
+    let settings = DriveSettings {
+        speed: options.speed,
+        look_ahead: options.look_ahead,
+        estimate: match options.estimate {
+            Knows::Truth => Estimate::Truth,
+            Knows::Odometry => Estimate::Odometry,
+        },
+        inertia: !options.quasi_static,
+    };
+    note_what_no_sensor_reports(vehicle.effects());
     let path = match &options.path {
         Some(path) => Path::read(path)?,
         None => Path::square(3.0, true, 1)?,
     };
-    let mut steerings: Vec<(String, Option<String>, Box<dyn Steering>)> =
-        vec![("ideal drive".to_owned(), None, Box::new(Kinematics::ideal(file.vehicle.gauge)))];
-    // The point whose error counts lies where a robot turns about, by the first parameters.
-    let mut point = [0.0, 0.0];
-    for (index, path) in options.kinematics.iter().enumerate() {
-        let document = Document::read(path)?;
-        let parameters = KinematicsFile::from_document(&document)?;
-        if index == 0 {
-            // forward in both frames, on the middle line
-            point = [parameters.y_icr_m, 0.0];
-            if point[0].abs() > Tracker::MAX_POINT_DISTANCE {
-                let (name, y, most) = (path.display(), point[0], Tracker::MAX_POINT_DISTANCE);
-                return Err(format!("{name}: y_icr_m = {y}: expected at most {most} m from the middle, to follow a path with").into());
-            }
-        }
-        let print = fingerprint(document.text().as_bytes());
-        steerings.push((path.display().to_string(), Some(print), Box::new(parameters)));
-    }
-    let tracker = Tracker {
-        speed: options.speed,
-        look_ahead: options.look_ahead,
-        point,
-        ..Tracker::default()
-    };
-    if tracker.speed > tracker.belt_speed {
-        let most = tracker.belt_speed;
-        return Err(format!(
-            "--speed {}: expected at most that of the tracks, {most} m/s",
-            tracker.speed
-        )
-        .into());
-    }
+    let parameters = options.kinematics.iter().map(Parameters::open);
+    let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
+    let prepared = Prepared::new(&vehicle, &path, &parameters, &settings)?;
     prepare_folder(&options.out)?;
-
-    let model = model(&file);
-    let mut drives = Vec::new();
-    for (name, fingerprint, steering) in steerings {
-        let journey = follow(&model, &path, &tracker, &*steering, options)
-            .map_err(|error| of_drive(&error))?;
-        drives.push(Drive { name, fingerprint, journey });
-    }
-
-    let tracked: Vec<TrackedDrive> = drives
-        .iter()
-        .map(|drive| TrackedDrive { name: &drive.name, journey: &drive.journey })
-        .collect();
-    let knows = match options.estimate {
-        Knows::Truth => "the robot knows its pose",
-        Knows::Odometry => "the robot locates itself by dead reckoning",
-    };
-    let title = format!("{}: {knows}", file.vehicle.name);
-    let vehicle = fingerprint(file.to_toml().as_bytes());
-    let caption = format!("trackdyn {}, vehicle and effects {vehicle}", env!("CARGO_PKG_VERSION"));
-    let figure = path_tracking(&path, &tracked, point, &title, &caption);
-    write_file(&options.out.join("drive.png"), &figure.to_png()?)?;
-    let table = |index: usize| options.out.join(format!("cross_track_{index}.csv"));
-    for (index, drive) in drives.iter().enumerate() {
-        write_file(&table(index), drive.journey.cross_track_csv().as_bytes())?;
-    }
-    let further = (drives.len()..).map(table).take_while(|table| table.exists());
-    remove_of(&options.out.join("drive.toml"), further)?;
-    write_file(&options.out.join("path.csv"), path.to_csv().as_bytes())?;
-    let text = document::text(&file, &path, &tracker, &drives)?;
-    write_file(&options.out.join("drive.toml"), text.as_bytes())?;
-    show(&document::summary(&path, &tracker, &drives))?;
+    let drives = Progress::over(|observer| prepared.run(observer))?;
+    say_removed(&drives.write(&options.out, &provenance())?);
+    show(&summary::text(&drives))?;
     say(format_args!("wrote drive.toml, drive.png and tables to {}", options.out.display()));
-    let arrived = drives.iter().all(|drive| drive.journey.ending == Ending::Arrived);
-    Ok(if arrived { Exit::Done } else { Exit::NoResult })
-}
-
-fn follow(
-    model: &Model,
-    path: &Path,
-    tracker: &Tracker,
-    steering: &dyn Steering,
-    options: &Options,
-) -> Result<Journey, trackdyn_drive::Error> {
-    const PARTS: usize = 1000;
-    let mut robot = Transient::at_rest(model, 0.0, path.start());
-    let estimate = match options.estimate {
-        Knows::Truth => Estimate::Truth,
-        Knows::Odometry => Estimate::Odometry,
-    };
-    let settings = DriveOptions { estimate, time_limit: None };
-    let progress = Progress::new(PARTS);
-    let done = AtomicUsize::new(0);
-    let journey = drive(&mut robot, path, tracker, steering, &settings, &|share| {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            clippy::cast_precision_loss,
-            reason = "a share of a thousand"
-        )]
-        let part = (share.clamp(0.0, 1.0) * PARTS as f64) as usize;
-        let before = done.fetch_max(part, Ordering::Relaxed);
-        progress.advance(part.saturating_sub(before));
-    });
-    progress.finish();
-    journey
+    Ok(if drives.all_arrived() { Exit::Done } else { Exit::NoResult })
 }

@@ -5,8 +5,8 @@ use crate::exit::Exit;
 use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
-use trackdyn_model::effect::{Card, Parameter, Symmetry, Term};
-use trackdyn_model::{ActiveEffect, CATALOGUE};
+use trackdyn::crates::model::effect::{Card, Parameter, Symmetry, Term};
+use trackdyn::crates::model::{ActiveEffect, CATALOGUE};
 
 /// Options of `trackdyn effects`.
 #[derive(Args)]
@@ -62,7 +62,8 @@ fn list() -> String {
     }
     text += "\n\
         breaks: the ICRs change with S speed, R reversal, P manoeuvre, M mirror, H heading,\n\
-        X place, T time, D transients; 0: equal track speeds do not drive straight ahead as encoders show.\n\
+        X place, T time, D transients; 0: equal track speeds do not drive straight ahead as \
+        encoders show.\n\
         `trackdyn effects ID` shows law, parameters and sources.\n\
         Switch one on: --effect load-transfer:cog_height_m=0.3, or in a vehicle file\n\
         [effect.load-transfer]\n\
@@ -102,18 +103,19 @@ fn card(card: &Card) -> String {
 
 fn markdown() -> String {
     let mut text = "# Effects\n\n\
-        Physics beyond the base model, each in one file of `crates/trackdyn-model/src/effects`. This page \
-        is printed by `trackdyn effects --markdown`.\n\n\
-        An effect *breaks* a symmetry when the ICRs change under it: **S** all speeds scaled, **R** all \
-        speeds reversed, **P** another manoeuvre, **M** left and right exchanged, **H** another heading, \
-        **X** another place, **T** another time, **D** speeds that change instead of steady ones. It breaks \
-        **0** when equal track speeds do not drive straight ahead as fast as the encoders show.\n\n\
-        A parameter's *role* is **size** where it says how large the effect is (an effect whose sizes are \
-        all neutral is not there), **place** or **direction** where it says where in the world it acts, \
-        and **shape** where it is a constant of the law.\n\n\
-        An effect is a mechanism, unless its section has a table of coefficients: then it is a *form*, which \
-        describes without a cause. A diagnosis never names a form; it proposes terms of one. Coefficients \
-        that are left out are none.\n\n"
+        Physics beyond the base model, each in one file of `crates/trackdyn-model/src/effects`. \
+        This page is printed by `trackdyn effects --markdown`.\n\n\
+        An effect *breaks* a symmetry when the ICRs change under it: **S** all speeds scaled, \
+        **R** all speeds reversed, **P** another manoeuvre, **M** left and right exchanged, \
+        **H** another heading, **X** another place, **T** another time, **D** speeds that change \
+        instead of steady ones. It breaks **0** when equal track speeds do not drive straight \
+        ahead as fast as the encoders show.\n\n\
+        A parameter's *role* is **size** where it says how large the effect is (an effect whose \
+        sizes are all neutral is not there), **place** or **direction** where it says where in \
+        the world it acts, and **shape** where it is a constant of the law.\n\n\
+        An effect is a mechanism, unless its section has a table of coefficients: then it is a \
+        *form*, which describes without a cause. A diagnosis never names a form; it proposes \
+        terms of one. Coefficients that are left out are none.\n\n"
         .to_owned();
     let letters = Symmetry::ALL.map(|symmetry| format!(" {} |", symmetry.letter())).concat();
     let rules = "---|".repeat(Symmetry::ALL.len());
@@ -165,7 +167,8 @@ fn markdown_card(card: &Card) -> String {
     let _ = writeln!(text, "**Assumes.** {}\n", card.assumes);
     let _ = writeln!(text, "**Shows.** {}\n", card.shows);
     text += &markdown_terms(card);
-    text += "| parameter | symbol | role | unit | range | typical | meaning |\n|---|---|---|---|---|---|---|\n";
+    text += "| parameter | symbol | role | unit | range | typical | meaning |\n\
+        |---|---|---|---|---|---|---|\n";
     for parameter in alone(card) {
         let [low, high] = parameter.range;
         let _ = writeln!(

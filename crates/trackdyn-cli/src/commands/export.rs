@@ -1,17 +1,18 @@
 //! `trackdyn export`: the kinematics as files of other programs.
 
+use crate::changes::written;
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{command_line, pair};
+use crate::options::pair;
+use crate::provenance::provenance;
 use crate::stderr::say;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
-use trackdyn_core::document::Document;
-use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
-use trackdyn_export::ros2::{Published, Wheels};
-use trackdyn_export::{
-    EquivalentDrive, Error, Frames, Name, NodeName, Provenance, Residuals, TextFile, gz, ros2, urdf,
-};
+use trackdyn::crates::core::document::Document;
+use trackdyn::crates::export::ros2::Published;
+use trackdyn::crates::export::{Name, NodeName, Residuals, TextFile};
+use trackdyn::export::{FrameSettings, GzSettings, Ros2Settings, write};
+use trackdyn::{Error, Export, Parameters};
 
 /// Options of `trackdyn export`.
 #[derive(Args)]
@@ -23,7 +24,8 @@ pub struct Options {
 
 #[derive(Subcommand)]
 enum Target {
-    /// Parameters of ros2_control's diff_drive_controller, and a launch file that ties its frame to the robot
+    /// Parameters of ros2_control's diff_drive_controller, and a launch file that ties its frame to
+    /// the robot
     Ros2(Ros2Options),
     /// The TrackedVehicle plugin of Gazebo's gz-sim, as SDF
     Gz(GzOptions),
@@ -49,8 +51,8 @@ struct Ros2Options {
     /// Name of the controller
     #[arg(long, value_name = "NAME", default_value = "diff_drive_controller")]
     controller: NodeName,
-    /// Odometry file (schema trackdyn.odometry/1) of a replay with these kinematics, best of runs that they were
-    /// not fitted to: for the covariances
+    /// Odometry file (schema trackdyn.odometry/1) of a replay with these kinematics, best of runs
+    /// that they were not fitted to: for the covariances
     #[arg(long, value_name = "FILE")]
     residuals: Option<PathBuf>,
     /// Rate in Hz at which the controller publishes, for the covariances
@@ -60,27 +62,32 @@ struct Ros2Options {
 }
 
 impl Ros2Options {
-    /// Residuals of the kinematics with this fingerprint, where there is a file of them.
-    fn published(
-        &self,
-        fingerprint: &str,
-    ) -> Result<Option<Published>, Box<dyn std::error::Error>> {
+    /// What the kinematics file does not know of the robot.
+    fn settings(&self, export: &Export) -> Result<Ros2Settings, Error> {
+        Ok(Ros2Settings {
+            frames: self.frames.settings(),
+            left_wheels: self.left_wheel.clone(),
+            right_wheels: self.right_wheel.clone(),
+            controller: self.controller.clone(),
+            residuals: self.residuals(export)?,
+            publish_rate: self.publish_rate,
+            ..Ros2Settings::new(self.wheel_radius)
+        })
+    }
+
+    /// Residuals of the kinematics, where there is a file of them.
+    fn residuals(&self, export: &Export) -> Result<Option<Residuals>, Error> {
         let Some(path) = &self.residuals else { return Ok(None) };
-        let residuals =
-            Residuals::from_document(&Document::read(path)?, fingerprint).map_err(|error| {
-                match error.downcast::<Error>() {
-                    Ok(error) => option(*error).into(),
-                    Err(error) => error,
-                }
-            })?;
+        let residuals = export.residuals(&Document::read(path)?)?;
         if !residuals.held_out {
             say(format_args!(
-                "warning: the residuals in {} are of runs that the kinematics were fitted to: covariances \
+                "warning: the residuals in {} are of runs that the kinematics were fitted to: \
+                covariances \
                  come out too small (replay others, with --runs or --time)",
                 residuals.source
             ));
         }
-        Ok(Some(Published::new(residuals, self.publish_rate).map_err(option)?))
+        Ok(Some(residuals))
     }
 }
 
@@ -125,17 +132,21 @@ struct FrameOptions {
     /// Root link of the robot's URDF
     #[arg(long, value_name = "FRAME", default_value = "base_link")]
     base_frame: Name,
-    /// Origin of the ICRs in the base frame, in m: forward, left (ROS axes). Of a map it is the centre of the contact area of
-    /// both tracks; of a recording the frame of its poses
+    /// Origin of the ICRs in the base frame, in m: forward, left (ROS axes). Of a map it is the
+    /// centre of the contact area of both tracks; of a recording the frame of its poses
     #[arg(long, value_name = "X,Y", value_parser = pair, default_value = "0,0",
           allow_hyphen_values = true)]
     contact_centre: [f64; 2],
 }
 
 impl FrameOptions {
-    fn frames(&self) -> Result<Frames, String> {
-        let (odom, icr) = (self.odom_frame.clone(), self.icr_frame.clone());
-        Frames::new(odom, icr, self.base_frame.clone(), self.contact_centre).map_err(option)
+    fn settings(&self) -> FrameSettings {
+        FrameSettings {
+            odom: self.odom_frame.clone(),
+            icr: self.icr_frame.clone(),
+            base: self.base_frame.clone(),
+            contact_centre: self.contact_centre,
+        }
     }
 }
 
@@ -146,61 +157,31 @@ pub fn run(options: &Options) -> Outcome {
         Target::Gz(options) => &options.files,
         Target::UrdfFrames(options) => &options.files,
     };
-    let document = Document::read(&files.kinematics)?;
-    let drive = EquivalentDrive::from_document(&document)?;
-    let provenance = Provenance {
-        source: document.name().to_owned(),
-        fingerprint: fingerprint(document.text().as_bytes()),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        command: command_line(),
-    };
-    let exported = export(&options.target, &drive, &provenance)?;
-
-    if drive.sectors > 0 {
+    let parameters = Parameters::open(&files.kinematics)?;
+    let export = Export::new(&parameters, &provenance())?;
+    let exported = exported(&options.target, &export)?;
+    let sectors = export.drive().sectors;
+    if sectors > 0 {
         say(format_args!(
-            "warning: {} is piecewise with {} sectors; the constants of the whole map stand for all of them",
-            document.name(),
-            drive.sectors
+            "warning: {} is piecewise with {sectors} sectors; the constants of the whole map \
+            stand for all of them",
+            parameters.name(),
         ));
     }
-    prepare_folder(&files.out)?;
-    let mut written = Vec::new();
-    for TextFile { name, text } in exported {
-        let path = files.out.join(name);
-        write_file(&path, text.as_bytes())?;
-        written.push(path.display().to_string());
-    }
+    let changes = write(&exported, &files.out)?;
+    let written: Vec<String> = written(&changes).map(|path| path.display().to_string()).collect();
     say(format_args!("wrote {}", written.join(" and ")));
     Ok(Exit::Done)
 }
 
 /// The files of one program.
-fn export(
-    target: &Target,
-    drive: &EquivalentDrive,
-    provenance: &Provenance,
-) -> Result<Vec<TextFile>, Box<dyn std::error::Error>> {
-    Ok(match target {
-        Target::Ros2(options) => {
-            let frames = options.frames.frames()?;
-            let (left, right) = (options.left_wheel.clone(), options.right_wheel.clone());
-            let wheels = Wheels::new(options.wheel_radius, left, right).map_err(option)?;
-            let published = options.published(&provenance.fingerprint)?;
-            let controller = &options.controller;
-            ros2::files(drive, &frames, &wheels, controller, published.as_ref(), provenance)
-        }
-        Target::Gz(options) => {
-            let (left, right) = (&options.left_track, &options.right_track);
-            vec![gz::plugin(drive, left, right, provenance).map_err(option)?]
-        }
-        Target::UrdfFrames(options) => {
-            vec![urdf::fragment(drive, &options.frames.frames()?, provenance)]
-        }
-    })
-}
-
-/// The message of an error in an option: errors begin with its name.
-#[expect(clippy::needless_pass_by_value, reason = "for map_err")]
-fn option(error: Error) -> String {
-    format!("--{error}")
+fn exported(target: &Target, export: &Export) -> Result<Vec<TextFile>, Error> {
+    match target {
+        Target::Ros2(options) => export.ros2(&options.settings(export)?),
+        Target::Gz(options) => export.gz(&GzSettings {
+            left_tracks: options.left_track.clone(),
+            right_tracks: options.right_track.clone(),
+        }),
+        Target::UrdfFrames(options) => export.urdf(&options.frames.settings()),
+    }
 }

@@ -1,27 +1,23 @@
 //! `trackdyn identify`: kinematic parameters from a recording.
 
-mod document;
 mod points;
 mod summary;
 
 pub use points::lagging_points;
 
+use crate::changes::{say_undetermined, say_written};
 use crate::commands::Outcome;
-use crate::earlier::remove_earlier;
 use crate::exit::Exit;
-use crate::options::{DrivingOptions, command_line, not_negative, read_vehicle};
+use crate::options::{DrivingOptions, not_negative, refuse_for_points};
 use crate::progress::Progress;
+use crate::provenance::provenance;
 use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
-use std::path::{Path, PathBuf};
-use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_estimate::genetic::GeneticOptions;
-use trackdyn_estimate::identification::{self, Fit};
-use trackdyn_estimate::{Free, Nuisance, identify};
-use trackdyn_model::VehicleFile;
-use trackdyn_model::kinematics::{KinematicsFile, Source};
-use trackdyn_recording::{OperatingPoints, Recording};
+use std::path::PathBuf;
+use trackdyn::crates::estimate::{GeneticOptions, Nuisance};
+use trackdyn::identify::Prepared;
+use trackdyn::{Change, Identification, IdentifySettings, Vehicle, prepare_folder};
 
 /// Options of `trackdyn identify`.
 #[derive(Args)]
@@ -34,8 +30,8 @@ pub struct Options {
     /// Use only segments before which the tracks ran steadily for this many seconds
     #[arg(long, value_name = "SECONDS", value_parser = not_negative)]
     settle: Option<f64>,
-    /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw (lever-arm only says why no
-    /// recording shows it)
+    /// Fit these beside the ICRs, where the recording shows them: time-offset, sensor-yaw
+    /// (lever-arm only says why no recording shows it)
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     fit: Vec<Nuisance>,
     /// Individuals of the genetic algorithm
@@ -55,109 +51,61 @@ pub struct Options {
 }
 
 impl Options {
-    /// What to fit beside, each once.
-    fn nuisances(&self) -> Vec<Nuisance> {
-        let mut nuisances = self.fit.clone();
-        nuisances.sort_unstable();
-        nuisances.dedup();
-        nuisances
+    fn settings(&self) -> IdentifySettings {
+        IdentifySettings {
+            tau: self.driving.tau,
+            settle: self.settle,
+            nuisances: self.fit.clone(),
+            genetic: GeneticOptions {
+                population: self.population as usize,
+                generations: self.generations as usize,
+                seed: self.seed,
+                ..GeneticOptions::default()
+            },
+        }
     }
 
     /// The options given that steady points have nothing to say to.
-    fn of_motion(&self) -> Vec<&'static str> {
+    fn of_motion(&self) -> Vec<String> {
         let mut given = self.driving.given();
         let own = [("--settle", self.settle.is_some()), ("--fit", !self.fit.is_empty())];
-        given.extend(own.into_iter().filter_map(|(name, given)| given.then_some(name)));
+        given.extend(own.into_iter().filter(|(_, given)| *given).map(|(name, _)| name.to_owned()));
         given
     }
 }
 
 /// Identifies the parameters, prints them side by side and writes what the recording determines.
 pub fn run(options: &Options) -> Outcome {
-    let vehicle = read_vehicle(&options.vehicle)?;
-    if let Some(table) = OperatingPoints::file_of(options.driving.path()) {
-        return points::run(&table, &vehicle, options);
-    }
-    let whole = options.driving.recording()?;
-    let recording = options.driving.part(&whole)?;
+    let vehicle = Vehicle::open(&options.vehicle)?;
+    refuse_for_points(&options.of_motion(), options.driving.path())?;
+    let recording = options.driving.recording()?.part(&options.driving.part())?;
     prepare_folder(&options.out)?;
-    let genetic = GeneticOptions {
-        population: options.population as usize,
-        generations: options.generations as usize,
-        seed: options.seed,
-        ..GeneticOptions::default()
-    };
-    let gauge = vehicle.vehicle.gauge;
-    let progress = Progress::new(2 * genetic.generations);
-    let identify_options = identification::Options {
-        gauge,
-        tau: options.driving.tau,
-        settle: options.settle,
-        nuisances: options.nuisances(),
-        genetic,
-    };
-    let found = identify(&recording, &identify_options, &|_| progress.advance(1));
-    progress.finish();
-    let found = found.map_err(|error| format!("{}: {error}", options.driving.path().display()))?;
-
-    let source = source(&recording, &vehicle, options);
-    let document = document::text(&recording, &vehicle, &source, &found)?;
-    let path = options.out.join("identification.toml");
-    write_file(&path, document.as_bytes())?;
-    say(format_args!("wrote {}", path.display()));
-    if identify_options.nuisances.contains(&Nuisance::SensorYaw) {
+    let settings = options.settings();
+    let prepared = Prepared::new(&recording, &vehicle, &settings)?;
+    let found = Progress::over(|observer| prepared.run(observer))?;
+    let changes = found.write(&options.out, &provenance())?;
+    say_changes(&changes);
+    if settings.nuisances.contains(&Nuisance::SensorYaw) {
         say(format_args!(
-            "note: no kinematics file holds the yaw of the sensor's mount: before odometry and export with these \
+            "note: no kinematics file holds the yaw of the sensor's mount: before odometry and \
+            export with these \
              parameters, turn the sensor by it, or the frame of the poses"
         ));
     }
-    let files = found.fits.iter().map(|fit| file(fit, gauge, &source));
-    let exit = keep(&options.out, files)?;
-    show(&summary::text(&recording, &vehicle.vehicle, &found))?;
-    Ok(exit)
+    show(&match &found {
+        Identification::Motion(fit) => summary::text(&recording, &vehicle, &fit.found),
+        Identification::Points(fit) => points::text(&recording, &vehicle, fit),
+    })?;
+    Ok(if found.is_determined() { Exit::Done } else { Exit::NoResult })
 }
 
-/// Writes the files of the fits that are determined. That of an earlier fit goes where this one is not: it would be taken for
-/// this one's. A map's stays.
-fn keep(out: &Path, files: impl IntoIterator<Item = Option<KinematicsFile>>) -> Outcome {
-    let mut written = 0;
-    for (file, name) in files.into_iter().zip(document::FILES) {
-        let path = out.join(name);
-        if let Some(file) = file {
-            write_file(&path, file.to_toml().as_bytes())?;
-            say(format_args!("wrote {}", path.display()));
-            written += 1;
-        } else {
-            remove_earlier(&path, |source| source.recording.is_some())?;
-            if path.exists() {
-                say(format_args!("note: {} is not of this recording, and stays", path.display()));
-            }
+/// Names the files that were written or removed, and those of another origin.
+fn say_changes(changes: &[Change]) {
+    say_written(changes);
+    say_undetermined(changes);
+    for change in changes {
+        if let Change::Kept(path) = change {
+            say(format_args!("note: {} is not of this recording, and stays", path.display()));
         }
     }
-    Ok(if written > 0 { Exit::Done } else { Exit::NoResult })
-}
-
-/// Where the numbers come from.
-fn source(recording: &Recording, vehicle: &VehicleFile, options: &Options) -> Source {
-    Source {
-        command: command_line(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        vehicle: vehicle.vehicle.name.clone(),
-        fingerprint: recording.fingerprint().to_owned(),
-        pose_fingerprint: Some(recording.pose_fingerprint().to_owned()),
-        recording: Some(recording.name().to_owned()),
-        runs: Some(recording.run_list().to_string()),
-        time_s: options.driving.time(),
-        seed: Some(options.seed),
-        ..Source::default()
-    }
-}
-
-/// The file of a fit, where the recording determines it.
-fn file(fit: &Fit, gauge: f64, source: &Source) -> Option<KinematicsFile> {
-    let estimate = fit.least_squares.as_ref().ok().filter(|_| fit.doubts.is_empty())?;
-    let rows = estimate.covariance_of_parameters();
-    let with_alphas = fit.free == Free::IcrsAndAlphas;
-    let kinematics = estimate.parameters.kinematics();
-    Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source.clone()))
 }

@@ -3,22 +3,24 @@
 use crate::commands::Outcome;
 use crate::commands::identify::lagging_points;
 use crate::exit::Exit;
-use crate::options::tracks_of;
 use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use trackdyn_estimate::clock::{ClockSearch, clock_offset};
-use trackdyn_recording::Format;
-use trackdyn_recording::rosbag::{self, RosbagOptions};
-use trackdyn_recording::{OperatingPoint, OperatingPoints, Recording, folder, tum};
+use trackdyn::crates::estimate::clock::{ClockSearch, clock_offset};
+use trackdyn::crates::recording::rosbag::{self, RosbagOptions};
+use trackdyn::crates::recording::{
+    Error as ReadError, Format, OperatingPoint, Recording as Motion, Run, tum,
+};
+use trackdyn::recording::PointsTable;
+use trackdyn::{ReadOptions, Recording};
 
 /// Options of `trackdyn inspect`.
 #[derive(Args)]
 pub struct Options {
-    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory of the
-    /// TUM benchmark (.tum, .txt), or table of steady operating points (.csv)
+    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory
+    /// of the TUM benchmark (.tum, .txt), or table of steady operating points (.csv)
     recording: PathBuf,
     /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
     #[arg(long, value_name = "FILE")]
@@ -27,44 +29,49 @@ pub struct Options {
 
 /// Lists the topics of a bag with the options that they suggest, or the runs of a recording.
 pub fn run(options: &Options) -> Outcome {
-    let (path, tracks) = (&options.recording, options.tracks.as_deref());
-    if let Some(table) = OperatingPoints::file_of(path) {
-        if tracks.is_some() {
-            return Err(format!("--tracks: {} is a table of steady motion, which has them: expected with a trajectory", path.display()).into());
-        }
-        show(&points(&OperatingPoints::read(&table)?))?;
-        return Ok(Exit::Done);
+    let path = &options.recording;
+    let is_table = Recording::points_file(path).is_some();
+    if is_table && options.tracks.is_some() {
+        return Err(format!(
+            "--tracks: {} is a table of steady motion, which has them: expected with a trajectory",
+            path.display()
+        )
+        .into());
     }
-    let text = match (Format::of(path)?, tracks) {
-        (Format::Rosbag, None) => bag(options)?,
-        (Format::Tum, None) => trajectory(path)?,
-        _ => match tracks_of(path, tracks)? {
-            Some(tracks) => runs(&tum::read(path, tracks, "unknown")?),
-            None => runs(&folder::read(path)?),
-        },
+    let text = match (is_table, options.tracks.is_none()) {
+        (false, true) if Format::of(path)? == Format::Rosbag => bag(path)?,
+        (false, true) if Format::of(path)? == Format::Tum => trajectory(path)?,
+        _ => {
+            let read = ReadOptions { tracks: options.tracks.clone(), ..ReadOptions::default() };
+            let recording = Recording::open(path, &read)?;
+            let of_points = recording.points().map(points);
+            of_points.or_else(|| recording.motion().map(runs)).unwrap_or_default()
+        }
     };
     show(&text)?;
     Ok(Exit::Done)
 }
 
 /// A trajectory alone, and the option that adds its track speeds.
-fn trajectory(path: &Path) -> Result<String, trackdyn_recording::Error> {
+fn trajectory(path: &Path) -> Result<String, ReadError> {
     let poses = tum::read_poses(path)?.samples;
     let (first, last) = (poses.first().map_or(0.0, |p| p.t), poses.last().map_or(0.0, |p| p.t));
     Ok(format!(
-        "{}: trajectory, {} poses, t = {first:.3} to {last:.3} s\n\nsuggested: --tracks TRACKS.csv\n",
+        "{}: trajectory, {} poses, t = {first:.3} to {last:.3} s\n\nsuggested: --tracks \
+        TRACKS.csv\n",
         path.display(),
         poses.len()
     ))
 }
 
 /// A table of operating points: its speeds, what was measured, and the points that lag.
-fn points(table: &OperatingPoints) -> String {
-    let points = &table.points;
+fn points(table: &PointsTable) -> String {
+    let points = table.points();
     let measured = |of: fn(&OperatingPoint) -> Option<f64>| points.iter().filter_map(of).count();
     let mut text = format!(
-        "{}: {} steady operating points; measured: {} forward speeds, {} lateral speeds, {} yaw rates\n",
-        table.name,
+        "{}: {} steady operating points; measured: {} forward speeds, {} lateral speeds, {} yaw \
+        rates\n",
+        table.name(),
         points.len(),
         measured(|point| point.v_forward),
         measured(|point| point.v_lateral),
@@ -82,8 +89,8 @@ fn points(table: &OperatingPoints) -> String {
 }
 
 /// The topics of a bag, and the options that read it.
-fn bag(options: &Options) -> Result<String, trackdyn_recording::Error> {
-    let inspection = rosbag::inspect(&options.recording)?;
+fn bag(path: &Path) -> Result<String, ReadError> {
+    let inspection = rosbag::inspect(path)?;
     let mut text = format!("{:>9} {:>9}  {:40} type\n", "messages", "seconds", "topic");
     for topic in &inspection.topics {
         let (count, seconds) = (topic.messages, topic.duration);
@@ -134,10 +141,9 @@ fn suggestion(options: &RosbagOptions) -> String {
 }
 
 /// The runs of a recording, and its clocks.
-fn runs(recording: &Recording) -> String {
+fn runs(recording: &Motion) -> String {
     let runs = recording.runs();
-    let total =
-        |count: fn(&trackdyn_recording::Run) -> usize| runs.iter().map(count).sum::<usize>();
+    let total = |count: fn(&Run) -> usize| runs.iter().map(count).sum::<usize>();
     let mut text = format!(
         "{}: robot {}, fingerprint {}\n",
         recording.name(),
@@ -148,7 +154,7 @@ fn runs(recording: &Recording) -> String {
         text,
         "{} runs, {:.0} s, {} readings of the tracks, {} poses, {} readings of an IMU",
         runs.len(),
-        runs.iter().map(trackdyn_recording::Run::duration).sum::<f64>(),
+        runs.iter().map(Run::duration).sum::<f64>(),
         total(|run| run.tracks().len()),
         total(|run| run.poses().len()),
         total(|run| run.imu().len()),

@@ -2,20 +2,16 @@
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{
-    CircumstanceOptions, ModelOptions, model, note_what_steady_icrs_leave_out, pair,
-};
+use crate::options::{CircumstanceOptions, ModelOptions, note_what_steady_icrs_leave_out, pair};
 use crate::stderr::say;
 use crate::stdout::show;
 use clap::{ArgGroup, Args};
 use std::error::Error;
 use std::fmt::Write;
 use std::path::PathBuf;
-use trackdyn_core::document::Document;
-use trackdyn_core::frames::ros_twist_from_paper;
-use trackdyn_core::{PerSide, Twist};
-use trackdyn_model::kinematics::{KinematicsFile, Source};
-use trackdyn_model::{Grid, IcrMap, Kinematics};
+use trackdyn::crates::core::frames::ros_twist_from_paper;
+use trackdyn::crates::core::{PerSide, Twist};
+use trackdyn::{Grid, Kinematics, MapSettings, Parameters, Provenance, icr_map};
 
 /// Options of `trackdyn kinematics`.
 #[derive(Args)]
@@ -27,7 +23,8 @@ pub struct Options {
     /// Forward speed in m/s and yaw rate in rad/s; prints the track speeds
     #[arg(long, value_name = "FORWARD,YAW_RATE", value_parser = pair, allow_hyphen_values = true)]
     twist: Option<[f64; 2]>,
-    /// Parameters from a file (schema trackdyn.kinematics/1) [default: the mean of the vehicle's map up to 1 m/s]
+    /// Parameters from a file (schema trackdyn.kinematics/1) [default: the mean of the vehicle's
+    /// map up to 1 m/s]
     #[arg(long, value_name = "FILE",
           conflicts_with_all = ["vehicle", "cog", "effects", "heading", "position", "time"])]
     kinematics: Option<PathBuf>,
@@ -37,7 +34,8 @@ pub struct Options {
     circumstance: CircumstanceOptions,
 }
 
-/// Standard deviation of an ICR over the map, m, from which on its mean is not all that there is to say.
+/// Standard deviation of an ICR over the map, m, from which on its mean is not all that there is to
+/// say.
 const NOTABLE: f64 = 1e-3;
 
 /// Prints the motion for track speeds, or track speeds for a motion.
@@ -56,30 +54,27 @@ pub fn run(options: &Options) -> Outcome {
 }
 
 /// The kinematics file, or one made from the vehicle's map.
-fn parameters(options: &Options) -> Result<KinematicsFile, Box<dyn Error>> {
+fn parameters(options: &Options) -> Result<Parameters, Box<dyn Error>> {
     if let Some(path) = &options.kinematics {
-        return Ok(KinematicsFile::from_document(&Document::read(path)?)?);
+        return Ok(Parameters::open(path)?);
     }
-    let vehicle = options.model.vehicle_file()?;
-    note_what_steady_icrs_leave_out(&vehicle.effects);
-    let grid = Grid::new(21, Grid::PAPER_SPEED)?;
-    let model = model(&vehicle);
-    let map = IcrMap::solve(&model, grid, &options.circumstance.circumstance(), &|_| ());
-    let statistics = map
-        .statistics()
-        .ok_or("the vehicle does not turn at any pair of track speeds: it has no ICRs")?;
-    let (sectors, spread) = (map.sectors(), statistics.spread.to_array());
-    let spread = spread.into_iter().fold(0.0, f64::max);
+    let vehicle = options.model.vehicle()?;
+    note_what_steady_icrs_leave_out(vehicle.effects());
+    let circumstance = options.circumstance.circumstance();
+    let map = icr_map(&vehicle, &MapSettings { circumstance, ..MapSettings::default() });
+    let none = "the vehicle does not turn at any pair of track speeds: it has no ICRs";
+    let statistics = map.statistics().ok_or(none)?;
+    let spread = statistics.spread.to_array().into_iter().fold(0.0, f64::max);
     // a piecewise map has the ICRs of each sector
-    if sectors.is_empty() && spread > NOTABLE {
+    if map.solved().sectors().is_empty() && spread > NOTABLE {
         say(format_args!(
-            "note: the ICRs of this vehicle go with the speeds, by {:.1} mm up to {} m/s: these are their means",
+            "note: the ICRs of this vehicle go with the speeds, by {:.1} mm up to {} m/s: these \
+            are their means",
             1e3 * spread,
             Grid::PAPER_SPEED
         ));
     }
-    Ok(KinematicsFile::of_map(&statistics, &sectors, Source::default())
-        .with_alpha(model.drive().gain))
+    Ok(map.parameters(&Provenance::default()).ok_or(none)?)
 }
 
 /// The motion in both frames.

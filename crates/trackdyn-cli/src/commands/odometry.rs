@@ -1,24 +1,17 @@
 //! `trackdyn odometry`: dead reckoning of a recording with several parameter sets.
 
-mod document;
-mod inputs;
-mod runs_table;
 mod summary;
 
+use crate::changes::{say_removed, written};
 use crate::commands::Outcome;
-use crate::earlier::remove_of;
 use crate::exit::Exit;
-use crate::options::{DrivingOptions, command_line};
+use crate::options::DrivingOptions;
+use crate::provenance::provenance;
 use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
-use inputs::Inputs;
-use std::collections::BTreeSet;
-use std::error::Error;
-use std::path::{Path, PathBuf};
-use trackdyn_core::output::{prepare_folder, write_file};
-use trackdyn_estimate::Clock;
-use trackdyn_estimate::odometry::{Comparison, tum};
+use std::path::PathBuf;
+use trackdyn::{OdometrySettings, Parameters, Vehicle, odometry, prepare_folder};
 
 /// Options of `trackdyn odometry`.
 #[derive(Args)]
@@ -38,85 +31,38 @@ pub struct Options {
 
 /// Replays, prints the table of errors and writes the files.
 pub fn run(options: &Options) -> Outcome {
-    let inputs = Inputs::read(options)?;
-    let part = options.driving.part(&inputs.recording)?;
-    // All of the recording tells most of its clocks.
-    let clock = Clock::of(&inputs.recording, options.driving.tau);
-    let named = |error| format!("{}: {error}", options.driving.path().display());
-    let result = Comparison::new(&part, inputs.sets(), clock.tau()).map_err(named)?;
+    let vehicle = Vehicle::open(&options.vehicle)?;
+    let parameters = options.kinematics.iter().map(Parameters::open);
+    let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
+    let recording = options.driving.recording()?;
+    let settings = OdometrySettings { part: options.driving.part(), tau: options.driving.tau };
+    let found = odometry(&recording, &vehicle, &parameters, &settings)?;
     prepare_folder(&options.out)?;
-    if let Some(reason) = clock.reason() {
+    if let Some(reason) = found.clock.reason() {
         say(format_args!("note: {reason}; the clock offset is taken as 0 (set it with --tau)"));
     }
-    for file in &inputs.files {
-        if !inputs.is_held_out(file, &result) {
-            say(format_args!(
-                "note: {} was fitted to some of these runs, which makes its errors look smaller (choose \
-                 others with --runs or --time)",
-                file.path.display()
-            ));
-        }
-    }
-    if !result.left_out.is_empty() {
+    for fitted in found.fitted_to_it() {
         say(format_args!(
-            "note: {} runs left out, whose poses lie outside the time of their track speeds",
-            result.left_out.len()
+            "note: {} was fitted to some of these runs, which makes its errors look smaller \
+            (choose \
+             others with --runs or --time)",
+            fitted.name()
         ));
     }
-    write(options, &inputs, &clock, &result)?;
-    show(&summary::text(&inputs, &clock, &result))?;
-    Ok(Exit::Done)
-}
-
-fn write(
-    options: &Options,
-    inputs: &Inputs,
-    clock: &Clock,
-    result: &Comparison,
-) -> Result<(), Box<dyn Error>> {
-    let out = &options.out;
-    let caption = format!(
-        "trackdyn {}, recording {}, vehicle {}",
-        env!("CARGO_PKG_VERSION"),
-        inputs.recording.fingerprint(),
-        inputs.vehicle_fingerprint
-    );
-    let figure = trackdyn_report::odometry(result, inputs.recording.name(), &caption);
-    write_file(&out.join("odometry.png"), &figure.to_png()?)?;
-    write_file(&out.join("runs.csv"), runs_table::text(result).as_bytes())?;
-    let count = trajectories(&out.join("trajectories"), &out.join("odometry.toml"), result)?;
-    let document = document::text(inputs, clock, result, &command_line())?;
-    write_file(&out.join("odometry.toml"), document.as_bytes())?;
-    say(format_args!(
-        "wrote odometry.toml, runs.csv, odometry.png and {count} trajectories to {}",
-        out.display()
-    ));
-    Ok(())
-}
-
-/// Writes recorded and predicted paths; returns how many.
-///
-/// Those of an earlier run, which `written` shows, go where this one has none.
-fn trajectories(
-    folder: &Path,
-    written: &Path,
-    result: &Comparison,
-) -> Result<usize, Box<dyn Error>> {
-    prepare_folder(folder)?;
-    let mut files = BTreeSet::new();
-    for path in &result.paths {
-        let predicted = result.sets.iter().zip(&path.trajectories);
-        let named = predicted.map(|(set, trajectory)| (set.name(), &trajectory.poses));
-        for (name, poses) in std::iter::once(("recorded", &path.recorded)).chain(named) {
-            let file = folder.join(format!("{name}-run{}.tum", path.run));
-            write_file(&file, tum::text(&path.stamps, poses).as_bytes())?;
-            files.insert(file);
-        }
+    let left_out = found.comparison.left_out.len();
+    if left_out > 0 {
+        say(format_args!(
+            "note: {left_out} runs left out, whose poses lie outside the time of their track speeds"
+        ));
     }
-    let there = std::fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path()));
-    let is_other = |file: &PathBuf| {
-        file.extension().is_some_and(|extension| extension == "tum") && !files.contains(file)
-    };
-    remove_of(written, there.filter(is_other))?;
-    Ok(files.len())
+    let changes = found.write(&options.out, &provenance())?;
+    say_removed(&changes);
+    let is_path = |file: &std::path::Path| file.extension().is_some_and(|of| of == "tum");
+    say(format_args!(
+        "wrote odometry.toml, runs.csv, odometry.png and {} trajectories to {}",
+        written(&changes).filter(|file| is_path(file)).count(),
+        options.out.display()
+    ));
+    show(&summary::text(&found))?;
+    Ok(Exit::Done)
 }

@@ -2,22 +2,20 @@
 
 mod summary;
 
+use crate::changes::{say_removed, say_written};
 use crate::commands::Outcome;
-use crate::earlier::remove_of;
 use crate::exit::Exit;
-use crate::options::{command_line, finite, read_vehicle};
+use crate::options::finite;
 use crate::progress::Progress;
+use crate::provenance::provenance;
 use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
-use trackdyn_core::document::Document;
-use trackdyn_core::output::{fingerprint, prepare_folder, write_file};
-use trackdyn_diagnose::plan::{Options as PlanOptions, Question, STAGES};
-use trackdyn_diagnose::{Error, PlanFile, plan};
-use trackdyn_drive::schedules::{self, ScheduledRun};
-use trackdyn_model::VehicleFile;
-use trackdyn_model::kinematics::Source;
+use trackdyn::crates::diagnose;
+use trackdyn::diagnose::corrected_beside;
+use trackdyn::plan::remove_earlier;
+use trackdyn::{Error, OpenQuestions, Plan, PlanSettings, Vehicle};
 
 /// Options of `trackdyn plan`.
 #[derive(Args)]
@@ -25,7 +23,8 @@ pub struct Options {
     /// Diagnosis file (schema trackdyn.diagnosis/1)
     #[arg(long, value_name = "FILE")]
     diagnosis: PathBuf,
-    /// Vehicle file that has what the diagnosis found [default: vehicle.corrected.toml beside the diagnosis]
+    /// Vehicle file that has what the diagnosis found [default: vehicle.corrected.toml beside the
+    /// diagnosis]
     #[arg(long, value_name = "FILE")]
     vehicle: Option<PathBuf>,
     /// Largest track speed, m/s
@@ -45,66 +44,46 @@ pub struct Options {
     out: PathBuf,
 }
 
-/// Removes the plan of an earlier run, where this one has none.
-fn remove_earlier(options: &Options) -> Result<(), String> {
-    let [plan, schedule] = ["plan.toml", "plan.csv"].map(|name| options.out.join(name));
-    remove_of(&plan, [schedule, plan.clone()])
-}
-
 /// Plans, prints what the plan separates, and writes it.
 pub fn run(options: &Options) -> Outcome {
-    let document = Document::read(&options.diagnosis)?;
-    let questions = Question::of(&document)?;
+    let questions = OpenQuestions::open(&options.diagnosis)?;
     if questions.is_empty() {
-        remove_earlier(options)?;
+        say_removed(&remove_earlier(&options.out)?);
         show("nothing to plan: the diagnosis leaves nothing open between several effects\n")?;
         return Ok(Exit::Done);
     }
     let vehicle = vehicle(options)?;
-    let settings = PlanOptions {
+    let settings = PlanSettings {
         fastest: options.fastest,
         duration: options.duration,
         noise_xy: options.noise_xy_m,
         noise_yaw: options.noise_yaw_rad,
     };
-    let progress = Progress::new(STAGES.len());
-    let plan = plan(&questions, &vehicle, &settings, &|_| progress.advance(1));
-    progress.finish();
-    let plan = plan.map_err(|error| match error {
-        Error::TooShort { .. } => format!("--duration: {error}"),
-        _ => format!("{}: {error}", vehicle.vehicle.name),
+    let plan = Progress::over(|observer| Plan::new(&questions, &vehicle, &settings, observer));
+    let plan = plan.map_err(|error| -> Box<dyn std::error::Error> {
+        match error {
+            Error::Plan { cause: cause @ diagnose::Error::TooShort { .. }, .. } => {
+                format!("--duration: {cause}").into()
+            }
+            other => other.into(),
+        }
     })?;
-    let Some(schedule) = plan.schedule() else {
-        show(&summary::text(&plan))?;
-        remove_earlier(options)?;
+    let changes = plan.write(&options.out, &provenance())?;
+    say_written(&changes);
+    show(&summary::text(plan.found()))?;
+    if plan.schedule().is_none() {
+        say_removed(&changes);
         say(format_args!("wrote nothing: there is nothing to drive"));
-        return Ok(Exit::Done);
-    };
-    let source = Source {
-        command: command_line(),
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        vehicle: vehicle.vehicle.name.clone(),
-        fingerprint: fingerprint(format!("{}{}", document.text(), vehicle.to_toml()).as_bytes()),
-        ..Source::default()
-    };
-    prepare_folder(&options.out)?;
-    let csv = schedules::text(&[ScheduledRun { id: 0, schedule }]);
-    let toml = PlanFile::new(&plan, &settings, source).to_toml();
-    for (name, text) in [("plan.csv", csv), ("plan.toml", toml)] {
-        let path = options.out.join(name);
-        write_file(&path, text.as_bytes())?;
-        say(format_args!("wrote {}", path.display()));
     }
-    show(&summary::text(&plan))?;
     Ok(Exit::Done)
 }
 
-fn vehicle(options: &Options) -> Result<VehicleFile, Box<dyn std::error::Error>> {
+fn vehicle(options: &Options) -> Result<Vehicle, Box<dyn std::error::Error>> {
     match &options.vehicle {
-        Some(path) => read_vehicle(path),
-        None => read_vehicle(&options.diagnosis.with_file_name("vehicle.corrected.toml")).map_err(
-            |error| format!("{error}\nexpected beside the diagnosis, or --vehicle").into(),
-        ),
+        Some(path) => Ok(Vehicle::open(path)?),
+        None => Vehicle::open(corrected_beside(&options.diagnosis)).map_err(|error| {
+            format!("{error}\nexpected beside the diagnosis, or --vehicle").into()
+        }),
     }
 }
 

@@ -39,9 +39,9 @@ impl Preset {
     /// Never: the files are part of the program, and a test reads them.
     pub fn sensors(self) -> Sensors {
         let text = match self {
-            Self::Perfect => include_str!("../../../../configs/sensors/perfect.toml"),
-            Self::Laboratory => include_str!("../../../../configs/sensors/laboratory.toml"),
-            Self::Field => include_str!("../../../../configs/sensors/field.toml"),
+            Self::Perfect => include_str!("perfect.toml"),
+            Self::Laboratory => include_str!("laboratory.toml"),
+            Self::Field => include_str!("field.toml"),
         };
         let name = format!("{}.toml (embedded)", self.name());
         match Sensors::from_document(&Document::new(name, text)) {

@@ -1,18 +1,19 @@
 //! A diagnosis in one screen.
 
 use std::fmt::Write;
-use trackdyn_diagnose::diagnosis::{Kind, Missing};
-use trackdyn_diagnose::document::separate_by;
-use trackdyn_diagnose::locate::SURE;
-use trackdyn_diagnose::noise;
-use trackdyn_diagnose::place::words;
-use trackdyn_diagnose::proposal::Proposal;
-use trackdyn_diagnose::proposal::words::decimals;
-use trackdyn_diagnose::uncertainty::{Interval, Level};
-use trackdyn_diagnose::verdict::Refusal;
-use trackdyn_diagnose::{Diagnosis, Evidence, Status};
-use trackdyn_model::EffectId;
-use trackdyn_model::effect::Symmetry;
+use trackdyn::Diagnosis;
+use trackdyn::crates::diagnose::diagnosis::{Kind, Missing};
+use trackdyn::crates::diagnose::document::separate_by;
+use trackdyn::crates::diagnose::locate::SURE;
+use trackdyn::crates::diagnose::noise;
+use trackdyn::crates::diagnose::place::words;
+use trackdyn::crates::diagnose::proposal::Proposal;
+use trackdyn::crates::diagnose::proposal::words::decimals;
+use trackdyn::crates::diagnose::uncertainty::{Interval, Level};
+use trackdyn::crates::diagnose::verdict::Refusal;
+use trackdyn::crates::diagnose::{Diagnosis as Found, Status};
+use trackdyn::crates::model::EffectId;
+use trackdyn::crates::model::effect::Symmetry;
 
 /// Effects whose limits are printed where nothing is missing.
 const LIMITS: usize = 6;
@@ -21,7 +22,9 @@ const LIMITS: usize = 6;
 const DECIMALS: usize = 4;
 
 /// The text of a diagnosis.
-pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
+pub fn text(diagnosis: &Diagnosis) -> String {
+    let (evidence, name) = (diagnosis.evidence(), diagnosis.name());
+    let diagnosis = diagnosis.found();
     let mut text = String::new();
     let samples = evidence.samples().len();
     let unit = evidence.origin().samples();
@@ -83,7 +86,8 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
     });
     let _ = writeln!(
         text,
-        "fit      on {on}: {:.3} before, {:.3} with instruments and constants alone, {:.3} after, noise floor {:.3} ({share})",
+        "fit      on {on}: {:.3} before, {:.3} with instruments and constants alone, {:.3} after, \
+         noise floor {:.3} ({share})",
         fit.before, fit.instruments, fit.after, fit.noise_floor
     );
     if let Some(sentence) = diagnosis.contradiction() {
@@ -96,7 +100,8 @@ pub fn text(diagnosis: &Diagnosis, evidence: &Evidence, name: &str) -> String {
 fn friction(Level { value, half }: Level) -> String {
     let [factor, low, high] = [value, value - half, value + half].map(f64::exp);
     format!(
-        "both coefficients times {factor:.2} [{low:.2}, {high:.2}]: steady turns do not tell, but mass slides that far"
+        "both coefficients times {factor:.2} [{low:.2}, {high:.2}]: steady turns do not tell, but \
+         mass slides that far"
     )
 }
 
@@ -122,7 +127,7 @@ fn form(proposal: &Proposal) -> String {
     )
 }
 
-fn nothing(diagnosis: &Diagnosis) -> String {
+fn nothing(diagnosis: &Found) -> String {
     if diagnosis.answer.status == Status::Unexplained {
         return "something outside the catalogue: no effect, nor two or three, explains it"
             .to_owned();
@@ -153,7 +158,8 @@ fn line(missing: &Missing) -> String {
     if missing.kind == Kind::Constant {
         let ids: Vec<&str> = verdict.one_of.iter().map(id).collect();
         return format!(
-            "a wrong number, not physics: the constant ICRs differ from the vehicle file's. One of {}",
+            "a wrong number, not physics: the constant ICRs differ from the vehicle file's. One \
+             of {}",
             ids.join(", ")
         );
     }

@@ -1,74 +1,38 @@
 //! `trackdyn identify` on a table of steady operating points.
 
-use super::Options;
-use crate::commands::Outcome;
-use crate::options::{command_line, refuse_for_points};
-use crate::stdout::show;
 use std::fmt::Write;
-use std::path::Path;
-use trackdyn_core::document::Document;
-use trackdyn_core::output::{fingerprint, prepare_folder};
-use trackdyn_estimate::least_squares::Loss;
-use trackdyn_estimate::steady::{SteadyEstimate, lagging};
-use trackdyn_estimate::{Doubt, Error, Free, Parameters, fit_points};
-use trackdyn_model::Kinematics;
-use trackdyn_model::VehicleFile;
-use trackdyn_model::kinematics::{KinematicsFile, Source};
-use trackdyn_recording::{OperatingPoint, OperatingPoints};
+use trackdyn::crates::estimate::steady::{SteadyEstimate, lagging};
+use trackdyn::crates::estimate::{Doubt, Error, Free, Parameters};
+use trackdyn::crates::recording::OperatingPoint;
+use trackdyn::identify::PointsFit;
+use trackdyn::recording::PointsTable;
+use trackdyn::{Recording, Vehicle};
 
 /// Points with the largest residuals that are shown.
 const WORST: usize = 5;
 
-/// Fits the ICRs, and the ICRs with α; prints both and writes what the table determines.
-///
-/// # Errors
-/// A message that names the file, line and column.
-pub fn run(path: &Path, vehicle: &VehicleFile, options: &Options) -> Outcome {
-    refuse_for_points(&options.of_motion(), path)?;
-    let table = OperatingPoints::read(path)?;
-    prepare_folder(&options.out)?;
-    let gauge = vehicle.vehicle.gauge;
-    let start = Parameters::of(&Kinematics::ideal(gauge));
-    let squares = fit_points(&table.points, &start, Free::Icrs, Loss::Squares);
-    let fits = [Free::Icrs, Free::IcrsAndAlphas]
-        .map(|free| (free, fit_points(&table.points, &start, free, Loss::Huber)));
-
+/// One screen: the table, and both fits.
+pub fn text(recording: &Recording, vehicle: &Vehicle, found: &PointsFit) -> String {
+    let points = recording.points().map_or(&[][..], PointsTable::points);
+    let gauge = vehicle.gauge();
     let mut text = format!(
         "{}: {} steady points; {}, gauge {gauge} m\n",
-        table.name,
-        table.points.len(),
-        vehicle.vehicle.name
+        recording.name(),
+        points.len(),
+        vehicle.name()
     );
-    for (free, fit) in &fits {
+    for (free, fit) in &found.fits {
         self::fit(&mut text, *free, fit, gauge);
     }
-    if let Ok(squares) = &squares {
+    if let Ok(squares) = &found.squares {
         let gap = squares.gap().value;
         let _ = writeln!(text, "\n  plain squares, without alphas: x_r - x_l = {gap:.4} m");
     }
-    text += &lagging_points(&table.points);
-    if let (_, Ok(fit)) = &fits[0] {
-        worst(&mut text, &table.points, fit);
+    text += &lagging_points(points);
+    if let (_, Ok(fit)) = &found.fits[0] {
+        worst(&mut text, points, fit);
     }
-    let fingerprint = fingerprint(Document::read(path)?.text().as_bytes());
-    let files = fits.iter().map(|(free, fit)| {
-        let fit = fit.as_ref().ok().filter(|fit| fit.doubts(gauge).is_empty())?;
-        let source = Source {
-            command: command_line(),
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            vehicle: vehicle.vehicle.name.clone(),
-            fingerprint: fingerprint.clone(),
-            recording: Some(table.name.clone()),
-            ..Source::default()
-        };
-        let rows = fit.covariance_of_parameters();
-        let kinematics = fit.parameters.kinematics();
-        let with_alphas = *free == Free::IcrsAndAlphas;
-        Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source))
-    });
-    let exit = super::keep(&options.out, files)?;
-    show(&text)?;
-    Ok(exit)
+    text
 }
 
 fn fit(text: &mut String, free: Free, fit: &Result<SteadyEstimate, Error>, gauge: f64) {
@@ -129,7 +93,8 @@ pub fn lagging_points(points: &[OperatingPoint]) -> String {
         return String::new();
     }
     let mut text = String::from(
-        "\n  points that turn less than one that is driven less: a track did not run at its speed\n",
+        "\n  points that turn less than one that is driven less: a track did not run at its \
+        speed\n",
     );
     for lag in lags {
         let (point, than) = (points[lag.point], points[lag.than]);

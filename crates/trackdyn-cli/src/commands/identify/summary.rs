@@ -1,25 +1,26 @@
 //! The result of an identification as text.
 
 use std::fmt::Write;
-use trackdyn_estimate::identification::Fit;
-use trackdyn_estimate::{Clock, Interval};
-use trackdyn_estimate::{Estimate, Free, Identification, Nuisance, Parameters};
-use trackdyn_model::Vehicle;
-use trackdyn_recording::Recording;
+use trackdyn::crates::estimate::identification::Fit;
+use trackdyn::crates::estimate::{
+    Clock, Estimate, Free, Identification, Interval, Nuisance, Parameters,
+};
+use trackdyn::crates::recording::Run;
+use trackdyn::{Recording, Vehicle};
 
 /// One screen: the recording, its clock and noise, the methods side by side.
 pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) -> String {
     let mut text = String::new();
     let runs = recording.runs();
-    let seconds: f64 = runs.iter().map(trackdyn_recording::Run::duration).sum();
+    let seconds: f64 = runs.iter().map(Run::duration).sum();
     let _ = writeln!(
         text,
         "{}: {} runs, {seconds:.0} s, {} segments; {}, gauge {} m\n",
         recording.name(),
         runs.len(),
         found.segments,
-        vehicle.name,
-        vehicle.gauge
+        vehicle.name(),
+        vehicle.gauge()
     );
     clock(&mut text, found);
     noise(&mut text, found);
@@ -39,7 +40,7 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) ->
         }
     }
     for fit in &found.fits {
-        self::fit(&mut text, fit, vehicle.gauge, found.weighted_by_noise);
+        self::fit(&mut text, fit, vehicle.gauge(), found.weighted_by_noise);
     }
     text
 }
@@ -106,7 +107,8 @@ fn fit(text: &mut String, fit: &Fit, gauge: f64, by_noise: bool) {
         let rms = estimate.whitened_rms;
         writeln!(
             text,
-            "    residuals {rms:.2} times the noise; intervals from the noise and from {count} {cut}"
+            "    residuals {rms:.2} times the noise; intervals from the noise and from {count} \
+            {cut}"
         )
     } else {
         writeln!(text, "    intervals from the residuals and from {count} {cut}")

@@ -1,27 +1,28 @@
 //! The result of a map as text.
 
 use std::fmt::Write;
-use trackdyn_model::IcrMap;
-use trackdyn_model::VehicleFile;
-use trackdyn_model::map::{Sector, Statistics};
+use trackdyn::crates::model::IcrMap as Solved;
+use trackdyn::crates::model::map::{Sector, Statistics};
+use trackdyn::{IcrMap, Vehicle};
 
 /// One screen: parameters, what kinds of motion the map holds, sectors.
-pub fn text(file: &VehicleFile, map: &IcrMap, statistics: Option<&Statistics>) -> String {
+pub fn text(vehicle: &Vehicle, map: &IcrMap) -> String {
     let mut text = String::new();
-    let effects: Vec<String> = file.effects.iter().map(ToString::to_string).collect();
-    let (points, speed) = (map.grid.points(), map.grid.max_speed());
+    let effects: Vec<String> = vehicle.effects().iter().map(ToString::to_string).collect();
+    let solved = map.solved();
+    let (points, speed) = (solved.grid.points(), solved.grid.max_speed());
     let _ =
-        writeln!(text, "{}, {points} x {points} track speeds up to {speed} m/s", file.vehicle.name);
+        writeln!(text, "{}, {points} x {points} track speeds up to {speed} m/s", vehicle.name());
     let _ = match effects.as_slice() {
         [] => writeln!(text, "base model: no effects\n"),
         effects => writeln!(text, "effects: {}\n", effects.join("  ")),
     };
-    match statistics {
+    match map.statistics() {
         Some(statistics) => parameters(&mut text, statistics),
         None => text += "  No pair of speeds turns the robot: it has no ICRs.\n",
     }
-    motions(&mut text, map);
-    sectors(&mut text, map);
+    motions(&mut text, solved);
+    sectors(&mut text, solved);
     text
 }
 
@@ -55,7 +56,7 @@ fn unrounded(value: f64) -> f64 {
     if value.abs() < 1e-9 { 0.0 } else { value }
 }
 
-fn motions(text: &mut String, map: &IcrMap) {
+fn motions(text: &mut String, map: &Solved) {
     // In the order of Status::NAMES.
     let meaning = [
         "turn and enter the means",
@@ -75,7 +76,7 @@ fn motions(text: &mut String, map: &IcrMap) {
     let _ = writeln!(text, " {}.", parts.join(", "));
 }
 
-fn sectors(text: &mut String, map: &IcrMap) {
+fn sectors(text: &mut String, map: &Solved) {
     let sectors = map.sectors();
     if sectors.is_empty() {
         return;

@@ -1,15 +1,15 @@
 //! The result of a replay as text.
 
-use super::inputs::Inputs;
 use std::fmt::Write;
-use trackdyn_estimate::Clock;
-use trackdyn_estimate::odometry::comparison::{Component, SpanErrors};
-use trackdyn_estimate::odometry::{Comparison, Estimate, Span};
+use trackdyn::Odometry;
+use trackdyn::crates::estimate::odometry::comparison::{Component, SpanErrors};
+use trackdyn::crates::estimate::odometry::{Comparison, Estimate, Span};
 
 /// One screen: what was replayed, errors per segment, drift, and how sets compare with the ideal.
-pub fn text(inputs: &Inputs, clock: &Clock, result: &Comparison) -> String {
+pub fn text(odometry: &Odometry) -> String {
     let mut text = String::new();
-    let recording = &inputs.recording;
+    let (result, clock) = (&odometry.comparison, &odometry.clock);
+    let (recording, vehicle) = (odometry.recording(), odometry.vehicle());
     let _ = writeln!(
         text,
         "{}, {} of {} runs, {:.0} s, {:.1} m",
@@ -24,14 +24,15 @@ pub fn text(inputs: &Inputs, clock: &Clock, result: &Comparison) -> String {
         Some(error) => write!(text, " (estimated, standard error {error:.3} s)"),
         None => write!(text, " ({})", clock.origin()),
     };
-    let _ = writeln!(text, "; ideal drive: gauge {} m ({})", inputs.gauge, inputs.vehicle);
+    let (gauge, name) = (vehicle.gauge(), vehicle.name());
+    let _ = writeln!(text, "; ideal drive: gauge {gauge} m ({name})");
     let _ = writeln!(text, "± 95 % confidence, {}", result.blocks.description());
     let width = result.sets.iter().map(|set| set.name().len()).max().unwrap_or(0).clamp(10, 26) + 6;
     if let Some(segments) = result.segments() {
         residuals(&mut text, result, segments, width);
     }
     if let Some(span) = result.drift() {
-        drift(&mut text, result, span, width);
+        drift(&mut text, odometry, span, width);
     }
     text
 }
@@ -74,7 +75,8 @@ fn residuals(text: &mut String, result: &Comparison, segments: &SpanErrors, widt
 }
 
 /// Drift over the longest pieces, and errors at the end.
-fn drift(text: &mut String, result: &Comparison, span: &SpanErrors, width: usize) {
+fn drift(text: &mut String, odometry: &Odometry, span: &SpanErrors, width: usize) {
+    let result = &odometry.comparison;
     let pieces = match span.span {
         Span::Segment => "segments".to_owned(),
         Span::Distance(length) => format!("pieces of {length} m"),
@@ -94,7 +96,7 @@ fn drift(text: &mut String, result: &Comparison, span: &SpanErrors, width: usize
         "parameters", "position [mm/m]", "yaw [deg/m]", "end [m]", "end [deg]"
     );
     for (index, (set, errors)) in result.sets.iter().zip(&span.sets).enumerate() {
-        let [place, yaw] = end(result, index);
+        let [place, yaw] = odometry.error_at_end(index);
         let per_metre = |component: &Component, scale, decimals| {
             component
                 .per_metre
@@ -109,17 +111,6 @@ fn drift(text: &mut String, result: &Comparison, span: &SpanErrors, width: usize
             yaw.to_degrees(),
         );
     }
-}
-
-/// Root mean square over runs of the errors of place, m, and yaw, rad, at the end.
-pub fn end(result: &Comparison, set: usize) -> [f64; 2] {
-    let last: Vec<_> =
-        result.paths.iter().filter_map(|path| path.errors(set)).map(|errors| errors.last).collect();
-    #[expect(clippy::cast_precision_loss, reason = "a number of runs")]
-    let count = last.len().max(1) as f64;
-    let places: f64 = last.iter().map(|last| last.position().powi(2)).sum();
-    let yaws: f64 = last.iter().map(|last| last.yaw * last.yaw).sum();
-    [(places / count).sqrt(), (yaws / count).sqrt()]
 }
 
 fn number(estimate: Estimate, scale: f64, decimals: usize) -> String {

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use trackdyn_diagnose::Plan;
-use trackdyn_diagnose::plan::menu::Manoeuvre;
-use trackdyn_diagnose::plan::{Answer, DECIDED, Separation, measurements};
-use trackdyn_model::EffectId;
+use trackdyn::crates::diagnose::Plan;
+use trackdyn::crates::diagnose::plan::menu::Manoeuvre;
+use trackdyn::crates::diagnose::plan::{Answer, DECIDED, Separation, measurements};
+use trackdyn::crates::model::EffectId;
 
 /// The text of a plan.
 pub fn text(plan: &Plan) -> String {
@@ -21,7 +21,8 @@ pub fn text(plan: &Plan) -> String {
         let ids: Vec<&str> = members.iter().map(|&effect| effect.name()).collect();
         let _ = writeln!(
             text,
-            "{}: driving cannot decide, z is below {DECIDED} over all {} manoeuvres of the menu ({:.0} s)",
+            "{}: driving cannot decide, z is below {DECIDED} over all {} manoeuvres of the menu \
+            ({:.0} s)",
             ids.join(" or "),
             plan.menu.0,
             plan.menu.1
@@ -35,7 +36,8 @@ pub fn text(plan: &Plan) -> String {
     }
     let _ = writeln!(
         text,
-        "\n{} manoeuvres, {:.2} s, each from rest to rest; z of each pair (z per second). z² adds up, z does \
+        "\n{} manoeuvres, {:.2} s, each from rest to rest; z of each pair (z per second). z² adds \
+        up, z does \
          not.",
         plan.steps.len(),
         plan.duration()
@@ -58,7 +60,8 @@ pub fn text(plan: &Plan) -> String {
     text
 }
 
-/// The members of each question that no driving tells from one another: those of pairs that share one.
+/// The members of each question that no driving tells from one another: those of pairs that share
+/// one.
 fn never(plan: &Plan) -> Vec<BTreeSet<EffectId>> {
     let mut groups: Vec<(usize, BTreeSet<EffectId>)> = Vec::new();
     for pair in plan.pairs.iter().filter(|pair| pair.answer == Answer::Never) {
@@ -74,10 +77,11 @@ fn never(plan: &Plan) -> Vec<BTreeSet<EffectId>> {
 }
 
 fn answer(pair: &Separation, plan: &Plan) -> String {
-    let [one, other] = pair.effects.map(|effect| effect.name());
+    let [one, other] = pair.effects.map(EffectId::name);
     match pair.answer {
         Answer::Longer(time) => format!(
-            "{one} or {other}: this plan does not decide, z = {:.1} is below {DECIDED}; it would take some \
+            "{one} or {other}: this plan does not decide, z = {:.1} is below {DECIDED}; it would \
+            take some \
              {time:.0} s. Instead: {}",
             pair.z,
             measurements(pair.effects).join("; ")

@@ -1,52 +1,67 @@
-//! The two simulators.
+//! The independent simulator as a ground to drive on.
 
-use super::Options;
-use trackdyn_core::{Plant, Schedule, Trajectory};
-use trackdyn_model::Transient;
-use trackdyn_model::{ActiveEffect, Model, VehicleFile};
+use trackdyn::crates::core::{Plant, Pose, Schedule};
+use trackdyn::simulate::{Ground, Motion};
+use trackdyn::{ActiveEffect, SimulateSettings, Vehicle};
 use trackdyn_second_simulator::{ActiveMechanism, Robot, Setup, sheet_of};
 
-/// The motion of the hull, and the path that the pose sensor takes it to be.
-type Motion = (Trajectory, Trajectory);
-
-/// Moves the robot by the laws of the catalogue.
-pub fn own(model: &Model, schedule: &Schedule, options: &Options) -> Result<Motion, String> {
-    let [start_time, _] = schedule.span();
-    let mut robot =
-        Transient::at_rest(model, start_time, options.place.pose()).with_step(options.step);
-    let path = robot.follow(schedule).map_err(|stopped| stopped.to_string())?;
-    let reported = model.sensor().reported_path(&path);
-    Ok((path, reported))
+/// The independent mechanisms of the names of the vehicle's effects, and those outside the
+/// catalogue.
+pub struct Independent<'a> {
+    vehicle: &'a Vehicle,
+    mechanisms: &'a [ActiveMechanism],
+    seed: u64,
+    start: Pose,
+    longest_step: f64,
 }
 
-/// Moves the robot by the independent mechanisms of the same names, and those outside the catalogue.
-pub fn independent(
-    file: &VehicleFile,
-    schedule: &Schedule,
-    options: &Options,
-) -> Result<Motion, String> {
-    let mut mechanisms = options.mechanisms.clone();
-    for effect in &file.effects {
-        mechanisms.push(mechanism_of(effect)?);
+impl<'a> Independent<'a> {
+    /// The ground of a vehicle.
+    pub fn new(
+        vehicle: &'a Vehicle,
+        settings: &SimulateSettings,
+        mechanisms: &'a [ActiveMechanism],
+    ) -> Self {
+        let SimulateSettings { seed, start, longest_step, .. } = *settings;
+        Self { vehicle, mechanisms, seed, start, longest_step }
     }
-    let [start_time, _] = schedule.span();
-    let setup = Setup {
-        seed: options.seed,
-        start: options.place.pose(),
-        start_time,
-        longest_step: options.step,
-        shortest_step: Setup::default().shortest_step.min(options.step),
-        ..Setup::default()
-    };
-    let mut robot =
-        Robot::new(&file.vehicle, &mechanisms, &setup).map_err(|error| error.to_string())?;
-    let path = robot.follow(schedule).map_err(|stopped| stopped.to_string())?;
-    let reported = robot.report(&path);
-    Ok((path, reported))
 }
 
-/// The mechanism of an effect's name. Its law has constants where the effect's has parameters: these are then to be left as
-/// they are.
+impl Ground for Independent<'_> {
+    fn name(&self) -> String {
+        "independent".to_owned()
+    }
+
+    fn mechanisms(&self) -> Vec<String> {
+        self.mechanisms.iter().map(ToString::to_string).collect()
+    }
+
+    fn drive(
+        &self,
+        schedule: &Schedule,
+    ) -> Result<Motion, Box<dyn std::error::Error + Send + Sync>> {
+        let mut mechanisms = self.mechanisms.to_vec();
+        for effect in self.vehicle.effects() {
+            mechanisms.push(mechanism_of(effect)?);
+        }
+        let [start_time, _] = schedule.span();
+        let setup = Setup {
+            seed: self.seed,
+            start: self.start,
+            start_time,
+            longest_step: self.longest_step,
+            shortest_step: Setup::default().shortest_step.min(self.longest_step),
+            ..Setup::default()
+        };
+        let mut robot = Robot::new(&self.vehicle.file().vehicle, &mechanisms, &setup)?;
+        let body = robot.follow(schedule)?;
+        let reported = robot.report(&body);
+        Ok(Motion { body, reported })
+    }
+}
+
+/// The mechanism of an effect's name. Its law has constants where the effect's has parameters:
+/// these are then to be left as they are.
 fn mechanism_of(effect: &ActiveEffect) -> Result<ActiveMechanism, String> {
     let card = effect.card();
     let sheet = sheet_of(card.id);
@@ -59,7 +74,8 @@ fn mechanism_of(effect: &ActiveEffect) -> Result<ActiveMechanism, String> {
             settings.push((parameter.key, value));
         } else if value != card.default_of(parameter) {
             return Err(format!(
-                "--effect {}:{} = {value}: expected it left out on the independent ground, whose law has no such \
+                "--effect {}:{} = {value}: expected it left out on the independent ground, whose \
+                law has no such \
                  parameter",
                 card.id, parameter.key
             ));

@@ -16,15 +16,15 @@ use serde::{Deserialize, Serialize};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use trackdyn::crates::core::Schedule;
+use trackdyn::crates::core::document::Document;
+use trackdyn::crates::core::output::{prepare_folder, write_file};
 use trackdyn_blind_trial::driving::HELD_OUT;
 use trackdyn_blind_trial::entry::DIAGNOSIS;
 use trackdyn_blind_trial::revisit::revisit;
 use trackdyn_blind_trial::score::resolution::{open_sets, rates};
 use trackdyn_blind_trial::score::{Judged, Outcome, Revisited, rates_csv, resolution_markdown};
 use trackdyn_blind_trial::{Answers, Diagnosis, Entry, diagnosis, folder};
-use trackdyn_core::Schedule;
-use trackdyn_core::document::Document;
-use trackdyn_core::output::{prepare_folder, write_file};
 
 /// The recording of the new driving, and the plan for it.
 const AGAIN: &str = "again";
@@ -148,7 +148,7 @@ impl Visit<'_> {
             let Some(schedule) = self.schedule()? else { return Ok(Outcome::NothingToDrive) };
             match revisit(self.answers, &self.judged.answer.id, schedule) {
                 Ok(recording) => {
-                    trackdyn_recording::folder::write(&recording, &self.home.join(AGAIN))?;
+                    trackdyn::crates::recording::folder::write(&recording, &self.home.join(AGAIN))?;
                 }
                 Err(error) => return Ok(Outcome::Failed(error.to_string())),
             }
@@ -195,7 +195,7 @@ impl Visit<'_> {
         if !path.exists() {
             return Ok(None);
         }
-        let runs = trackdyn_drive::schedules::read(&path)?;
+        let runs = trackdyn::crates::drive::schedules::read(&path)?;
         Ok(runs.into_iter().next().map(|run| run.schedule))
     }
 

@@ -1,12 +1,14 @@
 //! Scores as figures.
 
 use std::path::Path;
+use trackdyn::crates::core::output::write_file;
+use trackdyn::crates::report::{
+    Entrant, Figure, Matrix, Power, Share, Shares, confusion, power, shares,
+};
 use trackdyn_blind_trial::Score;
 use trackdyn_blind_trial::oracle::{MIN_DETECTABLE_Z, MIN_DISTINCT_Z};
 use trackdyn_blind_trial::score::interval::clopper_pearson;
 use trackdyn_blind_trial::score::{PowerBin, Rate, distinct};
-use trackdyn_core::output::write_file;
-use trackdyn_report::{Entrant, Figure, Matrix, Power, Share, Shares, confusion, power, shares};
 
 /// Scores with the names of their programs.
 pub type Named<'a> = [(&'a str, &'a Score)];

@@ -13,10 +13,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::time::{Duration, Instant};
+use trackdyn::crates::core::output::write_file;
 use trackdyn_blind_trial::driving::HELD_OUT;
 use trackdyn_blind_trial::seal::Commitment;
 use trackdyn_blind_trial::{Diagnosis, Entry, folder};
-use trackdyn_core::output::write_file;
 
 /// Options of `trackdyn trial run`.
 #[derive(Args)]

@@ -7,8 +7,8 @@ use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::{Path, PathBuf};
+use trackdyn::crates::core::output::{prepare_folder, write_file};
 use trackdyn_blind_trial::{Entry, Opened, Score, folder, score};
-use trackdyn_core::output::{prepare_folder, write_file};
 
 /// Options of `trackdyn trial score`.
 #[derive(Args)]

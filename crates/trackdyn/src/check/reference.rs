@@ -1,20 +1,23 @@
 //! Reference files, schema `trackdyn.reference/1`.
 
-use crate::options::repeated;
+use crate::Error;
+use crate::vehicle::repeated;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::real;
-use trackdyn_model::ActiveEffect;
-use trackdyn_model::Grid;
 use trackdyn_model::map::{GridError, Statistics};
+use trackdyn_model::{ActiveEffect, Grid};
 
 const SCHEMA: &str = "trackdyn.reference/1";
 
-/// What `trackdyn check` recomputes.
+/// ICRs of vehicles with the tolerances that they must keep (schema `trackdyn.reference/1`).
+#[derive(Clone, Debug)]
 pub struct Reference {
+    /// The file as given.
+    pub path: PathBuf,
     /// Track speeds of every case.
     pub grid: Grid,
     /// The cases, in the file's order.
@@ -22,6 +25,7 @@ pub struct Reference {
 }
 
 /// One vehicle and the numbers that it must give.
+#[derive(Clone, Debug)]
 pub struct Case {
     /// Name in the table.
     pub name: String,
@@ -36,7 +40,7 @@ pub struct Case {
 }
 
 /// A number and how far off it may be.
-#[derive(Clone, Copy, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expected {
     /// The number.
@@ -46,14 +50,15 @@ pub struct Expected {
 }
 
 /// A number of a kinematics file.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Quantity {
     key: &'static str,
     of: fn(&Statistics) -> f64,
     of_none: f64,
 }
 
-/// The quantities that can be checked, under their names in `kinematics.toml`; and how many pairs of speeds turn.
+/// The quantities that can be checked, under their names in `kinematics.toml`; and how many pairs
+/// of speeds turn.
 const QUANTITIES: [Quantity; 8] = [
     Quantity::mean("x_icr_left_m", |s| s.mean.x_left),
     Quantity::mean("x_icr_right_m", |s| s.mean.x_right),
@@ -111,8 +116,13 @@ impl Reference {
     /// Reads and checks a reference file.
     ///
     /// # Errors
-    /// A [`DocumentError`] that points at the line and key.
-    pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
+    /// [`Error::Document`], which names file, line and key.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        Ok(Self::from_document(&Document::read(path)?, path)?)
+    }
+
+    fn from_document(document: &Document, path: &Path) -> Result<Self, DocumentError> {
         let tables: Tables = document.parse_as(SCHEMA)?;
         let (points, speed) = (*tables.grid.get_ref(), *tables.max_speed_m_s.get_ref());
         let grid = Grid::new(points, speed).map_err(|error| {
@@ -131,7 +141,7 @@ impl Reference {
             .into_iter()
             .map(|table| table.case(document))
             .collect::<Result<Vec<Case>, DocumentError>>()?;
-        Ok(Self { grid, cases })
+        Ok(Self { path: path.to_owned(), grid, cases })
     }
 }
 

@@ -1,15 +1,13 @@
 //! The result of an identification as a file, schema `trackdyn.identification/1`.
 
-use crate::tables::{ClockTable, rounded};
+use super::{FILES, MotionFit};
+use crate::document::{ClockTable, Rounded, to_toml};
 use serde::Serialize;
-use trackdyn_core::output::fingerprint;
 use trackdyn_estimate::Interval;
 use trackdyn_estimate::identification::Fit;
 use trackdyn_estimate::noise::Component;
 use trackdyn_estimate::{Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest};
-use trackdyn_model::VehicleFile;
 use trackdyn_model::kinematics::Source;
-use trackdyn_recording::Recording;
 
 #[derive(Serialize)]
 struct File<'a> {
@@ -27,7 +25,7 @@ struct SourceTable<'a> {
     #[serde(flatten)]
     source: &'a Source,
     robot: &'a str,
-    vehicle_fingerprint: String,
+    vehicle_fingerprint: &'a str,
     gauge_m: f64,
 }
 
@@ -36,15 +34,15 @@ struct SourceTable<'a> {
 struct NoiseTable {
     weights: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pose_forward_m: Option<f64>,
+    pose_forward_m: Option<Rounded>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pose_lateral_m: Option<f64>,
+    pose_lateral_m: Option<Rounded>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pose_yaw_rad: Option<f64>,
+    pose_yaw_rad: Option<Rounded>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    encoder_left_m_s: Option<f64>,
+    encoder_left_m_s: Option<Rounded>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    encoder_right_m_s: Option<f64>,
+    encoder_right_m_s: Option<Rounded>,
 }
 
 /// One method with one choice of what is free.
@@ -62,7 +60,7 @@ struct MethodTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     cost_unit: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    whitened_rms: Option<f64>,
+    whitened_rms: Option<Rounded>,
     #[serde(skip_serializing_if = "Option::is_none")]
     blocks: Option<usize>,
     /// Why it is not determined.
@@ -78,42 +76,31 @@ struct MethodTable {
 struct EstimateTable {
     name: &'static str,
     unit: &'static str,
-    value: f64,
+    value: Rounded,
     #[serde(skip_serializing_if = "Option::is_none")]
-    standard_error: Option<f64>,
+    standard_error: Option<Rounded>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    low95: Option<f64>,
+    low95: Option<Rounded>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    high95: Option<f64>,
+    high95: Option<Rounded>,
 }
 
-/// Names of the kinematics files of the two fits.
-pub const FILES: [&str; 2] = ["kinematics.toml", "kinematics_alpha.toml"];
-
 /// The text of `identification.toml`; `source` is that of the kinematics files.
-///
-/// # Errors
-/// None in practice: numbers, texts and tables are TOML.
-pub fn text(
-    recording: &Recording,
-    vehicle: &VehicleFile,
-    source: &Source,
-    found: &Identification,
-) -> Result<String, toml::ser::Error> {
-    let gauge = vehicle.vehicle.gauge;
+pub(super) fn text(fit: &MotionFit, source: &Source) -> String {
+    let (found, gauge) = (&fit.found, fit.gauge());
     let mut method = vec![of_spin_test(&found.spin_test, gauge)];
     for (fit, file) in found.fits.iter().zip(FILES) {
         method.push(of_genetic(fit, gauge));
         method.push(of_least_squares(fit, gauge, found.weighted_by_noise, file));
     }
-    toml::to_string(&File {
+    to_toml(&File {
         schema: "trackdyn.identification/1",
         frame: "paper",
         segments: found.segments,
         source: SourceTable {
             source,
-            robot: recording.robot(),
-            vehicle_fingerprint: fingerprint(vehicle.to_toml().as_bytes()),
+            robot: fit.robot(),
+            vehicle_fingerprint: fit.vehicle_fingerprint(),
             gauge_m: gauge,
         },
         clock: ClockTable::of(&found.clock),
@@ -124,8 +111,8 @@ pub fn text(
 
 fn of_noise(found: &Identification) -> NoiseTable {
     let poses = found.noise.moving.as_ref().or(found.noise.standing.as_ref());
-    let white = |component: &Component| rounded(component.white);
-    let encoders = found.noise.encoders.map(|noise| noise.map(|noise| rounded(noise.deviation)));
+    let white = |component: &Component| Rounded(component.white);
+    let encoders = found.noise.encoders.map(|noise| noise.map(|noise| Rounded(noise.deviation)));
     NoiseTable {
         weights: if found.weighted_by_noise { "noise" } else { "equal" },
         pose_forward_m: poses.map(|poses| white(&poses.forward)),
@@ -179,7 +166,7 @@ fn of_spin(spin: &SpinTest, gauge: f64) -> Vec<EstimateTable> {
         None => EstimateTable {
             name,
             unit,
-            value: rounded(value),
+            value: Rounded(value),
             standard_error: None,
             low95: None,
             high95: None,
@@ -223,7 +210,7 @@ fn of_least_squares(fit: &Fit, gauge: f64, by_noise: bool, file: &'static str) -
             file: fit.doubts.is_empty().then_some(file),
             cost: Some(estimate.cost),
             cost_unit: Some(if by_noise { "1" } else { "m^2" }),
-            whitened_rms: by_noise.then_some(rounded(estimate.whitened_rms)),
+            whitened_rms: by_noise.then_some(Rounded(estimate.whitened_rms)),
             blocks: Some(estimate.filled_blocks),
             estimate: of_estimate(estimate, gauge),
             ..table.refused(fit.doubts.iter().map(Doubt::to_string).collect())
@@ -251,11 +238,11 @@ fn of_estimate(estimate: &Estimate, gauge: f64) -> Vec<EstimateTable> {
 
 fn of_interval(name: &'static str, unit: &'static str, interval: &Interval) -> EstimateTable {
     let Interval { value, deviation, low, high } = *interval;
-    let finite = |value: f64| value.is_finite().then_some(rounded(value));
+    let finite = |value: f64| value.is_finite().then_some(Rounded(value));
     EstimateTable {
         name,
         unit,
-        value: rounded(value),
+        value: Rounded(value),
         standard_error: finite(deviation),
         low95: finite(low),
         high95: finite(high),

@@ -8,7 +8,7 @@ const COLUMNS: &str = "run,set,duration_s,distance_m,final_along_m,final_across_
     rpe_1m_pairs";
 
 /// One row per run and parameter set; empty where a run is too short for pairs over 1 m.
-pub fn text(result: &Comparison) -> String {
+pub(super) fn text(result: &Comparison) -> String {
     let mut text = format!("{COLUMNS}\n");
     for path in &result.paths {
         for (index, set) in result.sets.iter().enumerate() {

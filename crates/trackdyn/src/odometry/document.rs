@@ -1,10 +1,9 @@
 //! The result of a replay as a file, schema `trackdyn.odometry/1`.
 
-use super::inputs::Inputs;
-use super::summary::end;
-use crate::tables::{ClockTable, rounded};
+use super::Odometry;
+use crate::Provenance;
+use crate::document::{ClockTable, Rounded, to_toml};
 use serde::Serialize;
-use trackdyn_estimate::Clock;
 use trackdyn_estimate::odometry::comparison::{Component, SpanErrors};
 use trackdyn_estimate::odometry::{Comparison, Estimate, ParameterSet, Span};
 
@@ -14,8 +13,8 @@ struct File<'a> {
     runs: Vec<i64>,
     #[serde(skip_serializing_if = "<[i64]>::is_empty")]
     runs_left_out: &'a [i64],
-    duration_s: f64,
-    distance_m: f64,
+    duration_s: Rounded,
+    distance_m: Rounded,
     confidence: String,
     source: Source<'a>,
     clock: ClockTable<'a>,
@@ -26,14 +25,14 @@ struct File<'a> {
 #[derive(Serialize)]
 struct Source<'a> {
     command: &'a str,
-    version: &'static str,
+    version: &'a str,
     recording: &'a str,
     robot: &'a str,
     fingerprint: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     time_s: Option<[f64; 2]>,
     vehicle: &'a str,
-    vehicle_fingerprint: &'a str,
+    vehicle_fingerprint: String,
 }
 
 #[derive(Serialize)]
@@ -49,8 +48,8 @@ struct SetTable {
     y_icr_m: f64,
     alpha_left: f64,
     alpha_right: f64,
-    end_position_rms_m: f64,
-    end_yaw_rms_rad: f64,
+    end_position_rms_m: Rounded,
+    end_yaw_rms_rad: Rounded,
 }
 
 #[derive(Serialize)]
@@ -62,8 +61,8 @@ struct SpanTable<'a> {
     length_s: Option<f64>,
     count: usize,
     blocks: usize,
-    mean_distance_m: f64,
-    mean_duration_s: f64,
+    mean_distance_m: Rounded,
+    mean_duration_s: Rounded,
     set: Vec<ErrorTable<'a>>,
 }
 
@@ -88,73 +87,64 @@ struct ComponentTable {
 
 #[derive(Serialize)]
 struct EstimateTable {
-    value: f64,
+    value: Rounded,
     #[serde(skip_serializing_if = "Option::is_none")]
-    low95: Option<f64>,
+    low95: Option<Rounded>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    high95: Option<f64>,
+    high95: Option<Rounded>,
 }
 
 /// The text of `odometry.toml`.
-///
-/// # Errors
-/// None in practice: numbers, texts and tables are TOML.
-pub fn text(
-    inputs: &Inputs,
-    clock: &Clock,
-    result: &Comparison,
-    command: &str,
-) -> Result<String, toml::ser::Error> {
-    let recording = &inputs.recording;
-    let file = File {
+pub(super) fn text(odometry: &Odometry, provenance: &Provenance) -> String {
+    let Odometry { comparison: result, clock, recording, vehicle, .. } = odometry;
+    to_toml(&File {
         schema: "trackdyn.odometry/1",
         runs: result.paths.iter().map(|path| path.run).collect(),
         runs_left_out: &result.left_out,
-        duration_s: rounded(result.duration()),
-        distance_m: rounded(result.distance()),
+        duration_s: Rounded(result.duration()),
+        distance_m: Rounded(result.distance()),
         confidence: format!("95 %, jackknife: {}", result.blocks.description()),
         source: Source {
-            command,
-            version: env!("CARGO_PKG_VERSION"),
+            command: &provenance.command,
+            version: &provenance.version,
             recording: recording.name(),
-            robot: recording.robot(),
+            robot: recording.motion().map_or("unknown", |motion| motion.robot()),
             fingerprint: recording.fingerprint(),
-            time_s: inputs.time,
-            vehicle: &inputs.vehicle,
-            vehicle_fingerprint: &inputs.vehicle_fingerprint,
+            time_s: odometry.time,
+            vehicle: vehicle.name(),
+            vehicle_fingerprint: vehicle.fingerprint(),
         },
         clock: ClockTable::of(clock),
         set: result
             .sets
             .iter()
             .enumerate()
-            .map(|(k, set)| of_set(inputs, result, k, set))
+            .map(|(index, set)| of_set(odometry, index, set))
             .collect(),
         span: result.spans.iter().map(|errors| of_span(result, errors)).collect(),
-    };
-    toml::to_string(&file)
+    })
 }
 
-fn of_set(inputs: &Inputs, result: &Comparison, index: usize, set: &ParameterSet) -> SetTable {
+fn of_set(odometry: &Odometry, index: usize, set: &ParameterSet) -> SetTable {
     let kinematics = set.kinematics();
     // A set without its alphas is of the file that has them.
-    let file = inputs.files.iter().find(|file| {
-        let without = file.set.without_alpha();
-        file.set.name() == set.name() || without.is_some_and(|of| of.name() == set.name())
+    let replayed = odometry.replayed.iter().find(|one| {
+        let without = one.set.without_alpha();
+        one.set.name() == set.name() || without.is_some_and(|of| of.name() == set.name())
     });
-    let [place, yaw] = end(result, index);
+    let [place, yaw] = odometry.error_at_end(index);
     SetTable {
         name: set.name().to_owned(),
-        file: file.map(|file| file.path.display().to_string()),
-        fingerprint: file.map(|file| file.fingerprint.clone()),
-        held_out: file.is_none_or(|file| inputs.is_held_out(file, result)),
+        file: replayed.map(|one| one.parameters.name().to_owned()),
+        fingerprint: replayed.map(|one| one.parameters.fingerprint()),
+        held_out: replayed.is_none_or(|one| odometry.is_held_out(one)),
         x_icr_left_m: kinematics.icrs.x_left,
         x_icr_right_m: kinematics.icrs.x_right,
         y_icr_m: kinematics.icrs.y,
         alpha_left: kinematics.alpha.left,
         alpha_right: kinematics.alpha.right,
-        end_position_rms_m: rounded(place),
-        end_yaw_rms_rad: rounded(yaw),
+        end_position_rms_m: Rounded(place),
+        end_yaw_rms_rad: Rounded(yaw),
     }
 }
 
@@ -180,8 +170,8 @@ fn of_span<'a>(result: &'a Comparison, errors: &SpanErrors) -> SpanTable<'a> {
         length_s,
         count: errors.count,
         blocks: errors.blocks,
-        mean_distance_m: rounded(errors.mean_distance),
-        mean_duration_s: rounded(errors.mean_duration),
+        mean_distance_m: Rounded(errors.mean_distance),
+        mean_duration_s: Rounded(errors.mean_duration),
         set: result.sets.iter().zip(&errors.sets).map(of_set).collect(),
     }
 }
@@ -197,6 +187,6 @@ fn of_component(component: &Component) -> ComponentTable {
 
 fn of_estimate(estimate: Estimate) -> EstimateTable {
     let [low95, high95] =
-        estimate.interval().map_or([None; 2], |ends| ends.map(|end| Some(rounded(end))));
-    EstimateTable { value: rounded(estimate.value), low95, high95 }
+        estimate.interval().map_or([None; 2], |ends| ends.map(|end| Some(Rounded(end))));
+    EstimateTable { value: Rounded(estimate.value), low95, high95 }
 }

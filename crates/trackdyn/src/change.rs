@@ -1,0 +1,122 @@
+//! What writing results does to a folder.
+
+use crate::Error;
+use std::path::{Path, PathBuf};
+use trackdyn_core::document::Document;
+use trackdyn_core::output::{OutputError, write_file};
+use trackdyn_model::kinematics::{KinematicsFile, Source};
+
+/// What was done to a file of a folder of results.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Change {
+    /// It was written.
+    Wrote(PathBuf),
+    /// It was of an earlier run and would be taken for this one's, which has none: it was removed.
+    Removed(PathBuf),
+    /// This run has none, but the one that is there has another origin: it was left alone.
+    Kept(PathBuf),
+}
+
+impl Change {
+    /// The file.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Wrote(path) | Self::Removed(path) | Self::Kept(path) => path,
+        }
+    }
+}
+
+/// Files that are being written into a folder.
+pub(crate) struct Folder<'a> {
+    path: &'a Path,
+    changes: Vec<Change>,
+}
+
+impl<'a> Folder<'a> {
+    /// The folder, made where it is missing.
+    ///
+    /// # Errors
+    /// [`Error::Output`].
+    pub(crate) fn prepare(path: &'a Path) -> Result<Self, Error> {
+        trackdyn_core::output::prepare_folder(path)?;
+        Ok(Self::existing(path))
+    }
+
+    /// The folder as it is, be it there or not.
+    pub(crate) fn existing(path: &'a Path) -> Self {
+        Self { path, changes: Vec::new() }
+    }
+
+    /// The path of a file in it.
+    pub(crate) fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Writes a file.
+    pub(crate) fn write(&mut self, name: &str, contents: &[u8]) -> Result<(), Error> {
+        let path = self.file(name);
+        write_file(&path, contents)?;
+        self.changes.push(Change::Wrote(path));
+        Ok(())
+    }
+
+    /// Notes a file that was written by others.
+    pub(crate) fn wrote(&mut self, name: &str) {
+        self.changes.push(Change::Wrote(self.file(name)));
+    }
+
+    /// Removes a kinematics file of which this run has none, if an earlier run of the same kind
+    /// wrote it.
+    pub(crate) fn remove_kinematics(
+        &mut self,
+        name: &str,
+        is_own: impl FnOnce(&Source) -> bool,
+    ) -> Result<(), Error> {
+        let path = self.file(name);
+        let file = Document::read(&path).ok();
+        let file = file.and_then(|document| KinematicsFile::from_document(&document).ok());
+        if file.is_some_and(|file| is_own(&file.source)) {
+            self.remove(path)?;
+        } else if path.exists() {
+            self.changes.push(Change::Kept(path));
+        }
+        Ok(())
+    }
+
+    /// Removes those of these files that are there, where the file `written`, which every run of a
+    /// use case writes, shows that there was an earlier one.
+    pub(crate) fn remove_earlier(
+        &mut self,
+        written: &str,
+        files: impl IntoIterator<Item = PathBuf>,
+    ) -> Result<(), Error> {
+        let written = self.file(written);
+        for path in files.into_iter().filter(|path| written.exists() && path.exists()) {
+            self.remove(path)?;
+        }
+        Ok(())
+    }
+
+    /// What was done.
+    pub(crate) fn changes(self) -> Vec<Change> {
+        self.changes
+    }
+
+    fn remove(&mut self, path: PathBuf) -> Result<(), Error> {
+        if let Err(cause) = std::fs::remove_file(&path) {
+            return Err(Error::NotRemoved { path, cause });
+        }
+        self.changes.push(Change::Removed(path));
+        Ok(())
+    }
+}
+
+/// Makes a folder and its parents where they are missing, and makes sure that files can be written
+/// into it: before work that takes long.
+///
+/// # Errors
+/// [`Error::Output`].
+pub fn prepare_folder(path: &Path) -> Result<(), Error> {
+    trackdyn_core::output::prepare_folder(path).map_err(|error: OutputError| error.into())
+}

@@ -1,0 +1,268 @@
+//! Which physics a model of the robot lacks, from recordings.
+
+mod claim;
+mod held_out;
+
+pub use claim::{Claim, Size};
+pub use held_out::{HeldOut, every_fourth};
+
+use crate::change::Folder;
+use crate::progress::Counter;
+use crate::recording::joined;
+use crate::{Change, Error, Observer, Provenance, Recording, Vehicle, unobserved};
+use std::path::{Path, PathBuf};
+use trackdyn_diagnose::diagnosis::STAGES;
+use trackdyn_diagnose::{DiagnosisFile, Evidence, Options, Resampling, Status};
+use trackdyn_model::kinematics::Source;
+use trackdyn_report::{Figure, Subject, diagnosis_figures, diagnosis_html};
+
+/// Name of the report.
+const REPORT: &str = "report.html";
+
+/// The one figure that not every diagnosis has: points have no path.
+const PATH: &str = "path.png";
+
+/// How to diagnose.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DiagnoseSettings {
+    /// Runs that nothing is fitted or chosen on: the result is judged on them.
+    pub held_out: HeldOut,
+    /// Draws and seed of the bootstrap behind the tests. Default: 2000 draws, seed 1.
+    pub resampling: Resampling,
+}
+
+/// Diagnoses recordings of one robot: where its model and they differ, and what physics was left
+/// out.
+///
+/// # Errors
+/// Those of [`Prepared::new`] and [`Prepared::run`].
+pub fn diagnose(
+    recordings: &[Recording],
+    vehicle: &Vehicle,
+    settings: &DiagnoseSettings,
+) -> Result<Diagnosis, Error> {
+    Prepared::new(recordings, vehicle, settings)?.run(&unobserved)
+}
+
+/// A diagnosis whose inputs and settings go together: what was seen, and what is held out of it.
+pub struct Prepared {
+    evidence: Evidence,
+    options: Options,
+    vehicle: Vehicle,
+    name: String,
+    place: String,
+    fingerprint: String,
+    runs: Option<String>,
+}
+
+impl Prepared {
+    /// Takes the evidence out of recordings of one robot, or of one table of steady operating
+    /// points. The effects of the vehicle are part of the model, and what its file says of
+    /// uncertainties is taken as known.
+    ///
+    /// # Errors
+    /// [`Error::NoRecording`]; [`Error::RecordingTwice`], for runs count as evidence of their own;
+    /// [`Error::PointsNotAlone`]; [`Error::HeldOut`] for runs that are not there,
+    /// [`Error::AllHeldOut`], [`Error::NoRunsToHoldOut`] for runs of a table; [`Error::Diagnose`]
+    /// for too little driving, or noise that is not known.
+    pub fn new(
+        recordings: &[Recording],
+        vehicle: &Vehicle,
+        settings: &DiagnoseSettings,
+    ) -> Result<Self, Error> {
+        let recording = joined(recordings)?;
+        let named = |cause| Error::Diagnose { recording: recording.place(), cause };
+        let (evidence, held_out, runs) = match (recording.points(), recording.motion()) {
+            (Some(points), _) => {
+                settings.held_out.refuse_runs()?;
+                let evidence = Evidence::of_points(points.points()).map_err(named)?;
+                let held_out = settings.held_out.of_points(evidence.runs().len());
+                (evidence, held_out, None)
+            }
+            (None, Some(motion)) => {
+                let held_out = settings.held_out.of_motion(motion)?;
+                let evidence = Evidence::of_recording(motion, vehicle.gauge()).map_err(named)?;
+                (evidence, held_out, Some(motion.run_list().to_string()))
+            }
+            (None, None) => return Err(Error::NoRecording),
+        };
+        Ok(Self {
+            evidence,
+            options: Options { held_out, resampling: settings.resampling },
+            vehicle: vehicle.clone(),
+            name: recording.name().to_owned(),
+            place: recording.place(),
+            fingerprint: recording.fingerprint().to_owned(),
+            runs,
+        })
+    }
+
+    /// What was seen.
+    pub fn evidence(&self) -> &Evidence {
+        &self.evidence
+    }
+
+    /// Indices of the runs that are held out.
+    pub fn held_out(&self) -> &[usize] {
+        &self.options.held_out
+    }
+
+    /// Diagnoses, observed: a part is a stage of the method.
+    ///
+    /// # Errors
+    /// [`Error::Diagnose`] for driving without turns, or a vehicle that cannot move as recorded;
+    /// [`Error::Cancelled`].
+    pub fn run(self, observer: &Observer) -> Result<Diagnosis, Error> {
+        let counter = Counter::new(observer, STAGES);
+        let progress = |at: trackdyn_diagnose::Progress| counter.reach(at.stage.name(), at.done);
+        let found = trackdyn_diagnose::diagnose(
+            &self.evidence,
+            self.vehicle.file(),
+            &self.options,
+            &progress,
+        );
+        counter.check()?;
+        let found =
+            found.map_err(|cause| Error::Diagnose { recording: self.place.clone(), cause })?;
+        let corrected = found.answer.corrected.clone().into();
+        Ok(Diagnosis { found, corrected, of: self })
+    }
+}
+
+/// What a model of the robot lacks.
+pub struct Diagnosis {
+    found: trackdyn_diagnose::Diagnosis,
+    corrected: Vehicle,
+    of: Prepared,
+}
+
+impl Diagnosis {
+    /// What it says in a word.
+    pub fn status(&self) -> Status {
+        self.found.answer.status
+    }
+
+    /// What was left out, with its sizes.
+    pub fn claims(&self) -> impl Iterator<Item = Claim<'_>> {
+        self.found.answer.missing.iter().map(Claim::of)
+    }
+
+    /// The vehicle that explains the recordings.
+    pub fn corrected_vehicle(&self) -> &Vehicle {
+        &self.corrected
+    }
+
+    /// All that was found.
+    pub fn found(&self) -> &trackdyn_diagnose::Diagnosis {
+        &self.found
+    }
+
+    /// What was seen, all runs of it.
+    pub fn evidence(&self) -> &Evidence {
+        &self.of.evidence
+    }
+
+    /// The vehicle as filed.
+    pub fn vehicle(&self) -> &Vehicle {
+        &self.of.vehicle
+    }
+
+    /// Name of what was diagnosed.
+    pub fn name(&self) -> &str {
+        &self.of.name
+    }
+
+    /// The diagnosis as a file (schema `trackdyn.diagnosis/1`).
+    pub fn file(&self, provenance: &Provenance) -> DiagnosisFile {
+        let source = Source {
+            vehicle: self.of.vehicle.name().to_owned(),
+            fingerprint: self.of.fingerprint.clone(),
+            recording: Some(self.of.name.clone()),
+            runs: self.of.runs.clone(),
+            seed: Some(self.of.options.resampling.seed),
+            ..provenance.source()
+        };
+        DiagnosisFile::new(&self.found, &source)
+    }
+
+    /// The text of `vehicle.corrected.toml`: the corrected vehicle, and in its first line where it
+    /// comes from.
+    pub fn corrected_toml(&self, provenance: &Provenance) -> String {
+        let head = format!(
+            "{} as a diagnosis of {} corrects it (trackdyn {}, vehicle {}, recording {}).",
+            self.of.vehicle.name(),
+            self.of.name,
+            provenance.version,
+            self.of.vehicle.fingerprint(),
+            self.of.fingerprint,
+        );
+        // a name may hold a line break, which would end the comment
+        let head = head.replace(char::is_control, " ");
+        format!("# {head}\n{}", self.corrected.to_toml())
+    }
+
+    /// The figures, and the page that carries them.
+    ///
+    /// # Errors
+    /// [`Error::Figure`]; no result is the cause of one.
+    pub fn report(&self, provenance: &Provenance) -> Result<Report, Error> {
+        let caption = format!(
+            "trackdyn {}, recording {} {}, vehicle {} {}",
+            provenance.version,
+            self.of.name,
+            self.of.fingerprint,
+            self.of.vehicle.name(),
+            self.of.vehicle.fingerprint()
+        );
+        let subject = Subject {
+            diagnosis: &self.found,
+            vehicle: self.of.vehicle.file(),
+            file: &self.file(provenance),
+            name: &self.of.name,
+            caption: &caption,
+        };
+        let figures = diagnosis_figures(&subject);
+        let html = diagnosis_html(&subject, &figures)?;
+        Ok(Report { figures, html })
+    }
+
+    /// Writes `diagnosis.toml`, `vehicle.corrected.toml`, `report.html` and its figures.
+    ///
+    /// # Errors
+    /// [`Error::Output`], [`Error::NotRemoved`], [`Error::Figure`].
+    pub fn write(
+        &self,
+        folder: impl AsRef<Path>,
+        provenance: &Provenance,
+    ) -> Result<Vec<Change>, Error> {
+        let mut folder = Folder::prepare(folder.as_ref())?;
+        folder.write("diagnosis.toml", self.file(provenance).to_toml().as_bytes())?;
+        folder.write(CORRECTED, self.corrected_toml(provenance).as_bytes())?;
+        let Report { figures, html } = self.report(provenance)?;
+        for figure in &figures {
+            folder.write(&figure.file(), &figure.to_small_png()?)?;
+        }
+        if figures.iter().all(|figure| figure.file() != PATH) {
+            let path = folder.file(PATH);
+            folder.remove_earlier(REPORT, [path])?;
+        }
+        folder.write(REPORT, html.as_bytes())?;
+        Ok(folder.changes())
+    }
+}
+
+/// Name of the file of the corrected vehicle.
+const CORRECTED: &str = "vehicle.corrected.toml";
+
+/// The file of the corrected vehicle that a diagnosis wrote beside its own file.
+pub fn corrected_beside(diagnosis: &Path) -> PathBuf {
+    diagnosis.with_file_name(CORRECTED)
+}
+
+/// A report: a page that carries its figures.
+pub struct Report {
+    /// The figures, in the order of the page.
+    pub figures: Vec<Figure>,
+    /// The page, HTML.
+    pub html: String,
+}

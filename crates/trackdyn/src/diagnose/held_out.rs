@@ -1,0 +1,65 @@
+//! Which runs are held out.
+
+use crate::Error;
+use trackdyn_recording::{Recording as Motion, RunList};
+
+/// Runs that nothing is fitted or chosen on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum HeldOut {
+    /// [Every fourth](every_fourth) where there are enough, of a table every fourth point.
+    #[default]
+    EveryFourth,
+    /// None: the result is judged on what it was fitted to.
+    None,
+    /// These.
+    Runs(RunList),
+}
+
+impl HeldOut {
+    /// Indices of the runs of a recording.
+    pub(super) fn of_motion(&self, motion: &Motion) -> Result<Vec<usize>, Error> {
+        let count = motion.runs().len();
+        let held_out = match self {
+            Self::EveryFourth => every_fourth(count),
+            Self::None => Vec::new(),
+            Self::Runs(list) => motion
+                .indices_of(list)
+                .map_err(|cause| Error::HeldOut { runs: list.clone(), cause })?,
+        };
+        if held_out.len() == count {
+            return Err(Error::AllHeldOut);
+        }
+        Ok(held_out)
+    }
+
+    /// Indices of so many points of a table.
+    pub(super) fn of_points(&self, count: usize) -> Vec<usize> {
+        match self {
+            Self::EveryFourth => every_fourth(count),
+            Self::None | Self::Runs(_) => Vec::new(),
+        }
+    }
+
+    /// Refuses runs, where a table of steady operating points has none.
+    pub(super) fn refuse_runs(&self) -> Result<(), Error> {
+        match self {
+            Self::Runs(list) => Err(Error::NoRunsToHoldOut { runs: list.clone() }),
+            Self::EveryFourth | Self::None => Ok(()),
+        }
+    }
+}
+
+/// Fewest runs of which some are held out unless the caller says otherwise: of fewer, none can be
+/// spared.
+const FEWEST: usize = 8;
+
+/// The rule by which runs are held out unless the caller says otherwise: indices of every fourth of
+/// so many runs, or points of a table, where there are eight or more.
+///
+/// ```
+/// assert_eq!(trackdyn::diagnose::every_fourth(9), [3, 7]);
+/// assert!(trackdyn::diagnose::every_fourth(7).is_empty());
+/// ```
+pub fn every_fourth(runs: usize) -> Vec<usize> {
+    if runs < FEWEST { Vec::new() } else { (3..runs).step_by(4).collect() }
+}

@@ -1,0 +1,291 @@
+//! What a use case cannot do.
+
+use std::path::PathBuf;
+use trackdyn_core::document::DocumentError;
+use trackdyn_core::output::OutputError;
+use trackdyn_drive::sensors::Preset;
+use trackdyn_model::{EffectError, VehicleError};
+use trackdyn_recording::RunList;
+
+/// What a use case cannot do, and why.
+///
+/// Messages say what happened and where, then what was expected. Where a setting is to blame they
+/// begin with its name: see [`Error::setting`].
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The observer asked to stop.
+    #[error("stopped before the end")]
+    Cancelled,
+    /// A TOML file that is not accepted.
+    #[error(transparent)]
+    Document(Box<DocumentError>),
+    /// A file or folder cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A file of an earlier run cannot be removed.
+    #[error("{}: {cause}", path.display())]
+    NotRemoved {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        cause: std::io::Error,
+    },
+    /// A file or folder cannot be read.
+    #[error("{}: {cause}", path.display())]
+    Unreadable {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        cause: std::io::Error,
+    },
+
+    /// A recording cannot be read or written.
+    #[error(transparent)]
+    Recording(#[from] trackdyn_recording::Error),
+    /// An option of bags for what is no bag.
+    #[error("{setting}: {} is no bag: expected with rosbag2 only", path.display())]
+    NotABag {
+        /// The option.
+        setting: &'static str,
+        /// The recording.
+        path: PathBuf,
+    },
+    /// A trajectory without track speeds.
+    #[error(
+        "{}: a trajectory has no track speeds: expected a table of them (tracks)",
+        path.display()
+    )]
+    NoTracks {
+        /// The trajectory.
+        path: PathBuf,
+    },
+    /// Track speeds for a recording that has its own.
+    #[error(
+        "tracks: {} has track speeds of its own: only a .tum or .txt trajectory needs them",
+        path.display()
+    )]
+    TracksNotNeeded {
+        /// The recording.
+        path: PathBuf,
+    },
+    /// Settings that a table of steady operating points has no use for: it has no runs and no time.
+    #[error(
+        "{}: {} holds steady points: expected with recordings of motion only",
+        settings.join(", "),
+        table.display()
+    )]
+    MotionOnly {
+        /// The settings.
+        settings: Vec<&'static str>,
+        /// The table.
+        table: PathBuf,
+    },
+    /// A table of steady operating points where motion is needed.
+    #[error("{recording}: holds steady points: expected a recording of motion")]
+    NoMotion {
+        /// The table.
+        recording: String,
+    },
+    /// Runs that are not there.
+    #[error("runs: {0}")]
+    Runs(#[source] trackdyn_recording::Error),
+    /// A time in which nothing is.
+    #[error("time: {0}")]
+    Time(#[source] trackdyn_recording::Error),
+    /// Nothing to work on.
+    #[error("no recording: expected at least one")]
+    NoRecording,
+    /// A recording that is given twice.
+    #[error("{recording}: expected each recording once: its runs count as evidence of their own")]
+    RecordingTwice {
+        /// The recording.
+        recording: String,
+    },
+    /// A table of steady operating points among several recordings.
+    #[error("a table of steady points is diagnosed alone: expected one")]
+    PointsNotAlone,
+
+    /// Runs to hold out that are not there.
+    #[error("held_out {runs}: {cause}")]
+    HeldOut {
+        /// The runs.
+        runs: RunList,
+        /// Which of them is not there.
+        cause: trackdyn_recording::Error,
+    },
+    /// Nothing is left to fit.
+    #[error("held_out: expected at least one run to fit")]
+    AllHeldOut,
+    /// Runs of what has none.
+    #[error("held_out {runs}: a table of steady points has no runs: expected none")]
+    NoRunsToHoldOut {
+        /// The runs.
+        runs: RunList,
+    },
+
+    /// An effect that the catalogue does not have, or not so.
+    #[error(transparent)]
+    Effect(#[from] EffectError),
+    /// An effect that is given twice.
+    #[error("effect {id}: given twice: expected once, with all its parameters")]
+    EffectTwice {
+        /// The effect.
+        id: &'static str,
+    },
+    /// A centre of gravity with which the vehicle does not stand.
+    #[error("cog: {0}")]
+    CentreOfGravity(#[source] VehicleError),
+    /// A reference case that does not fit its vehicle.
+    #[error("{reference}: case \"{case}\": {cause}")]
+    Case {
+        /// The reference file.
+        reference: String,
+        /// Name of the case.
+        case: String,
+        /// What does not fit.
+        cause: Box<Error>,
+    },
+
+    /// A recording with too little in it to identify parameters.
+    #[error("{recording}: {cause}")]
+    Identify {
+        /// The recording.
+        recording: String,
+        /// What is missing.
+        cause: trackdyn_estimate::Error,
+    },
+    /// A recording that cannot be replayed.
+    #[error("{recording}: {cause}")]
+    Odometry {
+        /// The recording.
+        recording: String,
+        /// Why.
+        cause: trackdyn_estimate::odometry::Error,
+    },
+    /// A recording that cannot be diagnosed.
+    #[error("{recording}: {cause}")]
+    Diagnose {
+        /// The recording.
+        recording: String,
+        /// Why.
+        cause: trackdyn_diagnose::Error,
+    },
+    /// A vehicle for which nothing can be planned, or not so.
+    #[error("{vehicle}: {cause}")]
+    Plan {
+        /// The vehicle.
+        vehicle: String,
+        /// Why.
+        cause: trackdyn_diagnose::Error,
+    },
+
+    /// Driving, sensors or a path that cannot be read or used.
+    #[error(transparent)]
+    Driving(#[from] trackdyn_drive::Error),
+    /// Sensors that are neither a preset nor a file.
+    #[error(
+        "sensors {choice}: expected {} or a file that exists",
+        Preset::ALL.map(Preset::name).join(", ")
+    )]
+    NoSensors {
+        /// What was asked for.
+        choice: String,
+    },
+    /// A setting of driving that is generated, for driving that is not.
+    #[error("{setting}: {driving} says it: expected with a schedule that is generated")]
+    GeneratedOnly {
+        /// The setting.
+        setting: &'static str,
+        /// The driving.
+        driving: String,
+    },
+    /// A folder with files that a simulation would replace, and that none wrote.
+    #[error(
+        "out {}: holds a {file} that was not simulated: expected another folder",
+        folder.display()
+    )]
+    NotSimulated {
+        /// The folder.
+        folder: PathBuf,
+        /// The file.
+        file: &'static str,
+    },
+    /// A run that cannot be simulated.
+    #[error("run {run}: {cause}")]
+    Run {
+        /// Its number.
+        run: i64,
+        /// Why.
+        cause: Box<dyn std::error::Error + Send + Sync>,
+    },
+    /// Parameters that no robot has.
+    #[error("{file}: {key} = {value}: expected at most {most} in size")]
+    TooLarge {
+        /// The parameters.
+        file: String,
+        /// Which of them.
+        key: &'static str,
+        /// Its value, m or 1.
+        value: f64,
+        /// The largest that is accepted.
+        most: f64,
+    },
+    /// A robot that turns about a point too far from its middle to follow a path with.
+    #[error(
+        "{file}: y_icr_m = {y}: expected at most {most} m from the middle, to follow a path with"
+    )]
+    IcrTooFar {
+        /// The parameters.
+        file: String,
+        /// The point, m forward of the middle.
+        y: f64,
+        /// The farthest that is accepted, m.
+        most: f64,
+    },
+    /// A speed that the tracks do not reach.
+    #[error("speed {speed}: expected at most that of the tracks, {most} m/s")]
+    TooFast {
+        /// The speed, m/s.
+        speed: f64,
+        /// That of the tracks, m/s.
+        most: f64,
+    },
+
+    /// A setting that an export cannot be made with.
+    #[error("{0}")]
+    Export(#[from] trackdyn_export::Error),
+    /// An odometry file from which no residuals can be taken.
+    #[error("{0}")]
+    Residuals(String),
+    /// A figure that could not be drawn.
+    #[error(transparent)]
+    Figure(#[from] trackdyn_report::Error),
+}
+
+impl Error {
+    /// The setting that is to be changed, where the message begins with its name.
+    pub fn setting(&self) -> Option<&'static str> {
+        match self {
+            Self::NotABag { setting, .. } | Self::GeneratedOnly { setting, .. } => Some(setting),
+            Self::TracksNotNeeded { .. } => Some("tracks"),
+            Self::Runs(_) => Some("runs"),
+            Self::Time(_) => Some("time"),
+            Self::HeldOut { .. } | Self::AllHeldOut | Self::NoRunsToHoldOut { .. } => {
+                Some("held_out")
+            }
+            Self::EffectTwice { .. } => Some("effect"),
+            Self::CentreOfGravity(_) => Some("cog"),
+            Self::NoSensors { .. } => Some("sensors"),
+            Self::NotSimulated { .. } => Some("out"),
+            Self::TooFast { .. } => Some("speed"),
+            _ => None,
+        }
+    }
+}
+
+impl From<DocumentError> for Error {
+    fn from(error: DocumentError) -> Self {
+        Self::Document(Box::new(error))
+    }
+}

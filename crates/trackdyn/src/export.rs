@@ -1,0 +1,193 @@
+//! Kinematic parameters as files of other programs: ROS 2, URDF, Gazebo.
+
+use crate::change::Folder;
+use crate::{Change, Error, Parameters, Provenance};
+use std::path::Path;
+use trackdyn_core::document::{Document, DocumentError};
+use trackdyn_export::ros2::{Published, Wheels};
+use trackdyn_export::{EquivalentDrive, Frames, Name, NodeName, Residuals, TextFile};
+
+/// The frames of a robot, and where its ICRs are measured from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameSettings {
+    /// Frame of the odometry. Default: `odom`.
+    pub odom: Name,
+    /// Frame midway between the ICRs, the parent of the base frame. Default: `icr_link`.
+    pub icr: Name,
+    /// Root link of the robot's URDF. Default: `base_link`.
+    pub base: Name,
+    /// Origin of the ICRs in the base frame, m, forward and left: of a map the centre of the
+    /// contact area of both tracks, of a recording the frame of its poses. Default: the origin of
+    /// the base frame.
+    pub contact_centre: [f64; 2],
+}
+
+impl Default for FrameSettings {
+    fn default() -> Self {
+        let [odom, icr, base] = ["odom", "icr_link", "base_link"].map(name);
+        Self { odom, icr, base, contact_centre: [0.0, 0.0] }
+    }
+}
+
+impl FrameSettings {
+    fn frames(&self) -> Result<Frames, Error> {
+        let Self { odom, icr, base, contact_centre } = self.clone();
+        Ok(Frames::new(odom, icr, base, contact_centre)?)
+    }
+}
+
+/// What a kinematics file does not know of a robot that ROS 2 drives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ros2Settings {
+    /// The frames.
+    pub frames: FrameSettings,
+    /// Belt travel per radian of the wheel joint, m: the pitch radius of the sprocket. There is no
+    /// default.
+    pub wheel_radius: f64,
+    /// Wheel joints on the left. Default: `left_wheel_joint`.
+    pub left_wheels: Vec<Name>,
+    /// Wheel joints on the right. Default: `right_wheel_joint`.
+    pub right_wheels: Vec<Name>,
+    /// Name of the controller. Default: `diff_drive_controller`.
+    pub controller: NodeName,
+    /// How wrong odometry is with these parameters, for the covariances. Default: unknown, and none
+    /// are written.
+    pub residuals: Option<Residuals>,
+    /// Rate at which the controller publishes, Hz.
+    pub publish_rate: f64,
+}
+
+impl Ros2Settings {
+    /// The usual names, for this pitch radius of the sprocket, m.
+    ///
+    /// # Panics
+    /// Never: the names are names.
+    pub fn new(wheel_radius: f64) -> Self {
+        Self {
+            frames: FrameSettings::default(),
+            wheel_radius,
+            left_wheels: vec![name("left_wheel_joint")],
+            right_wheels: vec![name("right_wheel_joint")],
+            controller: "diff_drive_controller".parse().expect("a name of a node"),
+            residuals: None,
+            publish_rate: Published::DEFAULT_RATE,
+        }
+    }
+}
+
+/// Links of the tracks of a robot in Gazebo.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GzSettings {
+    /// Links on the left. Default: `left_track`.
+    pub left_tracks: Vec<Name>,
+    /// Links on the right. Default: `right_track`.
+    pub right_tracks: Vec<Name>,
+}
+
+impl Default for GzSettings {
+    fn default() -> Self {
+        let [left, right] = ["left_track", "right_track"].map(name);
+        Self { left_tracks: vec![left], right_tracks: vec![right] }
+    }
+}
+
+fn name(text: &str) -> Name {
+    text.parse().expect("a name")
+}
+
+/// Parameters that are being exported.
+#[derive(Clone, Debug)]
+pub struct Export {
+    drive: EquivalentDrive,
+    provenance: trackdyn_export::Provenance,
+}
+
+impl Export {
+    /// The export of parameters.
+    ///
+    /// # Errors
+    /// None for parameters that were read or computed.
+    pub fn new(parameters: &Parameters, provenance: &Provenance) -> Result<Self, Error> {
+        let Provenance { command, version } = provenance.clone();
+        Ok(Self {
+            drive: EquivalentDrive::from_document(parameters.document())?,
+            provenance: trackdyn_export::Provenance {
+                source: parameters.name().to_owned(),
+                fingerprint: parameters.fingerprint(),
+                version,
+                command,
+            },
+        })
+    }
+
+    /// The ideal differential drive that the robot is, seen midway between its ICRs.
+    pub fn drive(&self) -> &EquivalentDrive {
+        &self.drive
+    }
+
+    /// How wrong odometry is with these parameters, from an odometry file (schema
+    /// `trackdyn.odometry/1`) of a replay with them, best of driving that they were not fitted to.
+    ///
+    /// # Errors
+    /// [`Error::Document`], which names file, line and key; [`Error::Export`] for a replay with
+    /// others.
+    pub fn residuals(&self, odometry: &Document) -> Result<Residuals, Error> {
+        let residuals = Residuals::from_document(odometry, &self.provenance.fingerprint);
+        residuals.map_err(|error| match error.downcast::<trackdyn_export::Error>() {
+            Ok(error) => Error::Export(*error),
+            Err(error) => match error.downcast::<DocumentError>() {
+                Ok(error) => Error::Document(error),
+                Err(other) => Error::Residuals(other.to_string()),
+            },
+        })
+    }
+
+    /// Parameters of ros2_control's `diff_drive_controller`, and a launch file that ties its frame
+    /// to the robot.
+    ///
+    /// # Errors
+    /// [`Error::Export`], with the setting that is not accepted.
+    pub fn ros2(&self, settings: &Ros2Settings) -> Result<Vec<TextFile>, Error> {
+        let frames = settings.frames.frames()?;
+        let (left, right) = (settings.left_wheels.clone(), settings.right_wheels.clone());
+        let wheels = Wheels::new(settings.wheel_radius, left, right)?;
+        let residuals = settings.residuals.clone();
+        let published =
+            residuals.map(|of| Published::new(of, settings.publish_rate)).transpose()?;
+        let (controller, provenance) = (&settings.controller, &self.provenance);
+        let published = published.as_ref();
+        let drive = &self.drive;
+        Ok(trackdyn_export::ros2::files(drive, &frames, &wheels, controller, published, provenance))
+    }
+
+    /// The `TrackedVehicle` plugin of Gazebo's gz-sim, SDF.
+    ///
+    /// # Errors
+    /// [`Error::Export`], with the setting that is not accepted.
+    pub fn gz(&self, settings: &GzSettings) -> Result<Vec<TextFile>, Error> {
+        let GzSettings { left_tracks, right_tracks } = settings;
+        let (drive, provenance) = (&self.drive, &self.provenance);
+        Ok(vec![trackdyn_export::gz::plugin(drive, left_tracks, right_tracks, provenance)?])
+    }
+
+    /// The frame at which the robot is an ideal differential drive, a fragment of URDF or xacro.
+    ///
+    /// # Errors
+    /// [`Error::Export`], with the setting that is not accepted.
+    pub fn urdf(&self, settings: &FrameSettings) -> Result<Vec<TextFile>, Error> {
+        let frames = settings.frames()?;
+        Ok(vec![trackdyn_export::urdf::fragment(&self.drive, &frames, &self.provenance)])
+    }
+}
+
+/// Writes exported files into a folder.
+///
+/// # Errors
+/// [`Error::Output`].
+pub fn write(files: &[TextFile], folder: impl AsRef<Path>) -> Result<Vec<Change>, Error> {
+    let mut folder = Folder::prepare(folder.as_ref())?;
+    for TextFile { name, text } in files {
+        folder.write(name, text.as_bytes())?;
+    }
+    Ok(folder.changes())
+}

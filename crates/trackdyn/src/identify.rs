@@ -1,0 +1,186 @@
+//! Kinematic parameters from a recording.
+
+mod document;
+mod motion;
+mod points;
+
+pub use motion::MotionFit;
+pub use points::PointsFit;
+
+use crate::change::Folder;
+use crate::progress::Counter;
+use crate::{Change, Error, Observer, Parameters, Provenance, Recording, Vehicle, unobserved};
+use std::path::Path;
+use trackdyn_estimate::genetic::GeneticOptions;
+use trackdyn_estimate::identification::Options;
+use trackdyn_estimate::{Nuisance, identify_unless_stopped};
+use trackdyn_recording::Recording as Motion;
+
+/// Names of the kinematics files of the two fits: the ICRs alone, and with the factors on the track
+/// speeds.
+pub const FILES: [&str; 2] = ["kinematics.toml", "kinematics_alpha.toml"];
+
+/// How to identify.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct IdentifySettings {
+    /// Time by which poses lag behind the track speeds, s. Default: estimated.
+    pub tau: Option<f64>,
+    /// Use only segments before which the tracks ran steadily for this time, s. Default: all.
+    pub settle: Option<f64>,
+    /// Properties of the pose sensor to fit beside the ICRs, where the recording shows them.
+    /// Default: none.
+    pub nuisances: Vec<Nuisance>,
+    /// The genetic algorithm.
+    pub genetic: GeneticOptions,
+}
+
+impl IdentifySettings {
+    /// Names of the settings that count for recordings of motion only, where they are set.
+    fn of_motion(&self) -> Vec<&'static str> {
+        let given = [
+            ("tau", self.tau.is_some()),
+            ("settle", self.settle.is_some()),
+            ("nuisances", !self.nuisances.is_empty()),
+        ];
+        given.into_iter().filter_map(|(name, given)| given.then_some(name)).collect()
+    }
+
+    /// Individuals that are settled each once, in order.
+    fn nuisances(&self) -> Vec<Nuisance> {
+        let mut nuisances = self.nuisances.clone();
+        nuisances.sort_unstable();
+        nuisances.dedup();
+        nuisances
+    }
+}
+
+/// What a recording says of the kinematic parameters.
+#[derive(Clone, Debug)]
+pub enum Identification {
+    /// From a recording of motion: spin test, genetic algorithm and least squares.
+    Motion(Box<MotionFit>),
+    /// From a table of steady operating points: least squares.
+    Points(Box<PointsFit>),
+}
+
+/// Identifies the kinematic parameters of a robot.
+///
+/// # Errors
+/// Those of [`Prepared::new`] and [`Prepared::run`].
+pub fn identify(
+    recording: &Recording,
+    vehicle: &Vehicle,
+    settings: &IdentifySettings,
+) -> Result<Identification, Error> {
+    Prepared::new(recording, vehicle, settings)?.run(&unobserved)
+}
+
+/// An identification whose inputs and settings go together.
+#[derive(Clone, Copy, Debug)]
+pub struct Prepared<'a> {
+    recording: &'a Recording,
+    vehicle: &'a Vehicle,
+    settings: &'a IdentifySettings,
+}
+
+impl<'a> Prepared<'a> {
+    /// Checks that inputs and settings go together.
+    ///
+    /// # Errors
+    /// [`Error::MotionOnly`] for settings that a table of steady operating points has no use for.
+    pub fn new(
+        recording: &'a Recording,
+        vehicle: &'a Vehicle,
+        settings: &'a IdentifySettings,
+    ) -> Result<Self, Error> {
+        if let Some(points) = recording.points() {
+            points.refuse(settings.of_motion())?;
+        }
+        Ok(Self { recording, vehicle, settings })
+    }
+
+    /// Identifies, observed: a part is a generation of the genetic algorithm, which runs twice.
+    ///
+    /// # Errors
+    /// [`Error::Identify`] for a recording with too little in it, [`Error::Cancelled`].
+    pub fn run(&self, observer: &Observer) -> Result<Identification, Error> {
+        let Self { recording, vehicle, settings } = *self;
+        if let Some(points) = recording.points() {
+            return Ok(Identification::Points(Box::new(PointsFit::new(points, vehicle))));
+        }
+        let motion: &Motion = recording.expect_motion()?;
+        let options = Options {
+            gauge: vehicle.gauge(),
+            tau: settings.tau,
+            settle: settings.settle,
+            nuisances: settings.nuisances(),
+            genetic: settings.genetic,
+        };
+        let counter = Counter::new(observer, 2 * options.genetic.generations);
+        let progress = |_| counter.advance("genetic algorithm", 1);
+        let found =
+            identify_unless_stopped(motion, &options, &progress).map_err(|cause| match cause {
+                trackdyn_estimate::Error::Cancelled => Error::Cancelled,
+                cause => Error::Identify { recording: recording.place(), cause },
+            })?;
+        let fit = MotionFit::new(found, recording, motion, vehicle, settings.genetic.seed);
+        Ok(Identification::Motion(Box::new(fit)))
+    }
+}
+
+impl Identification {
+    /// The parameters of the ICRs alone, and with the factors on the track speeds; none where the
+    /// recording does not determine them.
+    pub fn fits(&self, provenance: &Provenance) -> [Option<Parameters>; 2] {
+        let files = match self {
+            Self::Motion(fit) => fit.files(provenance),
+            Self::Points(fit) => fit.files(provenance),
+        };
+        let [icrs, with_alphas] = files;
+        [(icrs, FILES[0]), (with_alphas, FILES[1])]
+            .map(|(file, name)| file.map(|file| Parameters::of(name, file)))
+    }
+
+    /// The parameters of the ICRs, with the track speeds as measured; none where the recording does
+    /// not determine them.
+    pub fn parameters(&self) -> Option<Parameters> {
+        let [icrs, _] = self.fits(&Provenance::default());
+        icrs
+    }
+
+    /// The parameters with the factors on the track speeds; none where the recording does not
+    /// determine them.
+    pub fn parameters_with_alphas(&self) -> Option<Parameters> {
+        let [_, with_alphas] = self.fits(&Provenance::default());
+        with_alphas
+    }
+
+    /// Whether the recording determines at least one of both.
+    pub fn is_determined(&self) -> bool {
+        self.fits(&Provenance::default()).iter().any(Option::is_some)
+    }
+
+    /// Writes `kinematics.toml` and `kinematics_alpha.toml`, each where the recording determines
+    /// it, and of a recording of motion `identification.toml`. A file of an earlier fit goes where
+    /// this one determines none; that of a map stays.
+    ///
+    /// # Errors
+    /// [`Error::Output`], [`Error::NotRemoved`].
+    pub fn write(
+        &self,
+        folder: impl AsRef<Path>,
+        provenance: &Provenance,
+    ) -> Result<Vec<Change>, Error> {
+        let mut folder = Folder::prepare(folder.as_ref())?;
+        if let Self::Motion(fit) = self {
+            folder.write("identification.toml", fit.to_toml(provenance).as_bytes())?;
+        }
+        for (parameters, name) in self.fits(provenance).iter().zip(FILES) {
+            match parameters {
+                Some(parameters) => folder.write(name, parameters.document().text().as_bytes())?,
+                None => folder.remove_kinematics(name, |source| source.recording.is_some())?,
+            }
+        }
+        Ok(folder.changes())
+    }
+}

@@ -1,0 +1,225 @@
+//! Dead reckoning of a recording with several sets of parameters.
+
+mod document;
+mod names;
+mod runs_table;
+
+use crate::change::Folder;
+use crate::{Change, Error, Figure, Parameters, Part, Provenance, Recording, Vehicle};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use trackdyn_estimate::Clock;
+use trackdyn_estimate::odometry::{Comparison, ParameterSet, tum};
+use trackdyn_model::Kinematics;
+use trackdyn_recording::RunList;
+
+/// Name of the document that every replay writes.
+const FILE: &str = "odometry.toml";
+
+/// Largest coordinate of an ICR, m, and largest alpha, 1, that a replay takes for meant.
+const LARGEST: f64 = 1e3;
+
+/// How to replay.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OdometrySettings {
+    /// The part of the recording to replay. Its clock is estimated from all of it. Default: all.
+    pub part: Part,
+    /// Time by which poses lag behind the track speeds, s. Default: estimated.
+    pub tau: Option<f64>,
+}
+
+/// Where the robot would be if parameters were true, against where it was: for the ideal
+/// differential drive and several sets of parameters.
+#[derive(Clone, Debug)]
+pub struct Odometry {
+    /// The replays and their errors. Its first set is the ideal drive.
+    pub comparison: Comparison,
+    /// The clock offset, and where it comes from.
+    pub clock: Clock,
+    replayed: Vec<Replayed>,
+    recording: Recording,
+    vehicle: Vehicle,
+    time: Option<[f64; 2]>,
+}
+
+/// Parameters that were replayed, under a name that no other set has.
+#[derive(Clone, Debug)]
+struct Replayed {
+    parameters: Parameters,
+    set: ParameterSet,
+}
+
+/// Replays a recording with the ideal drive of the vehicle's gauge, and with each of these
+/// parameters, as they are and without their factors on the track speeds.
+///
+/// # Errors
+/// [`Error::NoMotion`] for a table of steady operating points, [`Error::TooLarge`] for parameters
+/// that no robot has, [`Error::Runs`], [`Error::Time`], [`Error::Odometry`].
+pub fn odometry(
+    recording: &Recording,
+    vehicle: &Vehicle,
+    parameters: &[Parameters],
+    settings: &OdometrySettings,
+) -> Result<Odometry, Error> {
+    let motion = recording.expect_motion()?;
+    let names = names::names(parameters.iter().map(|one| Path::new(one.name())));
+    let replayed: Vec<Replayed> = parameters
+        .iter()
+        .zip(names)
+        .map(|(parameters, name)| Replayed::new(parameters, name))
+        .collect::<Result<_, _>>()?;
+    let part = recording.part(&settings.part)?;
+    // All of the recording tells most of its clocks.
+    let clock = Clock::of(motion, settings.tau);
+    let of_file = |one: &Replayed| [Some(one.set.clone()), one.set.without_alpha()];
+    let sets = replayed.iter().flat_map(of_file).flatten();
+    let sets = std::iter::once(ParameterSet::ideal(vehicle.gauge())).chain(sets).collect();
+    let comparison = Comparison::new(part.expect_motion()?, sets, clock.tau());
+    let comparison =
+        comparison.map_err(|cause| Error::Odometry { recording: recording.place(), cause })?;
+    Ok(Odometry {
+        comparison,
+        clock,
+        replayed,
+        recording: recording.clone(),
+        vehicle: vehicle.clone(),
+        time: part.time(),
+    })
+}
+
+impl Odometry {
+    /// The recording, all of it.
+    pub fn recording(&self) -> &Recording {
+        &self.recording
+    }
+
+    /// The vehicle whose gauge is that of the ideal drive.
+    pub fn vehicle(&self) -> &Vehicle {
+        &self.vehicle
+    }
+
+    /// Parameters that were fitted to some of the driving that is replayed here, which makes their
+    /// errors look smaller.
+    pub fn fitted_to_it(&self) -> impl Iterator<Item = &Parameters> {
+        self.replayed.iter().filter(|one| !self.is_held_out(one)).map(|one| &one.parameters)
+    }
+
+    /// Root mean square over runs of the errors of place, m, and yaw, rad, at the end, of a set.
+    pub fn error_at_end(&self, set: usize) -> [f64; 2] {
+        let paths = self.comparison.paths.iter();
+        let last: Vec<_> =
+            paths.filter_map(|path| path.errors(set)).map(|errors| errors.last).collect();
+        #[expect(clippy::cast_precision_loss, reason = "a number of runs")]
+        let count = last.len().max(1) as f64;
+        let places: f64 = last.iter().map(|last| last.position().powi(2)).sum();
+        let yaws: f64 = last.iter().map(|last| last.yaw * last.yaw).sum();
+        [(places / count).sqrt(), (yaws / count).sqrt()]
+    }
+
+    /// The text of `odometry.toml` (schema `trackdyn.odometry/1`).
+    pub fn to_toml(&self, provenance: &Provenance) -> String {
+        document::text(self, provenance)
+    }
+
+    /// Errors run by run, CSV.
+    pub fn runs_csv(&self) -> String {
+        runs_table::text(&self.comparison)
+    }
+
+    /// The replay as a figure.
+    pub fn figure(&self, provenance: &Provenance) -> Figure {
+        let caption = format!(
+            "trackdyn {}, recording {}, vehicle {}",
+            provenance.version,
+            self.recording.fingerprint(),
+            self.vehicle.fingerprint()
+        );
+        trackdyn_report::odometry(&self.comparison, self.recording.name(), &caption)
+    }
+
+    /// Writes `odometry.png`, `runs.csv`, `odometry.toml` and the paths into `trajectories`. Paths
+    /// of an earlier replay go where this one has none.
+    ///
+    /// # Errors
+    /// [`Error::Output`], [`Error::NotRemoved`], [`Error::Unreadable`], [`Error::Figure`].
+    pub fn write(
+        &self,
+        folder: impl AsRef<Path>,
+        provenance: &Provenance,
+    ) -> Result<Vec<Change>, Error> {
+        let mut folder = Folder::prepare(folder.as_ref())?;
+        folder.write("odometry.png", &self.figure(provenance).to_png()?)?;
+        folder.write("runs.csv", self.runs_csv().as_bytes())?;
+        self.write_trajectories(&mut folder)?;
+        folder.write(FILE, self.to_toml(provenance).as_bytes())?;
+        Ok(folder.changes())
+    }
+
+    /// Writes recorded and predicted paths, each as a trajectory of the TUM benchmark.
+    fn write_trajectories(&self, folder: &mut Folder) -> Result<(), Error> {
+        let place = folder.file(TRAJECTORIES);
+        crate::prepare_folder(&place)?;
+        let mut files = BTreeSet::new();
+        let comparison = &self.comparison;
+        for path in &comparison.paths {
+            let predicted = comparison.sets.iter().zip(&path.trajectories);
+            let named = predicted.map(|(set, trajectory)| (set.name(), &trajectory.poses));
+            for (name, poses) in std::iter::once(("recorded", &path.recorded)).chain(named) {
+                let file = format!("{name}-run{}.tum", path.run);
+                let text = tum::text(&path.stamps, poses);
+                folder.write(&format!("{TRAJECTORIES}/{file}"), text.as_bytes())?;
+                files.insert(place.join(file));
+            }
+        }
+        let there = std::fs::read_dir(&place)
+            .map_err(|cause| Error::Unreadable { path: place.clone(), cause })?;
+        let there = there.filter_map(|entry| Some(entry.ok()?.path()));
+        let is_other = |file: &PathBuf| {
+            file.extension().is_some_and(|extension| extension == "tum") && !files.contains(file)
+        };
+        folder.remove_earlier(FILE, there.filter(is_other))
+    }
+
+    /// Whether the numbers of parameters were fitted to other runs, or another time of them, than
+    /// are replayed.
+    fn is_held_out(&self, replayed: &Replayed) -> bool {
+        const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+        let source = replayed.parameters.source();
+        let here = RunList::new(self.comparison.paths.iter().map(|path| path.run));
+        let fitted = source.runs.as_ref().and_then(|runs| runs.parse::<RunList>().ok());
+        let [from, until] = self.time.unwrap_or(ALL);
+        let [fitted_from, fitted_until] = source.time_s.unwrap_or(ALL);
+        let poses = self.recording.motion().map(trackdyn_recording::Recording::pose_fingerprint);
+        let is_other = match source.pose_fingerprint.as_deref() {
+            Some(of_fit) => poses != Some(of_fit),
+            None => source.fingerprint != self.recording.fingerprint(),
+        };
+        is_other
+            || fitted.is_some_and(|fitted| !fitted.overlaps(&here))
+            || from >= fitted_until
+            || until <= fitted_from
+    }
+}
+
+/// Name of the folder of the paths.
+const TRAJECTORIES: &str = "trajectories";
+
+impl Replayed {
+    fn new(parameters: &Parameters, name: String) -> Result<Self, Error> {
+        let set = ParameterSet::of_file(name, parameters.file());
+        let Kinematics { icrs, alpha } = set.kinematics();
+        let numbers = [
+            ("x_icr_left_m", icrs.x_left),
+            ("x_icr_right_m", icrs.x_right),
+            ("y_icr_m", icrs.y),
+            ("alpha_left", alpha.left),
+            ("alpha_right", alpha.right),
+        ];
+        let meant = |value: f64| value.is_finite() && value.abs() <= LARGEST;
+        if let Some((key, value)) = numbers.into_iter().find(|(_, value)| !meant(*value)) {
+            let file = parameters.name().to_owned();
+            return Err(Error::TooLarge { file, key, value, most: LARGEST });
+        }
+        Ok(Self { parameters: parameters.clone(), set })
+    }
+}

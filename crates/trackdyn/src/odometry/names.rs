@@ -1,0 +1,47 @@
+//! Names for sets of parameters.
+
+use std::ffi::OsStr;
+use std::path::Path;
+use trackdyn_estimate::odometry::ParameterSet;
+
+/// Names for files: their stems, with the folder before them where two are alike, and a number
+/// where these are alike too.
+pub(super) fn names<'a>(paths: impl Iterator<Item = &'a Path>) -> Vec<String> {
+    let paths: Vec<&Path> = paths.collect();
+    let text = |part: Option<&OsStr>| {
+        let name = part.unwrap_or_default().to_string_lossy();
+        name.chars()
+            .map(|c| if c.is_alphanumeric() || "._-".contains(c) { c } else { '_' })
+            .collect()
+    };
+    let stems: Vec<String> = paths.iter().map(|path| text(path.file_stem())).collect();
+    let mut names: Vec<String> = Vec::new();
+    for (path, stem) in paths.iter().zip(&stems) {
+        let alike = stems.iter().filter(|other| *other == stem).count() > 1;
+        let folder: String = text(path.parent().and_then(Path::file_name));
+        let name =
+            if alike && !folder.is_empty() { format!("{folder}-{stem}") } else { stem.clone() };
+        let taken = |name: &str| {
+            [ParameterSet::IDEAL, "recorded"].contains(&name)
+                || name.ends_with("-no-alpha")
+                || names.iter().any(|n| n == name)
+        };
+        let numbered = (2..).map(|number| format!("{name}-{number}"));
+        let free = std::iter::once(name.clone()).chain(numbered).find(|name| !taken(name));
+        names.push(free.unwrap_or(name));
+    }
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_set_has_a_name_of_its_own() {
+        let of = |paths: &[&str]| names(paths.iter().map(Path::new));
+        assert_eq!(of(&["a/fit.toml", "b/map.toml"]), ["fit", "map"]);
+        assert_eq!(of(&["a/k.toml", "b/k.toml", "b/k.toml"]), ["a-k", "b-k", "b-k-2"]);
+        assert_eq!(of(&["ideal.toml", "my robot.toml"]), ["ideal-2", "my_robot"]);
+    }
+}

@@ -1,0 +1,48 @@
+//! How a recording is read.
+
+use super::BagOptions;
+use crate::Error;
+use std::path::{Path, PathBuf};
+use trackdyn_recording::rosbag::JointSignal;
+
+/// How a recording is read. By default a bag is read by what it leaves no choice in.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReadOptions {
+    /// Trajectory: the table of its track speeds, by the same clock (CSV with t, v_left, v_right).
+    pub tracks: Option<PathBuf>,
+    /// Bag: topics, joints and frames.
+    pub bag: BagOptions,
+}
+
+impl ReadOptions {
+    /// Names of the options that are set, all of which are about recordings of motion.
+    pub fn given(&self) -> Vec<&'static str> {
+        let tracks = self.tracks.as_ref().map(|_| "tracks");
+        tracks.into_iter().chain(self.of_bags()).collect()
+    }
+
+    /// Names of the options that are set and count for bags only.
+    pub fn of_bags(&self) -> Vec<&'static str> {
+        let bag = &self.bag;
+        let options = [
+            ("tracks_topic", bag.tracks_topic.is_some()),
+            ("left_joints", !bag.left_joints.is_empty()),
+            ("right_joints", !bag.right_joints.is_empty()),
+            ("joint_signal", bag.joint_signal != JointSignal::Any),
+            ("wheel_radius", bag.wheel_radius.is_some()),
+            ("pose_topic", bag.pose_topic.is_some()),
+            ("parent_frame", bag.parent_frame.is_some()),
+            ("child_frame", bag.child_frame.is_some()),
+            ("imu_topic", bag.imu_topic.is_some()),
+        ];
+        options.into_iter().filter_map(|(name, given)| given.then_some(name)).collect()
+    }
+
+    /// Refuses options of recordings of motion for a table of steady operating points.
+    pub(super) fn refuse_for_points(&self, table: &Path) -> Result<(), Error> {
+        match self.given() {
+            given if given.is_empty() => Ok(()),
+            settings => Err(Error::MotionOnly { settings, table: table.to_owned() }),
+        }
+    }
+}

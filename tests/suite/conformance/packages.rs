@@ -1,0 +1,81 @@
+//! Crates that others build on can be packaged: all that they need lies in their folder.
+
+use super::crates::{Crate, all};
+use std::fs;
+use std::path::Path;
+
+/// Files of the project that lie in a crate too, for it embeds them.
+const EMBEDDED: [(&str, &str); 4] = [
+    ("configs/vehicles/auriga-alpha.toml", "crates/trackdyn-model/src/auriga-alpha.toml"),
+    ("configs/sensors/perfect.toml", "crates/trackdyn-drive/src/sensors/perfect.toml"),
+    ("configs/sensors/laboratory.toml", "crates/trackdyn-drive/src/sensors/laboratory.toml"),
+    ("configs/sensors/field.toml", "crates/trackdyn-drive/src/sensors/field.toml"),
+];
+
+fn read(path: impl AsRef<Path>) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The table `[package]` of a crate that is meant for others; none of one that is not.
+fn package(of: &Crate) -> Option<toml::Table> {
+    let manifest: toml::Table = of.manifest.parse().expect("TOML");
+    let package = manifest["package"].as_table().expect("a table").clone();
+    (package.get("publish") != Some(&toml::Value::Boolean(false))).then_some(package)
+}
+
+#[test]
+fn embedded_files_are_those_of_configs() {
+    for (original, copy) in EMBEDDED {
+        assert!(read(original) == read(copy), "{copy} is not {original}: copy it");
+    }
+}
+
+#[test]
+fn crates_for_others_say_what_they_are() {
+    let licence = read("LICENSE");
+    let mut count = 0;
+    for of in all() {
+        let Some(package) = package(&of) else { continue };
+        for key in ["description", "license", "readme", "keywords", "categories"] {
+            assert!(package.contains_key(key), "{}: no {key}", of.name);
+        }
+        let text = |file| fs::read_to_string(of.folder.join(file)).unwrap_or_default();
+        assert!(text("LICENSE") == licence, "{}: LICENSE is not that of the project", of.name);
+        let name = package["name"].as_str().expect("a name");
+        assert!(text("README.md").starts_with(&format!("# {name}\n")), "{name}: no README.md");
+        count += 1;
+    }
+    assert!(count > 10, "{count} crates for others");
+}
+
+#[test]
+fn crates_for_others_need_only_one_another() {
+    let crates = all();
+    let is_for_others = |name: &str| {
+        let name = name.strip_prefix("trackdyn-").unwrap_or(name);
+        crates.iter().any(|of| of.name == name && package(of).is_some())
+    };
+    for of in crates.iter().filter(|of| package(of).is_some()) {
+        let manifest: toml::Table = of.manifest.parse().expect("TOML");
+        for dependency in manifest["dependencies"].as_table().expect("a table").keys() {
+            let is_ours = dependency.starts_with("trackdyn");
+            assert!(!is_ours || is_for_others(dependency), "{}: {dependency}", of.name);
+        }
+    }
+}
+
+#[test]
+fn crates_for_others_embed_nothing_from_outside() {
+    for of in all().into_iter().filter(|of| package(of).is_some()) {
+        for (path, text) in of.sources() {
+            for part in text.split("include_").skip(1) {
+                let file = part.split('"').nth(1).unwrap_or_default();
+                let up = file.matches("../").count();
+                let depth = path.components().count();
+                // the name of the file stands for `src`, below the folder of the crate
+                assert!(up <= depth, "{}: {} embeds {file}", of.name, path.display());
+            }
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! Settings: which runs are held out, and errors that name what is to be changed.
+
+use super::driven;
+use trackdyn::diagnose::{Prepared, every_fourth};
+use trackdyn::simulate::Driving;
+use trackdyn::{
+    DiagnoseSettings, DriveSettings, Error, HeldOut, Path, Recording, SimulateSettings, Vehicle,
+    drive, simulate,
+};
+
+fn held_out(recording: &Recording, held_out: HeldOut) -> Result<Vec<usize>, Error> {
+    let settings = DiagnoseSettings { held_out, ..DiagnoseSettings::default() };
+    let model = Vehicle::auriga_alpha().with_inertia(true);
+    let prepared = Prepared::new(std::slice::from_ref(recording), &model, &settings)?;
+    Ok(prepared.held_out().to_vec())
+}
+
+#[test]
+fn every_fourth_of_many_runs_is_held_out() {
+    assert!(every_fourth(7).is_empty());
+    assert_eq!(every_fourth(12), [3, 7, 11]);
+    let [few, many] = [7, 8].map(|runs| driven(runs).recording);
+    assert_eq!(held_out(&few, HeldOut::EveryFourth).expect("evidence"), []);
+    assert_eq!(held_out(&many, HeldOut::EveryFourth).expect("evidence"), [3, 7]);
+    assert_eq!(held_out(&many, HeldOut::None).expect("evidence"), []);
+    let runs = |list: &str| HeldOut::Runs(list.parse().expect("a list"));
+    assert_eq!(held_out(&many, runs("1,6")).expect("evidence"), [1, 6]);
+    let error = held_out(&many, runs("0-7")).expect_err("nothing is left");
+    assert!(matches!(error, Error::AllHeldOut));
+    let error = held_out(&many, runs("99")).expect_err("not there");
+    assert_eq!(error.setting(), Some("held_out"));
+}
+
+#[test]
+fn messages_begin_with_the_setting_to_be_changed() {
+    let vehicle = Vehicle::auriga_alpha;
+    let square = Path::square(1.0, true, 1).expect("a square");
+    let runs = vec![];
+    let driving = Driving::Runs(runs);
+    let with_runs = SimulateSettings { driving, runs: Some(2), ..SimulateSettings::default() };
+    let fast = DriveSettings { speed: 99.0, ..DriveSettings::default() };
+    let errors = [
+        vehicle().with_cog([9.0, 0.0]).map(drop),
+        trackdyn::simulate::sensors("no-such-sensors").map(drop),
+        simulate(&vehicle(), &with_runs).map(drop),
+        drive(&vehicle(), &square, &[], &fast).map(drop),
+        held_out(&driven(1).recording, HeldOut::Runs("0".parse().expect("a list"))).map(drop),
+    ];
+    for error in errors {
+        let error = error.expect_err("not accepted");
+        let setting = error.setting().unwrap_or_else(|| panic!("{error}: no setting"));
+        assert!(error.to_string().starts_with(setting), "{error}");
+    }
+}

@@ -70,7 +70,7 @@ mod tests {
         let in_turn = columns
             .iter()
             .fold(Subspace::spanned_by([]), |space, column| space.with([column.as_slice()]));
-        let at_once = Subspace::spanned_by(columns.iter().map(|column| column.as_slice()));
+        let at_once = Subspace::spanned_by(columns.iter().map(<[f64; 4]>::as_slice));
         for space in [in_turn, at_once] {
             assert_eq!(space.basis.as_ref().map(DMatrix::ncols), Some(2));
             assert!(space.outside(&[5.0, 3.0, 2.0, 0.0]) < 1e-14);

@@ -1,10 +1,9 @@
-//! An independent simulator of tracked robots in time: the ground on which the diagnosis has to
-//! prove itself.
+//! An independent simulator of tracked robots in time, on which the diagnosis has to prove itself.
 //!
 //! A diagnosis that is tried on data of its own simulator proves that it can undo itself. So this
-//! crate shares nothing with `trackdyn-model` and the laws of `trackdyn-model`: of the latter it
-//! takes the description of a vehicle and the names of effects. No crate that diagnoses may depend
-//! on it; a conformance test reads the manifests.
+//! crate shares no law and no solver with `trackdyn-model`. It takes from it the description of a
+//! vehicle and the names of symmetries. No crate that diagnoses may depend on it; a conformance
+//! test reads the manifests.
 //!
 //! - [`Robot`]: Newton's law for a rigid body whose tracks stand on the ground with shoes that
 //!   stick, deflect and slip; a [`Plant`](trackdyn_core::Plant).

@@ -16,8 +16,8 @@ pub struct Progress {
     pub total: usize,
 }
 
-/// A function that is told of each finished part, from any thread, and says whether to go on. Where a
-/// part takes long it may be told of the last one again.
+/// A function that is told of each finished part, from any thread, and says whether to go on.
+/// Where a part takes long it may be told of the last one again.
 ///
 /// After [`ControlFlow::Break`] the use case ends with [`Error::Cancelled`] when the parts that are
 /// being worked on are finished.

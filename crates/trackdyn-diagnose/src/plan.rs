@@ -21,6 +21,7 @@ use menu::{INTERVAL, Manoeuvre, menu};
 use nalgebra::DMatrix;
 use rivals::Rival;
 use separation::{Pair, products, shares, squared};
+use std::ops::ControlFlow;
 use trackdyn_core::rounding::Digits;
 use trackdyn_core::{Command, PerSide, Pose, Schedule, real};
 use trackdyn_estimate::weighting::SegmentNoise;
@@ -141,17 +142,21 @@ fn rounded(value: f64) -> f64 {
     Digits::Decimals(6).round(value)
 }
 
-/// Plans what separates the members of these classes. `progress` is told of each finished stage.
+/// Plans what separates the members of these classes. `progress` is told of each finished stage,
+/// and may ask to stop.
 ///
 /// # Errors
-/// [`Error::NoMotion`] for a vehicle that cannot move so, [`Error::TooShort`] for a time in which no manoeuvre
-/// of the menu can be driven.
+/// [`Error::NoMotion`] for a vehicle that cannot move so, [`Error::TooShort`] for a time in which
+/// no manoeuvre of the menu can be driven, [`Error::Cancelled`].
 pub fn plan(
     questions: &[Question],
     file: &VehicleFile,
     options: &Options,
-    progress: &dyn Fn(&'static str),
+    progress: &dyn Fn(&'static str) -> ControlFlow<()>,
 ) -> Result<Plan, Error> {
+    let finished = |stage| {
+        if progress(stage).is_break() { Err(Error::Cancelled) } else { Ok(()) }
+    };
     let menu = menu(options.fastest, gap(file)?);
     let shortest = menu.iter().map(Manoeuvre::duration).fold(f64::MAX, f64::min);
     if shortest > options.duration {
@@ -161,11 +166,11 @@ pub fn plan(
         .iter()
         .map(|question| Class::new(question, file, &menu, options))
         .collect::<Result<Vec<_>, _>>()?;
-    progress(STAGES[0]);
+    finished(STAGES[0])?;
     let chosen = chosen(&classes, &menu, options);
-    progress(STAGES[1]);
+    finished(STAGES[1])?;
     let plan = judged(&classes, &menu, &chosen, options);
-    progress(STAGES[2]);
+    finished(STAGES[2])?;
     Ok(plan)
 }
 

@@ -7,11 +7,9 @@ pub use claim::{Claim, Size};
 pub use held_out::{HeldOut, every_fourth};
 
 use crate::change::Folder;
-use crate::progress::Counter;
 use crate::recording::joined;
-use crate::{Change, Error, Observer, Provenance, Recording, Vehicle, unobserved};
+use crate::{Change, Error, Observer, Progress, Provenance, Recording, Vehicle, unobserved};
 use std::path::{Path, PathBuf};
-use trackdyn_diagnose::diagnosis::STAGES;
 use trackdyn_diagnose::{DiagnosisFile, Evidence, Options, Resampling, Status};
 use trackdyn_model::kinematics::Source;
 use trackdyn_report::{Figure, Subject, diagnosis_figures, diagnosis_html};
@@ -107,23 +105,26 @@ impl Prepared {
         &self.options.held_out
     }
 
-    /// Diagnoses, observed: a part is a stage of the method.
+    /// Diagnoses, observed: a part is a stage of the method, and the
+    /// observer is also told before each refit within one.
     ///
     /// # Errors
     /// [`Error::Diagnose`] for driving without turns, or a vehicle that cannot move as recorded;
     /// [`Error::Cancelled`].
     pub fn run(self, observer: &Observer) -> Result<Diagnosis, Error> {
-        let counter = Counter::new(observer, STAGES);
-        let progress = |at: trackdyn_diagnose::Progress| counter.reach(at.stage.name(), at.done);
+        let progress = |at: trackdyn_diagnose::Progress| {
+            observer(Progress { stage: at.stage.name(), done: at.done, total: at.total })
+        };
         let found = trackdyn_diagnose::diagnose(
             &self.evidence,
             self.vehicle.file(),
             &self.options,
             &progress,
         );
-        counter.check()?;
-        let found =
-            found.map_err(|cause| Error::Diagnose { recording: self.place.clone(), cause })?;
+        let found = found.map_err(|cause| match cause {
+            trackdyn_diagnose::Error::Cancelled => Error::Cancelled,
+            cause => Error::Diagnose { recording: self.place.clone(), cause },
+        })?;
         let corrected = found.answer.corrected.clone().into();
         Ok(Diagnosis { found, corrected, of: self })
     }

@@ -45,7 +45,7 @@ impl IdentifySettings {
         given.into_iter().filter_map(|(name, given)| given.then_some(name)).collect()
     }
 
-    /// Individuals that are settled each once, in order.
+    /// What to fit beside the ICRs, each once and in order.
     fn nuisances(&self) -> Vec<Nuisance> {
         let mut nuisances = self.nuisances.clone();
         nuisances.sort_unstable();

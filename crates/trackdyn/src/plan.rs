@@ -97,20 +97,19 @@ impl Plan {
         observer: &Observer,
     ) -> Result<Self, Error> {
         let counter = Counter::new(observer, STAGES.len());
-        let progress = |stage| {
-            // a plan that was stopped is dropped when it is through
-            let _ = counter.advance(stage, 1);
-        };
-        let questions_asked = questions.questions();
-        let found = trackdyn_diagnose::plan(questions_asked, vehicle.file(), settings, &progress);
-        counter.check()?;
-        let vehicle_name = vehicle.name().to_owned();
-        let found = found.map_err(|cause| Error::Plan { vehicle: vehicle_name.clone(), cause })?;
+        let progress = |stage| counter.advance(stage, 1);
+        let found =
+            trackdyn_diagnose::plan(questions.questions(), vehicle.file(), settings, &progress);
+        let name = vehicle.name().to_owned();
+        let found = found.map_err(|cause| match cause {
+            trackdyn_diagnose::Error::Cancelled => Error::Cancelled,
+            cause => Error::Plan { vehicle: name.clone(), cause },
+        })?;
         let made_from = format!("{}{}", questions.document.text(), vehicle.to_toml());
         Ok(Self {
             found,
             settings: settings.clone(),
-            vehicle: vehicle_name,
+            vehicle: name,
             fingerprint: fingerprint(made_from.as_bytes()),
         })
     }

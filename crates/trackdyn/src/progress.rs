@@ -17,8 +17,10 @@ pub struct Progress {
 }
 
 /// A function that is told of each finished part, from any thread, and says whether to go on.
+/// Where a part takes long it may be told of the last one again.
 ///
-/// After [`ControlFlow::Break`] the use case ends with [`Error::Cancelled`] at its next part.
+/// After [`ControlFlow::Break`] the use case ends with [`Error::Cancelled`] when the parts that are
+/// being worked on are finished.
 pub type Observer<'a> = dyn Fn(Progress) -> ControlFlow<()> + Sync + 'a;
 
 /// The observer that looks at nothing and never stops.

@@ -13,6 +13,9 @@ use std::path::{Path, PathBuf};
 use trackdyn_recording::rosbag::RosbagOptions;
 use trackdyn_recording::{Format, OperatingPoints, Recording as Motion, Run, Warning, tum};
 
+/// What to take from a bag.
+pub type BagOptions = RosbagOptions;
+
 /// What was seen of a robot: a recording of its motion, or a table of steady operating points.
 ///
 /// Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
@@ -192,6 +195,3 @@ pub(crate) fn joined(recordings: &[Recording]) -> Result<Recording, Error> {
         }
     }
 }
-
-/// What to take from a bag.
-pub type BagOptions = RosbagOptions;

@@ -9,7 +9,7 @@ use trackdyn::identify::Prepared as Identify;
 use trackdyn::simulate::Prepared as Simulate;
 use trackdyn::{
     DiagnoseSettings, DriveSettings, Error, IcrMap, IdentifySettings, MapSettings, Observer, Path,
-    Progress, Resampling, SimulateSettings, Vehicle,
+    Progress, SimulateSettings, Vehicle,
 };
 
 /// Work under an observer.
@@ -79,12 +79,11 @@ fn drives_stop() {
 }
 
 #[test]
-fn a_diagnosis_that_is_stopped_gives_none() {
+fn a_diagnosis_stops_at_once() {
     let recording = driven(2).recording;
     let model = Vehicle::auriga_alpha().with_inertia(true);
-    let resampling = Resampling { draws: 100, seed: 1 };
-    let settings = DiagnoseSettings { resampling, ..DiagnoseSettings::default() };
-    let prepared = Diagnose::new(&[recording], &model, &settings).expect("evidence");
-    let result = prepared.run(&|_| ControlFlow::Break(()));
-    assert!(matches!(result, Err(Error::Cancelled)));
+    let settings = DiagnoseSettings::default();
+    let prepare = || Diagnose::new(std::slice::from_ref(&recording), &model, &settings);
+    let (parts, result) = stopped(&|observer| prepare().expect("evidence").run(observer).map(drop));
+    assert!(matches!(result, Err(Error::Cancelled)) && parts == 1, "{result:?} after {parts}");
 }

@@ -1,6 +1,7 @@
 //! What plans must and cannot separate, on Auriga-alpha.
 
 use super::*;
+use std::ops::ControlFlow;
 use trackdyn_core::document::Document;
 
 /// The question of a diagnosis that names the first of these members, at this size.
@@ -20,7 +21,9 @@ fn question(members: &[&str], parameters: &str) -> Vec<Question> {
 }
 
 fn planned(members: &[&str], parameters: &str, file: &VehicleFile) -> Plan {
-    let plan = plan(&question(members, parameters), file, &Options::default(), &|_| ());
+    let plan = plan(&question(members, parameters), file, &Options::default(), &|_| {
+        ControlFlow::Continue(())
+    });
     let plan = plan.expect("a plan");
     for pair in &plan.pairs {
         let [a, b] = pair.effects.map(|effect| effect.name());

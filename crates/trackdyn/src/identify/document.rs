@@ -86,8 +86,8 @@ struct EstimateTable {
 }
 
 /// The text of `identification.toml`; `source` is that of the kinematics files.
-pub(super) fn text(fit: &MotionFit, source: &Source) -> String {
-    let (found, gauge) = (&fit.found, fit.gauge());
+pub(super) fn text(identified: &MotionFit, source: &Source) -> String {
+    let (found, gauge) = (&identified.found, identified.gauge());
     let mut method = vec![of_spin_test(&found.spin_test, gauge)];
     for (fit, file) in found.fits.iter().zip(FILES) {
         method.push(of_genetic(fit, gauge));
@@ -99,8 +99,8 @@ pub(super) fn text(fit: &MotionFit, source: &Source) -> String {
         segments: found.segments,
         source: SourceTable {
             source,
-            robot: fit.robot(),
-            vehicle_fingerprint: fit.vehicle_fingerprint(),
+            robot: identified.robot(),
+            vehicle_fingerprint: identified.vehicle_fingerprint(),
             gauge_m: gauge,
         },
         clock: ClockTable::of(&found.clock),

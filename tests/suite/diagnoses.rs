@@ -4,18 +4,23 @@
 //! file. The long tests of the diagnosis stand in `tests/diagnosis`.
 
 use std::collections::BTreeSet;
-use trackdyn_diagnose::diagnosis::Kind;
-use trackdyn_diagnose::{Diagnosis, Status};
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+use trackdyn_diagnose::diagnosis::{Kind, STAGES};
+use trackdyn_diagnose::{
+    Diagnosis, Error, Evidence, Options, Progress, Resampling, Stage, Status, diagnose,
+};
 use trackdyn_drive::sensors::Preset;
 use trackdyn_drive::{ScheduleKind, ScheduleOptions};
+use trackdyn_recording::Recording;
 use trackdyn_tests::concealed::{Drive, diagnosed, named, owned, sensors};
 
 /// Runs of a drive, and the time of each, s: short, and enough for two held-out runs.
 const RUNS: usize = 8;
 const RUN_TIME: f64 = 15.0;
 
-/// The diagnosis of a drive by hand on which this (`id:key=value`) is concealed.
-fn diagnosis(concealed: &[&str]) -> Diagnosis {
+/// A drive by hand on which this (`id:key=value`) is concealed.
+fn recording(concealed: &[&str]) -> Recording {
     let options = ScheduleOptions {
         runs: Some(RUNS),
         seed: 3,
@@ -25,7 +30,12 @@ fn diagnosis(concealed: &[&str]) -> Diagnosis {
     let runs = ScheduleKind::Manual.generate(&options).expect("a schedule");
     let file = owned(concealed);
     let drive = Drive::new(&file.vehicle, concealed, &runs, 3).expect("it drives");
-    diagnosed(&drive.recording(&sensors(Preset::Laboratory), 3), &file).expect("an answer")
+    drive.recording(&sensors(Preset::Laboratory), 3)
+}
+
+/// The diagnosis of a drive by hand on which this is concealed.
+fn diagnosis(concealed: &[&str]) -> Diagnosis {
+    diagnosed(&recording(concealed), &owned(concealed)).expect("an answer")
 }
 
 /// Sets of physics that are named.
@@ -117,4 +127,30 @@ fn gains_of_the_encoders_are_an_instrument() {
 fn a_law_outside_the_catalogue_is_flagged() {
     let found = diagnosis(&["washboard:depth=0.1,wavelength_m=1.7"]);
     assert_eq!(found.answer.status, Status::Unexplained, "{:?}", named(&found));
+}
+
+/// Progress counts to what was announced, whatever is repeated; a diagnosis ends where its observer
+/// stops it, be it between two refits.
+#[test]
+fn progress_ends_at_its_total_and_an_observer_may_stop_it() {
+    let file = owned(&[]);
+    let evidence = Evidence::of_recording(&recording(&[]), file.vehicle.gauge).expect("enough");
+    let resampling = Resampling { draws: 100, ..Resampling::default() };
+    let options = Options { resampling, ..Options::default() };
+    let told: Mutex<Vec<Progress>> = Mutex::default();
+    let follow = |at: Progress| {
+        told.lock().expect("one thread").push(at);
+        ControlFlow::Continue(())
+    };
+    diagnose(&evidence, &file, &options, &follow).expect("an answer");
+    let told = told.into_inner().expect("one thread");
+    assert!(told.is_sorted_by_key(|at| at.done), "{told:?}");
+    assert!(told.iter().all(|at| at.total == STAGES));
+    assert_eq!(told.last().map(|at| (at.stage, at.done)), Some((Stage::Limits, STAGES)));
+    let stop = |at: Progress| match at.stage {
+        Stage::Search => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
+    let stopped = diagnose(&evidence, &file, &options, &stop).err();
+    assert_eq!(stopped, Some(Error::Cancelled));
 }

@@ -1,7 +1,8 @@
 //! What was seen, in one form for drives and for tables of steady motion.
 //!
-//! A sample is a motion over a time in which the track speeds are known. A steady operating point is one of a
-//! microsecond: what moves so shortly moves by its velocity, and the same prediction serves both.
+//! A sample is a motion over a time in which the track speeds are known. A steady operating point
+//! is one of a microsecond: what moves so shortly moves by its velocity, and the same prediction
+//! serves both.
 
 pub mod planned;
 mod points;
@@ -44,10 +45,11 @@ pub struct Sample {
 /// What samples are, and how noisy they are by themselves, before any model is asked.
 #[derive(Clone, Debug)]
 pub enum Origin {
-    /// Segments of a drive, whose neighbours share a noisy pose, with the noise that was measured on the recording.
+    /// Segments of a drive, whose neighbours share a noisy pose, with the noise that was measured
+    /// on the recording.
     Drive(SegmentNoise),
-    /// Points of steady motion, without places, headings, times and transients, with the inverse standard deviation of each
-    /// channel of each; zero where one was not measured.
+    /// Points of steady motion, without places, headings, times and transients, with the inverse
+    /// standard deviation of each channel of each; zero where one was not measured.
     SteadyPoints(Arc<[Vector3<f64>]>),
 }
 
@@ -69,7 +71,8 @@ impl Origin {
     }
 }
 
-/// The samples of recordings or of a table. It does not change; what its residuals weigh is [`Weighted`](crate::weighted::Weighted)'s to say.
+/// The samples of recordings or of a table. It does not change; what its residuals weigh is
+/// [`Weighted`](crate::weighted::Weighted)'s to say.
 #[derive(Clone)]
 pub struct Evidence {
     samples: Arc<[Sample]>,
@@ -124,7 +127,8 @@ impl Evidence {
         speeds.fold(0.0, |most, track| most.max(track.v_left.abs()).max(track.v_right.abs()))
     }
 
-    /// The evidence with readings at regular times: stamps of a clock that ticks evenly, and is read late by chance.
+    /// The evidence with readings at regular times: stamps of a clock that ticks evenly, and is
+    /// read late by chance.
     pub fn with_regular_stamps(&self) -> Self {
         let mut tracks = self.tracks.clone();
         for run in &mut tracks {
@@ -138,7 +142,8 @@ impl Evidence {
         ticks::steps(&self.tracks)
     }
 
-    /// The evidence with even speeds between the ticks of encoders whose speeds come in such steps, m/s.
+    /// The evidence with even speeds between the ticks of encoders whose speeds come in such steps,
+    /// m/s.
     pub fn with_speeds_between_ticks(&self, steps: PerSide<f64>) -> Self {
         Self { tracks: ticks::smoothed(&self.tracks, steps), ..self.clone() }
     }

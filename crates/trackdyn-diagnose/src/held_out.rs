@@ -36,8 +36,8 @@ pub struct HeldOut {
 }
 
 impl HeldOut {
-    /// What these errors say against what is claimed beside constants, physics or instruments; none where that does better than
-    /// what it was compared with.
+    /// What these errors say against what is claimed beside constants, physics or instruments; none
+    /// where that does better than what it was compared with.
     pub(crate) fn contradiction(&self, claims: bool, claims_physics: bool) -> Option<String> {
         let Self { before, instruments, after, are_held_out, .. } = *self;
         if !are_held_out {
@@ -57,8 +57,8 @@ impl HeldOut {
         }
     }
 
-    /// Share of the excess over the noise floor that the corrected model explains; none where there is no
-    /// excess.
+    /// Share of the excess over the noise floor that the corrected model explains; none where there
+    /// is no excess.
     pub fn excess_explained(&self) -> Option<f64> {
         let excess = self.before.powi(2) - self.noise_floor.powi(2);
         (excess > 1e-3 * self.noise_floor.powi(2))
@@ -83,8 +83,8 @@ pub(crate) fn errors(
     HeldOut { before, instruments, after: error, noise_floor, are_held_out: false }
 }
 
-/// Judges three fits, of what was there before, of the base and of the best hypothesis, by runs that nothing was fitted or
-/// chosen on, in the noise that `seen` has.
+/// Judges three fits, of what was there before, of the base and of the best hypothesis, by runs
+/// that nothing was fitted or chosen on, in the noise that `seen` has.
 pub(crate) fn judged(
     unseen: &Evidence,
     seen: &Weighted,

@@ -30,8 +30,9 @@ pub struct Detectable {
     pub effect: EffectId,
     /// Place of the size among its parameters.
     pub parameter: usize,
-    /// How far the size would have to be off to stand out five standard deviations: from none, from the filed one where the vehicle file
-    /// has the effect, from the fitted one where the best hypothesis adds it. None where no physical size would.
+    /// How far the size would have to be off to stand out five standard deviations: from none, from
+    /// the filed one where the vehicle file has the effect, from the fitted one where the best
+    /// hypothesis adds it. None where no physical size would.
     pub size: Option<f64>,
 }
 

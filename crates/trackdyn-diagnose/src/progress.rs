@@ -95,8 +95,16 @@ impl<'a> Watch<'a> {
     /// Does the work of a stage.
     ///
     /// # Errors
+    /// [`Cancelled`].
+    pub fn stage<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> Result<T, Cancelled> {
+        self.try_stage(stage, || Ok(work()))
+    }
+
+    /// Does the work of a stage that may fail, or be cancelled meanwhile.
+    ///
+    /// # Errors
     /// Those of the work, and [`Cancelled`].
-    pub fn stage<T, E: From<Cancelled>>(
+    pub fn try_stage<T, E: From<Cancelled>>(
         &self,
         stage: Stage,
         work: impl FnOnce() -> Result<T, E>,
@@ -151,9 +159,9 @@ mod tests {
         };
         let observer = stop_at(2);
         let watch = Watch::new(&observer, 3);
-        let first = watch.stage(Stage::Noise, || Ok::<_, Cancelled>(7));
+        let first = watch.stage(Stage::Noise, || 7);
         assert_eq!(first, Ok(7));
-        let second = watch.stage(Stage::Search, || watch.go_on());
+        let second = watch.try_stage(Stage::Search, || watch.go_on());
         assert_eq!(second, Err(Cancelled), "told when the second stage has ended");
         let expected = [
             (Stage::Noise, 0),

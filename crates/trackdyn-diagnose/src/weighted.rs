@@ -9,8 +9,9 @@ use std::sync::Arc;
 use trackdyn_core::robust::deviation_about_zero;
 use trackdyn_estimate::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 
-/// Evidence with the noise by which its residuals are weighed, and without the samples that are lost. Whatever asks what was
-/// seen may ask this. The evidence is shared: another noise copies none of it.
+/// Evidence with the noise by which its residuals are weighed, and without the samples that are
+/// lost. Whatever asks what was seen may ask this. The evidence is shared: another noise copies
+/// none of it.
 #[derive(Clone)]
 pub struct Weighted {
     evidence: Arc<Evidence>,
@@ -80,7 +81,8 @@ impl Weighted {
         Self { whitening, ..self.clone() }
     }
 
-    /// All segments of a recording, those that were lost among them, in another noise; points of a table as they are.
+    /// All segments of a recording, those that were lost among them, in another noise; points of a
+    /// table as they are.
     pub fn with_all_in(&self, noise: SegmentNoise) -> Self {
         if matches!(self.whitening, Whitening::Points(_)) {
             return self.clone();
@@ -110,7 +112,8 @@ impl Weighted {
         }
     }
 
-    /// The evidence with white residuals of each channel this much smaller: they are larger than the noise says.
+    /// The evidence with white residuals of each channel this much smaller: they are larger than
+    /// the noise says.
     pub fn with_scale(&self, scale: [f64; 3]) -> Self {
         Self { scale, ..self.clone() }
     }
@@ -125,7 +128,8 @@ impl Weighted {
         Self { evidence: Arc::new(other(&self.evidence)), ..self.clone() }
     }
 
-    /// Makes a column of residuals or of their derivatives white by the noise, in place: unit variance, no correlation.
+    /// Makes a column of residuals or of their derivatives white by the noise, in place: unit
+    /// variance, no correlation.
     pub fn whiten(&self, column: &mut [Vector3<f64>]) {
         match &self.whitening {
             Whitening::Segments { whitener, lost, .. } => {
@@ -168,8 +172,8 @@ impl Weighted {
         Normal::new(&Columns { residual, columns, weights, blocks: &blocks, count })
     }
 
-    /// By what a white residual is larger in each channel than the noise says, from its median: one where nothing is left
-    /// but noise.
+    /// By what a white residual is larger in each channel than the noise says, from its median: one
+    /// where nothing is left but noise.
     pub fn residual_scale(&self, residual: &[Vector3<f64>]) -> [f64; 3] {
         std::array::from_fn(|channel| {
             let measured = residual.iter().enumerate();
@@ -180,7 +184,8 @@ impl Weighted {
         })
     }
 
-    /// Gives a white column the noise's correlations, in place: the inverse of [`Weighted::whiten`].
+    /// Gives a white column the noise's correlations, in place: the inverse of
+    /// [`Weighted::whiten`].
     pub fn colour(&self, column: &mut [Vector3<f64>]) {
         match &self.whitening {
             Whitening::Segments { whitener, .. } => whitener.colour(column),
@@ -192,7 +197,8 @@ impl Weighted {
         }
     }
 
-    /// Logarithms of the determinants of what whitens each sample, given those before it; none of a table.
+    /// Logarithms of the determinants of what whitens each sample, given those before it; none of a
+    /// table.
     pub fn ln_determinants(&self) -> Vec<f64> {
         match &self.whitening {
             Whitening::Segments { whitener, .. } => whitener.ln_determinants().collect(),

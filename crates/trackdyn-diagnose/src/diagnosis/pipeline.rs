@@ -39,40 +39,38 @@ pub fn diagnose(
     let Split { seen, unseen } = Split::new(evidence, &options.held_out)?;
 
     // Noise: what is left when all that driving could explain is fitted away.
-    let InNoise { seen, base } = watch.stage(Stage::Noise, || InNoise::of(seen, file))?;
+    let InNoise { seen, base } = watch.try_stage(Stage::Noise, || InNoise::of(seen, file))?;
 
     // Cleaned: late stamps and ticks are taken out of the readings.
     let Cleaned { seen, unseen } =
-        watch.stage(Stage::Readings, || Ok::<_, Error>(Cleaned::of(seen, unseen, &base)))?;
+        watch.stage(Stage::Readings, || Cleaned::of(seen, unseen, &base))?;
 
     // Signatures and search, sharpened: once more in the noise beside what was found, where that is
     // smaller. Then the verdicts.
-    let judged_in = |seen: Weighted| -> Result<Judged, Error> {
-        let base = base.refitted(&seen);
+    let judged_in = |seen: &Weighted| -> Result<Judged, Error> {
+        let base = base.refitted(seen);
         let searched = Searched::sharpened(seen, base, watch)?;
         let judged = || Judged::of(searched, file, resampling, watch);
-        Ok(watch.stage(Stage::Verdicts, judged)?)
+        watch.try_stage(Stage::Verdicts, judged).map_err(Error::from)
     };
-    let first = judged_in(seen)?;
+    let first = judged_in(&seen)?;
 
     // Rescaled: residuals larger than the noise that no effect explains make every claim less sure,
     // so that all is searched and judged once more in a noise as large as they are.
-    let judged = match first.rescaled() {
-        Some(seen) => judged_in(seen)?,
-        None => {
-            watch.skip(ROUND);
-            first
-        }
+    let judged = if let Some(seen) = first.rescaled() {
+        drop(first); // its signatures take as much memory as the next ones
+        judged_in(&seen)?
+    } else {
+        watch.skip(ROUND);
+        first
     };
 
     // Location: where the evidence departs from the models before and after.
-    let located =
-        watch.stage(Stage::Location, || Ok::<_, Error>(Located::of(&judged, resampling)))?;
+    let located = watch.stage(Stage::Location, || Located::of(&judged, resampling))?;
 
     // Held-out runs: errors where nothing was fitted or chosen.
-    let tested = watch.stage(Stage::HeldOut, || {
-        Ok::<_, Error>(Tested::of(&judged, unseen.as_ref(), resampling))
-    })?;
+    let tested = || Tested::of(&judged, unseen.as_ref(), resampling);
+    let tested = watch.stage(Stage::HeldOut, tested)?;
 
     // Proposal: a form for what no effect explains.
     let proposed = watch.stage(Stage::Proposal, || {
@@ -87,12 +85,12 @@ pub fn diagnose(
             unseen: tested.unseen.as_ref(),
         };
         let is_left = !located.left_over.is_empty();
-        Ok::<_, Error>(is_left.then(|| propose(&unexplained, resampling)).flatten())
+        is_left.then(|| propose(&unexplained, resampling)).flatten()
     })?;
 
     // Limits: what this evidence could have shown, and told apart.
-    let (limits, exposures) =
-        watch.stage(Stage::Limits, || Ok::<_, Error>((Limits::of(&judged), judged.exposures())))?;
+    let limits = || (Limits::of(&judged), judged.exposures());
+    let (limits, exposures) = watch.stage(Stage::Limits, limits)?;
 
     let corrected =
         corrected(file, &judged.best, judged.friction_level, &judged.missing, proposed.as_ref());

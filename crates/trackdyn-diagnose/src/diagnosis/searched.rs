@@ -24,9 +24,9 @@ pub(super) struct Searched {
 
 impl Searched {
     /// Searches evidence beside a base.
-    fn of(seen: Weighted, base: Base, watch: &Watch) -> Result<Self, Cancelled> {
-        let search = watch.stage(Stage::Signatures, || Ok(with_signatures(seen, base)))?;
-        watch.stage(Stage::Search, || {
+    fn of(seen: &Weighted, base: Base, watch: &Watch) -> Result<Self, Cancelled> {
+        let search = watch.stage(Stage::Signatures, || with_signatures(seen, base))?;
+        watch.try_stage(Stage::Search, || {
             let screened = search.screen(&search.nothing());
             let found = search.best(watch)?;
             Ok(Self { search, screened, found })
@@ -35,26 +35,24 @@ impl Searched {
 
     /// Searches evidence beside a base; once more where the noise beside what was found is smaller:
     /// that hypothesis explains more than contrasts can, which passed for noise.
-    pub fn sharpened(seen: Weighted, base: Base, watch: &Watch) -> Result<Self, Cancelled> {
+    pub fn sharpened(seen: &Weighted, base: Base, watch: &Watch) -> Result<Self, Cancelled> {
         let first = Self::of(seen, base, watch)?;
-        match sharper(&first.search.evidence, &first.found.fit) {
-            Some(seen) => {
-                let base = first.search.base.refitted(&seen);
-                Self::of(seen, base, watch)
-            }
-            None => {
-                watch.skip(STAGES);
-                Ok(first)
-            }
+        if let Some(seen) = sharper(&first.search.evidence, &first.found.fit) {
+            let base = first.search.base.refitted(&seen);
+            drop(first); // its signatures take as much memory as the next ones
+            Self::of(&seen, base, watch)
+        } else {
+            watch.skip(STAGES);
+            Ok(first)
         }
     }
 }
 
 /// A search with the signatures of all candidates, and of those between them that gain more.
-fn with_signatures(seen: Weighted, base: Base) -> Search {
+fn with_signatures(seen: &Weighted, base: Base) -> Search {
     let base = Arc::new(base);
-    let tried = candidates(&base.instruments, &seen);
-    let beside = Beside::new(&base.fit.hypothesis, &seen);
+    let tried = candidates(&base.instruments, seen);
+    let beside = Beside::new(&base.fit.hypothesis, seen);
     let catalogue = Catalogue { entries: beside.signatures(&tried) };
     let search = Search::new(seen.clone(), Arc::clone(&base), catalogue);
     let between = search.between(&beside);

@@ -57,7 +57,7 @@ struct PairTable {
 impl PlanFile {
     /// The file of a plan.
     pub fn new(plan: &Plan, options: &Options, source: Source) -> Self {
-        let ids = |effects: [EffectId; 2]| effects.map(|effect| effect.name());
+        let ids = |effects: [EffectId; 2]| effects.map(EffectId::name);
         let duration = plan.duration();
         let manoeuvre = plan.steps.iter().map(|step| ManoeuvreTable {
             name: step.manoeuvre.name.clone(),

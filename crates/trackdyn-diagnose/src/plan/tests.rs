@@ -26,7 +26,7 @@ fn planned(members: &[&str], parameters: &str, file: &VehicleFile) -> Plan {
     });
     let plan = plan.expect("a plan");
     for pair in &plan.pairs {
-        let [a, b] = pair.effects.map(|effect| effect.name());
+        let [a, b] = pair.effects.map(trackdyn_model::EffectId::name);
         println!("{a} | {b}: z {:.2}, menu {:.2}, {:?}", pair.z, pair.menu, pair.answer);
     }
     for step in &plan.steps {

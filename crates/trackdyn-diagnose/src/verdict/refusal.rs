@@ -146,7 +146,7 @@ mod tests {
         let laws = vec![effect, EffectId::of("slope").expect("an effect")];
         let said = [
             (
-                Refusal::Weak { ln_bayes_factor: 3.14, needed: 5.0 },
+                Refusal::Weak { ln_bayes_factor: 3.12, needed: 5.0 },
                 "ln Bayes factor 3.1, below 5".to_owned(),
             ),
             (

@@ -1,7 +1,8 @@
-//! A small sealed trial from end to end: two cases without concealed physics, and two with an effect.
+//! A small sealed trial from end to end: two cases without concealed physics, and two with an
+//! effect.
 //!
-//! Runs are short, so that it takes a minute instead of hours. The effects are as large as they have to
-//! be for the same z.
+//! Runs are short, so that it takes a minute instead of hours. The effects are as large as they
+//! have to be for the same z.
 
 use crate::trial::{KEY, answers};
 use crate::{Run, Workplace};

@@ -115,8 +115,8 @@ fn a_diagnosis_reaches_nothing_of_the_trial_and_is_scored_by_the_sealed_answers(
     assert!(run.stdout.contains("0 diagnosed now, 0 failed, 2 before"), "{}", run.stdout);
     assert!(!run.stderr.contains("within reach"), "{}", run.stderr);
 
-    // a key where a process may look for it is said to be there, and of what is not committed to yet
-    // nothing is diagnosed
+    // a key where a process may look for it is said to be there, and of what is not committed to
+    // yet nothing is diagnosed
     place.write("cases.key", KEY);
     let run = place.run(&format!("trial run cases --program {spy}"));
     assert!(run.status == 0 && run.stderr.contains("cases.key is within reach"), "{}", run.stderr);

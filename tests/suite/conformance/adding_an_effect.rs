@@ -55,8 +55,8 @@ fn read(root: &Path, below: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
     }
 }
 
-/// Makes a folder hold these files and no others. Files that do not change keep their stamps, so that
-/// what was compiled of them is not compiled again.
+/// Makes a folder hold these files and no others. Files that do not change keep their stamps, so
+/// that what was compiled of them is not compiled again.
 fn write(folder: &Path, files: &BTreeMap<PathBuf, Vec<u8>>) {
     let mut there = BTreeMap::new();
     fs::create_dir_all(folder).expect("a folder");

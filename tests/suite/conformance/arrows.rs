@@ -52,8 +52,8 @@ fn a_diagnosis_cannot_know_its_judge() {
     }
 }
 
-/// What the second simulator may take from the model: the description of a vehicle, and the names of
-/// the symmetries that it is measured to break.
+/// What the second simulator may take from the model: the description of a vehicle, and the names
+/// of the symmetries that it is measured to break.
 const DESCRIPTION: [&str; 6] =
     ["RunningGear", "Symmetry", "Vehicle", "VehicleError", "VehicleFile", "effect"];
 

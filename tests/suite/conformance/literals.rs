@@ -10,8 +10,8 @@ use trackdyn_second_simulator::MECHANISMS;
 const ARGUED: [(&str, &str, &str); 1] = [(
     "estimate",
     "sensor.rs",
-    "names of the two quantities of a pose sensor that `identify --fit` takes and files state: they \
-     come of no catalogue, and identification knows no effects",
+    "names of the two quantities of a pose sensor that `identify --fit` takes and files state: \
+     they come of no catalogue, and identification knows no effects",
 )];
 
 /// Code that is not compiled for tests only, without comments.

@@ -60,7 +60,8 @@ impl Svg {
         let title = escaped(title);
         // Whole numbers are the centres of pixels
         format!(
-            "<svg role=\"img\" aria-label=\"{title}\" viewBox=\"-.5 -.5 {width} {height}\" \
+            "<svg role=\"img\" xml:space=\"preserve\" aria-label=\"{title}\" \
+             viewBox=\"-.5 -.5 {width} {height}\" \
              font-family=\"{FONTS}\" fill=\"none\" stroke-linecap=\"round\" \
              stroke-linejoin=\"round\"><defs>{}</defs>\
              <path fill=\"#fff\" d=\"m-.5-.5h{width}v{height}h-{width}z\"/>{}</svg>",

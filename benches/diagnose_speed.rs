@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::time::Instant;
 use trackdyn::diagnose::every_fourth;
-use trackdyn_diagnose::{Evidence, Options, Progress, Stage, diagnose};
+use trackdyn_diagnose::{Evidence, Options, Progress, Settings, Stage, diagnose};
 use trackdyn_drive::sensors::Preset;
 use trackdyn_drive::{ScheduleKind, ScheduleOptions};
 use trackdyn_recording::Recording;
@@ -81,7 +81,7 @@ fn report(recording: &Recording, concealed: &[&str]) -> Result<(), Box<dyn Error
     forget_peak();
     let before = status("VmRSS:");
     let (begun, spent) = (Instant::now(), cpu_seconds());
-    let evidence = Evidence::of_recording(recording, file.vehicle.gauge)?;
+    let evidence = Evidence::of_recording(recording, file.vehicle.gauge, &Settings::default())?;
     let held_out = every_fourth(recording.runs().len());
     let options = Options { held_out, ..Options::default() };
     let times = Mutex::new(Times {

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use trackdyn::diagnose::every_fourth;
 use trackdyn_core::{Plant, Pose, Trajectory};
 use trackdyn_diagnose::diagnosis::{Kind, Missing};
-use trackdyn_diagnose::{Diagnosis, Error, Evidence, Options, diagnose, unobserved};
+use trackdyn_diagnose::{Diagnosis, Error, Evidence, Options, Settings, diagnose, unobserved};
 use trackdyn_drive::schedules::as_commanded;
 use trackdyn_drive::sensors::{PoseFrame, Preset, Sensors, Views};
 use trackdyn_drive::{ScheduleKind, ScheduleOptions, ScheduledRun};
@@ -144,8 +144,20 @@ pub fn owned(concealed: &[&str]) -> VehicleFile {
 /// # Errors
 /// Why there is none.
 pub fn diagnosed(recording: &Recording, file: &VehicleFile) -> Result<Diagnosis, Error> {
+    diagnosed_by(recording, file, &Settings::default())
+}
+
+/// Its diagnosis by other settings.
+///
+/// # Errors
+/// Why there is none.
+pub fn diagnosed_by(
+    recording: &Recording,
+    file: &VehicleFile,
+    settings: &Settings,
+) -> Result<Diagnosis, Error> {
     let held_out = every_fourth(recording.runs().len());
-    let evidence = Evidence::of_recording(recording, file.vehicle.gauge)?;
+    let evidence = Evidence::of_recording(recording, file.vehicle.gauge, settings)?;
     diagnose(&evidence, file, &Options { held_out, ..Options::default() }, &unobserved)
 }
 

@@ -7,7 +7,7 @@ use trackdyn_core::Pose;
 use trackdyn_diagnose::evidence::planned::{PlannedRun, READINGS};
 use trackdyn_diagnose::hypothesis::Hypothesis;
 use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
-use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose, unobserved};
+use trackdyn_diagnose::{Diagnosis, Evidence, Options, Settings, diagnose, unobserved};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_model::VehicleFile;
 use trackdyn_recording::TrackSample;
@@ -47,12 +47,12 @@ fn evidence(last: f64, wrong: f64) -> Evidence {
             .collect(),
         ..VehicleFile::auriga_alpha()
     };
-    let truth = Hypothesis::filed(&truth);
+    let truth = Hypothesis::filed(&truth, &Settings::default().prior);
     let runs: Vec<PlannedRun> =
         (0..RUNS).map(|seed| run(seed, if seed + 1 == RUNS { last } else { 0.8 })).collect();
     let variance = NOISE * NOISE;
     let noise = SegmentNoise { pose: [variance; 3], walk: [variance; 3], heading: 0.0 };
-    Evidence::planned(&runs, noise, 0.0, |evidence| {
+    Evidence::planned(&runs, noise, 0.0, &Settings::default(), |evidence| {
         let mut random = ChaCha8Rng::seed_from_u64(1);
         let moved = Mechanics::new(&truth, evidence).predict(&Instruments::of(&truth), evidence);
         let samples = evidence.samples().iter().zip(moved);

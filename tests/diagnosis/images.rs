@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::sync::LazyLock;
 use trackdyn_core::Pose;
 use trackdyn_diagnose::diagnosis::Kind;
-use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose, unobserved};
+use trackdyn_diagnose::{Diagnosis, Evidence, Options, Settings, diagnose, unobserved};
 use trackdyn_drive::ScheduleKind;
 use trackdyn_drive::sensors::Preset;
 use trackdyn_model::VehicleFile;
@@ -27,7 +27,8 @@ fn drive(concealed: &[&str], count: usize, seed: u64) -> Recording {
 }
 
 fn diagnosed(recording: &Recording, file: &VehicleFile) -> Diagnosis {
-    let evidence = Evidence::of_recording(recording, file.vehicle.gauge).expect("enough");
+    let evidence = Evidence::of_recording(recording, file.vehicle.gauge, &Settings::default())
+        .expect("enough");
     diagnose(&evidence, file, &Options::default(), &unobserved).expect("a diagnosis")
 }
 

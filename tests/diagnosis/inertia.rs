@@ -6,7 +6,7 @@ use trackdyn_diagnose::candidate::{Beside, Variant};
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::hypothesis::{Hypothesis, Unknown, neutral};
 use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
-use trackdyn_diagnose::{Diagnosis, Evidence, Weighted};
+use trackdyn_diagnose::{Diagnosis, Evidence, Settings, Weighted};
 use trackdyn_drive::ScheduleKind;
 use trackdyn_drive::sensors::Preset;
 use trackdyn_estimate::weighting::SegmentNoise;
@@ -48,7 +48,7 @@ fn what_inertia_adds_is_what_small_steps_make_it() {
     file.vehicle.gauge = 0.55;
     file.vehicle.cog = [-0.017, 0.003];
     let (_, evidence) = by_hand();
-    let hypothesis = Hypothesis::filed(&file);
+    let hypothesis = Hypothesis::filed(&file, &Settings::default().prior);
     // of a laboratory
     let [pose, walk] = [4e-3_f64, 1.5e-3].map(|deviation| deviation.powi(2));
     let yaw = [0.17_f64, 0.07].map(|degrees| degrees.to_radians().powi(2));
@@ -208,8 +208,9 @@ fn by_hand() -> (Hypothesis, Evidence) {
     let schedule = runs(ScheduleKind::Manual, 2, 7);
     let drive = Drive::new(&file.vehicle, &[], &schedule, 7).expect("it drives");
     let recording = drive.recording(&sensors(Preset::Laboratory), 7);
-    let evidence = Evidence::of_recording(&recording, file.vehicle.gauge).expect("enough");
-    (Hypothesis::filed(&file), evidence)
+    let evidence = Evidence::of_recording(&recording, file.vehicle.gauge, &Settings::default())
+        .expect("enough");
+    (Hypothesis::filed(&file, &Settings::default().prior), evidence)
 }
 
 fn without_inertia(hypothesis: &Hypothesis) -> Hypothesis {

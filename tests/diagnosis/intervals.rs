@@ -4,7 +4,7 @@ use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::prior::prior;
 use trackdyn_diagnose::uncertainty::Interval;
-use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose, unobserved};
+use trackdyn_diagnose::{Diagnosis, Evidence, Options, Settings, diagnose, unobserved};
 use trackdyn_drive::ScheduleKind;
 use trackdyn_drive::sensors::Preset;
 use trackdyn_tests::concealed::{Drive, members, owned, runs, sensors};
@@ -65,6 +65,7 @@ fn diagnosed(seed: u64) -> Diagnosis {
     let schedule = runs(ScheduleKind::Manual, 6, seed);
     let drive = Drive::new(&vehicle, &[PATCH], &schedule, seed).expect("it drives");
     let recording = drive.recording(&sensors(Preset::Laboratory), seed);
-    let evidence = Evidence::of_recording(&recording, vehicle.gauge).expect("enough");
+    let evidence =
+        Evidence::of_recording(&recording, vehicle.gauge, &Settings::default()).expect("enough");
     diagnose(&evidence, &owned(&[PATCH]), &Options::default(), &unobserved).expect("a diagnosis")
 }

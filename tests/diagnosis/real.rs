@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::hypothesis::Unknown;
-use trackdyn_diagnose::{Diagnosis, Evidence, Options, diagnose, unobserved};
+use trackdyn_diagnose::{Diagnosis, Evidence, Options, Settings, diagnose, unobserved};
 use trackdyn_recording::UncheckedRun;
 use trackdyn_recording::{Recording, Run};
 use trackdyn_tests::concealed::{diagnosed, members, named, recording};
@@ -153,7 +153,8 @@ fn what_slow_driving_shows_forecasts_fast_driving() {
     let mut order: Vec<usize> = (0..real.runs().len()).collect();
     order.sort_by(|a, b| speed(&real.runs()[*a]).total_cmp(&speed(&real.runs()[*b])));
     let held_out = order.split_off(2 * order.len() / 3);
-    let evidence = Evidence::of_recording(&real, file.vehicle.gauge).expect("segments");
+    let evidence =
+        Evidence::of_recording(&real, file.vehicle.gauge, &Settings::default()).expect("segments");
     let options = Options { held_out, ..Options::default() };
     let diagnosis = diagnose(&evidence, &file, &options, &unobserved).expect("turns");
     let physics = diagnosis.answer.missing.iter().filter(|missing| missing.kind == Kind::Physics);

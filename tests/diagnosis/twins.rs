@@ -4,13 +4,12 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use trackdyn_diagnose::Diagnosis;
 use trackdyn_diagnose::candidate::{Beside, Variant, candidates};
 use trackdyn_diagnose::diagnosis::{Kind, Models};
 use trackdyn_diagnose::equations::Equations;
 use trackdyn_diagnose::hypothesis::neutral;
 use trackdyn_diagnose::search::{Catalogue, Search};
-use trackdyn_diagnose::verdict::Rules;
+use trackdyn_diagnose::{Diagnosis, Settings};
 use trackdyn_drive::sensors::{Preset, Sensors};
 use trackdyn_drive::{ScheduleKind, ScheduleOptions, ScheduledRun};
 use trackdyn_model::EffectId;
@@ -115,7 +114,7 @@ fn over_claims(concealed: &str, preset: Preset) -> Vec<String> {
         }
         let [only] = missing.verdict.one_of[..] else { continue };
         for (other, apart) in separations(&found, only) {
-            if apart < Rules::ISOLATED {
+            if apart < Settings::default().answer.min_separation {
                 let other = other.name();
                 wrong.push(format!("{concealed}: {truth} alone, {apart:.1} from {other}"));
             }
@@ -209,7 +208,8 @@ fn a_lag_and_a_late_clock_are_one_answer() {
         });
         let late: Vec<_> = late.collect();
         assert!(!late.is_empty(), "{concealed}: {LATE} s are not seen");
-        let is_twin = apart.is_some_and(|apart| apart < Rules::ISOLATED);
+        let least = Settings::default().answer.min_separation;
+        let is_twin = apart.is_some_and(|apart| apart < least);
         if is_twin && late.iter().any(|(_, members)| members.len() < 2) {
             split.push(format!("{concealed}: {apart:?} apart, {late:?}"));
         }

@@ -6,14 +6,18 @@
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
+use trackdyn_core::document::Document;
 use trackdyn_diagnose::diagnosis::{Kind, STAGES};
+use trackdyn_diagnose::verdict::Refusal;
 use trackdyn_diagnose::{
-    Diagnosis, Error, Evidence, Options, Progress, Resampling, Stage, Status, diagnose,
+    Diagnosis, DiagnosisFile, Error, Evidence, Options, Progress, Resampling, Settings, Stage,
+    Status, diagnose,
 };
 use trackdyn_drive::sensors::Preset;
 use trackdyn_drive::{ScheduleKind, ScheduleOptions};
+use trackdyn_model::kinematics::Source;
 use trackdyn_recording::Recording;
-use trackdyn_tests::concealed::{Drive, diagnosed, named, owned, sensors};
+use trackdyn_tests::concealed::{Drive, diagnosed, diagnosed_by, named, owned, sensors};
 
 /// Runs of a drive, and the time of each, s: short, and enough for two held-out runs.
 const RUNS: usize = 8;
@@ -129,12 +133,38 @@ fn a_law_outside_the_catalogue_is_flagged() {
     assert_eq!(found.answer.status, Status::Unexplained, "{:?}", named(&found));
 }
 
+/// A rule that nothing can keep refuses what is claimed by default, and the file says which number
+/// was another.
+#[test]
+fn a_setting_changes_the_answer_and_stands_in_its_file() {
+    let concealed = ["load-transfer:cog_height_m=0.15"];
+    let mut settings = Settings::default();
+    settings.verdict.min_ln_bayes_factor = 9000.0;
+    let found = diagnosed_by(&recording(&concealed), &owned(&concealed), &settings);
+    let found = found.expect("an answer");
+    assert!(named(&found).is_empty(), "{:?}", named(&found));
+    let refused: Vec<_> = found.answer.refused.iter().map(|verdict| &verdict.refused).collect();
+    let is_weak = |one: &&Option<Refusal>| matches!(one, Some(Refusal::Weak { needed, .. }) if *needed == 9000.0);
+    assert!(!refused.is_empty() && refused.iter().all(is_weak), "{refused:?}");
+    let file = DiagnosisFile::new(&found, &Source::default());
+    let text = file.to_toml();
+    assert!(text.contains("[settings.verdict]\nmin_ln_bayes_factor = 9000.0\n"), "{text}");
+    let read = DiagnosisFile::from_document(&Document::new("diagnosis.toml", text));
+    assert_eq!(read.expect("a file").settings, settings);
+    settings.verdict.max_p = 2.0;
+    let error = diagnosed_by(&recording(&concealed), &owned(&concealed), &settings).err();
+    let error = error.expect("no probability").to_string();
+    assert_eq!(error, "verdict.max_p = 2.0: expected a number from 0 to 1");
+}
+
 /// Progress counts to what was announced, whatever is repeated; a diagnosis ends where its observer
 /// stops it, be it between two refits.
 #[test]
 fn progress_ends_at_its_total_and_an_observer_may_stop_it() {
     let file = owned(&[]);
-    let evidence = Evidence::of_recording(&recording(&[]), file.vehicle.gauge).expect("enough");
+    let settings = Settings::default();
+    let evidence = Evidence::of_recording(&recording(&[]), file.vehicle.gauge, &settings);
+    let evidence = evidence.expect("enough");
     let resampling = Resampling { draws: 100, ..Resampling::default() };
     let options = Options { resampling, ..Options::default() };
     let told: Mutex<Vec<Progress>> = Mutex::default();

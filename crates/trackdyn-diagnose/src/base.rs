@@ -18,12 +18,6 @@ use trackdyn_core::PerSide;
 use trackdyn_model::{ActiveEffect, Circumstance, EffectId, Effects, Model, Vehicle, VehicleFile};
 use trackdyn_model::{Icrs, Stationary};
 
-/// Part of an instrument's signature that must be its own for it to be free beside the others.
-const OWN: f64 = 0.02;
-
-/// Part of what its owner's guess may be off by to which the evidence must know a number of the vehicle for it to be free.
-const BETTER: f64 = 0.5;
-
 /// What every hypothesis starts from.
 #[derive(Clone)]
 pub struct Base {
@@ -49,7 +43,8 @@ const BY_MASS: [Unknown; 3] = [Unknown::FrictionLevel, Unknown::Cog(0), Unknown:
 impl Base {
     /// The base of a vehicle for this evidence.
     pub fn new(file: &VehicleFile, evidence: &Weighted) -> Self {
-        let hypothesis = Hypothesis::filed(file);
+        let settings = evidence.settings();
+        let hypothesis = Hypothesis::filed(file, &settings.prior);
         let as_filed = Fit::new(hypothesis.clone(), &OFFSETS, evidence, None);
         let start = with_clock(&hypothesis, evidence);
         let mut nuisances = OFFSETS.to_vec();
@@ -62,7 +57,8 @@ impl Base {
         let fit = Fit::at(start.clone(), &tried, evidence, Some(&as_filed.mechanics));
         for (place, &unknown) in tried.iter().enumerate().skip(nuisances.len()) {
             let known = fit.solution.covariance[(place, place)].sqrt();
-            if known < BETTER * prior(&start, unknown, evidence).deviation {
+            let before = prior(&start, unknown, evidence).deviation;
+            if known < settings.base.max_known_share * before {
                 nuisances.push(unknown);
             }
         }
@@ -73,7 +69,8 @@ impl Base {
             let Some(hypothesis) = tried.calibrated(&plain.hypothesis) else { continue };
             let again = Fit::new(hypothesis, &nuisances, evidence, None);
             // Where nothing tells them apart, the first one stands.
-            let better = if calibration == Calibration::None { -1.0 } else { 1.0 };
+            let least = settings.base.min_fall_of_calibration;
+            let better = if calibration == Calibration::None { -least } else { least };
             if again.objective < fit.objective - better {
                 (fit, calibration) = (again, tried);
             }
@@ -127,7 +124,7 @@ fn free_instruments(
         let more: Vec<Unknown> = unknowns_of(effect).collect();
         let tried: Vec<Unknown> = unknowns.iter().chain(&more).copied().collect();
         let fit = Fit::at(hypothesis.clone(), &tried, evidence, Some(mechanics));
-        if own_share(&fit, unknowns.len()) > OWN {
+        if own_share(&fit, unknowns.len()) > evidence.settings().base.min_own_share {
             unknowns = tried;
             chosen.push(effect);
         }
@@ -281,6 +278,7 @@ pub fn with_vehicle(hypothesis: &Hypothesis, vehicle: &Vehicle) -> Option<Hypoth
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::settings;
 
     /// An effect that is not claimed leaves its constant ICRs, and the offset, to the vehicle; friction keeps its own level.
     #[test]
@@ -290,7 +288,8 @@ mod tests {
         let gradient = EffectId::of("friction-gradient");
         let gradient = gradient.expect("an effect");
         let effect = active(gradient, &[0.3]);
-        let filed = Hypothesis::filed(&file).with(Unknown::FrictionLevel, 0.4);
+        let filed = Hypothesis::filed(&file, &settings::Prior::default());
+        let filed = filed.with(Unknown::FrictionLevel, 0.4);
         let hypothesis =
             Hypothesis { offset: [0.01, -0.005, 0.02], ..filed.with_effect(effect.clone()) };
         let with = spin_with(&file.vehicle, [effect].into_iter().collect()).expect("a spin");

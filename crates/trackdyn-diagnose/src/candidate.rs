@@ -62,11 +62,11 @@ impl Variant {
     fn signature(&self, size: usize, beside: &Beside) -> Option<Signature> {
         let parameters = self.effect.card().parameters;
         let mut values = self.values.clone();
-        let mut steps = &STEPS[..];
+        let mut steps = &beside.evidence.settings().candidates.size_steps[..];
         if let Some(present) = beside.hypothesis.effect(self.effect) {
             // Known to be there: what more of it would change.
             values = present.values().to_vec();
-            steps = &STEPS[1..];
+            steps = &steps[1..];
         } else {
             for size in self.sizes() {
                 values[size] = neutral(&parameters[size]);
@@ -87,10 +87,6 @@ impl Variant {
         })
     }
 }
-
-/// Steps from what there is, as parts of a typical size. Whether the vehicle or an effect shifted the mass nobody knows: a
-/// typical step more may tip the robot over.
-const STEPS: [f64; 3] = [1.0, 0.2, -0.2];
 
 /// What signatures are taken beside.
 pub struct Beside<'a> {
@@ -164,43 +160,40 @@ pub fn variants(effect: EffectId, evidence: &Evidence) -> Vec<Variant> {
     all.map(|values| Variant { effect, values }).collect()
 }
 
-/// Parts of a typical size at which signatures of laws of the shear stress are taken: such a size may be the scale of a law,
-/// and what it shows then is not in proportion to it.
-const SHEAR_SIZES: [f64; 3] = [1.0, 0.2, 0.05];
-
 /// Values of a parameter that are tried.
 fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
     let [low, high] = parameter.range;
     let inside = |value: f64| value.clamp(low, high);
+    let settings = &evidence.settings().candidates;
     let step = spacing(parameter, None, evidence);
     match parameter.role {
         Role::Size { .. } if of.shears() => {
             let distance = parameter.typical - neutral(parameter);
-            SHEAR_SIZES.map(|part| inside(neutral(parameter) + part * distance)).to_vec()
+            settings.shear_sizes.map(|part| inside(neutral(parameter) + part * distance)).to_vec()
         }
         Role::Size { .. } => vec![parameter.typical],
-        Role::Direction => (0..24).map(|k| inside(step * f64::from(k))).collect(),
-        Role::Shape => shapes(parameter),
+        Role::Direction => {
+            let angles = (0..).map(|k| step * f64::from(k)).take_while(|angle| *angle < 360.0);
+            angles.map(inside).collect()
+        }
+        Role::Shape => shapes(parameter, settings.shape_ratio),
         Role::Place { .. } if of.has_extent() => vec![parameter.typical],
         Role::Place { .. } => {
             let [middle, _] = area(evidence, parameter.role);
-            [-3.0, -1.0, 0.0, 1.0, 3.0].map(|place: f64| inside(middle + place * step)).to_vec()
+            settings.places.map(|place| inside(middle + place * step)).to_vec()
         }
     }
 }
 
-/// One shape that is tried over the next.
-const SHAPE_STEP: f64 = 2.5;
-
 /// Shapes that are tried: the typical one and one on either side, or as many inside where that is an end of the range.
-fn shapes(parameter: &Parameter) -> Vec<f64> {
+fn shapes(parameter: &Parameter, ratio: f64) -> Vec<f64> {
     let [low, high] = parameter.range;
     let steps = match parameter.typical {
         typical if typical == high => [-1.0, -0.5, 0.0],
         typical if typical == low => [0.0, 0.5, 1.0],
         _ => [-1.0, 0.0, 1.0],
     };
-    let tried = steps.map(|k| (parameter.typical * (k * SHAPE_STEP.ln()).exp()).clamp(low, high));
+    let tried = steps.map(|k| (parameter.typical * (k * ratio.ln()).exp()).clamp(low, high));
     let mut tried = tried.to_vec();
     tried.dedup();
     tried
@@ -210,8 +203,8 @@ fn shapes(parameter: &Parameter) -> Vec<f64> {
 fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f64 {
     match parameter.role {
         Role::Size { .. } => 0.0,
-        Role::Direction => 15.0,
-        Role::Shape => SHAPE_STEP.ln(),
+        Role::Direction => evidence.settings().candidates.direction_step,
+        Role::Shape => evidence.settings().candidates.shape_ratio.ln(),
         Role::Place { .. } => extent.unwrap_or_else(|| area(evidence, parameter.role)[1]),
     }
 }
@@ -283,7 +276,10 @@ mod tests {
         let tried = |id: &str, key: &str| {
             let card = EffectId::of(id).expect("an effect").card();
             let parameter = card.parameters.iter().find(|one| one.key == key).expect("a key");
-            shapes(parameter).iter().map(|shape| (1e3 * shape).round() / 1e3).collect::<Vec<_>>()
+            shapes(parameter, 2.5)
+                .iter()
+                .map(|shape| (1e3 * shape).round() / 1e3)
+                .collect::<Vec<_>>()
         };
         assert_eq!(tried("terrain-patch", "radius_m"), [0.8, 2.0, 5.0]);
         assert_eq!(tried("shear-displacement", "residual"), [0.4, 0.632, 1.0]);

@@ -18,7 +18,7 @@ pub(crate) fn corrected(
     missing: &[Missing],
     proposed: Option<&Proposal>,
 ) -> VehicleFile {
-    let level = friction_level.filter(Level::is_sure).map_or(0.0, |level| level.value);
+    let level = friction_level.filter(|level| level.is_sure).map_or(0.0, |level| level.value);
     let vehicle = with_friction(&file.vehicle, level);
     let claimed = with_claims(VehicleFile { vehicle, ..file.clone() }, best, missing, level);
     let Some(Proposal { found, effect, .. }) = proposed else { return claimed };

@@ -5,10 +5,12 @@ mod proposed;
 pub use proposed::{ProposalTable, ProposedTable};
 
 use crate::diagnosis::{Diagnosis, Kind};
+use crate::settings::Settings;
 use crate::uncertainty::Interval;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use toml::Table;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::rounding::Digits;
 use trackdyn_model::effect::{Card, Symmetry};
@@ -38,9 +40,12 @@ pub struct DiagnosisFile {
     /// Smallest size of each effect that would have shown, by the keys of its sizes.
     #[serde(default)]
     pub detectable: BTreeMap<String, BTreeMap<String, f64>>,
+    /// Settings that differ from their defaults.
+    #[serde(default, skip_serializing_if = "Settings::are_defaults")]
+    pub settings: Settings,
     /// Where it comes from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub source: Option<toml::Table>,
+    pub source: Option<Table>,
 }
 
 /// Where evidence and model differ.
@@ -171,7 +176,8 @@ impl DiagnosisFile {
                 excess_explained: rounded(held_out.excess_explained().unwrap_or(1.0)),
             },
             detectable: sizes,
-            source: Some(toml::Table::try_from(source).expect("a source is a table")),
+            settings: diagnosis.evidence.seen.settings().clone(),
+            source: Some(Table::try_from(source).expect("a source is a table")),
         }
     }
 

@@ -64,6 +64,9 @@ pub enum Error {
     /// Stopped by its observer.
     #[error("cancelled")]
     Cancelled,
+    /// A setting that does not exist, or a value that it cannot have.
+    #[error(transparent)]
+    Setting(#[from] crate::settings::SettingError),
     /// A plan without time.
     #[error("{given} s: expected at least {needed:.2} s, the time of the shortest manoeuvre")]
     TooShort {

@@ -9,8 +9,7 @@ mod points;
 mod series;
 mod ticks;
 
-pub use series::FEWEST;
-
+use crate::settings::Settings;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -71,8 +70,8 @@ impl Origin {
     }
 }
 
-/// The samples of recordings or of a table. It does not change; what its residuals weigh is
-/// [`Weighted`](crate::weighted::Weighted)'s to say.
+/// The samples of recordings or of a table, and the settings by which they are diagnosed. It does
+/// not change; what its residuals weigh is [`Weighted`](crate::weighted::Weighted)'s to say.
 #[derive(Clone)]
 pub struct Evidence {
     samples: Arc<[Sample]>,
@@ -83,6 +82,7 @@ pub struct Evidence {
     tau: f64,
     origin: Origin,
     description: String,
+    settings: Arc<Settings>,
 }
 
 impl Evidence {
@@ -121,6 +121,11 @@ impl Evidence {
         &self.origin
     }
 
+    /// The settings by which it was made and is diagnosed.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
     /// The largest track speed, m/s.
     pub fn fastest(&self) -> f64 {
         let speeds = self.tracks.iter().flatten();
@@ -139,13 +144,16 @@ impl Evidence {
 
     /// Steps in which the encoders' speeds come for the ticks that they count, m/s.
     pub fn steps(&self) -> PerSide<f64> {
-        ticks::steps(&self.tracks)
+        ticks::steps(&self.tracks, &self.settings.evidence)
     }
 
     /// The evidence with even speeds between the ticks of encoders whose speeds come in such steps,
     /// m/s.
     pub fn with_speeds_between_ticks(&self, steps: PerSide<f64>) -> Self {
-        Self { tracks: ticks::smoothed(&self.tracks, steps), ..self.clone() }
+        Self {
+            tracks: ticks::smoothed(&self.tracks, steps, &self.settings.evidence),
+            ..self.clone()
+        }
     }
 
     /// What these runs show, by whether each of all is one of them.

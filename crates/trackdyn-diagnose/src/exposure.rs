@@ -4,10 +4,10 @@
 //! then lies on a line of slope one if the effect is there at its size, and about zero if it is not.
 
 use crate::fit::Fit;
-use crate::huber;
 use crate::mechanics::{Instruments, Mechanics};
 use crate::normal::{Columns, Normal};
 use crate::search::{Screened, Search};
+use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use trackdyn_model::EffectId;
 
@@ -36,7 +36,7 @@ impl Exposure {
             .filter(|(unknown, _)| !unknown.is_of(effect))
             .map(|(_, column)| column.clone())
             .collect();
-        Self { effect, predicted, observed }.beside(&others, &fit.residual)
+        Self { effect, predicted, observed }.beside(&others, &fit.residual, evidence)
     }
 
     /// Of a candidate beside the base.
@@ -49,13 +49,21 @@ impl Exposure {
                 *sum += value * *size;
             }
         }
-        Self { effect: one.effect, predicted, observed: fit.residual.clone() }
-            .beside(&fit.columns, &fit.residual)
+        Self { effect: one.effect, predicted, observed: fit.residual.clone() }.beside(
+            &fit.columns,
+            &fit.residual,
+            &search.evidence,
+        )
     }
 
     /// With what these columns explain taken out.
-    fn beside(self, columns: &[Vec<Vector3<f64>>], residual: &[Vector3<f64>]) -> Self {
-        let weights = huber::weights(residual);
+    fn beside(
+        self,
+        columns: &[Vec<Vector3<f64>>],
+        residual: &[Vector3<f64>],
+        evidence: &Weighted,
+    ) -> Self {
+        let weights = evidence.weights(residual);
         let blocks = vec![0; weights.len()];
         let rest = |of: Vec<Vector3<f64>>| -> Vec<Vector3<f64>> {
             let normal = Normal::new(&Columns {

@@ -5,37 +5,16 @@
 //! and m, s what is known of each unknown beforehand.
 
 use crate::evidence::Evidence;
-use crate::huber;
 use crate::hypothesis::{Hypothesis, Unknown, neutral, typical, typical_size};
 use crate::mechanics::{Instruments, Mechanics, is_instrument};
 use crate::normal::{Prior, Solution};
 use crate::prior::priors;
+use crate::settings;
 use crate::weighted::Weighted;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::Role;
-
-/// Iterations of a fit.
-const ITERATIONS: usize = 6;
-
-/// How often in a fit what inertia adds is found anew.
-const FOUND_ANEW: usize = 3;
-
-/// Shares of a step before it is given up.
-const SHARES: [f64; 4] = [1.0, 0.4, 0.15, 0.05];
-
-/// A step that lowers twice the objective by less than this is the last one.
-const SETTLED: f64 = 0.2;
-
-/// One that promises to lower it by less than this is not tried.
-const NOTHING: f64 = 0.01;
-
-/// Part of the gain that a step promises by which the true one may differ for its derivatives to stand.
-const FORETOLD: f64 = 0.1;
-
-/// Fall of twice the objective since the derivatives were found up to which they describe the minimum.
-const NEAR: f64 = 10.0;
 
 /// A hypothesis at its best.
 #[derive(Clone)]
@@ -59,16 +38,12 @@ pub struct Fit {
 }
 
 /// Step of a difference quotient, away from an upper bound.
-fn step(hypothesis: &Hypothesis, unknown: Unknown) -> f64 {
-    /// Of a size: part of its distance from none, within these parts of a typical one.
-    const SCALE: f64 = 0.2;
-    const SMALLEST: f64 = 2.5e-3;
-    const LARGEST: f64 = 0.05;
+fn step(hypothesis: &Hypothesis, unknown: Unknown, settings: &settings::Fit) -> f64 {
     let value = hypothesis.get(unknown);
     let size = match unknown {
-        Unknown::Offset(_) => 1e-3 * hypothesis.vehicle.gauge,
-        Unknown::FrictionLevel => 0.05,
-        Unknown::Cog(_) => 5e-3 * hypothesis.vehicle.gauge,
+        Unknown::Offset(_) => settings.icr_difference * hypothesis.vehicle.gauge,
+        Unknown::FrictionLevel => settings.friction_difference,
+        Unknown::Cog(_) => settings.cog_difference * hypothesis.vehicle.gauge,
         Unknown::Effect(..) => {
             let parameter = unknown.parameter().expect("an effect's");
             match parameter.role {
@@ -76,15 +51,19 @@ fn step(hypothesis: &Hypothesis, unknown: Unknown) -> f64 {
                     // a size may be the scale of a law: what a larger step changes is not its derivative
                     let distance = (value - neutral(parameter)).abs();
                     let typical = typical_size(parameter);
-                    (SCALE * distance).clamp(SMALLEST * typical, LARGEST * typical)
+                    let [low, high] = settings.size_difference_limits;
+                    (settings.size_difference * distance).clamp(low * typical, high * typical)
                 }
-                Role::Place { .. } => 0.1,
-                Role::Direction => 2.0,
-                Role::Shape => 0.05 * value.abs().max(0.05 * parameter.typical),
+                Role::Place { .. } => settings.place_difference,
+                Role::Direction => settings.direction_difference,
+                Role::Shape => {
+                    let part = settings.shape_difference;
+                    part * value.abs().max(part * parameter.typical)
+                }
             }
         }
     };
-    let [_, high] = unknown.range();
+    let [_, high] = hypothesis.range(unknown);
     if value + size > high { -size } else { size }
 }
 
@@ -111,7 +90,7 @@ pub fn derivatives(
     unknowns
         .par_iter()
         .map(|&unknown| {
-            let step = step(hypothesis, unknown);
+            let step = step(hypothesis, unknown, &evidence.settings().fit);
             let moved = hypothesis.with(unknown, hypothesis.get(unknown) + step);
             let step = moved.get(unknown) - hypothesis.get(unknown);
             let instruments = Instruments::of(&moved);
@@ -169,7 +148,7 @@ impl Point {
             f64::INFINITY
         } else {
             // of ∞ and what is no number, the smaller is ∞
-            (huber::loss(&residual) + penalty(&hypothesis, unknowns, evidence)).min(f64::INFINITY)
+            (evidence.loss(&residual) + penalty(&hypothesis, unknowns, evidence)).min(f64::INFINITY)
         };
         Self { hypothesis, mechanics, prediction, residual, objective }
     }
@@ -212,7 +191,7 @@ impl Fit {
     /// there, or from a share of the way if these derivatives led astray.
     pub fn from_point(start: Point, unknowns: &[Unknown], evidence: &Weighted) -> Self {
         let mut fit = Self::linearised(start, unknowns, evidence);
-        for _ in 0..FOUND_ANEW {
+        for _ in 0..evidence.settings().fit.max_restarts {
             let end = fit.clone().descended(evidence);
             let anew = |hypothesis: Hypothesis| {
                 Point::new(hypothesis, unknowns, evidence, Some(&end.mechanics))
@@ -221,7 +200,9 @@ impl Fit {
             if whole.mechanics.has_inertia_of(&end.mechanics) {
                 return end;
             }
-            let parts = SHARES[1..].iter().map(|&share| anew(fit.towards(&end, share)));
+            let parts = evidence.settings().fit.step_shares[1..]
+                .iter()
+                .map(|&share| anew(fit.towards(&end, share)));
             let better = |point: &Point| point.objective < fit.objective;
             let Some(point) = std::iter::once(whole).chain(parts).find(better) else { break };
             fit = Self::linearised(point, unknowns, evidence);
@@ -257,12 +238,13 @@ impl Fit {
     fn descent(self, are_own: bool, evidence: &Weighted) -> (Self, f64) {
         let mut fit = self;
         let (mut are_own, mut since) = (are_own, 0.0);
-        for _ in 0..ITERATIONS {
+        let settings::Fit { max_steps, min_fall, max_promise_error, .. } = evidence.settings().fit;
+        for _ in 0..max_steps {
             let next = fit.next(evidence);
             let gain = next.as_ref().map_or(0.0, |next| fit.objective - next.objective);
             let promised = fit.solution.gain;
-            let foretold = (gain - promised).abs() < FORETOLD * promised + SETTLED;
-            let is_last = gain < SETTLED && (foretold || are_own);
+            let foretold = (gain - promised).abs() < max_promise_error * promised + min_fall;
+            let is_last = gain < min_fall && (foretold || are_own);
             if is_last && next.is_none() {
                 break;
             }
@@ -286,7 +268,7 @@ impl Fit {
     /// The end of the descent from here, with derivatives that describe it.
     fn descended(self, evidence: &Weighted) -> Self {
         let (end, since) = self.descent(true, evidence);
-        if since < NEAR {
+        if since < evidence.settings().fit.max_fall_of_jacobian {
             return end;
         }
         let Self { hypothesis, mechanics, unknowns, .. } = end;
@@ -297,10 +279,11 @@ impl Fit {
     /// The point of a share of the step that lowers the objective; none where no share does, or where the
     /// whole step promises next to nothing.
     fn next(&self, evidence: &Weighted) -> Option<Point> {
-        if self.solution.gain < NOTHING {
+        let settings = &evidence.settings().fit;
+        if self.solution.gain < settings.min_promised_fall {
             return None;
         }
-        SHARES.into_iter().find_map(|share| {
+        settings.step_shares.into_iter().find_map(|share| {
             let hypothesis = self.stepped(share);
             let mechanics = self.mechanics.on_the_way(&hypothesis, &self.unknowns, evidence);
             let unknowns = &self.unknowns;
@@ -408,7 +391,7 @@ impl Fit {
 
 fn at_bound(hypothesis: &Hypothesis, unknown: Unknown, step: f64) -> bool {
     let value = hypothesis.get(unknown);
-    let [low, high] = unknown.range();
+    let [low, high] = hypothesis.range(unknown);
     (value <= low && step < 0.0) || (value >= high && step > 0.0)
 }
 
@@ -435,13 +418,15 @@ mod tests {
     /// A quotient over no step at all would be no number.
     #[test]
     fn every_number_has_a_step_to_take_wherever_it_stands() {
-        let filed = Hypothesis::filed(&VehicleFile::auriga_alpha());
+        let prior = settings::Prior::default();
+        let filed = Hypothesis::filed(&VehicleFile::auriga_alpha(), &prior);
+        let settings = settings::Fit::default();
         let effects = EffectId::all().flat_map(unknowns_of);
         for unknown in effects.chain([Unknown::Offset(0), Unknown::FrictionLevel]) {
-            let [low, high] = unknown.range();
+            let [low, high] = filed.range(unknown);
             for value in [low.max(-1e9), high.min(1e9), 0.0_f64.clamp(low, high)] {
                 let here = filed.with(unknown, value);
-                let there = here.with(unknown, here.get(unknown) + step(&here, unknown));
+                let there = here.with(unknown, here.get(unknown) + step(&here, unknown, &settings));
                 assert!(there.get(unknown) != here.get(unknown), "{unknown:?} at {value}");
             }
         }

@@ -1,5 +1,6 @@
 //! A hypothesis: a vehicle, effects with their sizes, and a constant offset of the ICRs.
 
+use crate::settings;
 use trackdyn_model::effect::{Card, Parameter, Role};
 use trackdyn_model::{ActiveEffect, EffectId, Effects, Vehicle, VehicleFile};
 
@@ -18,11 +19,9 @@ pub struct Hypothesis {
     /// By what the centre of gravity (x_c, y_c) of the vehicle differs from the one first supposed, m: constant ICRs move with it
     /// as with much else, but with every start and stop mass pulls where it is.
     pub cog_moved: [f64; 2],
+    /// Largest change of the level of friction.
+    pub max_friction_change: f64,
 }
-
-/// Largest change of the level of friction, as logarithm: a coefficient that is guessed at all is guessed better than
-/// to a factor of four.
-const LEVEL: f64 = 1.4;
 
 /// A number of a hypothesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -51,15 +50,6 @@ impl Unknown {
         match self {
             Self::Offset(_) | Self::FrictionLevel | Self::Cog(_) => None,
             Self::Effect(effect, parameter) => Some(&effect.card().parameters[parameter]),
-        }
-    }
-
-    /// What it may be.
-    pub fn range(self) -> [f64; 2] {
-        match (self, self.parameter()) {
-            (Self::FrictionLevel, _) => [-LEVEL, LEVEL],
-            (_, Some(parameter)) => parameter.range,
-            (_, None) => [f64::NEG_INFINITY, f64::INFINITY],
         }
     }
 
@@ -98,9 +88,20 @@ pub fn typical_size(parameter: &Parameter) -> f64 {
 
 impl Hypothesis {
     /// What a vehicle file says.
-    pub fn filed(file: &VehicleFile) -> Self {
+    pub fn filed(file: &VehicleFile, settings: &settings::Prior) -> Self {
         let VehicleFile { vehicle, effects } = file.clone();
-        Self { vehicle, effects, offset: [0.0; 3], friction_level: 0.0, cog_moved: [0.0; 2] }
+        let settings::Prior { max_friction_change, .. } = *settings;
+        let (offset, cog_moved) = ([0.0; 3], [0.0; 2]);
+        Self { vehicle, effects, offset, friction_level: 0.0, cog_moved, max_friction_change }
+    }
+
+    /// What an unknown may be.
+    pub fn range(&self, unknown: Unknown) -> [f64; 2] {
+        match (unknown, unknown.parameter()) {
+            (Unknown::FrictionLevel, _) => [-self.max_friction_change, self.max_friction_change],
+            (_, Some(parameter)) => parameter.range,
+            (_, None) => [f64::NEG_INFINITY, f64::INFINITY],
+        }
     }
 
     /// Value of an unknown; that of no effect where the effect is not there.
@@ -117,7 +118,7 @@ impl Hypothesis {
     /// comes with no size and the typical values of what is no size.
     pub fn with(&self, unknown: Unknown, value: f64) -> Self {
         let mut changed = self.clone();
-        let [low, high] = unknown.range();
+        let [low, high] = self.range(unknown);
         let value = value.clamp(low, high);
         match unknown {
             Unknown::Offset(k) => changed.offset[k] = value,
@@ -232,11 +233,13 @@ mod tests {
     /// A step of a fit may promise anything; forces of 10³⁰ N balance nowhere, and take long to say so.
     #[test]
     fn numbers_stay_within_what_they_may_be() {
-        let filed = Hypothesis::filed(&VehicleFile::auriga_alpha());
+        let settings = settings::Prior::default();
+        let most = settings.max_friction_change;
+        let filed = Hypothesis::filed(&VehicleFile::auriga_alpha(), &settings);
         let grip = |hypothesis: &Hypothesis| hypothesis.vehicle.friction.along;
         let raised = filed.with(Unknown::FrictionLevel, 70.0);
-        assert_eq!(raised.friction_level, LEVEL);
-        assert!((grip(&raised) / grip(&filed) - LEVEL.exp()).abs() < 1e-12);
+        assert_eq!(raised.friction_level, most);
+        assert!((grip(&raised) / grip(&filed) - most.exp()).abs() < 1e-12);
         let lowered = raised.with(Unknown::FrictionLevel, -70.0);
         assert!((grip(&lowered) * grip(&raised) / grip(&filed).powi(2) - 1.0).abs() < 1e-12);
         assert_eq!(filed.with(Unknown::Offset(1), -7.0).offset[1], -7.0);

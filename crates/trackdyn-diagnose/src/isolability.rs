@@ -5,9 +5,6 @@ use crate::search::{Found, Screened, Search};
 use nalgebra::DMatrix;
 use trackdyn_model::EffectId;
 
-/// Standard deviations by which an effect must stand out to be detectable.
-pub const DETECTED: f64 = 5.0;
-
 /// The effects' signatures against each other, with all that is free projected out.
 #[derive(Clone, Debug)]
 pub struct Isolability {
@@ -19,6 +16,8 @@ pub struct Isolability {
     pub cosines: DMatrix<f64>,
     /// z of each effect at its typical size beside the other one.
     pub separation: DMatrix<f64>,
+    /// z from which on an effect is detectable.
+    pub min_detected_z: f64,
     /// Each size parameter, with z per unit of it.
     sizes: Vec<(Unknown, f64)>,
 }
@@ -94,7 +93,8 @@ impl Isolability {
         }
         sizes.sort_by_key(|(unknown, _)| *unknown);
         let effects = order.iter().map(|one| one.effect).collect();
-        Self { effects, detection, cosines, separation, sizes }
+        let min_detected_z = search.settings().limits.min_detected_z;
+        Self { effects, detection, cosines, separation, min_detected_z, sizes }
     }
 
     /// The smallest size of every effect that would have stood out.
@@ -105,7 +105,7 @@ impl Isolability {
                 let Unknown::Effect(effect, parameter) = unknown else { return None };
                 let card = &effect.card().parameters[parameter];
                 let most = (card.range[1] - neutral(card)).max(neutral(card) - card.range[0]);
-                let size = DETECTED / per_unit;
+                let size = self.min_detected_z / per_unit;
                 Some(Detectable { effect, parameter, size: (size <= most).then_some(size) })
             })
             .collect()

@@ -3,7 +3,8 @@
 //! - [`evidence`]: what was seen, drives and tables of steady motion alike; [`weighted`]: what its residuals weigh.
 //! - [`noise`]: how noisy that is, from what driving cannot explain.
 //! - [`hypothesis`]: a vehicle with effects; [`mechanics`], [`surface`]: what it predicts of the evidence.
-//! - [`huber`], [`prior`]: what residuals far out weigh, and what is known of its unknowns beforehand.
+//! - [`prior`]: what is known of its unknowns beforehand.
+//! - [`settings`]: all numbers that decide an answer.
 //! - [`fit`], [`normal`], [`equations`]: its unknowns at their best, and normal equations by blocks.
 //! - [`base`]: what is free in every hypothesis: constant ICRs, encoders and pose sensor.
 //! - [`locate`], [`significance`], [`place`]: where evidence departs from it, without a model of why.
@@ -28,7 +29,6 @@ pub mod evidence;
 pub mod exposure;
 pub mod fit;
 pub mod held_out;
-pub mod huber;
 pub mod hypothesis;
 pub mod isolability;
 pub mod locate;
@@ -56,4 +56,5 @@ pub use evidence::Evidence;
 pub use plan::{Plan, PlanFile, plan};
 pub use progress::{Observer, Progress, Stage, unobserved};
 pub use resampling::Resampling;
+pub use settings::Settings;
 pub use weighted::Weighted;

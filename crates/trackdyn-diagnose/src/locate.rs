@@ -19,7 +19,6 @@ pub use waves::Wave;
 use crate::equations::Stack;
 use crate::evidence::{Evidence, Sample};
 use crate::fit::Fit;
-use crate::huber;
 use crate::mechanics::Instruments;
 use crate::normal::Prior;
 use crate::resampling::Resampling;
@@ -36,7 +35,7 @@ pub type IcrColumns = [Vec<Vector3<f64>>; 3];
 /// Derivatives of the prediction by x_l, x_r and y, not whitened.
 pub fn icr_columns(evidence: &Evidence, fit: &Fit) -> IcrColumns {
     let instruments = Instruments::of(&fit.hypothesis);
-    let step = 1e-3 * fit.hypothesis.vehicle.gauge;
+    let step = evidence.settings().fit.icr_difference * fit.hypothesis.vehicle.gauge;
     let here = fit.mechanics.predict(&instruments, evidence);
     std::array::from_fn(|k| {
         let mut moved = instruments;
@@ -68,19 +67,14 @@ pub struct Location {
     pub wave: Option<Wave>,
     /// What the contrasts of all symmetries together explain, as χ² beyond their number.
     pub explicable: f64,
+    /// Largest family-wise p of a broken symmetry, and of one that a corrected model leaves over.
+    pub max_p: [f64; 2],
 }
-
-/// Family-wise probability below which a symmetry counts as broken.
-pub const SIGNIFICANT: f64 = 0.01;
-
-/// Family-wise probability below which a corrected model is not the whole of it: no simulator equals the
-/// ground to all digits, so that more is asked than of a location.
-pub const SURE: f64 = 0.001;
 
 impl Location {
     /// The symmetries that are broken.
     pub fn broken(&self) -> Vec<Symmetry> {
-        let tests = self.tests.iter().filter(|test| test.test.p < SIGNIFICANT);
+        let tests = self.tests.iter().filter(|test| test.test.p < self.max_p[0]);
         tests.map(|test| test.symmetry).collect()
     }
 
@@ -89,7 +83,7 @@ impl Location {
     pub fn left_over(&self, form: f64) -> Vec<Symmetry> {
         let tests = self.tests.iter();
         let beyond = |test: &SymmetryTest| test.test.statistic - real(test.test.degrees);
-        let tests = tests.filter(|test| test.test.p < SURE && beyond(test) > form);
+        let tests = tests.filter(|test| test.test.p < self.max_p[1] && beyond(test) > form);
         tests.map(|test| test.symmetry).collect()
     }
 }
@@ -109,6 +103,7 @@ impl Residual<'_> {
     /// What it shows.
     pub fn locate(&self, resampling: Resampling) -> Location {
         let Self { evidence, fit, icrs } = *self;
+        let settings = &evidence.settings().location;
         let Fit { residual, columns: fitted, .. } = fit;
         let mut stack = Stack::new(fitted.clone(), vec![Prior::flat(); fitted.len()]);
         let mut of_groups: Vec<Contrasts> = Vec::new();
@@ -129,8 +124,9 @@ impl Residual<'_> {
             let beside = groups.iter().filter(is_plain).flat_map(|(_, columns)| columns.clone());
             projected = projected.cleared(own, &beside.collect::<Vec<_>>());
         }
-        let tests = test(&projected, &equations.groups, resampling);
-        let all = test(&projected, &[equations.groups.concat()], resampling.once());
+        let tests = test(&projected, &equations.groups, resampling, settings);
+        let together = [equations.groups.concat()];
+        let all = test(&projected, &together, resampling.once(), settings);
         let mut strongest: Vec<SymmetryTest> = Vec::new();
         for ((Contrasts { symmetry, .. }, _), test) in groups.into_iter().zip(tests) {
             match strongest.iter_mut().find(|other| other.symmetry == symmetry) {
@@ -145,6 +141,7 @@ impl Residual<'_> {
             tests: strongest,
             wave: None,
             explicable: all.first().map_or(0.0, |all| all.statistic - real(all.degrees)),
+            max_p: [settings.max_p, settings.max_p_left_over],
         }
     }
 
@@ -154,7 +151,7 @@ impl Residual<'_> {
         let Self { evidence, fit, icrs } = *self;
         let strongest = |beside: &[Vec<Vector3<f64>>]| {
             let wave = strongest_wave(evidence, &fit.residual, beside, icrs, resampling);
-            wave.filter(|wave| wave.test.p < SIGNIFICANT)
+            wave.filter(|wave| wave.test.p < location.max_p[0])
         };
         // What plainer contrasts show is in some waves as well, and in the best of so many by chance.
         let wave = strongest(&fit.columns).and_then(|_| {
@@ -184,7 +181,7 @@ pub fn excess_of(
     residual: &[Vector3<f64>],
     counts: impl Fn(&Sample, usize) -> bool,
 ) -> f64 {
-    let weights = huber::weights(residual);
+    let weights = evidence.weights(residual);
     let (mut sum, mut count) = (0.0, 0.0);
     for (index, (z, sample)) in residual.iter().zip(evidence.samples()).enumerate() {
         for channel in 0..3 {
@@ -198,7 +195,7 @@ pub fn excess_of(
 }
 
 fn shares(evidence: &Weighted, residual: &[Vector3<f64>]) -> [f64; 3] {
-    let weights = huber::weights(residual);
+    let weights = evidence.weights(residual);
     let beyond: [f64; 3] = std::array::from_fn(|channel| {
         let measured = (0..residual.len()).filter(|&index| evidence.is_measured(index, channel));
         let sum: f64 =

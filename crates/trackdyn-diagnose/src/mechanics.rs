@@ -37,9 +37,6 @@ use trackdyn_model::{ActiveEffect, Drive, Effects, Model, Sensor, Vehicle};
 use trackdyn_recording::TrackSample;
 use trackdyn_recording::hold::pieces;
 
-/// Speeds beyond the largest recorded one that a hypothesis may reach by its gains.
-const HEADROOM: f64 = 1.1;
-
 /// Samples that one task predicts or solves.
 const TASK: usize = 64;
 
@@ -142,7 +139,13 @@ impl Mechanics {
         free: &[Unknown],
         evidence: &Evidence,
     ) -> Self {
-        Self::near(before, hypothesis, free, evidence, Within::REACH)
+        Self::near(
+            before,
+            hypothesis,
+            free,
+            evidence,
+            Within::reach(&evidence.settings().mechanics),
+        )
     }
 
     /// The mechanics of a hypothesis on the way of a fit: what inertia adds is taken from here, however far what it comes
@@ -153,7 +156,8 @@ impl Mechanics {
         free: &[Unknown],
         evidence: &Evidence,
     ) -> Self {
-        Self::near(Some(self), hypothesis, free, evidence, Within::THE_WAY)
+        let within = Within::the_way(&evidence.settings().mechanics);
+        Self::near(Some(self), hypothesis, free, evidence, within)
     }
 
     fn near(
@@ -198,7 +202,7 @@ impl Mechanics {
         evidence: &Evidence,
         inertia: impl FnOnce(Vec<ActiveEffect>, &Case) -> Result<InertiaNear, String>,
     ) -> Self {
-        let vehicle = &hypothesis.vehicle;
+        let (vehicle, settings) = (&hypothesis.vehicle, &evidence.settings().mechanics);
         let mechanical = hypothesis.effects.iter().filter(|effect| !is_instrument(vehicle, effect));
         let (mut varying, mut constant) = (Vec::new(), Vec::new());
         for effect in mechanical.cloned() {
@@ -212,16 +216,17 @@ impl Mechanics {
             effects.iter().filter(|effect| !effect.card().shears()).cloned().collect()
         };
         let drive = Instruments::of(hypothesis).drive;
-        let largest = HEADROOM * evidence.fastest() * std::f64::consts::SQRT_2;
+        let largest = settings.speed_headroom * evidence.fastest() * std::f64::consts::SQRT_2;
         let model = coarse(vehicle, constant.iter().cloned().collect());
-        let surface = Surface::new(&model, largest, before.map(|before| &before.surface));
+        let resembling = before.map(|before| &before.surface);
+        let surface = Surface::new(&model, largest, settings.speed_range, resembling);
         let steady = Arc::new(steady(&surface, &drive, evidence.tracks()));
         let shear: Vec<ActiveEffect> =
             constant.iter().filter(|effect| effect.card().shears()).cloned().collect();
         let still =
             Self { surface, steady, drive, ground: None, in_time: InTime::Stationary, shear };
         // What cannot be needs no departures, which cost most where no forces balance.
-        if let Some(reason) = unbalanced(&still.surface) {
+        if let Some(reason) = unbalanced(&still.surface, settings.max_unsolved_share) {
             return Self { in_time: InTime::Impossible(reason), ..still };
         }
         let simple = coarse(vehicle, without_shear(&constant));
@@ -331,12 +336,11 @@ impl Mechanics {
     }
 }
 
-/// Why no robot moves so that has these stationary motions; none where one may.
-fn unbalanced(surface: &Surface) -> Option<String> {
-    /// Share of the speeds without a balance of forces up to which a hypothesis may be.
-    const MOST: f64 = 0.2;
+/// Why no robot moves so that has these stationary motions, at more than this share of the speeds; none
+/// where one may.
+fn unbalanced(surface: &Surface, most: f64) -> Option<String> {
     let share = surface.unsolved();
-    (share > MOST).then(|| {
+    (share > most).then(|| {
         format!(
             "at {:.0} % of the speeds part of the contact lifts or no forces balance",
             100.0 * share

@@ -31,6 +31,7 @@
 mod flexible;
 
 use crate::fit::Fit;
+use crate::settings;
 use crate::weighted::Weighted;
 use flexible::Flexible;
 use nalgebra::{Cholesky, SMatrix, SVector, Vector3};
@@ -38,37 +39,14 @@ use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median};
 use trackdyn_core::{Pose, real};
 use trackdyn_estimate::weighting::SegmentNoise;
 
-/// Degrees of freedom of the heavy-tailed likelihood.
-const TAILS: f64 = 5.0;
-
 /// Median of a χ² with three degrees of freedom.
 const MEDIAN: f64 = 2.365_973_884_375_338;
-
-/// |z|² of a sample that one in a million would reach by chance, and that of a pair which one in a hundred does.
-const FAR_OFF: f64 = 30.7;
-const TOGETHER: f64 = 11.3;
-
-/// Rounds in which columns are fitted in the noise that was found.
-const ROUNDS: usize = 3;
-
-/// Steps of a maximisation, and the gain that ends it.
-const STEPS: usize = 20;
-const SETTLED: f64 = 0.05;
 
 /// Variances of a noise: of poses, of their walk, of the heading's.
 const COUNT: usize = 7;
 
 /// Their logarithms.
 type Variances = SVector<f64, COUNT>;
-
-/// A variance changes by no more than this factor in a step, e-fold.
-const LARGEST_STEP: f64 = 1.5;
-
-/// No walk is smaller than this share of the white noise, in a second.
-const NO_WALK: f64 = 1e-5;
-
-/// By what the variance of what a run adds up to must be smaller beside a hypothesis for the noise to be another one.
-const SHARPER: f64 = 1.3;
 
 /// The evidence with the noise that the residuals beside a fit show. Tables of steady points keep theirs.
 pub fn with_remaining_noise(evidence: &Weighted, fit: &Fit) -> Weighted {
@@ -78,9 +56,10 @@ pub fn with_remaining_noise(evidence: &Weighted, fit: &Fit) -> Weighted {
 
 /// The evidence with the noise that is left beside what is flexible, from what was measured on.
 fn remaining(evidence: &Weighted, measured: SegmentNoise, flexible: &Flexible) -> Weighted {
-    let mut noise = noise_of(&start(&measured));
+    let settings = &evidence.settings().noise;
+    let mut noise = noise_of(&start(&measured, settings), settings);
     let mut evidence = evidence.with_all_in(noise);
-    for _ in 0..ROUNDS {
+    for _ in 0..settings.rounds {
         let left = flexible.left(&evidence);
         let taken = flexible.taken(&evidence, &noise, &left.columns);
         noise = most_likely(&evidence, noise, &left.residual, &taken);
@@ -92,12 +71,13 @@ fn remaining(evidence: &Weighted, measured: SegmentNoise, flexible: &Flexible) -
 
 /// Where a search begins, as logarithms: a variance of next to nothing has no slope, neither in its likelihood nor in what
 /// was taken of it, so that a walk begins at a part of the white noise at least.
-fn start(measured: &SegmentNoise) -> Variances {
+fn start(measured: &SegmentNoise, settings: &settings::Noise) -> Variances {
     let SegmentNoise { pose, mut walk, heading } = *measured;
     for (walk, pose) in walk.iter_mut().zip(pose) {
-        *walk = walk.max(0.03 * pose);
+        *walk = walk.max(settings.start_walk * pose);
     }
-    variances_of(&SegmentNoise { pose, walk, heading: heading.max(0.5 * walk[2]) })
+    let heading = heading.max(settings.start_heading * walk[2]);
+    variances_of(&SegmentNoise { pose, walk, heading })
 }
 
 /// The evidence without the samples at whose poses the sensor erred, beside a fit, in the noise that it has.
@@ -140,8 +120,9 @@ pub fn sharper(evidence: &Weighted, fit: &Fit) -> Option<Weighted> {
         let pairs = [(forward, x), (left, y), (yaw, turn), (yaw, noise.heading)];
         pairs.map(|(white, walk)| white + walk * time)
     };
+    let ratio = evidence.settings().noise.min_variance_ratio;
     let is_less =
-        added(before).iter().zip(added(after)).any(|(before, after)| *before > SHARPER * after);
+        added(before).iter().zip(added(after)).any(|(before, after)| *before > ratio * after);
     is_less.then_some(again)
 }
 
@@ -157,16 +138,18 @@ fn run_time(evidence: &Weighted) -> Option<f64> {
 fn outlying(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
     let mut white = left.to_vec();
     evidence.whiten(&mut white);
+    let settings = &evidence.settings().noise;
     let samples = evidence.samples();
     let pose = |motion: &Vector3<f64>| Pose::new(motion[0], motion[1], motion[2]);
     let mut lost: Vec<usize> = Vec::new();
     for index in 1..samples.len() {
         let pair = [index - 1, index];
         // What a pose that erred tells of the next ones is wrong too, and is judged in the next round.
-        if lost.last().is_some_and(|last| index <= last + 3) {
+        if lost.last().is_some_and(|last| index <= last + settings.outlier_distance) {
             continue;
         }
-        if !samples[index].follows || white[index - 1].norm_squared() < FAR_OFF {
+        let is_far = white[index - 1].norm_squared() >= settings.min_outlier_square;
+        if !samples[index].follows || !is_far {
             continue;
         }
         let both =
@@ -184,7 +167,7 @@ fn outlying(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
         let together = off.x.powi(2) / variance(0)
             + off.y.powi(2) / variance(1)
             + off.yaw.powi(2) / variance(2);
-        if together < TOGETHER {
+        if together < settings.max_pair_square {
             lost.extend(pair);
         }
     }
@@ -202,10 +185,11 @@ fn most_likely(
     taken: &Variances,
 ) -> SegmentNoise {
     let likelihood = Likelihood { evidence, residual, taken };
+    let settings = &evidence.settings().noise;
     let [first, second] =
-        [measured, likelihood.white_alone()].map(|noise| likelihood.climb(start(&noise)));
-    let (here, _) = if second.1 > first.1 + SETTLED { second } else { first };
-    let noise = noise_of(&here);
+        [measured, likelihood.white_alone()].map(|noise| likelihood.climb(start(&noise, settings)));
+    let (here, _) = if second.1 > first.1 + settings.min_gain { second } else { first };
+    let noise = noise_of(&here, settings);
     let (_, white) = likelihood.white(&noise);
     let squares = white.iter().map(Vector3::norm_squared);
     let mut squares: Vec<f64> = squares.filter(|square| *square > 0.0).collect();
@@ -251,7 +235,8 @@ impl Likelihood<'_> {
         };
         let mut terms = self.terms(&here);
         let mut value = sum(&terms, &here);
-        for _ in 0..STEPS {
+        let settings = &self.evidence.settings().noise;
+        for _ in 0..settings.max_steps {
             let step = self.step(&here, &terms);
             let next = [1.0, 0.4, 0.1].into_iter().find_map(|share| {
                 let there = (here + step * share).map(|v| v.clamp(-80.0, 20.0));
@@ -262,7 +247,7 @@ impl Likelihood<'_> {
             let Some((there, found, reached)) = next else { break };
             let gain = reached - value;
             (here, terms, value) = (there, found, reached);
-            if gain < SETTLED {
+            if gain < settings.min_gain {
                 break;
             }
         }
@@ -278,7 +263,9 @@ impl Likelihood<'_> {
 
     /// The logarithm of the likelihood of each segment.
     fn terms(&self, variances: &Variances) -> Vec<f64> {
-        let (evidence, white) = self.white(&noise_of(variances));
+        let settings = &self.evidence.settings().noise;
+        let (evidence, white) = self.white(&noise_of(variances, settings));
+        let tails = settings.t_degrees;
         let samples = white.iter().zip(evidence.ln_determinants());
         samples
             .map(|(z, ln_determinant)| {
@@ -286,28 +273,28 @@ impl Likelihood<'_> {
                     return 0.0;
                 }
                 // ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν)
-                ln_determinant - 0.5 * (TAILS + 3.0) * (z.norm_squared() / TAILS).ln_1p()
+                ln_determinant - 0.5 * (tails + 3.0) * (z.norm_squared() / tails).ln_1p()
             })
             .collect()
     }
 
     /// The step of Berndt and others: (Σ g gᵀ)⁻¹ Σ g, g the derivatives of each term.
     fn step(&self, here: &Variances, terms: &[f64]) -> Variances {
-        const STEP: f64 = 1e-3;
+        let settings::Noise { difference, max_step, .. } = self.evidence.settings().noise;
         let there: [Vec<f64>; COUNT] = std::array::from_fn(|k| {
             let mut moved = *here;
-            moved[k] += STEP;
+            moved[k] += difference;
             self.terms(&moved)
         });
         let mut information = SMatrix::<f64, COUNT, COUNT>::identity() * 1e-3;
         let mut gradient = self.taken * 0.5;
         for (index, term) in terms.iter().enumerate() {
-            let g = Variances::from_fn(|k, _| (there[k][index] - term) / STEP);
+            let g = Variances::from_fn(|k, _| (there[k][index] - term) / difference);
             gradient += g;
             information += g * g.transpose();
         }
         let step = Cholesky::new(information).map_or(gradient, |factor| factor.solve(&gradient));
-        step.map(|value| value.clamp(-LARGEST_STEP, LARGEST_STEP))
+        step.map(|value| value.clamp(-max_step, max_step))
     }
 }
 
@@ -318,9 +305,9 @@ fn variances_of(noise: &SegmentNoise) -> Variances {
     Variances::from_iterator(logarithms)
 }
 
-fn noise_of(variances: &Variances) -> SegmentNoise {
+fn noise_of(variances: &Variances, settings: &settings::Noise) -> SegmentNoise {
     let pose = std::array::from_fn(|k| variances[k].exp());
-    let walk = std::array::from_fn(|k| variances[3 + k].exp().max(NO_WALK * pose[k]));
+    let walk = std::array::from_fn(|k| variances[3 + k].exp().max(settings.min_walk * pose[k]));
     SegmentNoise { pose, walk, heading: variances[6].exp() }
 }
 
@@ -329,6 +316,7 @@ mod tests {
     use super::*;
     use crate::evidence::planned::{PlannedRun, READINGS};
     use crate::evidence::{Evidence, Sample};
+    use crate::settings::Settings;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
     use trackdyn_recording::TrackSample;
@@ -349,7 +337,7 @@ mod tests {
             })
             .collect();
         let run = PlannedRun { pose: Pose::default(), tracks, blocks: vec![0] };
-        Evidence::planned(&[run], TRUE, 0.0, |evidence| {
+        Evidence::planned(&[run], TRUE, 0.0, &Settings::default(), |evidence| {
             let turn = |s: &crate::evidence::Sample| s.speeds.right - s.speeds.left;
             let ahead = |s: &crate::evidence::Sample| f64::midpoint(s.speeds.left, s.speeds.right);
             let samples = evidence.samples().iter();

@@ -1,9 +1,9 @@
 //! Where a mismatch sits, in a sentence.
 
 use crate::base::Base;
-use crate::evidence::{Evidence, Sample};
-use crate::huber;
+use crate::evidence::Sample;
 use crate::locate::{Location, Manoeuvre, Wave};
+use crate::weighted::Weighted;
 use trackdyn_core::real;
 use trackdyn_model::effect::Symmetry;
 
@@ -36,7 +36,7 @@ pub fn words(symmetry: Symmetry, location: &Location) -> String {
 
 /// The sentence of a diagnosis, from what was located before and after it.
 pub fn sentence(
-    evidence: &Evidence,
+    evidence: &Weighted,
     base: &Base,
     [located, after]: [&Location; 2],
     broken: &[Symmetry],
@@ -59,9 +59,9 @@ pub fn sentence(
 }
 
 /// The manoeuvre, and the mean track speed of it, with the largest residuals.
-fn worst(evidence: &Evidence, base: &Base) -> Option<(Manoeuvre, f64)> {
-    let residual = &base.fit.residual;
-    let weights = huber::weights(residual);
+fn worst(evidence: &Weighted, base: &Base) -> Option<(Manoeuvre, f64)> {
+    let (residual, settings) = (&base.fit.residual, &evidence.settings().location);
+    let weights = evidence.weights(residual);
     let fast = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs());
     let fastest = evidence.fastest();
     let mut best: Option<(f64, Manoeuvre, f64)> = None;
@@ -74,10 +74,10 @@ fn worst(evidence: &Evidence, base: &Base) -> Option<(Manoeuvre, f64)> {
                 .filter(|&k| {
                     let sample = &evidence.samples()[k];
                     let inside = fast(sample) > low && fast(sample) <= high;
-                    inside && Manoeuvre::of(sample) == manoeuvre
+                    inside && Manoeuvre::of(sample, settings) == manoeuvre
                 })
                 .collect();
-            if chosen.len() < 20 {
+            if chosen.len() < settings.min_samples_named {
                 continue;
             }
             let count = real(chosen.len());

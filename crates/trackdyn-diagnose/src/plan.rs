@@ -16,6 +16,7 @@ pub use question::{Question, measurement};
 use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::evidence::planned::PlannedRun;
+use crate::settings::{self, Settings};
 use crate::weighted::Weighted;
 use menu::{INTERVAL, Manoeuvre, menu};
 use nalgebra::DMatrix;
@@ -30,19 +31,6 @@ use trackdyn_model::Stationary;
 use trackdyn_model::{Circumstance, Model, VehicleFile};
 use trackdyn_recording::TrackSample;
 
-/// z from which on two rivals count as told apart.
-pub const DECIDED: f64 = 3.0;
-
-/// Part of what typical driving tells of the nuisances that the choice of manoeuvres takes as known: a recording
-/// went before the plan. What the plan is said to separate takes nothing of it as known.
-const KNOWN: f64 = 0.05;
-
-/// A manoeuvre, or two, must add this much z² per second, of the open pairs together by their weights, to be worth driving.
-const WORTH: f64 = 1e-3;
-
-/// Rounds in which manoeuvres are exchanged for better ones.
-const EXCHANGES: usize = 3;
-
 /// How to plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
@@ -54,12 +42,15 @@ pub struct Options {
     pub noise_xy: f64,
     /// Standard deviation of a pose's yaw, rad.
     pub noise_yaw: f64,
+    /// All numbers that decide.
+    pub method: Settings,
 }
 
 impl Default for Options {
     /// A laboratory's poses.
     fn default() -> Self {
-        Self { fastest: 1.0, duration: 60.0, noise_xy: 1e-3, noise_yaw: 1e-3 }
+        let method = Settings::default();
+        Self { fastest: 1.0, duration: 60.0, noise_xy: 1e-3, noise_yaw: 1e-3, method }
     }
 }
 
@@ -117,6 +108,8 @@ pub struct Plan {
     pub pairs: Vec<Separation>,
     /// Number of manoeuvres to choose from, and how long all of them take, s.
     pub menu: (usize, f64),
+    /// z from which on two rivals count as told apart.
+    pub min_separation: f64,
 }
 
 impl Plan {
@@ -157,7 +150,9 @@ pub fn plan(
     let finished = |stage| {
         if progress(stage).is_break() { Err(Error::Cancelled) } else { Ok(()) }
     };
-    let menu = menu(options.fastest, gap(file)?);
+    options.method.check()?;
+    let settings = &options.method.plan;
+    let menu = menu(options.fastest, gap(file, settings)?, settings);
     let shortest = menu.iter().map(Manoeuvre::duration).fold(f64::MAX, f64::min);
     if shortest > options.duration {
         return Err(Error::TooShort { given: options.duration, needed: shortest });
@@ -178,13 +173,14 @@ pub fn plan(
 pub const STAGES: [&str; 3] = ["rivals", "choice", "separation"];
 
 /// Distance between the ICRs of a slow spin, m.
-fn gap(file: &VehicleFile) -> Result<f64, Error> {
+fn gap(file: &VehicleFile, settings: &settings::Plan) -> Result<f64, Error> {
     const SLOW: f64 = 0.1;
     let model = Model::new(file.vehicle.clone(), file.effects.clone());
     let speeds = PerSide::new(-SLOW, SLOW);
     let solution = Stationary::new(&model, &Circumstance::default()).solve(speeds);
     let gap = 2.0 * SLOW / solution.twist.w;
-    let limits = file.vehicle.gauge * 0.2..file.vehicle.gauge * 20.0;
+    let [least, most] = settings.gap_limits.map(|limit| file.vehicle.gauge * limit);
+    let limits = least..most;
     if limits.contains(&gap) {
         Ok(gap)
     } else {
@@ -207,7 +203,7 @@ impl Class {
         menu: &[Manoeuvre],
         options: &Options,
     ) -> Result<Self, Error> {
-        let fitted = Rival::fitted(question, file);
+        let fitted = Rival::fitted(question, file, &options.method);
         let all: Vec<&Manoeuvre> = menu.iter().collect();
         let driving = evidence(&[run(&all, 0.0, Pose::default())], &fitted, options);
         if let Some(reason) = fitted.mechanics(&driving).failure() {
@@ -239,7 +235,7 @@ impl Class {
 /// What runs would show if the fitted member is the one.
 fn evidence(runs: &[PlannedRun], fitted: &Rival, options: &Options) -> Weighted {
     let moves = |evidence: &Evidence| fitted.moves(evidence);
-    Weighted::new(Evidence::planned(runs, options.noise(), fitted.delay(), moves))
+    Weighted::new(Evidence::planned(runs, options.noise(), fitted.delay(), &options.method, moves))
 }
 
 /// Manoeuvres in a row as a run, each a block of its own.
@@ -264,6 +260,8 @@ struct Outlook {
     menu: Vec<DMatrix<f64>>,
     chosen: DMatrix<f64>,
     known: DMatrix<f64>,
+    /// z² from which on the rivals are told apart.
+    decided: f64,
 }
 
 impl Outlook {
@@ -275,7 +273,7 @@ impl Outlook {
 
     /// What a gain counts: less where the rivals are told apart already.
     fn weight(&self) -> f64 {
-        DECIDED.powi(2) / (DECIDED.powi(2) + squared(&self.chosen, &self.known))
+        self.decided / (self.decided + squared(&self.chosen, &self.known))
     }
 }
 
@@ -300,7 +298,7 @@ fn chosen(classes: &[Class], menu: &[Manoeuvre], options: &Options) -> Vec<usize
         };
         let best = proposals(menu, left, &rate);
         let Some((rate, more)) = best else { break };
-        if rate < WORTH {
+        if rate < options.method.plan.min_rate {
             break;
         }
         for k in more {
@@ -316,7 +314,7 @@ fn chosen(classes: &[Class], menu: &[Manoeuvre], options: &Options) -> Vec<usize
         }
     }
     if !knows_places {
-        exchange(&mut chosen, &outlooks, menu, options.duration);
+        exchange(&mut chosen, &outlooks, menu, options);
     }
     chosen
 }
@@ -339,24 +337,24 @@ fn proposals(
 }
 
 /// Exchanges chosen manoeuvres for others while that separates more of what is separated least.
-fn exchange(chosen: &mut [usize], outlooks: &[Outlook], menu: &[Manoeuvre], duration: f64) {
+fn exchange(chosen: &mut [usize], outlooks: &[Outlook], menu: &[Manoeuvre], options: &Options) {
     let value = |of: &[usize]| -> f64 {
         let all = outlooks.iter().map(|outlook| {
             let zero = DMatrix::zeros(outlook.chosen.nrows(), outlook.chosen.ncols());
             let sum = of.iter().fold(zero, |sum, &k| sum + &outlook.menu[k]);
-            (1.0 + squared(&sum, &outlook.known) / DECIDED.powi(2)).ln()
+            (1.0 + squared(&sum, &outlook.known) / outlook.decided).ln()
         });
         all.sum()
     };
     let time = |of: &[usize]| of.iter().map(|&k| menu[k].duration()).sum::<f64>();
     let mut best = value(chosen);
-    for _ in 0..EXCHANGES {
+    for _ in 0..options.method.plan.exchange_rounds {
         let before = best;
         for place in 0..chosen.len() {
             for other in 0..menu.len() {
                 let own = std::mem::replace(&mut chosen[place], other);
                 let value = value(chosen);
-                if time(chosen) <= duration + 1e-9 && value > best + 1e-9 {
+                if time(chosen) <= options.duration + 1e-9 && value > best + 1e-9 {
                     best = value;
                 } else {
                     chosen[place] = own;
@@ -378,7 +376,9 @@ fn outlooks(
 ) -> Vec<Outlook> {
     let driven: Vec<&Manoeuvre> = chosen.iter().map(|&k| &menu[k]).collect();
     let mut outlooks = Vec::new();
-    for class in classes.iter().filter(|class| class.pairs.iter().any(is_open)) {
+    let settings = &options.method.plan;
+    let is_open = |pair: &&Pair| is_open(pair, settings);
+    for class in classes.iter().filter(|class| class.pairs.iter().any(|pair| is_open(&pair))) {
         let mut runs = Vec::new();
         let (mut pose, mut time) = (Pose::default(), 0.0);
         if !driven.is_empty() {
@@ -389,8 +389,8 @@ fn outlooks(
         }
         runs.extend(menu.iter().map(|manoeuvre| run(&[manoeuvre], time, pose)));
         let products = class.products(&runs, options);
-        for (pair, products) in class.pairs.iter().zip(&products).filter(|(pair, _)| is_open(pair))
-        {
+        let pairs = class.pairs.iter().zip(&products);
+        for (pair, products) in pairs.filter(|(pair, _)| is_open(pair)) {
             let size = products.columns() + 1;
             let blocks: Vec<DMatrix<f64>> =
                 (0..products.blocks()).map(|block| products.block(block).clone()).collect();
@@ -398,7 +398,8 @@ fn outlooks(
             outlooks.push(Outlook {
                 menu: after.to_vec(),
                 chosen: before.iter().fold(DMatrix::zeros(size, size), |sum, block| sum + block),
-                known: &pair.prior + KNOWN * &pair.driven,
+                known: &pair.prior + settings.known_share * &pair.driven,
+                decided: settings.min_separation.powi(2),
             });
         }
     }
@@ -406,12 +407,14 @@ fn outlooks(
 }
 
 /// Whether some driving separates a pair.
-fn is_open(pair: &Pair) -> bool {
-    pair.typical >= DECIDED
+fn is_open(pair: &Pair, settings: &settings::Plan) -> bool {
+    pair.typical >= settings.min_separation
 }
 
 /// What a sequence separates, driven in a row.
 fn judged(classes: &[Class], menu: &[Manoeuvre], chosen: &[usize], options: &Options) -> Plan {
+    let settings = &options.method.plan;
+    let min_separation = settings.min_separation;
     let driven: Vec<&Manoeuvre> = chosen.iter().map(|&k| &menu[k]).collect();
     let mut start = 0.0;
     let steps = driven.iter().map(|&manoeuvre| {
@@ -435,12 +438,12 @@ fn judged(classes: &[Class], menu: &[Manoeuvre], chosen: &[usize], options: &Opt
                 }
             }
             // z grows with the root of the time.
-            let longer = |time: f64, z: f64| Answer::Longer(time * (DECIDED / z).powi(2));
-            let answer = if z >= DECIDED {
+            let longer = |time: f64, z: f64| Answer::Longer(time * (min_separation / z).powi(2));
+            let answer = if z >= min_separation {
                 Answer::Plan
-            } else if !is_open(pair) {
+            } else if !is_open(pair, settings) {
                 Answer::Never
-            } else if z > 1.0 {
+            } else if z > settings.min_z_of_time {
                 longer(duration, z)
             } else {
                 longer(all, pair.typical)
@@ -449,7 +452,7 @@ fn judged(classes: &[Class], menu: &[Manoeuvre], chosen: &[usize], options: &Opt
             pairs.push(Separation { question, effects, z, menu: pair.typical, answer });
         }
     }
-    Plan { steps, pairs, menu: (menu.len(), all) }
+    Plan { steps, pairs, menu: (menu.len(), all), min_separation }
 }
 
 #[cfg(test)]

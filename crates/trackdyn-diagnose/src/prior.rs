@@ -3,6 +3,7 @@
 use crate::evidence::Evidence;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, typical_size};
 use crate::normal::Prior;
+use crate::settings;
 use trackdyn_model::contact::Friction;
 use trackdyn_model::effect::Role;
 use trackdyn_model::{Circumstance, Model, Vehicle};
@@ -12,29 +13,37 @@ use trackdyn_model::{Circumstance, Model, Vehicle};
 /// # Panics
 /// Never: an unknown of an effect has a parameter.
 pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> Prior {
-    /// Sizes of several times the typical one are seldom, and so are places as far away that act on the robot from there.
-    const SEVERAL: f64 = 3.0;
+    let (vehicle, settings) = (&hypothesis.vehicle, &evidence.settings().prior);
     match unknown {
-        Unknown::Offset(_) => Prior::normal(0.0, 0.5 * hypothesis.vehicle.gauge),
-        Unknown::FrictionLevel => Prior::normal(0.0, friction_known(&hypothesis.vehicle)),
-        Unknown::Cog(axis) => Prior::normal(0.0, cog_known(&hypothesis.vehicle, axis)),
+        Unknown::Offset(_) => Prior::normal(0.0, settings.icr_offset_deviation * vehicle.gauge),
+        Unknown::FrictionLevel => Prior::normal(0.0, friction_known(vehicle, settings)),
+        Unknown::Cog(axis) => Prior::normal(0.0, cog_known(vehicle, axis, settings)),
         Unknown::Effect(effect, _) => {
             let parameter = unknown.parameter().expect("an effect's");
-            if let Some(deviation) = measured(&hypothesis.vehicle, unknown) {
+            if let Some(deviation) = measured(vehicle, unknown) {
+                let deviation = deviation.max(settings.min_deviation * typical_size(parameter));
                 return Prior::normal(neutral(parameter), deviation).within(parameter.range);
             }
             let prior = match parameter.role {
                 Role::Size { .. } => {
-                    Prior::normal(neutral(parameter), SEVERAL * typical_size(parameter))
+                    let deviation = settings.size_deviation * typical_size(parameter);
+                    Prior::normal(neutral(parameter), deviation)
                 }
                 Role::Place { .. } => {
                     let [middle, spread] = area(evidence, parameter.role);
-                    let far = if effect.card().has_extent() { 1.0 } else { SEVERAL };
-                    Prior::normal(middle, far * spread.max(1.0))
+                    let far = if effect.card().has_extent() {
+                        settings.extent_place_deviation
+                    } else {
+                        settings.place_deviation
+                    };
+                    Prior::normal(middle, far * spread.max(settings.min_area))
                 }
                 // all alike, wherever it stands
                 Role::Direction => return Prior::even(hypothesis.get(unknown), 360.0),
-                Role::Shape => Prior::normal(parameter.typical, parameter.typical),
+                Role::Shape => {
+                    let deviation = settings.shape_deviation * parameter.typical;
+                    Prior::normal(parameter.typical, deviation)
+                }
             };
             prior.within(parameter.range)
         }
@@ -42,36 +51,28 @@ pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> 
 }
 
 /// Standard deviation of the logarithm of friction, as its owner knows it.
-fn friction_known(vehicle: &Vehicle) -> f64 {
-    /// A coefficient that was not measured is known to a third.
-    const GUESSED: f64 = 0.3;
-    /// What is known exactly.
-    const EXACT: f64 = 1e-4;
+fn friction_known(vehicle: &Vehicle, settings: &settings::Prior) -> f64 {
     let friction = &vehicle.uncertainty.friction;
     match (friction.across, friction.along) {
         (Some(across), Some(along)) => {
             let both =
                 (across / vehicle.friction.across).hypot(along / vehicle.friction.along) / 2.0;
-            both.max(EXACT)
+            both.max(settings.min_deviation)
         }
-        _ => GUESSED,
+        _ => settings.friction_deviation,
     }
 }
 
 /// Standard deviation of a coordinate of the centre of gravity, as its owner knows it, m.
-fn cog_known(vehicle: &Vehicle, axis: usize) -> f64 {
-    /// Parts of the gauge: of what was not measured, and of what is exact.
-    const GUESSED: f64 = 0.1;
-    const EXACT: f64 = 1e-5;
+fn cog_known(vehicle: &Vehicle, axis: usize, settings: &settings::Prior) -> f64 {
+    let settings::Prior { cog_deviation, min_cog_deviation, .. } = *settings;
     let measured = vehicle.uncertainty.cog.map(|deviations| deviations[axis]);
-    measured.unwrap_or(GUESSED * vehicle.gauge).max(EXACT * vehicle.gauge)
+    measured.unwrap_or(cog_deviation * vehicle.gauge).max(min_cog_deviation * vehicle.gauge)
 }
 
 /// How far an effect's size may be from none because the owner measured what it changes: the vehicle's centre
 /// of gravity, or its friction ratio. None where it changes something else, or nothing is known.
 pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
-    /// What is known exactly is known to this part of a typical size.
-    const EXACT: f64 = 1e-4;
     let Unknown::Effect(effect, place) = unknown else { return None };
     let parameters = effect.card().parameters;
     let size = typical_size(&parameters[place]);
@@ -80,12 +81,11 @@ pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
         .collect();
     let effects = std::iter::once(active(effect, &values)).collect();
     let model = Model::new(vehicle.clone(), effects);
-    let floor = |deviation: f64| deviation.max(EXACT * size);
     let moved = [0, 1].map(|axis| (model.vehicle().cog[axis] - vehicle.cog[axis]).abs());
     if moved != [0.0, 0.0] {
         let deviations = vehicle.uncertainty.cog?;
         let axis = usize::from(moved[0] <= moved[1]);
-        return Some(floor(size * deviations[axis] / moved[axis]));
+        return Some(size * deviations[axis] / moved[axis]);
     }
     let friction = model.ground(&Circumstance::default()).friction;
     let ratio = |of: &Friction| of.across / of.along;
@@ -95,7 +95,7 @@ pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
         let known = &vehicle.uncertainty.friction;
         let relative =
             (known.across? / vehicle.friction.across).hypot(known.along? / vehicle.friction.along);
-        return Some(floor(size * relative / change));
+        return Some(size * relative / change);
     }
     None
 }
@@ -127,11 +127,12 @@ mod tests {
 
     #[test]
     fn what_is_exact_leaves_a_finite_weight() {
+        let settings = &settings::Prior::default();
         let mut vehicle = VehicleFile::auriga_alpha().vehicle;
         vehicle.uncertainty.friction.across = Some(0.0);
         vehicle.uncertainty.friction.along = Some(0.0);
         vehicle.uncertainty.cog = Some([0.0; 2]);
-        for deviation in [friction_known(&vehicle), cog_known(&vehicle, 0)] {
+        for deviation in [friction_known(&vehicle, settings), cog_known(&vehicle, 0, settings)] {
             assert!(deviation > 0.0 && deviation < 1e-3, "{deviation}");
         }
     }

@@ -23,7 +23,7 @@ use crate::prior::priors;
 use crate::resampling::Resampling;
 use crate::search::{Catalogue, Found, Search};
 use crate::uncertainty::{Interval, Uncertainty};
-use crate::verdict::{Rules, Support};
+use crate::verdict::{Support, tolerated};
 use crate::weighted::Weighted;
 use selection::{Library, Selected};
 use std::sync::Arc;
@@ -113,9 +113,11 @@ pub fn propose(unexplained: &Unexplained, resampling: Resampling) -> Option<Prop
 /// The law of a form: its terms chosen, and fitted in the simulator.
 fn law(effect: EffectId, unexplained: &Unexplained, resampling: Resampling) -> Option<Proposal> {
     let Unexplained { evidence, base, best, .. } = *unexplained;
-    let form = Rules::tolerated(evidence, base, best);
+    let settings = evidence.settings();
+    let form = tolerated(evidence, base, best);
     let left_over = unexplained.after.left_over(form);
-    let kept = symmetry::kept([unexplained.filed, unexplained.before, unexplained.after]);
+    let locations = [unexplained.filed, unexplained.before, unexplained.after];
+    let kept = symmetry::kept(locations, &settings.proposal);
     let terms = effect.card().terms().into_iter();
     let terms = terms
         .filter(|term| symmetry::is_admissible(term, unexplained.after, &left_over, &kept))
@@ -136,10 +138,10 @@ fn law(effect: EffectId, unexplained: &Unexplained, resampling: Resampling) -> O
     // A law that leaves most of it, breaks what was whole, or fails where nothing was fitted, is none.
     let remains = remainder(&after, &left_over) / remainder(unexplained.after, &left_over);
     let at_limit = |&unknown: &Unknown| unknown.is_of(effect) && found.fit.is_at_limit(unknown);
-    let sound = remains < MOST_LEFT
+    let sound = remains < settings.proposal.max_remainder
         && still.iter().all(|symmetry| left_over.contains(symmetry))
         && held_out.after < held_out.before
-        && found.ln_evidence - best.ln_evidence >= Rules::LN_BAYES_FACTOR
+        && found.ln_evidence - best.ln_evidence >= settings.verdict.min_ln_bayes_factor
         && !found.fit.unknowns.iter().any(at_limit);
     if !sound {
         return None;
@@ -161,9 +163,6 @@ fn law(effect: EffectId, unexplained: &Unexplained, resampling: Resampling) -> O
         found,
     })
 }
-
-/// Part of what breaks the left-over symmetries that a law may leave.
-const MOST_LEFT: f64 = 0.5;
 
 /// What breaks these symmetries: χ² beyond its degrees of freedom.
 fn remainder(location: &Location, symmetries: &[Symmetry]) -> f64 {
@@ -187,7 +186,7 @@ fn library(effect: EffectId, terms: Vec<Term>, search: &Search, fit: &Fit) -> Li
     let mut stack = Stack::new(fit.columns.clone(), known);
     stack.push(more.into_iter().zip(priors(hypothesis, &unknowns, evidence)));
     let equations = stack.equations(|columns| evidence.normal(&fit.residual, columns));
-    Library { effect, terms, unknowns, equations }
+    Library { effect, terms, unknowns, equations, settings: evidence.settings().clone() }
 }
 
 /// The best hypothesis with the chosen terms as a force in the simulator, everything fitted anew.

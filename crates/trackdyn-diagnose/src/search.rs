@@ -15,55 +15,12 @@ use crate::hypothesis::{Hypothesis, Unknown, active, beyond_none, unknowns_of};
 use crate::normal::Prior;
 use crate::prior::{prior, priors};
 use crate::progress::{Cancelled, Watch};
+use crate::settings::Settings;
 use crate::weighted::Weighted;
 use done::{Done, Key, Step};
 use rayon::prelude::*;
 use std::sync::Arc;
 use trackdyn_model::EffectId;
-
-/// Effects that one hypothesis may add.
-pub const MOST_EFFECTS: usize = 3;
-
-/// Effects of which all pairs are screened.
-const DOZEN: usize = 12;
-
-/// Proposals that are refitted with the whole simulator, of singles, pairs and exchanges.
-const REFITTED: [usize; 3] = [3, 2, 2];
-
-/// z from which on an effect is looked for between its variants.
-const SHOWS: f64 = 3.0;
-
-/// Logarithm of the evidence that an effect must add to be kept during the search.
-const WORTH: f64 = 3.0;
-
-/// Rounds of a search: three effects come in as many, two more exchange them.
-const ROUNDS: usize = 5;
-
-/// By how much a round must raise the logarithm of the evidence, less [`WORTH`] for each effect: a fit from another start ends as far
-/// from the same minimum.
-const BETTER: f64 = 0.5;
-
-/// Part of [`WORTH`] that the linear screen must promise.
-const NEARLY: f64 = 0.7;
-
-/// Part of the best linear gain that a candidate must reach to be refitted.
-const COMPARABLE: f64 = 0.8;
-
-/// Part of the gain that the screen promised below which a refit begins anew, and with which share of the sizes.
-const KEPT: f64 = 0.5;
-const NEARER: f64 = 0.3;
-
-/// Rounds in which the vehicle takes over the offset of the ICRs, and the offset, as part of the gauge, that
-/// may stay.
-const RECALIBRATIONS: usize = 2;
-const CALIBRATED: f64 = 5e-3;
-
-/// Part of its filed size by which an effect of the vehicle file must differ to be looked at: what a strong law of the
-/// shear stress changes in the departures by ground is left out, and sizes give way to that.
-pub const AS_FILED: f64 = 0.5;
-
-/// By how much twice the misfit must fall for another meaning of the constant ICRs.
-const TOLD: f64 = 4.0;
 
 /// Signatures of all candidates: some variants of each effect.
 #[derive(Default)]
@@ -115,6 +72,11 @@ impl Search {
     /// A search of evidence beside a base.
     pub fn new(evidence: Weighted, base: impl Into<Arc<Base>>, catalogue: Catalogue) -> Self {
         Self { evidence, base: base.into(), catalogue, done: Done::default() }
+    }
+
+    /// The settings of the diagnosis.
+    pub fn settings(&self) -> &Settings {
+        self.evidence.settings()
     }
 
     /// The search with more candidates.
@@ -207,7 +169,8 @@ impl Search {
             search.screen(&nothing).first().map_or(f64::NEG_INFINITY, |one| one.gain)
         };
         let screened = self.screen(&nothing);
-        let shows = screened.iter().filter(|one| one.z > SHOWS && one.gain.is_finite());
+        let min_z = self.settings().search.min_refined_z;
+        let shows = screened.iter().filter(|one| one.z > min_z && one.gain.is_finite());
         shows
             .map(|one| (&self.catalogue.entries[one.entry].0, one.gain))
             .filter(|(variant, _)| !beside.knows(variant))
@@ -217,7 +180,8 @@ impl Search {
 
     /// The pairs of the best dozen, best first: gain of ln evidence and both, with the sizes of a pair.
     fn pairs(&self, beside: &Found, screened: &[Screened]) -> Vec<(f64, [Screened; 2])> {
-        let dozen: Vec<&Screened> = screened.iter().take(DOZEN).collect();
+        let dozen: Vec<&Screened> =
+            screened.iter().take(self.settings().search.max_paired).collect();
         let entries: Vec<usize> = dozen.iter().map(|one| one.entry).collect();
         let equations = self.equations(&beside.fit, &entries);
         let (groups, free) = (&equations.groups, equations.free.len());
@@ -256,6 +220,7 @@ impl Search {
     }
 
     fn refitted(&self, beside: &Found, more: &[Screened]) -> Found {
+        let settings = &self.settings().search;
         let mut effects = beside.effects.clone();
         let mut unknowns = beside.fit.unknowns.clone();
         for one in more {
@@ -278,11 +243,12 @@ impl Search {
         let kept = |found: &Found| found.ln_evidence - beside.ln_evidence;
         let mut far = Some(start(1.0));
         let is_less = |far: &mut Point| far.objective < beside.fit.objective;
-        let found = fitted(far.take_if(is_less).unwrap_or_else(|| start(NEARER)));
-        if promised < WORTH || kept(&found) > KEPT * promised {
+        let found = fitted(far.take_if(is_less).unwrap_or_else(|| start(settings.near_start)));
+        let is_kept = kept(&found) > settings.min_kept_share * promised;
+        if promised < settings.min_ln_evidence || is_kept {
             return found;
         }
-        let second = far.unwrap_or_else(|| start(NEARER));
+        let second = far.unwrap_or_else(|| start(settings.near_start));
         if second.objective.is_infinite() {
             return found;
         }
@@ -315,12 +281,13 @@ impl Search {
     /// A fit of a hypothesis that adds these effects, after the vehicle took back what is its own: what an effect adds to
     /// the constant ICRs had gone into the vehicle's friction and centre of gravity before.
     fn recalibrated(&self, effects: Vec<EffectId>, mut fit: Fit) -> Found {
-        for _ in 0..RECALIBRATIONS {
+        let settings = &self.settings().search;
+        for _ in 0..settings.recalibrations {
             let calibration = self.base.calibration;
             let moved: [f64; 3] = std::array::from_fn(|k| {
                 fit.hypothesis.offset[k] - self.base.fit.hypothesis.offset[k]
             });
-            if calibration.due(moved) < CALIBRATED * fit.hypothesis.vehicle.gauge {
+            if calibration.due(moved) < settings.max_offset * fit.hypothesis.vehicle.gauge {
                 break;
             }
             let Some(again) = calibration.calibrated(&fit.hypothesis) else { break };
@@ -339,12 +306,13 @@ impl Search {
     fn reconsidered(&self, found: Found) -> Found {
         let filed = &self.base.as_filed.hypothesis.vehicle;
         let Some(whole) = with_vehicle(&found.fit.hypothesis, filed) else { return found };
+        let least = self.settings().search.min_fall_of_meaning;
         let mut best = found;
         for calibration in Calibration::ALL {
             let Some(hypothesis) = calibration.calibrated(&whole) else { continue };
             let (unknowns, before) = (&best.fit.unknowns, Some(&best.fit.mechanics));
             let fit = Fit::new(hypothesis, unknowns, &self.evidence, before);
-            if fit.objective < best.fit.objective - TOLD {
+            if fit.objective < best.fit.objective - least {
                 best = Found { ln_evidence: fit.ln_evidence(), fit, ..best };
             }
         }
@@ -376,7 +344,8 @@ impl Search {
         filed.is_some_and(|filed| {
             let places = self.catalogue.entries[one.entry].0.sizes();
             let mut sizes = places.iter().zip(&one.sizes);
-            sizes.all(|(&place, size)| size.abs() <= AS_FILED * beyond_none(filed, place).abs())
+            let least = self.settings().verdict.min_filed_change;
+            sizes.all(|(&place, size)| size.abs() <= least * beyond_none(filed, place).abs())
         })
     }
 
@@ -385,24 +354,28 @@ impl Search {
     /// # Errors
     /// [`Cancelled`], by the observer of the watch.
     pub fn best(&self, watch: &Watch) -> Result<Found, Cancelled> {
+        let settings = &self.settings().search;
+        let worth = settings.min_ln_evidence;
         let mut best = self.nothing();
-        for _ in 0..ROUNDS {
+        for _ in 0..settings.max_rounds {
             let mut proposals: Vec<(Found, Vec<Screened>)> = Vec::new();
-            if best.effects.len() < MOST_EFFECTS {
+            if best.effects.len() < settings.max_effects {
                 let mut screened = self.screen(&best);
                 screened.retain(|one| !self.is_as_filed(one));
                 let most = screened.first().map_or(0.0, |one| one.gain);
-                let promising = screened.iter().filter(|one| one.gain > COMPARABLE * most - WORTH);
-                let promising = promising.filter(|one| one.gain > NEARLY * WORTH);
-                for one in promising.take(REFITTED[0]) {
+                let least = settings.min_relative_gain * most - worth;
+                let promised = settings.min_promised_share * worth;
+                let promising =
+                    screened.iter().filter(|one| one.gain > least && one.gain > promised);
+                for one in promising.take(settings.max_refitted_singles) {
                     proposals.push((best.clone(), vec![one.clone()]));
                 }
-                if best.effects.len() + 2 <= MOST_EFFECTS {
+                if best.effects.len() + 2 <= settings.max_effects {
                     let single = screened.first().map_or(0.0, |one| one.gain);
                     let pairs = self.pairs(&best, &screened);
                     let worthy =
-                        pairs.into_iter().filter(|(gain, _)| *gain > single.max(0.0) + WORTH);
-                    for (_, pair) in worthy.take(REFITTED[1]) {
+                        pairs.into_iter().filter(|(gain, _)| *gain > single.max(0.0) + worth);
+                    for (_, pair) in worthy.take(settings.max_refitted_pairs) {
                         proposals.push((best.clone(), pair.to_vec()));
                     }
                 }
@@ -420,8 +393,9 @@ impl Search {
                     .filter(|one| one.gain > 0.0 && !best.effects.contains(&one.effect))
                     .filter(|one| !self.is_as_filed(one));
                 let missed = best.ln_evidence - found.ln_evidence;
-                let others = others.filter(|one| one.gain > COMPARABLE * missed - WORTH);
-                for one in others.take(REFITTED[2]) {
+                let least = settings.min_relative_gain * missed - worth;
+                let others = others.filter(|one| one.gain > least);
+                for one in others.take(settings.max_refitted_exchanges) {
                     proposals.push((found.clone(), vec![one]));
                 }
             }
@@ -434,14 +408,14 @@ impl Search {
             let value = |found: &Found| {
                 #[expect(clippy::cast_precision_loss, reason = "at most three")]
                 let added = found.effects.len() as f64;
-                found.ln_evidence - WORTH * added
+                found.ln_evidence - worth * added
             };
             let next = reduced
                 .into_iter()
                 .chain(refitted)
                 .max_by(|a, b| value(a).total_cmp(&value(b)).then(b.effects.cmp(&a.effects)));
             match next {
-                Some(next) if value(&next) > value(&best) + BETTER => {
+                Some(next) if value(&next) > value(&best) + settings.min_round_gain => {
                     best = self.reconsidered(next);
                 }
                 _ => break,
@@ -455,7 +429,7 @@ impl Search {
 fn is_physical(beside: &Hypothesis, variant: &Variant, sizes: &[f64]) -> bool {
     variant.sizes().iter().zip(sizes).all(|(&place, size)| {
         let unknown = Unknown::Effect(variant.effect, place);
-        let [low, high] = unknown.range();
+        let [low, high] = beside.range(unknown);
         let value = beside.get(unknown) + size;
         (low..=high).contains(&value)
     })

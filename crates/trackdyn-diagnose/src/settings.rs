@@ -43,8 +43,11 @@ pub use verdict::Verdict;
 
 use group::Group;
 use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize};
-use toml::{Table, Value};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::collections::BTreeMap;
+use std::path::Path;
+use toml::{Spanned, Table, Value};
+use trackdyn_core::document::{Document, DocumentError};
 use value::Number;
 
 /// A setting that does not exist, or a value that it cannot have.
@@ -94,7 +97,7 @@ pub struct Entry {
 macro_rules! tree {
     ($($(#[doc = $about:literal])+ $group:ident: $kind:ident,)+) => {
         /// All numbers that decide the answer of a diagnosis.
-        #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+        #[derive(Clone, Debug, Default, PartialEq)]
         #[non_exhaustive]
         pub struct Settings {
             $($(#[doc = $about])+ pub $group: $kind,)+
@@ -231,6 +234,46 @@ impl Settings {
         Ok(settings)
     }
 
+    /// The settings of a file ([`Settings::from_document`]).
+    ///
+    /// # Errors
+    /// A [`DocumentError`] that names the file.
+    pub fn open(path: &Path) -> Result<Self, DocumentError> {
+        Self::from_document(&Document::read(path)?)
+    }
+
+    /// The settings of a TOML file of groups; what it does not name keeps its default.
+    ///
+    /// # Errors
+    /// A [`DocumentError`] that points at line and key.
+    pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
+        let mut settings = Self::default();
+        let refused = |span, error| {
+            let (path, expected) = match error {
+                SettingError::Unknown { path, known } => (path, format!("one of {known}")),
+                SettingError::Value { path, expected, .. } => (path, expected),
+            };
+            document.value_error(span, path, expected)
+        };
+        let table: BTreeMap<String, Spanned<BTreeMap<String, Spanned<Value>>>> =
+            document.parse()?;
+        for (group, values) in table {
+            if settings.group(&group).is_none() {
+                return Err(refused(values.span(), Self::no_group(&group)));
+            }
+            for (name, value) in values.into_inner() {
+                let set = settings.set(&format!("{group}.{name}"), value.get_ref());
+                set.map_err(|error| refused(value.span(), error))?;
+            }
+        }
+        Ok(settings)
+    }
+
+    /// Whether all of them are the defaults.
+    pub fn are_defaults(&self) -> bool {
+        *self == Self::default()
+    }
+
     /// The settings that differ from their defaults, as a table of groups; empty where none does.
     pub fn differences(&self) -> Table {
         let (defaults, mut table) = (Self::default(), Table::new());
@@ -245,6 +288,13 @@ impl Settings {
             }
         }
         table
+    }
+}
+
+impl Serialize for Settings {
+    /// Writes the settings that differ from their defaults.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.differences().serialize(serializer)
     }
 }
 

@@ -23,6 +23,7 @@
 
 use crate::normal::Normal;
 use crate::resampling::Resampling;
+use crate::settings;
 use nalgebra::{DMatrix, DVector};
 use rand::RngExt;
 use rayon::prelude::*;
@@ -53,8 +54,14 @@ impl Test {
 const DEPENDENT: f64 = 1e-6;
 
 /// Tests groups of columns of which the base was projected out, all as one family.
-pub fn test(projected: &Normal, groups: &[Vec<usize>], resampling: Resampling) -> Vec<Test> {
-    let groups: Vec<Group> = groups.iter().map(|columns| Group::new(projected, columns)).collect();
+pub fn test(
+    projected: &Normal,
+    groups: &[Vec<usize>],
+    resampling: Resampling,
+    settings: &settings::Location,
+) -> Vec<Test> {
+    let group = |columns: &Vec<usize>| Group::new(projected, columns, settings);
+    let groups: Vec<Group> = groups.iter().map(group).collect();
     test_family(&groups, resampling)
 }
 
@@ -97,12 +104,9 @@ pub struct Group {
     degrees: usize,
 }
 
-/// λ: what counts as known beforehand, as part of what all blocks know.
-const KNOWN_BEFORE: f64 = 0.1;
-
 impl Group {
     /// Columns of which the base was projected out.
-    pub fn new(projected: &Normal, columns: &[usize]) -> Self {
+    pub fn new(projected: &Normal, columns: &[usize], settings: &settings::Location) -> Self {
         let last = projected.columns();
         let blocks = (0..projected.blocks()).map(|block| {
             let products = projected.block(block);
@@ -112,11 +116,11 @@ impl Group {
             });
             (score, information)
         });
-        Self::of(&blocks.collect::<Vec<_>>())
+        Self::of(&blocks.collect::<Vec<_>>(), settings)
     }
 
     /// Of each block, the products of the columns with the residual, and among each other.
-    pub fn of(blocks: &[(DVector<f64>, DMatrix<f64>)]) -> Self {
+    pub fn of(blocks: &[(DVector<f64>, DMatrix<f64>)], settings: &settings::Location) -> Self {
         let count = blocks.first().map_or(0, |(score, _)| score.len());
         if count == 0 {
             let remainders = DMatrix::zeros(0, blocks.len());
@@ -144,7 +148,8 @@ impl Group {
         let score = scores.iter().fold(DVector::zeros(kept.len()), |sum, score| sum + score);
         let mut remainders = DMatrix::zeros(kept.len(), blocks.len());
         for (block, (own, (_, information))) in scores.iter().zip(blocks).enumerate() {
-            let left = left_beside(own, &(axes.tr_mul(information) * &axes), &score);
+            let information = axes.tr_mul(information) * &axes;
+            let left = left_beside(own, &information, &score, settings.score_ridge);
             remainders.set_column(block, &left);
         }
         // c = Σ |ũ_b|²/k
@@ -180,9 +185,10 @@ fn left_beside(
     own: &DVector<f64>,
     information: &DMatrix<f64>,
     whole: &DVector<f64>,
+    ridge: f64,
 ) -> DVector<f64> {
     let count = own.len();
-    let known = DMatrix::from_diagonal_element(count, count, 1.0 + KNOWN_BEFORE) - information;
+    let known = DMatrix::from_diagonal_element(count, count, 1.0 + ridge) - information;
     // positive definite: no block knows more than all of them
     let size = known.cholesky().map(|known| known.solve(&(whole - own)));
     size.map_or_else(|| own.clone(), |size| own - information * size)
@@ -231,19 +237,21 @@ mod tests {
     }
 
     fn tests_of(normal: &Normal) -> Vec<Test> {
-        test(normal, &[vec![0], vec![1], vec![2]], RESAMPLING)
+        let settings = settings::Location::default();
+        test(normal, &[vec![0], vec![1], vec![2]], RESAMPLING, &settings)
     }
 
     /// Of a column that others explain rounding is left, of any sign: it is no evidence.
     #[test]
     fn rounding_is_no_evidence() {
+        let settings = &settings::Location::default();
         let information =
             DMatrix::from_row_slice(3, 3, &[1.0, 0.0, 0.5, 0.0, -1e-13, 0.0, 0.5, 0.0, 1.0]);
         let block = (DVector::from_vec(vec![0.5, 1e-13, 0.2]), information);
-        let group = Group::of(&vec![block; 4]);
+        let group = Group::of(&vec![block; 4], settings);
         assert_eq!(group.degrees, 2);
         assert!(group.observed() < 10.0, "{}", group.observed());
-        let none = Group::of(&vec![(DVector::zeros(0), DMatrix::zeros(0, 0)); 4]);
+        let none = Group::of(&vec![(DVector::zeros(0), DMatrix::zeros(0, 0)); 4], settings);
         assert_eq!((none.degrees, none.observed()), (0, 0.0));
     }
 

@@ -51,10 +51,11 @@ impl Scale {
 impl Surface {
     /// The stationary motions of a model whose gain is one, up to belt speeds of size `largest`, m/s.
     ///
-    /// `before` is the table of a model that resembles it: each solve starts from there.
-    pub fn new(model: &Model, largest: f64, before: Option<&Self>) -> Self {
+    /// Where friction depends on the speed of slip, nodes are even in its logarithm over a `range` of
+    /// speeds. `before` is the table of a model that resembles it: each solve starts from there.
+    pub fn new(model: &Model, largest: f64, range: f64, before: Option<&Self>) -> Self {
         let spacing =
-            if depends_on_slip_speed(model) { Spacing::Logarithmic } else { Spacing::Even };
+            if depends_on_slip_speed(model) { Spacing::logarithmic(range) } else { Spacing::Even };
         let grid = Grid::new(largest, spacing);
         let slips = model.drive().slip_per_traction != 0.0;
         let scale = if slips { Scale::Size } else { Scale::Difference };
@@ -165,6 +166,9 @@ mod tests {
     use trackdyn_model::contact::{Friction, Resolution};
     use trackdyn_model::{Effects, RunningGear, VehicleFile};
 
+    /// Ratio of speeds of a logarithmic table.
+    const RANGE: f64 = 30.0;
+
     /// Typical effects by their names, with spaces between.
     fn effects(ids: &str) -> Effects {
         ids.split_whitespace().map(|id| id.parse().expect("an effect")).collect()
@@ -191,7 +195,7 @@ mod tests {
             "directional-lugs",
         ] {
             let model = Model::new(VehicleFile::auriga_alpha().vehicle, effects(id));
-            let surface = Surface::new(&model, 1.5, None);
+            let surface = Surface::new(&model, 1.5, RANGE, None);
             assert!(surface.unsolved() < 0.1, "{id}");
             let solver = Stationary::new(&model, &Circumstance::default());
             let (mut squares, mut count) = (0.0, 0.0);
@@ -229,7 +233,7 @@ mod tests {
         for (id, cog) in [("centripetal", [-0.04, -0.003]), ("load-transfer", [-0.005, -0.003])] {
             vehicle.cog = cog;
             let model = Model::new(vehicle.clone(), effects(id));
-            let surface = Surface::new(&model, 1.2, None);
+            let surface = Surface::new(&model, 1.2, RANGE, None);
             let solver = Stationary::new(&model, &Circumstance::default());
             let (mut squares, mut count) = (0.0, 0.0);
             for k in 0..400_u32 {
@@ -262,10 +266,10 @@ mod tests {
                 vehicle.cog = cog;
                 Model::new(vehicle, effects(id)).with_resolution(Resolution::Coarse)
             };
-            let before = Surface::new(&model([0.0, 0.0]), 1.5, None);
+            let before = Surface::new(&model([0.0, 0.0]), 1.5, RANGE, None);
             let there = model([-0.02, 0.03]);
             let [anew, beside] =
-                [None, Some(&before)].map(|before| Surface::new(&there, 1.5, before));
+                [None, Some(&before)].map(|before| Surface::new(&there, 1.5, RANGE, before));
             let nodes = anew.beyond.nodes().iter().zip(beside.beyond.nodes());
             let off = nodes.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
             println!("{id}: {off:.1e}, {} and {}", anew.unsolved, beside.unsolved);
@@ -276,7 +280,7 @@ mod tests {
     #[test]
     fn offsets_move_the_icrs() {
         let model = Model::new(VehicleFile::auriga_alpha().vehicle, Effects::none());
-        let surface = Surface::new(&model, 1.5, None);
+        let surface = Surface::new(&model, 1.5, RANGE, None);
         let speeds = PerSide::new(0.3, 0.8);
         let icrs = |offset: [f64; 3]| {
             let twist = surface.motion(speeds).twist(&offset);

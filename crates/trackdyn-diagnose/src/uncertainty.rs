@@ -27,10 +27,6 @@ pub struct Interval {
     pub high: f64,
 }
 
-/// What no time is known better than, s: half the width of an interval. Friction that holds at once is a model; belts and
-/// ground give way by some tenths of a millimetre before they slide, which takes that long at the slip of a slow turn.
-const CLOCK: f64 = 1e-3;
-
 /// A level of friction that was found: the logarithm of the factor of both coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
@@ -38,13 +34,8 @@ pub struct Level {
     pub value: f64,
     /// Half of its 95 % interval.
     pub half: f64,
-}
-
-impl Level {
-    /// Whether it surely differs from that of the vehicle file: by some three standard deviations.
-    pub fn is_sure(&self) -> bool {
-        self.value.abs() > 1.5 * self.half
-    }
+    /// Whether it surely differs from that of the vehicle file.
+    pub is_sure: bool,
 }
 
 /// The 95 % intervals of what is free in a hypothesis.
@@ -63,18 +54,6 @@ pub struct Uncertainty<'a> {
     /// Half the intervals, were the likelihood a parabola.
     halves: Vec<f64>,
 }
-
-/// Fewest groups of which leaving each out says how uncertain an estimate is.
-const ENOUGH: usize = 6;
-
-/// How often an end of an interval is looked for.
-const LOOKS: usize = 4;
-
-/// Part of the width to which it is found.
-const EXACT: f64 = 0.03;
-
-/// Factor by which a look may lie farther out than the one before.
-const FARTHER: f64 = 2.0;
 
 /// What may be independent of each other, as ranges of blocks: blocks, and runs.
 fn groupings(evidence: &Evidence, counts: impl Fn(usize) -> bool) -> [Vec<Range<usize>>; 2] {
@@ -107,7 +86,8 @@ impl<'a> Uncertainty<'a> {
         let noise = fit.solution.covariance.diagonal();
         let mut halves: Vec<f64> =
             noise.iter().map(|variance| half(*variance, groupings[0].len())).collect();
-        for groups in groupings.iter().filter(|groups| groups.len() >= ENOUGH) {
+        let min_groups = search.settings().limits.min_groups;
+        for groups in groupings.iter().filter(|groups| groups.len() >= min_groups) {
             let mut squares = DVector::zeros(whole.len());
             for group in groups {
                 let change = estimate(&normal.without(group)) - &whole;
@@ -132,7 +112,8 @@ impl<'a> Uncertainty<'a> {
     fn interval(&self, place: usize) -> Option<Interval> {
         let unknown = self.fit.unknowns[place];
         let parameter = unknown.parameter()?;
-        let model = if parameter.unit == "s" { CLOCK } else { 0.0 };
+        let clock = self.search.settings().limits.clock_error;
+        let model = if parameter.unit == "s" { clock } else { 0.0 };
         let value = self.fit.hypothesis.get(unknown);
         let [low, high] = parameter.range;
         let half = self.halves[place];
@@ -156,19 +137,22 @@ impl<'a> Uncertainty<'a> {
         }
         let unknown = fit.unknowns[place];
         let value = fit.hypothesis.get(unknown);
-        let [low, high] = unknown.range();
+        let [low, high] = fit.hypothesis.range(unknown);
         let variance = fit.solution.covariance[(place, place)];
         let asked = parabola.abs() / variance.sqrt();
         let room = if parabola < 0.0 { value - low } else { high - value };
         // Distances that are too short and too far, with the roots of the rise there.
         let (mut near, mut far) = ([0.0, 0.0], None);
         let mut distance = parabola.abs();
-        for _ in 0..LOOKS {
+        let settings = &evidence.settings().limits;
+        for _ in 0..settings.max_looks {
             let looked = distance.min(room);
             let there = value + looked.copysign(parabola);
             let risen = fit.profile(place, there, evidence) - fit.objective;
             let root = risen.max(0.0).sqrt();
-            if (root / asked - 1.0).abs() < EXACT || (looked == room && root < asked) {
+            if (root / asked - 1.0).abs() < settings.end_tolerance
+                || (looked == room && root < asked)
+            {
                 return looked;
             }
             if root < asked {
@@ -181,7 +165,7 @@ impl<'a> Uncertainty<'a> {
                     near[0] + (far[0] - near[0]) * (asked - near[1]) / (far[1] - near[1])
                 }
                 Some(far) => f64::midpoint(near[0], far[0]),
-                None => looked * (asked / root).min(FARTHER),
+                None => looked * (asked / root).min(settings.max_look_growth),
             };
         }
         distance.min(room)
@@ -191,13 +175,16 @@ impl<'a> Uncertainty<'a> {
     pub fn friction_level(&self) -> Option<Level> {
         let unknowns = &self.fit.unknowns;
         let place = unknowns.iter().position(|one| *one == Unknown::FrictionLevel)?;
-        Some(Level { value: self.fit.hypothesis.friction_level, half: self.halves[place] })
+        let (value, half) = (self.fit.hypothesis.friction_level, self.halves[place]);
+        let least = self.search.settings().limits.min_level_change;
+        Some(Level { value, half, is_sure: value.abs() > least * half })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::settings::Settings;
     use trackdyn_recording::OperatingPoint;
 
     #[test]
@@ -214,7 +201,7 @@ mod tests {
             }
         };
         let table: Vec<OperatingPoint> = (0..144).map(point).collect();
-        let evidence = Evidence::of_points(&table).expect("evidence");
+        let evidence = Evidence::of_points(&table, &Settings::default()).expect("evidence");
         let [blocks, runs] = groupings(&evidence, |_| true);
         assert_eq!(blocks.len(), evidence.blocks());
         assert_eq!(runs, blocks);

@@ -2,15 +2,17 @@
 
 mod constants;
 mod instruments;
+mod left;
 mod refusal;
 mod rivals;
-mod rules;
+mod rule;
 mod support;
 
 pub use constants::{Constants, judge_constants};
 pub use instruments::judge_instruments;
+pub use left::tolerated;
 pub use refusal::Refusal;
-pub use rules::Rules;
+pub use rule::Rule;
 pub use support::{Support, cross_validated};
 
 use crate::candidate::{Signature, Variant, sizes};
@@ -18,7 +20,8 @@ use crate::fit::Fit;
 use crate::hypothesis::{Unknown, beyond_none, neutral};
 use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
-use crate::search::{AS_FILED, Found, Search};
+use crate::search::{Found, Search};
+use crate::settings;
 use crate::uncertainty::Interval;
 use rivals::{Rivals, separation};
 use std::cell::LazyCell;
@@ -77,7 +80,7 @@ pub fn judge(
             let mut members = rivals.refitted(best).filter(|(member, _)| one_of.contains(member));
             members.find_map(|(member, found)| nearly_as_filed(search, &found.fit, member))
         };
-        let refused = refusal(&support, whole)
+        let refused = refusal(&support, whole, &search.settings().verdict)
             .or_else(unfit)
             .or_else(|| rivals.too_many())
             .or_else(as_filed)
@@ -89,15 +92,15 @@ pub fn judge(
 }
 
 /// Why a claim is refused by the rules; none where it is not. The `whole` is √ of what the misfit falls by with all laws.
-fn refusal(support: &Support, whole: f64) -> Option<Refusal> {
-    if let Some(reason) = support.falls_short() {
+fn refusal(support: &Support, whole: f64, rules: &settings::Verdict) -> Option<Refusal> {
+    if let Some(reason) = support.falls_short(rules) {
         return Some(reason);
     }
     let Support { stable, z, .. } = *support;
-    if stable < Rules::STABLE {
-        return Some(Refusal::Unstable { share: stable, needed: Rules::STABLE });
+    if stable < rules.min_stability {
+        return Some(Refusal::Unstable { share: stable, needed: rules.min_stability });
     }
-    let needed = Rules::FORM * whole;
+    let needed = rules.max_form_error * whole;
     (z < needed).then_some(Refusal::WithinForm { z, needed })
 }
 
@@ -107,7 +110,7 @@ fn nearly_as_filed(search: &Search, found: &Fit, effect: EffectId) -> Option<Ref
     let found = found.hypothesis.effect(effect)?;
     let near = sizes(effect).into_iter().all(|place| {
         let [filed, found] = [filed, found].map(|effect| beyond_none(effect, place));
-        (found - filed).abs() <= AS_FILED * filed.abs()
+        (found - filed).abs() <= search.settings().verdict.min_filed_change * filed.abs()
     });
     near.then_some(Refusal::NearlyAsFiled { effect })
 }
@@ -134,15 +137,17 @@ fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<Re
         .filter(|(law, _)| !changed.signature.unknown.is_of(law.effect))
         .collect();
     let signatures: Vec<&[Signature]> = laws.iter().map(|(_, law)| &law[..]).collect();
+    let form_error = search.settings().verdict.max_form_error;
     let known = |unknown: Unknown| {
         let none = unknown.parameter().map_or(0.0, neutral);
-        Some(Rules::FORM * (filed.get(unknown) - none).abs()).filter(|size| *size > 0.0)
+        Some(form_error * (filed.get(unknown) - none).abs()).filter(|size| *size > 0.0)
     };
     let apart = separation(search, without, changed, &signatures, known);
-    (!laws.is_empty() && apart < Rules::ISOLATED).then(|| Refusal::WithinFiled {
+    let needed = search.settings().answer.min_separation;
+    (!laws.is_empty() && apart < needed).then(|| Refusal::WithinFiled {
         laws: laws.iter().map(|(law, _)| law.effect).collect(),
         apart,
-        needed: Rules::ISOLATED,
+        needed,
     })
 }
 
@@ -154,9 +159,7 @@ pub fn unless_unsure(verdict: Verdict, intervals: &[Interval]) -> Verdict {
         .filter_map(|unknown| intervals.iter().find(|interval| interval.unknown == unknown))
         .collect();
     let may_be_none = |interval: &&Interval| {
-        // of a limit that the law approaches, the range ends before it
-        let [low, high] = interval.unknown.range();
-        let none = interval.unknown.parameter().map_or(0.0, neutral).clamp(low, high);
+        let none = interval.unknown.parameter().map_or(0.0, neutral);
         (interval.low..=interval.high).contains(&none)
     };
     let is_unsure = !sizes.is_empty() && sizes.iter().all(may_be_none);

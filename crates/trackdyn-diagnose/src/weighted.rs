@@ -1,12 +1,12 @@
 //! Evidence and what its residuals weigh.
 
 use crate::evidence::{Evidence, Origin, Sample};
-use crate::huber;
 use crate::normal::{Columns, Normal};
 use nalgebra::Vector3;
 use std::ops::Deref;
 use std::sync::Arc;
 use trackdyn_core::robust::deviation_about_zero;
+use trackdyn_estimate::gauss_newton::Huber;
 use trackdyn_estimate::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 
 /// Evidence with the noise by which its residuals are weighed, and without the samples that are
@@ -168,8 +168,25 @@ impl Weighted {
     /// The normal equations of a white residual and white columns, by blocks.
     pub fn normal(&self, residual: &[Vector3<f64>], columns: &[Vec<Vector3<f64>>]) -> Normal {
         let blocks: Vec<usize> = self.samples().iter().map(|sample| sample.block).collect();
-        let (weights, count) = (&huber::weights(residual), self.blocks());
+        let (weights, count) = (&self.weights(residual), self.blocks());
         Normal::new(&Columns { residual, columns, weights, blocks: &blocks, count })
+    }
+
+    /// What each sample of a white residual weighs: less where it lies far out.
+    pub fn weights(&self, residual: &[Vector3<f64>]) -> Vec<f64> {
+        let huber = self.huber();
+        residual.iter().map(|sample| huber.weight(sample.norm())).collect()
+    }
+
+    /// Twice the loss of a white residual.
+    pub fn loss(&self, residual: &[Vector3<f64>]) -> f64 {
+        let huber = self.huber();
+        residual.iter().map(|sample| huber.value(sample.norm())).sum()
+    }
+
+    /// The loss of the length of a whitened residual.
+    fn huber(&self) -> Huber {
+        Huber { threshold: self.settings().evidence.huber_threshold }
     }
 
     /// By what a white residual is larger in each channel than the noise says, from its median: one

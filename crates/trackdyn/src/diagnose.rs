@@ -8,7 +8,9 @@ pub use held_out::{HeldOut, every_fourth};
 
 use crate::change::Folder;
 use crate::recording::joined;
-use crate::{Change, Error, Observer, Progress, Provenance, Recording, Vehicle, unobserved};
+use crate::{
+    Change, Error, MethodSettings, Observer, Progress, Provenance, Recording, Vehicle, unobserved,
+};
 use std::path::{Path, PathBuf};
 use trackdyn_diagnose::{DiagnosisFile, Evidence, Options, Resampling, Status};
 use trackdyn_model::kinematics::Source;
@@ -27,6 +29,8 @@ pub struct DiagnoseSettings {
     pub held_out: HeldOut,
     /// Draws and seed of the bootstrap behind the tests. Default: 2000 draws, seed 1.
     pub resampling: Resampling,
+    /// All numbers that decide an answer: thresholds, priors, step sizes.
+    pub method: MethodSettings,
 }
 
 /// Diagnoses recordings of one robot: where its model and they differ, and what physics was left
@@ -73,13 +77,15 @@ impl Prepared {
         let (evidence, held_out, runs) = match (recording.points(), recording.motion()) {
             (Some(points), _) => {
                 settings.held_out.refuse_runs()?;
-                let evidence = Evidence::of_points(points.points()).map_err(named)?;
+                let evidence =
+                    Evidence::of_points(points.points(), &settings.method).map_err(named)?;
                 let held_out = settings.held_out.of_points(evidence.runs().len());
                 (evidence, held_out, None)
             }
             (None, Some(motion)) => {
                 let held_out = settings.held_out.of_motion(motion)?;
-                let evidence = Evidence::of_recording(motion, vehicle.gauge()).map_err(named)?;
+                let evidence = Evidence::of_recording(motion, vehicle.gauge(), &settings.method)
+                    .map_err(named)?;
                 (evidence, held_out, Some(motion.run_list().to_string()))
             }
             (None, None) => return Err(Error::NoRecording),

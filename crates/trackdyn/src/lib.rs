@@ -114,7 +114,7 @@ pub use recording::{Part, ReadOptions, Recording};
 pub use simulate::{SimulateSettings, Simulation, simulate};
 pub use vehicle::{Vehicle, refuse_repeated};
 
-pub use trackdyn_diagnose::{Resampling, Status};
+pub use trackdyn_diagnose::{Resampling, Settings as MethodSettings, Status};
 pub use trackdyn_drive::{Path, Sensors};
 pub use trackdyn_model::effect::Card;
 pub use trackdyn_model::{ActiveEffect, Circumstance, Grid, Kinematics};

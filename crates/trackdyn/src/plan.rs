@@ -2,13 +2,13 @@
 
 use crate::change::Folder;
 use crate::progress::Counter;
-use crate::{Change, Diagnosis, Error, Observer, Provenance, Vehicle, unobserved};
+use crate::{Change, Diagnosis, Error, MethodSettings, Observer, Provenance, Vehicle, unobserved};
 use std::path::Path;
 use trackdyn_core::Schedule;
 use trackdyn_core::document::Document;
 use trackdyn_core::output::fingerprint;
 use trackdyn_diagnose::plan::{Question, STAGES};
-use trackdyn_diagnose::{Plan as Planned, PlanFile};
+use trackdyn_diagnose::{DiagnosisFile, Plan as Planned, PlanFile};
 use trackdyn_drive::schedules::{self, ScheduledRun};
 use trackdyn_model::kinematics::Source;
 
@@ -22,6 +22,7 @@ const FILES: [&str; 2] = ["plan.toml", "plan.csv"];
 #[derive(Clone, Debug)]
 pub struct OpenQuestions {
     questions: Vec<Question>,
+    method: MethodSettings,
     document: Document,
 }
 
@@ -48,12 +49,19 @@ impl OpenQuestions {
     /// # Errors
     /// [`Error::Document`], which names line and key.
     pub fn from_document(document: Document) -> Result<Self, Error> {
-        Ok(Self { questions: Question::of(&document)?, document })
+        let questions = Question::of(&document)?;
+        let method = DiagnosisFile::from_document(&document)?.settings;
+        Ok(Self { questions, method, document })
     }
 
     /// Whether nothing is open.
     pub fn is_empty(&self) -> bool {
         self.questions.is_empty()
+    }
+
+    /// The numbers by which the diagnosis was made, for the plan to go by.
+    pub fn method(&self) -> &MethodSettings {
+        &self.method
     }
 
     /// The questions.

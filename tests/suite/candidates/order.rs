@@ -1,12 +1,12 @@
 //! The order in which candidates stand says nothing.
 
-use trackdyn_diagnose::Weighted;
 use trackdyn_diagnose::base::Base;
 use trackdyn_diagnose::candidate::{Beside, candidates};
 use trackdyn_diagnose::evidence::Evidence;
 use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::progress::Watch;
 use trackdyn_diagnose::search::{Catalogue, Found, Search};
+use trackdyn_diagnose::{Settings, Weighted};
 
 use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_model::{Effects, VehicleFile};
@@ -37,7 +37,8 @@ fn owned() -> VehicleFile {
 /// The best hypothesis with the candidates in one order and in the other.
 fn both_ways() -> [Found; 2] {
     let file = owned();
-    let evidence = Evidence::of_recording(&recording(), file.vehicle.gauge).expect("enough");
+    let evidence = Evidence::of_recording(&recording(), file.vehicle.gauge, &Settings::default())
+        .expect("enough");
     let evidence = Weighted::new(evidence);
     let base = Base::new(&file, &evidence);
     let tried = candidates(&base.instruments, &evidence);

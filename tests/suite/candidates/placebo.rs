@@ -14,9 +14,9 @@ use library::{Library, PLACEBOS};
 use nalgebra::Vector3;
 use noise::Noise;
 use rayon::prelude::*;
-use trackdyn_diagnose::Resampling;
 use trackdyn_diagnose::significance::test;
-use trackdyn_diagnose::verdict::{Rules, cross_validated};
+use trackdyn_diagnose::verdict::cross_validated;
+use trackdyn_diagnose::{Resampling, Settings};
 
 /// Draws of signs.
 const SIGNS: usize = 1000;
@@ -31,6 +31,7 @@ fn claimed(library: &Library, residual: &[Vector3<f64>], seed: u64) -> Vec<usize
         residual.iter().map(|z| z.component_div(&Vector3::from(scale))).collect();
     let base: Vec<usize> = (0..library.base.len()).collect();
     let placebos = library.normal(scale, &scaled, &library.placebos);
+    let Settings { verdict: rules, location, .. } = &Settings::default();
     let known = library.priors(PLACEBOS);
     let beside = placebos.projected(&base, &known);
     let passed: Vec<usize> = (0..PLACEBOS)
@@ -39,7 +40,7 @@ fn claimed(library: &Library, residual: &[Vector3<f64>], seed: u64) -> Vec<usize
             let (without, with) = (placebos.fit(&base, &known), placebos.fit(&columns, &known));
             let ln_bayes_factor = with.ln_evidence - without.ln_evidence;
             let (gain, error) = cross_validated(&beside, &known, &[base.len() + placebo]);
-            ln_bayes_factor >= Rules::LN_BAYES_FACTOR && gain >= Rules::GAIN * error
+            ln_bayes_factor >= rules.min_ln_bayes_factor && gain >= rules.min_held_out_gain * error
         })
         .collect();
     if passed.is_empty() {
@@ -57,9 +58,10 @@ fn claimed(library: &Library, residual: &[Vector3<f64>], seed: u64) -> Vec<usize
         .chain((0..PLACEBOS).map(|placebo| vec![library.candidates.len() + placebo]))
         .map(|group| group.into_iter().map(|column| base.len() + column).collect())
         .collect();
-    let tests = test(&projected, &groups, Resampling { draws: SIGNS, seed });
+    let resampling = Resampling { draws: SIGNS, seed };
+    let tests = test(&projected, &groups, resampling, location);
     let of = |placebo: &usize| tests[library.groups.len() + placebo].p;
-    passed.into_iter().filter(|placebo| of(placebo) < Rules::P).collect()
+    passed.into_iter().filter(|placebo| of(placebo) < rules.max_p).collect()
 }
 
 impl Library {

@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 use trackdyn_core::PerSide;
 use trackdyn_diagnose::diagnosis::HeldOut;
+use trackdyn_diagnose::verdict::Rule;
 use trackdyn_diagnose::{
-    Diagnosis, DiagnosisFile, Evidence, Options, Resampling, diagnose, unobserved,
+    Diagnosis, DiagnosisFile, Evidence, Options, Resampling, Settings, diagnose, unobserved,
 };
 use trackdyn_estimate::synthetic::{ConstantIcr, Synthetic, random_steps};
 use trackdyn_model::Stationary;
@@ -59,7 +60,9 @@ impl Case {
             ..Synthetic::default()
         };
         let recording = synthetic.recording().expect("a recording");
-        let evidence = Evidence::of_recording(&recording, vehicle.vehicle.gauge).expect("evidence");
+        let evidence =
+            Evidence::of_recording(&recording, vehicle.vehicle.gauge, &Settings::default())
+                .expect("evidence");
         Self::new(&evidence, vehicle, vec![3])
     }
 
@@ -84,7 +87,7 @@ impl Case {
                 });
             }
         }
-        let evidence = Evidence::of_points(&points).expect("evidence");
+        let evidence = Evidence::of_points(&points, &Settings::default()).expect("evidence");
         Self::new(&evidence, vehicle, Vec::new())
     }
 
@@ -130,6 +133,10 @@ fn check(case: &Case, expected: &[&str]) {
     let (figures, html) = case.report();
     let names: Vec<String> = figures.iter().map(Figure::file).collect();
     assert_eq!(names, expected);
+    let settings = case.diagnosis.evidence.seen.settings();
+    for sentence in Rule::ALL.map(|rule| rule.sentence(settings)) {
+        assert!(html.contains(&sentence), "no rule is kept from the reader: {sentence}");
+    }
     for figure in &figures {
         assert!(html.contains(&figure.file()) && html.contains(&figure.title));
         assert!(html.contains(&figure.to_svg_element().expect("a picture")));

@@ -14,7 +14,8 @@ use clap::Args;
 use std::path::PathBuf;
 use trackdyn::diagnose::Prepared;
 use trackdyn::{
-    Change, DiagnoseSettings, Error, HeldOut, Recording, Resampling, Vehicle, prepare_folder,
+    Change, DiagnoseSettings, Error, HeldOut, MethodSettings, Recording, Resampling, Vehicle,
+    prepare_folder,
 };
 
 /// Options of `trackdyn diagnose`.
@@ -40,6 +41,10 @@ pub struct Options {
     /// Seed of the bootstrap
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// Numbers of the method that differ from their defaults: a table such as [verdict] with
+    /// max_p = 0.001
+    #[arg(long, value_name = "FILE")]
+    settings: Option<PathBuf>,
     /// Folder for diagnosis.toml, vehicle.corrected.toml, report.html and the figures
     #[arg(long, value_name = "DIR", default_value = "out/diagnosis")]
     out: PathBuf,
@@ -53,6 +58,7 @@ pub fn run(options: &Options) -> Outcome {
     let settings = DiagnoseSettings {
         held_out: held_out(options)?,
         resampling: Resampling { draws: options.draws as usize, seed: options.seed },
+        method: method(options)?,
     };
     let prepared = Prepared::new(&recordings, &vehicle, &settings)?;
     prepare_folder(&options.out)?;
@@ -67,6 +73,11 @@ pub fn run(options: &Options) -> Outcome {
 fn recordings(options: &Options) -> Result<Vec<Recording>, Error> {
     let more = options.more.iter().map(|path| options.recording.read_path(path));
     std::iter::once(options.recording.read()).chain(more).collect()
+}
+
+fn method(options: &Options) -> Result<MethodSettings, Error> {
+    let method = options.settings.as_deref().map(MethodSettings::open).transpose()?;
+    Ok(method.unwrap_or_default())
 }
 
 fn held_out(options: &Options) -> Result<HeldOut, String> {

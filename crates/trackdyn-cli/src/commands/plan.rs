@@ -58,6 +58,7 @@ pub fn run(options: &Options) -> Outcome {
         duration: options.duration,
         noise_xy: options.noise_xy_m,
         noise_yaw: options.noise_yaw_rad,
+        method: questions.method().clone(),
     };
     let plan = Progress::over(|observer| Plan::new(&questions, &vehicle, &settings, observer));
     let plan = plan.map_err(|error| -> Box<dyn std::error::Error> {

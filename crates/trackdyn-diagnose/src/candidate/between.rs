@@ -5,15 +5,6 @@ use super::{Beside, Signature, Variant, spacing};
 use rayon::prelude::*;
 use trackdyn_model::effect::Role;
 
-/// Rounds of a search.
-const ROUNDS: usize = 6;
-
-/// Part of half the distance between what is tried below which steps are too small to tell.
-const SMALLEST: f64 = 0.2;
-
-/// Gain of ln evidence for which a step is taken.
-const WORTH: f64 = 0.1;
-
 impl Variant {
     /// The same with a step of what is no size: `share` of half the distance between values that are tried.
     fn moved(&self, parameter: usize, share: f64, beside: &Beside) -> Self {
@@ -41,7 +32,8 @@ impl Beside<'_> {
         let others = (0..start.values.len()).filter(|parameter| !sizes.contains(parameter));
         let others: Vec<usize> = others.collect();
         let (mut best, mut most, mut share) = (None, gain, 1.0);
-        for _ in 0..ROUNDS {
+        let settings = &self.evidence.settings().candidates;
+        for _ in 0..settings.refining_rounds {
             let at = best.as_ref().map_or(start, |(variant, _)| variant);
             let steps =
                 others.iter().flat_map(|&parameter| [(parameter, share), (parameter, -share)]);
@@ -54,12 +46,12 @@ impl Beside<'_> {
             });
             let around: Vec<_> = around.collect();
             match around.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
-                Some((gain, variant)) if gain > most + WORTH => {
+                Some((gain, variant)) if gain > most + settings.min_refining_gain => {
                     (best, most) = (Some(variant), gain);
                 }
                 _ => share /= 2.0,
             }
-            if share < SMALLEST {
+            if share < settings.min_refining_step {
                 break;
             }
         }

@@ -5,9 +5,6 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use trackdyn_model::effect::{Card, Role};
 
-/// Places that are tried of each extent. What lies elsewhere is passed seldom.
-const MOST: usize = 40;
-
 /// The extent of a place, m; none where it has none.
 pub(super) fn extent(of: &Card, values: &[f64]) -> Option<f64> {
     let shape = of.parameters.iter().position(|one| one.role == Role::Shape);
@@ -39,7 +36,11 @@ fn visited(evidence: &Evidence, side: f64) -> Vec<[f64; 2]> {
     squares.sort_by_key(|(_, count)| Reverse(*count));
     #[expect(clippy::cast_precision_loss, reason = "robots stay within millions of squares")]
     let middle = |square: i64| (square as f64 + 0.5) * side;
-    squares.into_iter().take(MOST).map(|(square, _)| square.map(middle)).collect()
+    squares
+        .into_iter()
+        .take(evidence.settings().candidates.max_places)
+        .map(|(square, _)| square.map(middle))
+        .collect()
 }
 
 #[cfg(test)]
@@ -47,6 +48,7 @@ mod tests {
     use crate::candidate::variants;
     use crate::evidence::Evidence;
     use crate::evidence::planned::{PlannedRun, READINGS};
+    use crate::settings::Settings;
     use nalgebra::Vector3;
     use trackdyn_core::Pose;
     use trackdyn_estimate::weighting::SegmentNoise;
@@ -67,7 +69,7 @@ mod tests {
             tracks: (0..=400 * READINGS).map(reading).collect(),
             blocks: vec![0],
         };
-        Evidence::planned(&[run], NOISE, 0.0, |evidence| {
+        Evidence::planned(&[run], NOISE, 0.0, &Settings::default(), |evidence| {
             let motion = |speeds: [f64; 2], duration: f64| {
                 let [left, right] = speeds;
                 Vector3::new(f64::midpoint(left, right), 0.0, 1.25 * (right - left)) * duration

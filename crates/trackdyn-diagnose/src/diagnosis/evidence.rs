@@ -3,15 +3,12 @@
 
 use crate::base::Base;
 use crate::error::Error;
-use crate::evidence::{Evidence, FEWEST, Origin};
+use crate::evidence::{Evidence, Origin};
 use crate::fit::Fit;
 use crate::noise::with_remaining_noise;
+use crate::settings;
 use crate::weighted::Weighted;
 use trackdyn_model::VehicleFile;
-
-/// By how much readings without stamps that jitter, or without ticks, may raise twice the misfit by
-/// chance.
-const CLEANED: f64 = 4.0;
 
 /// Evidence of the fit, and of the runs that judge it.
 pub(super) struct Split {
@@ -32,9 +29,10 @@ impl Split {
         let is_seen: Vec<bool> = is_held_out.iter().map(|held_out| !held_out).collect();
         let seen = evidence.of_runs(&is_seen);
         let is_drive = matches!(seen.origin(), Origin::Drive(_));
-        if is_drive && seen.samples().len() < FEWEST {
+        let needed = evidence.settings().evidence.min_segments;
+        if is_drive && seen.samples().len() < needed {
             let durations = seen.samples().iter().map(|sample| sample.duration);
-            return Err(Error::too_few_segments(durations, FEWEST));
+            return Err(Error::too_few_segments(durations, needed));
         }
         let unseen = (!held_out.is_empty()).then(|| evidence.of_runs(&is_held_out));
         if unseen.as_ref().is_some_and(|unseen| unseen.samples().is_empty()) {
@@ -63,7 +61,7 @@ impl InNoise {
         if let Some(reason) = base.as_filed.mechanics.failure() {
             return Err(Error::NoMotion(reason.to_owned()));
         }
-        if !turns(&base.as_filed) {
+        if !turns(&base.as_filed, &measured.settings().base) {
             return Err(Error::NoTurning);
         }
         Ok(Self { seen: with_remaining_noise(&measured, &base.fit), base })
@@ -94,7 +92,8 @@ impl Cleaned {
         let base = base.refitted(&self.seen);
         let tried = self.seen.with_readings(&cleaned);
         let again = base.refitted(&tried);
-        if again.fit.objective < base.fit.objective + CLEANED {
+        let most = self.seen.settings().evidence.max_rise_by_cleaning;
+        if again.fit.objective < base.fit.objective + most {
             let seen = with_remaining_noise(&tried, &again.fit);
             Self { seen, unseen: self.unseen.as_ref().map(cleaned) }
         } else {
@@ -104,12 +103,9 @@ impl Cleaned {
 }
 
 /// Whether the constant ICRs are determined at all.
-fn turns(fit: &Fit) -> bool {
-    /// Standard deviation of their distance, in gauges, from which on the recording has told
-    /// nothing of it: without one it is 0.71, of two offsets that are known to half a gauge.
-    const UNKNOWN: f64 = 0.2;
+fn turns(fit: &Fit, settings: &settings::Base) -> bool {
     let gauge = fit.hypothesis.vehicle.gauge;
     let covariance = &fit.solution.covariance;
     let gap = covariance[(0, 0)] + covariance[(1, 1)] - 2.0 * covariance[(0, 1)];
-    gap.sqrt() < UNKNOWN * gauge
+    gap.sqrt() < settings.max_gap_deviation * gauge
 }

@@ -13,9 +13,6 @@ use crate::verdict::{
 use crate::weighted::Weighted;
 use trackdyn_model::{EffectId, VehicleFile};
 
-/// Residuals may be this much larger than the noise before the noise is taken to be larger.
-const TOLERATED: f64 = 1.1;
-
 /// A search with its verdicts.
 pub(super) struct Judged {
     /// Evidence, base and candidates.
@@ -78,7 +75,8 @@ impl Judged {
     pub fn rescaled(&self) -> Option<Weighted> {
         let evidence = &self.search.evidence;
         let scale = evidence.residual_scale(&self.best.fit.residual);
-        let grows = scale.iter().any(|scale| *scale > TOLERATED);
+        let most = evidence.settings().noise.max_residual_scale;
+        let grows = scale.iter().any(|scale| *scale > most);
         grows.then(|| evidence.with_scale(scale.map(|scale| scale.max(1.0))))
     }
 }

@@ -6,7 +6,7 @@ use crate::locate::{Location, Residual, icr_columns};
 use crate::place::sentence;
 use crate::resampling::Resampling;
 use crate::search::Search;
-use crate::verdict::Rules;
+use crate::verdict::tolerated;
 use std::collections::BTreeSet;
 use trackdyn_model::effect::Symmetry;
 
@@ -35,7 +35,7 @@ impl Located {
         let before = Residual { evidence, fit: &base.fit, icrs: &of_base }.locate(resampling);
         let of_corrected = Residual { evidence, fit: &best.fit, icrs: &of_best };
         let after = of_corrected.locate_in_waves(resampling);
-        let left_over = after.left_over(Rules::tolerated(evidence, base, best));
+        let left_over = after.left_over(tolerated(evidence, base, best));
         let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]
             .map(|(fit, icrs)| cells(evidence, &fit.residual, icrs));
         Self { filed, before, after, left_over, cells }

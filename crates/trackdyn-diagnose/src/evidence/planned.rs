@@ -1,7 +1,9 @@
 //! Evidence of driving that is planned: what a drive would show.
 
 use super::{Evidence, Origin, Sample};
+use crate::settings::Settings;
 use nalgebra::Vector3;
+use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_recording::TrackSample;
@@ -29,6 +31,7 @@ impl Evidence {
         runs: &[PlannedRun],
         noise: SegmentNoise,
         tau: f64,
+        settings: &Settings,
         moves: impl Fn(&Self) -> Vec<Vector3<f64>>,
     ) -> Self {
         let mut samples = Vec::new();
@@ -45,6 +48,7 @@ impl Evidence {
             tau,
             origin: Origin::Drive(noise),
             description: format!("{blocks} planned manoeuvres"),
+            settings: Arc::new(settings.clone()),
         };
         let first = still.moved(runs, &moves(&still));
         first.moved(runs, &moves(&first))

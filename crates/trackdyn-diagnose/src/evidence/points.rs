@@ -2,19 +2,12 @@
 
 use super::{Evidence, Origin, Sample};
 use crate::error::Error;
+use crate::settings::{self, Settings};
 use nalgebra::Vector3;
+use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_estimate::noise::scatter;
 use trackdyn_recording::{OperatingPoint, TrackSample};
-
-/// Time that stands for an instant, s.
-const INSTANT: f64 = 1e-6;
-
-/// Fewer points than this are no evidence.
-const FEWEST: usize = 30;
-
-/// Blocks that a table is cut into.
-const BLOCKS: usize = 48;
 
 type Channel = fn(&OperatingPoint) -> Option<f64>;
 
@@ -30,15 +23,17 @@ impl Evidence {
     ///
     /// # Errors
     /// Too few points, or no lines to see the scatter on.
-    pub fn of_points(points: &[OperatingPoint]) -> Result<Self, Error> {
-        if points.len() < FEWEST {
-            return Err(Error::TooFewPoints { found: points.len(), needed: FEWEST });
+    pub fn of_points(points: &[OperatingPoint], settings: &Settings) -> Result<Self, Error> {
+        settings.check()?;
+        let settings::Evidence { min_points, max_table_blocks, instant, .. } = settings.evidence;
+        if points.len() < min_points {
+            return Err(Error::TooFewPoints { found: points.len(), needed: min_points });
         }
         let scatter = CHANNELS.map(|channel| scatter(points, channel));
         if scatter[2].is_none() {
             return Err(Error::NoNoise);
         }
-        let blocks = points.len().min(BLOCKS);
+        let blocks = points.len().min(max_table_blocks);
         let mut samples = Vec::with_capacity(points.len());
         let mut tracks = Vec::with_capacity(points.len());
         let mut inverse = Vec::with_capacity(points.len());
@@ -46,10 +41,10 @@ impl Evidence {
             let measured: [Option<f64>; 3] = std::array::from_fn(|channel| {
                 CHANNELS[channel](point).filter(|_| scatter[channel].is_some())
             });
-            let motion = Vector3::from(measured.map(|value| value.unwrap_or(0.0) * INSTANT));
+            let motion = Vector3::from(measured.map(|value| value.unwrap_or(0.0) * instant));
             inverse.push(Vector3::from_fn(|channel, _| {
                 match (measured[channel], scatter[channel]) {
-                    (Some(_), Some(scatter)) => 1.0 / (scatter * INSTANT),
+                    (Some(_), Some(scatter)) => 1.0 / (scatter * instant),
                     _ => 0.0,
                 }
             }));
@@ -57,7 +52,7 @@ impl Evidence {
                 run: index,
                 block: index * blocks / points.len(),
                 start: 0.0,
-                duration: INSTANT,
+                duration: instant,
                 motion,
                 pose: Pose::default(),
                 speeds: PerSide::new(point.v_left, point.v_right),
@@ -83,6 +78,7 @@ impl Evidence {
                 list[1],
                 list[2]
             ),
+            settings: Arc::new(settings.clone()),
         })
     }
 }

@@ -2,8 +2,10 @@
 
 use super::{Evidence, Origin, Sample};
 use crate::error::Error;
+use crate::settings::{self, Settings};
 use nalgebra::Vector3;
 use std::borrow::Cow;
+use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_estimate::blocks::Blocks;
 use trackdyn_estimate::noise::{Noise, noise};
@@ -15,18 +17,6 @@ use trackdyn_estimate::weighting::{MIN_POSE_NOISE, SegmentNoise};
 use trackdyn_estimate::{Clock, SegmentOptions};
 use trackdyn_recording::{Recording, Run, TrackSample};
 
-/// How far a fitted clock offset may go beyond the one that the recording shows by itself, s.
-const TAU_MARGIN: f64 = 0.15;
-
-/// Largest coordinate of a pose, m: no place of the catalogue lies farther from the origin, an anchor of a tether for one.
-const FARTHEST: f64 = 1000.0;
-
-/// Readings of the tracks that come more often than this are put together, s: no motion in time takes shorter steps.
-const SHORTEST: f64 = 0.01;
-
-/// Fewer segments than this are no evidence.
-pub const FEWEST: usize = 60;
-
 impl Evidence {
     /// The segments of a recording, with the noise that the recording shows without any model. It is where
     /// [`noise`](crate::noise) starts from.
@@ -35,13 +25,21 @@ impl Evidence {
     ///
     /// # Errors
     /// Too few segments, no noise measured or stated, or poses far from the origin of their frame.
-    pub fn of_recording(recording: &Recording, gauge: f64) -> Result<Self, Error> {
-        check_places(recording)?;
-        let recording = with_readings_every(recording, SHORTEST);
+    pub fn of_recording(
+        recording: &Recording,
+        gauge: f64,
+        settings: &Settings,
+    ) -> Result<Self, Error> {
+        settings.check()?;
+        let by = &settings.evidence;
+        check_places(recording, by.max_coordinate)?;
+        let recording = with_readings_every(recording, by.min_reading_interval);
         let tau = Clock::of(&recording, None).tau();
         let (recording, measured) = quieter(&recording, tau);
-        let observations = segments(&recording, tau)?;
-        let noise = noise_of_segments(&recording, &measured, &observations, gauge)?;
+        let observations = segments(&recording, tau, by)?;
+        let gap =
+            spin_test(&observations, gauge).map_or(by.gap_without_spins * gauge, |spin| spin.gap);
+        let noise = noise_of_segments(&recording, &measured, gap)?;
         let blocks = observations.blocks();
         let begin = begin(&recording);
         let samples = samples(&recording, &observations, &blocks, begin);
@@ -56,45 +54,48 @@ impl Evidence {
                 "{}; noise measured on what driving cannot explain",
                 blocks.description()
             ),
+            settings: Arc::new(settings.clone()),
         })
     }
 }
 
 /// Whether all poses lie where places are looked for.
-fn check_places(recording: &Recording) -> Result<(), Error> {
+fn check_places(recording: &Recording, largest: f64) -> Result<(), Error> {
     let poses = recording.runs().iter().flat_map(Run::poses);
     let along = |at: &Pose| at.x.abs().max(at.y.abs());
     let found = poses.map(|sample| along(&sample.pose)).fold(0.0, f64::max);
-    if found > FARTHEST {
-        return Err(Error::FarFromOrigin { found, largest: FARTHEST });
+    if found > largest {
+        return Err(Error::FarFromOrigin { found, largest });
     }
     Ok(())
 }
 
 /// Its segments with a clock offset of `tau` (s), cut so that readings are there for every offset from none at all to
 /// beyond that one.
-fn segments(recording: &Recording, tau: f64) -> Result<Observations, Error> {
+fn segments(
+    recording: &Recording,
+    tau: f64,
+    settings: &settings::Evidence,
+) -> Result<Observations, Error> {
     let options = SegmentOptions {
         tau: tau / 2.0,
-        tau_margin: tau.abs() / 2.0 + TAU_MARGIN,
+        tau_margin: tau.abs() / 2.0 + settings.clock_margin,
         ..SegmentOptions::default()
     };
     let observations = Observations::new(recording, &options).at(tau);
-    if observations.len() < FEWEST {
+    if observations.len() < settings.min_segments {
         let durations = observations.segments().iter().map(|segment| segment.duration);
-        return Err(Error::too_few_segments(durations, FEWEST));
+        return Err(Error::too_few_segments(durations, settings.min_segments));
     }
     Ok(observations)
 }
 
-/// Noise of the segments: measured, or else as the maker of the recording states it.
+/// Noise of the segments: measured, or else as the maker of the recording states it. `gap` is the distance of the ICRs, m.
 fn noise_of_segments(
     recording: &Recording,
     measured: &Noise,
-    observations: &Observations,
-    gauge: f64,
+    gap: f64,
 ) -> Result<SegmentNoise, Error> {
-    let gap = spin_test(observations, gauge).map_or(1.5 * gauge, |spin| spin.gap);
     let stated = recording.stated_noise().map(SegmentNoise::stated);
     SegmentNoise::measured(measured, gap).or(stated).ok_or(Error::NoNoise)
 }

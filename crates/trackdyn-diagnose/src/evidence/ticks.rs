@@ -6,6 +6,7 @@
 //! Σ (S_k − S̃_k)² + λ Σ (Δ³S_k)² (Whittaker 1923), which delays nothing and leaves even accelerations as they are.
 //! λ is the one with the least expected error (Mallows' C_p), for the variance is known.
 
+use crate::settings;
 use std::f64::consts::PI;
 use trackdyn_core::{PerSide, Side, real};
 use trackdyn_estimate::regular::stretches;
@@ -17,34 +18,33 @@ const ORDER: usize = 3;
 /// Weights of a third difference.
 const DIFFERENCE: [f64; ORDER + 1] = [-1.0, 3.0, -3.0, 1.0];
 
-/// λ is tried at powers of √10 from 10⁻² to 10⁵; the last one smooths over some forty readings.
-const TRIED: std::ops::RangeInclusive<i32> = -4..=10;
-
 /// Smallest difference of two speeds that encoders showed, q/T, m/s; zero where all are the same.
-pub(super) fn steps(runs: &[Vec<TrackSample>]) -> PerSide<f64> {
-    PerSide::from_fn(|side| step(runs.iter().flatten().map(|track| speed(track, side))))
+pub(super) fn steps(runs: &[Vec<TrackSample>], settings: &settings::Evidence) -> PerSide<f64> {
+    let speeds = |side| runs.iter().flatten().map(move |track| speed(track, side));
+    PerSide::from_fn(|side| step(speeds(side), settings.min_speed_step))
 }
 
 /// The readings of all runs with even speeds between the ticks of their encoders, which come in such steps (m/s).
-pub(super) fn smoothed(runs: &[Vec<TrackSample>], step: PerSide<f64>) -> Vec<Vec<TrackSample>> {
+pub(super) fn smoothed(
+    runs: &[Vec<TrackSample>],
+    step: PerSide<f64>,
+    settings: &settings::Evidence,
+) -> Vec<Vec<TrackSample>> {
     let smooth = |run: &Vec<TrackSample>| {
         let stamps: Vec<f64> = run.iter().map(|reading| reading.t).collect();
         let stretches = stretches(&stamps).into_iter();
         stretches
-            .flat_map(|(stretch, interval)| between_ticks(&run[stretch], interval, step))
+            .flat_map(|(stretch, interval)| between_ticks(&run[stretch], interval, step, settings))
             .collect()
     };
     runs.iter().map(smooth).collect()
 }
 
-/// Speeds nearer to each other than this, m/s, are the same but for rounding.
-const SAME: f64 = 1e-5;
-
-/// The same of the speeds of one track.
-fn step(speeds: impl Iterator<Item = f64>) -> f64 {
+/// Smallest difference of two speeds of one track that is no rounding, m/s.
+fn step(speeds: impl Iterator<Item = f64>, rounding: f64) -> f64 {
     let mut shown: Vec<f64> = speeds.collect();
     shown.sort_by(f64::total_cmp);
-    let steps = shown.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > SAME);
+    let steps = shown.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > rounding);
     steps.reduce(f64::min).unwrap_or(0.0)
 }
 
@@ -53,7 +53,12 @@ fn speed(reading: &TrackSample, side: Side) -> f64 {
 }
 
 /// A stretch of readings at even intervals (s), whose speeds come in `step`s (m/s), with even speeds.
-fn between_ticks(stretch: &[TrackSample], interval: f64, step: PerSide<f64>) -> Vec<TrackSample> {
+fn between_ticks(
+    stretch: &[TrackSample],
+    interval: f64,
+    step: PerSide<f64>,
+    settings: &settings::Evidence,
+) -> Vec<TrackSample> {
     if interval <= 0.0 {
         return stretch.to_vec(); // a single reading, of a steady point
     }
@@ -63,7 +68,7 @@ fn between_ticks(stretch: &[TrackSample], interval: f64, step: PerSide<f64>) -> 
             Some(*travel)
         });
         let travel: Vec<f64> = std::iter::once(0.0).chain(travel).collect();
-        likely(&travel, step[side] * interval)
+        likely(&travel, step[side] * interval, settings)
     };
     let travel = PerSide::from_fn(of);
     let speed = |side: Side, k: usize| (travel[side][k + 1] - travel[side][k]) / interval;
@@ -76,18 +81,21 @@ fn between_ticks(stretch: &[TrackSample], interval: f64, step: PerSide<f64>) -> 
 }
 
 /// Travel with the least expected error, of travel that was counted in ticks, m.
-fn likely(counted: &[f64], tick: f64) -> Vec<f64> {
+fn likely(counted: &[f64], tick: f64, settings: &settings::Evidence) -> Vec<f64> {
     if counted.len() <= 2 * ORDER || tick <= 0.0 {
         return counted.to_vec();
     }
     let variance = tick * tick / 12.0;
     // C_p = Σ (S − S̃)²/n + 2 σ² tr(H)/n; without smoothing S = S̃ and H = 1
     let mut best = (2.0 * variance, counted.to_vec());
-    for power in TRIED {
-        let lambda = 10_f64.powf(0.5 * f64::from(power));
+    let [first, last] = settings.smoothing_powers;
+    let powers = (0..).map(|k| first + real(k)).take_while(|power| *power <= last);
+    for power in powers {
+        let lambda = 10_f64.powf(0.5 * power);
         let smooth = whittaker(counted, lambda);
         let apart = smooth.iter().zip(counted).map(|(a, b)| (a - b) * (a - b));
-        let expected = apart.sum::<f64>() / real(counted.len()) + 2.0 * variance * freedom(lambda);
+        let freedom = freedom(lambda, settings.smoothing_frequencies);
+        let expected = apart.sum::<f64>() / real(counted.len()) + 2.0 * variance * freedom;
         if expected < best.0 {
             best = (expected, smooth);
         }
@@ -95,15 +103,14 @@ fn likely(counted: &[f64], tick: f64) -> Vec<f64> {
     best.1
 }
 
-/// tr(H)/n of many samples: the mean over all frequencies of what the filter lets through,
+/// tr(H)/n of many samples: the mean over so many frequencies of what the filter lets through,
 /// 1/(1 + λ (2 − 2 cos ω)³).
-fn freedom(lambda: f64) -> f64 {
-    const FREQUENCIES: u32 = 512;
-    let passes = |k: u32| {
-        let omega = PI * (f64::from(k) + 0.5) / f64::from(FREQUENCIES);
+fn freedom(lambda: f64, frequencies: usize) -> f64 {
+    let passes = |k: usize| {
+        let omega = PI * (real(k) + 0.5) / real(frequencies);
         (1.0 + lambda * (2.0 - 2.0 * omega.cos()).powi(3)).recip()
     };
-    (0..FREQUENCIES).map(passes).sum::<f64>() / f64::from(FREQUENCIES)
+    (0..frequencies).map(passes).sum::<f64>() / real(frequencies)
 }
 
 /// Solves (1 + λ D'D) S = S̃, D the third differences, by LDL' of its band.
@@ -149,12 +156,16 @@ fn whittaker(counted: &[f64], lambda: f64) -> Vec<f64> {
 mod tests {
     use super::*;
 
+    /// Frequencies over which a freedom is summed.
+    const FREQUENCIES: usize = 512;
+
     const INTERVAL: f64 = 0.05;
 
     #[test]
     fn a_steady_point_stays_as_it_is() {
         let point = vec![TrackSample { t: 0.0, v_left: 0.3, v_right: -0.1 }];
-        assert_eq!(smoothed(std::slice::from_ref(&point), PerSide::new(0.01, 0.01)), [point]);
+        let (steps, settings) = (PerSide::new(0.01, 0.01), settings::Evidence::default());
+        assert_eq!(smoothed(std::slice::from_ref(&point), steps, &settings), [point]);
     }
 
     /// Travel at the readings of ramps between speeds, m.
@@ -192,7 +203,8 @@ mod tests {
     }
 
     fn even(runs: &[Vec<TrackSample>]) -> Vec<Vec<TrackSample>> {
-        smoothed(runs, steps(runs))
+        let settings = settings::Evidence::default();
+        smoothed(runs, steps(runs, &settings), &settings)
     }
 
     #[test]
@@ -227,7 +239,8 @@ mod tests {
             };
             let trace = (0..count).map(diagonal).sum::<f64>() / real(count);
             // the ends are freer
-            let [far, near] = [freedom(lambda), freedom(lambda) + 0.03];
+            let far = freedom(lambda, FREQUENCIES);
+            let near = far + 0.03;
             assert!((far..near).contains(&trace), "{lambda}: {trace}, {far}");
         }
     }

@@ -3,14 +3,10 @@
 use super::IcrColumns;
 use super::contrasts::Manoeuvre;
 use crate::evidence::Sample;
-use crate::huber;
 use crate::normal::{Columns, Normal, Prior};
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use trackdyn_core::real;
-
-/// Samples that a cell needs.
-const FEWEST: usize = 12;
 
 /// A cell of driving and how the ICRs there depart from the fitted ones.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +27,7 @@ pub struct Cell {
 
 /// The cells with enough turning.
 pub fn cells(evidence: &Weighted, residual: &[Vector3<f64>], icrs: &IcrColumns) -> Vec<Cell> {
-    let samples = evidence.samples();
+    let (samples, settings) = (evidence.samples(), &evidence.settings().location);
     let fast = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs());
     let mut speeds: Vec<f64> = samples.iter().map(fast).filter(|speed| *speed > 0.0).collect();
     speeds.sort_by(f64::total_cmp);
@@ -41,7 +37,7 @@ pub fn cells(evidence: &Weighted, residual: &[Vector3<f64>], icrs: &IcrColumns) 
     let bounds = [speeds[speeds.len() / 3], speeds[2 * speeds.len() / 3]];
     let columns: Vec<Vec<Vector3<f64>>> =
         icrs.iter().map(|column| evidence.white(column.clone())).collect();
-    let weights = huber::weights(residual);
+    let weights = evidence.weights(residual);
     let mut cells = Vec::new();
     for manoeuvre in [Manoeuvre::Arc, Manoeuvre::CounterRotation, Manoeuvre::Spin] {
         for speed in 0..3 {
@@ -53,11 +49,13 @@ pub fn cells(evidence: &Weighted, residual: &[Vector3<f64>], icrs: &IcrColumns) 
                     } else {
                         sample.speeds.left + sample.speeds.right > 0.0
                     };
-                    Manoeuvre::of(sample) == manoeuvre && third == speed && ahead == forward
+                    Manoeuvre::of(sample, settings) == manoeuvre
+                        && third == speed
+                        && ahead == forward
                 };
                 let chosen: Vec<usize> =
                     (0..samples.len()).filter(|&k| inside(&samples[k])).collect();
-                if chosen.len() < FEWEST {
+                if chosen.len() < settings.min_samples_shown {
                     continue;
                 }
                 let mean_speed =

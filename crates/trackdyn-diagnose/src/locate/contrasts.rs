@@ -7,15 +7,11 @@
 use super::departures::{Contrasts, middle_half_y};
 use super::{IcrColumns, past};
 use crate::evidence::{Evidence, Origin, Sample};
+use crate::settings;
 use nalgebra::Vector3;
 use trackdyn_core::{PerSide, Side};
 use trackdyn_model::effect::Symmetry;
 use trackdyn_recording::hold::held;
-
-/// Ratio of the slower to the faster track, from −1 (spin) to 1 (straight), beyond which driving counts as
-/// straight or as spinning.
-const STRAIGHT: f64 = 0.9;
-const SPIN: f64 = -0.7;
 
 /// How a sample was driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -31,16 +27,17 @@ pub enum Manoeuvre {
 }
 
 impl Manoeuvre {
-    /// The manoeuvre of a sample.
-    pub fn of(sample: &Sample) -> Self {
+    /// The manoeuvre of a sample, by the ratio of its slower to its faster track, from −1 (spin) to 1
+    /// (straight).
+    pub fn of(sample: &Sample, settings: &settings::Location) -> Self {
         let (left, right) = (sample.speeds.left, sample.speeds.right);
         let (slow, fast) = if left.abs() < right.abs() { (left, right) } else { (right, left) };
         let ratio = if fast == 0.0 { 1.0 } else { slow / fast };
-        if ratio > STRAIGHT {
+        if ratio > settings.min_straight_ratio {
             Self::Straight
         } else if ratio >= 0.0 {
             Self::Arc
-        } else if ratio > SPIN {
+        } else if ratio > settings.max_spin_ratio {
             Self::CounterRotation
         } else {
             Self::Spin
@@ -63,7 +60,8 @@ impl Manoeuvre {
 /// `icrs` are the derivatives of the prediction by x_l, x_r and y.
 pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Contrasts> {
     let moved = &middle_half_y(icrs);
-    let mut collector = Collector { samples: evidence.samples(), moved, all: Vec::new() };
+    let (samples, settings) = (evidence.samples(), &evidence.settings().location);
+    let mut collector = Collector { samples, settings, moved, all: Vec::new() };
     let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
     collector.of_speed_and_direction(fastest);
     collector.of_straight_driving();
@@ -82,6 +80,7 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Contrasts> {
 /// The contrasts of some samples, symmetry by symmetry.
 struct Collector<'a> {
     samples: &'a [Sample],
+    settings: &'a settings::Location,
     /// Derivatives by a, h and y.
     moved: &'a [Vec<Vector3<f64>>; 3],
     all: Vec<Contrasts>,
@@ -114,13 +113,15 @@ impl Collector<'_> {
     fn of_speed_and_direction(&mut self, fastest: f64) {
         let speed =
             |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs()) / fastest;
+        let settings = self.settings;
         for of in self.moved {
             self.add(Symmetry::SpeedScale, of, |s| speed(s) - 0.5);
             self.add(Symmetry::SpeedScale, of, |s| (speed(s) - 0.5).powi(2));
             self.add(Symmetry::Reversal, of, direction);
             self.add(Symmetry::Reversal, of, turn);
-            self.add(Symmetry::Manoeuvre, of, |s| is(s, Manoeuvre::Arc));
-            self.add(Symmetry::Manoeuvre, of, |s| is(s, Manoeuvre::CounterRotation));
+            self.add(Symmetry::Manoeuvre, of, |s| is(s, Manoeuvre::Arc, settings));
+            let counter = |s: &Sample| is(s, Manoeuvre::CounterRotation, settings);
+            self.add(Symmetry::Manoeuvre, of, counter);
         }
         let [middle, half, y] = self.moved;
         for of in [half, y] {
@@ -131,7 +132,8 @@ impl Collector<'_> {
     }
 
     fn of_straight_driving(&mut self) {
-        let straight = |s: &Sample| is(s, Manoeuvre::Straight) * s.duration;
+        let settings = self.settings;
+        let straight = |s: &Sample| is(s, Manoeuvre::Straight, settings) * s.duration;
         let speed = |s: &Sample| f64::midpoint(s.speeds.left, s.speeds.right);
         for channel in 0..3 {
             let along = self.along(channel);
@@ -199,16 +201,13 @@ fn turn(sample: &Sample) -> f64 {
     sign(sample.speeds.right - sample.speeds.left)
 }
 
-fn is(sample: &Sample, manoeuvre: Manoeuvre) -> f64 {
-    if Manoeuvre::of(sample) == manoeuvre { 1.0 } else { 0.0 }
+fn is(sample: &Sample, manoeuvre: Manoeuvre, settings: &settings::Location) -> f64 {
+    if Manoeuvre::of(sample, settings) == manoeuvre { 1.0 } else { 0.0 }
 }
-
-/// Part of the fastest speed from which on a track counts as running.
-const RUNNING: f64 = 0.02;
 
 /// How often each track turns round in each sample: to forward positive, to backward negative.
 fn turned(evidence: &Evidence) -> Vec<PerSide<f64>> {
-    let slowest = RUNNING * evidence.fastest();
+    let slowest = evidence.settings().location.min_running_speed * evidence.fastest();
     let mut turned = Vec::with_capacity(evidence.samples().len());
     let mut before = (0, PerSide::new(0.0, 0.0));
     for sample in evidence.samples() {
@@ -248,6 +247,7 @@ fn scaled(samples: &[Sample], of: impl Fn(&Sample) -> f64) -> impl Fn(&Sample) -
 pub(super) mod tests {
     use super::*;
     use crate::evidence::planned::{PlannedRun, READINGS};
+    use crate::settings::Settings;
     use trackdyn_core::Pose;
     use trackdyn_estimate::weighting::SegmentNoise;
     use trackdyn_recording::TrackSample;
@@ -264,7 +264,7 @@ pub(super) mod tests {
         let tracks: Vec<TrackSample> = (0..).zip(speeds.chain([last])).map(reading).collect();
         let run = || PlannedRun { pose: Pose::default(), tracks: tracks.clone(), blocks: vec![0] };
         let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3], heading: 0.0 };
-        Evidence::planned(&[run(), run()], noise, 0.0, |evidence| {
+        Evidence::planned(&[run(), run()], noise, 0.0, &Settings::default(), |evidence| {
             vec![Vector3::zeros(); evidence.samples().len()]
         })
     }

@@ -7,9 +7,6 @@ use trackdyn_core::PerSide;
 use trackdyn_model::effect::Symmetry;
 use trackdyn_recording::hold::held;
 
-/// Times in which the past is forgotten, s.
-const MEMORIES: [f64; 2] = [3.0, 12.0];
-
 /// What present speeds say is not the past.
 const PRESENT: &[Symmetry] =
     &[Symmetry::SpeedScale, Symmetry::Reversal, Symmetry::Manoeuvre, Symmetry::Mirror];
@@ -20,7 +17,7 @@ pub fn contrasts(
     [middle, half, y]: &[Vec<Vector3<f64>>; 3],
 ) -> Option<Contrasts> {
     let mut columns: Vec<Vec<Vector3<f64>>> = Vec::new();
-    for seconds in MEMORIES {
+    for seconds in evidence.settings().location.memories {
         let past = past(evidence, seconds);
         let mut add = |of: &[Vector3<f64>], by: fn(&Past) -> f64| {
             columns.push(of.iter().zip(&past).map(|(value, past)| value * by(past)).collect());

@@ -11,8 +11,8 @@
 use super::IcrColumns;
 use super::departures::middle_half_y;
 use crate::evidence::{Evidence, Origin, Sample};
-use crate::huber;
 use crate::resampling::Resampling;
+use crate::settings;
 use crate::significance::{Group, Test, test_family};
 use crate::weighted::Weighted;
 use nalgebra::{DMatrix, DVector, Vector2, Vector3};
@@ -31,15 +31,6 @@ pub struct Wave {
     /// Its test.
     pub test: Test,
 }
-
-/// Shortest wave that is looked for, m: the contact of a robot averages over less.
-const SHORTEST: f64 = 0.5;
-
-/// Waves that are looked for at most.
-const MOST: usize = 1500;
-
-/// Wave numbers per length of the area: half-way between two of them a wave keeps three quarters of its size.
-const FINENESS: f64 = 1.3;
 
 /// The strongest wave in a residual beside what else may explain it; none in tables of steady motions.
 ///
@@ -61,7 +52,8 @@ pub fn strongest_wave(
         .par_iter()
         .map(|number| {
             let columns = columns(evidence, &departures, *number);
-            remainder.group(&columns.map(|column| evidence.white(column)))
+            let columns = columns.map(|column| evidence.white(column));
+            remainder.group(&columns, &evidence.settings().location)
         })
         .collect();
     let tests = test_family(&groups, resampling);
@@ -75,19 +67,25 @@ pub fn strongest_wave(
 
 /// Wave numbers k, rad/m, of one direction each, the longest waves first.
 fn numbers(evidence: &Evidence) -> Vec<Vector2<f64>> {
-    // one pose in a hundred at either end may be far off
+    let settings = &evidence.settings().location;
+    // poses at either end may be far off
     let extent = |of: &dyn Fn(&Sample) -> f64| {
         let mut values: Vec<f64> = evidence.samples().iter().map(of).collect();
         values.sort_by(f64::total_cmp);
-        let aside = values.len() / 100;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a part of them"
+        )]
+        let aside = (settings.outer_share * real(values.len())) as usize;
         let [low, high] = [values[aside], values[values.len() - 1 - aside]];
-        (high - low).max(2.0 * SHORTEST)
+        (high - low).max(2.0 * settings.min_wavelength)
     };
     let step = Vector2::new(extent(&|s| s.pose.x), extent(&|s| s.pose.y))
-        .map(|extent| TAU / (FINENESS * extent));
+        .map(|extent| TAU / (settings.waves_per_length * extent));
     // half of an ellipse has as many: π/2 K²/(Δk_x Δk_y)
-    let largest = (2.0 * real(MOST) * step.x * step.y / PI).sqrt();
-    let largest = largest.min(TAU / SHORTEST);
+    let largest = (2.0 * real(settings.max_waves) * step.x * step.y / PI).sqrt();
+    let largest = largest.min(TAU / settings.min_wavelength);
     let multiples =
         |step: f64| (0..).map(move |k: u32| step * f64::from(k)).take_while(move |k| *k <= largest);
     // k and −k are one wave
@@ -135,8 +133,8 @@ struct Remainder {
 }
 
 impl Remainder {
-    fn new(evidence: &Evidence, residual: &[Vector3<f64>], beside: &[Vec<Vector3<f64>>]) -> Self {
-        let weights = huber::weights(residual);
+    fn new(evidence: &Weighted, residual: &[Vector3<f64>], beside: &[Vec<Vector3<f64>>]) -> Self {
+        let weights = evidence.weights(residual);
         let roots: Vec<f64> = weights.into_iter().map(f64::sqrt).collect();
         let flat = |column: &[Vector3<f64>]| {
             let values = column.iter().zip(&roots).flat_map(|(value, root)| {
@@ -172,7 +170,7 @@ impl Remainder {
         Self { roots, blocks, beside, residual }
     }
 
-    fn group(&self, columns: &[Vec<Vector3<f64>>; 6]) -> Group {
+    fn group(&self, columns: &[Vec<Vector3<f64>>; 6], settings: &settings::Location) -> Group {
         let mut matrix = DMatrix::zeros(self.residual.len(), columns.len());
         for (c, column) in columns.iter().enumerate() {
             for (k, (value, root)) in column.iter().zip(&self.roots).enumerate() {
@@ -185,6 +183,6 @@ impl Remainder {
             let of = matrix.rows(first, count);
             (of.tr_mul(&self.residual.rows(first, count)), of.tr_mul(&of))
         });
-        Group::of(&blocks.collect::<Vec<_>>())
+        Group::of(&blocks.collect::<Vec<_>>(), settings)
     }
 }

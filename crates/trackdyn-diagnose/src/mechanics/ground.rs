@@ -34,7 +34,7 @@ pub enum Acts {
 
 /// How an effect acts on this evidence.
 pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Acts {
-    const PROBES: usize = 200;
+    let probes = evidence.settings().mechanics.probes;
     if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
         return Acts::Alike;
     }
@@ -44,7 +44,7 @@ pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Ac
     let samples = evidence.samples();
     // A place may be crossed between any two.
     let has_place = effect.card().parameters.iter().any(|p| matches!(p.role, Role::Place { .. }));
-    let step = if has_place { 1 } else { (samples.len() / PROBES).max(1) };
+    let step = if has_place { 1 } else { (samples.len() / probes).max(1) };
     let there = forces(&model, &level);
     if samples.iter().step_by(step).any(|sample| forces(&model, &circumstance(sample)) != there) {
         return Acts::Varying;
@@ -100,6 +100,7 @@ mod tests {
     use crate::evidence::planned::PlannedRun;
     use crate::hypothesis::Hypothesis;
     use crate::mechanics::{Instruments, Mechanics};
+    use crate::settings::Settings;
     use nalgebra::Vector3;
     use trackdyn_core::real;
     use trackdyn_estimate::weighting::SegmentNoise;
@@ -113,8 +114,8 @@ mod tests {
     /// A robot that turns thirty metres from where poses are counted from.
     #[test]
     fn ground_where_the_robot_never_is_changes_nothing_wherever_poses_are_counted_from() {
-        let file = VehicleFile::auriga_alpha();
-        let filed = Hypothesis::filed(&file);
+        let (file, settings) = (VehicleFile::auriga_alpha(), Settings::default());
+        let filed = Hypothesis::filed(&file, &settings.prior);
         let reading = |k| TrackSample { t: 0.03 * real(k), v_left: -0.2, v_right: 0.5 };
         let run = PlannedRun {
             tracks: (0..91).map(reading).collect(),
@@ -122,7 +123,9 @@ mod tests {
             blocks: vec![0],
         };
         let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3], heading: 0.0 };
-        let evidence = Evidence::planned(&[run], noise, 0.0, |evidence| moves(&filed, evidence));
+        let run = [run];
+        let evidence =
+            Evidence::planned(&run, noise, 0.0, &settings, |evidence| moves(&filed, evidence));
         for (x, acts_there) in [(0.0, Acts::Varying), (-50.0, Acts::Nowhere), (30.0, Acts::Varying)]
         {
             let patch: ActiveEffect =

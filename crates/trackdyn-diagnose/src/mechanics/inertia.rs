@@ -2,13 +2,14 @@
 //!
 //! # Law
 //! The motion in time less the stationary motion, over each sample. Around the numbers θ₀ of the hypothesis that it was
-//! found for, it is linear in those that are free: d(θ) = d(θ₀) + Σ (θ − θ₀) ∂d/∂θ, as far as [`REACH`], and on the way of a fit however far.
+//! found for, it is linear in those that are free: d(θ) = d(θ₀) + Σ (θ − θ₀) ∂d/∂θ, as far as `mechanics.reach`, and on the way of a fit however far.
 
 use super::belts::{lagging, smooth};
 use super::sheared::{self, Without};
 use super::{coarse, motion_over};
 use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::{Unknown, active, find, typical_size, value, with_friction};
+use crate::settings;
 use crate::surface::Surface;
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -31,28 +32,18 @@ struct Steps {
 }
 
 impl Steps {
-    /// What inertia adds is what steps of 2 ms make it, to one standard deviation of laboratory sensors in eight minutes of driving. A
+    /// Those of the motion in time itself. By default what inertia adds is what steps of 2 ms make it, to one standard deviation of laboratory sensors in eight minutes of driving. A
     /// belt jumps with each reading; on dry friction a body follows in some milliseconds, which one long step passes over, unseen by
     /// its error.
-    const FINE: Self = Self { longest: 0.01, tolerance: 1e-3 };
-    /// By readings: nine of these standard deviations, alike with and without a law.
-    const COARSE: Self = Self { longest: 0.05, tolerance: 5e-3 };
+    fn fine(settings: &settings::Mechanics) -> Self {
+        Self { longest: settings.max_step, tolerance: settings.step_tolerance }
+    }
+
+    /// Those beside laws of the shear stress. By default, by readings: nine of these standard deviations, alike with and without a law.
+    fn coarse(settings: &settings::Mechanics) -> Self {
+        Self { longest: settings.max_sheared_step, tolerance: settings.sheared_step_tolerance }
+    }
 }
-
-/// Slip velocity below which a track sticks, m/s: of no account to sensors, and solved sooner than what keeps a parked robot
-/// in its place for a minute.
-const CREEP: f64 = 1e-4;
-
-/// Part of its typical size by which a parameter may differ from where the motion in time was found, and over which
-/// derivatives are taken. Beyond what is linear, that changes half a percent of what a typical size adds.
-const REACH: f64 = 0.2;
-
-/// The same on the way of a fit, of numbers without a slope.
-const ALIKE: f64 = 1.0;
-
-/// Seconds by which belts may lag more, or less, than where the motion in time was found. That long it is late with them,
-/// and else the same.
-const AS_LATE: f64 = 0.02;
 
 /// How far a hypothesis may be from where the motion in time was found to be taken for near, in typical sizes.
 #[derive(Clone, Copy)]
@@ -67,18 +58,19 @@ pub struct Within {
 
 impl Within {
     /// Near enough to end a fit with.
-    pub const REACH: Self = Self { known: REACH, unknown: REACH, late: AS_LATE };
+    pub fn reach(settings: &settings::Mechanics) -> Self {
+        let settings::Mechanics { reach, max_lag_change, .. } = *settings;
+        Self { known: reach, unknown: reach, late: max_lag_change }
+    }
+
     /// On the way of a fit: as far as slopes may lead.
-    pub const THE_WAY: Self = Self { known: f64::MAX, unknown: ALIKE, late: f64::MAX };
+    pub fn the_way(settings: &settings::Mechanics) -> Self {
+        Self { known: f64::MAX, unknown: settings.reach_without_slope, late: f64::MAX }
+    }
+
     /// A step of a difference quotient, be it as large as it may.
     pub const A_STEP: Self = Self { known: f64::MAX, unknown: f64::MAX, late: f64::MAX };
 }
-
-/// Part of the gauge, and of the friction ratio, by which the vehicle may differ.
-const CLOSE: f64 = 0.003;
-
-/// Typical error of a filed centre of gravity, as part of the gauge.
-const COG: f64 = 0.05;
 
 /// Difference of the logarithm of friction that is rounding.
 const SAME: f64 = 1e-12;
@@ -93,6 +85,12 @@ pub struct Case<'a> {
     pub largest: f64,
     pub drive: &'a Drive,
     pub evidence: &'a Evidence,
+}
+
+impl Case<'_> {
+    fn settings(&self) -> &settings::Mechanics {
+        &self.evidence.settings().mechanics
+    }
 }
 
 /// What inertia adds, near where it was found.
@@ -161,14 +159,16 @@ impl InertiaNear {
         {
             return None;
         }
+        let settings = case.settings();
+        let size = |by: Unknown| size(by, case.vehicle, settings);
         let nearly = |by: Unknown, change: f64| match by {
-            Unknown::Cog(_) => change.abs() < CLOSE * case.vehicle.gauge,
-            _ => change.abs() <= within.unknown * size(by, case.vehicle) && !needs_slope(by, inert),
+            Unknown::Cog(_) => change.abs() < settings.max_vehicle_change * case.vehicle.gauge,
+            _ => change.abs() <= within.unknown * size(by) && !needs_slope(by, inert),
         };
         let mut shift: Option<Vec<Twist>> = None;
         for (by, change) in self.at.changes(case.vehicle, case.model.effects()) {
             match self.slope(by) {
-                Some(slope) if change.abs() <= within.known * size(by, case.vehicle) => {
+                Some(slope) if change.abs() <= within.known * size(by) => {
                     let still = || vec![Twist::zero(); slope.change.len()];
                     let sums = shift.get_or_insert_with(still);
                     for (sum, slope) in sums.iter_mut().zip(&slope.change) {
@@ -194,7 +194,12 @@ impl InertiaNear {
     /// What laws of the shear stress change in it where it was found, at each reading. `with` has the stationary motions
     /// of a robot with them, `case` is that robot without.
     pub fn sheared(&self, laws: &[ActiveEffect], with: &Surface, case: &Case) -> Vec<Vec<Twist>> {
-        let without = Surface::new(case.model, case.largest, Some(&self.at.surface));
+        let without = Surface::new(
+            case.model,
+            case.largest,
+            case.settings().speed_range,
+            Some(&self.at.surface),
+        );
         self.at.sheared(laws, [with, &without])
     }
 
@@ -233,7 +238,8 @@ impl Slope {
 /// The robot with a number changed by a step of this sign, and the step; none where it would leave what is physical.
 fn stepped(by: Unknown, case: &Case, sign: f64) -> Option<(Model, f64)> {
     let (vehicle, effects) = (case.vehicle, case.model.effects());
-    let step = sign * REACH * size(by, vehicle);
+    let settings = case.settings();
+    let step = sign * settings.reach * size(by, vehicle, settings);
     match by {
         Unknown::Offset(_) => None,
         Unknown::Cog(axis) => {
@@ -263,18 +269,21 @@ pub fn has_slope(by: Unknown, model: &Model) -> bool {
     match by {
         Unknown::Offset(_) => false,
         Unknown::FrictionLevel | Unknown::Cog(_) => true,
-        Unknown::Effect(effect, _) => {
-            find(model.effects(), effect).is_some() && size(by, model.vehicle()) > 0.0
-        }
+        Unknown::Effect(effect, _) => find(model.effects(), effect).is_some() && typical(by) > 0.0,
     }
 }
 
 /// Typical size of a number of a robot; that of the logarithm of friction is one.
-fn size(by: Unknown, vehicle: &Vehicle) -> f64 {
+fn size(by: Unknown, vehicle: &Vehicle, settings: &settings::Mechanics) -> f64 {
     match by {
-        Unknown::Cog(_) => COG * vehicle.gauge,
-        _ => by.parameter().map_or(1.0, typical_size),
+        Unknown::Cog(_) => settings.cog_size * vehicle.gauge,
+        _ => typical(by),
     }
+}
+
+/// Typical size of a parameter; one for the logarithm of friction.
+fn typical(by: Unknown) -> f64 {
+    by.parameter().map_or(1.0, typical_size)
 }
 
 /// Whether a change of a number, however small, has to be known by its slope: it is one of these effects, or of none.
@@ -318,12 +327,14 @@ struct Inertia {
     steady: Vec<Vec<Twist>>,
     /// The sums of forces in these, which the table of stationary motions leaves, once they were asked for.
     left: OnceLock<Vec<Vec<Vector3<f64>>>>,
+    settings: settings::Mechanics,
 }
 
 impl Inertia {
     fn new(inert: Vec<ActiveEffect>, case: &Case) -> Result<Self, String> {
         let Case { model, largest, drive, evidence, .. } = *case;
-        let surface = Surface::new(model, largest, None);
+        let settings = case.settings().clone();
+        let surface = Surface::new(model, largest, settings.speed_range, None);
         let gained = |reading: &TrackSample| {
             let PerSide { left, right } = drive.driven(reading.speeds());
             TrackSample { t: reading.t, v_left: left, v_right: right }
@@ -333,14 +344,27 @@ impl Inertia {
             .map(|run| smooth(run).iter().map(gained).collect())
             .collect();
         let path = |run: &Vec<TrackSample>| {
-            path_in_time(model, &surface, run, Steps::FINE).map(|(path, _)| path)
+            let steps = Steps::fine(&settings);
+            path_in_time(model, &surface, run, steps, settings.stick_speed).map(|(path, _)| path)
         };
         let paths = belts.par_iter().map(path).collect::<Result<Vec<_>, String>>()?;
         let steady = belts.iter().map(|run| stationary(&surface, run)).collect();
         let vehicle = case.vehicle.clone();
         let (model, drive) = (model.clone(), *drive);
         let (steps, left) = (OnceLock::new(), OnceLock::new());
-        Ok(Self { inert, vehicle, model, drive, paths, steps, belts, surface, steady, left })
+        Ok(Self {
+            inert,
+            vehicle,
+            model,
+            drive,
+            paths,
+            steps,
+            belts,
+            surface,
+            steady,
+            left,
+            settings,
+        })
     }
 
     /// Whether it was found for the very same.
@@ -360,7 +384,7 @@ impl Inertia {
     /// Whether the vehicle, without what effects make of it, has about this friction ratio.
     fn is_close(&self, vehicle: &Vehicle) -> bool {
         let ratio = |vehicle: &Vehicle| vehicle.friction.across / vehicle.friction.along;
-        (ratio(&self.vehicle) / ratio(vehicle)).ln().abs() < CLOSE
+        (ratio(&self.vehicle) / ratio(vehicle)).ln().abs() < self.settings.max_vehicle_change
     }
 
     /// The numbers that differ, with the difference from here to there.
@@ -382,10 +406,13 @@ impl Inertia {
 
     /// Whether slopes found for one robot do for the other.
     fn is_alike(&self, other: &Self) -> bool {
+        let settings = &self.settings;
         let mut changes = self.changes(&other.vehicle, other.model.effects()).into_iter();
         are_same(&self.inert, &other.inert)
-            && self.later(&other.drive).abs() <= AS_LATE
-            && changes.all(|(by, change)| change.abs() <= REACH * size(by, &self.vehicle))
+            && self.later(&other.drive).abs() <= settings.max_lag_change
+            && changes.all(|(by, change)| {
+                change.abs() <= settings.reach * size(by, &self.vehicle, settings)
+            })
     }
 
     /// What laws of the shear stress change in the motion in time, at each reading. What they add to the stationary motion is
@@ -402,8 +429,9 @@ impl Inertia {
         let with = Model::new(self.vehicle.clone(), effects).with_resolution(Resolution::Rough);
         let level = Circumstance::default();
         let grounds = [&with, &self.model].map(|model| model.ground(&level));
-        let with = Forces { model: &with, ground: &grounds[0], creep: CREEP };
-        let without = Forces { model: &self.model, ground: &grounds[1], creep: CREEP };
+        let creep = self.settings.stick_speed;
+        let with = Forces { model: &with, ground: &grounds[0], creep };
+        let without = Forces { model: &self.model, ground: &grounds[1], creep };
         // Both on one thread: another job of the pool, taken up in between, would wait for this one.
         let steps =
             self.steps.get_or_init(|| self.belts.iter().map(|run| self.steps(run)).collect());
@@ -417,15 +445,17 @@ impl Inertia {
         let runs = steps.par_iter().zip(&self.belts).zip(&self.steady).zip(left);
         runs.map(|(((steps, belts), steady), left)| {
             let run = Without { steps, belts, steady, left };
-            sheared::departures([&with, &without], &run, &added(belts))
+            sheared::departures([&with, &without], &run, &added(belts), &self.settings)
         })
         .collect()
     }
 
     /// Steps of the motion in time over a run, coarse ones where it goes through in these.
     fn steps(&self, run: &[TrackSample]) -> Vec<Step> {
-        let path = |steps| path_in_time(&self.model, &self.surface, run, steps);
-        let found = [Steps::COARSE, Steps::FINE].into_iter().map(path).find_map(Result::ok);
+        let creep = self.settings.stick_speed;
+        let path = |steps| path_in_time(&self.model, &self.surface, run, steps, creep);
+        let steps = [Steps::coarse(&self.settings), Steps::fine(&self.settings)];
+        let found = steps.into_iter().map(path).find_map(Result::ok);
         found.map(|(_, steps)| steps).unwrap_or_default()
     }
 
@@ -448,12 +478,13 @@ fn stationary(surface: &Surface, belts: &[TrackSample]) -> Vec<Twist> {
     belts.iter().map(|reading| surface.motion(reading.speeds()).twist(&[0.0; 3])).collect()
 }
 
-/// The motion in time over a run, and its steps.
+/// The motion in time over a run, and its steps. A track sticks below a slip of `creep`, m/s.
 fn path_in_time(
     model: &Model,
     surface: &Surface,
     belts: &[TrackSample],
     steps: Steps,
+    creep: f64,
 ) -> Result<(Trajectory, Vec<Step>), String> {
     let mut path = Trajectory::default();
     let Some(first) = belts.first() else { return Ok((path, Vec::new())) };
@@ -461,7 +492,7 @@ fn path_in_time(
     let mut robot = Transient::at_rest(model, first.t, Pose::default())
         .with_step(steps.longest)
         .with_tolerance(steps.tolerance)
-        .with_creep(CREEP)
+        .with_creep(creep)
         .with_twist(start)
         .with_pull()
         .with_steps();

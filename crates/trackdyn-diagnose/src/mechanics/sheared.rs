@@ -21,18 +21,13 @@
 //! with G_a that without the laws. Where these lead nowhere either, as much of one step is taken as comes nearer to a balance:
 //! where a track nearly sticks a law may be steep, and the whole step lead far away.
 
+use crate::settings;
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Twist, real};
 use trackdyn_model::Forces;
 use trackdyn_model::newton::{self, Convergence, Tolerance};
 use trackdyn_model::transient::{GAMMA, Instant, Step};
 use trackdyn_recording::TrackSample;
-
-/// Shares of a step of Newton's method, the first of which that comes nearer to a balance of forces is taken.
-const SHARES: [f64; 3] = [1.0, 0.3, 0.1];
-
-/// Residual over the weight that is none: it moves the robot by less than a hundredth of a millimetre in a second.
-const BALANCED: Tolerance = Tolerance { converged: 1e-5, rounding: 1e-5 };
 
 /// A run without the laws.
 pub struct Without<'a> {
@@ -55,12 +50,14 @@ struct Known {
     leaves: f64,
 }
 
-/// By how much more a step is taken to leave than the one before it, which was not looked at.
-const AGEING: f64 = 1.5;
-
 /// What the laws add to the twist (paper's frame) while each reading of a run holds. `forces` are those with and without
 /// the laws, `shifts` is what they add to the stationary twist at each reading.
-pub fn departures([with, without]: [&Forces; 2], run: &Without, shifts: &[Twist]) -> Vec<Twist> {
+pub fn departures(
+    [with, without]: [&Forces; 2],
+    run: &Without,
+    shifts: &[Twist],
+    settings: &settings::Mechanics,
+) -> Vec<Twist> {
     let still = Twist::zero();
     let mut departures = vec![still; run.belts.len()];
     let mut ended = Vector3::zeros();
@@ -75,8 +72,14 @@ pub fn departures([with, without]: [&Forces; 2], run: &Without, shifts: &[Twist]
         let mut sum = Vector3::zeros();
         while let Some(step) = steps.next_if(|step| step.end <= until) {
             let per_second = (GAMMA * step.duration).recip();
-            let [first, second] =
-                step.stages.map(|instant| Stage { with, without, instant, per_second, rest });
+            let [first, second] = step.stages.map(|instant| Stage {
+                with,
+                without,
+                instant,
+                per_second,
+                rest,
+                settings,
+            });
             let one = first.solve(&shift, &mut known, &ended);
             let base = ended + (one - ended) * ((1.0 - GAMMA) / GAMMA);
             let two = second.solve(&one, &mut known, &base);
@@ -101,6 +104,7 @@ struct Stage<'a> {
     per_second: f64,
     /// The sum of forces that counts as balance.
     rest: Vector3<f64>,
+    settings: &'a settings::Mechanics,
 }
 
 impl Stage<'_> {
@@ -142,13 +146,15 @@ impl Stage<'_> {
     ) -> Vector3<f64> {
         let residual = |added| self.residual(&added, base);
         let off = residual(*start);
+        let converged = self.settings.balance_tolerance;
+        let balanced = Tolerance { converged, rounding: converged };
         if let Some(known) = known
-            && known.leaves * off.norm() <= BALANCED.converged
+            && known.leaves * off.norm() <= balanced.converged
         {
-            known.leaves *= AGEING;
+            known.leaves *= self.settings.unchecked_growth;
             return start - known.inverse * off;
         }
-        let near = |inverse| newton::from_near((*start, off), inverse, BALANCED, residual);
+        let near = |inverse| newton::from_near((*start, off), inverse, balanced, residual);
         let mut inverse = known.map(|known| known.inverse);
         let found = inverse.and_then(near).or_else(|| {
             inverse = self.inverse(start, base);
@@ -160,7 +166,8 @@ impl Stage<'_> {
         }
         *known = inverse.map(|inverse| Known { inverse, leaves: 1.0 });
         let Some(inverse) = inverse else { return *start };
-        let mut shares = SHARES.iter().map(|share| start - inverse * off * *share);
+        let mut shares =
+            self.settings.balance_shares.iter().map(|share| start - inverse * off * *share);
         shares.find(|added| residual(*added).norm() < off.norm()).unwrap_or(*start)
     }
 }

@@ -10,6 +10,7 @@ use crate::normal::{Columns, Normal};
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use trackdyn_core::real;
 use trackdyn_estimate::weighting::SegmentNoise;
 
 /// The residual of a fit, and all that driving could explain of it. Nothing is white.
@@ -23,10 +24,9 @@ pub(super) struct Flexible {
 /// What friction that falls or rises with the speed of slip may do: ICRs, and the answer to acceleration, that go with the
 /// speed of turning. Contrasts, which are tested, keep to a few columns; here there may be many.
 fn turning(evidence: &Evidence, of: &[Vec<Vector3<f64>>]) -> Vec<Vec<Vector3<f64>>> {
-    /// Parts of twice the largest track speed in which friction settles: slip is of the order of the turn.
-    const SETTLES: [f64; 2] = [0.06, 0.2];
     let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
-    let [quickly, slowly] = SETTLES.map(|scale| move |u: f64| (-u / scale).exp());
+    let [quickly, slowly] =
+        evidence.settings().noise.friction_scales.map(|scale| move |u: f64| (-u / scale).exp());
     let laws: [&dyn Fn(f64) -> f64; 4] = [&|u| u, &|u| u * u, &quickly, &slowly];
     let turns: Vec<f64> = (evidence.samples().iter())
         .map(|sample| (sample.speeds.right - sample.speeds.left).abs() / (2.0 * fastest))
@@ -83,7 +83,8 @@ impl Flexible {
         let columns: Vec<_> = self.columns.iter().map(|column| white(evidence, column)).collect();
         let normal = evidence.normal(&residual, &columns);
         let mut fitted = normal.independent();
-        if 2 * fitted.len() > 3 * residual.len() {
+        let most = evidence.settings().noise.max_fitted_share * real(3 * residual.len());
+        if real(fitted.len()) > most {
             fitted.retain(|&column| column < self.own);
         }
         normal.take(&fitted, &columns, &mut residual);
@@ -98,7 +99,8 @@ impl Flexible {
         noise: &SegmentNoise,
         fitted: &[usize],
     ) -> Variances {
-        const STEP: f64 = 0.05;
+        let settings = &evidence.settings().noise;
+        let step = settings.taken_difference;
         let count = evidence.samples().len();
         let ln_det = |noise: SegmentNoise| -> Option<f64> {
             let evidence = evidence.with_noise(noise);
@@ -117,13 +119,13 @@ impl Flexible {
         let stepped = (0..=COUNT).into_par_iter().map(|k| {
             let mut there = here;
             if k < COUNT {
-                there[k] += STEP;
+                there[k] += step;
             }
-            ln_det(noise_of(&there))
+            ln_det(noise_of(&there, settings))
         });
         let stepped: Vec<Option<f64>> = stepped.collect();
         Variances::from_fn(|k, _| match (stepped[COUNT], stepped[k]) {
-            (Some(here), Some(there)) => ((here - there) / STEP).max(0.0),
+            (Some(here), Some(there)) => ((here - there) / step).max(0.0),
             _ => 0.0,
         })
     }

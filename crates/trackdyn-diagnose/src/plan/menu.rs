@@ -4,27 +4,12 @@
 //! choice.
 
 use crate::evidence::planned::READINGS;
+use crate::settings;
 use std::f64::consts::FRAC_PI_4;
 use trackdyn_core::{PerSide, real};
 
 /// Time between readings of the encoders, and between commands, s.
 pub const INTERVAL: f64 = 0.03;
-
-/// Readings of a gentle ramp (0.51 s), and of one that is as sharp as belts follow (0.12 s).
-const GENTLE: usize = 17;
-const SHARP: usize = 4;
-
-/// Readings at constant speeds (2.7 s).
-const STEADY: usize = 90;
-
-/// Readings at rest after a manoeuvre: what is late shows in them.
-const REST: usize = 18;
-
-/// Creeping speeds, m/s.
-const CREEPING: [f64; 3] = [0.05, 0.1, 0.2];
-
-/// Side of a square, as time at its speed: readings.
-const SIDE: usize = 70;
 
 /// A manoeuvre from rest to rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,37 +29,37 @@ impl Manoeuvre {
 
 /// The menu up to track speeds of `fastest` (m/s, above zero). `gap` is the distance between the ICRs, x_r − x_l, by which
 /// turns are measured, m.
-pub fn menu(fastest: f64, gap: f64) -> Vec<Manoeuvre> {
+pub fn menu(fastest: f64, gap: f64, settings: &settings::Plan) -> Vec<Manoeuvre> {
     let mut menu = Vec::new();
     for side in SIDES {
         for share in [0.25, 0.5, 1.0] {
             let speed = share * fastest;
             let name = format!("spin {} at {speed:.3} m/s", side.name);
-            menu.push(plain(name, side.spin(speed)));
+            menu.push(plain(name, side.spin(speed), settings));
         }
         for (word, sense) in DIRECTIONS {
             for share in [0.3, 0.6, 1.0] {
                 for ratio in [0.3, 0.6, 0.85] {
                     let speed = share * fastest;
                     let name = format!("arc {word} {} at {speed:.3} m/s, ratio {ratio}", side.name);
-                    menu.push(plain(name, side.turn(sense * speed, ratio)));
+                    menu.push(plain(name, side.turn(sense * speed, ratio), settings));
                 }
             }
             for share in [0.5, 1.0] {
                 let speed = share * fastest;
                 for (kind, ratio) in [("counter-rotation", -0.4), ("tight arc", 0.1)] {
                     let name = format!("{kind} {word} {} at {speed:.3} m/s", side.name);
-                    menu.push(plain(name, side.turn(sense * speed, ratio)));
+                    menu.push(plain(name, side.turn(sense * speed, ratio), settings));
                 }
             }
         }
     }
-    straight(&mut menu, fastest);
-    transients(&mut menu, fastest);
-    creeping(&mut menu, fastest);
+    straight(&mut menu, fastest, settings);
+    transients(&mut menu, fastest, settings);
+    creeping(&mut menu, fastest, settings);
     for side in SIDES {
-        menu.push(headings(side, fastest, gap));
-        menu.push(square(side, fastest, gap));
+        menu.push(headings(side, fastest, gap, settings));
+        menu.push(square(side, fastest, gap, settings));
     }
     menu
 }
@@ -106,10 +91,10 @@ impl Turning {
     }
 }
 
-fn plain(name: String, speeds: PerSide<f64>) -> Manoeuvre {
-    let mut drive = Drive::default();
-    drive.to(speeds, GENTLE);
-    drive.hold(STEADY);
+fn plain(name: String, speeds: PerSide<f64>, settings: &settings::Plan) -> Manoeuvre {
+    let mut drive = Drive::new(settings);
+    drive.to(speeds, settings.gentle_ramp);
+    drive.hold(settings.steady);
     drive.finish(name)
 }
 
@@ -118,43 +103,47 @@ fn both(speed: f64) -> PerSide<f64> {
 }
 
 /// Straight runs, with starts and stops, and there and back.
-fn straight(menu: &mut Vec<Manoeuvre>, fastest: f64) {
+fn straight(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &settings::Plan) {
     for (word, sense) in DIRECTIONS {
         for share in [0.5, 1.0] {
             let speed = share * fastest;
-            menu.push(plain(format!("straight {word} at {speed:.3} m/s"), both(sense * speed)));
-            let mut drive = Drive::default();
+            menu.push(plain(
+                format!("straight {word} at {speed:.3} m/s"),
+                both(sense * speed),
+                settings,
+            ));
+            let mut drive = Drive::new(settings);
             for _ in 0..3 {
-                drive.to(both(sense * speed), SHARP);
-                drive.hold(REST);
-                drive.to(both(0.0), SHARP);
-                drive.hold(REST);
+                drive.to(both(sense * speed), settings.sharp_ramp);
+                drive.hold(settings.rest);
+                drive.to(both(0.0), settings.sharp_ramp);
+                drive.hold(settings.rest);
             }
             menu.push(drive.finish(format!("starts and stops {word} at {speed:.3} m/s")));
         }
     }
     for share in [0.5, 1.0] {
         let speed = share * fastest;
-        let mut drive = Drive::default();
+        let mut drive = Drive::new(settings);
         for sense in [1.0, -1.0] {
-            drive.to(both(sense * speed), GENTLE);
-            drive.hold(STEADY);
-            drive.to(both(0.0), GENTLE);
+            drive.to(both(sense * speed), settings.gentle_ramp);
+            drive.hold(settings.steady);
+            drive.to(both(0.0), settings.gentle_ramp);
         }
         menu.push(drive.finish(format!("out and back at {speed:.3} m/s")));
     }
 }
 
 /// Speeds that change sharply.
-fn transients(menu: &mut Vec<Manoeuvre>, fastest: f64) {
+fn transients(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &settings::Plan) {
     let mut steps = |name: String, between: [PerSide<f64>; 2]| {
-        let mut drive = Drive::default();
-        drive.to(between[0], GENTLE);
+        let mut drive = Drive::new(settings);
+        drive.to(between[0], settings.gentle_ramp);
         for _ in 0..3 {
-            drive.hold(REST);
-            drive.to(between[1], SHARP);
-            drive.hold(REST);
-            drive.to(between[0], SHARP);
+            drive.hold(settings.rest);
+            drive.to(between[1], settings.sharp_ramp);
+            drive.hold(settings.rest);
+            drive.to(between[0], settings.sharp_ramp);
         }
         menu.push(drive.finish(name));
     };
@@ -174,28 +163,28 @@ fn transients(menu: &mut Vec<Manoeuvre>, fastest: f64) {
 }
 
 /// Slow turns.
-fn creeping(menu: &mut Vec<Manoeuvre>, fastest: f64) {
-    for speed in CREEPING.into_iter().filter(|speed| *speed <= fastest) {
+fn creeping(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &settings::Plan) {
+    for speed in settings.creeping_speeds.into_iter().filter(|speed| *speed <= fastest) {
         for side in SIDES {
             let name = format!("creeping spin {} at {speed:.3} m/s", side.name);
-            menu.push(plain(name, side.spin(speed)));
+            menu.push(plain(name, side.spin(speed), settings));
             for (word, sense) in DIRECTIONS {
                 let name = format!("creeping arc {word} {} at {speed:.3} m/s", side.name);
-                menu.push(plain(name, side.turn(sense * speed, 0.4)));
+                menu.push(plain(name, side.turn(sense * speed, 0.4), settings));
             }
         }
     }
 }
 
 /// The same arc at eight headings.
-fn headings(side: Turning, fastest: f64, gap: f64) -> Manoeuvre {
-    let mut drive = Drive::default();
+fn headings(side: Turning, fastest: f64, gap: f64, settings: &settings::Plan) -> Manoeuvre {
+    let mut drive = Drive::new(settings);
     for _ in 0..8 {
         // There and back on the same arc: what is left is the heading.
         for sense in [1.0, -1.0] {
-            drive.to(side.turn(sense * 0.4 * fastest, 0.5), GENTLE);
-            drive.hold(REST);
-            drive.to(both(0.0), GENTLE);
+            drive.to(side.turn(sense * 0.4 * fastest, 0.5), settings.gentle_ramp);
+            drive.hold(settings.rest);
+            drive.to(both(0.0), settings.gentle_ramp);
         }
         drive.spin(side, FRAC_PI_4, 0.4 * fastest, gap);
     }
@@ -203,24 +192,28 @@ fn headings(side: Turning, fastest: f64, gap: f64) -> Manoeuvre {
 }
 
 /// A square with turns on the spot.
-fn square(side: Turning, fastest: f64, gap: f64) -> Manoeuvre {
-    let mut drive = Drive::default();
+fn square(side: Turning, fastest: f64, gap: f64, settings: &settings::Plan) -> Manoeuvre {
+    let mut drive = Drive::new(settings);
     for _ in 0..4 {
-        drive.to(both(0.7 * fastest), GENTLE);
-        drive.hold(SIDE);
-        drive.to(both(0.0), GENTLE);
+        drive.to(both(0.7 * fastest), settings.gentle_ramp);
+        drive.hold(settings.square_side);
+        drive.to(both(0.0), settings.gentle_ramp);
         drive.spin(side, 2.0 * FRAC_PI_4, 0.4 * fastest, gap);
     }
     drive.finish(format!("square to the {}", side.name))
 }
 
 /// A manoeuvre that is being written, one command per interval.
-#[derive(Default)]
-struct Drive {
+struct Drive<'a> {
     speeds: Vec<PerSide<f64>>,
+    settings: &'a settings::Plan,
 }
 
-impl Drive {
+impl<'a> Drive<'a> {
+    fn new(settings: &'a settings::Plan) -> Self {
+        Self { speeds: Vec::new(), settings }
+    }
+
     fn now(&self) -> PerSide<f64> {
         self.speeds.last().copied().unwrap_or_default()
     }
@@ -242,24 +235,25 @@ impl Drive {
     /// Turns on the spot by an angle, from rest to rest, at no more than a speed.
     fn spin(&mut self, side: Turning, angle: f64, fastest: f64, gap: f64) {
         // V_r − V_l = ω (x_r − x_l), eq. (9): each track runs half of the arc.
+        let ramp = self.settings.gentle_ramp;
         let arc = angle * gap / 2.0;
         let mut steady = 0;
-        while INTERVAL * real(GENTLE + steady) * fastest < arc {
+        while INTERVAL * real(ramp + steady) * fastest < arc {
             steady += 1;
         }
         // Up and down a ramp run as far as one ramp's time at full speed.
-        let speed = arc / (INTERVAL * real(GENTLE + steady));
-        self.to(side.spin(speed), GENTLE);
+        let speed = arc / (INTERVAL * real(ramp + steady));
+        self.to(side.spin(speed), ramp);
         self.hold(steady);
-        self.to(both(0.0), GENTLE);
+        self.to(both(0.0), ramp);
     }
 
     /// To rest, and on to whole samples.
     fn finish(mut self, name: String) -> Manoeuvre {
         if self.now() != both(0.0) {
-            self.to(both(0.0), GENTLE);
+            self.to(both(0.0), self.settings.gentle_ramp);
         }
-        self.hold(REST);
+        self.hold(self.settings.rest);
         self.hold(self.speeds.len().next_multiple_of(READINGS) - self.speeds.len());
         Manoeuvre { name, speeds: self.speeds }
     }
@@ -271,8 +265,9 @@ mod tests {
 
     #[test]
     fn manoeuvres_start_and_end_at_rest_and_stay_within_the_limit() {
+        let settings = settings::Plan::default();
         for fastest in [0.02, 0.3, 1.0, 3.0] {
-            let menu = menu(fastest, 0.83);
+            let menu = menu(fastest, 0.83, &settings);
             for manoeuvre in &menu {
                 let sizes = manoeuvre.speeds.iter().map(|v| v.left.abs().max(v.right.abs()));
                 let largest = sizes.fold(0.0, f64::max);
@@ -280,7 +275,10 @@ mod tests {
                 assert_eq!(manoeuvre.speeds.len() % READINGS, 0, "{}", manoeuvre.name);
                 assert_eq!(*manoeuvre.speeds.last().expect("some"), both(0.0));
                 let first = manoeuvre.speeds[0];
-                assert!(first.left.abs().max(first.right.abs()) <= fastest / real(SHARP) + 1e-12);
+                assert!(
+                    first.left.abs().max(first.right.abs())
+                        <= fastest / real(settings.sharp_ramp) + 1e-12
+                );
             }
             let mut names: Vec<&str> = menu.iter().map(|m| m.name.as_str()).collect();
             names.sort_unstable();
@@ -291,7 +289,7 @@ mod tests {
 
     #[test]
     fn every_manoeuvre_has_its_mirror_image() {
-        let menu = menu(1.0, 0.83);
+        let menu = menu(1.0, 0.83, &settings::Plan::default());
         for manoeuvre in &menu {
             let mirrored: Vec<PerSide<f64>> =
                 manoeuvre.speeds.iter().map(|v| PerSide::new(v.right, v.left)).collect();

@@ -8,6 +8,7 @@ use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, active, typical, unknowns_of};
 use crate::mechanics::{Instruments, Mechanics, is_instrument};
 use crate::search::{Catalogue, Search};
+use crate::settings::Settings;
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -27,9 +28,9 @@ pub struct Rival {
 impl Rival {
     /// The member that the diagnosis fitted, at its fitted size: the vehicle's, else the diagnosis's, else its
     /// typical one.
-    pub fn fitted(question: &Question, file: &VehicleFile) -> Self {
+    pub fn fitted(question: &Question, file: &VehicleFile, settings: &Settings) -> Self {
         let effect = question.effect;
-        let given = Hypothesis::filed(file);
+        let given = Hypothesis::filed(file, &settings.prior);
         let hypothesis = match given.effect(effect) {
             Some(_) => given,
             None => given.with_effect(active(effect, &question.values)),
@@ -87,10 +88,9 @@ impl Rival {
 /// The same driving so coarsely weighed that no part of what an effect changes counts as an outlier: here it is what is
 /// looked for.
 fn weighed_coarsely(driving: &Weighted, without: &Hypothesis) -> Weighted {
-    /// Length of the longest residual.
-    const LONGEST: f64 = 3.0;
     let mechanics = Mechanics::new(without, driving);
     let residual = driving.residual(&mechanics.predict(&Instruments::of(without), driving));
     let longest = residual.iter().map(Vector3::norm).fold(0.0, f64::max);
-    driving.with_scale([(longest / LONGEST).max(1.0); 3])
+    let most = driving.settings().plan.max_mimicked_residual;
+    driving.with_scale([(longest / most).max(1.0); 3])
 }

@@ -54,7 +54,7 @@ fn a_clock_and_a_lag_differ_where_speeds_change_only() {
     assert!(sharpest > 1.5 * gentle, "{name}: {sharpest}");
     // Steady driving: the same readings on and on.
     let question = &question(&members, "")[0];
-    let menu = menu(1.0, 0.83);
+    let menu = menu(1.0, 0.83, &Options::default().method.plan);
     let class = Class::new(question, &file, &menu, &Options::default()).expect("a class");
     let steady = Manoeuvre {
         name: String::new(),

@@ -3,14 +3,12 @@
 use crate::equations::Equations;
 use crate::hypothesis::Unknown;
 use crate::resampling::Resampling;
+use crate::settings::Settings;
 use crate::significance::test;
-use crate::verdict::{Rules, Support};
+use crate::verdict::Support;
 use rayon::prelude::*;
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::Term;
-
-/// Terms that a law may have.
-const MOST_TERMS: usize = 3;
 
 /// All admissible terms of a form beside a fit.
 pub(super) struct Library {
@@ -22,6 +20,8 @@ pub(super) struct Library {
     pub unknowns: Vec<Unknown>,
     /// Normal equations: what is free, and the coefficients as one group.
     pub equations: Equations,
+    /// The settings of the diagnosis.
+    pub settings: Settings,
 }
 
 /// A term that was chosen.
@@ -98,7 +98,7 @@ impl Library {
                 self.group(term).into_iter().filter(|column| !base.contains(column)).collect()
             })
             .collect();
-        let tests = test(&projected, &groups, resampling);
+        let tests = test(&projected, &groups, resampling, &self.settings.location);
         let own = family.iter().position(|other| *other == term);
         let columns = own.map_or(&[][..], |own| &groups[own]);
         Support {
@@ -111,6 +111,7 @@ impl Library {
 
 /// The terms that are worth it, most telling first; none where no term is.
 pub(super) fn select(library: &Library, resampling: Resampling) -> Vec<Selected> {
+    let rules = &library.settings.verdict;
     let mut chosen = search(library);
     loop {
         let mut selected: Vec<Selected> = chosen
@@ -119,7 +120,7 @@ pub(super) fn select(library: &Library, resampling: Resampling) -> Vec<Selected>
             .collect();
         let gain = |selected: &Selected| selected.support.ln_bayes_factor;
         selected.sort_by(|a, b| gain(b).total_cmp(&gain(a)));
-        match selected.iter().rfind(|selected| selected.support.falls_short().is_some()) {
+        match selected.iter().rfind(|selected| selected.support.falls_short(rules).is_some()) {
             Some(weakest) => chosen.retain(|term| *term != weakest.term),
             None => return selected,
         }
@@ -130,11 +131,11 @@ fn search(library: &Library) -> Vec<usize> {
     let all: Vec<usize> = (0..library.terms.len()).collect();
     let mut chosen: Vec<usize> = Vec::new();
     let mut value = library.ln_evidence(&chosen);
-    while chosen.len() < MOST_TERMS {
+    while chosen.len() < library.settings.proposal.max_terms {
         let others = all.iter().filter(|term| !chosen.contains(term));
         let more = others.map(|&term| chosen.iter().copied().chain([term]).collect()).collect();
         let Some((terms, with)) = library.best_of(more) else { break };
-        if with - value < Rules::LN_BAYES_FACTOR {
+        if with - value < library.settings.verdict.min_ln_bayes_factor {
             break;
         }
         (chosen, value) = exchanged(library, &all, terms, with);
@@ -149,6 +150,7 @@ fn exchanged(
     mut chosen: Vec<usize>,
     mut value: f64,
 ) -> (Vec<usize>, f64) {
+    let min_ln_bayes_factor = library.settings.verdict.min_ln_bayes_factor;
     loop {
         let exchanges = (0..chosen.len()).flat_map(|place| {
             let others = all.iter().filter(|term| !chosen.contains(term));
@@ -172,7 +174,7 @@ fn exchanged(
             terms
         });
         match library.best_of(without.collect()) {
-            Some((terms, left)) if value - left < Rules::LN_BAYES_FACTOR => {
+            Some((terms, left)) if value - left < min_ln_bayes_factor => {
                 (chosen, value) = (terms, left);
             }
             _ => return (chosen, value),

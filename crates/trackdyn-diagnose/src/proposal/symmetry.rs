@@ -1,17 +1,15 @@
 //! Which terms the symmetries of the evidence admit.
 
 use crate::locate::Location;
+use crate::settings;
 use trackdyn_model::effect::{Symmetry, Term};
 
-/// Family-wise probability above which evidence clearly keeps a symmetry.
-const CLEAR: f64 = 0.1;
-
 /// The symmetries that the evidence clearly keeps beside all of these predictions.
-pub fn kept(locations: [&Location; 3]) -> Vec<Symmetry> {
+pub fn kept(locations: [&Location; 3], settings: &settings::Proposal) -> Vec<Symmetry> {
     let keeps = |symmetry: &Symmetry| {
         locations.iter().all(|location| {
             let test = location.tests.iter().find(|test| test.symmetry == *symmetry);
-            test.is_some_and(|test| test.test.p > CLEAR)
+            test.is_some_and(|test| test.test.p > settings.min_p_kept)
         })
     };
     Symmetry::ALL.into_iter().filter(keeps).collect()

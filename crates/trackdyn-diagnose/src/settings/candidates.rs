@@ -5,13 +5,13 @@ use super::group::group;
 group! {
     /// Which variants of each effect are tried.
     Candidates {
-        /// Steps to signatures, in typical sizes; the first that goes.
+        /// Steps to signatures, in typical sizes; the first possible one counts.
         size_steps: [f64; 3] = [1.0, 0.2, -0.2], "", [-10.0, 10.0],
-            "A typical one may tip robots.",
-            "Wrong sizes are promised.";
+            "A typical step may tip a robot.",
+            "The screen promises wrong sizes.";
         /// Typical sizes at which shear laws are taken.
         shear_sizes: [f64; 3] = [1.0, 0.2, 0.05], "", [1e-3, 10.0],
-            "Sizes may scale a law.",
+            "A size may be the scale of a law.",
             "Stiff soil is missed.";
         /// Angle between directions.
         direction_step: f64 = 15.0, "deg", [1.0, 120.0],
@@ -19,9 +19,9 @@ group! {
             "Higher: refinement starts too far off.";
         /// Ratio of neighbouring shapes.
         shape_ratio: f64 = 2.5, "", [1.01, 100.0],
-            "Three span six.",
+            "Three span a factor of six.",
             "Higher: shapes fall between.";
-        /// Places without extent, in half widths from the middle.
+        /// Places without an extent, in half widths from the middle.
         places: [f64; 5] = [-3.0, -1.0, 0.0, 1.0, 3.0], "", [-100.0, 100.0],
             "Anchors lie beside areas too.",
             "Other anchors look like slopes.";
@@ -29,14 +29,14 @@ group! {
         max_places: usize = 40, "", [1.0, 1e5],
             "Others are seldom passed.",
             "Lower: patches are missed.";
-        /// Rounds that refine a variant.
+        /// Most rounds that refine a variant.
         refining_rounds: usize = 6, "", [0.0, 100.0],
-            "Three halvings.",
+            "Steps and three halvings.",
             "Lower: places stay coarse.";
-        /// Smallest step, in half distances.
+        /// Smallest step of refinement, in half distances.
         min_refining_step: f64 = 0.2, "", [1e-3, 1.0],
             "The fit does the rest.";
-        /// ln evidence a step must gain.
+        /// ln evidence that a step must gain.
         min_refining_gain: f64 = 0.1, "", [0.0, 100.0],
             "Far below chance.";
     }

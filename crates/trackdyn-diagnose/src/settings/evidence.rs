@@ -11,47 +11,47 @@ group! {
             "Lower: noise and ICRs are hardly known.";
         /// Fewest points of a table.
         min_points: usize = 30, "", [3.0, 1e6],
-            "Ten per ICR coordinate.",
-            "Lower: scatter is hardly known.";
-        /// Blocks of a table.
+            "Ten for each ICR coordinate.",
+            "Lower: their scatter is hardly known.";
+        /// Most blocks of a table.
         max_table_blocks: usize = 48, "", [2.0, 1e4],
             "As of a recording.",
             "Higher: neighbours that shift alike pass for independent.";
-        /// Reach of a fitted clock beyond the recording's own offset.
+        /// How far a fitted clock may go beyond the recording's own offset.
         clock_margin: f64 = 0.15, "s", [0.0, 10.0],
-            "Clocks found without a model err less.",
+            "Room for a clock found without a model.",
             "Lower: late clocks end at the limit.";
         /// Largest coordinate of a pose.
         max_coordinate: f64 = 1000.0, "m", [1.0, 1e9],
-            "Effects have no place farther out.",
+            "No effect has a place farther out.",
             "Higher: places are sought in vain.";
-        /// Shortest time between track readings; closer ones are averaged.
+        /// Track readings that come more often are averaged.
         min_reading_interval: f64 = 0.01, "s", [0.0, 1.0],
-            "Motions in time step as long.",
+            "Motions in time take no shorter steps.",
             "Higher: quick changes vanish.";
-        /// Distance of the ICRs of a robot that never spins.
+        /// Distance of the ICRs assumed for a robot that never spins.
         gap_without_spins: f64 = 1.5, "gauge", [0.5, 20.0],
-            "Common on hard ground.",
-            "Yaw noise starts off.";
-        /// Whitened residual beyond which loss is linear.
+            "Usual on hard ground.",
+            "Yaw noise starts too small or large.";
+        /// Whitened residual beyond which the loss is linear.
         huber_threshold: f64 = 3.4, "sd", [0.5, 1e9],
             "1 % of normal ones are longer.",
             "Lower: power is lost; higher: outliers look like physics.";
-        /// Rise of twice the misfit at which cleaned readings stand.
+        /// Rise of twice the misfit up to which cleaned readings stand.
         max_rise_by_cleaning: f64 = 4.0, "", [0.0, 1e6],
             "Two standard deviations.",
             "Lower: jitter looks like a lag.";
-        /// First and last power of √10 for smoothing ticks.
+        /// First and last power of √10 tried for smoothing ticks.
         smoothing_powers: [f64; 2] = [-4.0, 10.0], "", [-20.0, 20.0],
             "The last spans forty readings.";
-        /// Smallest step of speed that is a tick.
+        /// Smallest step of speed that counts as a tick.
         min_speed_step: f64 = 1e-5, "m/s", [0.0, 1.0],
             "Less is rounding.";
-        /// Frequencies to sum a smoother's freedom.
+        /// Frequencies over which a smoother's freedom is summed.
         smoothing_frequencies: usize = 512, "", [8.0, 1e5],
-            "Exact to 1e-3.";
+            "The filter is smooth.";
         /// Duration of a steady point.
         instant: f64 = 1e-6, "s", [1e-9, 1e-3],
-            "Motion is velocity times time.";
+            "Motion is then velocity times time.";
     }
 }

@@ -30,7 +30,7 @@ macro_rules! group {
         }
     ) => {
         $(#[doc = $about])+
-        #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+        #[derive(Clone, Debug, PartialEq)]
         pub struct $group {
             $($(#[doc = $meaning])+ pub $name: $kind,)+
         }

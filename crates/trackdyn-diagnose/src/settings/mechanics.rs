@@ -7,11 +7,11 @@ group! {
     Mechanics {
         /// Part of the speeds that may have no motion.
         max_unsolved_share: f64 = 0.2, "", [0.0, 1.0],
-            "Corners are seldom driven.",
+            "Nobody drives the table's corners.",
             "Lower: high robots lose hypotheses; higher: tipping ones are fitted.";
         /// Largest speed over the recorded one.
         speed_headroom: f64 = 1.1, "", [1.0, 10.0],
-            "Encoder gains reach 10 %.",
+            "Room for encoder gains.",
             "Lower: faster tracks are held back.";
         /// Ratio of speeds in a logarithmic table.
         speed_range: f64 = 30.0, "", [2.0, 1e4],
@@ -21,43 +21,43 @@ group! {
         stick_speed: f64 = 1e-4, "m/s", [1e-9, 0.1],
             "No sensor sees it.",
             "Higher: parked robots creep.";
-        /// Samples asked whether headings or times matter.
+        /// Samples that are asked whether heading or time matters.
         probes: usize = 200, "", [1.0, 1e6],
-            "All headings occur.";
+            "Headings recur.";
         /// Longest step in time.
         max_step: f64 = 0.01, "s", [1e-4, 1.0],
-            "Dry friction acts in milliseconds.";
-        /// Twist error that halves it.
+            "Bodies follow belts in milliseconds.";
+        /// Twist error from which a step is halved.
         step_tolerance: f64 = 1e-3, "m/s", [1e-9, 1.0],
-            "As 2 ms steps.";
+            "As good as steps of 2 ms.";
         /// Longest step beside shear laws.
         max_sheared_step: f64 = 0.05, "s", [1e-4, 1.0],
-            "Errors cancel.";
-        /// Twist error that halves it.
+            "Errors with and without a law cancel.";
+        /// Twist error from which such a step is halved.
         sheared_step_tolerance: f64 = 5e-3, "m/s", [1e-9, 1.0],
-            "Likewise.";
-        /// Change in typical sizes over which a motion in time serves.
+            "Errors cancel.";
+        /// Change, in typical sizes, over which a motion in time serves.
         reach: f64 = 0.2, "", [1e-3, 10.0],
-            "The rest is half a percent.";
-        /// That during a fit, without slopes.
+            "What is not linear is half a percent.";
+        /// That change during a fit, of what has no slope.
         reach_without_slope: f64 = 1.0, "", [1e-3, 100.0],
-            "The end is checked.";
-        /// That of belt lag.
+            "The end of the fit is checked.";
+        /// That change of the lag of belts.
         max_lag_change: f64 = 0.02, "s", [0.0, 1.0],
-            "It only delays.";
-        /// That of friction ratio and centre of gravity (gauges).
+            "A lag mostly delays.";
+        /// That change of friction ratio, and of the centre of gravity in gauges.
         max_vehicle_change: f64 = 0.003, "", [0.0, 1.0],
-            "A second-order change.";
+            "Its effect is of second order.";
         /// Typical error of a centre of gravity.
         cog_size: f64 = 0.05, "gauge", [1e-4, 1.0],
-            "Scales steps.";
-        /// Residual force over weight that is balance.
+            "It scales steps alone.";
+        /// Residual force over weight that counts as balance.
         balance_tolerance: f64 = 1e-5, "", [1e-12, 1e-2],
-            "0.01 mm in a second.";
-        /// Shares of a step to balance.
+            "It moves 0.01 mm in a second.";
+        /// Shares of a step to balance that are tried.
         balance_shares: [f64; 3] = [1.0, 0.3, 0.1], "", [1e-3, 1.0],
-            "Shear laws are steep.";
-        /// Growth of what an unchecked step leaves.
+            "Shear laws may be steep.";
+        /// Growth of what an unchecked step is taken to leave.
         unchecked_growth: f64 = 1.5, "", [1.0, 100.0],
             "Derivatives age.";
     }

@@ -7,7 +7,7 @@ group! {
     Noise {
         /// Degrees of freedom of the noise's heavy tails.
         t_degrees: f64 = 5.0, "", [1.0, 1e6],
-            "Usual.",
+            "Outliers then count little.",
             "Higher: outliers raise the noise.";
         /// Squared whitened residual from which a pose may be an outlier.
         min_outlier_square: f64 = 30.7, "", [3.0, 1e6],
@@ -17,25 +17,25 @@ group! {
         max_pair_square: f64 = 11.3, "", [0.0, 1e6],
             "Chance: 1 %.",
             "Higher: slip is thrown away.";
-        /// Samples behind an outlier that wait a round.
+        /// Samples behind an outlier that wait for the next round.
         outlier_distance: usize = 3, "", [0.0, 100.0],
-            "The filter's reach.",
-            "Lower: good samples fall too.";
+            "Its error reaches them.",
+            "Lower: good samples fall with it.";
         /// Part of the residuals that contrasts may fit.
         max_fitted_share: f64 = 0.5, "", [0.01, 0.99],
             "Noise needs the rest.",
             "Lower: physics passes for noise.";
-        /// Slip over twice the largest speed in which friction may settle.
+        /// Slip, over twice the largest speed, in which friction may settle.
         friction_scales: [f64; 2] = [0.06, 0.2], "", [1e-3, 10.0],
-            "Those of the catalogue.",
-            "Other friction passes for a walk.";
-        /// Fall of a run's variance, as factor, for noise to be found anew.
+            "As of the catalogue's laws.",
+            "Friction of another scale passes for a walk.";
+        /// Factor by which a run's variance must fall for noise to be found anew.
         min_variance_ratio: f64 = 1.3, "", [1.0, 1e6],
-            "Beyond chance.",
+            "A clear fall.",
             "Higher: a walk hides physics.";
-        /// Residuals over noise up to which noise stays.
+        /// Residuals over noise up to which the noise stays.
         max_residual_scale: f64 = 1.1, "", [1.0, 1e6],
-            "Their chance in short recordings.",
+            "A tenth is tolerated.",
             "Higher: unknown physics makes false claims sure.";
         /// Walk variance per second to start from, of the white one.
         start_walk: f64 = 0.03, "1/s", [1e-9, 1e3],
@@ -43,18 +43,18 @@ group! {
             "Lower: no walk is found.";
         /// Heading variance to start from, of the walk in yaw.
         start_heading: f64 = 0.5, "", [1e-9, 1e3],
-            "Likewise.",
+            "Less has no slope.",
             "Lower: no heading is found.";
-        /// Smallest walk, as start_walk.
+        /// Smallest walk, in the unit of start_walk.
         min_walk: f64 = 1e-5, "1/s", [0.0, 1.0],
             "Keeps the filter regular.";
-        /// Rounds of fit and noise.
+        /// Rounds of fitting columns and finding noise.
         rounds: usize = 3, "", [1.0, 100.0],
-            "A fourth changes nothing.";
-        /// Steps to the likeliest noise.
+            "Each depends on the other.";
+        /// Most steps to the likeliest noise.
         max_steps: usize = 20, "", [1.0, 1e4],
-            "Most take eight.";
-        /// ln likelihood that ends them.
+            "A cap: the gain ends them.";
+        /// Gain of ln likelihood that ends them.
         min_gain: f64 = 0.05, "", [0.0, 10.0],
             "Far below chance.";
         /// Largest step of a ln variance.
@@ -63,8 +63,8 @@ group! {
         /// Difference step of a ln variance.
         difference: f64 = 1e-3, "", [1e-6, 0.5],
             "Between rounding and curvature.";
-        /// That for what the fit took.
+        /// Difference step for what the fit took of the noise.
         taken_difference: f64 = 0.05, "", [1e-6, 0.5],
-            "Nearly linear.";
+            "It is nearly linear.";
     }
 }

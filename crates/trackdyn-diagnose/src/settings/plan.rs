@@ -5,55 +5,52 @@ use super::group::group;
 group! {
     /// What driving tells rivals apart.
     Plan {
-        /// Distance that tells rivals apart.
+        /// Distance from which rivals are told apart.
         min_separation: f64 = 3.0, "sd", [0.1, 100.0],
-            "As of answers.",
+            "As for answers.",
             "Lower: plans promise too much.";
-        /// Part of typical driving taken as known.
+        /// Part of typical driving that counts as known.
         known_share: f64 = 0.05, "", [0.0, 1.0],
             "A recording went before.",
             "Higher: plans forget constants.";
         /// Smallest weighted z² of a manoeuvre per time.
         min_rate: f64 = 1e-3, "1/s", [0.0, 1e3],
-            "Less takes an hour.",
+            "Less would take an hour.",
             "Higher: hard pairs get no plan.";
         /// Longest residual where rivals mimic each other.
         max_mimicked_residual: f64 = 3.0, "sd", [0.1, 100.0],
             "Below Huber's threshold.",
             "Higher: differences count as outliers.";
-        /// Distances of ICRs that a spin may have.
+        /// Distances of the ICRs that a slow spin may have.
         gap_limits: [f64; 2] = [0.2, 20.0], "gauge", [1e-3, 1e3],
             "Robots lie between.",
             "Vehicles that cannot turn get plans.";
-        /// z of a plan that foretells times.
+        /// z of a plan from which it foretells times.
         min_z_of_time: f64 = 1.0, "sd", [1e-3, 100.0],
             "Less says nothing.",
             "Times are guessed.";
-        /// Rounds of exchanges.
+        /// Most rounds of exchanging manoeuvres.
         exchange_rounds: usize = 3, "", [0.0, 100.0],
-            "A fourth changes nothing.";
-        /// Speed of the spin that measures the gap.
-        spin_speed: f64 = 0.1, "m/s", [1e-3, 10.0],
-            "Slow.";
-        /// Intervals of 0.03 s of a gentle ramp.
+            "A cap: the gain ends them.";
+        /// Intervals of 0.03 s in a gentle ramp.
         gentle_ramp: usize = 17, "", [1.0, 1e4],
             "Half a second.",
             "Lower: inertia shows everywhere.";
-        /// Of a sharp ramp.
+        /// Intervals in a sharp ramp.
         sharp_ramp: usize = 4, "", [1.0, 1e4],
-            "Belts follow.",
+            "Belts just follow.",
             "Higher: lags look like clocks.";
-        /// Of steady driving.
+        /// Intervals of steady driving.
         steady: usize = 90, "", [1.0, 1e5],
             "Ten samples.",
             "Lower: ramps take the time.";
-        /// Of a rest.
+        /// Intervals of rest behind a manoeuvre.
         rest: usize = 18, "", [1.0, 1e4],
             "Delays show there.",
             "Lower: delays are cut off.";
-        /// Of a square's side.
+        /// Intervals in a square's side.
         square_side: usize = 70, "", [1.0, 1e5],
-            "1.5 m.",
+            "1.5 m at 0.7 m/s.",
             "Lower: places look alike.";
         /// Creeping speeds.
         creeping_speeds: [f64; 3] = [0.05, 0.1, 0.2], "m/s", [1e-3, 10.0],

@@ -7,11 +7,11 @@ group! {
     Prior {
         /// Deviation of a size, in typical sizes.
         size_deviation: f64 = 3.0, "", [0.1, 1e3],
-            "More is seldom.",
+            "Larger ones are seldom.",
             "Lower: large sizes shrink; higher: weak effects cost too much.";
         /// Deviation of a place, in half widths of the area.
         place_deviation: f64 = 3.0, "", [0.1, 1e3],
-            "Farther is hardly felt.",
+            "Farther ones are hardly felt.",
             "Lower: far anchors are missed.";
         /// That of a place with an extent.
         extent_place_deviation: f64 = 1.0, "", [0.1, 1e3],
@@ -36,16 +36,16 @@ group! {
         /// Largest change of ln friction.
         max_friction_change: f64 = 1.4, "", [0.01, 5.0],
             "A factor of four.",
-            "Higher: forces balance nowhere.";
+            "Higher: forces may balance nowhere.";
         /// Deviation of an unmeasured centre of gravity.
         cog_deviation: f64 = 0.1, "gauge", [1e-4, 10.0],
             "Guesses err by centimetres.",
             "Lower: a wrong centre looks like physics.";
-        /// Smallest deviation of ln friction and of sizes, in typical ones.
+        /// Smallest deviation of ln friction, and of sizes in typical ones.
         min_deviation: f64 = 1e-4, "", [1e-9, 1.0],
             "Weights stay finite.";
         /// Smallest deviation of a centre of gravity.
         min_cog_deviation: f64 = 1e-5, "gauge", [1e-9, 1.0],
-            "Likewise.";
+            "Weights stay finite.";
     }
 }

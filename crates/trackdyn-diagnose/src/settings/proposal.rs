@@ -9,13 +9,13 @@ group! {
         max_terms: usize = 3, "", [1.0, 20.0],
             "More describe noise.",
             "Higher: laws do not carry over.";
-        /// Family-wise p of a symmetry clearly kept.
+        /// Family-wise p from which a symmetry is clearly kept.
         min_p_kept: f64 = 0.1, "", [0.0, 1.0],
             "Ten times a broken one's.",
             "Lower: terms break whole symmetries.";
         /// Part of the left-over departure that a law may leave.
         max_remainder: f64 = 0.5, "", [0.0, 1.0],
-            "It explains most.",
+            "It explains most of it.",
             "Higher: empty laws are proposed.";
     }
 }

@@ -5,37 +5,37 @@ use super::group::group;
 group! {
     /// Which hypotheses are refitted and kept.
     Search {
-        /// Most effects added.
+        /// Most effects that are added.
         max_effects: usize = 3, "", [0.0, 10.0],
             "More are hardly told apart.",
             "Lower: the last go unnamed; higher: they mimic forms.";
-        /// ln evidence that keeps an effect.
+        /// ln evidence for which an effect is kept.
         min_ln_evidence: f64 = 3.0, "", [0.0, 1e3],
             "Less than a claim needs.",
             "Higher: weak effects never come up.";
-        /// z that lets a variant be refined.
+        /// z from which a variant is refined.
         min_refined_z: f64 = 3.0, "", [0.0, 100.0],
-            "Beyond chance.",
-            "Higher: patches between are missed.";
-        /// Effects screened in pairs.
+            "Chance seldom reaches it.",
+            "Higher: patches between places are missed.";
+        /// Best effects that are screened in pairs.
         max_paired: usize = 12, "", [2.0, 100.0],
             "66 pairs.",
             "Lower: what shows only together is missed.";
         /// Singles refitted in a round.
         max_refitted_singles: usize = 3, "", [1.0, 100.0],
-            "The truth ranks so high.",
+            "Each takes a simulation.",
             "Lower: look-alikes win.";
-        /// Pairs refitted.
+        /// Pairs refitted in a round.
         max_refitted_pairs: usize = 2, "", [0.0, 100.0],
-            "Likewise.",
-            "Likewise.";
-        /// Exchanges refitted per effect.
+            "Each takes a simulation.",
+            "Lower: look-alikes win.";
+        /// Exchanges refitted for each effect.
         max_refitted_exchanges: usize = 2, "", [0.0, 100.0],
-            "Likewise.",
-            "Likewise.";
-        /// Part of the best gain that lets others be refitted.
+            "Each takes a simulation.",
+            "Lower: look-alikes win.";
+        /// Part of the best gain from which others are refitted.
         min_relative_gain: f64 = 0.8, "", [0.0, 1.0],
-            "The screen errs by a fifth.",
+            "Room for the screen's error.",
             "Higher: the truth is passed over.";
         /// Part of min_ln_evidence that the screen must promise.
         min_promised_share: f64 = 0.7, "", [0.0, 1.0],
@@ -43,27 +43,27 @@ group! {
             "Higher: weak effects are missed.";
         /// Most rounds.
         max_rounds: usize = 5, "", [1.0, 100.0],
-            "Three effects, two exchanges.",
+            "Three add an effect, two exchange.",
             "Lower: a wrong first effect stays.";
-        /// ln evidence a round must gain.
+        /// ln evidence that a round must gain.
         min_round_gain: f64 = 0.5, "", [0.0, 100.0],
-            "Fits differ by less.",
+            "Other starts end as far apart.",
             "Lower: rounds circle.";
         /// Part of a promise below which a refit restarts.
         min_kept_share: f64 = 0.5, "", [0.0, 1.0],
-            "A crest lies between.",
+            "A crest may lie between.",
             "Lower: wrong minima stand.";
         /// Share of the sizes at a restart.
         near_start: f64 = 0.3, "", [0.01, 1.0],
             "Before most crests.",
-            "Higher: beyond the crest.";
-        /// Offset of an ICR that the vehicle leaves.
+            "Higher: it starts beyond them.";
+        /// Offset of an ICR that the vehicle need not take over.
         max_offset: f64 = 5e-3, "gauge", [1e-6, 1.0],
-            "Hardly noticed.",
+            "It is hardly noticed.",
             "Higher: sizes are off.";
-        /// Rounds in which it takes over.
+        /// Most rounds in which it takes one over.
         recalibrations: usize = 2, "", [0.0, 100.0],
-            "A third changes nothing.";
+            "A cap: the offset ends them.";
         /// Fall of twice the misfit for another meaning of constant ICRs.
         min_fall_of_meaning: f64 = 4.0, "", [0.0, 1e6],
             "Two standard deviations.",

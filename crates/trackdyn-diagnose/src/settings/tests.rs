@@ -2,6 +2,7 @@
 
 use super::{Entry, SettingError, Settings, page};
 use toml::{Table, Value};
+use trackdyn_core::document::Document;
 
 fn table(text: &str) -> Table {
     text.parse().expect("a table")
@@ -32,10 +33,10 @@ fn a_table_sets_what_it_names_and_nothing_else() {
     let differences = settings.differences();
     assert_eq!(differences, table(&text.replace("2,", "2.0,")));
     assert_eq!(Settings::from_table(&differences), Ok(settings.clone()));
-    // a caller of serde writes the same table, and reads the whole tree back
-    assert_eq!(toml::from_str::<Settings>(text).expect("settings"), settings);
-    let whole = toml::to_string(&settings).expect("TOML");
-    assert_eq!(toml::from_str::<Settings>(&whole).expect("settings"), settings);
+    let written = toml::to_string(&settings).expect("TOML");
+    assert_eq!(table(&written), differences);
+    assert_eq!(toml::from_str::<Settings>(&written).expect("settings"), settings);
+    assert!(Settings::default().are_defaults() && !settings.are_defaults());
     assert!(Settings::default().differences().is_empty());
 }
 
@@ -53,6 +54,25 @@ fn what_is_no_setting_is_refused_by_name() {
     assert_eq!(message, "search.max_effects = 2.5: expected a whole number from 0 to 10");
     let message = refused("[location]\nmemories = [1.0]\n");
     assert!(message.starts_with("location.memories = [1.0]: expected 2 numbers"), "{message}");
+}
+
+#[test]
+fn a_file_is_refused_by_line_and_key() {
+    let read = |text: &str| Settings::from_document(&Document::new("settings.toml", text));
+    let text = "[verdict]\nmax_p = 0.001\n";
+    let settings = read(text).expect("settings");
+    assert_eq!(settings.verdict.max_p, 0.001);
+    let refused = |text: &str| read(text).expect_err("refused").to_string();
+    let message = refused(&text.replace("0.001", "7"));
+    let expected = "settings.toml:2: verdict.max_p = 7: expected a number from 0 to 1";
+    assert!(message.starts_with(expected), "{message}");
+    let message = refused(&text.replace("max_p", "maximum"));
+    assert!(
+        message.starts_with("settings.toml:2: verdict.maximum = 0.001: expected one of"),
+        "{message}"
+    );
+    let message = refused("\n[rules]\n");
+    assert!(message.starts_with("settings.toml:2: rules"), "{message}");
 }
 
 #[test]

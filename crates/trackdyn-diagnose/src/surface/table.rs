@@ -15,26 +15,32 @@ const SECTORS: usize = 8;
 const ANGLES: usize = 6;
 const SIZES: usize = 10;
 
-/// Ratio of the largest to the smallest tabulated speed where nodes are even in its logarithm; below, the value is that
-/// of the smallest.
-const RANGE: f64 = 30.0;
-
 /// How the nodes of the size lie.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spacing {
     /// Even in ρ: what grows with the square of the speed is a polynomial.
     Even,
     /// Even in ln ρ: friction that depends on the slip speed does so most where it is small.
-    Logarithmic,
+    Logarithmic {
+        /// Ratio R of the largest to the smallest tabulated speed; below, the value is that of the smallest.
+        range: f64,
+        /// 1/(2 ln R).
+        scale: f64,
+    },
 }
 
 impl Spacing {
+    /// Even in the logarithm of speeds with this ratio of the largest to the smallest.
+    pub fn logarithmic(range: f64) -> Self {
+        Self::Logarithmic { range, scale: 0.5 / range.ln() }
+    }
+
     /// ρ/ρ_max at a place of [0, 1].
     fn part(self, place: f64) -> f64 {
         match self {
             Self::Even => place,
             // R^(u − 1)
-            Self::Logarithmic => RANGE.powf(place - 1.0),
+            Self::Logarithmic { range, .. } => range.powf(place - 1.0),
         }
     }
 
@@ -42,7 +48,7 @@ impl Spacing {
     fn place(self, squared: f64) -> f64 {
         let place = match self {
             Self::Even => squared.sqrt(),
-            Self::Logarithmic => 1.0 + squared.ln() * (0.5 / RANGE.ln()),
+            Self::Logarithmic { scale, .. } => 1.0 + squared.ln() * scale,
         };
         place.clamp(0.0, 1.0)
     }

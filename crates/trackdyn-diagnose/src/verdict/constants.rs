@@ -1,6 +1,6 @@
 //! Constant ICRs that differ from those of the vehicle file: a wrong number, or one of a class of effects.
 
-use super::{Refusal, Rules, Support, Verdict, refusal};
+use super::{Refusal, Support, Verdict, refusal};
 use crate::base::OFFSETS;
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of, with_friction};
@@ -8,16 +8,11 @@ use crate::prior::measured;
 use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
 use crate::search::{Found, Search};
+use crate::settings;
 use std::collections::BTreeMap;
 use trackdyn_core::real;
 use trackdyn_model::effect::Symmetry;
 use trackdyn_model::{EffectId, VehicleFile};
-
-/// Share of its own beyond constant ICRs below which an effect is of their class.
-const NOTHING_ELSE: f64 = 0.03;
-
-/// The same below which it mostly moves these.
-const MOSTLY: f64 = 0.1;
 
 /// Effects that move the constant ICRs in all their variants, by their places in the catalogue, ascending.
 #[derive(Clone, Debug)]
@@ -53,14 +48,15 @@ impl Constants {
             }
             effects.into_iter().filter(|(_, all)| *all).map(|(effect, _)| effect).collect()
         };
-        let only: Vec<EffectId> = within(NOTHING_ELSE);
+        let settings = &search.settings().answer;
+        let only: Vec<EffectId> = within(settings.max_constant_share);
         let keeps = |effect: &EffectId| {
             effect.card().breaks.iter().all(|symmetry| *symmetry == Symmetry::Mirror)
         };
         let seen: Vec<EffectId> = within(f64::INFINITY);
         let class =
             seen.into_iter().filter(|effect| only.contains(effect) || keeps(effect)).collect();
-        Self { only, mostly: within(MOSTLY), class }
+        Self { only, mostly: within(settings.max_mostly_constant_share), class }
     }
 
     /// Whether an effect mostly moves constant ICRs, and breaks no symmetry that they do not.
@@ -107,11 +103,11 @@ pub(super) fn departure(
     (dropped.objective - best.fit.objective).max(0.0).sqrt()
 }
 
-/// Constant ICRs that are nearly those of the vehicle file: no model of the contact is better.
-fn as_good_as_filed(free: &Fit) -> Option<Refusal> {
+/// Constant ICRs that differ from those of the vehicle file by less than is needed, in gauges: no model of the contact is
+/// better.
+fn as_good_as_filed(free: &Fit, needed: f64) -> Option<Refusal> {
     let Hypothesis { vehicle, offset, .. } = &free.hypothesis;
     let largest = offset.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
-    let needed = Rules::CONSTANT;
     (largest < needed * vehicle.gauge).then_some(Refusal::ConstantsAsFiled { largest, needed })
 }
 
@@ -138,7 +134,8 @@ pub fn judge_constants(
     let free = Fit::new(filed.clone(), &moving, evidence, before);
     let ln_bayes_factor = free.ln_evidence() - dropped.ln_evidence();
     let z = (dropped.objective - free.objective).max(0.0).sqrt();
-    if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
+    let settings::Settings { verdict: rules, answer, .. } = search.settings();
+    if ln_bayes_factor < rules.min_ln_bayes_factor {
         return Ok(None);
     }
     let support = Support {
@@ -146,7 +143,8 @@ pub fn judge_constants(
         z,
         ..Support::of_columns(search, &free, &[0, 1, 2], &free.hypothesis.offset, resampling)
     };
-    let refused = refusal(&support, 0.0).or_else(|| as_good_as_filed(&free));
+    let refused =
+        refusal(&support, 0.0, rules).or_else(|| as_good_as_filed(&free, rules.min_icr_difference));
     // What the owner measured can have moved within its uncertainty only: is that enough?
     let can = |effect: &EffectId| -> Result<bool, Cancelled> {
         if unknowns_of(*effect).all(|unknown| measured(&file.vehicle, unknown).is_none()) {
@@ -157,9 +155,9 @@ pub fn judge_constants(
         let none: Vec<f64> = effect.card().parameters.iter().map(neutral).collect();
         let start = filed.with_effect(active(*effect, &none));
         let fit = Fit::new(start, &unknowns, evidence, before);
-        // Each unknown fewer than the three constants is worth two: chance alone gives one half.
         let fewer = OFFSETS.len().saturating_sub(unknowns_of(*effect).count());
-        Ok((fit.objective - free.objective) / 2.0 < Rules::SAME + 2.0 * real(fewer))
+        let allowed = answer.max_ln_likelihood_gap + answer.constants_allowance * real(fewer);
+        Ok((fit.objective - free.objective) / 2.0 < allowed)
     };
     let mut one_of: Vec<EffectId> = Vec::new();
     for effect in &constants.class {

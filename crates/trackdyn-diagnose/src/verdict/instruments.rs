@@ -1,13 +1,14 @@
 //! Encoders and pose sensor that are not what the vehicle file says.
 
-use super::rivals::{RIVALS, is_rival};
-use super::{Rules, Support, Verdict, refusal};
+use super::rivals::is_rival;
+use super::{Support, Verdict, refusal};
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, typical};
 use crate::mechanics::is_instrument;
 use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
 use crate::search::{Found, Search};
+use crate::settings::Settings;
 use std::cell::LazyCell;
 use trackdyn_model::EffectId;
 
@@ -22,6 +23,7 @@ pub fn judge_instruments(
     watch: &Watch,
 ) -> Result<Vec<Verdict>, Cancelled> {
     let filed = &search.base.as_filed.hypothesis;
+    let Settings { verdict: rules, answer, .. } = search.settings();
     let mut verdicts = Vec::new();
     // What the form of any law leaves, be it known or named, may look like a sensor.
     let laws = LazyCell::new(|| {
@@ -34,16 +36,17 @@ pub fn judge_instruments(
         let dropped = without_instrument(search, best, effect);
         let ln_bayes_factor = best.ln_evidence - dropped.ln_evidence;
         let z = (dropped.fit.objective - best.fit.objective).max(0.0).sqrt();
-        if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
+        if ln_bayes_factor < rules.min_ln_bayes_factor {
             continue;
         }
         let mut one_of = vec![effect];
         let screened = search.screen(&dropped);
-        let rivals = screened.iter().filter(|one| is_rival(one, ln_bayes_factor, best));
-        for rival in rivals.take(RIVALS) {
+        let rivals = screened.iter().filter(|one| is_rival(one, ln_bayes_factor, best, answer));
+        for rival in rivals.take(answer.max_rivals) {
             watch.go_on()?;
             let exchanged = search.refit(&dropped, std::slice::from_ref(rival));
-            if (exchanged.fit.objective - best.fit.objective) / 2.0 < Rules::SAME {
+            let behind = (exchanged.fit.objective - best.fit.objective) / 2.0;
+            if behind < answer.max_ln_likelihood_gap {
                 one_of.push(rival.effect);
             }
         }
@@ -63,7 +66,7 @@ pub fn judge_instruments(
             z,
             ..Support::of_columns(search, fit, &columns, &parts, resampling)
         };
-        let refused = refusal(&support, *laws);
+        let refused = refusal(&support, *laws, rules);
         let found = fit.hypothesis.effect(effect).cloned();
         verdicts.push(Verdict { effect, one_of, found, support, refused });
     }

@@ -1,7 +1,7 @@
 //! What explains an effect's part as well as it does.
 
 use super::support::{self, Change};
-use super::{Constants, Refusal, Rules, Support};
+use super::{Constants, Refusal, Support};
 use crate::candidate::Signature;
 use crate::equations::Equations;
 use crate::hypothesis::{Unknown, typical};
@@ -9,14 +9,9 @@ use crate::mechanics::is_instrument;
 use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
 use crate::search::{Found, Screened, Search};
+use crate::settings::{self, Settings};
 use std::slice;
 use trackdyn_model::EffectId;
-
-/// Effects that are named together at most because resampled recordings name now this one, now that.
-const UNSTABLE: usize = 3;
-
-/// Rivals of an effect that are refitted, and as many more that may be among those that move constant ICRs.
-pub(super) const RIVALS: usize = 3;
 
 /// The rivals of an effect of the best hypothesis.
 pub(super) struct Rivals {
@@ -47,17 +42,19 @@ impl Rivals {
         watch: &Watch,
     ) -> Result<Self, Cancelled> {
         watch.go_on()?;
+        let settings = &search.settings().answer;
+        let min_ln_bayes_factor = search.settings().verdict.min_ln_bayes_factor;
         let without = search.without(best, effect);
         let screened = search.screen(&without);
         let changed = support::change(effect, &without, best);
         let own = screened.iter().find(|one| one.effect == effect).map_or(0.0, |one| one.gain);
-        let is_close = |one: &&Screened| one.effect != effect && is_rival(one, own, best);
+        let is_close = |one: &&Screened| one.effect != effect && is_rival(one, own, best, settings);
         let close: Vec<&Screened> = screened.iter().filter(is_close).collect();
         // Where constant ICRs moved far the linear screen is blind to what else such a law does.
         let is_asked = |(place, one): &(usize, &&Screened)| {
-            *place < RIVALS || constants.could_be_constant(one.effect)
+            *place < settings.max_rivals || constants.could_be_constant(one.effect)
         };
-        let asked = close.iter().enumerate().filter(is_asked).take(2 * RIVALS);
+        let asked = close.iter().enumerate().filter(is_asked).take(2 * settings.max_rivals);
         let (mut exchanged, mut alike) = (Vec::new(), Vec::new());
         for (_, rival) in asked {
             watch.go_on()?;
@@ -68,14 +65,17 @@ impl Rivals {
                 let (_, signatures) = &search.catalogue.entries[rival.entry];
                 separation(search, &without, changed, &[signatures], |_| None)
             });
-            if behind < Rules::SAME || less < Rules::LN_BAYES_FACTOR || apart < Rules::ISOLATED {
+            let is_alike = behind < settings.max_ln_likelihood_gap
+                || less < min_ln_bayes_factor
+                || apart < settings.min_separation;
+            if is_alike {
                 alike.push(rival.effect);
             }
             exchanged.push((rival.effect, found));
         }
         let is_unasked =
             |one: &&&Screened| !exchanged.iter().any(|(effect, _)| *effect == one.effect);
-        let does_as_well = |one: &&&Screened| one.gain > own - Rules::LN_BAYES_FACTOR;
+        let does_as_well = |one: &&&Screened| one.gain > own - min_ln_bayes_factor;
         let unasked = close.iter().filter(is_unasked).filter(does_as_well).count();
         Ok(Self { effect, without, changed, screened, unasked, exchanged, alike })
     }
@@ -100,7 +100,8 @@ impl Rivals {
         let named = support::named(search, &self.without, &self.screened, &refitted, resampling);
         let share =
             |one_of: &[EffectId]| -> f64 { one_of.iter().filter_map(|one| named.get(one)).sum() };
-        while one_of.len() < UNSTABLE && share(&one_of) < Rules::STABLE {
+        let Settings { verdict, answer, .. } = search.settings();
+        while one_of.len() < answer.max_unstable && share(&one_of) < verdict.min_stability {
             let next = named.iter().filter(|(effect, _)| !one_of.contains(effect));
             let Some((&next, _)) = next.max_by(|a, b| a.1.total_cmp(b.1)) else { break };
             one_of.push(next);
@@ -142,12 +143,17 @@ impl Rivals {
 /// Whether the linear screen leaves it open that a candidate does as well as what gains `own`.
 ///
 /// Signatures of encoders and pose sensor are taken far from where they are needed; they promise less than they keep.
-pub(super) fn is_rival(one: &Screened, own: f64, best: &Found) -> bool {
+pub(super) fn is_rival(
+    one: &Screened,
+    own: f64,
+    best: &Found,
+    settings: &settings::Answer,
+) -> bool {
     let hypothesis = &best.fit.hypothesis;
     let is_instrument = is_instrument(&hypothesis.vehicle, &typical(one.effect));
-    let share = if is_instrument { 0.5 } else { 0.85 };
+    let share = if is_instrument { settings.min_instrument_gain } else { settings.min_rival_gain };
     one.gain.is_finite()
-        && one.gain > share * own - 2.0 * Rules::SAME
+        && one.gain > share * own - 2.0 * settings.max_ln_likelihood_gap
         && !best.effects.contains(&one.effect)
 }
 

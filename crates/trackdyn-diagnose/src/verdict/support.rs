@@ -1,6 +1,6 @@
 //! What speaks for a claim.
 
-use super::{Refusal, Rules};
+use super::Refusal;
 use crate::candidate::{Signature, sizes};
 use crate::equations::Equations;
 use crate::fit::Fit;
@@ -8,6 +8,7 @@ use crate::hypothesis::Unknown;
 use crate::normal::{Normal, Prior};
 use crate::resampling::Resampling;
 use crate::search::{Found, Screened, Search};
+use crate::settings;
 use crate::significance::test;
 use nalgebra::DVector;
 use rand::RngExt;
@@ -16,9 +17,6 @@ use std::collections::BTreeMap;
 use std::slice;
 use trackdyn_core::real;
 use trackdyn_model::EffectId;
-
-/// Draws of resampled recordings.
-const RESAMPLED: usize = 200;
 
 /// What tells the seed of resampled recordings from that of other draws.
 const RESAMPLED_SEED: u64 = 0x5eed;
@@ -58,28 +56,29 @@ impl Support {
 
     /// Whether all that speaks against it is that the robot met it once: so few blocks of time show it that what happened
     /// once, whatever it was, would look the same.
-    pub fn is_met_once(&self) -> bool {
-        self.ln_bayes_factor >= Rules::LN_BAYES_FACTOR
-            && self.p >= Rules::P
-            && self.blocks < Rules::ONCE
+    pub fn is_met_once(&self, rules: &settings::Verdict) -> bool {
+        self.ln_bayes_factor >= rules.min_ln_bayes_factor
+            && self.p >= rules.max_p
+            && self.blocks < rules.min_blocks
     }
 
     /// What it lacks of what every claim must reach; none where it lacks nothing.
-    pub(crate) fn falls_short(&self) -> Option<Refusal> {
+    pub(crate) fn falls_short(&self, rules: &settings::Verdict) -> Option<Refusal> {
         let Self { p, ln_bayes_factor, held_out_gain, held_out_error, blocks, .. } = *self;
-        if ln_bayes_factor < Rules::LN_BAYES_FACTOR {
-            return Some(Refusal::Weak { ln_bayes_factor, needed: Rules::LN_BAYES_FACTOR });
+        let needed = rules.min_ln_bayes_factor;
+        if ln_bayes_factor < needed {
+            return Some(Refusal::Weak { ln_bayes_factor, needed });
         }
-        if self.is_met_once() {
+        if self.is_met_once(rules) {
             return Some(Refusal::MetOnce { blocks, p });
         }
-        if p >= Rules::P {
+        if p >= rules.max_p {
             return Some(Refusal::Chance { p });
         }
-        (held_out_gain < Rules::GAIN * held_out_error).then_some(Refusal::NotForetold {
+        (held_out_gain < rules.min_held_out_gain * held_out_error).then_some(Refusal::NotForetold {
             gain: held_out_gain,
             error: held_out_error,
-            needed: Rules::GAIN,
+            needed: rules.min_held_out_gain,
         })
     }
 
@@ -130,7 +129,9 @@ impl Support {
             .collect();
         let all: Vec<&[Signature]> = family.iter().map(|(_, signatures)| *signatures).collect();
         let equations = search.equations_with(&without.fit, &all);
-        let tests = || test(&equations.projected(), &equations.groups, resampling);
+        let tests = || {
+            test(&equations.projected(), &equations.groups, resampling, &search.settings().location)
+        };
         let place = family.iter().position(|(other, _)| *other == entry);
         place.map_or(1.0, |place| tests()[place].p)
     }
@@ -154,7 +155,8 @@ impl Support {
         let known = equations.priors.iter().map(|prior| Prior { mean: 0.0, ..*prior }).collect();
         let equations = Equations { priors: known, ..equations };
         let projected = equations.projected();
-        let p = test(&projected, &equations.groups, resampling)[0].p;
+        let settings = &search.settings().location;
+        let p = test(&projected, &equations.groups, resampling, settings)[0].p;
         Self { p, stable: 1.0, ..Self::of_blocks(&projected, &equations.priors, columns) }
     }
 }
@@ -170,9 +172,11 @@ pub(super) fn named(
     refitted: &[(EffectId, &Found)],
     resampling: Resampling,
 ) -> BTreeMap<EffectId, f64> {
+    let settings = search.settings();
+    let resamples = settings.answer.resamples;
     let is_refitted = |effect: EffectId| refitted.iter().any(|(other, _)| *other == effect);
     let most = screened.iter().map(|one| one.gain).fold(0.0, f64::max);
-    let takes_part = |one: &&Screened| one.gain > most - Rules::LN_BAYES_FACTOR;
+    let takes_part = |one: &&Screened| one.gain > most - settings.verdict.min_ln_bayes_factor;
     let screened = screened.iter().filter(takes_part).filter(|one| !is_refitted(one.effect));
     let screened =
         screened.map(|one| (one.effect, &search.catalogue.entries[one.entry].1[..], None));
@@ -199,7 +203,7 @@ pub(super) fn named(
         (*effect, group, beyond)
     });
     let contenders: Vec<(EffectId, &Vec<usize>, f64)> = contenders_beyond.collect();
-    let resampling = Resampling { draws: RESAMPLED, seed: resampling.seed ^ RESAMPLED_SEED };
+    let resampling = Resampling { draws: resamples, seed: resampling.seed ^ RESAMPLED_SEED };
     let best_of = |draw: usize| -> Option<EffectId> {
         let mut random = resampling.random(draw);
         let mut times = vec![0.0; normal.blocks()];
@@ -215,7 +219,7 @@ pub(super) fn named(
     let best: Vec<Option<EffectId>> = (0..resampling.draws).into_par_iter().map(best_of).collect();
     let mut shares = BTreeMap::new();
     for effect in best.into_iter().flatten() {
-        *shares.entry(effect).or_insert(0.0) += 1.0 / real(RESAMPLED);
+        *shares.entry(effect).or_insert(0.0) += 1.0 / real(resamples);
     }
     shares
 }
@@ -318,7 +322,8 @@ mod tests {
         assert!((gain - 18.0).abs() < 1e-6 && (error - 6.0).abs() < 1e-6, "{gain} {error}");
         // half the size in some blocks is another form, no chance
         let (gain, error) = of_sizes(&[4.0, 2.0, 4.0, 2.0, 4.0, 2.0, 4.0, 2.0, 4.0]);
-        assert!(gain > Rules::GAIN * error, "{gain} {error}");
+        let needed = settings::Verdict::default().min_held_out_gain;
+        assert!(gain > needed * error, "{gain} {error}");
     }
 
     #[test]
@@ -334,14 +339,15 @@ mod tests {
     #[test]
     fn what_is_strong_and_was_met_once_is_said_to_be_so() {
         let strong = Support { p: 0.9, ln_bayes_factor: 92.0, blocks: 1.4, ..Support::none() };
-        assert!(strong.is_met_once());
-        assert_eq!(strong.falls_short(), Some(Refusal::MetOnce { blocks: 1.4, p: 0.9 }));
+        let rules = &settings::Verdict::default();
+        assert!(strong.is_met_once(rules));
+        assert_eq!(strong.falls_short(rules), Some(Refusal::MetOnce { blocks: 1.4, p: 0.9 }));
         for other in [
             Support { blocks: 20.0, ..strong },
             Support { p: 0.001, ..strong },
             Support { ln_bayes_factor: 1.0, ..strong },
         ] {
-            assert!(!other.is_met_once(), "{other:?}");
+            assert!(!other.is_met_once(rules), "{other:?}");
         }
     }
 

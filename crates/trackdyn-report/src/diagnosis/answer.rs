@@ -8,7 +8,7 @@ use trackdyn_diagnose::diagnosis::{Kind, Missing};
 use trackdyn_diagnose::hypothesis::Unknown;
 use trackdyn_diagnose::locate::cells::Cell;
 use trackdyn_diagnose::proposal::Proposal;
-use trackdyn_diagnose::verdict::Verdict;
+use trackdyn_diagnose::verdict::{Refusal, Verdict};
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::Parameter;
 
@@ -43,7 +43,8 @@ pub(super) fn parts(subject: &Subject) -> Vec<[String; 2]> {
         )),
         _ => {}
     }
-    let met_once = diagnosis.answer.refused.iter().filter(|verdict| verdict.support.is_met_once());
+    let is_met_once = |verdict: &&Verdict| matches!(verdict.refused, Some(Refusal::MetOnce { .. }));
+    let met_once = diagnosis.answer.refused.iter().filter(is_met_once);
     what.extend(met_once.filter_map(|verdict| once(subject, verdict)));
     what.extend(diagnosis.answer.proposed.as_ref().map(proposed));
     let place = if diagnosis.answer.broken.is_empty() {

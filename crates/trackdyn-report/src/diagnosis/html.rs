@@ -10,10 +10,11 @@ use minijinja::Environment;
 use minijinja::value::Serde;
 use serde::Serialize;
 use std::collections::BTreeSet;
+use trackdyn_diagnose::Settings;
 use trackdyn_diagnose::diagnosis::Kind;
 use trackdyn_diagnose::document::separate_by;
 use trackdyn_diagnose::evidence::Origin;
-use trackdyn_diagnose::verdict::{Refusal, Rules};
+use trackdyn_diagnose::verdict::{Refusal, Rule};
 
 const NAME: &str = "report.html";
 
@@ -148,7 +149,7 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Result<Page<'a>, Er
         figures: figures.collect::<Result<_, Error>>()?,
         candidates: rows(subject),
         limits: limits(subject),
-        rules: rules(&ClaimLimits::of_diagnosis()),
+        rules: rules(diagnosis.evidence.seen.settings()),
         evidence: format!("{samples} {unit}; {held_out}"),
         noise: noise(subject),
         source: subject.file.source.as_ref(),
@@ -274,51 +275,9 @@ fn limits(subject: &Subject) -> Vec<Limit> {
         .collect()
 }
 
-/// Limits that a claim has to meet.
-struct ClaimLimits {
-    /// Largest probability of chance.
-    max_p: f64,
-    /// Smallest ln Bayes factor against the best answer without it.
-    min_ln_bayes_factor: f64,
-    /// Smallest gain on blocks left out of the fit, in standard errors.
-    min_held_out_gain: f64,
-    /// Smallest share of resampled recordings that name it too.
-    min_stable: f64,
-}
-
-impl ClaimLimits {
-    /// The limits that the diagnosis uses.
-    const fn of_diagnosis() -> Self {
-        Self {
-            max_p: Rules::P,
-            min_ln_bayes_factor: Rules::LN_BAYES_FACTOR,
-            min_held_out_gain: Rules::GAIN,
-            min_stable: Rules::STABLE,
-        }
-    }
-}
-
-/// What a claim has to meet, one clause each.
-fn rules(limits: &ClaimLimits) -> Vec<String> {
-    vec![
-        format!(
-            "the probability of chance, among all that was looked at, is below {}",
-            limits.max_p
-        ),
-        format!(
-            "its ln Bayes factor against the best answer without it is at least {}",
-            limits.min_ln_bayes_factor
-        ),
-        format!(
-            "on blocks left out of the fit it gains more than {} standard errors",
-            limits.min_held_out_gain
-        ),
-        format!(
-            "at least {} % of resampled recordings name the same",
-            number(100.0 * limits.min_stable, 0)
-        ),
-        "its sizes lie inside their physical ranges".to_owned(),
-    ]
+/// Every rule by which a claim can be refused.
+fn rules(settings: &Settings) -> Vec<String> {
+    Rule::ALL.iter().map(|rule| rule.sentence(settings)).collect()
 }
 
 fn noise(subject: &Subject) -> String {

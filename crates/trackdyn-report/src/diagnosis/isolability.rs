@@ -11,7 +11,7 @@ use crate::text::{Horizontal, Style, TITLE_SIZE, Vertical, two_lines};
 use crate::ticks::number;
 use trackdyn_core::real;
 use trackdyn_diagnose::diagnosis::Kind;
-use trackdyn_diagnose::isolability::{DETECTED, Isolability};
+use trackdyn_diagnose::isolability::Isolability;
 use trackdyn_model::EffectId;
 
 const TOP: i32 = sheet::TOP + 90;
@@ -91,15 +91,15 @@ fn strengths(of: &Isolability, order: &[usize], left: i32) -> Panel {
         let z = of.detection[k];
         let (end, middle) = (stretched(z), real(row) + 0.5);
         boxes.push([[0.0, middle + 0.22], [end, middle - 0.22]]);
-        colours.push(BLUES.at(if z >= DETECTED { 0.7 } else { 0.3 }));
+        colours.push(BLUES.at(if z >= of.min_detected_z { 0.7 } else { 0.3 }));
         let text = number(z, usize::from(z < 10.0));
         panel.labels.push(Label::right_of(&text, [end, middle], 10, (20.0, GREY)).on_white());
     }
-    panel.show_as("found", Rule::upright(stretched(DETECTED), 2.0, INK).dashed());
+    panel.show_as("found", Rule::upright(stretched(of.min_detected_z), 2.0, INK).dashed());
     panel.show_as("standard deviations", Boxes::new(boxes, Paint::Each(colours)));
     let style = Style::new(20.0).colour(GREY).anchor(Horizontal::Centre, Vertical::Top);
-    let foot = [stretched(DETECTED), real(order.len())];
-    let text = format!("{}: would be found", number(DETECTED, 0));
+    let foot = [stretched(of.min_detected_z), real(order.len())];
+    let text = format!("{}: would be found", number(of.min_detected_z, 0));
     panel.labels.push(Label::new(text, foot, style).shifted([0, 14]));
     panel
 }

@@ -12,7 +12,7 @@ use crate::text::{Horizontal, LABEL_SIZE, Style, TICK_SIZE, Vertical};
 use crate::ticks::number;
 use trackdyn_core::real;
 use trackdyn_diagnose::diagnosis::Examined;
-use trackdyn_diagnose::locate::{SIGNIFICANT, SymmetryTest};
+use trackdyn_diagnose::locate::SymmetryTest;
 
 const TOP: i32 = sheet::TOP + 110;
 const ROW: i32 = 96;
@@ -41,7 +41,8 @@ pub(super) fn figure(subject: &Subject) -> Figure {
                        filed or with clock and sensor fitted, or surely by the corrected one.";
     let title = "Which symmetries of driving are broken";
     let mut figure = sheet::sheet("symmetries", height, title, explanation, subject.caption);
-    let broken = format!("filled: broken (p < {SIGNIFICANT} among all tests)");
+    let [max_p, _] = fitted.max_p;
+    let broken = format!("filled: broken (p < {max_p} among all tests)");
     let of_states =
         states.iter().map(|(_, entry, name, _)| (Swatch::disc(entry_colour(*entry)), *name));
     let of_tests = [(Swatch::disc(INK), broken.as_str()), (Swatch::ring(), "open: may be chance")];
@@ -79,7 +80,7 @@ pub(super) fn figure(subject: &Subject) -> Figure {
         for (row, test) in fitted.tests.iter().enumerate() {
             let test = tests.iter().find(|other| other.symmetry == test.symmetry);
             let Some(test) = test else { continue };
-            let is_broken = test.test.p < SIGNIFICANT;
+            let is_broken = test.test.p < max_p;
             let style = (TICK_SIZE, if is_broken { INK } else { GREY });
             let (p, at) = (probability(test.test.p), [range[1], real(row) + 0.5]);
             panel.labels.push(Label::right_of(&p, at, beside, style));

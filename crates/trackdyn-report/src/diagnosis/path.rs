@@ -92,7 +92,7 @@ fn replay(subject: &Subject) -> Option<Replay> {
 /// The motion of every sample with a vehicle file, moved by the recording's clock where the file
 /// says nothing of it.
 fn motions(evidence: &Evidence, file: &VehicleFile) -> Vec<Vector3<f64>> {
-    let hypothesis = Hypothesis::filed(file);
+    let hypothesis = Hypothesis::filed(file, &evidence.settings().prior);
     let mut instruments = Instruments::of(&hypothesis);
     if instruments.sensor.delay == 0.0 {
         instruments.sensor.delay = evidence.tau();

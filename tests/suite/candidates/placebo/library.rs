@@ -6,13 +6,13 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 use trackdyn_core::real;
-use trackdyn_diagnose::Weighted;
 use trackdyn_diagnose::base::Base;
 use trackdyn_diagnose::candidate::{Beside, variants};
 use trackdyn_diagnose::evidence::{Evidence, Sample};
 use trackdyn_diagnose::locate::{IcrColumns, icr_columns};
 use trackdyn_diagnose::normal::{Normal, Prior};
 use trackdyn_diagnose::prior::priors;
+use trackdyn_diagnose::{Settings, Weighted};
 use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_model::{EffectId, VehicleFile};
 
@@ -53,7 +53,8 @@ impl Library {
         };
         let recording = synthetic.recording().expect("long enough");
         let file = VehicleFile::auriga_alpha();
-        let evidence = Evidence::of_recording(&recording, file.vehicle.gauge).expect("enough");
+        let evidence = Evidence::of_recording(&recording, file.vehicle.gauge, &Settings::default())
+            .expect("enough");
         let evidence = Weighted::new(evidence);
         let Base { fit, instruments, .. } = Base::new(&file, &evidence);
         let tried: Vec<_> = EffectId::all()

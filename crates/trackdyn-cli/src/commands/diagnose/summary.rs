@@ -4,7 +4,6 @@ use std::fmt::Write;
 use trackdyn::Diagnosis;
 use trackdyn::crates::diagnose::diagnosis::{Kind, Missing};
 use trackdyn::crates::diagnose::document::separate_by;
-use trackdyn::crates::diagnose::locate::SURE;
 use trackdyn::crates::diagnose::noise;
 use trackdyn::crates::diagnose::place::words;
 use trackdyn::crates::diagnose::proposal::Proposal;
@@ -49,7 +48,7 @@ pub fn text(diagnosis: &Diagnosis) -> String {
             let _ = writeln!(text, "           decides: {}", separate_by(missing));
         }
     }
-    if let Some(level) = diagnosis.models.friction_level.filter(Level::is_sure) {
+    if let Some(level) = diagnosis.models.friction_level.filter(|level| level.is_sure) {
         let _ = writeln!(text, "friction {}", friction(level));
     }
     for verdict in &diagnosis.answer.refused {
@@ -58,7 +57,8 @@ pub fn text(diagnosis: &Diagnosis) -> String {
         let _ = writeln!(text, "refused  {id}: {why}");
     }
     if diagnosis.answer.status == Status::Unexplained {
-        let left = diagnosis.evidence.after.tests.iter().filter(|one| one.test.p < SURE);
+        let [_, most] = diagnosis.evidence.after.max_p;
+        let left = diagnosis.evidence.after.tests.iter().filter(|one| one.test.p < most);
         let left: Vec<String> = left
             .map(|one| {
                 let test = &one.test;
@@ -97,7 +97,7 @@ pub fn text(diagnosis: &Diagnosis) -> String {
 }
 
 /// By how much both coefficients of friction differ from what was supposed.
-fn friction(Level { value, half }: Level) -> String {
+fn friction(Level { value, half, .. }: Level) -> String {
     let [factor, low, high] = [value, value - half, value + half].map(f64::exp);
     format!(
         "both coefficients times {factor:.2} [{low:.2}, {high:.2}]: steady turns do not tell, but \

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 use trackdyn::crates::diagnose::Plan;
 use trackdyn::crates::diagnose::plan::menu::Manoeuvre;
-use trackdyn::crates::diagnose::plan::{Answer, DECIDED, Separation, measurements};
+use trackdyn::crates::diagnose::plan::{Answer, Separation, measurements};
 use trackdyn::crates::model::EffectId;
 
 /// The text of a plan.
@@ -21,9 +21,10 @@ pub fn text(plan: &Plan) -> String {
         let ids: Vec<&str> = members.iter().map(|&effect| effect.name()).collect();
         let _ = writeln!(
             text,
-            "{}: driving cannot decide, z is below {DECIDED} over all {} manoeuvres of the menu \
+            "{}: driving cannot decide, z is below {} over all {} manoeuvres of the menu \
             ({:.0} s)",
             ids.join(" or "),
+            plan.min_separation,
             plan.menu.0,
             plan.menu.1
         );
@@ -80,10 +81,11 @@ fn answer(pair: &Separation, plan: &Plan) -> String {
     let [one, other] = pair.effects.map(EffectId::name);
     match pair.answer {
         Answer::Longer(time) => format!(
-            "{one} or {other}: this plan does not decide, z = {:.1} is below {DECIDED}; it would \
+            "{one} or {other}: this plan does not decide, z = {:.1} is below {}; it would \
             take some \
              {time:.0} s. Instead: {}",
             pair.z,
+            plan.min_separation,
             measurements(pair.effects).join("; ")
         ),
         Answer::Plan | Answer::Never => format!(

@@ -30,7 +30,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         _ => return Err("usage: diagnose_speed [--longest N]".into()),
     };
     println!(
-        "| concealed | segments | seconds | CPU seconds | searches | {} | before [MiB] | peak [MiB] | named |",
+        "| concealed | segments | seconds | CPU seconds | searches | {} | before [MiB] | peak \
+         [MiB] | named |",
         Stage::ALL.map(Stage::name).join(" | ")
     );
     println!("|{}", "---|".repeat(8 + Stage::ALL.len()));

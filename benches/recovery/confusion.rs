@@ -100,8 +100,10 @@ fn weights<'a>(named: &[&'a str], status: &'a str) -> Vec<(&'a str, f64)> {
 /// Note below the matrix.
 pub fn note() -> String {
     format!(
-        "Frames: right answers. A member of a set of n counts 1/n. {CONSTANTS}: \"a wrong number, or one of the \
-         class of effects that only move constant ICRs\". {CLOCK}, which all these sensors have, counts only \
+        "Frames: right answers. A member of a set of n counts 1/n. {CONSTANTS}: \"a wrong number, \
+         or one of the \
+         class of effects that only move constant ICRs\". {CLOCK}, which all these sensors have, \
+         counts only \
          where it was concealed."
     )
 }

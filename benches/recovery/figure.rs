@@ -29,7 +29,8 @@ pub fn of(of: &Confusion) -> Figure {
     let size = [place.right() + RIGHT, place.bottom() + NAMES + FOOT];
     let mut figure = Figure::new("confusion", size);
     figure.write("What was taken for what", [LEFT, 72], Style::new(TITLE));
-    let explanation = "Each effect of the catalogue was concealed on the independent ground. Numbers: \
+    let explanation = "Each effect of the catalogue was concealed on the independent ground. \
+    Numbers: \
                        per cent of its cases in which the answer came up.";
     figure.write(explanation, [LEFT, 120], Style::new(LABEL).colour(GREY));
     figure.write("concealed (cases) ↓", [LEFT, TOP - 20], Style::new(LABEL));

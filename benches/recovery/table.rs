@@ -219,7 +219,8 @@ impl Table {
         let longest = seconds.last().copied().unwrap_or_default();
         let _ = writeln!(
             text,
-            "\n{yes} of {} intervals of 95 % hold the truth. A diagnosis takes {median:.1} s (median), \
+            "\n{yes} of {} intervals of 95 % hold the truth. A diagnosis takes {median:.1} s \
+             (median), \
              {longest:.1} s at most.",
             yes + no
         );

@@ -107,9 +107,8 @@ fn nonsense_is_refused_and_nothing_written() {
             "ambiguous",
             &["slope", "sloppe"],
             "",
-            &[
-                "diagnosis.toml:10: missing.one_of = \"sloppe\": expected an effect of the catalogue",
-            ],
+            &["diagnosis.toml:10: missing.one_of = \"sloppe\": expected an effect of the \
+                 catalogue"],
         ),
         (
             "vague",

@@ -95,7 +95,8 @@ fn laws_that_know_the_time_begin_with_the_recording() {
         let rows = [(0, "0.2,0.6"), (2, "0.5,0.1"), (4, "0,0"), (5, "0,0")].map(row).concat();
         place.write("schedule.csv", &format!("t,v_left,v_right\n{rows}"));
         let run = place.run(
-            "simulate --schedule schedule.csv --effect friction-drift:rate_1_per_s=0.01 --sensors perfect --out drive",
+            "simulate --schedule schedule.csv --effect friction-drift:rate_1_per_s=0.01 --sensors \
+             perfect --out drive",
         );
         assert_eq!(run.status, 0, "{}", run.stderr);
         let text = String::from_utf8(place.read("drive/truth.csv")).expect("text");

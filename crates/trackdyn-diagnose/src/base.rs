@@ -1,8 +1,8 @@
 //! The base: the vehicle as its file says, with all that is free in every hypothesis.
 //!
-//! Free are the constant ICRs, which stand for friction ratio, centre of gravity and their like; what
-//! encoders and pose sensor make of the motion: gains, clock, mount; and the level of friction and the centre of gravity where
-//! mass shows them.
+//! Free are the constant ICRs, which stand for friction ratio, centre of gravity and their like;
+//! what encoders and pose sensor make of the motion: gains, clock, mount; and the level of friction
+//! and the centre of gravity where mass shows them.
 
 use crate::equations::{Column, Stack};
 use crate::fit::Fit;
@@ -21,10 +21,11 @@ use trackdyn_model::{Icrs, Stationary};
 /// What every hypothesis starts from.
 #[derive(Clone)]
 pub struct Base {
-    /// The vehicle as its file says, moved with the recorded clock and nothing fitted but the constant ICRs.
+    /// The vehicle as its file says, moved with the recorded clock and nothing fitted but the
+    /// constant ICRs.
     pub as_filed: Fit,
-    /// The base at its best, the vehicle's friction ratio and centre of gravity such that it has the constant
-    /// ICRs that were found.
+    /// The base at its best, the vehicle's friction ratio and centre of gravity such that it has
+    /// the constant ICRs that were found.
     pub fit: Fit,
     /// What is free in every hypothesis.
     pub nuisances: Vec<Unknown>,
@@ -52,7 +53,8 @@ impl Base {
         for &effect in &instruments {
             nuisances.extend(unknowns_of(effect));
         }
-        // What has mass tells how much friction there is, and where the mass is, if the evidence knows that better than the owner.
+        // What has mass tells how much friction there is, and where the mass is, if the evidence
+        // knows that better than the owner.
         let tried: Vec<Unknown> = nuisances.iter().chain(&BY_MASS).copied().collect();
         let fit = Fit::at(start.clone(), &tried, evidence, Some(&as_filed.mechanics));
         for (place, &unknown) in tried.iter().enumerate().skip(nuisances.len()) {
@@ -78,7 +80,7 @@ impl Base {
         Self { as_filed, fit, nuisances, instruments, calibration }
     }
 
-    /// The same at its best for the evidence with another noise, or another scale of residuals.
+    /// This base, at its best for the evidence with another noise, or another scale of residuals.
     pub fn refitted(&self, evidence: &Weighted) -> Self {
         let again = |fit: &Fit| {
             let (start, before) = (fit.hypothesis.clone(), Some(&fit.mechanics));
@@ -88,7 +90,8 @@ impl Base {
     }
 }
 
-/// The hypothesis with the clock offset that the recording shows by itself, in whatever effect delays poses.
+/// The hypothesis with the clock offset that the recording shows by itself, in whatever effect
+/// delays poses.
 fn with_clock(hypothesis: &Hypothesis, evidence: &Weighted) -> Hypothesis {
     let own = Model::new(hypothesis.vehicle.clone(), hypothesis.effects.clone()).sensor().delay;
     for effect in EffectId::all() {
@@ -108,8 +111,8 @@ fn with_clock(hypothesis: &Hypothesis, evidence: &Weighted) -> Hypothesis {
     hypothesis.clone()
 }
 
-/// The effects of encoders and pose sensor that this evidence tells from each other and from constant
-/// ICRs, in the catalogue's order.
+/// The effects of encoders and pose sensor that this evidence tells from each other and from
+/// constant ICRs, in the catalogue's order.
 fn free_instruments(
     hypothesis: &Hypothesis,
     evidence: &Weighted,
@@ -132,7 +135,8 @@ fn free_instruments(
     chosen
 }
 
-/// The smallest part of a column beyond the first `base` ones that is its own, as share of its square.
+/// The smallest part of a column beyond the first `base` ones that is its own, as share of its
+/// square.
 fn own_share(fit: &Fit, base: usize) -> f64 {
     let samples = fit.residual.len();
     let flat = |of: &[Column]| vec![Prior::flat(); of.len()];
@@ -156,13 +160,14 @@ fn own_share(fit: &Fit, base: usize) -> f64 {
     equations.groups[0].iter().map(share).fold(1.0, f64::min)
 }
 
-/// What of a vehicle's numbers takes over an offset of the ICRs. As long as ICRs are constant, nothing tells
-/// which; effects that act on the centre of gravity do.
+/// What of a vehicle's numbers takes over an offset of the ICRs. As long as ICRs are constant,
+/// nothing tells which; effects that act on the centre of gravity do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Calibration {
     /// Friction ratio and centre of gravity: no offset is left.
     Vehicle,
-    /// The friction ratio, by the distance of the ICRs. What is left is as a mount of the pose sensor makes it.
+    /// The friction ratio, by the distance of the ICRs. What is left is as a mount of the pose
+    /// sensor makes it.
     Friction,
     /// Nothing.
     None,
@@ -181,8 +186,8 @@ impl Calibration {
         }
     }
 
-    /// The hypothesis with a vehicle that takes over the offset of its constant ICRs; none where there is no
-    /// such vehicle.
+    /// The hypothesis with a vehicle that takes over the offset of its constant ICRs; none where
+    /// there is no such vehicle.
     pub fn calibrated(self, hypothesis: &Hypothesis) -> Option<Hypothesis> {
         const ROUNDS: usize = 20;
         let wanted = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset);
@@ -231,10 +236,12 @@ impl Calibration {
     }
 }
 
-/// Gives a vehicle file the friction and the centre of gravity of a vehicle with the constant ICRs of a hypothesis, with
-/// friction at a level of its own; those of the hypothesis where no vehicle has them.
+/// Gives a vehicle file the friction and the centre of gravity of a vehicle with the constant ICRs
+/// of a hypothesis, with friction at a level of its own; those of the hypothesis where no vehicle
+/// has them.
 ///
-/// Of the effects that were `added` the file may have some otherwise, or not: what these moved the vehicle takes over as well.
+/// Of the effects that were `added` the file may have some otherwise, or not: what these moved the
+/// vehicle takes over as well.
 pub fn correct_constants(
     file: &mut VehicleFile,
     hypothesis: &Hypothesis,
@@ -280,7 +287,8 @@ mod tests {
     use super::*;
     use crate::settings;
 
-    /// An effect that is not claimed leaves its constant ICRs, and the offset, to the vehicle; friction keeps its own level.
+    /// An effect that is not claimed leaves its constant ICRs, and the offset, to the vehicle;
+    /// friction keeps its own level.
     #[test]
     fn the_vehicle_takes_over_what_is_not_claimed() {
         const LEVEL: f64 = 0.1;

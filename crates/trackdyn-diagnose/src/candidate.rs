@@ -1,8 +1,9 @@
 //! Candidates: every effect of the catalogue, and what it would change in this very evidence.
 //!
-//! The signature of an effect is the prediction with it less the one without, each solved in full: a law may
-//! have no derivative where it vanishes. Where a law has shapes, directions or places beside its size, its
-//! signature is found for several of them, and the one that explains most stands for the effect.
+//! The signature of an effect is the prediction with it less the one without, each solved in full:
+//! a law may have no derivative where it vanishes. Where a law has shapes, directions or places
+//! beside its size, its signature is found for several of them, and the one that explains most
+//! stands for the effect.
 
 mod between;
 mod places;
@@ -42,7 +43,7 @@ impl Variant {
         sizes(self.effect)
     }
 
-    /// The same with its sizes this far from none.
+    /// This variant with its sizes this far from none.
     pub fn with_sizes(&self, sizes: &[f64]) -> Self {
         let mut variant = self.clone();
         for (&parameter, &size) in self.sizes().iter().zip(sizes) {
@@ -94,8 +95,8 @@ pub struct Beside<'a> {
     evidence: &'a Weighted,
     /// The hypothesis as it is.
     moving: Prepared,
-    /// The hypothesis without inertia: the signature of what neither stands against acceleration nor changes the answer to it
-    /// is taken from stationary motion.
+    /// The hypothesis without inertia: the signature of what neither stands against acceleration
+    /// nor changes the answer to it is taken from stationary motion.
     still: Prepared,
 }
 
@@ -123,7 +124,8 @@ pub fn sizes(effect: EffectId) -> Vec<usize> {
         .collect()
 }
 
-/// All variants of all mechanisms that are tried on this evidence, but of the instruments that are free anyway.
+/// All variants of all mechanisms that are tried on this evidence, but of the instruments that are
+/// free anyway.
 pub fn candidates(instruments: &[EffectId], evidence: &Evidence) -> Vec<Variant> {
     EffectId::all()
         .filter(|effect| !instruments.contains(effect) && !effect.card().is_form())
@@ -131,8 +133,8 @@ pub fn candidates(instruments: &[EffectId], evidence: &Evidence) -> Vec<Variant>
         .collect()
 }
 
-/// The variants of an effect that are tried on this evidence: none of what knows places or directions where the
-/// evidence has none.
+/// The variants of an effect that are tried on this evidence: none of what knows places or
+/// directions where the evidence has none.
 pub fn variants(effect: EffectId, evidence: &Evidence) -> Vec<Variant> {
     let card = effect.card();
     let parameters = card.parameters;
@@ -185,7 +187,8 @@ fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
     }
 }
 
-/// Shapes that are tried: the typical one and one on either side, or as many inside where that is an end of the range.
+/// Shapes that are tried: the typical one and one on either side, or as many inside where that is
+/// an end of the range.
 fn shapes(parameter: &Parameter, ratio: f64) -> Vec<f64> {
     let [low, high] = parameter.range;
     let steps = match parameter.typical {
@@ -199,7 +202,8 @@ fn shapes(parameter: &Parameter, ratio: f64) -> Vec<f64> {
     tried
 }
 
-/// Distance of values that are tried, of a place with this extent, if it has one; of a shape, that of their logarithms.
+/// Distance of values that are tried, of a place with this extent, if it has one; of a shape, that
+/// of their logarithms.
 fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f64 {
     match parameter.role {
         Role::Size { .. } => 0.0,
@@ -254,8 +258,8 @@ impl<'a> Beside<'a> {
         are_numbers.then_some(changes)
     }
 
-    /// The signatures of variants, in parallel; those that cannot act are left out. Of an effect that is known to be
-    /// there the first one stands for all: what is no size is what it is.
+    /// The signatures of variants, in parallel; those that cannot act are left out. Of an effect
+    /// that is known to be there the first one stands for all: what is no size is what it is.
     pub fn signatures(&self, variants: &[Variant]) -> Vec<(Variant, Vec<Signature>)> {
         let mut known = BTreeSet::new();
         let is_own = |variant: &&Variant| !self.knows(variant) || known.insert(variant.effect);

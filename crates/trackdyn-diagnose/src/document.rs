@@ -123,7 +123,8 @@ pub struct FitTable {
     pub are_held_out: bool,
     /// Before.
     pub held_out_before: f64,
-    /// With nothing but the base fitted, constants, encoders and pose sensor; older files have none.
+    /// With nothing but the base fitted, constants, encoders and pose sensor; older files have
+    /// none.
     #[serde(default)]
     pub held_out_instruments: f64,
     /// After.
@@ -241,8 +242,10 @@ pub fn separate_by(missing: &crate::diagnosis::Missing) -> String {
             if !text.is_empty() {
                 text += "among the others ";
             }
-            text + "no manoeuvre does: weigh each track (centre of gravity), measure the mount of the pose \
-                    sensor, pull the robot along and across (friction), and give what was measured in the \
+            text + "no manoeuvre does: weigh each track (centre of gravity), measure the mount of \
+            the pose \
+                    sensor, pull the robot along and across (friction), and give what was \
+                    measured in the \
                     vehicle file with its *_sd"
         }
         Kind::Physics | Kind::Instrument => {

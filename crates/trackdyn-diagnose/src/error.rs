@@ -9,8 +9,9 @@ use trackdyn_core::real;
 pub enum Error {
     /// Too little driving.
     #[error(
-        "{found} segments to learn from: expected at least {needed}, that is, some {:.0} s of driving with poses and \
-         track speeds by the same clock, in seconds, in runs that are not held out",
+        "{found} segments to learn from: expected at least {needed}, that is, some {:.0} s of \
+         driving with poses and track speeds by the same clock, in seconds, in runs that are not \
+         held out",
         .each * real(*.needed)
     )]
     TooFewSegments {
@@ -23,7 +24,8 @@ pub enum Error {
     },
     /// Held-out runs without driving.
     #[error(
-        "the runs that are held out hold no segment of driving: expected others, or none (--held-out)"
+        "the runs that are held out hold no segment of driving: expected others, or none \
+         (--held-out)"
     )]
     NothingHeldOut,
     /// Too small a table.
@@ -36,21 +38,22 @@ pub enum Error {
     },
     /// Noise is neither measurable nor stated.
     #[error(
-        "the noise is not known: expected stretches of steady driving or standing with poses (or, in a \
-         table of steady points, neighbours on lines of one track speed), or a [noise] table in \
-         recording.toml"
+        "the noise is not known: expected stretches of steady driving or standing with poses (or, \
+         in a table of steady points, neighbours on lines of one track speed), or a [noise] table \
+         in recording.toml"
     )]
     NoNoise,
     /// A recording without turning.
     #[error(
-        "the robot hardly turns: expected track speeds that differ, for the instantaneous centres of \
-         rotation show in turns only"
+        "the robot hardly turns: expected track speeds that differ, for the instantaneous centres \
+         of rotation show in turns only"
     )]
     NoTurning,
     /// Poses far from where places are looked for.
     #[error(
-        "poses lie up to {:.0} m from the origin of their frame: expected at most {:.0} m, for that is where places of \
-         the ground are looked for: subtract constants from x and y", .found, .largest
+        "poses lie up to {:.0} m from the origin of their frame: expected at most {:.0} m, for \
+         that is where places of the ground are looked for: subtract constants from x and y",
+        .found, .largest
     )]
     FarFromOrigin {
         /// Largest distance along an axis, m.

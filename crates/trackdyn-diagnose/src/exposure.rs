@@ -1,7 +1,8 @@
 //! What an effect would change against what was seen: the picture of a fit.
 //!
-//! Whatever else is free is taken out of both, as in an added-variable plot: what is left of the departure
-//! then lies on a line of slope one if the effect is there at its size, and about zero if it is not.
+//! Whatever else is free is taken out of both, as in an added-variable plot: what is left of the
+//! departure then lies on a line of slope one if the effect is there at its size, and about zero if
+//! it is not.
 
 use crate::fit::Fit;
 use crate::mechanics::{Instruments, Mechanics};

@@ -1,8 +1,8 @@
 //! The fit of a hypothesis: all its unknowns by Gauss and Newton's method, robustly.
 //!
 //! # Law
-//! Minimise Σ ρ(|z|) + ½ Σ ((θ − m)/s)², z the whitened residual of a sample, ρ Huber's loss of its length,
-//! and m, s what is known of each unknown beforehand.
+//! Minimise Σ ρ(|z|) + ½ Σ ((θ − m)/s)², z the whitened residual of a sample, ρ Huber's loss of its
+//! length, and m, s what is known of each unknown beforehand.
 
 use crate::evidence::Evidence;
 use crate::hypothesis::{Hypothesis, Unknown, neutral, typical, typical_size};
@@ -48,7 +48,8 @@ fn step(hypothesis: &Hypothesis, unknown: Unknown, settings: &settings::Fit) -> 
             let parameter = unknown.parameter().expect("an effect's");
             match parameter.role {
                 Role::Size { .. } => {
-                    // a size may be the scale of a law: what a larger step changes is not its derivative
+                    // a size may be the scale of a law: what a larger step changes is not its
+                    // derivative
                     let distance = (value - neutral(parameter)).abs();
                     let typical = typical_size(parameter);
                     let [low, high] = settings.size_difference_limits;
@@ -124,8 +125,8 @@ pub struct Point {
 }
 
 impl Point {
-    /// The point of a hypothesis some of whose numbers are free. `before` is the mechanics of a hypothesis that resembles
-    /// it ([`Mechanics::beside`]).
+    /// The point of a hypothesis some of whose numbers are free. `before` is the mechanics of a
+    /// hypothesis that resembles it ([`Mechanics::beside`]).
     pub fn new(
         hypothesis: Hypothesis,
         unknowns: &[Unknown],
@@ -161,8 +162,8 @@ fn penalty(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Weighted) -
 }
 
 impl Fit {
-    /// Fits the unknowns of a hypothesis, from its numbers on. `before` is the mechanics of a hypothesis that
-    /// resembles it ([`Mechanics::beside`]).
+    /// Fits the unknowns of a hypothesis, from its numbers on. `before` is the mechanics of a
+    /// hypothesis that resembles it ([`Mechanics::beside`]).
     pub fn new(
         start: Hypothesis,
         unknowns: &[Unknown],
@@ -186,9 +187,10 @@ impl Fit {
 
     /// Fits the unknowns of a hypothesis from this point on.
     ///
-    /// What inertia adds stays that of one motion in time, with its derivatives, as long as what it does not come from
-    /// resembles what it was found for. Where the fit ends it is found anew unless that is near, and the fit goes on from
-    /// there, or from a share of the way if these derivatives led astray.
+    /// What inertia adds stays that of one motion in time, with its derivatives, as long as what it
+    /// does not come from resembles what it was found for. Where the fit ends it is found anew
+    /// unless that is near, and the fit goes on from there, or from a share of the way if these
+    /// derivatives led astray.
     pub fn from_point(start: Point, unknowns: &[Unknown], evidence: &Weighted) -> Self {
         let mut fit = Self::linearised(start, unknowns, evidence);
         for _ in 0..evidence.settings().fit.max_restarts {
@@ -229,12 +231,12 @@ impl Fit {
 
     /// The end of the descent from here, with what inertia adds as it was found.
     ///
-    /// Derivatives stand as long as they foretell what a step gains. Where those of another point do not, they are found
-    /// anew, be it that their step led nowhere: the end is where derivatives of the point itself promise next to nothing, or
-    /// lead nowhere.
+    /// Derivatives stand as long as they foretell what a step gains. Where those of another point
+    /// do not, they are found anew, be it that their step led nowhere: the end is where derivatives
+    /// of the point itself promise next to nothing, or lead nowhere.
     ///
-    /// With it comes what the objective fell by since the derivatives were found; `are_own` says that those to begin with are of
-    /// this point.
+    /// With it comes what the objective fell by since the derivatives were found; `are_own` says
+    /// that those to begin with are of this point.
     fn descent(self, are_own: bool, evidence: &Weighted) -> (Self, f64) {
         let mut fit = self;
         let (mut are_own, mut since) = (are_own, 0.0);
@@ -276,8 +278,8 @@ impl Fit {
         Self::linearised(point, &unknowns, evidence)
     }
 
-    /// The point of a share of the step that lowers the objective; none where no share does, or where the
-    /// whole step promises next to nothing.
+    /// The point of a share of the step that lowers the objective; none where no share does, or
+    /// where the whole step promises next to nothing.
     fn next(&self, evidence: &Weighted) -> Option<Point> {
         let settings = &evidence.settings().fit;
         if self.solution.gain < settings.min_promised_fall {
@@ -292,8 +294,9 @@ impl Fit {
         })
     }
 
-    /// Twice the objective where the number at this place of the unknowns is held at a value and the others are refitted,
-    /// from where the linear fit takes them. What inertia adds stays that of one motion in time, with its derivatives.
+    /// Twice the objective where the number at this place of the unknowns is held at a value and
+    /// the others are refitted, from where the linear fit takes them. What inertia adds stays that
+    /// of one motion in time, with its derivatives.
     pub fn profile(&self, place: usize, value: f64, evidence: &Weighted) -> f64 {
         let held = self.unknowns[place];
         let covariance = &self.solution.covariance;
@@ -320,7 +323,7 @@ impl Fit {
         Self::linearised(point, unknowns, evidence)
     }
 
-    /// The same hypothesis on other evidence, with its derivatives.
+    /// This hypothesis on other evidence, with its derivatives.
     pub fn on(&self, evidence: &Weighted) -> Self {
         Self::at(self.hypothesis.clone(), &self.unknowns, evidence, None)
     }
@@ -380,7 +383,8 @@ impl Fit {
         self.unknowns.iter().copied().filter(|unknown| !unknown.is_of(effect)).collect()
     }
 
-    /// Logarithm of the evidence, up to what all hypotheses share; −∞ where the linear fit has no solution.
+    /// Logarithm of the evidence, up to what all hypotheses share; −∞ where the linear fit has no
+    /// solution.
     ///
     /// −½ minimum − ½ ln det(1 + S J S)
     pub fn ln_evidence(&self) -> f64 {
@@ -395,7 +399,8 @@ fn at_bound(hypothesis: &Hypothesis, unknown: Unknown, step: f64) -> bool {
     (value <= low && step < 0.0) || (value >= high && step > 0.0)
 }
 
-/// A solution of some unknowns as one of all: the others do not move, and nothing more is known of them.
+/// A solution of some unknowns as one of all: the others do not move, and nothing more is known of
+/// them.
 fn spread(solution: &Solution, free: &[usize], priors: &[Prior]) -> Solution {
     let variances: Vec<f64> = priors.iter().map(|prior| prior.deviation.powi(2)).collect();
     let mut estimate = DVector::zeros(priors.len());

@@ -44,13 +44,15 @@ impl HeldOut {
             None
         } else if claims && after >= before {
             Some(format!(
-                "What is claimed does not help there: the error is {after:.3} with it and {before:.3} without. It may be true \
-                 of what it was learned from alone: drive on without it."
+                "What is claimed does not help there: the error is {after:.3} with it and \
+                 {before:.3} without. It may be true of what it was learned from alone: drive on \
+                 without it."
             ))
         } else if claims_physics && after >= instruments {
             Some(format!(
-                "The physics that is claimed does not help there: the error is {after:.3} with it and {instruments:.3} with \
-                 encoders, pose sensor and constants at their best alone. It may be true of what it was learned from alone."
+                "The physics that is claimed does not help there: the error is {after:.3} with it \
+                 and {instruments:.3} with encoders, pose sensor and constants at their best \
+                 alone. It may be true of what it was learned from alone."
             ))
         } else {
             None

@@ -13,11 +13,13 @@ pub struct Hypothesis {
     pub effects: Effects,
     /// What is added to the ICRs (x_l, x_r, y), m: all that slow driving on level ground can tell.
     pub offset: [f64; 3],
-    /// ln of the factor by which both friction coefficients of the vehicle differ from those first supposed:
-    /// steady driving knows their ratio alone, but what has mass slides the farther the less friction there is.
+    /// ln of the factor by which both friction coefficients of the vehicle differ from those first
+    /// supposed: steady driving knows their ratio alone, but what has mass slides the farther the
+    /// less friction there is.
     pub friction_level: f64,
-    /// By what the centre of gravity (x_c, y_c) of the vehicle differs from the one first supposed, m: constant ICRs move with it
-    /// as with much else, but with every start and stop mass pulls where it is.
+    /// By what the centre of gravity (x_c, y_c) of the vehicle differs from the one first supposed,
+    /// m: constant ICRs move with it as with much else, but with every start and stop mass pulls
+    /// where it is.
     pub cog_moved: [f64; 2],
     /// Largest change of the level of friction.
     pub max_friction_change: f64,
@@ -64,8 +66,8 @@ pub fn unknowns_of(effect: EffectId) -> impl Iterator<Item = Unknown> {
     (0..effect.card().parameters.len()).map(move |parameter| Unknown::Effect(effect, parameter))
 }
 
-/// A parameter's value at which its effect is not there, within the physical range; its typical value
-/// where it is no size.
+/// A parameter's value at which its effect is not there, within the physical range; its typical
+/// value where it is no size.
 pub fn neutral(parameter: &Parameter) -> f64 {
     match parameter.role {
         Role::Size { neutral } => neutral.clamp(parameter.range[0], parameter.range[1]),
@@ -114,8 +116,8 @@ impl Hypothesis {
         }
     }
 
-    /// The same with another value of an unknown, within its physical range. An effect that was not there
-    /// comes with no size and the typical values of what is no size.
+    /// This hypothesis with another value of an unknown, within its physical range. An effect that
+    /// was not there comes with no size and the typical values of what is no size.
     pub fn with(&self, unknown: Unknown, value: f64) -> Self {
         let mut changed = self.clone();
         let [low, high] = self.range(unknown);
@@ -148,14 +150,14 @@ impl Hypothesis {
         find(&self.effects, effect)
     }
 
-    /// The same with an effect switched on, or with other values.
+    /// This hypothesis with an effect switched on, or with other values.
     pub fn with_effect(&self, effect: ActiveEffect) -> Self {
         let mut changed = self.clone();
         changed.effects.insert(effect);
         changed
     }
 
-    /// The same with an effect as another hypothesis has it: without it where that one is.
+    /// This hypothesis with an effect as another hypothesis has it: without it where that one is.
     pub fn with_effect_of(&self, other: &Self, effect: EffectId) -> Self {
         match other.effect(effect) {
             Some(known) => self.with_effect(known.clone()),
@@ -163,7 +165,7 @@ impl Hypothesis {
         }
     }
 
-    /// The same without an effect.
+    /// This hypothesis without an effect.
     pub fn without(&self, effect: EffectId) -> Self {
         let others = self.effects.iter().filter(|active| active.effect() != effect);
         let effects = others.cloned().collect();
@@ -176,8 +178,8 @@ pub fn find(effects: &Effects, effect: EffectId) -> Option<&ActiveEffect> {
     effects.iter().find(|active| active.effect() == effect)
 }
 
-/// Value of an effect's parameter, both by their places in the catalogue; that of no effect where the effect is not
-/// there.
+/// Value of an effect's parameter, both by their places in the catalogue; that of no effect where
+/// the effect is not there.
 pub fn value(effects: &Effects, effect: EffectId, parameter: usize) -> f64 {
     find(effects, effect).map_or_else(
         || neutral(&effect.card().parameters[parameter]),
@@ -230,7 +232,8 @@ pub fn with_values(effect: &ActiveEffect, values: &[f64]) -> ActiveEffect {
 mod tests {
     use super::*;
 
-    /// A step of a fit may promise anything; forces of 10³⁰ N balance nowhere, and take long to say so.
+    /// A step of a fit may promise anything; forces of 10³⁰ N balance nowhere, and take long to say
+    /// so.
     #[test]
     fn numbers_stay_within_what_they_may_be() {
         let settings = settings::Prior::default();

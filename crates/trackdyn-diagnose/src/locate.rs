@@ -1,10 +1,10 @@
 //! Where evidence departs from constant ICRs, without a model of why.
 //!
 //! # Law
-//! On level ground and in slow driving the ICR triple is one point (the constancy theorem). Whatever else
-//! moves it does so with speed, direction, manoeuvre, side, heading, place, time or change of speed. Each
-//! symmetry is tested by the departures that would break it: the ICRs' derivative of the prediction times a
-//! function of how the robot was driven.
+//! On level ground and in slow driving the ICR triple is one point (the constancy theorem).
+//! Whatever else moves it does so with speed, direction, manoeuvre, side, heading, place, time or
+//! change of speed. Each symmetry is tested by the departures that would break it: the ICRs'
+//! derivative of the prediction times a function of how the robot was driven.
 
 pub mod cells;
 mod contrasts;
@@ -63,7 +63,8 @@ pub struct Location {
     pub channels: [f64; 3],
     /// The test of every symmetry that this evidence can test.
     pub tests: Vec<SymmetryTest>,
-    /// The strongest wave of the ground, where it breaks the symmetry of places more than anything plainer does.
+    /// The strongest wave of the ground, where it breaks the symmetry of places more than anything
+    /// plainer does.
     pub wave: Option<Wave>,
     /// What the contrasts of all symmetries together explain, as χ² beyond their number.
     pub explicable: f64,
@@ -78,8 +79,8 @@ impl Location {
         tests.map(|test| test.symmetry).collect()
     }
 
-    /// The symmetries that a corrected model still breaks: surely, and by more than a χ² of `form`, which the
-    /// form of its laws may leave.
+    /// The symmetries that a corrected model still breaks: surely, and by more than a χ² of `form`,
+    /// which the form of its laws may leave.
     pub fn left_over(&self, form: f64) -> Vec<Symmetry> {
         let tests = self.tests.iter();
         let beyond = |test: &SymmetryTest| test.test.statistic - real(test.test.degrees);
@@ -153,7 +154,8 @@ impl Residual<'_> {
             let wave = strongest_wave(evidence, &fit.residual, beside, icrs, resampling);
             wave.filter(|wave| wave.test.p < location.max_p[0])
         };
-        // What plainer contrasts show is in some waves as well, and in the best of so many by chance.
+        // What plainer contrasts show is in some waves as well, and in the best of so many by
+        // chance.
         let wave = strongest(&fit.columns).and_then(|_| {
             let plainer =
                 contrasts(evidence, icrs).into_iter().flat_map(|contrasts| contrasts.columns);
@@ -175,7 +177,7 @@ pub fn excess(evidence: &Weighted, residual: &[Vector3<f64>]) -> f64 {
     excess_of(evidence, residual, |_, _| true)
 }
 
-/// The same over those samples and channels that count.
+/// The excess over those samples and channels that count.
 pub fn excess_of(
     evidence: &Weighted,
     residual: &[Vector3<f64>],

@@ -1,17 +1,21 @@
 //! What a hypothesis predicts of the evidence.
 //!
-//! The prediction starts each sample at its observed pose and moves the body with the recorded track speeds.
+//! The prediction starts each sample at its observed pose and moves the body with the recorded
+//! track speeds.
 //!
 //! # Law
-//! The twist is that of the stationary motion, plus two departures that are small where they are at all:
-//! - of ground that changes with place, heading or time: the stationary motion there less the one without,
+//! The twist is that of the stationary motion, plus two departures that are small where they are at
+//! all:
+//! - of ground that changes with place, heading or time: the stationary motion there less the one
+//!   without,
 //! - of inertia: the motion in time less the stationary one, over the sample.
 //!
 //! # Assumes
-//! The departures are found without the laws that change the shear stress, which need a quadrature per solve. What
-//! these change in that by ground is a product of two small things; what they change in that by inertia is found
-//! from it in a few steps. Where no motion in time goes through, that of a hypothesis that resembles this one stands in: the
-//! ticks of a coarse counter may tip a high robot over that never was near to it.
+//! The departures are found without the laws that change the shear stress, which need a quadrature
+//! per solve. What these change in that by ground is a product of two small things; what they
+//! change in that by inertia is found from it in a few steps. Where no motion in time goes through,
+//! that of a hypothesis that resembles this one stands in: the ticks of a coarse counter may tip a
+//! high robot over that never was near to it.
 
 mod belts;
 mod ground;
@@ -40,8 +44,8 @@ use trackdyn_recording::hold::pieces;
 /// Samples that one task predicts or solves.
 const TASK: usize = 64;
 
-/// The expensive part of a prediction: all that does not hang on sensors, gains and lags of the drive, and
-/// constant offsets of the ICRs.
+/// The expensive part of a prediction: all that does not hang on sensors, gains and lags of the
+/// drive, and constant offsets of the ICRs.
 #[derive(Clone)]
 pub struct Mechanics {
     surface: Surface,
@@ -65,13 +69,15 @@ enum InTime {
     Found {
         /// What is added without the laws of the shear stress.
         inertia: InertiaNear,
-        /// What these laws change in that, at each reading; none where there are none, or where what it was taken from knew no
-        /// inertia.
+        /// What these laws change in that, at each reading; none where there are none, or where
+        /// what it was taken from knew no inertia.
         sheared: Option<Arc<Vec<Vec<Twist>>>>,
     },
-    /// What was found for another robot, without laws of the shear stress: no motion in time goes through with this one.
+    /// What was found for another robot, without laws of the shear stress: no motion in time goes
+    /// through with this one.
     OfAnother(InertiaNear),
-    /// The hypothesis cannot be: no forces balance over a good part of the speeds, or no motion in time goes through with it.
+    /// The hypothesis cannot be: no forces balance over a good part of the speeds, or no motion in
+    /// time goes through with it.
     Impossible(String),
 }
 
@@ -112,7 +118,8 @@ impl Instruments {
     }
 }
 
-/// Whether an effect says something of sensors, gains and lags alone: no balance of forces knows it.
+/// Whether an effect says something of sensors, gains and lags alone: no balance of forces knows
+/// it.
 pub fn is_instrument(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
     let outside = |stage: &Stage| matches!(stage, Stage::Drive | Stage::Sense);
     effect.card().stages.iter().all(outside)
@@ -130,9 +137,9 @@ impl Mechanics {
         Self::found(None, None, hypothesis, evidence, InertiaNear::here)
     }
 
-    /// The same where `before` is the mechanics of a hypothesis that resembles it, and some numbers are free: where
-    /// the effects of inertia are about the same, what these add is taken from there, for its change is a product
-    /// of two small things.
+    /// Mechanics where `before` is the mechanics of a hypothesis that resembles it, and some
+    /// numbers are free: where the effects of inertia are about the same, what these add is taken
+    /// from there, for its change is a product of two small things.
     pub fn beside(
         before: Option<&Self>,
         hypothesis: &Hypothesis,
@@ -148,8 +155,8 @@ impl Mechanics {
         )
     }
 
-    /// The mechanics of a hypothesis on the way of a fit: what inertia adds is taken from here, however far what it comes
-    /// from has moved, as long as the rest resembles this one.
+    /// The mechanics of a hypothesis on the way of a fit: what inertia adds is taken from here,
+    /// however far what it comes from has moved, as long as the rest resembles this one.
     pub fn on_the_way(
         &self,
         hypothesis: &Hypothesis,
@@ -176,10 +183,12 @@ impl Mechanics {
         })
     }
 
-    /// The same for a hypothesis that differs by a step, be it that of a difference quotient: what inertia adds is
-    /// taken from here wherever it can be, for what it jumps by elsewhere would be divided by the step.
+    /// Mechanics of a hypothesis that differs by a step, be it that of a difference quotient: what
+    /// inertia adds is taken from here wherever it can be, for what it jumps by elsewhere would be
+    /// divided by the step.
     ///
-    /// What laws of the shear stress change in that stays too, unless it is one of these that differs.
+    /// What laws of the shear stress change in that stays too, unless it is one of these that
+    /// differs.
     pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
         let inertia = |inert: Vec<ActiveEffect>, case: &Case| {
             let moved = match &self.in_time {
@@ -244,7 +253,8 @@ impl Mechanics {
             return Self { ground, ..still };
         }
         let case = Case { vehicle, model: &simple, largest, drive: &drive, evidence };
-        // Where no motion in time goes through, that of a hypothesis that resembles this one is taken.
+        // Where no motion in time goes through, that of a hypothesis that resembles this one is
+        // taken.
         let known = before.and_then(|before| before.in_time.inertia());
         let in_time = match (inertia(inert, &case), known) {
             (Ok(inertia), _) => {
@@ -257,7 +267,8 @@ impl Mechanics {
         Self { ground, in_time, ..still }
     }
 
-    /// What the laws of the shear stress change in what inertia adds: as it was `kept` where they are the same.
+    /// What the laws of the shear stress change in what inertia adds: as it was `kept` where they
+    /// are the same.
     fn sheared(
         &self,
         kept: Option<&Self>,
@@ -282,8 +293,8 @@ impl Mechanics {
         }
     }
 
-    /// Why the hypothesis cannot be: part of the contact lifts, or no motion balances the forces, over a
-    /// good part of the speeds, or no motion in time goes through. None where it can.
+    /// Why the hypothesis cannot be: part of the contact lifts, or no motion balances the forces,
+    /// over a good part of the speeds, or no motion in time goes through. None where it can.
     pub fn failure(&self) -> Option<&str> {
         match &self.in_time {
             InTime::Impossible(reason) => Some(reason),
@@ -336,8 +347,8 @@ impl Mechanics {
     }
 }
 
-/// Why no robot moves so that has these stationary motions, at more than this share of the speeds; none
-/// where one may.
+/// Why no robot moves so that has these stationary motions, at more than this share of the speeds;
+/// none where one may.
 fn unbalanced(surface: &Surface, most: f64) -> Option<String> {
     let share = surface.unsolved();
     (share > most).then(|| {
@@ -355,7 +366,8 @@ fn steady(surface: &Surface, drive: &Drive, tracks: &[Vec<TrackSample>]) -> Vec<
     belts.par_iter().map(|run| run.iter().map(motion).collect()).collect()
 }
 
-/// The motion over a sample, seen from its start, with the twist (REP-103) at each reading that it holds.
+/// The motion over a sample, seen from its start, with the twist (REP-103) at each reading that it
+/// holds.
 fn motion_over(
     tracks: &[TrackSample],
     sample: &Sample,
@@ -378,8 +390,9 @@ fn single(vehicle: &Vehicle, effect: &ActiveEffect) -> Model {
     coarse(vehicle, std::iter::once(effect.clone()).collect())
 }
 
-/// What a change of the twist is at the point from which the ICRs have this offset: δv = ω × r, with y for all of
-/// them and the mean of the x as r. The rest of the offset is no matter of where one looks from.
+/// What a change of the twist is at the point from which the ICRs have this offset: δv = ω × r,
+/// with y for all of them and the mean of the x as r. The rest of the offset is no matter of where
+/// one looks from.
 fn seen_from(twist: &Twist, [left, right, y]: &[f64; 3]) -> Twist {
     let middle = f64::midpoint(*left, *right);
     Twist { v_x: twist.v_x + y * twist.w, v_y: twist.v_y - middle * twist.w, w: twist.w }

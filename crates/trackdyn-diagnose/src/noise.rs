@@ -2,31 +2,35 @@
 //!
 //! # Law
 //! To the base belong constant ICRs, encoders and pose sensor; beside them stand the contrasts of
-//! [`locate`](crate::locate), which let the ICRs go with speed, direction, manoeuvre, side, heading, place, time
-//! and change of speed, whatever the reason, ICRs that go with the speed of turning, and the answer to acceleration. The residual r of all these is noise: white noise R of each pose,
-//! which neighbouring segments share, a random walk q within each segment, and a heading of the sensor that wanders, by
-//! which all later segments of a run are seen turned ([`SegmentNoise`]). The seven variances are those under which
-//! r is most likely, with a heavy-tailed likelihood, so that outliers do not count:
+//! [`locate`](crate::locate), which let the ICRs go with speed, direction, manoeuvre, side,
+//! heading, place, time and change of speed, whatever the reason, ICRs that go with the speed of
+//! turning, and the answer to acceleration. The residual r of all these is noise: white noise R of
+//! each pose, which neighbouring segments share, a random walk q within each segment, and a heading
+//! of the sensor that wanders, by which all later segments of a run are seen turned
+//! ([`SegmentNoise`]). The seven variances are those under which r is most likely, with a
+//! heavy-tailed likelihood, so that outliers do not count:
 //!
-//! maximise Σ ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν) − ½ ln det(Xᵀ V⁻¹ X),  z = L⁻¹ r, L the Cholesky factor of their
-//! covariance V, X the columns that were fitted.
+//! maximise Σ ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν) − ½ ln det(Xᵀ V⁻¹ X),  z = L⁻¹ r, L the
+//! Cholesky factor of their covariance V, X the columns that were fitted.
 //!
-//! The last term gives back what the fit took of the noise: without it a walk, which is slow, would vanish into all that
-//! is slow in the driving. It is nearly linear in the logarithms of the variances, and taken to be so. The level is then
-//! set by the median of |z|², which is that of a χ² with three degrees of freedom, less what was fitted.
+//! The last term gives back what the fit took of the noise: without it a walk, which is slow, would
+//! vanish into all that is slow in the driving. It is nearly linear in the logarithms of the
+//! variances, and taken to be so. The level is then set by the median of |z|², which is that of a
+//! χ² with three degrees of freedom, less what was fitted.
 //!
-//! Physics may leave more than contrasts can take up, and what is slow in it is then taken for a walk. Where a hypothesis
-//! does explain more, the noise is looked for once more beside it, and stands if what a run adds up to falls along one axis: a walk that is
-//! next to nothing in a sample is what hides slow changes.
+//! Physics may leave more than contrasts can take up, and what is slow in it is then taken for a
+//! walk. Where a hypothesis does explain more, the noise is looked for once more beside it, and
+//! stands if what a run adds up to falls along one axis: a walk that is next to nothing in a sample
+//! is what hides slow changes.
 //!
-//! What is measured without any model ([`trackdyn_estimate::noise`]) is where this starts from. Poses alone
-//! cannot tell the ripple of a drive, which the encoders see, from a walk of the pose; nor can encoders alone
-//! tell counts that err against each other from slip.
+//! What is measured without any model ([`trackdyn_estimate::noise`]) is where this starts from.
+//! Poses alone cannot tell the ripple of a drive, which the encoders see, from a walk of the pose;
+//! nor can encoders alone tell counts that err against each other from slip.
 //!
 //! # Sources
-//! Lange, Little, Taylor, Journal of the American Statistical Association 84(408), 1989 (t likelihood); Patterson,
-//! Thompson, Biometrika 58(3), 1971 (restricted likelihood); Berndt,
-//! Hall, Hall, Hausman, Annals of Economic and Social Measurement 3(4), 1974 (steps).
+//! Lange, Little, Taylor, Journal of the American Statistical Association 84(408), 1989 (t
+//! likelihood); Patterson, Thompson, Biometrika 58(3), 1971 (restricted likelihood); Berndt, Hall,
+//! Hall, Hausman, Annals of Economic and Social Measurement 3(4), 1974 (steps).
 
 mod flexible;
 
@@ -48,7 +52,8 @@ const COUNT: usize = 7;
 /// Their logarithms.
 type Variances = SVector<f64, COUNT>;
 
-/// The evidence with the noise that the residuals beside a fit show. Tables of steady points keep theirs.
+/// The evidence with the noise that the residuals beside a fit show. Tables of steady points keep
+/// theirs.
 pub fn with_remaining_noise(evidence: &Weighted, fit: &Fit) -> Weighted {
     let Some(&measured) = evidence.noise() else { return evidence.clone() };
     remaining(evidence, measured, &Flexible::new(evidence, fit))
@@ -69,8 +74,9 @@ fn remaining(evidence: &Weighted, measured: SegmentNoise, flexible: &Flexible) -
     evidence
 }
 
-/// Where a search begins, as logarithms: a variance of next to nothing has no slope, neither in its likelihood nor in what
-/// was taken of it, so that a walk begins at a part of the white noise at least.
+/// Where a search begins, as logarithms: a variance of next to nothing has no slope, neither in its
+/// likelihood nor in what was taken of it, so that a walk begins at a part of the white noise at
+/// least.
 fn start(measured: &SegmentNoise, settings: &settings::Noise) -> Variances {
     let SegmentNoise { pose, mut walk, heading } = *measured;
     for (walk, pose) in walk.iter_mut().zip(pose) {
@@ -80,7 +86,8 @@ fn start(measured: &SegmentNoise, settings: &settings::Noise) -> Variances {
     variances_of(&SegmentNoise { pose, walk, heading })
 }
 
-/// The evidence without the samples at whose poses the sensor erred, beside a fit, in the noise that it has.
+/// The evidence without the samples at whose poses the sensor erred, beside a fit, in the noise
+/// that it has.
 pub fn without_outliers(evidence: &Weighted, fit: &Fit) -> Weighted {
     let mut evidence = evidence.clone();
     let Some(&noise) = evidence.noise() else { return evidence };
@@ -107,14 +114,15 @@ pub fn sentence(noise: &SegmentNoise) -> String {
     format!("each pose {}; more in a second {}", of(noise.pose), of(walk))
 }
 
-/// The evidence with the noise beside a hypothesis that explains more than contrasts can; none where this does
-/// not make it smaller along any axis.
+/// The evidence with the noise beside a hypothesis that explains more than contrasts can; none
+/// where this does not make it smaller along any axis.
 pub fn sharper(evidence: &Weighted, fit: &Fit) -> Option<Weighted> {
     let before = evidence.noise()?;
     let again = with_remaining_noise(evidence, fit);
     let after = again.noise()?;
     let time = run_time(evidence)?;
-    // A yaw that walks and a heading that wanders are alike in a sample, and not in what a run tells of slow changes.
+    // A yaw that walks and a heading that wanders are alike in a sample, and not in what a run
+    // tells of slow changes.
     let added = |noise: &SegmentNoise| {
         let ([forward, left, yaw], [x, y, turn]) = (noise.pose, noise.walk);
         let pairs = [(forward, x), (left, y), (yaw, turn), (yaw, noise.heading)];
@@ -134,7 +142,8 @@ fn run_time(evidence: &Weighted) -> Option<f64> {
     (runs > 0).then(|| time / real(runs))
 }
 
-/// Samples at whose shared pose the sensor erred: the one that ends there is far off, both together are not.
+/// Samples at whose shared pose the sensor erred: the one that ends there is far off, both together
+/// are not.
 fn outlying(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
     let mut white = left.to_vec();
     evidence.whiten(&mut white);
@@ -144,7 +153,8 @@ fn outlying(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
     let mut lost: Vec<usize> = Vec::new();
     for index in 1..samples.len() {
         let pair = [index - 1, index];
-        // What a pose that erred tells of the next ones is wrong too, and is judged in the next round.
+        // What a pose that erred tells of the next ones is wrong too, and is judged in the next
+        // round.
         if lost.last().is_some_and(|last| index <= last + settings.outlier_distance) {
             continue;
         }
@@ -159,7 +169,8 @@ fn outlying(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
         let off = expected.relative(&observed);
         let duration = samples[pair[0]].duration + samples[pair[1]].duration;
         let reach = observed.x.hypot(observed.y).powi(2);
-        // the poses at both ends, the walk between them, and what the first one's yaw makes of the way
+        // the poses at both ends, the walk between them, and what the first one's yaw makes of the
+        // way
         let variance = |k: usize| {
             let turned = if k < 2 { noise.pose[2] * reach } else { noise.heading * duration };
             2.0 * noise.pose[k] + noise.walk[k] * duration + turned
@@ -176,8 +187,8 @@ fn outlying(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
 
 /// The noise under which residuals are most likely.
 ///
-/// A variance that is next to nothing has no slope in its logarithm: what starts there stays. So the search starts
-/// from what was measured, and from white noise alone.
+/// A variance that is next to nothing has no slope in its logarithm: what starts there stays. So
+/// the search starts from what was measured, and from white noise alone.
 fn most_likely(
     evidence: &Weighted,
     measured: SegmentNoise,
@@ -212,7 +223,8 @@ struct Likelihood<'a> {
 }
 
 impl Likelihood<'_> {
-    /// White noise of the poses that would leave as much as there is: two of them meet in a segment.
+    /// White noise of the poses that would leave as much as there is: two of them meet in a
+    /// segment.
     fn white_alone(&self) -> SegmentNoise {
         let mut squares: [Vec<f64>; 3] = Default::default();
         for residual in self.residual {
@@ -395,9 +407,9 @@ mod tests {
         let evidence = Weighted::new(drive(&[]));
         for seed in 1..6 {
             let noise = found(&evidence, &noisy(&evidence, seed));
-            // A variance is known to √(2/n) of itself from n independent numbers: 1500 for a pose; a walk
-            // shows against poses of 2 to 4 mm over a dozen segments and more, 100 times in the drive, 16 %
-            // and in yaw, the smallest, over fifty, 27 %.
+            // A variance is known to √(2/n) of itself from n independent numbers: 1500 for a pose;
+            // a walk shows against poses of 2 to 4 mm over a dozen segments and more, 100 times in
+            // the drive, 16 % and in yaw, the smallest, over fifty, 27 %.
             let close = |found: f64, truth: f64, deviation: f64| {
                 assert!((found / truth).ln().abs() < 4.0 * deviation, "{seed}: {noise:?}");
             };
@@ -430,7 +442,8 @@ mod tests {
             samples.iter().map(along).collect()
         };
         let columns: Vec<_> = (0..COLUMNS).map(column).collect();
-        // Poses that seem to have no noise forward, and nothing that walks: as what is measured without a model may say.
+        // Poses that seem to have no noise forward, and nothing that walks: as what is measured
+        // without a model may say.
         let measured = SegmentNoise { pose: [0.0, 4e-6, 4e-6], walk: [0.0; 3], heading: 0.0 };
         let mut logarithms = [[0.0; COUNT]; 2];
         for seed in 0..SEEDS {
@@ -465,8 +478,8 @@ mod tests {
         let mut residual = clean.clone();
         let far: Vec<usize> = (20..1480).step_by(40).collect();
         for (&index, size) in far.iter().zip([0.05, -0.08, 0.12].into_iter().cycle()) {
-            // A pose that lies `size` m ahead and to the left, and is turned: the end of one sample and
-            // the start of the next.
+            // A pose that lies `size` m ahead and to the left, and is turned: the end of one sample
+            // and the start of the next.
             let samples = evidence.samples();
             let sample = |k: usize| {
                 let motion = samples[k].motion;

@@ -1,7 +1,8 @@
 //! Normal equations, summed block by block.
 //!
-//! All that a linear model of the residuals can say is in the products of its columns. Kept per block, they
-//! answer at once what a fit without some columns, without some blocks, or with other blocks would be.
+//! All that a linear model of the residuals can say is in the products of its columns. Kept per
+//! block, they answer at once what a fit without some columns, without some blocks, or with other
+//! blocks would be.
 
 mod scaled;
 
@@ -43,7 +44,8 @@ pub struct Solution {
     pub misfit: f64,
     /// By how much it lies below θ = 0.
     pub gain: f64,
-    /// ln det(1 + S J S), twice the logarithm of Occam's factor: what it costs that the factors were not known before.
+    /// ln det(1 + S J S), twice the logarithm of Occam's factor: what it costs that the factors
+    /// were not known before.
     pub occam: f64,
     /// −½ minimum − ½ ln det(1 + S J S): the logarithm of the evidence up to what all models share.
     pub ln_evidence: f64,
@@ -56,7 +58,8 @@ pub struct Prior {
     pub mean: f64,
     /// Standard deviation.
     pub deviation: f64,
-    /// Logarithm of the part of it that lies where the factor can be: the density is larger by that.
+    /// Logarithm of the part of it that lies where the factor can be: the density is larger by
+    /// that.
     pub ln_mass: f64,
 }
 
@@ -71,7 +74,7 @@ impl Prior {
         Self::normal(0.0, 1e9)
     }
 
-    /// The same within a range.
+    /// This prior within a range.
     pub fn within(self, [low, high]: [f64; 2]) -> Self {
         let below = |end: f64| {
             0.5 * statrs::function::erf::erfc(
@@ -95,7 +98,7 @@ const RIDGE: f64 = 1e-10;
 /// Part of its own square that a column must have beyond others not to be a combination of them.
 const DEPENDENT: f64 = 1e-8;
 
-/// The same that is left of a column where others explain all of it but rounding.
+/// Part of its own square that is left of a column where others explain all of it but rounding.
 const EXPLAINED: f64 = 1e-10;
 
 impl Normal {
@@ -154,7 +157,7 @@ impl Normal {
         self.total[(self.columns(), self.columns())]
     }
 
-    /// The same with each block counted this many times.
+    /// These equations with each block counted this many times.
     pub fn counted(&self, times: &[f64]) -> Self {
         let blocks: Vec<DMatrix<f64>> =
             self.blocks.iter().zip(times).map(|(block, times)| block * *times).collect();
@@ -162,7 +165,7 @@ impl Normal {
         Self { blocks, total }
     }
 
-    /// The same without some blocks: what is fitted on the others is judged on these.
+    /// These equations without some blocks: what is fitted on the others is judged on these.
     pub fn without(&self, held_out: &Range<usize>) -> Self {
         let times: Vec<f64> = (0..self.blocks.len())
             .map(|block| if held_out.contains(&block) { 0.0 } else { 1.0 })
@@ -197,7 +200,8 @@ impl Normal {
         };
         let gain = gradient.dot(&estimate);
         let misfit = self.squares() + penalty - gain;
-        // det(1 + S J S) = det(J + S⁻²) · Π s²; densities that end where a factor cannot be are larger by what they leave out
+        // det(1 + S J S) = det(J + S⁻²) · Π s²; densities that end where a factor cannot be are
+        // larger by what they leave out
         let occam: f64 = ln_det
             + columns
                 .iter()
@@ -227,8 +231,8 @@ impl Normal {
         squares
     }
 
-    /// Square of what is left of a column beside `others`, whose factors are known to their priors, with what these
-    /// cost: min over θ of |c − C θ|² + Σ (θ/s)².
+    /// Square of what is left of a column beside `others`, whose factors are known to their priors,
+    /// with what these cost: min over θ of |c − C θ|² + Σ (θ/s)².
     pub fn beside(&self, column: usize, others: &[usize], priors: &[Prior]) -> f64 {
         let square = self.product(column, column);
         let precisions: Vec<f64> = others.iter().map(|&k| priors[k].deviation.powi(-2)).collect();
@@ -237,8 +241,8 @@ impl Normal {
         (square - right.dot(&factor.solve(&right))).max(0.0)
     }
 
-    /// Removes from columns and residual what `base` columns explain (with their priors), block by block
-    /// with the factors of the whole.
+    /// Removes from columns and residual what `base` columns explain (with their priors), block by
+    /// block with the factors of the whole.
     pub fn projected(&self, base: &[usize], priors: &[Prior]) -> Self {
         let precisions: Vec<f64> = base.iter().map(|&i| priors[i].deviation.powi(-2)).collect();
         let others: Vec<usize> = (0..=self.columns()).filter(|j| !base.contains(j)).collect();
@@ -250,7 +254,8 @@ impl Normal {
         self.without_what(others, &vec![0.0; others.len()], columns)
     }
 
-    /// The factor of columns' information with these precisions. Columns that stand for each other count as one.
+    /// The factor of columns' information with these precisions. Columns that stand for each other
+    /// count as one.
     fn factored(&self, columns: &[usize], precisions: &[f64]) -> Option<Scaled> {
         let mut matrix = self.information(columns);
         for (k, precision) in precisions.iter().enumerate() {
@@ -325,8 +330,9 @@ impl Normal {
         }
     }
 
-    /// The factors of columns that leave least of the residual, and ln det of the columns' products. The columns must be
-    /// [`independent`](Self::independent); none where rounding shows that they are not.
+    /// The factors of columns that leave least of the residual, and ln det of the columns'
+    /// products. The columns must be [`independent`](Self::independent); none where rounding shows
+    /// that they are not.
     pub fn least_squares(&self, columns: &[usize]) -> Option<(DVector<f64>, f64)> {
         let factor = Scaled::new(&self.information(columns))?;
         let last = self.columns();
@@ -378,7 +384,8 @@ mod tests {
         let [a, b, c] = [(0, 0), (0, 1), (1, 1)].map(|(i, j)| normal.product(i, j));
         assert!((ln_det - (a * c - b * b).ln()).abs() < 1e-9, "{ln_det}");
         assert_eq!(factors.len(), 2);
-        // what all of a column is explained by leaves nothing at all of it, in no block and no product
+        // what all of a column is explained by leaves nothing at all of it, in no block and no
+        // product
         let flat = [Prior::flat(); 4];
         let projected = normal.projected(&[0, 1], &flat);
         assert_eq!((0..=4).map(|k| projected.product(2, k).abs()).fold(0.0, f64::max), 0.0);
@@ -398,7 +405,8 @@ mod tests {
         }
     }
 
-    /// Half of a normal density about none is twice as large; an even one over a turn is what ∫ exp(-θ²/2σ²) dθ/360 says.
+    /// Half of a normal density about none is twice as large; an even one over a turn is what ∫
+    /// exp(-θ²/2σ²) dθ/360 says.
     #[test]
     fn priors_end_where_a_factor_cannot_be() {
         let size = Prior::normal(0.0, 0.3);

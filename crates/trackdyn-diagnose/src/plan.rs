@@ -1,8 +1,9 @@
 //! The next manoeuvre: driving that tells apart what a diagnosis could not.
 //!
-//! Each member of a class is a hypothesis of its own: the vehicle with that effect at the size at which it
-//! explains the recording. Every manoeuvre of a menu is driven by all of them in simulation, and the sequence
-//! with the largest separation per second is put together step by step.
+//! Each member of a class is a hypothesis of its own: the vehicle with that effect at the size at
+//! which it explains the recording. Every manoeuvre of a menu is driven by all of them in
+//! simulation, and the sequence with the largest separation per second is put together step by
+//! step.
 
 mod document;
 pub mod menu;
@@ -55,7 +56,8 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The noise: white noise of each pose, and as much again per √s by which poses and encoders wander.
+    /// The noise: white noise of each pose, and as much again per √s by which poses and encoders
+    /// wander.
     fn noise(&self) -> SegmentNoise {
         let variances = [self.noise_xy.powi(2), self.noise_xy.powi(2), self.noise_yaw.powi(2)];
         SegmentNoise { pose: variances, walk: variances, heading: 0.0 }
@@ -255,7 +257,8 @@ fn run(manoeuvres: &[&Manoeuvre], start: f64, pose: Pose) -> PlannedRun {
     PlannedRun { tracks, pose, blocks }
 }
 
-/// What a pair would show in each manoeuvre of the menu, and has shown in those that are chosen already.
+/// What a pair would show in each manoeuvre of the menu, and has shown in those that are chosen
+/// already.
 struct Outlook {
     menu: Vec<DMatrix<f64>>,
     chosen: DMatrix<f64>,
@@ -279,8 +282,8 @@ impl Outlook {
 
 /// The manoeuvres of the menu that separate best, in the order of their choice.
 ///
-/// Step by step the one, or the two together, with the most weighted z² per second; two, for what shows in a
-/// difference between manoeuvres shows in none of them alone.
+/// Step by step the one, or the two together, with the most weighted z² per second; two, for what
+/// shows in a difference between manoeuvres shows in none of them alone.
 fn chosen(classes: &[Class], menu: &[Manoeuvre], options: &Options) -> Vec<usize> {
     let mut chosen: Vec<usize> = Vec::new();
     let knows_places = classes.iter().any(|class| class.knows_places);

@@ -70,8 +70,9 @@ fn cog_known(vehicle: &Vehicle, axis: usize, settings: &settings::Prior) -> f64 
     measured.unwrap_or(cog_deviation * vehicle.gauge).max(min_cog_deviation * vehicle.gauge)
 }
 
-/// How far an effect's size may be from none because the owner measured what it changes: the vehicle's centre
-/// of gravity, or its friction ratio. None where it changes something else, or nothing is known.
+/// How far an effect's size may be from none because the owner measured what it changes: the
+/// vehicle's centre of gravity, or its friction ratio. None where it changes something else, or
+/// nothing is known.
 pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
     let Unknown::Effect(effect, place) = unknown else { return None };
     let parameters = effect.card().parameters;

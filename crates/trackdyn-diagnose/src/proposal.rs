@@ -1,9 +1,11 @@
-//! A form for what the catalogue does not explain: terms of an empirical force that are worth their keep.
+//! A form for what the catalogue does not explain: terms of an empirical force that are worth their
+//! keep.
 //!
 //! # Law
-//! The residual of the best hypothesis is regressed on the signatures of all terms that the forms of the
-//! catalogue offer, each found by the simulator with a little of that force, with everything else that is
-//! free beside them. What is chosen goes into the simulator as a force, and all numbers are fitted anew.
+//! The residual of the best hypothesis is regressed on the signatures of all terms that the forms
+//! of the catalogue offer, each found by the simulator with a little of that force, with everything
+//! else that is free beside them. What is chosen goes into the simulator as a force, and all
+//! numbers are fitted anew.
 //!
 //! # Assumes
 //! That a force on the body can stand for it. It is never called an effect, for it has no cause.
@@ -62,8 +64,8 @@ pub struct Proposed {
 }
 
 impl Proposal {
-    /// Share of what the best hypothesis left above the noise floor that the law explains, at most one, for the
-    /// floor is an estimate; none where nothing was left.
+    /// Share of what the best hypothesis left above the noise floor that the law explains, at most
+    /// one, for the floor is an estimate; none where nothing was left.
     pub fn explains(&self) -> Option<f64> {
         self.held_out.excess_explained().map(|share| share.min(1.0))
     }
@@ -135,7 +137,8 @@ fn law(effect: EffectId, unexplained: &Unexplained, resampling: Resampling) -> O
     let after = residual.locate_in_waves(resampling);
     let held_out = judged(unexplained, &found.fit);
     let still = after.left_over(form);
-    // A law that leaves most of it, breaks what was whole, or fails where nothing was fitted, is none.
+    // A law that leaves most of it, breaks what was whole, or fails where nothing was fitted, is
+    // none.
     let remains = remainder(&after, &left_over) / remainder(unexplained.after, &left_over);
     let at_limit = |&unknown: &Unknown| unknown.is_of(effect) && found.fit.is_at_limit(unknown);
     let sound = remains < settings.proposal.max_remainder

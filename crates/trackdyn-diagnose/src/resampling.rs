@@ -3,8 +3,8 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-/// How often something is drawn, and from which random numbers. Draws are independent of one another and of
-/// the order in which they are made.
+/// How often something is drawn, and from which random numbers. Draws are independent of one
+/// another and of the order in which they are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Resampling {
     /// Number of draws.

@@ -1,9 +1,10 @@
 //! The search: which effects, together with all that is free, explain the evidence best.
 //!
-//! Screening is linear: all signatures stand side by side in one set of normal equations, which answers for
-//! every single effect and every pair of the best dozen at once. What looks best is then refitted with the
-//! whole simulator. After each change, every effect of the best hypothesis is left out again and exchanged
-//! for every other one: a search that only adds is fooled by effects that resemble each other.
+//! Screening is linear: all signatures stand side by side in one set of normal equations, which
+//! answers for every single effect and every pair of the best dozen at once. What looks best is
+//! then refitted with the whole simulator. After each change, every effect of the best hypothesis
+//! is left out again and exchanged for every other one: a search that only adds is fooled by
+//! effects that resemble each other.
 
 mod done;
 
@@ -160,7 +161,8 @@ impl Search {
         best
     }
 
-    /// The variants between those of the catalogue that gain most, of what shows beside the base at all.
+    /// The variants between those of the catalogue that gain most, of what shows beside the base at
+    /// all.
     pub fn between(&self, beside: &Beside) -> Vec<(Variant, Vec<Signature>)> {
         let nothing = self.nothing();
         let alone = |variant: &Variant, signatures: &[Signature]| -> f64 {
@@ -178,7 +180,8 @@ impl Search {
             .collect()
     }
 
-    /// The pairs of the best dozen, best first: gain of ln evidence and both, with the sizes of a pair.
+    /// The pairs of the best dozen, best first: gain of ln evidence and both, with the sizes of a
+    /// pair.
     fn pairs(&self, beside: &Found, screened: &[Screened]) -> Vec<(f64, [Screened; 2])> {
         let dozen: Vec<&Screened> =
             screened.iter().take(self.settings().search.max_paired).collect();
@@ -237,8 +240,9 @@ impl Search {
             let fit = Fit::from_point(start, &unknowns, evidence);
             self.recalibrated(effects.clone(), fit)
         };
-        // Of a law that is not in proportion the screen may promise a size that is far too large to come back from: one
-        // that explains less than none at all, or keeps little of what it promised. Each may lie behind a crest.
+        // Of a law that is not in proportion the screen may promise a size that is far too large to
+        // come back from: one that explains less than none at all, or keeps little of what it
+        // promised. Each may lie behind a crest.
         let promised = more.iter().map(|one| one.gain).fold(0.0, f64::max);
         let kept = |found: &Found| found.ln_evidence - beside.ln_evidence;
         let mut far = Some(start(1.0));
@@ -278,8 +282,9 @@ impl Search {
         hypothesis
     }
 
-    /// A fit of a hypothesis that adds these effects, after the vehicle took back what is its own: what an effect adds to
-    /// the constant ICRs had gone into the vehicle's friction and centre of gravity before.
+    /// A fit of a hypothesis that adds these effects, after the vehicle took back what is its own:
+    /// what an effect adds to the constant ICRs had gone into the vehicle's friction and centre of
+    /// gravity before.
     fn recalibrated(&self, effects: Vec<EffectId>, mut fit: Fit) -> Found {
         let settings = &self.settings().search;
         for _ in 0..settings.recalibrations {
@@ -301,8 +306,8 @@ impl Search {
         Found { effects, ln_evidence: fit.ln_evidence(), fit }
     }
 
-    /// The same with the constant ICRs as another of the vehicle's numbers, where its effects now tell that it is
-    /// this one.
+    /// What was found, with the constant ICRs as another of the vehicle's numbers, where its
+    /// effects now tell that it is this one.
     fn reconsidered(&self, found: Found) -> Found {
         let filed = &self.base.as_filed.hypothesis.vehicle;
         let Some(whole) = with_vehicle(&found.fit.hypothesis, filed) else { return found };
@@ -319,7 +324,8 @@ impl Search {
         best
     }
 
-    /// The hypothesis without one of its added effects, refitted from there: the base itself may have ended further off.
+    /// The hypothesis without one of its added effects, refitted from there: the base itself may
+    /// have ended further off.
     pub fn without(&self, found: &Found, effect: EffectId) -> Found {
         self.done.or_else(Key::new(found, Step::Leave(effect)), || self.left_out(found, effect))
     }
@@ -337,8 +343,8 @@ impl Search {
         if is_base && is_further { self.nothing() } else { without }
     }
 
-    /// Whether the screen only makes an effect of the vehicle file a little larger or smaller: no law is known
-    /// better.
+    /// Whether the screen only makes an effect of the vehicle file a little larger or smaller: no
+    /// law is known better.
     fn is_as_filed(&self, one: &Screened) -> bool {
         let filed = self.base.as_filed.hypothesis.effect(one.effect);
         filed.is_some_and(|filed| {
@@ -404,7 +410,8 @@ impl Search {
                 Ok(self.refit(beside, more))
             });
             let refitted: Vec<Found> = refitted.collect::<Result<_, Cancelled>>()?;
-            // An added effect must be worth it; one that is left out, or exchanged, must only not be missed.
+            // An added effect must be worth it; one that is left out, or exchanged, must only not
+            // be missed.
             let value = |found: &Found| {
                 #[expect(clippy::cast_precision_loss, reason = "at most three")]
                 let added = found.effects.len() as f64;

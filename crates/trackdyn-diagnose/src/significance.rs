@@ -1,25 +1,26 @@
 //! Significance without a noise model: random signs for whole blocks.
 //!
 //! # Law
-//! If nothing is missing, the score of a block (its residuals along some columns) is as likely to point one
-//! way as the other. Signs are drawn anew for each block (wild bootstrap), all tests are repeated with
-//! them, and the largest statistic of each draw is kept: a test is significant as part of the family if it
-//! exceeds nearly all of these.
+//! If nothing is missing, the score of a block (its residuals along some columns) is as likely to
+//! point one way as the other. Signs are drawn anew for each block (wild bootstrap), all tests are
+//! repeated with them, and the largest statistic of each draw is kept: a test is significant as
+//! part of the family if it exceeds nearly all of these.
 //!
-//! What is there must not pass for chance. Signs are given to what a block's score u_b leaves beside the fitted
-//! size as the other blocks know it, I_b being the information of the block, Σ I_b = 1:
+//! What is there must not pass for chance. Signs are given to what a block's score u_b leaves
+//! beside the fitted size as the other blocks know it, I_b being the information of the block, Σ
+//! I_b = 1:
 //!
 //! ũ_b = u_b − I_b (1 − I_b + λ)⁻¹ (θ − u_b),  θ = Σ u_b
 //!
-//! λ holds the size at none where the others know nothing: what one block alone has seen stays as it is, and may
-//! be chance. So that such a group does not hide all others of its family, statistics are divided by the
-//! dispersion c = Σ |ũ_b|²/k of their scores, k the degrees of freedom, where it is larger than the one that
-//! the noise alone would give.
+//! λ holds the size at none where the others know nothing: what one block alone has seen stays as
+//! it is, and may be chance. So that such a group does not hide all others of its family,
+//! statistics are divided by the dispersion c = Σ |ũ_b|²/k of their scores, k the degrees of
+//! freedom, where it is larger than the one that the noise alone would give.
 //!
 //! # Sources
-//! Wu, Annals of Statistics 14(4), 1986; Cameron, Gelbach, Miller, Review of Economics and Statistics
-//! 90(3), 2008; MacKinnon, Nielsen, Webb, Journal of Applied Econometrics 38(5), 2023 (jackknifed scores);
-//! Westfall, Young, Resampling-based multiple testing, 1993.
+//! Wu, Annals of Statistics 14(4), 1986; Cameron, Gelbach, Miller, Review of Economics and
+//! Statistics 90(3), 2008; MacKinnon, Nielsen, Webb, Journal of Applied Econometrics 38(5), 2023
+//! (jackknifed scores); Westfall, Young, Resampling-based multiple testing, 1993.
 
 use crate::normal::Normal;
 use crate::resampling::Resampling;
@@ -32,8 +33,8 @@ use trackdyn_core::real;
 /// A family-wise test of one group of columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Test {
-    /// Squared length of the score in its own metric: χ² with `degrees` degrees of freedom if nothing is
-    /// missing and the noise is what it is taken for.
+    /// Squared length of the score in its own metric: χ² with `degrees` degrees of freedom if
+    /// nothing is missing and the noise is what it is taken for.
     pub statistic: f64,
     /// Independent columns in the group.
     pub degrees: usize,
@@ -49,8 +50,8 @@ impl Test {
     }
 }
 
-/// Part of the largest eigenvalue of the products of columns, each of length one, up to which a combination of them counts
-/// as nothing.
+/// Part of the largest eigenvalue of the products of columns, each of length one, up to which a
+/// combination of them counts as nothing.
 const DEPENDENT: f64 = 1e-6;
 
 /// Tests groups of columns of which the base was projected out, all as one family.
@@ -206,8 +207,9 @@ mod tests {
     const PER_BLOCK: usize = 30;
     const RESAMPLING: Resampling = Resampling { draws: 999, seed: 1 };
 
-    /// White noise, and columns of which the first two are seen by all blocks and the last by one of them. `sizes`
-    /// are what of the first and the last is in the residual, in standard deviations.
+    /// White noise, and columns of which the first two are seen by all blocks and the last by one
+    /// of them. `sizes` are what of the first and the last is in the residual, in standard
+    /// deviations.
     fn evidence(seed: u64, sizes: [f64; 2]) -> Normal {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut normal = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
@@ -267,9 +269,9 @@ mod tests {
 
     #[test]
     fn an_effect_is_not_its_own_chance() {
-        // Six standard deviations, a thousand million to one by the noise, in all of 20 recordings. Among
-        // its own signs, Σ ± u_b of 36 blocks would be twice as large as the noise makes it, and one in four
-        // recordings would show nothing.
+        // Six standard deviations, a thousand million to one by the noise, in all of 20 recordings.
+        // Among its own signs, Σ ± u_b of 36 blocks would be twice as large as the noise makes it,
+        // and one in four recordings would show nothing.
         for seed in 0..20 {
             let tests = tests_of(&evidence(seed, [8.0, 0.0]));
             assert!(tests[0].p < 0.002, "{seed}: {:?}", tests[0]);

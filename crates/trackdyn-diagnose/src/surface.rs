@@ -1,12 +1,12 @@
 //! The stationary motion as a function of both belt speeds, tabulated.
 //!
-//! Laws that change the shear stress need a quadrature per solve, and a recording has tens of thousands of
-//! readings.
+//! Laws that change the shear stress need a quadrature per solve, and a recording has tens of
+//! thousands of readings.
 //!
-//! What is interpolated is the twist beyond the mean belt speed, over the difference of the belt speeds:
-//! finite also where a track holds the robot and its other ICR is infinitely far. Belts that slip on their
-//! sprockets lose speed without any difference too, under a load along the tracks: there it is over the size of
-//! the speeds.
+//! What is interpolated is the twist beyond the mean belt speed, over the difference of the belt
+//! speeds: finite also where a track holds the robot and its other ICR is infinitely far. Belts
+//! that slip on their sprockets lose speed without any difference too, under a load along the
+//! tracks: there it is over the size of the speeds.
 
 mod table;
 
@@ -49,10 +49,11 @@ impl Scale {
 }
 
 impl Surface {
-    /// The stationary motions of a model whose gain is one, up to belt speeds of size `largest`, m/s.
+    /// The stationary motions of a model whose gain is one, up to belt speeds of size `largest`,
+    /// m/s.
     ///
-    /// Where friction depends on the speed of slip, nodes are even in its logarithm over a `range` of
-    /// speeds. `before` is the table of a model that resembles it: each solve starts from there.
+    /// Where friction depends on the speed of slip, nodes are even in its logarithm over a `range`
+    /// of speeds. `before` is the table of a model that resembles it: each solve starts from there.
     pub fn new(model: &Model, largest: f64, range: f64, before: Option<&Self>) -> Self {
         let spacing =
             if depends_on_slip_speed(model) { Spacing::logarithmic(range) } else { Spacing::Even };
@@ -174,9 +175,10 @@ mod tests {
         ids.split_whitespace().map(|id| id.parse().expect("an effect")).collect()
     }
 
-    /// Effects of every kind that steady motion shows. The root mean square of the table's error must stay
-    /// below what laboratory sensors resolve in a hundred segments, 0.5 mm/s at speeds of up to 1 m/s. A belt
-    /// that slips comes to stick near straight driving: that kink lies inside a sector, and is smoothed.
+    /// Effects of every kind that steady motion shows. The root mean square of the table's error
+    /// must stay below what laboratory sensors resolve in a hundred segments, 0.5 mm/s at speeds of
+    /// up to 1 m/s. A belt that slips comes to stick near straight driving: that kink lies inside a
+    /// sector, and is smoothed.
     #[test]
     fn the_table_equals_the_solver() {
         const CLOSE: f64 = 5e-4;
@@ -221,8 +223,9 @@ mod tests {
         }
     }
 
-    /// A recording of some minutes tells a yaw rate to less than a thousandth: what inertia that grows with the square
-    /// of the speed does must be known far better, or the error of the table is taken for an effect.
+    /// A recording of some minutes tells a yaw rate to less than a thousandth: what inertia that
+    /// grows with the square of the speed does must be known far better, or the error of the table
+    /// is taken for an effect.
     #[test]
     fn the_table_of_a_quick_robot_on_wheels_is_finer_than_its_sensors() {
         let mut vehicle = VehicleFile::auriga_alpha().vehicle;

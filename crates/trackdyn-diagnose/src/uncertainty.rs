@@ -40,14 +40,15 @@ pub struct Level {
 
 /// The 95 % intervals of what is free in a hypothesis.
 ///
-/// The widest one of three counts: by the noise, and by how much the estimate changes where a block, or a whole run, is left
-/// out, (B − 1)/B Σ (θ₋ᵦ − θ)², which no noise model enters. An interval ends where the profile likelihood, all other
-/// numbers refitted, has fallen by as much as it would at Student's quantile of that variance, were it a parabola.
+/// The widest one of three counts: by the noise, and by how much the estimate changes where a
+/// block, or a whole run, is left out, (B − 1)/B Σ (θ₋ᵦ − θ)², which no noise model enters. An
+/// interval ends where the profile likelihood, all other numbers refitted, has fallen by as much as
+/// it would at Student's quantile of that variance, were it a parabola.
 ///
 /// # Sources
-/// The block jackknife: Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3). Profile likelihood: Venzon, Moolgavkar,
-/// Applied Statistics 37(1), 1988; with another variance than the noise's: McCullagh, Nelder, Generalized Linear Models,
-/// 2nd ed. 1989, chapter 9.
+/// The block jackknife: Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3). Profile likelihood:
+/// Venzon, Moolgavkar, Applied Statistics 37(1), 1988; with another variance than the noise's:
+/// McCullagh, Nelder, Generalized Linear Models, 2nd ed. 1989, chapter 9.
 pub struct Uncertainty<'a> {
     search: &'a Search,
     fit: &'a Fit,
@@ -64,7 +65,8 @@ fn groupings(evidence: &Evidence, counts: impl Fn(usize) -> bool) -> [Vec<Range<
         let run = runs.entry(sample.run).or_insert(sample.block..sample.block + 1);
         *run = run.start.min(sample.block)..run.end.max(sample.block + 1);
     }
-    // Points of a table are runs of their own, several to a block: what is left out with one is left out with all.
+    // Points of a table are runs of their own, several to a block: what is left out with one is
+    // left out with all.
     let mut runs: Vec<Range<usize>> = runs.into_values().collect();
     runs.dedup();
     [blocks, runs]
@@ -126,10 +128,11 @@ impl<'a> Uncertainty<'a> {
         })
     }
 
-    /// How far the interval of a number reaches, by where it would end if the likelihood were a parabola. It does not go
-    /// beyond what the number may be.
+    /// How far the interval of a number reaches, by where it would end if the likelihood were a
+    /// parabola. It does not go beyond what the number may be.
     ///
-    /// √(rise of twice the objective) is in proportion to the distance for a parabola, and nearly so for what is no parabola.
+    /// √(rise of twice the objective) is in proportion to the distance for a parabola, and nearly
+    /// so for what is no parabola.
     fn end(&self, place: usize, parabola: f64) -> f64 {
         let Self { search: Search { evidence, .. }, fit, .. } = self;
         if !fit.free.contains(&place) {

@@ -1,4 +1,5 @@
-//! The verdict on each effect of the best hypothesis: claimed, or why not, and what it cannot be told from.
+//! The verdict on each effect of the best hypothesis: claimed, or why not, and what it cannot be
+//! told from.
 
 mod constants;
 mod instruments;
@@ -60,8 +61,8 @@ pub fn judge(
     watch: &Watch,
 ) -> Result<Vec<Verdict>, Cancelled> {
     let departure = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
-    // What mostly moves constant ICRs is known to a part of all that moved them. What a law beyond their class breaks none of
-    // them does.
+    // What mostly moves constant ICRs is known to a part of all that moved them. What a law beyond
+    // their class breaks none of them does.
     let by_constants = LazyCell::new(|| constants::departure(search, best, constants, file));
     let of = |effect: EffectId| {
         let rivals = Rivals::new(search, best, constants, effect, watch)?;
@@ -91,7 +92,8 @@ pub fn judge(
     effects.iter().copied().map(of).collect()
 }
 
-/// Why a claim is refused by the rules; none where it is not. The `whole` is √ of what the misfit falls by with all laws.
+/// Why a claim is refused by the rules; none where it is not. The `whole` is √ of what the misfit
+/// falls by with all laws.
 fn refusal(support: &Support, whole: f64, rules: &settings::Verdict) -> Option<Refusal> {
     if let Some(reason) = support.falls_short(rules) {
         return Some(reason);
@@ -104,7 +106,8 @@ fn refusal(support: &Support, whole: f64, rules: &settings::Verdict) -> Option<R
     (z < needed).then_some(Refusal::WithinForm { z, needed })
 }
 
-/// An effect that the vehicle file knows, at nearly the sizes that it gives: no law is known better.
+/// An effect that the vehicle file knows, at nearly the sizes that it gives: no law is known
+/// better.
 fn nearly_as_filed(search: &Search, found: &Fit, effect: EffectId) -> Option<Refusal> {
     let filed = search.base.as_filed.hypothesis.effect(effect)?;
     let found = found.hypothesis.effect(effect)?;
@@ -124,7 +127,8 @@ fn at_limit(fit: &Fit, unknown: Unknown, effect: EffectId) -> Option<Refusal> {
         .then_some(Refusal::AtLimit { size: unknown, value })
 }
 
-/// Why what an effect changes is no more than what laws of the vehicle file may leave; none where it is more.
+/// Why what an effect changes is no more than what laws of the vehicle file may leave; none where
+/// it is more.
 ///
 /// Such a law is known to a part of what it does: its radius of gyration is hardly ever measured.
 fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<Refusal> {

@@ -6,7 +6,8 @@ use rayon::prelude::*;
 use trackdyn_model::effect::Role;
 
 impl Variant {
-    /// The same with a step of what is no size: `share` of half the distance between values that are tried.
+    /// This variant with a step of what is no size: `share` of half the distance between values
+    /// that are tried.
     fn moved(&self, parameter: usize, share: f64, beside: &Beside) -> Self {
         let of = self.effect.card();
         let card = &of.parameters[parameter];
@@ -20,8 +21,9 @@ impl Variant {
 }
 
 impl Beside<'_> {
-    /// The variant near one of this gain that gains most, with its signatures: steps to all sides of what is no size,
-    /// half as long where none is better. None where the variant itself is the best.
+    /// The variant near one of this gain that gains most, with its signatures: steps to all sides
+    /// of what is no size, half as long where none is better. None where the variant itself is the
+    /// best.
     pub fn between(
         &self,
         start: &Variant,

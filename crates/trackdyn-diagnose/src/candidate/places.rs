@@ -11,7 +11,8 @@ pub(super) fn extent(of: &Card, values: &[f64]) -> Option<f64> {
     shape.filter(|_| of.has_extent()).map(|place| values[place])
 }
 
-/// The same values with every place that is tried of their extent; as they are where they have none.
+/// These values with every place that is tried of their extent; as they are where they have
+/// none.
 pub(super) fn of_extent(of: &Card, values: Vec<f64>, evidence: &Evidence) -> Vec<Vec<f64>> {
     let Some(extent) = extent(of, &values) else { return vec![values] };
     let placed = |place: [f64; 2]| {

@@ -15,7 +15,8 @@ pub const READINGS: usize = 9;
 /// A run that is planned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedRun {
-    /// Readings of the tracks, at equal intervals, whole samples of [`READINGS`]; one more ends the run.
+    /// Readings of the tracks, at equal intervals, whole samples of [`READINGS`]; one more ends the
+    /// run.
     pub tracks: Vec<TrackSample>,
     /// Pose at the first of them.
     pub pose: Pose,
@@ -24,9 +25,9 @@ pub struct PlannedRun {
 }
 
 impl Evidence {
-    /// What runs would show. `moves` says how the robot moves in each sample; as this may hang on where it is,
-    /// it is asked twice, the second time with the poses that follow from its first answer. `tau` is by
-    /// how much the poses would be late, s.
+    /// What runs would show. `moves` says how the robot moves in each sample; as this may hang on
+    /// where it is, it is asked twice, the second time with the poses that follow from its first
+    /// answer. `tau` is by how much the poses would be late, s.
     pub fn planned(
         runs: &[PlannedRun],
         noise: SegmentNoise,
@@ -60,7 +61,8 @@ impl Evidence {
         Some(last.pose.compose(&pose(&last.motion)))
     }
 
-    /// What it would be with these motions of the samples, one after the other from where each run begins.
+    /// What it would be with these motions of the samples, one after the other from where each run
+    /// begins.
     fn moved(&self, runs: &[PlannedRun], motions: &[Vector3<f64>]) -> Self {
         let mut at = Pose::default();
         let mut run = None;

@@ -15,8 +15,8 @@ const CHANNELS: [Channel; 3] =
     [|point| point.v_forward, |point| point.v_lateral, |point| point.yaw_rate];
 
 impl Evidence {
-    /// The points of a table. Their scatter comes from neighbours on lines of one track speed: of each
-    /// point against the straight line through the two beside it, which no model enters.
+    /// The points of a table. Their scatter comes from neighbours on lines of one track speed: of
+    /// each point against the straight line through the two beside it, which no model enters.
     ///
     /// Points are blocks of their own where they are few, else neighbours in the table's order are
     /// taken together: what shifts during a series of measurements shifts neighbours alike.

@@ -18,10 +18,11 @@ use trackdyn_estimate::{Clock, SegmentOptions};
 use trackdyn_recording::{Recording, Run, TrackSample};
 
 impl Evidence {
-    /// The segments of a recording, with the noise that the recording shows without any model. It is where
-    /// [`noise`](crate::noise) starts from.
+    /// The segments of a recording, with the noise that the recording shows without any model. It
+    /// is where [`noise`](crate::noise) starts from.
     ///
-    /// `gauge` (m) turns the noise of the encoders into noise of the yaw where the robot never spins.
+    /// `gauge` (m) turns the noise of the encoders into noise of the yaw where the robot never
+    /// spins.
     ///
     /// # Errors
     /// Too few segments, no noise measured or stated, or poses far from the origin of their frame.
@@ -70,8 +71,8 @@ fn check_places(recording: &Recording, largest: f64) -> Result<(), Error> {
     Ok(())
 }
 
-/// Its segments with a clock offset of `tau` (s), cut so that readings are there for every offset from none at all to
-/// beyond that one.
+/// Its segments with a clock offset of `tau` (s), cut so that readings are there for every offset
+/// from none at all to beyond that one.
 fn segments(
     recording: &Recording,
     tau: f64,
@@ -90,7 +91,8 @@ fn segments(
     Ok(observations)
 }
 
-/// Noise of the segments: measured, or else as the maker of the recording states it. `gap` is the distance of the ICRs, m.
+/// Noise of the segments: measured, or else as the maker of the recording states it. `gap` is the
+/// distance of the ICRs, m.
 fn noise_of_segments(
     recording: &Recording,
     measured: &Noise,
@@ -100,8 +102,8 @@ fn noise_of_segments(
     SegmentNoise::measured(measured, gap).or(stated).ok_or(Error::NoNoise)
 }
 
-/// When the recording begins, in whole seconds of its clock. Time is counted from there: laws that know it begin where the
-/// recording begins, whatever its clock shows.
+/// When the recording begins, in whole seconds of its clock. Time is counted from there: laws that
+/// know it begin where the recording begins, whatever its clock shows.
 fn begin(recording: &Recording) -> f64 {
     let readings = recording.runs().iter().flat_map(Run::tracks);
     readings.fold(f64::INFINITY, |first, track| first.min(track.t)).floor()
@@ -139,7 +141,8 @@ fn samples(
     observations.segments().iter().map(sample).collect()
 }
 
-/// The readings of each run that has samples, with times that are counted from where the recording begins.
+/// The readings of each run that has samples, with times that are counted from where the recording
+/// begins.
 fn tracks(recording: &Recording, samples: &[Sample], begin: f64) -> Vec<Vec<TrackSample>> {
     let of_run = |(run, of): (usize, &Run)| {
         if !samples.iter().any(|sample| sample.run == run) {
@@ -150,8 +153,8 @@ fn tracks(recording: &Recording, samples: &[Sample], begin: f64) -> Vec<Vec<Trac
     recording.runs().iter().enumerate().map(of_run).collect()
 }
 
-/// The recording and its noise, with poses at the times at which they were due if these are less noisy: what is
-/// stamped late by chance moves meanwhile.
+/// The recording and its noise, with poses at the times at which they were due if these are less
+/// noisy: what is stamped late by chance moves meanwhile.
 fn quieter(recording: &Recording, tau: f64) -> (Cow<'_, Recording>, Noise) {
     let as_stamped = noise(recording, tau);
     let due = with_regular_poses(recording);

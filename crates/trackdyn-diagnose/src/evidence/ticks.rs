@@ -1,10 +1,11 @@
 //! Readings of encoders that count in coarse ticks.
 //!
-//! Travel is always known to a tick q, with an error of variance q²/12 about its mean; differences of travel are
-//! speeds that jump by q/T though the belt runs evenly, and a lag of the drive would smooth them. Between ticks the
-//! belt's acceleration is taken to change as little as they allow: travel S minimises
-//! Σ (S_k − S̃_k)² + λ Σ (Δ³S_k)² (Whittaker 1923), which delays nothing and leaves even accelerations as they are.
-//! λ is the one with the least expected error (Mallows' C_p), for the variance is known.
+//! Travel is always known to a tick q, with an error of variance q²/12 about its mean; differences
+//! of travel are speeds that jump by q/T though the belt runs evenly, and a lag of the drive would
+//! smooth them. Between ticks the belt's acceleration is taken to change as little as they allow:
+//! travel S minimises Σ (S_k − S̃_k)² + λ Σ (Δ³S_k)² (Whittaker 1923), which delays nothing and
+//! leaves even accelerations as they are. λ is the one with the least expected error (Mallows'
+//! C_p), for the variance is known.
 
 use crate::settings;
 use std::f64::consts::PI;
@@ -24,7 +25,8 @@ pub(super) fn steps(runs: &[Vec<TrackSample>], settings: &settings::Evidence) ->
     PerSide::from_fn(|side| step(speeds(side), settings.min_speed_step))
 }
 
-/// The readings of all runs with even speeds between the ticks of their encoders, which come in such steps (m/s).
+/// The readings of all runs with even speeds between the ticks of their encoders, which come in
+/// such steps (m/s).
 pub(super) fn smoothed(
     runs: &[Vec<TrackSample>],
     step: PerSide<f64>,
@@ -52,7 +54,8 @@ fn speed(reading: &TrackSample, side: Side) -> f64 {
     reading.speeds()[side]
 }
 
-/// A stretch of readings at even intervals (s), whose speeds come in `step`s (m/s), with even speeds.
+/// A stretch of readings at even intervals (s), whose speeds come in `step`s (m/s), with even
+/// speeds.
 fn between_ticks(
     stretch: &[TrackSample],
     interval: f64,

@@ -1,8 +1,8 @@
 //! Functions of how the robot was driven that break one symmetry each.
 //!
-//! Over the sectors of (V_l, V_r) a function is even or odd under reversal R and mirror M. With c the sign of
-//! V_l + V_r and d that of V_r − V_l: c is odd under R, d under R and M, c d under M. Of the ICRs, the
-//! middle a = (x_l + x_r)/2 is odd under M, half their distance h and y are even.
+//! Over the sectors of (V_l, V_r) a function is even or odd under reversal R and mirror M. With c
+//! the sign of V_l + V_r and d that of V_r − V_l: c is odd under R, d under R and M, c d under M.
+//! Of the ICRs, the middle a = (x_l + x_r)/2 is odd under M, half their distance h and y are even.
 
 use super::departures::{Contrasts, middle_half_y};
 use super::{IcrColumns, past};
@@ -27,8 +27,8 @@ pub enum Manoeuvre {
 }
 
 impl Manoeuvre {
-    /// The manoeuvre of a sample, by the ratio of its slower to its faster track, from −1 (spin) to 1
-    /// (straight).
+    /// The manoeuvre of a sample, by the ratio of its slower to its faster track, from −1 (spin) to
+    /// 1 (straight).
     pub fn of(sample: &Sample, settings: &settings::Location) -> Self {
         let (left, right) = (sample.speeds.left, sample.speeds.right);
         let (slow, fast) = if left.abs() < right.abs() { (left, right) } else { (right, left) };
@@ -183,7 +183,8 @@ impl Collector<'_> {
         }
     }
 
-    /// What a track does where it turns round: play in its drive, or soil that yields the other way.
+    /// What a track does where it turns round: play in its drive, or soil that yields the other
+    /// way.
     fn of_turning_round(&mut self, turned: &[PerSide<f64>]) {
         let [forward, left, yaw] = [0, 1, 2].map(|channel| self.along(channel));
         self.add_each(Symmetry::Transient, &forward, |k| turned[k].right + turned[k].left);
@@ -252,7 +253,8 @@ pub(super) mod tests {
     use trackdyn_estimate::weighting::SegmentNoise;
     use trackdyn_recording::TrackSample;
 
-    /// Two runs through the same speeds of the left track, one per sample, the right one at 0.3 m/s.
+    /// Two runs through the same speeds of the left track, one per sample, the right one at 0.3
+    /// m/s.
     pub(in crate::locate) fn two_runs(left: &[f64]) -> Evidence {
         let last = left.last().copied().expect("a speed");
         let speeds = left.iter().flat_map(|speed| std::iter::repeat_n(*speed, READINGS));

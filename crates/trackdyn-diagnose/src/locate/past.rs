@@ -1,4 +1,5 @@
-//! Departures that hang on what the tracks did before: heat, soil that was worked, a tank that sloshes.
+//! Departures that hang on what the tracks did before: heat, soil that was worked, a tank that
+//! sloshes.
 
 use super::departures::Contrasts;
 use crate::evidence::Evidence;
@@ -44,7 +45,8 @@ struct Past {
     uneven: f64,
 }
 
-/// What the tracks did until the middle of each sample, forgotten within some seconds; nothing before a run.
+/// What the tracks did until the middle of each sample, forgotten within some seconds; nothing
+/// before a run.
 fn past(evidence: &Evidence, seconds: f64) -> Vec<Past> {
     let mut all = Vec::with_capacity(evidence.samples().len());
     let (mut past, mut until, mut run) = (Past::default(), 0.0, None);

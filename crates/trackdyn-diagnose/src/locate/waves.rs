@@ -1,12 +1,14 @@
 //! Departures that come and go with the place: waves of the ground.
 //!
 //! # Law
-//! Whatever the ground does that depends on the place alone is a sum of waves. To first order a field φ of its friction moves
-//! the distance of the ICRs by its level, and their middle and y by its slope across and along the body:
+//! Whatever the ground does that depends on the place alone is a sum of waves. To first order a
+//! field φ of its friction moves the distance of the ICRs by its level, and their middle and y by
+//! its slope across and along the body:
 //!
 //! δh ∝ φ,  δa ∝ ∂φ/∂left,  δy ∝ ∂φ/∂forward,  φ = A cos k·p + B sin k·p
 //!
-//! so that a wave k has six departures. Waves are as many as the area that was driven on resolves, the longest first.
+//! so that a wave k has six departures. Waves are as many as the area that was driven on resolves,
+//! the longest first.
 
 use super::IcrColumns;
 use super::departures::middle_half_y;
@@ -32,7 +34,8 @@ pub struct Wave {
     pub test: Test,
 }
 
-/// The strongest wave in a residual beside what else may explain it; none in tables of steady motions.
+/// The strongest wave in a residual beside what else may explain it; none in tables of steady
+/// motions.
 ///
 /// `residual` and the columns `beside` are whitened, `icrs` are not.
 pub fn strongest_wave(

@@ -5,9 +5,9 @@ use trackdyn_recording::TrackSample;
 
 /// Readings without the steps between them: v'_k = (v_{k−1} + 2 v_k + v_{k+1})/4.
 ///
-/// A counter's ticks make the speeds jump to and fro, by more than a robot's speed changes between two readings.
-/// Stationary motion averages that out; a body with mass under dry friction, shaken so, would slide more easily
-/// than it does.
+/// A counter's ticks make the speeds jump to and fro, by more than a robot's speed changes between
+/// two readings. Stationary motion averages that out; a body with mass under dry friction, shaken
+/// so, would slide more easily than it does.
 pub fn smooth(run: &[TrackSample]) -> Vec<TrackSample> {
     (0..run.len())
         .map(|k| {

@@ -61,8 +61,8 @@ fn probed(model: &Model, at: &Circumstance, speeds: PerSide<f64>) -> [Wrench; 3]
     [balance.friction.left, balance.friction.right, balance.load]
 }
 
-/// The stationary motion where each sample was, less the one without the effects that know places, headings or
-/// times. `table` is nearly that one: where the search starts.
+/// The stationary motion where each sample was, less the one without the effects that know places,
+/// headings or times. `table` is nearly that one: where the search starts.
 pub fn by_ground(
     with: &Model,
     without: &Model,

@@ -1,8 +1,9 @@
 //! What inertia adds to the stationary motion.
 //!
 //! # Law
-//! The motion in time less the stationary motion, over each sample. Around the numbers θ₀ of the hypothesis that it was
-//! found for, it is linear in those that are free: d(θ) = d(θ₀) + Σ (θ − θ₀) ∂d/∂θ, as far as `mechanics.reach`, and on the way of a fit however far.
+//! The motion in time less the stationary motion, over each sample. Around the numbers θ₀ of the
+//! hypothesis that it was found for, it is linear in those that are free: d(θ) = d(θ₀) + Σ (θ − θ₀)
+//! ∂d/∂θ, as far as `mechanics.reach`, and on the way of a fit however far.
 
 use super::belts::{lagging, smooth};
 use super::sheared::{self, Without};
@@ -32,20 +33,23 @@ struct Steps {
 }
 
 impl Steps {
-    /// Those of the motion in time itself. By default what inertia adds is what steps of 2 ms make it, to one standard deviation of laboratory sensors in eight minutes of driving. A
-    /// belt jumps with each reading; on dry friction a body follows in some milliseconds, which one long step passes over, unseen by
-    /// its error.
+    /// Those of the motion in time itself. By default what inertia adds is what steps of 2 ms make
+    /// it, to one standard deviation of laboratory sensors in eight minutes of driving. A belt
+    /// jumps with each reading; on dry friction a body follows in some milliseconds, which one long
+    /// step passes over, unseen by its error.
     fn fine(settings: &settings::Mechanics) -> Self {
         Self { longest: settings.max_step, tolerance: settings.step_tolerance }
     }
 
-    /// Those beside laws of the shear stress. By default, by readings: nine of these standard deviations, alike with and without a law.
+    /// Those beside laws of the shear stress. By default, by readings: nine of these standard
+    /// deviations, alike with and without a law.
     fn coarse(settings: &settings::Mechanics) -> Self {
         Self { longest: settings.max_sheared_step, tolerance: settings.sheared_step_tolerance }
     }
 }
 
-/// How far a hypothesis may be from where the motion in time was found to be taken for near, in typical sizes.
+/// How far a hypothesis may be from where the motion in time was found to be taken for near, in
+/// typical sizes.
 #[derive(Clone, Copy)]
 pub struct Within {
     /// Numbers that a slope is known of.
@@ -118,8 +122,9 @@ impl InertiaNear {
         Ok(Self { at: Arc::new(Inertia::new(inert, case)?), slopes: Vec::new(), shift: None })
     }
 
-    /// What it adds to a hypothesis that resembles the one it was found for. `inert` are the effects that it comes
-    /// from; how it changes with what is `free` is found too, at a delay of the poses, s.
+    /// What it adds to a hypothesis that resembles the one it was found for. `inert` are the
+    /// effects that it comes from; how it changes with what is `free` is found too, at a delay of
+    /// the poses, s.
     pub fn beside(
         before: Option<&Self>,
         inert: Vec<ActiveEffect>,
@@ -138,7 +143,8 @@ impl InertiaNear {
             None => Self::here(inert, case)?,
         };
         let before = before.map_or(&[][..], |before| &before.slopes);
-        // Slopes of a robot that is not quite this one lead astray: moments of inertia go with the square of a radius.
+        // Slopes of a robot that is not quite this one lead astray: moments of inertia go with the
+        // square of a radius.
         let alike = |slope: &&Arc<Slope>| slope.at.is_alike(&here.at);
         let slopes: Vec<Arc<Slope>> = free
             .par_iter()
@@ -151,8 +157,8 @@ impl InertiaNear {
         Ok(Self { slopes, ..here })
     }
 
-    /// The same for a hypothesis that differs; none where it comes from other effects there, or differs by more than
-    /// what this is good for.
+    /// What inertia adds for a hypothesis that differs; none where it comes from other effects
+    /// there, or differs by more than what this is good for.
     pub fn moved(&self, inert: &[ActiveEffect], case: &Case, within: Within) -> Option<Self> {
         let late = self.at.later(case.drive).abs();
         if !are_same(&self.at.inert, inert) || !self.at.is_close(case.vehicle) || late > within.late
@@ -191,8 +197,8 @@ impl InertiaNear {
         Self { shift: None, ..self.clone() }
     }
 
-    /// What laws of the shear stress change in it where it was found, at each reading. `with` has the stationary motions
-    /// of a robot with them, `case` is that robot without.
+    /// What laws of the shear stress change in it where it was found, at each reading. `with` has
+    /// the stationary motions of a robot with them, `case` is that robot without.
     pub fn sheared(&self, laws: &[ActiveEffect], with: &Surface, case: &Case) -> Vec<Vec<Twist>> {
         let without = Surface::new(
             case.model,
@@ -208,8 +214,8 @@ impl InertiaNear {
         Arc::ptr_eq(&self.at, &other.at)
     }
 
-    /// What it adds to the twist (paper's frame) during a sample, of this index, with belts that lag as this drive's do
-    /// and poses that are late, s.
+    /// What it adds to the twist (paper's frame) during a sample, of this index, with belts that
+    /// lag as this drive's do and poses that are late, s.
     pub fn departure(&self, index: usize, sample: &Sample, drive: &Drive, delay: f64) -> Twist {
         let departure = self.at.departure(sample, delay + self.at.later(drive));
         self.shift.as_ref().map_or(departure, |shift| departure + shift[index])
@@ -235,7 +241,8 @@ impl Slope {
     }
 }
 
-/// The robot with a number changed by a step of this sign, and the step; none where it would leave what is physical.
+/// The robot with a number changed by a step of this sign, and the step; none where it would leave
+/// what is physical.
 fn stepped(by: Unknown, case: &Case, sign: f64) -> Option<(Model, f64)> {
     let (vehicle, effects) = (case.vehicle, case.model.effects());
     let settings = case.settings();
@@ -264,7 +271,8 @@ fn stepped(by: Unknown, case: &Case, sign: f64) -> Option<(Model, f64)> {
     }
 }
 
-/// Whether a motion in time may change with a number: what is typically zero has no size to step by, and is near only where it is equal.
+/// Whether a motion in time may change with a number: what is typically zero has no size to step
+/// by, and is near only where it is equal.
 pub fn has_slope(by: Unknown, model: &Model) -> bool {
     match by {
         Unknown::Offset(_) => false,
@@ -286,7 +294,8 @@ fn typical(by: Unknown) -> f64 {
     by.parameter().map_or(1.0, typical_size)
 }
 
-/// Whether a change of a number, however small, has to be known by its slope: it is one of these effects, or of none.
+/// Whether a change of a number, however small, has to be known by its slope: it is one of these
+/// effects, or of none.
 fn needs_slope(by: Unknown, effects: &[ActiveEffect]) -> bool {
     let card = by.card();
     card.is_none_or(|card| effects.iter().any(|effect| effect.card().id == card.id))
@@ -325,7 +334,8 @@ struct Inertia {
     surface: Surface,
     /// Their twists at the speeds of the belts.
     steady: Vec<Vec<Twist>>,
-    /// The sums of forces in these, which the table of stationary motions leaves, once they were asked for.
+    /// The sums of forces in these, which the table of stationary motions leaves, once they were
+    /// asked for.
     left: OnceLock<Vec<Vec<Vector3<f64>>>>,
     settings: settings::Mechanics,
 }
@@ -376,7 +386,8 @@ impl Inertia {
             && self.drive == **drive
     }
 
-    /// By how much belts lag more with this drive, s: what changes slowly is late by the time constant.
+    /// By how much belts lag more with this drive, s: what changes slowly is late by the time
+    /// constant.
     fn later(&self, drive: &Drive) -> f64 {
         drive.time_constant - self.drive.time_constant
     }
@@ -415,8 +426,9 @@ impl Inertia {
             })
     }
 
-    /// What laws of the shear stress change in the motion in time, at each reading. What they add to the stationary motion is
-    /// the difference of one robot `with` and `without` them: in what else it differs from this one is the slopes' to say.
+    /// What laws of the shear stress change in the motion in time, at each reading. What they add
+    /// to the stationary motion is the difference of one robot `with` and `without` them: in what
+    /// else it differs from this one is the slopes' to say.
     fn sheared(&self, laws: &[ActiveEffect], [with, without]: [&Surface; 2]) -> Vec<Vec<Twist>> {
         let added = |belts: &[TrackSample]| -> Vec<Twist> {
             let [with, without] = [with, without].map(|surface| stationary(surface, belts));
@@ -432,7 +444,8 @@ impl Inertia {
         let creep = self.settings.stick_speed;
         let with = Forces { model: &with, ground: &grounds[0], creep };
         let without = Forces { model: &self.model, ground: &grounds[1], creep };
-        // Both on one thread: another job of the pool, taken up in between, would wait for this one.
+        // Both on one thread: another job of the pool, taken up in between, would wait for this
+        // one.
         let steps =
             self.steps.get_or_init(|| self.belts.iter().map(|run| self.steps(run)).collect());
         let left = self.left.get_or_init(|| {

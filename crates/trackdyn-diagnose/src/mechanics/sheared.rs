@@ -1,25 +1,27 @@
 //! What laws of the shear stress change in the motion in time.
 //!
 //! # Law
-//! A motion in time with these laws takes a quadrature for each of many balances of forces. Near it few are enough. With û the
-//! motion without the laws, D what they add to it, and G and G₀ the sums of forces with and without them, in each stage of each
-//! step of û
+//! A motion in time with these laws takes a quadrature for each of many balances of forces. Near it
+//! few are enough. With û the motion without the laws, D what they add to it, and G and G₀ the sums
+//! of forces with and without them, in each stage of each step of û
 //!
 //! ```text
 //! G(û + D, û̇ + (D − D_b)/(γ h)) = G₀(û, û̇) = 0
 //! ```
 //!
-//! D_b from the stages before, as û has it from its own ([`transient`](trackdyn_model::transient)). The first stage begins at D as it is in
-//! stationary motion, the second at that of the first, and both with the derivatives of the stage before, by Broyden's method;
-//! a step that, by what the last ones left, ends in balance is taken without a look. Where that leads nowhere, it begins with the
-//! derivatives of the stage itself, which are
+//! D_b from the stages before, as û has it from its own ([`transient`](trackdyn_model::transient)).
+//! The first stage begins at D as it is in stationary motion, the second at that of the first, and
+//! both with the derivatives of the stage before, by Broyden's method; a step that, by what the
+//! last ones left, ends in balance is taken without a look. Where that leads nowhere, it begins
+//! with the derivatives of the stage itself, which are
 //!
 //! ```text
 //! G_u + G_a/(γ h)
 //! ```
 //!
-//! with G_a that without the laws. Where these lead nowhere either, as much of one step is taken as comes nearer to a balance:
-//! where a track nearly sticks a law may be steep, and the whole step lead far away.
+//! with G_a that without the laws. Where these lead nowhere either, as much of one step is taken as
+//! comes nearer to a balance: where a track nearly sticks a law may be steep, and the whole step
+//! lead far away.
 
 use crate::settings;
 use nalgebra::{Matrix3, Vector3};
@@ -50,8 +52,9 @@ struct Known {
     leaves: f64,
 }
 
-/// What the laws add to the twist (paper's frame) while each reading of a run holds. `forces` are those with and without
-/// the laws, `shifts` is what they add to the stationary twist at each reading.
+/// What the laws add to the twist (paper's frame) while each reading of a run holds. `forces` are
+/// those with and without the laws, `shifts` is what they add to the stationary twist at each
+/// reading.
 pub fn departures(
     [with, without]: [&Forces; 2],
     run: &Without,
@@ -114,7 +117,8 @@ impl Stage<'_> {
         (self.instant.twist + twist_of(added), self.instant.rate + twist_of(&faster))
     }
 
-    /// By how much the forces are off balance, over the weight, and the moment over that times the gauge.
+    /// By how much the forces are off balance, over the weight, and the moment over that times the
+    /// gauge.
     fn residual(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> Vector3<f64> {
         let (twist, rate) = self.moved(added, base);
         let off = self.with.sum(self.instant.belt_speed, &twist, &rate) - self.rest;
@@ -137,7 +141,8 @@ impl Stage<'_> {
         Some(derivative.try_inverse()? * Matrix3::from_diagonal(&self.scale()))
     }
 
-    /// What is added, sought from `start`. `known` is that of a stage before, and after it that of this one.
+    /// What is added, sought from `start`. `known` is that of a stage before, and after it that of
+    /// this one.
     fn solve(
         &self,
         start: &Vector3<f64>,

@@ -21,8 +21,9 @@ pub(super) struct Flexible {
     pub(super) own: usize,
 }
 
-/// What friction that falls or rises with the speed of slip may do: ICRs, and the answer to acceleration, that go with the
-/// speed of turning. Contrasts, which are tested, keep to a few columns; here there may be many.
+/// What friction that falls or rises with the speed of slip may do: ICRs, and the answer to
+/// acceleration, that go with the speed of turning. Contrasts, which are tested, keep to a few
+/// columns; here there may be many.
 fn turning(evidence: &Evidence, of: &[Vec<Vector3<f64>>]) -> Vec<Vec<Vector3<f64>>> {
     let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
     let [quickly, slowly] =
@@ -37,7 +38,8 @@ fn turning(evidence: &Evidence, of: &[Vec<Vector3<f64>>]) -> Vec<Vec<Vector3<f64
     of.iter().flat_map(|value| laws.map(|law| column(value, law))).collect()
 }
 
-/// What changes in the motion with the level of friction, known or not: how soon it answers to acceleration.
+/// What changes in the motion with the level of friction, known or not: how soon it answers to
+/// acceleration.
 fn answer_to_acceleration(evidence: &Evidence, fit: &Fit) -> Vec<Vec<Vector3<f64>>> {
     let Fit { hypothesis, mechanics, .. } = fit;
     let level = [Unknown::FrictionLevel];
@@ -76,8 +78,8 @@ impl Flexible {
         Self { residual, columns, own: unknowns.len() }
     }
 
-    /// What is left when all columns are fitted in the evidence's noise, or the fit's own where a recording is so short
-    /// that all would leave less than half.
+    /// What is left when all columns are fitted in the evidence's noise, or the fit's own where a
+    /// recording is so short that all would leave less than half.
     pub(super) fn left(&self, evidence: &Weighted) -> Left {
         let mut residual = white(evidence, &self.residual);
         let columns: Vec<_> = self.columns.iter().map(|column| white(evidence, column)).collect();
@@ -92,7 +94,8 @@ impl Flexible {
         Left { residual, columns: fitted }
     }
 
-    /// Of how many residuals these columns, fitted, took the part that each variance has in them: −d ln det(Xᵀ V⁻¹ X)/d ln v.
+    /// Of how many residuals these columns, fitted, took the part that each variance has in them:
+    /// −d ln det(Xᵀ V⁻¹ X)/d ln v.
     pub(super) fn taken(
         &self,
         evidence: &Weighted,

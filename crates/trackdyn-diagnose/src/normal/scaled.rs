@@ -3,7 +3,8 @@
 use nalgebra::allocator::Allocator;
 use nalgebra::{Cholesky, DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix};
 
-/// The Cholesky factor of a positive matrix M, scaled to one on its diagonal: L Lᵀ = S M S, S = diag(M)^(−½).
+/// The Cholesky factor of a positive matrix M, scaled to one on its diagonal: L Lᵀ = S M S, S =
+/// diag(M)^(−½).
 pub struct Scaled {
     cholesky: Cholesky<f64, Dyn>,
     scale: DVector<f64>,

@@ -1,7 +1,7 @@
 //! Manoeuvres that any tracked robot can drive on a free floor, each from rest to rest.
 //!
-//! No track stands still beside one that runs: resistance turns round there, and which way it points is no one's
-//! choice.
+//! No track stands still beside one that runs: resistance turns round there, and which way it
+//! points is no one's choice.
 
 use crate::evidence::planned::READINGS;
 use crate::settings;
@@ -27,8 +27,8 @@ impl Manoeuvre {
     }
 }
 
-/// The menu up to track speeds of `fastest` (m/s, above zero). `gap` is the distance between the ICRs, x_r − x_l, by which
-/// turns are measured, m.
+/// The menu up to track speeds of `fastest` (m/s, above zero). `gap` is the distance between the
+/// ICRs, x_r − x_l, by which turns are measured, m.
 pub fn menu(fastest: f64, gap: f64, settings: &settings::Plan) -> Vec<Manoeuvre> {
     let mut menu = Vec::new();
     for side in SIDES {
@@ -176,7 +176,7 @@ fn creeping(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &settings::Plan) 
     }
 }
 
-/// The same arc at eight headings.
+/// One arc at eight headings.
 fn headings(side: Turning, fastest: f64, gap: f64, settings: &settings::Plan) -> Manoeuvre {
     let mut drive = Drive::new(settings);
     for _ in 0..8 {

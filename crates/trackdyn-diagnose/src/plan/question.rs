@@ -17,7 +17,7 @@ struct Stated {
     missing: Vec<StatedMissing>,
 }
 
-/// The same of something that was left out.
+/// What a diagnosis states of something that was left out.
 #[derive(Deserialize)]
 struct StatedMissing {
     effect: Spanned<String>,
@@ -25,7 +25,7 @@ struct StatedMissing {
     parameters: Vec<StatedParameter>,
 }
 
-/// The same of a parameter.
+/// What a diagnosis states of a parameter.
 #[derive(Deserialize)]
 struct StatedParameter {
     name: Spanned<String>,
@@ -47,8 +47,8 @@ impl Question {
     /// The questions of a diagnosis file.
     ///
     /// # Errors
-    /// A [`DocumentError`] that points at a word that is none of the schema's, an id that is not in the
-    /// catalogue, or a parameter that its effect does not have.
+    /// A [`DocumentError`] that points at a word that is none of the schema's, an id that is not in
+    /// the catalogue, or a parameter that its effect does not have.
     pub fn of(document: &Document) -> Result<Vec<Self>, DocumentError> {
         DiagnosisFile::from_document(document)?;
         let file: Stated = document.parse()?;
@@ -127,7 +127,8 @@ pub fn measurement(effect: EffectId) -> &'static str {
         }
         Some(Stage::Load) => "tilt the robot until it tips (height of the centre of gravity)",
         Some(Stage::Shear) => {
-            "pull the robot along and across with a force gauge, forward and backward, at several speeds"
+            "pull the robot along and across with a force gauge, forward and backward, at several \
+             speeds"
         }
         Some(Stage::Wrench) => {
             "tow the robot with free belts, with and without what hangs on it, and read the force"

@@ -26,8 +26,8 @@ pub struct Rival {
 }
 
 impl Rival {
-    /// The member that the diagnosis fitted, at its fitted size: the vehicle's, else the diagnosis's, else its
-    /// typical one.
+    /// The member that the diagnosis fitted, at its fitted size: the vehicle's, else the
+    /// diagnosis's, else its typical one.
     pub fn fitted(question: &Question, file: &VehicleFile, settings: &Settings) -> Self {
         let effect = question.effect;
         let given = Hypothesis::filed(file, &settings.prior);
@@ -85,8 +85,8 @@ impl Rival {
     }
 }
 
-/// The same driving so coarsely weighed that no part of what an effect changes counts as an outlier: here it is what is
-/// looked for.
+/// This driving so coarsely weighed that no part of what an effect changes counts as an
+/// outlier: here it is what is looked for.
 fn weighed_coarsely(driving: &Weighted, without: &Hypothesis) -> Weighted {
     let mechanics = Mechanics::new(without, driving);
     let residual = driving.residual(&mechanics.predict(&Instruments::of(without), driving));

@@ -1,8 +1,9 @@
 //! How well driving tells two rivals apart.
 //!
 //! # Law
-//! z² = min over θ of |W (p_A − p_B − C θ)|² + Σ (θ/s)²: p the predicted motions, C the derivatives of p_B by
-//! all that is free beside B and by B's own parameters, W the whitening of the noise, s the prior deviations.
+//! z² = min over θ of |W (p_A − p_B − C θ)|² + Σ (θ/s)²: p the predicted motions, C the derivatives
+//! of p_B by all that is free beside B and by B's own parameters, W the whitening of the noise, s
+//! the prior deviations.
 
 use super::rivals::Rival;
 use crate::evidence::Evidence;
@@ -21,7 +22,7 @@ pub struct Pair {
     pub of: [usize; 2],
     /// Inverse covariance of the unknowns of the second, from priors alone.
     pub prior: DMatrix<f64>,
-    /// The same from the typical driving.
+    /// What the typical driving tells.
     pub driven: DMatrix<f64>,
     /// z over the typical driving: all manoeuvres of the menu.
     pub typical: f64,

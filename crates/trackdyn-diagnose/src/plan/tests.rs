@@ -9,9 +9,11 @@ fn question(members: &[&str], parameters: &str) -> Vec<Question> {
     let list: Vec<String> = members.iter().map(|id| format!("\"{id}\"")).collect();
     let text = format!(
         "schema = \"trackdyn.diagnosis/1\"\nstatus = \"ambiguous\"\n\
-         located = {{ excess_over_noise = 2.0, channels = {{ lateral = 1.0, longitudinal = 0.0, yaw = 0.0 }}, \
+         located = {{ excess_over_noise = 2.0, channels = {{ lateral = 1.0, longitudinal = 0.0, \
+         yaw = 0.0 }}, \
          broken = [], where = \"\" }}\n\
-         fit = {{ held_out_before = 2.0, held_out_after = 1.0, noise_floor = 1.0, excess_explained = 1.0 }}\n\
+         fit = {{ held_out_before = 2.0, held_out_after = 1.0, noise_floor = 1.0, \
+         excess_explained = 1.0 }}\n\
          [[missing]]\neffect = {}\none_of = [{}]\nparameters = [{parameters}]\n\
          evidence = {{ p = 0.001, ln_bayes_factor = 20.0, held_out_gain = 20.0 }}\n",
         list[0],
@@ -106,7 +108,8 @@ fn mirrored_members_have_the_same_separation() {
         file.vehicle.cog[0] *= sign;
         let size = sign * 0.05;
         let parameter = format!(
-            "{{ name = \"difference\", value = {size}, low95 = {size}, high95 = {size}, unit = \"1\" }}"
+            "{{ name = \"difference\", value = {size}, low95 = {size}, high95 = {size}, unit = \
+             \"1\" }}"
         );
         let plan = planned(&members, &parameter, &file);
         plan.pairs.iter().map(|pair| pair.z).collect::<Vec<f64>>()

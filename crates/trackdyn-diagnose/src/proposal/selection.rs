@@ -143,7 +143,8 @@ fn search(library: &Library) -> Vec<usize> {
     chosen
 }
 
-/// The choice after every exchange of one term for another that helps, and without those that are not missed.
+/// The choice after every exchange of one term for another that helps, and without those that are
+/// not missed.
 fn exchanged(
     library: &Library,
     all: &[usize],

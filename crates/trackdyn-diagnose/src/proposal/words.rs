@@ -14,7 +14,8 @@ pub struct Size {
 }
 
 impl Proposed {
-    /// How large the term is: its coefficient, or the length of the vector that its coefficients make.
+    /// How large the term is: its coefficient, or the length of the vector that its coefficients
+    /// make.
     pub fn size(&self) -> Size {
         match self.term.pairing {
             Pairing::Alone | Pairing::Spring => size(&self.coefficients[0]),
@@ -25,9 +26,9 @@ impl Proposed {
         }
     }
 
-    /// The heading at which a term is largest, or the direction in the world towards which it points or
-    /// grows, degrees counter-clockwise from the world's x axis, with half its 95 % interval; none of terms
-    /// without.
+    /// The heading at which a term is largest, or the direction in the world towards which it
+    /// points or grows, degrees counter-clockwise from the world's x axis, with half its 95 %
+    /// interval; none of terms without.
     pub fn direction(&self) -> Option<Size> {
         let times = match self.term.pairing {
             Pairing::Heading(times) => f64::from(times),

@@ -1,7 +1,7 @@
 //! What a search has refitted already.
 //!
-//! Rounds that exchange effects, and the verdicts after them, come to the same refits as rounds before: from the same
-//! hypothesis the same step leads to the same end.
+//! Rounds that exchange effects, and the verdicts after them, come to the same refits as rounds
+//! before: from the same hypothesis the same step leads to the same end.
 
 use super::Found;
 use crate::hypothesis::{Hypothesis, Unknown};

@@ -1,8 +1,8 @@
 //! A smooth function of both belt speeds, tabulated.
 //!
-//! Within a sector (the signs of V_l, V_r, V_r − V_l and V_r + V_l) it is a smooth function of the direction φ and
-//! the size ρ of (V_l, V_r); between sectors it may jump. It is interpolated on Chebyshev nodes of each sector, which
-//! lie inside it, so that no node stands on an edge.
+//! Within a sector (the signs of V_l, V_r, V_r − V_l and V_r + V_l) it is a smooth function of the
+//! direction φ and the size ρ of (V_l, V_r); between sectors it may jump. It is interpolated on
+//! Chebyshev nodes of each sector, which lie inside it, so that no node stands on an edge.
 
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_4, PI};
@@ -22,7 +22,8 @@ pub enum Spacing {
     Even,
     /// Even in ln ρ: friction that depends on the slip speed does so most where it is small.
     Logarithmic {
-        /// Ratio R of the largest to the smallest tabulated speed; below, the value is that of the smallest.
+        /// Ratio R of the largest to the smallest tabulated speed; below, the value is that of the
+        /// smallest.
         range: f64,
         /// 1/(2 ln R).
         scale: f64,
@@ -91,8 +92,8 @@ impl Grid {
 }
 
 impl Table {
-    /// The table of values at all nodes, in their order; where there is none, that of the nearest node of the same
-    /// sector, or zero.
+    /// The table of values at all nodes, in their order; where there is none, that of the nearest
+    /// node of the same sector, or zero.
     pub fn new(grid: Grid, values: &[Option<Vector3<f64>>]) -> Self {
         Self { grid, nodes: filled(values) }
     }

@@ -1,4 +1,5 @@
-//! Constant ICRs that differ from those of the vehicle file: a wrong number, or one of a class of effects.
+//! Constant ICRs that differ from those of the vehicle file: a wrong number, or one of a class of
+//! effects.
 
 use super::{Refusal, Support, Verdict, refusal};
 use crate::base::OFFSETS;
@@ -14,15 +15,17 @@ use trackdyn_core::real;
 use trackdyn_model::effect::Symmetry;
 use trackdyn_model::{EffectId, VehicleFile};
 
-/// Effects that move the constant ICRs in all their variants, by their places in the catalogue, ascending.
+/// Effects that move the constant ICRs in all their variants, by their places in the catalogue,
+/// ascending.
 #[derive(Clone, Debug)]
 pub struct Constants {
     /// Those that move nothing else.
     pub only: Vec<EffectId>,
     /// Those that mostly do, the former among them.
     pub mostly: Vec<EffectId>,
-    /// Those that constant ICRs may stand for: what moves nothing else, and all laws that by themselves break no
-    /// symmetry but that of the sides. Where inertia acts at the centre of gravity, more is seen of these.
+    /// Those that constant ICRs may stand for: what moves nothing else, and all laws that by
+    /// themselves break no symmetry but that of the sides. Where inertia acts at the centre of
+    /// gravity, more is seen of these.
     class: Vec<EffectId>,
 }
 
@@ -65,8 +68,8 @@ impl Constants {
     }
 }
 
-/// The best hypothesis with the vehicle as filed, no offset, and no effect that mostly stands for one but what is claimed;
-/// and what else is free in it.
+/// The best hypothesis with the vehicle as filed, no offset, and no effect that mostly stands for
+/// one but what is claimed; and what else is free in it.
 fn as_filed(
     search: &Search,
     best: &Found,
@@ -103,16 +106,16 @@ pub(super) fn departure(
     (dropped.objective - best.fit.objective).max(0.0).sqrt()
 }
 
-/// Constant ICRs that differ from those of the vehicle file by less than is needed, in gauges: no model of the contact is
-/// better.
+/// Constant ICRs that differ from those of the vehicle file by less than is needed, in gauges: no
+/// model of the contact is better.
 fn as_good_as_filed(free: &Fit, needed: f64) -> Option<Refusal> {
     let Hypothesis { vehicle, offset, .. } = &free.hypothesis;
     let largest = offset.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
     (largest < needed * vehicle.gauge).then_some(Refusal::ConstantsAsFiled { largest, needed })
 }
 
-/// Judges the constant ICRs against those of the vehicle file: a wrong number, or one of the class of effects
-/// that only move them. Effects that are `claimed` stay where they are.
+/// Judges the constant ICRs against those of the vehicle file: a wrong number, or one of the class
+/// of effects that only move them. Effects that are `claimed` stay where they are.
 ///
 /// # Errors
 /// [`Cancelled`], by the observer of the watch.

@@ -5,7 +5,8 @@ use crate::search::Found;
 use crate::weighted::Weighted;
 use trackdyn_core::real;
 
-/// χ² that may be left in one symmetry beside a hypothesis: a part of what its laws took away, and of the noise.
+/// χ² that may be left in one symmetry beside a hypothesis: a part of what its laws took away, and
+/// of the noise.
 pub fn tolerated(evidence: &Weighted, base: &Base, best: &Found) -> f64 {
     let settings = &evidence.settings().location;
     let whole = (base.fit.objective - best.fit.objective).max(0.0);

@@ -86,8 +86,9 @@ impl Rivals {
         std::iter::once((self.effect, best)).chain(rivals)
     }
 
-    /// The effect with all that explains its part as well, ascending, and the share of resampled recordings that name one
-    /// of them. What other recordings of the same robot would name instead is one answer with it.
+    /// The effect with all that explains its part as well, ascending, and the share of resampled
+    /// recordings that name one of them. What other recordings of the same robot would name instead
+    /// is one answer with it.
     pub fn answer(
         &self,
         search: &Search,
@@ -142,7 +143,8 @@ impl Rivals {
 
 /// Whether the linear screen leaves it open that a candidate does as well as what gains `own`.
 ///
-/// Signatures of encoders and pose sensor are taken far from where they are needed; they promise less than they keep.
+/// Signatures of encoders and pose sensor are taken far from where they are needed; they promise
+/// less than they keep.
 pub(super) fn is_rival(
     one: &Screened,
     own: f64,
@@ -157,9 +159,9 @@ pub(super) fn is_rival(
         && !best.effects.contains(&one.effect)
 }
 
-/// Separation of an effect from rivals: the part of what refitting with it changed that neither the rivals' signatures nor
-/// what is free can stand for, in standard deviations. Sizes of rivals of which something is `known` have this standard
-/// deviation.
+/// Separation of an effect from rivals: the part of what refitting with it changed that neither the
+/// rivals' signatures nor what is free can stand for, in standard deviations. Sizes of rivals of
+/// which something is `known` have this standard deviation.
 pub(super) fn separation(
     search: &Search,
     without: &Found,

@@ -54,8 +54,8 @@ impl Support {
         }
     }
 
-    /// Whether all that speaks against it is that the robot met it once: so few blocks of time show it that what happened
-    /// once, whatever it was, would look the same.
+    /// Whether all that speaks against it is that the robot met it once: so few blocks of time show
+    /// it that what happened once, whatever it was, would look the same.
     pub fn is_met_once(&self, rules: &settings::Verdict) -> bool {
         self.ln_bayes_factor >= rules.min_ln_bayes_factor
             && self.p >= rules.max_p
@@ -84,8 +84,9 @@ impl Support {
 
     /// The support of an effect of the catalogue, beside the best hypothesis without it.
     ///
-    /// Chance is asked of all variants of all effects as one family: the best was chosen from them. An effect with one size
-    /// stands in it by the change that refitting found, for the variant that the screen liked best.
+    /// Chance is asked of all variants of all effects as one family: the best was chosen from them.
+    /// An effect with one size stands in it by the change that refitting found, for the variant
+    /// that the screen liked best.
     pub(super) fn of_effect(
         search: &Search,
         without: &Found,
@@ -106,15 +107,16 @@ impl Support {
         }
     }
 
-    /// What blocks say for columns: what they gain where they were left out, and how many show it. What is free beside them
-    /// has been projected out.
+    /// What blocks say for columns: what they gain where they were left out, and how many show it.
+    /// What is free beside them has been projected out.
     pub(crate) fn of_blocks(projected: &Normal, known: &[Prior], columns: &[usize]) -> Self {
         let (held_out_gain, held_out_error) = cross_validated(projected, known, columns);
         let blocks = shown_by(projected, known, columns);
         Self { held_out_gain, held_out_error, blocks, ..Self::none() }
     }
 
-    /// Family-wise probability of chance of a variant, with these signatures, among all that were tried.
+    /// Family-wise probability of chance of a variant, with these signatures, among all that were
+    /// tried.
     fn chance(
         search: &Search,
         without: &Found,
@@ -136,8 +138,8 @@ impl Support {
         place.map_or(1.0, |place| tests()[place].p)
     }
 
-    /// The support of columns of a fit, asked of the residual with their part put back: `parts` are their
-    /// factors.
+    /// The support of columns of a fit, asked of the residual with their part put back: `parts` are
+    /// their factors.
     pub(super) fn of_columns(
         search: &Search,
         fit: &Fit,
@@ -161,10 +163,10 @@ impl Support {
     }
 }
 
-/// The effects that are named beside a hypothesis, by the share of resampled recordings in which each is the best: by the
-/// screen, or, of the effects that were refitted, by the change that this found and the evidence that it has. Asked is which
-/// one it is, not whether there is any: what the screen puts further behind its best than a claim must be ahead does not
-/// take part.
+/// The effects that are named beside a hypothesis, by the share of resampled recordings in which
+/// each is the best: by the screen, or, of the effects that were refitted, by the change that this
+/// found and the evidence that it has. Asked is which one it is, not whether there is any: what the
+/// screen puts further behind its best than a claim must be ahead does not take part.
 pub(super) fn named(
     search: &Search,
     without: &Found,
@@ -243,10 +245,12 @@ pub(super) fn change(effect: EffectId, without: &Found, with: &Found) -> Option<
     Some(Change { signature: Signature { unknown, column }, size })
 }
 
-/// Blocks that show what columns change, as many as show it alike. What is free beside them has been projected out.
+/// Blocks that show what columns change, as many as show it alike. What is free beside them has
+/// been projected out.
 ///
 /// # Law
-/// (Σ |s_b|²)²/Σ |s_b|⁴, s_b the change of a block's prediction: one where one block shows all of it, n where n show the same.
+/// (Σ |s_b|²)²/Σ |s_b|⁴, s_b the change of a block's prediction: one where one block shows all of
+/// it, n where n show the same.
 fn shown_by(projected: &Normal, known: &[Prior], columns: &[usize]) -> f64 {
     let factors = projected.fit(columns, known).estimate;
     let changes =
@@ -256,16 +260,16 @@ fn shown_by(projected: &Normal, known: &[Prior], columns: &[usize]) -> f64 {
     if squares > 0.0 { sum * sum / squares } else { 0.0 }
 }
 
-/// Gain of log-likelihood by columns on each block, left out of their fit, and its standard error. What is free
-/// beside them has been projected out: where one block alone knows a number of that, leaving it out says nothing of
-/// the columns.
+/// Gain of log-likelihood by columns on each block, left out of their fit, and its standard error.
+/// What is free beside them has been projected out: where one block alone knows a number of that,
+/// leaving it out says nothing of the columns.
 ///
 /// # Law
-/// Where the fit of the other blocks expects the change s_b of a block's prediction, it expects a gain of |s_b|²/2
-/// there, and noise makes it vary by |s_b|. With λ = Σ g_b/Σ |s_b|² the standard error is the root of
-/// Σ (g_b − λ |s_b|²)², or of Σ |s_b|² where blocks differ less than by the noise. That an effect shows in some blocks more than
-/// in others is the driving, and that it gains everywhere by another part of what was expected its form: both are no
-/// chance.
+/// Where the fit of the other blocks expects the change s_b of a block's prediction, it expects a
+/// gain of |s_b|²/2 there, and noise makes it vary by |s_b|. With λ = Σ g_b/Σ |s_b|² the standard
+/// error is the root of Σ (g_b − λ |s_b|²)², or of Σ |s_b|² where blocks differ less than by the
+/// noise. That an effect shows in some blocks more than in others is the driving, and that it gains
+/// everywhere by another part of what was expected its form: both are no chance.
 pub fn cross_validated(projected: &Normal, known: &[Prior], columns: &[usize]) -> (f64, f64) {
     let nothing = DVector::zeros(columns.len());
     let gains = (0..projected.blocks()).map(|block| {
@@ -288,8 +292,8 @@ mod tests {
     use crate::normal::Columns;
     use nalgebra::Vector3;
 
-    /// An effect that has this size in each block and could be seen in those for which that is asked, over samples of one
-    /// block after the other.
+    /// An effect that has this size in each block and could be seen in those for which that is
+    /// asked, over samples of one block after the other.
     fn seen(sizes: &[f64], is_seen: impl Fn(usize) -> bool) -> Normal {
         const SAMPLES: usize = 20;
         let blocks: Vec<usize> =

@@ -43,7 +43,6 @@ pub mod proposal;
 pub mod resampling;
 pub mod search;
 pub mod settings;
-pub mod settings;
 pub mod significance;
 pub mod surface;
 pub mod uncertainty;

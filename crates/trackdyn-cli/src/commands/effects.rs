@@ -110,6 +110,8 @@ fn markdown() -> String {
         **H** another heading, **X** another place, **T** another time, **D** speeds that change \
         instead of steady ones. It breaks **0** when equal track speeds do not drive straight \
         ahead as fast as the encoders show.\n\n\
+        The *class of constants* moves the constant ICRs and nothing else. ICRs alone do not tell \
+        its members apart.\n\n\
         A parameter's *role* is **size** where it says how large the effect is (an effect whose \
         sizes are all neutral is not there), **place** or **direction** where it says where in \
         the world it acts, and **shape** where it is a constant of the law.\n\n\
@@ -158,25 +160,25 @@ fn markdown_terms(card: &Card) -> String {
 }
 
 fn markdown_card(card: &Card) -> String {
-    let mut text = format!("## {}\n\n{}.\n\n", card.id, card.title);
+    let mut text = format!("## {}\n\n", card.id);
     let _ = writeln!(text, "**Law.** {}\n", card.law);
     let _ = writeln!(text, "**Assumes.** {}\n", card.assumes);
     let _ = writeln!(text, "**Shows.** {}\n", card.shows);
     text += &markdown_terms(card);
-    text += "| parameter | symbol | role | unit | range | typical | meaning |\n\
-        |---|---|---|---|---|---|---|\n";
     for parameter in alone(card) {
         let [low, high] = parameter.range;
+        let unit = if parameter.unit == "1" { "" } else { parameter.unit };
         let _ = writeln!(
             text,
-            "| `{}` | {} | {} | {} | {low} to {high} | {} | {} |",
+            "- `{}` ({}, {}): {}; {low} to {high}, typically {} {unit}",
             parameter.key,
             parameter.symbol,
             parameter.role.name(),
-            parameter.unit,
+            parameter.meaning,
             parameter.typical,
-            parameter.meaning
         );
+        text.truncate(text.trim_end().len());
+        text.push('\n');
     }
     let _ = writeln!(text, "\n**Sources.** {}.", card.sources.join("; "));
     text

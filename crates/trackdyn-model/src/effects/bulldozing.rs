@@ -24,9 +24,7 @@ impl Effect for Bulldozing {
         assumes: "The wall of soil grows with the local load and stands up at once; its size does \
                   not depend on how fast it is pushed.",
         shows: "Like more friction across, but where the slip is mostly along the track it does \
-                not fade: the ICRs move outwards. It moves the constant ICRs and nothing else: \
-                with the centre of gravity, the friction ratio and their like it forms the class \
-                that ICRs alone cannot split.",
+                not fade: the ICRs move outwards. It belongs to the class of constants.",
         breaks: &[],
         stages: &[Stage::Shear],
         parameters: &[Parameter {

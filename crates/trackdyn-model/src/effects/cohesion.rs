@@ -18,9 +18,7 @@ impl Effect for Cohesion {
         law: "τ = −([μ] p + c) s/|s|",
         assumes: "Mohr-Coulomb: the same c in all directions and under the whole contact.",
         shows: "Draws the ratio of friction across to along towards 1, and takes weight from the \
-                centre of gravity. It moves the constant ICRs and nothing else: with the centre of \
-                gravity, the friction ratio and their like it forms the class that ICRs alone \
-                cannot split.",
+                centre of gravity. It belongs to the class of constants.",
         breaks: &[],
         stages: &[Stage::Shear],
         parameters: &[Parameter {

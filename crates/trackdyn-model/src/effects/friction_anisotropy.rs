@@ -17,9 +17,7 @@ impl Effect for FrictionAnisotropy {
         law: "μ_x ← k μ_x",
         assumes: "Both sides alike. Slow driving on level ground depends on μ_x/μ_y alone, so it \
                   does not matter which of the two changes.",
-        shows: "The common distance of the ICRs from the middle. It moves the constant ICRs and \
-                nothing else: with the centre of gravity, the friction ratio and their like it \
-                forms the class that ICRs alone cannot split.",
+        shows: "The common distance of the ICRs from the middle. It belongs to the class of constants.",
         breaks: &[],
         stages: &[Stage::Ground],
         parameters: &[Parameter {

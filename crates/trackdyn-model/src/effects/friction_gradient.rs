@@ -18,9 +18,7 @@ impl Effect for FrictionGradient {
         law: "τ = −[μ] p (1 + γ η) s/|s|, η = −1 at the rear end of the contact, +1 at its front",
         assumes: "Linear along the contact, the same on both sides and in both directions of \
                   friction.",
-        shows: "y moves towards the end with more friction. It moves the constant ICRs and nothing \
-                else: with the centre of gravity, the friction ratio and their like it forms the \
-                class that ICRs alone cannot split.",
+        shows: "y moves towards the end with more friction. It belongs to the class of constants.",
         breaks: &[],
         stages: &[Stage::Shear],
         parameters: &[Parameter {

@@ -19,9 +19,7 @@ impl Effect for PressureConcentration {
         assumes: "The second Legendre polynomial changes neither the load of a patch nor its \
                   centre of pressure. κ > 0 stands for rollers at the ends of a stiff track, κ < 0 \
                   for a belly or a soft tyre.",
-        shows: "Ends count for more: the ICRs move outwards. It moves the constant ICRs and \
-                nothing else: with the centre of gravity, the friction ratio and their like it \
-                forms the class that ICRs alone cannot split.",
+        shows: "Ends count for more: the ICRs move outwards. It belongs to the class of constants.",
         breaks: &[],
         stages: &[Stage::Shear],
         parameters: &[Parameter {

@@ -17,7 +17,8 @@ impl Effect for FrictionAnisotropy {
         law: "μ_x ← k μ_x",
         assumes: "Both sides alike. Slow driving on level ground depends on μ_x/μ_y alone, so it \
                   does not matter which of the two changes.",
-        shows: "The common distance of the ICRs from the middle. It belongs to the class of constants.",
+        shows: "The common distance of the ICRs from the middle. It belongs to the class of \
+                constants.",
         breaks: &[],
         stages: &[Stage::Ground],
         parameters: &[Parameter {

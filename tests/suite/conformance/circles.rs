@@ -4,7 +4,7 @@
 //! that uses the first, directly or by way of others. A module and what stands below it are one
 //! thing and may use each other. What a crate's root re-exports counts as used where it is defined.
 
-use super::crates::all;
+use super::crates::{all, code};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -22,13 +22,6 @@ fn module(source: &Path) -> Module {
     let names = source.with_extension("");
     let names = names.components().map(|name| name.as_os_str().to_string_lossy().into_owned());
     names.filter(|name| !["lib", "main"].contains(&name.as_str())).collect()
-}
-
-/// A text without line comments and without what is compiled for tests only.
-fn code(text: &str) -> String {
-    let tests = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
-    let lines = text[..tests].lines().map(|line| line.split("//").next().unwrap_or_default());
-    lines.collect::<Vec<_>>().join(" ")
 }
 
 /// All paths of `use` declarations, with whether they are public.
@@ -83,7 +76,7 @@ impl Uses {
     fn of(sources: &[(Module, String)]) -> Self {
         let modules: BTreeSet<Module> = sources.iter().map(|(module, _)| module.clone()).collect();
         let root = sources.iter().find(|(module, _)| module.is_empty());
-        let root = root.map(|(_, text)| paths(&code(text))).unwrap_or_default();
+        let root = root.map(|(_, text)| paths(text)).unwrap_or_default();
         let exported: BTreeMap<String, Vec<String>> = root
             .into_iter()
             .filter(|(is_public, path)| *is_public && path.len() > 1)
@@ -91,7 +84,7 @@ impl Uses {
             .collect();
         let mut of: BTreeMap<Module, BTreeSet<Module>> = BTreeMap::new();
         for (module, text) in sources.iter().filter(|(module, _)| !module.is_empty()) {
-            for (_, path) in paths(&code(text)) {
+            for (_, path) in paths(text) {
                 let absolute = match path.first().map(String::as_str) {
                     Some("crate") => path[1..].to_vec(),
                     Some("super") => {
@@ -156,7 +149,7 @@ fn modules_use_one_another_in_one_direction() {
     let mut uses = 0;
     for of in all() {
         let sources: Vec<(Module, String)> =
-            of.sources().into_iter().map(|(path, text)| (module(&path), text)).collect();
+            of.code().into_iter().map(|(path, code)| (module(&path), code)).collect();
         let graph = Uses::of(&sources);
         uses += graph.of.values().map(BTreeSet::len).sum::<usize>();
         assert!(graph.modules.len() > 1, "{} has no modules", of.name);
@@ -168,7 +161,7 @@ fn modules_use_one_another_in_one_direction() {
 
 #[test]
 fn a_circle_is_seen() {
-    let source = |name: &str, text: &str| (module(Path::new(name)), text.to_owned());
+    let source = |name: &str, text: &str| (module(Path::new(name)), code(text));
     let lib = source("lib.rs", "pub mod a; pub mod b; pub use b::deep::{Thing, other::Other};");
     let a = source("a.rs", "use crate::{Thing, std::fmt};\npub fn f() {}");
     let deep = source("b/deep.rs", "use std::fmt; /// use crate::a::f;\npub struct Thing;");

@@ -1,5 +1,6 @@
 //! The crates of the project as they lie on the disk.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -38,6 +39,37 @@ impl Crate {
     pub fn sources(&self) -> Vec<(PathBuf, String)> {
         sources_below(&self.folder.join("src"))
     }
+
+    /// Paths below `src` and code of the sources that are compiled for more than tests, sorted.
+    pub fn code(&self) -> Vec<(PathBuf, String)> {
+        let all: BTreeMap<PathBuf, String> = self.sources().into_iter().collect();
+        let compiled = all.iter().filter(|(path, _)| !is_of_tests(path, &all));
+        compiled.map(|(path, text)| (path.clone(), code(text))).collect()
+    }
+}
+
+/// A text without comments and without what is compiled for tests only.
+pub fn code(text: &str) -> String {
+    let tests = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
+    let lines = text[..tests].lines().map(|line| line.split("//").next().unwrap_or_default());
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Whether the module of a source is declared for tests only, or stands below one that is.
+fn is_of_tests(path: &Path, sources: &BTreeMap<PathBuf, String>) -> bool {
+    let Some((name, folder)) = path.file_stem().zip(path.parent()) else { return false };
+    if folder == Path::new("") {
+        let roots = ["lib.rs", "main.rs"].iter().filter_map(|root| sources.get(Path::new(root)));
+        return roots.into_iter().any(|root| declares_for_tests(root, &name.to_string_lossy()));
+    }
+    let parent = folder.with_extension("rs");
+    let declared = sources.get(&parent);
+    declared.is_some_and(|text| declares_for_tests(text, &name.to_string_lossy()))
+        || is_of_tests(&parent, sources)
+}
+
+fn declares_for_tests(text: &str, module: &str) -> bool {
+    text.contains(&format!("#[cfg(test)]\nmod {module};"))
 }
 
 /// Paths below a folder and texts of the sources in it, sorted.

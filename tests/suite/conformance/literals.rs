@@ -1,8 +1,6 @@
 //! Effects are known by their cards and sheets: no source but their own names one.
 
-use super::crates::all;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use super::crates::{all, code};
 use trackdyn_model::CATALOGUE;
 use trackdyn_second_simulator::MECHANISMS;
 
@@ -13,30 +11,6 @@ const ARGUED: [(&str, &str, &str); 1] = [(
     "names of the two quantities of a pose sensor that `identify --fit` takes and files state: \
      they come of no catalogue, and identification knows no effects",
 )];
-
-/// Code that is not compiled for tests only, without comments.
-fn code(text: &str) -> String {
-    let tests = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
-    let lines = text[..tests].lines().map(|line| line.split("//").next().unwrap_or_default());
-    lines.collect::<Vec<_>>().join("\n")
-}
-
-/// Whether the module of a source is declared for tests only, or stands below one that is.
-fn is_of_tests(path: &Path, sources: &BTreeMap<PathBuf, String>) -> bool {
-    let Some((name, folder)) = path.file_stem().zip(path.parent()) else { return false };
-    if folder == Path::new("") {
-        let roots = ["lib.rs", "main.rs"].iter().filter_map(|root| sources.get(Path::new(root)));
-        return roots.into_iter().any(|root| declares_for_tests(root, &name.to_string_lossy()));
-    }
-    let parent = folder.with_extension("rs");
-    let declared = sources.get(&parent);
-    declared.is_some_and(|text| declares_for_tests(text, &name.to_string_lossy()))
-        || is_of_tests(&parent, sources)
-}
-
-fn declares_for_tests(text: &str, module: &str) -> bool {
-    text.contains(&format!("#[cfg(test)]\nmod {module};"))
-}
 
 /// Whether code names an id in a string: by itself, or with settings behind a colon.
 fn names(code: &str, id: &str) -> bool {
@@ -49,12 +23,7 @@ fn no_source_names_an_effect_but_its_own() {
     let ids: Vec<&str> = ids.collect();
     let (mut found, mut own, mut argued) = (Vec::new(), 0, Vec::new());
     for of in all() {
-        let sources: BTreeMap<PathBuf, String> = of.sources().into_iter().collect();
-        for (path, text) in &sources {
-            if is_of_tests(path, &sources) {
-                continue;
-            }
-            let code = code(text);
+        for (path, code) in of.code() {
             for id in ids.iter().filter(|id| names(&code, id)) {
                 let file = path.to_string_lossy();
                 let is_argued =

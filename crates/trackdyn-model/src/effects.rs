@@ -3,8 +3,6 @@
 #[macro_use]
 mod dispatch;
 mod active;
-#[cfg(test)]
-mod conformance;
 mod error;
 mod id;
 mod nature;

@@ -18,6 +18,8 @@
 //! and knows nothing of how the robot moves. The paper's frame holds throughout: x right, y
 //! forward.
 
+#[cfg(test)]
+mod conformance;
 pub mod contact;
 pub mod effect;
 pub mod effects;

@@ -1,10 +1,10 @@
 //! What every effect of the catalogue must satisfy.
 
-use super::{ActiveEffect, CATALOGUE};
 use crate::contact::pressure::Footprint;
 use crate::contact::quadrature::SlipSite;
 use crate::contact::{Pressure, ShearStress};
 use crate::effect::{Card, Parameter, Role, Stage};
+use crate::effects::{ActiveEffect, CATALOGUE};
 use crate::model::Model;
 use crate::pipeline::{Circumstance, Drive, Ground, Motion, Sensor, Site, Situation};
 use crate::{Effects, VehicleFile};
@@ -38,7 +38,7 @@ const ELSEWHERE: Circumstance = Circumstance { position: [3.0, 0.5], heading: 0.
 #[test]
 fn every_file_is_registered() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/effects");
-    let own = ["active", "conformance", "dispatch", "error", "nature"];
+    let own = ["active", "dispatch", "error", "id", "nature"];
     let files: BTreeSet<String> = std::fs::read_dir(folder)
         .expect("the folder of the catalogue")
         .map(|entry| entry.expect("readable").path())

@@ -1,8 +1,8 @@
 //! Which answers hang on a setting: the ten most influential ones times and over 1.5, on twenty
 //! short drives of the independent ground.
 //!
-//! `settings [--cases N] [--of PATH,PATH,...]` prints a table: how many answers change, and which. `--of all`
-//! varies every setting that decides.
+//! `settings [--cases N] [--of PATH,PATH,...]` prints a table: how many answers change, and which.
+//! `--of all` varies every setting that decides.
 
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -152,9 +152,7 @@ fn deciding() -> Vec<String> {
 /// The default times a factor, within the range; counts change by one at least.
 fn scaled(entry: &Entry, factor: f64) -> Value {
     let [low, high] = entry.range;
-    fn number(value: &Value) -> f64 {
-        value.as_float().unwrap_or_default()
-    }
+    let number = |value: &Value| value.as_float().unwrap_or_default();
     let within = |value: &Value| Value::Float((number(value) * factor).clamp(low, high));
     match &entry.default {
         Value::Integer(count) => {

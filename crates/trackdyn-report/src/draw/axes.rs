@@ -49,7 +49,9 @@ pub(super) fn draw(
     if !panel.y.has_grid {
         mesh.disable_y_mesh();
     }
-    mesh.bold_line_style(plain(GRID))
+    // finer lines would lie under the others and darken their edges where a picture is scaled
+    mesh.light_line_style(TRANSPARENT)
+        .bold_line_style(plain(GRID))
         .axis_style(plain(FRAME))
         .set_all_tick_mark_size(8)
         .label_style(font(TICK_SIZE, GREY))
@@ -178,6 +180,9 @@ impl<P: Paper> DrawingBackend for Brush<'_, P> {
         to: BackendCoord,
         style: &S,
     ) -> Drawn {
+        if style.color().alpha == 0.0 {
+            return Ok(());
+        }
         let place = |(x, y): BackendCoord| [f64::from(x), f64::from(y)];
         let colour = rgb(style.color());
         self.paper.line(place(from), place(to), f64::from(style.stroke_width()), colour);

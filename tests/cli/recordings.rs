@@ -222,7 +222,7 @@ fn operating_points_that_do_not_do_are_refused() {
             "identify floor.csv --runs 1 --time 0,1 --settle 1 --fit time-offset",
             "--runs, --time, --settle, --fit: floor.csv holds steady points",
         ),
-        ("odometry floor.csv", "floor.csv: a file of another kind"),
+        ("odometry floor.csv", "floor.csv: holds steady points: expected a recording of motion"),
     ] {
         let run = place.run(&format!("{arguments} --vehicle {vehicle}"));
         assert_eq!(run.status, 1, "{arguments}: {}", run.stdout);

@@ -264,11 +264,12 @@ mod tests {
     }
 
     impl Decay {
-        /// 40 observations of 2 exp(−0.7 t), of which some are off by this much.
+        /// 40 observations of 2 exp(−0.7 t), of which some are of a curve that begins this much
+        /// higher.
         fn new(outlier: f64, loss: Loss) -> Self {
             let value = |k: usize| {
                 let off = if k % 10 == 3 { outlier } else { 0.0 };
-                2.0 * (-0.07 * real(k)).exp() + off
+                (2.0 + off) * (-0.07 * real(k)).exp()
             };
             Self { observed: (0..40).map(value).collect(), observed_from: 0.0, loss }
         }

@@ -269,8 +269,7 @@ mod tests {
 
     #[test]
     fn trials_open_whose_answers_are_sealed_in_their_folder() {
-        let fixture =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../tests/fixtures/old-seal");
+        let fixture = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/old-seal");
         assert!(is_made(&fixture));
         let (answers, text) = open_answers(&fixture, &fixture.join("answers.key")).expect("opens");
         assert_eq!(answers.cases[0].id, "case-0001");

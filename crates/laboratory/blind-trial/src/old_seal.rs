@@ -43,10 +43,9 @@ mod tests {
     use std::path::Path;
 
     /// A trial of one case that the program of November 2026 made, with its key.
-    const SEALED: &[u8] = include_bytes!("../../../../tests/fixtures/old-seal/answers.sealed");
-    const COMMITMENT: &str = include_str!("../../../../tests/fixtures/old-seal/commitment.txt");
-    const KEY: &str =
-        concat!(env!("CARGO_MANIFEST_DIR"), "/../../../tests/fixtures/old-seal/answers.key");
+    const SEALED: &[u8] = include_bytes!("../fixtures/old-seal/answers.sealed");
+    const COMMITMENT: &str = include_str!("../fixtures/old-seal/commitment.txt");
+    const KEY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/old-seal/answers.key");
 
     fn commitment() -> Commitment {
         toml::from_str(COMMITMENT).expect("a commitment")

@@ -41,7 +41,7 @@ pub struct Options {
     /// Seed of the bootstrap
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Numbers of the method that differ from their defaults: a table such as [verdict] with
+    /// Numbers of the method that differ from their defaults: a table such as `[verdict]` with
     /// max_p = 0.001
     #[arg(long, value_name = "FILE")]
     settings: Option<PathBuf>,

@@ -2,7 +2,7 @@
 //!
 //! Each number has a path such as `verdict.min_ln_bayes_factor`, a unit, a default, and in words
 //! what it is, why it has that value and what happens when it is wrong.
-//! [`page`](crate::settings::page) prints all of them: `docs/theory/diagnosis/settings.md` is that
+//! [`page`] prints all of them: `docs/theory/diagnosis/settings.md` is that
 //! text.
 //!
 //! What stays a constant in the code is no choice: stand-ins for zero and infinity, the medians of

@@ -4,7 +4,7 @@
 //!
 //! - [`room`]: walls and furniture, and the world file that holds them.
 //! - [`scanner`]: a simulated planar laser, which turns a room and a motion into [`scan`]s.
-//! - [`line`]: a straight line with covariance; [`mod@reference`]: a scan as such lines.
+//! - [`mod@line`]: a straight line with covariance; [`mod@reference`]: a scan as such lines.
 //! - [`matching`]: the motion between two scans, with covariance and status.
 //! - [`localisation`]: the poses of a series of scans.
 //! - [`estimate`]: uncertain poses and how they compose.

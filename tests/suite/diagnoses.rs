@@ -144,7 +144,10 @@ fn a_setting_changes_the_answer_and_stands_in_its_file() {
     let found = found.expect("an answer");
     assert!(named(&found).is_empty(), "{:?}", named(&found));
     let refused: Vec<_> = found.answer.refused.iter().map(|verdict| &verdict.refused).collect();
-    let is_weak = |one: &&Option<Refusal>| matches!(one, Some(Refusal::Weak { needed, .. }) if *needed == 9000.0);
+    let is_weak = |one: &&Option<Refusal>| match one {
+        Some(Refusal::Weak { needed, .. }) => *needed == 9000.0,
+        _ => false,
+    };
     assert!(!refused.is_empty() && refused.iter().all(is_weak), "{refused:?}");
     let file = DiagnosisFile::new(&found, &Source::default());
     let text = file.to_toml();

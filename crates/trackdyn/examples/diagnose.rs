@@ -1,4 +1,4 @@
-//! What does my model lack? A robot that carries its weight higher than its model knows is
+//! What does my model lack? A robot whose lugs grip better one way than its model knows is
 //! recorded, diagnosed, and corrected; the diagnosis can be stopped with an observer.
 //!
 //! `cargo run --release -p trackdyn --example diagnose`
@@ -18,9 +18,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Diagnoses a simulated log and writes the report and the corrected vehicle.
 pub(crate) fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     prepare_folder(out)?;
-    // The model knows the robot's inertia, but not how high it carries its weight.
+    // The model knows the robot's inertia, but not that its lugs grip better one way.
     let model = Vehicle::auriga_alpha().with_inertia(true);
-    let robot = model.clone().with_effect("load-transfer:cog_height_m=0.3")?;
+    let robot = model.clone().with_effect("directional-lugs")?;
     let settings =
         SimulateSettings { runs: Some(2), duration: Some(30.0), ..SimulateSettings::default() };
     let log = simulate(&robot, &settings)?.recording;

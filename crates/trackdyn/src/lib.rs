@@ -9,7 +9,7 @@
 //! # use trackdyn::{SimulateSettings, simulate};
 //! # let folder = tempfile::tempdir()?;
 //! # let (log, out) = (folder.path().join("drive"), folder.path().join("out"));
-//! # let robot = Vehicle::auriga_alpha().with_effect("load-transfer:cog_height_m=0.3")?;
+//! # let robot = Vehicle::auriga_alpha().with_effect("directional-lugs")?;
 //! # let settings = SimulateSettings { runs: Some(1), duration: Some(40.0), ..Default::default() };
 //! # simulate(&robot, &settings)?.write(&log, &Provenance::default())?;
 //! # let my_robot = folder.path().join("my-robot.toml");

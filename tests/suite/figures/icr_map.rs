@@ -183,7 +183,12 @@ fn the_figure_is_well_formed_svg() {
     let texts: Vec<String> = document
         .descendants()
         .filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "text")))
-        .map(|text| text.descendants().filter_map(|node| node.text()).collect())
+        .map(|text| {
+            text.descendants()
+                .filter(|node| node.is_text())
+                .filter_map(|node| node.text())
+                .collect()
+        })
         .collect();
     for text in ["<caption> & \"more\"", "Left ICRs, enlarged", "no balance found"] {
         assert!(texts.iter().any(|other| other == text), "{text}: {texts:?}");

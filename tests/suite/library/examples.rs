@@ -49,7 +49,7 @@ fn a_log_is_diagnosed() {
     diagnose::run(out.path()).expect("it runs");
     are_there(out.path(), &["diagnosis.toml", "vehicle.corrected.toml", "report.html"]);
     let corrected = Vehicle::open(out.path().join("vehicle.corrected.toml")).expect("a vehicle");
-    assert!(corrected.effects().get("load-transfer").is_some(), "{:?}", corrected.effects());
+    assert!(corrected.effects().get("directional-lugs").is_some(), "{:?}", corrected.effects());
 }
 
 #[test]

@@ -176,7 +176,7 @@ fn check_picture(figure: &Figure) {
         .descendants()
         .filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "text")))
         .map(|text| {
-            let inside = text.descendants().filter(|node| node.is_text());
+            let inside = text.descendants().filter(roxmltree::Node::is_text);
             inside.filter_map(|node| node.text()).collect()
         })
         .collect();

@@ -185,7 +185,7 @@ fn the_figure_is_well_formed_svg() {
         .filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "text")))
         .map(|text| {
             text.descendants()
-                .filter(|node| node.is_text())
+                .filter(roxmltree::Node::is_text)
                 .filter_map(|node| node.text())
                 .collect()
         })

@@ -11,7 +11,7 @@ pub use identifiability::{doubts, lacks, lacks_nuisance, nuisance_doubts};
 pub(crate) use identifiability::{inverse, too_wide};
 
 use crate::error::Error;
-use crate::gauss_newton::{Control, Minimum, Problem, Region, Settings, Status, minimise};
+use crate::gauss_newton::{Minimum, Problem, Region, Settings, Status, minimise};
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
 use crate::prediction::Lanes;
@@ -25,7 +25,7 @@ use nalgebra::{DMatrix, DVector};
 const SETTINGS: Settings = Settings {
     max_iterations: 100,
     settled_below: 1e-8,
-    control: Control::Damped { newton_below: 1e-4 },
+    newton_below: 1e-4,
 };
 
 /// What is fitted: kinematic parameters, and properties of the pose sensor beside them.
@@ -84,7 +84,7 @@ pub fn least_squares(
             let edge = tau + margin.copysign(point.sensor.tau - tau);
             Err(Error::ClockLeaves { tau: edge, start: tau, margin })
         }
-        Status::Singular | Status::NotSettled => {
+        Status::NotSettled => {
             Err(Error::NotConverged { iterations, step: last_change })
         }
     }

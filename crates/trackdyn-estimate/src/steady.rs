@@ -20,7 +20,7 @@ pub use lagging::{Lagging, lagging};
 use crate::Interval;
 use crate::doubt::Doubt;
 use crate::error::Error;
-use crate::gauss_newton::{Control, Minimum, Problem, Settings, Status, minimise};
+use crate::gauss_newton::{Minimum, Problem, Settings, Status, minimise};
 use crate::least_squares::covariance::{jackknife, larger_deviation, with_deviations};
 use crate::least_squares::{Loss, inverse, too_wide};
 use crate::parameters::{Free, Parameters};
@@ -39,17 +39,21 @@ const Y: usize = 2;
 /// Speeds that differ by less than this part of their size are alike: tables round to four digits.
 const SPEED_ROUNDING: f64 = 1e-3;
 
-/// Iterations after which the scatters stay: medians jump from one residual to the next, and would
-/// keep the parameters from settling.
-const SCATTER_ITERATIONS: usize = 20;
+/// Rounds of a fit, each with the scatters that the one before left: medians may jump between two
+/// residuals for ever.
+const MAX_ROUNDS: usize = 30;
 
-/// Changes of parameters are in m or 1. The cost is in units of the scatter, which changes with the
-/// parameters: it cannot tell whether a step is good.
-const SETTINGS: Settings = Settings {
-    max_iterations: 200,
-    settled_below: 1e-10,
-    control: Control::Full { damping: 1e-12 },
-};
+/// The scatters have settled when none changes by more than this part.
+const SCATTER_SETTLED: f64 = 1e-6;
+
+/// Least scatter of a channel, m/s or rad/s: that of a table that a model explains to rounding. Some
+/// channels are exact at ICRs far from the others' (forward, at any ICRs with the robot in their
+/// middle), and weights further apart than 1e12 leave the normal equations no digits.
+const MIN_SCATTER: f64 = 1e-6;
+
+/// Changes of parameters are in m or 1.
+const SETTINGS: Settings =
+    Settings { max_iterations: 200, settled_below: 1e-10, newton_below: 1e-4 };
 
 /// Fitted parameters of steady points.
 #[derive(Clone, Debug)]
@@ -93,12 +97,7 @@ pub fn fit_points(
     if let Some(doubt) = lacks(points, free) {
         return Err(Error::NotDetermined(doubt));
     }
-    let table = Table { points, loss, count };
-    let Minimum { point: at, status, iterations, last_change } =
-        minimise(&table, table.at(*start, None), &SETTINGS);
-    if status != Status::Settled {
-        return Err(Error::NotConverged { iterations, step: last_change });
-    }
+    let (table, at, iterations) = settled(points, start, loss, count)?;
     let (matrix, _) = table.normal_equations(&at);
     let parts = table.parts(&at, |residual| loss.curvature(residual));
     let (curvature, _) = sum(&parts, count);
@@ -111,43 +110,68 @@ pub fn fit_points(
         covariance_of_scatter: inverse(&matrix),
         grouping,
         groups,
-        scatter: at.scatter,
-        residuals: at.rows.iter().map(|row| row.whitened(&at.scatter)).collect(),
-        iterations: at.evaluations,
+        scatter: table.scatter,
+        residuals: at.rows.iter().map(|row| row.whitened(&table.scatter)).collect(),
+        iterations,
     })
 }
 
-/// Points whose residuals the first parameters make small.
+/// The minimum whose residuals have the scatters that it was found with, and the steps to it.
+fn settled<'a>(
+    points: &'a [OperatingPoint],
+    start: &Parameters,
+    loss: Loss,
+    count: usize,
+) -> Result<(Table<'a>, At, usize), Error> {
+    let mut at = At::new(points, *start);
+    let mut table = Table { points, loss, count, scatter: scatter_of(&at.rows, loss) };
+    let mut steps = 0;
+    for _ in 0..MAX_ROUNDS {
+        let Minimum { point, status, iterations, last_change } = minimise(&table, at, &SETTINGS);
+        steps += iterations;
+        if status != Status::Settled {
+            return Err(Error::NotConverged { iterations: steps, step: last_change });
+        }
+        at = point;
+        let scatter = scatter_of(&at.rows, loss);
+        let is_settled = (0..CHANNELS).all(|channel| {
+            let (before, now) = (table.scatter[channel], scatter[channel]);
+            before.zip(now).is_none_or(|(b, n)| (b - n).abs() <= SCATTER_SETTLED * b)
+        });
+        if is_settled {
+            break;
+        }
+        table.scatter = scatter;
+    }
+    Ok((table, at, steps))
+}
+
+/// Points whose residuals, in these scatters, the first parameters make small.
 struct Table<'a> {
     points: &'a [OperatingPoint],
     loss: Loss,
     /// Number of free parameters.
     count: usize,
+    scatter: [Option<f64>; CHANNELS],
 }
 
 /// Parameters with the residuals that they leave.
 struct At {
     parameters: Parameters,
     rows: Vec<Row>,
-    scatter: [Option<f64>; CHANNELS],
-    /// Evaluations so far, this one included.
-    evaluations: usize,
+}
+
+impl At {
+    fn new(points: &[OperatingPoint], parameters: Parameters) -> Self {
+        let rows = points.iter().map(|point| Row::at(point, &parameters)).collect();
+        Self { parameters, rows }
+    }
 }
 
 impl Table<'_> {
-    fn at(&self, parameters: Parameters, before: Option<&At>) -> At {
-        let rows: Vec<Row> = self.points.iter().map(|point| Row::at(point, &parameters)).collect();
-        let evaluations = before.map_or(0, |before| before.evaluations) + 1;
-        let scatter = match before {
-            Some(before) if evaluations > SCATTER_ITERATIONS => before.scatter,
-            _ => scatter_of(&rows, self.loss),
-        };
-        At { parameters, rows, scatter, evaluations }
-    }
-
     /// What each point adds to the normal equations, with these weights of the residuals.
     fn parts(&self, at: &At, weight: impl Fn(f64) -> f64) -> Vec<Part> {
-        let part = |row: &Row| row.part(&at.scatter, self.loss, &weight, self.count);
+        let part = |row: &Row| row.part(&self.scatter, self.loss, &weight, self.count);
         at.rows.iter().map(part).collect()
     }
 }
@@ -156,7 +180,7 @@ impl Problem for Table<'_> {
     type Point = At;
 
     fn cost(&self, at: &At) -> f64 {
-        let whitened = at.rows.iter().flat_map(|row| row.whitened(&at.scatter));
+        let whitened = at.rows.iter().flat_map(|row| row.whitened(&self.scatter));
         whitened.flatten().map(|residual| self.loss.value(residual)).sum()
     }
 
@@ -177,7 +201,7 @@ impl Problem for Table<'_> {
         for k in 0..self.count {
             parameters.0[k] += step[k];
         }
-        self.at(parameters, Some(at))
+        At::new(self.points, parameters)
     }
 }
 
@@ -278,7 +302,55 @@ fn scatter_of(rows: &[Row], loss: Loss) -> [Option<f64>; CHANNELS] {
             Loss::Huber if by_median > 0.0 => by_median,
             _ => mean_square.sqrt(),
         };
-        // Points that a model explains to rounding scatter by something all the same.
-        Some(size.max(1e-9))
+        Some(size.max(MIN_SCATTER))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trackdyn_model::{Icrs, Kinematics};
+
+    /// Points by these ICRs, with a scatter of the yaw rate, rad/s; the forward and lateral speeds
+    /// are exact.
+    fn points(icrs: Icrs, scatter: f64) -> Vec<OperatingPoint> {
+        let kinematics = Kinematics::new(icrs);
+        let point = |(i, j): (i32, i32)| {
+            let (v_left, v_right) = (0.2 * f64::from(i), 0.2 * f64::from(j));
+            let [forward, left, yaw_rate] = predict(&kinematics, v_left, v_right);
+            let off = scatter * f64::from((7 * i + 3 * j).rem_euclid(5) - 2);
+            OperatingPoint {
+                v_left,
+                v_right,
+                v_forward: Some(forward),
+                v_lateral: Some(left - icrs.y * off),
+                yaw_rate: Some(yaw_rate + off),
+            }
+        };
+        (-4..=4).flat_map(|i| (-4..=4).map(move |j| (i, j))).map(point).collect()
+    }
+
+    fn predict(kinematics: &Kinematics, v_left: f64, v_right: f64) -> [f64; CHANNELS] {
+        let Icrs { x_left, x_right, y } = kinematics.icrs;
+        let yaw_rate = (v_right - v_left) / (x_right - x_left);
+        [v_left - yaw_rate * x_left, -yaw_rate * y, yaw_rate]
+    }
+
+    #[test]
+    fn points_give_their_icrs_back() {
+        // The forward speed is as exact at the start as at the end.
+        let icrs = Icrs { x_left: -0.416, x_right: 0.416, y: 0.05 };
+        let start = Parameters::of(&Kinematics::ideal(0.42));
+        for (scatter, tolerance) in [(0.0, 1e-8), (1e-6, 1e-6), (1e-3, 1e-3)] {
+            for loss in [Loss::Squares, Loss::Huber] {
+                for free in [Free::Icrs, Free::IcrsAndAlphas] {
+                    let fit = fit_points(&points(icrs, scatter), &start, free, loss);
+                    let fit = fit.unwrap_or_else(|e| panic!("{scatter} {loss:?} {free:?}: {e}"));
+                    let [x_l, x_r, y, ..] = fit.parameters.0;
+                    let off = [x_l - icrs.x_left, x_r - icrs.x_right, y - icrs.y];
+                    assert!(off.iter().all(|off| off.abs() < tolerance), "{off:?}");
+                }
+            }
+        }
+    }
 }

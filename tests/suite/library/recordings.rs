@@ -73,7 +73,9 @@ fn a_recording_counts_once() {
 fn a_table_of_points_has_neither_runs_nor_time() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let (points, vehicle) = (table(folder.path()), Vehicle::auriga_alpha());
-    identify(&points, &vehicle, &IdentifySettings::default()).expect("enough points");
+    let fit = identify(&points, &vehicle, &IdentifySettings::default()).expect("enough points");
+    let icrs = fit.parameters().expect("determined").kinematics().icrs;
+    assert!((icrs.x_right - icrs.x_left - 0.832).abs() < 1e-3 && (icrs.y - 0.05).abs() < 1e-6);
     let settings = IdentifySettings { tau: Some(0.1), ..IdentifySettings::default() };
     let error = identify(&points, &vehicle, &settings).expect_err("no time");
     assert!(matches!(error, Error::MotionOnly { ref settings, .. } if *settings == ["tau"]));

@@ -7,6 +7,7 @@ mod intervals;
 mod measured;
 mod nulls;
 mod one_sided;
+mod proposal;
 mod real;
 mod twins;
 mod unknown;

@@ -7,6 +7,7 @@ mod cleaning;
 mod content;
 mod run;
 mod source;
+mod spikes;
 mod warning;
 
 pub use cleaning::MIN_GAP_RATIO;

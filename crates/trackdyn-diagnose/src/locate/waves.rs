@@ -17,6 +17,7 @@ use crate::resampling::Resampling;
 use crate::settings;
 use crate::significance::{Group, Test, test_family};
 use crate::weighted::Weighted;
+use faer::Mat;
 use nalgebra::{DMatrix, DVector, Vector2, Vector3};
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -146,25 +147,10 @@ impl Remainder {
             });
             DVector::from_iterator(3 * column.len(), values)
         };
-        let mut basis: Vec<DVector<f64>> = Vec::new();
-        for column in beside {
-            let mut column = flat(column);
-            let length = column.norm();
-            // twice is enough for orthogonality to rounding
-            for _ in 0..2 {
-                for one in &basis {
-                    column.axpy(-one.dot(&column), one, 1.0);
-                }
-            }
-            if column.norm() > 1e-6 * length {
-                basis.push(column.normalize());
-            }
-        }
+        let columns: Vec<DVector<f64>> = beside.iter().map(|column| flat(column)).collect();
         let mut residual = flat(residual);
-        for one in &basis {
-            residual.axpy(-one.dot(&residual), one, 1.0);
-        }
-        let beside = DMatrix::from_columns(&basis);
+        let beside = orthonormal_basis(&columns, residual.len());
+        residual -= &beside * beside.tr_mul(&residual);
         let mut blocks = vec![Range { start: usize::MAX, end: 0 }; evidence.blocks()];
         for (k, sample) in evidence.samples().iter().enumerate() {
             let block: &mut Range<usize> = &mut blocks[sample.block];
@@ -187,5 +173,42 @@ impl Remainder {
             (of.tr_mul(&self.residual.rows(first, count)), of.tr_mul(&of))
         });
         Group::of(&blocks.collect::<Vec<_>>(), settings)
+    }
+}
+
+/// An orthonormal basis of what columns of this length span, by QR decomposition with pivots.
+fn orthonormal_basis(columns: &[DVector<f64>], length: usize) -> DMatrix<f64> {
+    /// Part of a column's length that must stand out of those before it.
+    const MIN_INDEPENDENT: f64 = 1e-6;
+    let lengths: Vec<f64> = columns.iter().map(DVector::norm).collect();
+    let unit: Vec<usize> = (0..columns.len()).filter(|&k| lengths[k] > 0.0).collect();
+    let matrix =
+        Mat::from_fn(length, unit.len(), |row, k| columns[unit[k]][row] / lengths[unit[k]]);
+    let decomposition = matrix.col_piv_qr();
+    let (basis, triangle) = (decomposition.compute_thin_Q(), decomposition.thin_R());
+    let sizes = (0..length.min(unit.len())).map(|k| triangle[(k, k)].abs());
+    let rank = sizes.take_while(|size| *size > MIN_INDEPENDENT).count();
+    DMatrix::from_fn(length, rank, |row, k| basis[(row, k)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_basis_spans_its_columns_and_no_more() {
+        let value = |row: usize, k: usize| real((7 * row + 3 * k * k) % 11) - 5.0;
+        let column = |k: usize| DVector::from_fn(60, |row, _| value(row, k));
+        let [first, second] = [column(0), column(1)];
+        let columns =
+            [1e-3 * &first, 1e4 * &second, &first - 2.0 * &second, DVector::zeros(60), column(2)];
+        let basis = orthonormal_basis(&columns, 60);
+        assert_eq!(basis.ncols(), 3);
+        assert!((basis.tr_mul(&basis) - DMatrix::identity(3, 3)).amax() < 1e-12);
+        for column in &columns {
+            let left = column - &basis * basis.tr_mul(column);
+            assert!(left.norm() <= 1e-12 * column.norm());
+        }
+        assert_eq!(orthonormal_basis(&[], 60).ncols(), 0);
     }
 }

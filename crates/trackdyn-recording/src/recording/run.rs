@@ -1,6 +1,7 @@
 //! A continuous part of a recording.
 
 use super::cleaning::{clean, held, unwrap_yaw};
+use super::spikes::mend;
 use super::warning::Cleaning;
 use crate::sample::{ImuSample, PoseSample, Series, TrackSample};
 
@@ -32,6 +33,7 @@ impl Run {
         clean(&mut rows.tracks, rows.id, cleanings);
         clean(&mut rows.poses, rows.id, cleanings);
         clean(&mut rows.imu, rows.id, cleanings);
+        mend(&mut rows.tracks.samples, rows.id, cleanings);
         held(&rows.poses.samples, &rows.tracks.samples, rows.id, cleanings);
         unwrap_yaw(&mut rows.poses.samples, rows.id, cleanings);
         Self { id: rows.id, tracks: rows.tracks, poses: rows.poses, imu: rows.imu }

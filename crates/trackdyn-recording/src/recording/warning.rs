@@ -118,6 +118,11 @@ pub enum Finding {
     },
     /// A jump of yaw by more than half a turn: whole turns are added from there on.
     YawUnwrapped,
+    /// A speed that jumps away from its neighbours and back: the line between them replaces it.
+    Spike {
+        /// Size of the largest, m/s.
+        largest: f64,
+    },
 }
 
 impl Finding {
@@ -141,10 +146,12 @@ pub(super) fn gather(cleanings: Vec<Cleaning>) -> Vec<Cleaning> {
         };
         sum.count += next.count;
         sum.runs += next.runs;
-        if let (Finding::Gap { longest }, Finding::Gap { longest: other }) =
-            (&mut sum.finding, next.finding)
-        {
-            *longest = longest.max(other);
+        match (&mut sum.finding, next.finding) {
+            (Finding::Gap { longest: most }, Finding::Gap { longest: other })
+            | (Finding::Spike { largest: most }, Finding::Spike { largest: other }) => {
+                *most = most.max(other);
+            }
+            _ => {}
         }
     }
     gathered.sort_by_key(|cleaning| cleaning.stream);
@@ -170,6 +177,11 @@ impl fmt::Display for Cleaning {
             }
             Finding::Gap { longest } => write!(f, "gaps, the longest {longest:.3} s")?,
             Finding::YawUnwrapped => write!(f, "jumps of yaw unwrapped")?,
+            Finding::Spike { largest } => write!(
+                f,
+                "speeds that jump away from their neighbours and back, up to {largest:.1} m/s \
+                 (glitch, restart or wrap of an encoder), replaced by the line between them"
+            )?,
         }
         write!(f, " ({runs} runs, first at t = {t} s of run {run})")
     }

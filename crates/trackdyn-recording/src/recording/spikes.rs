@@ -1,0 +1,180 @@
+//! Readings of the tracks that jump away from their neighbours and back: glitches of a driver, and
+//! restarts or wraps of a counter, which show as one speed that no track has.
+//!
+//! # Law
+//! d is the distance of a reading from the median of the five around it, which follows steps and
+//! ramps of the speed. A reading is a spike where
+//!
+//! |d| > max(8 σ, 4 q, v/2)
+//!
+//! with σ the robust spread of d over the run, q the size of d that 97 % of the readings keep
+//! below, and v the speed that 90 % keep below. A spike is replaced by the line between the
+//! readings beside it.
+//!
+//! # Assumes
+//! At most 3 % of the readings are spikes, and no more than two in a row.
+//!
+//! # Sources
+//! The filter is Hampel's: Pearson, IEEE Transactions on Control Systems Technology 10(1), 2002.
+
+use super::warning::{Cleaning, Finding};
+use crate::sample::{Stream, TrackSample};
+use trackdyn_core::robust::deviation_about_zero;
+use trackdyn_core::{PerSide, Side};
+
+/// Readings on either side of one whose median it is compared with.
+const HALF_WINDOW: usize = 2;
+
+/// Fewest readings of a run whose spread can be told.
+const MIN_READINGS: usize = 20;
+
+/// Distances from the median, in its robust standard deviations, that noise does not reach.
+const MIN_DEVIATIONS: f64 = 8.0;
+
+/// Share of the readings that are no spikes, whatever happens.
+const GOOD_SHARE: f64 = 0.97;
+
+/// Factor by which a spike stands out of the largest distance of that share.
+const MIN_RATIO: f64 = 4.0;
+
+/// Share of the readings at usual speeds.
+const USUAL_SHARE: f64 = 0.9;
+
+/// Distance of a spike in the largest usual speed: smaller ones do no harm.
+const MIN_OF_SPEED: f64 = 0.5;
+
+/// Replaces the spikes of either side; `cleanings` takes what was found.
+pub(super) fn mend(tracks: &mut [TrackSample], run: i64, cleanings: &mut Vec<Cleaning>) {
+    if tracks.len() < MIN_READINGS {
+        return;
+    }
+    let times: Vec<f64> = tracks.iter().map(|sample| sample.t).collect();
+    let (mut count, mut first, mut largest) = (0, f64::INFINITY, 0.0_f64);
+    let mended = PerSide::from_fn(|side: Side| {
+        let mut speeds: Vec<f64> = tracks.iter().map(|sample| sample.speeds()[side]).collect();
+        let spikes = spikes(&speeds);
+        for &spike in &spikes {
+            largest = largest.max(speeds[spike].abs());
+            first = first.min(times[spike]);
+        }
+        count += spikes.len();
+        bridge(&times, &mut speeds, &spikes);
+        speeds
+    });
+    if count == 0 {
+        return;
+    }
+    for (k, sample) in tracks.iter_mut().enumerate() {
+        (sample.v_left, sample.v_right) = (mended.left[k], mended.right[k]);
+    }
+    let finding = Finding::Spike { largest };
+    cleanings.push(Cleaning { stream: Stream::Tracks, finding, count, runs: 1, run, t: first });
+}
+
+/// Places of the spikes among speeds.
+fn spikes(speeds: &[f64]) -> Vec<usize> {
+    let off = |k: usize| {
+        let window = &speeds[k.saturating_sub(HALF_WINDOW)..speeds.len().min(k + HALF_WINDOW + 1)];
+        let mut sorted = [0.0; 2 * HALF_WINDOW + 1];
+        let sorted = &mut sorted[..window.len()];
+        sorted.copy_from_slice(window);
+        sorted.sort_by(f64::total_cmp);
+        (speeds[k] - sorted[sorted.len() / 2]).abs()
+    };
+    let distances: Vec<f64> = (0..speeds.len()).map(off).collect();
+    let spread = deviation_about_zero(&mut distances.clone()).unwrap_or(0.0);
+    let sizes = speeds.iter().map(|speed| speed.abs()).collect();
+    let least = (MIN_DEVIATIONS * spread)
+        .max(MIN_RATIO * quantile(distances.clone(), GOOD_SHARE))
+        .max(MIN_OF_SPEED * quantile(sizes, USUAL_SHARE));
+    (0..speeds.len()).filter(|&k| distances[k] > least).collect()
+}
+
+/// The value that this share of the values keeps below.
+fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of them")]
+    let place = (share * trackdyn_core::real(values.len() - 1)) as usize;
+    *values.select_nth_unstable_by(place, f64::total_cmp).1
+}
+
+/// Replaces values at these places by the line between their good neighbours in time.
+fn bridge(times: &[f64], values: &mut [f64], places: &[usize]) {
+    for group in places.chunk_by(|a, b| a + 1 == *b) {
+        let (first, last) = (group[0], group[group.len() - 1]);
+        let before = first.checked_sub(1);
+        let after = (last + 1 < values.len()).then_some(last + 1);
+        for &place in group {
+            values[place] = match (before, after) {
+                (Some(a), Some(b)) => {
+                    let share = (times[place] - times[a]) / (times[b] - times[a]);
+                    values[a] + share * (values[b] - values[a])
+                }
+                (Some(only), None) | (None, Some(only)) => values[only],
+                (None, None) => values[place],
+            };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A drive at 50 Hz that speeds up, turns, stops and reverses, with noise of 5 mm/s.
+    fn drive() -> Vec<TrackSample> {
+        (0_u32..3000)
+            .map(|k| {
+                let t = 0.02 * f64::from(k);
+                let noise = |by: u32| 0.005 * (f64::from((k * by) % 17) / 8.0 - 1.0);
+                let forward = match (t / 5.0) as u32 % 3 {
+                    0 => 0.6,
+                    1 => 0.0,
+                    _ => -0.4,
+                };
+                let turning = 0.3 * (0.4 * t).sin();
+                let (v_left, v_right) = (forward - turning, forward + turning);
+                TrackSample { t, v_left: v_left + noise(7), v_right: v_right + noise(11) }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn what_is_no_spike_stays_to_the_last_digit() {
+        let (mut tracks, mut cleanings) = (drive(), Vec::new());
+        mend(&mut tracks, 0, &mut cleanings);
+        assert_eq!(tracks, drive());
+        assert!(cleanings.is_empty());
+        // commands that last for one reading are driving, where there are many of them
+        let pulses = |k: usize| if k.is_multiple_of(10) { 0.5 } else { 0.0 };
+        let pulsed: Vec<TrackSample> = drive()
+            .iter()
+            .enumerate()
+            .map(|(k, sample)| TrackSample { v_left: pulses(k), ..*sample })
+            .collect();
+        let mut tracks = pulsed.clone();
+        mend(&mut tracks, 0, &mut cleanings);
+        assert_eq!(tracks, pulsed);
+    }
+
+    #[test]
+    fn spikes_of_all_kinds_are_replaced_and_told() {
+        let good = drive();
+        // a glitch, two readings in a row, a sign flip, a dropped reading
+        let bad =
+            [(700, 1000.0), (1200, -30.0), (1201, 25.0), (2040, -good[2040].v_left), (5, 0.0)];
+        let mut tracks = good.clone();
+        for (place, value) in bad {
+            tracks[place].v_left = value;
+        }
+        let mut cleanings = Vec::new();
+        mend(&mut tracks, 3, &mut cleanings);
+        for (found, good) in tracks.iter().zip(&good) {
+            assert!((found.v_left - good.v_left).abs() < 0.02, "{found:?} {good:?}");
+            assert_eq!(found.v_right, good.v_right);
+        }
+        let [cleaning] = cleanings[..] else { panic!("{cleanings:?}") };
+        assert_eq!((cleaning.count, cleaning.run), (bad.len(), 3));
+        assert_eq!(cleaning.finding, Finding::Spike { largest: 1000.0 });
+        assert!((cleaning.t - 0.1).abs() < 1e-9);
+    }
+}

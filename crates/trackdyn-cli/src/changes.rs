@@ -2,7 +2,7 @@
 
 use crate::stderr::say;
 use std::path::Path;
-use trackdyn::Change;
+use trackdyn::{Change, Parameters};
 
 /// Names the files that were written.
 pub fn say_written(changes: &[Change]) {
@@ -33,4 +33,15 @@ pub fn say_undetermined(changes: &[Change]) {
 
 fn removed(changes: &[Change]) -> impl Iterator<Item = &Path> {
     changes.iter().filter(|change| matches!(change, Change::Removed(_))).map(Change::path)
+}
+
+/// Names the parameters that other parts of the answer that they come from contradict.
+pub fn say_doubtful(parameters: &[Parameters]) {
+    for of in parameters.iter().filter(|of| of.is_doubtful()) {
+        let name = of.name();
+        say(format_args!(
+            "warning: {name} is doubtful: what it was identified from contradicts it, and it was \
+            written with --force"
+        ));
+    }
 }

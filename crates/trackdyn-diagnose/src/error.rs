@@ -61,6 +61,9 @@ pub enum Error {
         /// Largest that will do, m.
         largest: f64,
     },
+    /// Clocks of poses and tracks that do not go together.
+    #[error("{0}")]
+    Clock(String),
     /// A vehicle that cannot move as recorded.
     #[error("the vehicle does not move as recorded: {0}")]
     NoMotion(String),

@@ -5,7 +5,8 @@
 //! pose interval moved back by τ. k is the inverse of the distance between the ICRs, b takes up a
 //! constant yaw rate.
 //!
-//! The correlation of Δψ and D (b removed) is searched for its peak. The peak itself is not the
+//! The correlation of Δψ and D (b removed) is searched for its peak: first where offsets usually
+//! are, and where no clear peak lies there, as far as it takes. The peak itself is not the
 //! estimate: encoder noise averages better where D cuts readings in two, which pulls the peak by up
 //! to half a reading. From there on, the residual is made orthogonal to D before and after the
 //! interval (lead minus lag for τ, lead plus lag for k, Δt for b). These instruments share no
@@ -40,11 +41,13 @@ pub struct ClockSearch {
     pub earliest: f64,
     /// Largest offset, s.
     pub latest: f64,
+    /// Size of the offsets that are looked at where no clear peak lies between these two, s.
+    pub farthest: f64,
 }
 
 impl Default for ClockSearch {
     fn default() -> Self {
-        Self { earliest: -0.5, latest: 1.0 }
+        Self { earliest: -0.5, latest: 1.0, farthest: 60.0 }
     }
 }
 
@@ -76,13 +79,19 @@ pub enum Clock {
 }
 
 impl Clock {
-    /// The given offset, s, or else the one that is estimated from the recording.
-    pub fn of(recording: &Recording, given: Option<f64>) -> Self {
+    /// The given offset, s, or else the one that is estimated from the recording; unknown where
+    /// there is too little turning to tell.
+    ///
+    /// # Errors
+    /// [`Error::ClockFar`] and [`Error::Swapped`]: what shows that no offset of the search is right
+    /// is no reason to work with zero.
+    pub fn of(recording: &Recording, given: Option<f64>) -> Result<Self, Error> {
         match given {
-            Some(tau) => Self::Given(tau),
+            Some(tau) => Ok(Self::Given(tau)),
             None => match clock_offset(recording, &ClockSearch::default()) {
-                Ok(offset) => Self::Estimated(offset),
-                Err(reason) => Self::Unknown(reason.to_string()),
+                Ok(offset) => Ok(Self::Estimated(offset)),
+                Err(reason @ Error::NotEstimable { .. }) => Ok(Self::Unknown(reason.to_string())),
+                Err(reason) => Err(reason),
             },
         }
     }
@@ -122,8 +131,11 @@ impl Clock {
     }
 }
 
-/// Step of the first search, s.
+/// Step of the search, s.
 const SEARCH_STEP: f64 = 0.02;
+
+/// Step of the search beyond its first range, s: a part of the time in which robots turn.
+const FAR_STEP: f64 = 0.1;
 
 /// Smallest number of pose intervals for an estimate.
 const MIN_INTERVALS: usize = 20;
@@ -131,28 +143,86 @@ const MIN_INTERVALS: usize = 20;
 /// Smallest correlation of encoders and poses that show the same turning.
 const MIN_CORRELATION: f64 = 0.5;
 
+/// Correlation of a peak beside which no other is looked for.
+const CLEAR_CORRELATION: f64 = 0.95;
+
+/// Largest part of the variance beside the first peak, 1 − r², that a far one may leave: peaks of
+/// driving that repeats itself are hardly higher.
+const MAX_LEFT_BY_FAR_PEAK: f64 = 0.5;
+
+/// Smallest share of the pose intervals that a far offset may use.
+const MIN_SHARE: f64 = 0.3;
+
+/// An offset of a search with the fit there.
+#[derive(Clone, Copy)]
+struct Peak {
+    tau: f64,
+    fit: Fit,
+    is_at_end: bool,
+}
+
+impl Peak {
+    /// The offset with the largest correlation of those with enough pose intervals; without any,
+    /// the largest number of these.
+    fn within(
+        intervals: &Intervals,
+        [first, last]: [f64; 2],
+        step: f64,
+        needed: usize,
+    ) -> Result<Self, usize> {
+        let (mut best, mut most): (Option<Self>, usize) = (None, 0);
+        let taus =
+            (0..).map(|k| first + step * real(k)).take_while(|tau| *tau <= last + step / 2.0);
+        for tau in taus {
+            let fit = intervals.fit(tau);
+            most = most.max(fit.count);
+            let is_better =
+                best.is_none_or(|best| fit.correlation.abs() > best.fit.correlation.abs());
+            if fit.count >= needed && is_better {
+                let is_at_end = tau < first + step / 2.0 || tau > last - step / 2.0;
+                best = Some(Self { tau, fit, is_at_end });
+            }
+        }
+        best.ok_or(most)
+    }
+
+    /// 1 − r², the part of the variance of Δψ that is left.
+    fn left(&self) -> f64 {
+        1.0 - self.fit.correlation.powi(2)
+    }
+}
+
+/// The highest peak of the correlation: of the first range, if it is clear or no other is higher by
+/// far.
+fn highest(intervals: &Intervals, search: &ClockSearch) -> Result<Peak, usize> {
+    let range = [search.earliest, search.latest];
+    let near = Peak::within(intervals, range, SEARCH_STEP, MIN_INTERVALS)?;
+    if !near.is_at_end && near.fit.correlation.abs() >= CLEAR_CORRELATION {
+        return Ok(near);
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of them")]
+    let needed = ((MIN_SHARE * real(near.fit.count)) as usize).max(MIN_INTERVALS);
+    let reach = [-search.farthest, search.farthest];
+    let Ok(far) = Peak::within(intervals, reach, FAR_STEP, needed) else { return Ok(near) };
+    if far.left() > MAX_LEFT_BY_FAR_PEAK * near.left() {
+        return Ok(near);
+    }
+    let around = [far.tau - FAR_STEP, far.tau + FAR_STEP];
+    let fine = Peak::within(intervals, around, SEARCH_STEP, needed)?;
+    Ok(Peak { is_at_end: far.is_at_end, ..fine })
+}
+
 /// Estimates the clock offset.
 ///
 /// # Errors
-/// [`Error::NotEstimable`] without enough turning that changes, with the best offset at an end of
-/// the search, or with left and right swapped.
+/// [`Error::NotEstimable`] without enough turning that changes, [`Error::ClockFar`] with the best
+/// offset at an end of the search, [`Error::Swapped`] with left and right swapped.
 pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<ClockOffset, Error> {
     let refuse = |reason: String| Error::NotEstimable { what: "the clock offset", reason };
     let intervals = Intervals::new(recording);
-    let steps = (0..).map(|step| search.earliest + SEARCH_STEP * real(step));
-    let mut best: Option<(f64, Fit)> = None;
-    let mut most = 0;
-    for tau in steps.take_while(|tau| *tau <= search.latest + SEARCH_STEP / 2.0) {
-        let fit = intervals.fit(tau);
-        most = most.max(fit.count);
-        let better = best.is_none_or(|(_, best)| fit.correlation.abs() > best.correlation.abs());
-        if fit.count >= MIN_INTERVALS && better {
-            best = Some((tau, fit));
-        }
-    }
-    let Some((coarse, fit)) = best else {
-        return Err(refuse(format!("{most} pose intervals with readings, {MIN_INTERVALS} needed")));
-    };
+    let Peak { tau: coarse, fit, is_at_end } = highest(&intervals, search).map_err(|most| {
+        refuse(format!("{most} pose intervals with readings, {MIN_INTERVALS} needed"))
+    })?;
     let Fit { correlation, count, .. } = fit;
     if correlation.abs() < MIN_CORRELATION {
         return Err(refuse(format!(
@@ -161,16 +231,10 @@ pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<Clock
         )));
     }
     if correlation < 0.0 {
-        return Err(refuse(format!(
-            "yaw falls where the right track is faster (correlation {correlation:.2}): left and \
-             right are swapped, or the sign of yaw is"
-        )));
+        return Err(Error::Swapped { correlation });
     }
-    if coarse < search.earliest + SEARCH_STEP / 2.0 || coarse > search.latest - SEARCH_STEP / 2.0 {
-        return Err(refuse(format!(
-            "the best offset, {coarse:.2} s, lies at an end of the search from {} to {} s",
-            search.earliest, search.latest
-        )));
+    if is_at_end {
+        return Err(Error::ClockFar { tau: coarse, farthest: search.farthest });
     }
     let Some(moments) = Moments::new(&intervals, coarse) else {
         return Err(refuse("the readings end too close to the pose intervals".to_owned()));

@@ -73,6 +73,28 @@ pub enum Error {
         /// What is missing, with numbers.
         reason: String,
     },
+    /// The clock offset lies beyond all that were tried.
+    #[error(
+        "the clocks of poses and tracks differ by {tau:.2} s or more: the best clock offset lies \
+         at an end of the search, up to {farthest} s either way. Expected stamps by one clock: see \
+         what `inspect` says of the stamps, or give the offset with --tau"
+    )]
+    ClockFar {
+        /// The best of those that were tried, s.
+        tau: f64,
+        /// How far the search went, s.
+        farthest: f64,
+    },
+    /// Yaw falls where the right track is faster.
+    #[error(
+        "yaw falls where the right track is faster (correlation {correlation:.2}): left and right \
+         are swapped, a side counts backwards, or the sign of yaw is another. Give the joints with \
+         --left-joint and --right-joint (-NAME reverses one)"
+    )]
+    Swapped {
+        /// Correlation of yaw increments and encoders.
+        correlation: f64,
+    },
     /// The caller asked to stop.
     #[error("stopped before the end")]
     Cancelled,

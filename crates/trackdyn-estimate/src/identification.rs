@@ -1,5 +1,6 @@
 //! All that a recording says of the kinematic parameters: the methods side by side.
 
+use crate::contradiction::Contradiction;
 use crate::doubt::Doubt;
 use crate::error::Error;
 use crate::genetic::{GeneticEstimate, GeneticOptions, genetic_unless_stopped};
@@ -47,6 +48,8 @@ pub struct Fit {
     pub least_squares: Result<Estimate, Error>,
     /// Why the recording does not determine them; empty where it does.
     pub doubts: Vec<Doubt>,
+    /// What contradicts them; empty where all parts of the answer agree.
+    pub contradictions: Vec<Contradiction>,
     /// Why properties of the sensor that were asked for are not fitted.
     pub refused: Vec<Doubt>,
 }
@@ -80,7 +83,7 @@ const MAX_CUTS: usize = 5;
 /// algorithm, which runs twice.
 ///
 /// # Errors
-/// Too few segments.
+/// Too few segments, and those of [`Clock::of`].
 pub fn identify(
     recording: &Recording,
     options: &Options,
@@ -102,7 +105,7 @@ pub fn identify_unless_stopped(
     options: &Options,
     progress: &dyn Fn(usize) -> ControlFlow<()>,
 ) -> Result<Identification, Error> {
-    let clock = Clock::of(recording, options.tau);
+    let clock = Clock::of(recording, options.tau)?;
     let tau = clock.tau();
     let tau_margin =
         if options.nuisances.contains(&Nuisance::TimeOffset) { TAU_MARGIN } else { 0.0 };
@@ -137,7 +140,19 @@ pub fn identify_unless_stopped(
         };
         let doubts =
             least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
-        Some(Fit { free, genetic, genetic_estimate, least_squares, doubts, refused })
+        let contradictions = least_squares.as_ref().map_or(Vec::new(), |estimate| {
+            let spin = spin_test.as_ref().ok();
+            Contradiction::of_motions(estimate, &genetic_estimate, spin, &observations, gauge)
+        });
+        Some(Fit {
+            free,
+            genetic,
+            genetic_estimate,
+            least_squares,
+            doubts,
+            contradictions,
+            refused,
+        })
     };
     let fits = fit(Free::Icrs).and_then(|icrs| Some([icrs, fit(Free::IcrsAndAlphas)?]));
     let fits = fits.ok_or(Error::Cancelled)?;

@@ -21,13 +21,14 @@
 //! - [`gauss_newton`]: robust least squares, whatever the residuals are of.
 //! - [`mod@spin_test`], [`mod@genetic`], [`mod@least_squares`]: three ways to the parameters.
 //! - [`steady`]: the parameters from a table of steady operating points.
-//! - [`identification`]: all of them on one recording.
+//! - [`identification`]: all of them on one recording; [`contradiction`]: where they do not agree.
 //! - [`odometry`]: where the robot would be if its parameters were true, against where it was.
 //!
 //! Residual = observed − predicted, in the frame of the segment's first pose (REP-103).
 
 pub mod blocks;
 pub mod clock;
+pub mod contradiction;
 pub mod doubt;
 pub mod error;
 pub mod gaps;
@@ -52,6 +53,7 @@ pub mod weighting;
 
 pub use blocks::{Blocks, Extent};
 pub use clock::Clock;
+pub use contradiction::Contradiction;
 pub use doubt::Doubt;
 pub use error::Error;
 pub use genetic::{GeneticOptions, genetic, genetic_unless_stopped};

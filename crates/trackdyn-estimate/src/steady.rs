@@ -18,6 +18,7 @@ pub use groups::Grouping;
 pub use lagging::{Lagging, lagging};
 
 use crate::Interval;
+use crate::contradiction::Contradiction;
 use crate::doubt::Doubt;
 use crate::error::Error;
 use crate::gauss_newton::{Minimum, Problem, Settings, Status, minimise};
@@ -231,6 +232,19 @@ impl SteadyEstimate {
         }
         doubts.extend(too_wide(&deviations, gauge));
         doubts
+    }
+
+    /// What contradicts the parameters on a vehicle with this gauge, m.
+    pub fn contradictions(&self, gauge: f64) -> Vec<Contradiction> {
+        let gap = self.gap();
+        // χ falls as the distance grows: its low end is that of the largest distance
+        let efficiency = Interval {
+            value: gauge / gap.value,
+            deviation: gauge / gap.value.powi(2) * gap.deviation,
+            low: gauge / gap.high,
+            high: gauge / gap.low,
+        };
+        Contradiction::of_parameters(&self.parameters, &efficiency)
     }
 
     /// The covariance of the free parameters, with the standard deviations of their intervals.

@@ -13,7 +13,7 @@ use crate::{Change, Error, Observer, Parameters, Provenance, Recording, Vehicle,
 use std::path::Path;
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::identification::Options;
-use trackdyn_estimate::{Nuisance, identify_unless_stopped};
+use trackdyn_estimate::{Contradiction, Nuisance, identify_unless_stopped};
 use trackdyn_recording::Recording as Motion;
 
 /// Names of the kinematics files of the two fits: the ICRs alone, and with the factors on the track
@@ -32,6 +32,9 @@ pub struct IdentifySettings {
     pub nuisances: Vec<Nuisance>,
     /// The genetic algorithm.
     pub genetic: GeneticOptions,
+    /// Give and write parameters that other parts of the answer contradict as well, marked as
+    /// doubtful. Default: they are withheld.
+    pub force: bool,
 }
 
 impl IdentifySettings {
@@ -106,7 +109,7 @@ impl<'a> Prepared<'a> {
     pub fn run(&self, observer: &Observer) -> Result<Identification, Error> {
         let Self { recording, vehicle, settings } = *self;
         if let Some(points) = recording.points() {
-            return Ok(Identification::Points(Box::new(PointsFit::new(points, vehicle))));
+            return Ok(Identification::Points(Box::new(PointsFit::new(points, vehicle, settings))));
         }
         let motion: &Motion = recording.expect_motion()?;
         let options = Options {
@@ -123,7 +126,7 @@ impl<'a> Prepared<'a> {
                 trackdyn_estimate::Error::Cancelled => Error::Cancelled,
                 cause => Error::Identify { recording: recording.place(), cause },
             })?;
-        let fit = MotionFit::new(found, recording, motion, vehicle, settings.genetic.seed);
+        let fit = MotionFit::new(found, recording, motion, vehicle, settings);
         Ok(Identification::Motion(Box::new(fit)))
     }
 }
@@ -153,6 +156,16 @@ impl Identification {
     pub fn parameters_with_alphas(&self) -> Option<Parameters> {
         let [_, with_alphas] = self.fits(&Provenance::default());
         with_alphas
+    }
+
+    /// What contradicts each of the fits, and keeps it from being given or written unless forced.
+    pub fn contradictions(&self) -> [Vec<Contradiction>; 2] {
+        match self {
+            Self::Motion(fit) => fit.found.fits.each_ref().map(|fit| fit.contradictions.clone()),
+            Self::Points(points) => points.fits.each_ref().map(|(_, fit)| {
+                fit.as_ref().map_or(Vec::new(), |fit| fit.contradictions(points.gauge()))
+            }),
+        }
     }
 
     /// Whether the recording determines at least one of both.

@@ -72,6 +72,11 @@ impl Parameters {
         self.file.kinematics()
     }
 
+    /// Whether other parts of the answer that they come from contradict them.
+    pub fn is_doubtful(&self) -> bool {
+        self.file.doubtful
+    }
+
     /// The kinematic model at these track speeds, m/s.
     pub fn kinematics_at(&self, speed: PerSide<f64>) -> Kinematics {
         self.file.kinematics_at(speed)

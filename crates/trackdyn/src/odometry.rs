@@ -70,7 +70,8 @@ pub fn odometry(
         .collect::<Result<_, _>>()?;
     let part = recording.part(&settings.part)?;
     // All of the recording tells most of its clocks.
-    let clock = Clock::of(motion, settings.tau);
+    let clock = Clock::of(motion, settings.tau)
+        .map_err(|cause| Error::Identify { recording: recording.place(), cause })?;
     let of_file = |one: &Replayed| [Some(one.set.clone()), one.set.without_alpha()];
     let sets = replayed.iter().flat_map(of_file).flatten();
     let sets = std::iter::once(ParameterSet::ideal(vehicle.gauge())).chain(sets).collect();

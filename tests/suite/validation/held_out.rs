@@ -38,7 +38,7 @@ fn identified_icrs_forecast_the_other_half() {
             ParameterSet::new(name, estimate.parameters.kinematics())
         };
         let sets = vec![ParameterSet::ideal(gauge), set("fit", plain), set("alpha", with_alphas)];
-        let tau = Clock::of(&recording, None).tau();
+        let tau = Clock::of(&recording, None).expect(name).tau();
         let result = Comparison::new(&part(judged), sets, tau).expect(name);
         let errors = &result.segments().expect(name).sets;
 

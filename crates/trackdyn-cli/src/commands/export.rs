@@ -1,6 +1,6 @@
 //! `trackdyn export`: the kinematics as files of other programs.
 
-use crate::changes::written;
+use crate::changes::{say_doubtful, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::pair;
@@ -158,6 +158,7 @@ pub fn run(options: &Options) -> Outcome {
         Target::UrdfFrames(options) => &options.files,
     };
     let parameters = Parameters::open(&files.kinematics)?;
+    say_doubtful(std::slice::from_ref(&parameters));
     let export = Export::new(&parameters, &provenance())?;
     let exported = exported(&options.target, &export)?;
     let sectors = export.drive().sectors;

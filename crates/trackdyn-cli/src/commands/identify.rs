@@ -45,6 +45,9 @@ pub struct Options {
     /// Seed of the genetic algorithm
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// Write parameters that other parts of the answer contradict as well, marked as doubtful
+    #[arg(long)]
+    force: bool,
     /// Folder for identification.toml, kinematics.toml and kinematics_alpha.toml
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
@@ -56,6 +59,7 @@ impl Options {
             tau: self.driving.tau,
             settle: self.settle,
             nuisances: self.fit.clone(),
+            force: self.force,
             genetic: GeneticOptions {
                 population: self.population as usize,
                 generations: self.generations as usize,

@@ -2,7 +2,7 @@
 
 mod summary;
 
-use crate::changes::{say_removed, written};
+use crate::changes::{say_doubtful, say_removed, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::DrivingOptions;
@@ -34,6 +34,7 @@ pub fn run(options: &Options) -> Outcome {
     let vehicle = Vehicle::open(&options.vehicle)?;
     let parameters = options.kinematics.iter().map(Parameters::open);
     let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
+    say_doubtful(&parameters);
     let recording = options.driving.recording()?;
     let settings = OdometrySettings { part: options.driving.part(), tau: options.driving.tau };
     let found = odometry(&recording, &vehicle, &parameters, &settings)?;

@@ -25,7 +25,8 @@ impl Evidence {
     /// spins.
     ///
     /// # Errors
-    /// Too few segments, no noise measured or stated, or poses far from the origin of their frame.
+    /// Too few segments, no noise measured or stated, poses far from the origin of their frame, or
+    /// clocks that do not go together.
     pub fn of_recording(
         recording: &Recording,
         gauge: f64,
@@ -35,7 +36,8 @@ impl Evidence {
         let by = &settings.evidence;
         check_places(recording, by.max_coordinate)?;
         let recording = with_readings_every(recording, by.min_reading_interval);
-        let tau = Clock::of(&recording, None).tau();
+        let clock = Clock::of(&recording, None).map_err(|cause| Error::Clock(cause.to_string()))?;
+        let tau = clock.tau();
         let (recording, measured) = quieter(&recording, tau);
         let observations = segments(&recording, tau, by)?;
         let gap =

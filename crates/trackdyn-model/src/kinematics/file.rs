@@ -77,6 +77,9 @@ pub struct KinematicsFile {
     pub x_icr_right_m: Spanned<f64>,
     /// y, m.
     pub y_icr_m: f64,
+    /// Whether other parts of the answer contradict these numbers.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub doubtful: bool,
     /// χ of the mean ICRs.
     pub steering_efficiency: f64,
     /// e of the mean ICRs.
@@ -193,6 +196,7 @@ impl KinematicsFile {
             x_icr_left_m: unplaced(icrs.x_left),
             x_icr_right_m: unplaced(icrs.x_right),
             y_icr_m: DIGITS.round(icrs.y),
+            doubtful: false,
             steering_efficiency: DIGITS.round(steering_efficiency),
             eccentricity: DIGITS.round(icrs.eccentricity()),
             mean_steering_efficiency: None,

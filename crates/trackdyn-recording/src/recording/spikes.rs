@@ -5,11 +5,13 @@
 //! d is the distance of a reading from the median of the five around it, which follows steps and
 //! ramps of the speed. A reading is a spike where
 //!
-//! |d| > max(8 σ, 4 q, v/2)
+//! |d| > max(8 σ, 4 q, v/2, 2 g Δt)
 //!
 //! with σ the robust spread of d over the run, q the size of d that 97 % of the readings keep
-//! below, and v the speed that 90 % keep below. A spike is replaced by the line between the
-//! readings beside it.
+//! below, v the speed that 90 % keep below, and 2 g Δt what twice the weight could change in the
+//! median interval of the readings. At the ends of a run, where a spike has neighbours on one side
+//! only, it takes four times as much. A spike is replaced by the line between the readings beside
+//! it.
 //!
 //! # Assumes
 //! At most 3 % of the readings are spikes, and no more than two in a row.
@@ -19,7 +21,7 @@
 
 use super::warning::{Cleaning, Finding};
 use crate::sample::{Stream, TrackSample};
-use trackdyn_core::robust::deviation_about_zero;
+use trackdyn_core::robust::{deviation_about_zero, median};
 use trackdyn_core::{PerSide, Side};
 
 /// Readings on either side of one whose median it is compared with.
@@ -43,16 +45,24 @@ const USUAL_SHARE: f64 = 0.9;
 /// Distance of a spike in the largest usual speed: smaller ones do no harm.
 const MIN_OF_SPEED: f64 = 0.5;
 
+/// Acceleration that no track has, m/s².
+const MAX_ACCELERATION: f64 = 20.0;
+
+/// Factor on the limit within [`HALF_WINDOW`] of the ends of a run.
+const AT_END: f64 = 4.0;
+
 /// Replaces the spikes of either side; `cleanings` takes what was found.
 pub(super) fn mend(tracks: &mut [TrackSample], run: i64, cleanings: &mut Vec<Cleaning>) {
     if tracks.len() < MIN_READINGS {
         return;
     }
     let times: Vec<f64> = tracks.iter().map(|sample| sample.t).collect();
+    let mut intervals: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let possible = MAX_ACCELERATION * median(&mut intervals).unwrap_or(0.0);
     let (mut count, mut first, mut largest) = (0, f64::INFINITY, 0.0_f64);
     let mended = PerSide::from_fn(|side: Side| {
         let mut speeds: Vec<f64> = tracks.iter().map(|sample| sample.speeds()[side]).collect();
-        let spikes = spikes(&speeds);
+        let spikes = spikes(&speeds, possible);
         for &spike in &spikes {
             largest = largest.max(speeds[spike].abs());
             first = first.min(times[spike]);
@@ -71,8 +81,8 @@ pub(super) fn mend(tracks: &mut [TrackSample], run: i64, cleanings: &mut Vec<Cle
     cleanings.push(Cleaning { stream: Stream::Tracks, finding, count, runs: 1, run, t: first });
 }
 
-/// Places of the spikes among speeds.
-fn spikes(speeds: &[f64]) -> Vec<usize> {
+/// Places of the spikes among speeds; `possible` is the largest change between two readings.
+fn spikes(speeds: &[f64], possible: f64) -> Vec<usize> {
     let off = |k: usize| {
         let window = &speeds[k.saturating_sub(HALF_WINDOW)..speeds.len().min(k + HALF_WINDOW + 1)];
         let mut sorted = [0.0; 2 * HALF_WINDOW + 1];
@@ -86,8 +96,11 @@ fn spikes(speeds: &[f64]) -> Vec<usize> {
     let sizes = speeds.iter().map(|speed| speed.abs()).collect();
     let least = (MIN_DEVIATIONS * spread)
         .max(MIN_RATIO * quantile(distances.clone(), GOOD_SHARE))
-        .max(MIN_OF_SPEED * quantile(sizes, USUAL_SHARE));
-    (0..speeds.len()).filter(|&k| distances[k] > least).collect()
+        .max(MIN_OF_SPEED * quantile(sizes, USUAL_SHARE))
+        .max(possible);
+    let is_at_end = |k: usize| k < HALF_WINDOW || k + HALF_WINDOW >= speeds.len();
+    let limit = |k: usize| if is_at_end(k) { AT_END * least } else { least };
+    (0..speeds.len()).filter(|&k| distances[k] > limit(k)).collect()
 }
 
 /// The value that this share of the values keeps below.
@@ -159,9 +172,9 @@ mod tests {
     #[test]
     fn spikes_of_all_kinds_are_replaced_and_told() {
         let good = drive();
-        // a glitch, two readings in a row, a sign flip, a dropped reading
+        // a glitch, two readings in a row, a sign flip, one at the beginning
         let bad =
-            [(700, 1000.0), (1200, -30.0), (1201, 25.0), (2040, -good[2040].v_left), (5, 0.0)];
+            [(700, 1000.0), (1200, -30.0), (1201, 25.0), (2040, -good[2040].v_left), (1, 9.0)];
         let mut tracks = good.clone();
         for (place, value) in bad {
             tracks[place].v_left = value;
@@ -175,6 +188,6 @@ mod tests {
         let [cleaning] = cleanings[..] else { panic!("{cleanings:?}") };
         assert_eq!((cleaning.count, cleaning.run), (bad.len(), 3));
         assert_eq!(cleaning.finding, Finding::Spike { largest: 1000.0 });
-        assert!((cleaning.t - 0.1).abs() < 1e-9);
+        assert!((cleaning.t - 0.02).abs() < 1e-9);
     }
 }

@@ -6,7 +6,9 @@ use serde::Serialize;
 use trackdyn_estimate::Interval;
 use trackdyn_estimate::identification::Fit;
 use trackdyn_estimate::noise::Component;
-use trackdyn_estimate::{Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest};
+use trackdyn_estimate::{
+    Contradiction, Doubt, Error, Estimate, Free, Identification, Parameters, SpinTest,
+};
 use trackdyn_model::kinematics::Source;
 
 #[derive(Serialize)]
@@ -66,6 +68,9 @@ struct MethodTable {
     /// Why it is not determined.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     doubts: Vec<String>,
+    /// What contradicts it: it is written where that is forced.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    contradictions: Vec<String>,
     /// What was asked for beside the ICRs and is not fitted: why.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     not_fitted: Vec<String>,
@@ -91,7 +96,7 @@ pub(super) fn text(identified: &MotionFit, source: &Source) -> String {
     let mut method = vec![of_spin_test(&found.spin_test, gauge)];
     for (fit, file) in found.fits.iter().zip(FILES) {
         method.push(of_genetic(fit, gauge));
-        method.push(of_least_squares(fit, gauge, found.weighted_by_noise, file));
+        method.push(of_least_squares(fit, gauge, found.weighted_by_noise, file, identified.force));
     }
     to_toml(&File {
         schema: "trackdyn.identification/1",
@@ -135,6 +140,7 @@ impl MethodTable {
             whitened_rms: None,
             blocks: None,
             doubts: Vec::new(),
+            contradictions: Vec::new(),
             not_fitted: Vec::new(),
             estimate: Vec::new(),
         }
@@ -200,14 +206,22 @@ fn of_genetic(fit: &Fit, gauge: f64) -> MethodTable {
     }
 }
 
-fn of_least_squares(fit: &Fit, gauge: f64, by_noise: bool, file: &'static str) -> MethodTable {
+fn of_least_squares(
+    fit: &Fit,
+    gauge: f64,
+    by_noise: bool,
+    file: &'static str,
+    force: bool,
+) -> MethodTable {
+    let is_written = fit.doubts.is_empty() && (force || fit.contradictions.is_empty());
     let table = MethodTable {
         not_fitted: fit.refused.iter().map(Doubt::to_string).collect(),
         ..MethodTable::new("least-squares", name_of(fit.free))
     };
     match &fit.least_squares {
         Ok(estimate) => MethodTable {
-            file: fit.doubts.is_empty().then_some(file),
+            file: is_written.then_some(file),
+            contradictions: fit.contradictions.iter().map(Contradiction::to_string).collect(),
             cost: Some(estimate.cost),
             cost_unit: Some(if by_noise { "1" } else { "m^2" }),
             whitened_rms: by_noise.then_some(Rounded(estimate.whitened_rms)),

@@ -1,8 +1,7 @@
 //! What a recording of motion says of the kinematic parameters.
 
 use super::document;
-use crate::{Provenance, Recording, Vehicle};
-use trackdyn_estimate::identification::Fit;
+use crate::{IdentifySettings, Provenance, Recording, Vehicle};
 use trackdyn_estimate::{Free, Identification};
 use trackdyn_model::kinematics::{KinematicsFile, Source};
 use trackdyn_recording::Recording as Motion;
@@ -16,6 +15,7 @@ pub struct MotionFit {
     robot: String,
     vehicle_fingerprint: String,
     gauge: f64,
+    pub(super) force: bool,
 }
 
 impl MotionFit {
@@ -24,7 +24,7 @@ impl MotionFit {
         recording: &Recording,
         motion: &Motion,
         vehicle: &Vehicle,
-        seed: u64,
+        settings: &IdentifySettings,
     ) -> Self {
         let source = Source {
             vehicle: vehicle.name().to_owned(),
@@ -33,7 +33,7 @@ impl MotionFit {
             recording: Some(motion.name().to_owned()),
             runs: Some(motion.run_list().to_string()),
             time_s: recording.time(),
-            seed: Some(seed),
+            seed: Some(settings.genetic.seed),
             ..Source::default()
         };
         Self {
@@ -42,6 +42,7 @@ impl MotionFit {
             robot: motion.robot().to_owned(),
             vehicle_fingerprint: vehicle.fingerprint(),
             gauge: vehicle.gauge(),
+            force: settings.force,
         }
     }
 
@@ -64,10 +65,24 @@ impl MotionFit {
         &self.vehicle_fingerprint
     }
 
-    /// The kinematics files of the fits, where the recording determines them.
+    /// The kinematics files of the fits, where the recording determines them and nothing contradicts
+    /// them, or where the settings force them.
     pub(super) fn files(&self, provenance: &Provenance) -> [Option<KinematicsFile>; 2] {
         let source = self.source(provenance);
-        self.found.fits.each_ref().map(|fit| file(fit, self.gauge, &source))
+        self.found.fits.each_ref().map(|fit| {
+            let estimate = fit.least_squares.as_ref().ok().filter(|_| fit.doubts.is_empty())?;
+            let doubtful = !fit.contradictions.is_empty();
+            if doubtful && !self.force {
+                return None;
+            }
+            let rows = estimate.covariance_of_parameters();
+            let with_alphas = fit.free == Free::IcrsAndAlphas;
+            let kinematics = estimate.parameters.kinematics();
+            let of = source.clone();
+            let mut file = KinematicsFile::of_fit(&kinematics, self.gauge, with_alphas, rows, of);
+            file.doubtful = doubtful;
+            Some(file)
+        })
     }
 
     /// Where the numbers come from.
@@ -75,13 +90,4 @@ impl MotionFit {
         let Provenance { command, version } = provenance.clone();
         Source { command, version, ..self.source.clone() }
     }
-}
-
-/// The file of a fit, where the recording determines it.
-fn file(fit: &Fit, gauge: f64, source: &Source) -> Option<KinematicsFile> {
-    let estimate = fit.least_squares.as_ref().ok().filter(|_| fit.doubts.is_empty())?;
-    let rows = estimate.covariance_of_parameters();
-    let with_alphas = fit.free == Free::IcrsAndAlphas;
-    let kinematics = estimate.parameters.kinematics();
-    Some(KinematicsFile::of_fit(&kinematics, gauge, with_alphas, rows, source.clone()))
 }

@@ -1,7 +1,7 @@
 //! What a table of steady operating points says of the kinematic parameters.
 
 use crate::recording::PointsTable;
-use crate::{Provenance, Vehicle};
+use crate::{IdentifySettings, Provenance, Vehicle};
 use trackdyn_estimate::least_squares::Loss;
 use trackdyn_estimate::steady::{Lagging, SteadyEstimate, lagging};
 use trackdyn_estimate::{Error, Free, Parameters, fit_points};
@@ -20,10 +20,11 @@ pub struct PointsFit {
     pub lagging: Vec<Lagging>,
     source: Source,
     gauge: f64,
+    force: bool,
 }
 
 impl PointsFit {
-    pub(super) fn new(table: &PointsTable, vehicle: &Vehicle) -> Self {
+    pub(super) fn new(table: &PointsTable, vehicle: &Vehicle, settings: &IdentifySettings) -> Self {
         let gauge = vehicle.gauge();
         let start = Parameters::of(&Kinematics::ideal(gauge));
         let points = table.points();
@@ -36,7 +37,8 @@ impl PointsFit {
             recording: Some(table.name().to_owned()),
             ..Source::default()
         };
-        Self { fits, squares, lagging: lagging(points), source, gauge }
+        let force = settings.force;
+        Self { fits, squares, lagging: lagging(points), source, gauge, force }
     }
 
     /// Gauge of the vehicle, m.
@@ -44,16 +46,24 @@ impl PointsFit {
         self.gauge
     }
 
-    /// The kinematics files of the fits, where the table determines them.
+    /// The kinematics files of the fits, where the table determines them and nothing contradicts
+    /// them, or where the settings force them.
     pub(super) fn files(&self, provenance: &Provenance) -> [Option<KinematicsFile>; 2] {
         self.fits.each_ref().map(|(free, fit)| {
             let fit = fit.as_ref().ok().filter(|fit| fit.doubts(self.gauge).is_empty())?;
+            let doubtful = !fit.contradictions(self.gauge).is_empty();
+            if doubtful && !self.force {
+                return None;
+            }
             let Provenance { command, version } = provenance.clone();
             let source = Source { command, version, ..self.source.clone() };
             let rows = fit.covariance_of_parameters();
             let kinematics = fit.parameters.kinematics();
             let with_alphas = *free == Free::IcrsAndAlphas;
-            Some(KinematicsFile::of_fit(&kinematics, self.gauge, with_alphas, rows, source))
+            let mut file =
+                KinematicsFile::of_fit(&kinematics, self.gauge, with_alphas, rows, source);
+            file.doubtful = doubtful;
+            Some(file)
         })
     }
 }

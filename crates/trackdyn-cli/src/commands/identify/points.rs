@@ -58,6 +58,13 @@ fn fit(text: &mut String, free: Free, fit: &Result<SteadyEstimate, Error>, gauge
             return;
         }
     }
+    let contradictions = fit.contradictions(gauge);
+    if !contradictions.is_empty() {
+        text.push_str("    contradicted, and not written unless forced (--force):\n");
+        for contradiction in &contradictions {
+            let _ = writeln!(text, "    - {contradiction}");
+        }
+    }
     let _ = writeln!(text, "    {:9}{:>9}{:>24}", "", "estimate", "95 % interval");
     let named = (0..free.count()).filter_map(|k| Some((Parameters::NAMES[k], fit.interval(k)?)));
     let known = named.filter(|(_, interval)| interval.deviation.is_finite());

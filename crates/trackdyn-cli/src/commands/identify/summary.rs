@@ -97,6 +97,12 @@ fn fit(text: &mut String, fit: &Fit, gauge: f64, by_noise: bool) {
         }
         return;
     }
+    if !fit.contradictions.is_empty() {
+        text.push_str("    contradicted, and not written unless forced (--force):\n");
+        for contradiction in &fit.contradictions {
+            let _ = writeln!(text, "    - {contradiction}");
+        }
+    }
     parameters(text, fit, estimate, gauge);
     for doubt in &fit.refused {
         let _ = writeln!(text, "    not fitted: {doubt}");

@@ -1,0 +1,197 @@
+//! What contradicts a fit: other parts of the same answer, and what no track does.
+
+use crate::Interval;
+use crate::least_squares::Estimate;
+use crate::observations::Observations;
+use crate::parameters::Parameters;
+use crate::spin_test::SpinTest;
+use trackdyn_core::robust::median;
+use trackdyn_core::{PerSide, Side};
+
+/// Standard errors by which two methods may differ.
+const MAX_ERRORS: f64 = 5.0;
+
+/// Part of the distance of the ICRs by which the spin test may differ from a fit: it takes the
+/// robot for symmetric and its track speeds for steady.
+const MAX_OF_SPIN: f64 = 0.15;
+
+/// Part of the distance of the ICRs by which the genetic algorithm may differ from a fit: its
+/// squares follow outliers.
+const MAX_OF_GENETIC: f64 = 0.25;
+
+/// χ that no track reaches: friction only ever moves the ICRs out of the tracks' centre-lines, and
+/// the gauge is known to a few percent.
+const MAX_EFFICIENCY: f64 = 1.05;
+
+/// α of encoders and wheel radii that are what their file says, and of tracks that hold.
+const ALPHAS: [f64; 2] = [0.8, 1.25];
+
+/// Part of the turning that a fit leaves where it describes the drive.
+const MAX_TURNING_LEFT: f64 = 0.5;
+
+/// Part of the turning, and of the distance of the ICRs, that is left where poses are computed from
+/// the tracks: the time between readings, and rounding.
+const COMPUTED: f64 = 2e-3;
+
+/// Something that contradicts a fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Contradiction {
+    /// Another method finds other ICRs.
+    Method {
+        /// Its name.
+        method: &'static str,
+        /// x_r − x_l by it, m, for track speeds as the fit takes them.
+        found: f64,
+        /// x_r − x_l by the fit, m.
+        fit: f64,
+    },
+    /// ICRs closer to each other than the tracks.
+    Efficiency {
+        /// χ.
+        chi: f64,
+    },
+    /// A track that moves much less or more than its encoder says.
+    Alpha {
+        /// The side.
+        side: Side,
+        /// Its factor.
+        alpha: f64,
+    },
+    /// The fit explains hardly any turning.
+    Turning {
+        /// Part of the turning that it leaves, of the segments that turn most.
+        left: f64,
+    },
+    /// Poses that are computed from the tracks.
+    WheelOdometry {
+        /// Part of the turning that the fit leaves.
+        left: f64,
+    },
+}
+
+impl Contradiction {
+    /// What contradicts a fit of motions on a vehicle with this gauge, m.
+    pub fn of_motions(
+        fit: &Estimate,
+        genetic: &Estimate,
+        spin_test: Option<&SpinTest>,
+        observations: &Observations,
+        gauge: f64,
+    ) -> Vec<Self> {
+        let left = turning_left(&fit.parameters, observations);
+        if is_computed(&fit.parameters, left) {
+            return vec![Self::WheelOdometry { left }];
+        }
+        let mut found = Self::of_parameters(&fit.parameters, &fit.steering_efficiency(gauge));
+        let gap = fit.gap();
+        let by_method = |method, of: Interval, largest: f64| {
+            let error = of.deviation.hypot(gap.deviation);
+            let off = (of.value - gap.value).abs();
+            let is_far = off > MAX_ERRORS * error && off > largest * gap.value;
+            is_far.then_some(Self::Method { method, found: of.value, fit: gap.value })
+        };
+        found.extend(match spin_test.and_then(|spin| spin.interval) {
+            // ∫ α_r V_r − α_l V_l dt: of a spin, both sides count alike
+            Some(spin) => {
+                let [.., left, right] = fit.parameters.0;
+                let alpha = f64::midpoint(left, right);
+                let of = Interval {
+                    value: alpha * spin.value,
+                    deviation: alpha * spin.deviation,
+                    ..spin
+                };
+                by_method("the spin test", of, MAX_OF_SPIN)
+            }
+            None => by_method("the genetic algorithm", genetic.gap(), MAX_OF_GENETIC),
+        });
+        if left > MAX_TURNING_LEFT {
+            found.push(Self::Turning { left });
+        }
+        found
+    }
+
+    /// What contradicts parameters whatever they were fitted to.
+    pub fn of_parameters(parameters: &Parameters, efficiency: &Interval) -> Vec<Self> {
+        let [.., left, right] = parameters.0;
+        let alphas = PerSide { left, right };
+        let far = Side::BOTH.into_iter().filter_map(|side| {
+            let (alpha, [low, high]) = (alphas[side], ALPHAS);
+            (!(low..=high).contains(&alpha)).then_some(Self::Alpha { side, alpha })
+        });
+        let chi = efficiency.value;
+        let efficiency = (efficiency.low > MAX_EFFICIENCY).then_some(Self::Efficiency { chi });
+        efficiency.into_iter().chain(far).collect()
+    }
+}
+
+/// Part of the turning that parameters leave unexplained: medians over the half of the segments
+/// that turn most.
+fn turning_left(parameters: &Parameters, observations: &Observations) -> f64 {
+    let [x_l, x_r, _, alpha_l, alpha_r] = parameters.0;
+    let mut turns: Vec<[f64; 2]> = observations
+        .segments()
+        .iter()
+        .map(|segment| {
+            let travelled = observations.travelled(segment);
+            // ∫ ω dt = (α_r D_r − α_l D_l)/(x_r − x_l), eq. (9)
+            let turned = (alpha_r * travelled.right - alpha_l * travelled.left) / (x_r - x_l);
+            [segment.motion[2].abs(), (segment.motion[2] - turned).abs()]
+        })
+        .collect();
+    turns.sort_by(|a, b| b[0].total_cmp(&a[0]));
+    turns.truncate(turns.len().div_ceil(2));
+    let of = |k: usize| median(&mut turns.iter().map(|turn| turn[k]).collect::<Vec<_>>());
+    match (of(0), of(1)) {
+        (Some(turned), Some(left)) if turned > 0.0 => left / turned,
+        _ => 0.0,
+    }
+}
+
+/// Whether poses are those of a differential drive: nothing left, ICRs on one line through the
+/// middle, as far from it on either side.
+fn is_computed(parameters: &Parameters, left: f64) -> bool {
+    let [x_l, x_r, y, ..] = parameters.0;
+    let gap = x_r - x_l;
+    left < COMPUTED && (x_l + x_r).abs() < COMPUTED * gap && y.abs() < COMPUTED * gap
+}
+
+impl std::fmt::Display for Contradiction {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match *self {
+            Self::Method { method, found, fit } => write!(
+                f,
+                "x_r - x_l is {fit:.3} m by least squares and {found:.3} m by {method}: clocks, \
+                 units or track speeds of a part of the drive may be wrong"
+            ),
+            Self::Efficiency { chi } => write!(
+                f,
+                "chi = {chi:.2}: the ICRs lie closer to each other than the tracks, which friction \
+                 cannot do: check the gauge, the wheel radius, and which joints were taken"
+            ),
+            Self::Alpha { side, alpha } => write!(
+                f,
+                "alpha_{} = {alpha:.2}: a track hardly moves that much {} than its encoder says: \
+                 check the wheel radius and the joints, or drive more straight stretches",
+                match side {
+                    Side::Left => "l",
+                    Side::Right => "r",
+                },
+                if alpha < 1.0 { "less" } else { "more" }
+            ),
+            Self::Turning { left } => write!(
+                f,
+                "the fit leaves {:.0} % of the turning: tracks and poses do not tell of one drive: \
+                 check clocks, units, and which joints were taken",
+                100.0 * left
+            ),
+            Self::WheelOdometry { left } => write!(
+                f,
+                "the fit leaves {:.2} % of the turning, and the ICRs of an ideal drive: these poses \
+                 are wheel odometry, computed from the tracks, and show no slip. Poses have to come \
+                 from something else: lidar, GNSS, motion capture",
+                100.0 * left
+            ),
+        }
+    }
+}

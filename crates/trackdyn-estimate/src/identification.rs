@@ -12,6 +12,7 @@ use crate::noise::{Noise, noise};
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
 use crate::sensor::Nuisance;
+use crate::separation::Separation;
 use crate::spin_test::{SpinTest, spin_test};
 use crate::weighting::{SegmentNoise, Weighting};
 use crate::{Clock, SegmentOptions};
@@ -69,6 +70,8 @@ pub struct Identification {
     pub lever: f64,
     /// The spin test, or why not.
     pub spin_test: Result<SpinTest, Error>,
+    /// The distance of the ICRs from turning alone, or why not.
+    pub separation: Result<Separation, Error>,
     /// With the ICRs free, and with the ICRs and α free.
     pub fits: [Fit; 2],
 }
@@ -157,7 +160,17 @@ pub fn identify_unless_stopped(
     let fits = fit(Free::Icrs).and_then(|icrs| Some([icrs, fit(Free::IcrsAndAlphas)?]));
     let fits = fits.ok_or(Error::Cancelled)?;
     let segments = observations.len();
-    Ok(Identification { clock, noise, weighted_by_noise, segments, lever, spin_test, fits })
+    let separation = Separation::of_motions(&observations);
+    Ok(Identification {
+        clock,
+        noise,
+        weighted_by_noise,
+        segments,
+        lever,
+        spin_test,
+        separation,
+        fits,
+    })
 }
 
 /// The segments at the clock offset of the segment options.

@@ -20,6 +20,7 @@
 //! - [`weighting`]: how much a residual counts: the cost (17), or the noise that was measured.
 //! - [`gauss_newton`]: robust least squares, whatever the residuals are of.
 //! - [`mod@spin_test`], [`mod@genetic`], [`mod@least_squares`]: three ways to the parameters.
+//! - [`separation`]: the distance of the ICRs from turning alone.
 //! - [`steady`]: the parameters from a table of steady operating points.
 //! - [`identification`]: all of them on one recording; [`contradiction`]: where they do not agree.
 //! - [`odometry`]: where the robot would be if its parameters were true, against where it was.
@@ -45,6 +46,7 @@ pub mod prediction;
 pub mod regular;
 pub mod segment;
 pub mod sensor;
+pub mod separation;
 pub mod spin_test;
 pub mod steady;
 pub mod synthetic;
@@ -64,6 +66,7 @@ pub use observations::Observations;
 pub use parameters::{Free, Parameters};
 pub use segment::{Segment, SegmentOptions, segments};
 pub use sensor::{Nuisance, Sensor};
+pub use separation::Separation;
 pub use spin_test::{SpinTest, spin_test};
 pub use steady::{SteadyEstimate, fit_points};
 pub use weighting::Weighting;

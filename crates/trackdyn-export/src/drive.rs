@@ -5,7 +5,7 @@ use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::frames::ros_from_paper;
 use trackdyn_core::rounding::Digits;
 use trackdyn_model::icr::Icrs;
-use trackdyn_model::kinematics::KinematicsFile;
+use trackdyn_model::kinematics::{KinematicsFile, SeparationFile};
 
 /// The ideal differential drive that a tracked robot is, seen midway between the ICRs of its
 /// tracks.
@@ -30,16 +30,29 @@ pub struct EquivalentDrive {
     /// The point midway between the ICRs, m from the centre of the contact area, in ROS axes:
     /// forward, left.
     pub point: [f64; 2],
+    /// Whether the distance of the ICRs alone is known: [`point`](Self::point) is the origin then.
+    pub is_separation_alone: bool,
     /// Sectors of the map for which these constants stand; 0 where the map is not piecewise.
     pub sectors: usize,
 }
 
 impl EquivalentDrive {
-    /// The drive of a kinematics file (schema `trackdyn.kinematics/1`).
+    /// The drive of a kinematics file (schema `trackdyn.kinematics/1`, or `trackdyn.separation/1`).
     ///
     /// # Errors
     /// A [`DocumentError`] that points at the line and key.
     pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
+        if SeparationFile::is_schema_of(document) {
+            let file = SeparationFile::from_document(document)?;
+            return Ok(Self {
+                gauge: *file.gauge_m.get_ref(),
+                separation: *file.icr_separation_m.get_ref(),
+                alpha: PerSide::new(1.0, 1.0),
+                point: [0.0, 0.0],
+                is_separation_alone: true,
+                sectors: 0,
+            });
+        }
         let file = KinematicsFile::from_document(document)?;
         let kinematics = file.kinematics();
         let Icrs { x_left, x_right, y } = kinematics.icrs;
@@ -50,6 +63,7 @@ impl EquivalentDrive {
             separation,
             alpha: kinematics.alpha,
             point: ros_from_paper([f64::midpoint(x_left, x_right), y]),
+            is_separation_alone: false,
             sectors: file.sector.len(),
         })
     }

@@ -1,8 +1,10 @@
 //! Direct and inverse kinematics with constant ICRs, eqs (7)-(11).
 
 mod file;
+mod separation;
 
 pub use file::{GridSource, KinematicsFile, Source};
+pub use separation::SeparationFile;
 
 use crate::icr::Icrs;
 use trackdyn_core::{PerSide, Twist};

@@ -4,7 +4,7 @@ use crate::Error;
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_core::output::{OutputError, write_file};
-use trackdyn_model::kinematics::{KinematicsFile, Source};
+use trackdyn_model::kinematics::{KinematicsFile, SeparationFile, Source};
 
 /// What was done to a file of a folder of results.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -74,9 +74,11 @@ impl<'a> Folder<'a> {
         is_own: impl FnOnce(&Source) -> bool,
     ) -> Result<(), Error> {
         let path = self.file(name);
-        let file = Document::read(&path).ok();
-        let file = file.and_then(|document| KinematicsFile::from_document(&document).ok());
-        if file.is_some_and(|file| is_own(&file.source)) {
+        let source = Document::read(&path).ok().and_then(|document| {
+            let full = KinematicsFile::from_document(&document).map(|file| file.source);
+            full.or_else(|_| SeparationFile::from_document(&document).map(|file| file.source)).ok()
+        });
+        if source.is_some_and(|source| is_own(&source)) {
             self.remove(path)?;
         } else if path.exists() {
             self.changes.push(Change::Kept(path));

@@ -4,6 +4,7 @@ use crate::change::Folder;
 use crate::{Change, Error, Parameters, Provenance};
 use std::path::Path;
 use trackdyn_core::document::{Document, DocumentError};
+use trackdyn_core::output::fingerprint;
 use trackdyn_export::ros2::{Published, Wheels};
 use trackdyn_export::{EquivalentDrive, Frames, Name, NodeName, Residuals, TextFile};
 
@@ -108,12 +109,24 @@ impl Export {
     /// # Errors
     /// None for parameters that were read or computed.
     pub fn new(parameters: &Parameters, provenance: &Provenance) -> Result<Self, Error> {
+        Self::of(parameters.document(), provenance)
+    }
+
+    /// The export of a kinematics file, be it that the distance of the ICRs is all it holds.
+    ///
+    /// # Errors
+    /// [`Error::Document`], which names file, line and key.
+    pub fn open(path: impl AsRef<Path>, provenance: &Provenance) -> Result<Self, Error> {
+        Self::of(&Document::read(path.as_ref())?, provenance)
+    }
+
+    fn of(document: &Document, provenance: &Provenance) -> Result<Self, Error> {
         let Provenance { command, version } = provenance.clone();
         Ok(Self {
-            drive: EquivalentDrive::from_document(parameters.document())?,
+            drive: EquivalentDrive::from_document(document)?,
             provenance: trackdyn_export::Provenance {
-                source: parameters.name().to_owned(),
-                fingerprint: parameters.fingerprint(),
+                source: document.name().to_owned(),
+                fingerprint: fingerprint(document.text().as_bytes()),
                 version,
                 command,
             },

@@ -14,6 +14,7 @@ use std::path::Path;
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::identification::Options;
 use trackdyn_estimate::{Contradiction, Nuisance, identify_unless_stopped};
+use trackdyn_model::kinematics::SeparationFile;
 use trackdyn_recording::Recording as Motion;
 
 /// Names of the kinematics files of the two fits: the ICRs alone, and with the factors on the track
@@ -168,13 +169,27 @@ impl Identification {
         }
     }
 
-    /// Whether the recording determines at least one of both.
+    /// The distance of the ICRs alone, where the recording determines nothing else.
+    pub fn separation(&self, provenance: &Provenance) -> Option<SeparationFile> {
+        if self.fits(provenance).iter().any(Option::is_some) {
+            return None;
+        }
+        match self {
+            Self::Motion(fit) => fit.separation(provenance),
+            Self::Points(fit) => fit.separation(provenance),
+        }
+    }
+
+    /// Whether the recording determines the parameters, or the distance of the ICRs at least.
     pub fn is_determined(&self) -> bool {
-        self.fits(&Provenance::default()).iter().any(Option::is_some)
+        let provenance = Provenance::default();
+        let has_fit = self.fits(&provenance).iter().any(Option::is_some);
+        has_fit || self.separation(&provenance).is_some()
     }
 
     /// Writes `kinematics.toml` and `kinematics_alpha.toml`, each where the recording determines
-    /// it, and of a recording of motion `identification.toml`. A file of an earlier fit goes where
+    /// it, and of a recording of motion `identification.toml`. Where all that it determines is the
+    /// distance of the ICRs, `kinematics.toml` holds that (schema `trackdyn.separation/1`). A file of an earlier fit goes where
     /// this one determines none; that of a map stays.
     ///
     /// # Errors
@@ -188,9 +203,13 @@ impl Identification {
         if let Self::Motion(fit) = self {
             folder.write("identification.toml", fit.to_toml(provenance).as_bytes())?;
         }
-        for (parameters, name) in self.fits(provenance).iter().zip(FILES) {
-            match parameters {
-                Some(parameters) => folder.write(name, parameters.document().text().as_bytes())?,
+        let [icrs, with_alphas] = self.fits(provenance);
+        let text = |parameters: Parameters| parameters.document().text().to_owned();
+        let icrs = icrs.map(text);
+        let icrs = icrs.or_else(|| Some(self.separation(provenance)?.to_toml()));
+        for (text, name) in [icrs, with_alphas.map(text)].into_iter().zip(FILES) {
+            match text {
+                Some(text) => folder.write(name, text.as_bytes())?,
                 None => folder.remove_kinematics(name, |source| source.recording.is_some())?,
             }
         }

@@ -6,7 +6,7 @@ use trackdyn_core::PerSide;
 use trackdyn_core::document::Document;
 use trackdyn_core::output::{fingerprint, write_file};
 use trackdyn_model::Kinematics;
-use trackdyn_model::kinematics::{KinematicsFile, Source};
+use trackdyn_model::kinematics::{KinematicsFile, SeparationFile, Source};
 
 /// Kinematic parameters of a robot, and where they come from (schema `trackdyn.kinematics/1`).
 ///
@@ -23,7 +23,7 @@ impl Parameters {
     /// Reads and checks a kinematics file.
     ///
     /// # Errors
-    /// [`Error::Document`], which names file, line and key.
+    /// [`Error::Document`], which names file, line and key; [`Error::SeparationAlone`].
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         Self::from_document(Document::read(path.as_ref())?)
     }
@@ -31,8 +31,11 @@ impl Parameters {
     /// The parameters of a text that is at hand.
     ///
     /// # Errors
-    /// [`Error::Document`], which names line and key.
+    /// [`Error::Document`], which names line and key; [`Error::SeparationAlone`].
     pub fn from_document(document: Document) -> Result<Self, Error> {
+        if SeparationFile::is_schema_of(&document) {
+            return Err(Error::SeparationAlone { name: document.name().to_owned() });
+        }
         let file = KinematicsFile::from_document(&document)?;
         Ok(Self { document, file })
     }

@@ -157,16 +157,22 @@ pub fn run(options: &Options) -> Outcome {
         Target::Gz(options) => &options.files,
         Target::UrdfFrames(options) => &options.files,
     };
-    let parameters = Parameters::open(&files.kinematics)?;
-    say_doubtful(std::slice::from_ref(&parameters));
-    let export = Export::new(&parameters, &provenance())?;
+    let export = Export::open(&files.kinematics, &provenance())?;
+    let name = files.kinematics.display();
+    if export.drive().is_separation_alone {
+        say(format_args!(
+            "warning: {name} holds the distance of the ICRs alone; the point midway between them is \
+            taken for the origin of the base frame"
+        ));
+    } else {
+        say_doubtful(&[Parameters::open(&files.kinematics)?]);
+    }
     let exported = exported(&options.target, &export)?;
     let sectors = export.drive().sectors;
     if sectors > 0 {
         say(format_args!(
-            "warning: {} is piecewise with {sectors} sectors; the constants of the whole map \
-            stand for all of them",
-            parameters.name(),
+            "warning: {name} is piecewise with {sectors} sectors; the constants of the whole map \
+            stand for all of them"
         ));
     }
     let changes = write(&exported, &files.out)?;

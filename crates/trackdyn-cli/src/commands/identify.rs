@@ -100,6 +100,9 @@ pub fn run(options: &Options) -> Outcome {
         Identification::Motion(fit) => summary::text(&recording, &vehicle, &fit.found),
         Identification::Points(fit) => points::text(&recording, &vehicle, fit),
     })?;
+    if let Some(separation) = found.separation(&provenance()) {
+        show(&summary::separation(&separation))?;
+    }
     Ok(if found.is_determined() { Exit::Done } else { Exit::NoResult })
 }
 

@@ -2,8 +2,8 @@
 
 use super::document;
 use crate::{IdentifySettings, Provenance, Recording, Vehicle};
-use trackdyn_estimate::{Free, Identification};
-use trackdyn_model::kinematics::{KinematicsFile, Source};
+use trackdyn_estimate::{Free, Identification, Interval};
+use trackdyn_model::kinematics::{KinematicsFile, SeparationFile, Source};
 use trackdyn_recording::Recording as Motion;
 
 /// What a recording of motion says of the kinematic parameters.
@@ -83,6 +83,14 @@ impl MotionFit {
             file.doubtful = doubtful;
             Some(file)
         })
+    }
+
+    /// The distance of the ICRs alone, where that is all that the recording determines.
+    pub(super) fn separation(&self, provenance: &Provenance) -> Option<SeparationFile> {
+        let is_contradicted = self.found.fits.iter().any(|fit| !fit.contradictions.is_empty());
+        let found = self.found.separation.as_ref().ok().filter(|_| !is_contradicted)?;
+        let Interval { value, low, high, .. } = found.gap;
+        Some(SeparationFile::new(value, [low, high], self.gauge, self.source(provenance)))
     }
 
     /// Where the numbers come from.

@@ -4,9 +4,9 @@ use crate::recording::PointsTable;
 use crate::{IdentifySettings, Provenance, Vehicle};
 use trackdyn_estimate::least_squares::Loss;
 use trackdyn_estimate::steady::{Lagging, SteadyEstimate, lagging};
-use trackdyn_estimate::{Error, Free, Parameters, fit_points};
+use trackdyn_estimate::{Error, Free, Interval, Parameters, Separation, fit_points};
 use trackdyn_model::Kinematics;
-use trackdyn_model::kinematics::{KinematicsFile, Source};
+use trackdyn_model::kinematics::{KinematicsFile, SeparationFile, Source};
 
 /// What a table of steady operating points says of the kinematic parameters.
 #[derive(Clone, Debug)]
@@ -16,6 +16,8 @@ pub struct PointsFit {
     pub fits: [(Free, Result<SteadyEstimate, Error>); 2],
     /// With the ICRs free, by plain squares; or why not.
     pub squares: Result<SteadyEstimate, Error>,
+    /// The distance of the ICRs from the yaw rates alone, or why not.
+    pub separation: Result<Separation, Error>,
     /// Points that turn less than others that are driven less: a track did not run at its speed.
     pub lagging: Vec<Lagging>,
     source: Source,
@@ -37,13 +39,29 @@ impl PointsFit {
             recording: Some(table.name().to_owned()),
             ..Source::default()
         };
-        let force = settings.force;
-        Self { fits, squares, lagging: lagging(points), source, gauge, force }
+        let (separation, force) = (Separation::of_points(points), settings.force);
+        Self { fits, squares, separation, lagging: lagging(points), source, gauge, force }
     }
 
     /// Gauge of the vehicle, m.
     pub fn gauge(&self) -> f64 {
         self.gauge
+    }
+
+    /// The distance of the ICRs alone, where that is all that the table determines.
+    pub(super) fn separation(&self, provenance: &Provenance) -> Option<SeparationFile> {
+        let contradictions = |fit: &SteadyEstimate| fit.contradictions(self.gauge);
+        let fits = self.fits.iter().filter_map(|(_, fit)| fit.as_ref().ok());
+        let is_contradicted = fits.flat_map(contradictions).next().is_some();
+        let found = self.separation.as_ref().ok().filter(|_| !is_contradicted)?;
+        let Interval { value, low, high, .. } = found.gap;
+        Some(SeparationFile::new(value, [low, high], self.gauge, self.source(provenance)))
+    }
+
+    /// Where the numbers come from.
+    fn source(&self, provenance: &Provenance) -> Source {
+        let Provenance { command, version } = provenance.clone();
+        Source { command, version, ..self.source.clone() }
     }
 
     /// The kinematics files of the fits, where the table determines them and nothing contradicts
@@ -55,8 +73,7 @@ impl PointsFit {
             if doubtful && !self.force {
                 return None;
             }
-            let Provenance { command, version } = provenance.clone();
-            let source = Source { command, version, ..self.source.clone() };
+            let source = self.source(provenance);
             let rows = fit.covariance_of_parameters();
             let kinematics = fit.parameters.kinematics();
             let with_alphas = *free == Free::IcrsAndAlphas;

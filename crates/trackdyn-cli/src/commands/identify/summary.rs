@@ -5,6 +5,7 @@ use trackdyn::crates::estimate::identification::Fit;
 use trackdyn::crates::estimate::{
     Clock, Estimate, Free, Identification, Interval, Nuisance, Parameters,
 };
+use trackdyn::crates::model::kinematics::SeparationFile;
 use trackdyn::crates::recording::Run;
 use trackdyn::{Recording, Vehicle};
 
@@ -43,6 +44,19 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) ->
         self::fit(&mut text, fit, vehicle.gauge(), found.weighted_by_noise);
     }
     text
+}
+
+/// What is known where the recording determines the distance of the ICRs alone.
+pub fn separation(found: &SeparationFile) -> String {
+    let (gap, chi) = (found.icr_separation_m.get_ref(), found.steering_efficiency.get_ref());
+    let SeparationFile { low95_m, high95_m, .. } = found;
+    format!(
+        "\n  from turning alone, track speeds as measured: x_l, x_r and y are open\n    \
+         x_r-x_l {gap:>10.4}{:>24} m\n    chi     {chi:>10.4}\n    \
+         wheel_separation_multiplier {:.4}\n",
+        format!("{low95_m:.4} to {high95_m:.4}"),
+        1.0 / chi
+    )
 }
 
 fn clock(text: &mut String, found: &Identification) {

@@ -1,0 +1,210 @@
+//! The distance between the ICRs from turning alone, where nothing is known of the place.
+//!
+//! # Law
+//! Δψᵢ = k Dᵢ + noise, eq. (9) over a time in which the robot turns by Δψ and the right track runs D
+//! further than the left one; x_r − x_l = 1/k. Residuals count by Huber's loss.
+//!
+//! # Assumes
+//! α = 1 on both sides. Parts of a drive ([`Blocks`](crate::Blocks)), or points of a table, say
+//! nothing of one another: the interval is that of a jackknife over them.
+
+use crate::Interval;
+use crate::error::Error;
+use crate::gauss_newton::Loss;
+use crate::observations::Observations;
+use trackdyn_core::real;
+use trackdyn_core::robust::deviation_about_zero;
+use trackdyn_recording::OperatingPoint;
+
+/// Fewest turns, of a drive or of a table.
+const MIN_TURNS: usize = 3;
+
+/// Least turning of a drive in all, rad: half a turn.
+const MIN_YAW: f64 = std::f64::consts::PI;
+
+/// Reweighting has settled long before.
+const ITERATIONS: usize = 50;
+
+/// The distance between the ICRs, without where they are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Separation {
+    /// x_r − x_l, m.
+    pub gap: Interval,
+    /// Turns that it comes from: segments of a drive, or points of a table.
+    pub turns: usize,
+    /// Parts that count as independent.
+    pub groups: usize,
+}
+
+/// What a time of driving, or a steady point, says.
+#[derive(Clone, Copy)]
+struct Turn {
+    /// ∫ (V_r − V_l) dt, m; of a point V_r − V_l, m/s.
+    difference: f64,
+    /// Δψ, rad; of a point ω, rad/s.
+    yaw: f64,
+    /// The part that it belongs to.
+    group: usize,
+}
+
+impl Separation {
+    /// The distance by the segments of a drive.
+    ///
+    /// # Errors
+    /// [`Error::NotEstimable`] where the robot turns by less than half a turn in all.
+    pub fn of_motions(observations: &Observations) -> Result<Self, Error> {
+        let ranges = observations.ranges(&observations.blocks()).into_iter().enumerate();
+        let turns: Vec<Turn> = ranges
+            .flat_map(|(group, range)| {
+                observations.segments()[range].iter().map(move |segment| {
+                    let travelled = observations.travelled(segment);
+                    let difference = travelled.right - travelled.left;
+                    Turn { difference, yaw: segment.motion[2], group }
+                })
+            })
+            .collect();
+        let turned: f64 = turns.iter().map(|turn| turn.yaw.abs()).sum();
+        if turned < MIN_YAW {
+            return Err(refused(format!(
+                "the robot turns by {turned:.2} rad in all, {MIN_YAW:.1} rad needed: drive turns, \
+                 both ways"
+            )));
+        }
+        Self::of_turns(&turns)
+    }
+
+    /// The distance by the yaw rates of steady points.
+    ///
+    /// # Errors
+    /// [`Error::NotEstimable`] with fewer than three that turn.
+    pub fn of_points(points: &[OperatingPoint]) -> Result<Self, Error> {
+        let turns = points.iter().enumerate().filter_map(|(group, point)| {
+            let difference = point.v_right - point.v_left;
+            Some(Turn { difference, yaw: point.yaw_rate?, group })
+        });
+        Self::of_turns(&turns.filter(|turn| turn.difference != 0.0).collect::<Vec<_>>())
+    }
+
+    fn of_turns(turns: &[Turn]) -> Result<Self, Error> {
+        let mut groups: Vec<usize> = turns.iter().map(|turn| turn.group).collect();
+        groups.dedup();
+        if turns.len() < MIN_TURNS || groups.len() < MIN_TURNS {
+            let found = groups.len();
+            return Err(refused(format!("{found} turns, {MIN_TURNS} needed")));
+        }
+        let gap = 1.0 / slope(turns.iter());
+        let without: Vec<f64> = groups
+            .iter()
+            .map(|group| 1.0 / slope(turns.iter().filter(|turn| turn.group != *group)))
+            .collect();
+        match Interval::of_jackknife(gap, &without) {
+            Some(gap) if gap.low > 0.0 && gap.high.is_finite() => {
+                Ok(Self { gap, turns: turns.len(), groups: groups.len() })
+            }
+            _ => Err(refused(format!(
+                "yaw does not follow the tracks: {gap:.3} m, with an interval that holds no \
+                 distance of any robot"
+            ))),
+        }
+    }
+}
+
+fn refused(reason: String) -> Error {
+    Error::NotEstimable { what: "the distance of the ICRs", reason }
+}
+
+/// k by Huber's loss, from plain squares on.
+fn slope<'a>(turns: impl Iterator<Item = &'a Turn>) -> f64 {
+    let turns: Vec<Turn> = turns.copied().collect();
+    let by = |weight: &dyn Fn(&Turn) -> f64| {
+        let sums = turns.iter().fold([0.0, 0.0], |[cross, square], turn| {
+            let weight = weight(turn);
+            let Turn { difference, yaw, .. } = *turn;
+            [cross + weight * difference * yaw, square + weight * difference * difference]
+        });
+        sums[0] / sums[1]
+    };
+    let mut k = by(&|_| 1.0);
+    for _ in 0..ITERATIONS {
+        let left = |turn: &Turn| turn.yaw - k * turn.difference;
+        let mut sizes: Vec<f64> = turns.iter().map(left).collect();
+        // Half of the residuals may be rounded away.
+        let least = f64::EPSILON * turns.iter().map(|turn| turn.yaw.abs()).sum::<f64>();
+        let spread = deviation_about_zero(&mut sizes).unwrap_or(0.0).max(least / real(turns.len()));
+        if spread <= 0.0 {
+            break;
+        }
+        let next = by(&|turn| Loss::Huber.weight(left(turn) / spread));
+        let is_settled = (next - k).abs() <= 1e-12 * k.abs();
+        k = next;
+        if is_settled {
+            break;
+        }
+    }
+    k
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::SegmentOptions;
+    use crate::synthetic::{Synthetic, random_steps};
+
+    #[test]
+    fn spins_timed_by_hand_give_the_distance_with_its_interval() {
+        let point = |(v, yaw_rate): (f64, f64)| OperatingPoint {
+            v_left: -v,
+            v_right: v,
+            yaw_rate: Some(yaw_rate),
+            ..OperatingPoint::default()
+        };
+        // 1.02 m, timed to a percent
+        let spins = [(0.29, 0.574), (-0.29, -0.563), (0.2, 0.39), (-0.2, -0.396), (0.4, 0.78)];
+        let found = Separation::of_points(&spins.map(point)).expect("enough spins");
+        assert!(found.gap.low < 1.02 && 1.02 < found.gap.high, "{found:?}");
+        assert!(found.gap.half_width() < 0.03, "{found:?}");
+        let few = Separation::of_points(&[point(spins[0]), point(spins[1])]);
+        assert!(matches!(few, Err(Error::NotEstimable { .. })));
+    }
+
+    #[test]
+    fn turning_alone_gives_the_distance_beside_outliers() {
+        let synthetic = |seed: u64| Synthetic {
+            schedules: (0..4).map(|run| random_steps(20, 2.0, 0.8, 10 * seed + run)).collect(),
+            encoder_noise: 0.01,
+            yaw_noise: 0.002,
+            position_noise: 0.0,
+            seed,
+            ..Synthetic::default()
+        };
+        let mut within = 0;
+        for seed in 0..20 {
+            let recording = synthetic(seed).recording().expect("long enough");
+            let runs = recording.runs().iter().cloned().map(|run| {
+                let mut rows = run.into_rows();
+                for (k, sample) in rows.poses.samples.iter_mut().enumerate() {
+                    // places say nothing, and a yaw here and there is wrong
+                    sample.pose.x = 0.0;
+                    sample.pose.y = 0.0;
+                    sample.pose.yaw += if k % 97 == 41 { 0.5 } else { 0.0 };
+                }
+                rows
+            });
+            let source = trackdyn_recording::Source::computed();
+            let alone = trackdyn_recording::Recording::new(
+                "yaw",
+                "robot",
+                runs.collect(),
+                source,
+                Vec::new(),
+            );
+            let observations =
+                Observations::new(&alone.expect("usable"), &SegmentOptions::default());
+            let found = Separation::of_motions(&observations).expect("turns");
+            assert!((found.gap.value - 0.832).abs() < 0.01, "{found:?}");
+            within += usize::from(found.gap.low < 0.832 && 0.832 < found.gap.high);
+        }
+        // 95 % of 20, and three standard deviations of the count below it
+        assert!(within >= 16, "{within} of 20 intervals");
+    }
+}

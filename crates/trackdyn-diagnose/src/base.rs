@@ -39,7 +39,7 @@ pub struct Base {
 pub const OFFSETS: [Unknown; 3] = [Unknown::Offset(0), Unknown::Offset(1), Unknown::Offset(2)];
 
 /// Numbers that only inertia shows: how far the robot slides, and where its mass is.
-const BY_MASS: [Unknown; 3] = [Unknown::FrictionLevel, Unknown::Cog(0), Unknown::Cog(1)];
+const SHOWN_BY_INERTIA: [Unknown; 3] = [Unknown::FrictionLevel, Unknown::Cog(0), Unknown::Cog(1)];
 
 impl Base {
     /// Fits the base of a vehicle to the evidence.
@@ -55,7 +55,7 @@ impl Base {
         }
         // With inertia, the evidence may determine friction level and centre of gravity better than
         // the vehicle file: they are free then.
-        let tried: Vec<Unknown> = nuisances.iter().chain(&BY_MASS).copied().collect();
+        let tried: Vec<Unknown> = nuisances.iter().chain(&SHOWN_BY_INERTIA).copied().collect();
         let fit = Fit::at(start.clone(), &tried, evidence, Some(&as_filed.mechanics));
         for (place, &unknown) in tried.iter().enumerate().skip(nuisances.len()) {
             let known = fit.solution.covariance[(place, place)].sqrt();

@@ -90,10 +90,10 @@ impl Error {
     /// Error for segments with these durations, s.
     pub(crate) fn too_few_segments(durations: impl Iterator<Item = f64>, needed: usize) -> Self {
         // Segment duration for readings and poses at 10 Hz.
-        const USUAL: f64 = 0.3;
+        const USUAL_DURATION: f64 = 0.3;
         let durations: Vec<f64> = durations.collect();
         let found = durations.len();
         let mean = durations.iter().sum::<f64>() / real(found);
-        Self::TooFewSegments { found, needed, each: if found == 0 { USUAL } else { mean } }
+        Self::TooFewSegments { found, needed, each: if found == 0 { USUAL_DURATION } else { mean } }
     }
 }

@@ -361,7 +361,7 @@ impl Fit {
                 None => break solution,
             }
         };
-        let solution = spread(&solution, &free, &priors);
+        let solution = extended_to_all(&solution, &free, &priors);
         Self {
             hypothesis,
             unknowns: unknowns.to_vec(),
@@ -402,7 +402,7 @@ fn at_bound(hypothesis: &Hypothesis, unknown: Unknown, step: f64) -> bool {
 
 /// A solution of the free unknowns, extended to all: the others do not move and keep their prior
 /// variance.
-fn spread(solution: &Solution, free: &[usize], priors: &[Prior]) -> Solution {
+fn extended_to_all(solution: &Solution, free: &[usize], priors: &[Prior]) -> Solution {
     let variances: Vec<f64> = priors.iter().map(|prior| prior.deviation.powi(2)).collect();
     let mut estimate = DVector::zeros(priors.len());
     let mut covariance = DMatrix::from_diagonal(&DVector::from(variances));

@@ -138,7 +138,7 @@ impl Residual<'_> {
         }
         Location {
             excess_over_noise: excess(evidence, residual),
-            channels: shares(evidence, residual),
+            channels: channel_shares(evidence, residual),
             tests: strongest,
             wave: None,
             explicable: all.first().map_or(0.0, |all| all.statistic - real(all.degrees)),
@@ -195,7 +195,7 @@ pub fn excess_of(
     (sum / f64::max(count, 1.0)).sqrt()
 }
 
-fn shares(evidence: &Weighted, residual: &[Vector3<f64>]) -> [f64; 3] {
+fn channel_shares(evidence: &Weighted, residual: &[Vector3<f64>]) -> [f64; 3] {
     let weights = evidence.weights(residual);
     let beyond: [f64; 3] = std::array::from_fn(|channel| {
         let measured = (0..residual.len()).filter(|&index| evidence.is_measured(index, channel));

@@ -41,7 +41,7 @@ use trackdyn_core::{Pose, real};
 use trackdyn_estimate::weighting::SegmentNoise;
 
 /// Median of χ² with three degrees of freedom.
-const MEDIAN: f64 = 2.365_973_884_375_338;
+const MEDIAN_OF_CHI_SQUARE_3: f64 = 2.365_973_884_375_338;
 
 /// Number of variances: three of the pose, three of its walk, one of the heading.
 const COUNT: usize = 7;
@@ -66,7 +66,7 @@ fn remaining(evidence: &Weighted, measured: SegmentNoise, flexible: &Flexible) -
         let taken = flexible.taken(&evidence, &noise, &left.columns);
         noise = most_likely(&evidence, noise, &left.residual, &taken);
         evidence = evidence.with_noise(noise);
-        evidence = evidence.without(&outlying(&evidence, &noise, &left.residual));
+        evidence = evidence.without(&outliers(&evidence, &noise, &left.residual));
     }
     evidence
 }
@@ -89,7 +89,7 @@ pub fn without_outliers(evidence: &Weighted, fit: &Fit) -> Weighted {
     let flexible = Flexible::new(&evidence, fit);
     // Outliers of one round mask others, which the next round judges.
     loop {
-        let lost = outlying(&evidence, &noise, &flexible.left(&evidence).residual);
+        let lost = outliers(&evidence, &noise, &flexible.left(&evidence).residual);
         if lost.is_empty() {
             return evidence;
         }
@@ -138,7 +138,7 @@ fn run_time(evidence: &Weighted) -> Option<f64> {
 
 /// Samples that share an outlying pose: the one that ends there has a large residual, both composed
 /// have a small one.
-fn outlying(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
+fn outliers(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
     let mut white = left.to_vec();
     evidence.whiten(&mut white);
     let settings = &evidence.settings().noise;
@@ -198,7 +198,8 @@ fn most_likely(
     let mut squares: Vec<f64> = squares.filter(|square| *square > 0.0).collect();
     let numbers = 3.0 * real(squares.len());
     let free = (numbers - taken.sum()).max(1.0);
-    let level = median(&mut squares).map_or(1.0, |median| median / MEDIAN * numbers / free);
+    let level =
+        median(&mut squares).map_or(1.0, |median| median / MEDIAN_OF_CHI_SQUARE_3 * numbers / free);
     SegmentNoise {
         pose: noise.pose.map(|v| v * level),
         walk: noise.walk.map(|v| v * level),
@@ -485,7 +486,7 @@ mod tests {
         }
         let seen = Weighted::new(drive(&residual));
         let noise = found(&seen, &residual);
-        let lost = outlying(&seen.with_noise(noise), &noise, &residual);
+        let lost = outliers(&seen.with_noise(noise), &noise, &residual);
         let expected: Vec<usize> = far.iter().flat_map(|&index| [index, index + 1]).collect();
         assert_eq!(lost, expected);
         let after = found(&seen.without(&lost), &residual);

@@ -96,10 +96,10 @@ impl Prior {
 const RIDGE: f64 = 1e-10;
 
 /// Least share of a column's square that must be independent of the columns before it.
-const DEPENDENT: f64 = 1e-8;
+const MIN_INDEPENDENT_SHARE: f64 = 1e-8;
 
 /// Largest share of a column's square left by projection that counts as rounding.
-const EXPLAINED: f64 = 1e-10;
+const MAX_ROUNDING_SHARE: f64 = 1e-10;
 
 impl Normal {
     /// Products of columns and residual.
@@ -245,12 +245,12 @@ impl Normal {
     pub fn projected(&self, base: &[usize], priors: &[Prior]) -> Self {
         let precisions: Vec<f64> = base.iter().map(|&i| priors[i].deviation.powi(-2)).collect();
         let others: Vec<usize> = (0..=self.columns()).filter(|j| !base.contains(j)).collect();
-        self.without_what(base, &precisions, &others)
+        self.projected_out(base, &precisions, &others)
     }
 
     /// Projects `others` out of these columns, but not out of the residual.
     pub fn cleared(&self, columns: &[usize], others: &[usize]) -> Self {
-        self.without_what(others, &vec![0.0; others.len()], columns)
+        self.projected_out(others, &vec![0.0; others.len()], columns)
     }
 
     /// Cholesky factor of the information of columns plus precisions. Collinear columns count once.
@@ -262,7 +262,7 @@ impl Normal {
         Scaled::with_ridge(&matrix, RIDGE)
     }
 
-    fn without_what(&self, base: &[usize], precisions: &[f64], of: &[usize]) -> Self {
+    fn projected_out(&self, base: &[usize], precisions: &[f64], of: &[usize]) -> Self {
         let size = self.total.nrows();
         let Some(factor) = self.factored(base, precisions) else { return self.clone() };
         let right = DMatrix::from_fn(base.len(), of.len(), |a, j| self.total[(base[a], of[j])]);
@@ -279,7 +279,7 @@ impl Normal {
         let total = sum(&blocks, size);
         // A column explained up to rounding is set to zero: its rest has no sign and no inverse.
         let is_gone =
-            |&&k: &&usize| k < size - 1 && total[(k, k)] <= EXPLAINED * self.total[(k, k)];
+            |&&k: &&usize| k < size - 1 && total[(k, k)] <= MAX_ROUNDING_SHARE * self.total[(k, k)];
         for &gone in of.iter().filter(is_gone) {
             for block in &mut blocks {
                 block.row_mut(gone).fill(0.0);
@@ -303,7 +303,7 @@ impl Normal {
             }
             let square = self.product(column, column);
             let own = square - row.iter().map(|part| part * part).sum::<f64>();
-            if own > DEPENDENT * square {
+            if own > MIN_INDEPENDENT_SHARE * square {
                 row.push(own.sqrt());
                 rows.push(row);
                 kept.push(column);

@@ -308,7 +308,7 @@ impl Search {
 
     /// Expresses the constant ICRs by another of the vehicle's numbers, where the effects found now
     /// favour that one.
-    fn reconsidered(&self, found: Found) -> Found {
+    fn with_best_calibration(&self, found: Found) -> Found {
         let filed = &self.base.as_filed.hypothesis.vehicle;
         let Some(whole) = with_vehicle(&found.fit.hypothesis, filed) else { return found };
         let least = self.settings().search.min_fall_of_meaning;
@@ -423,7 +423,7 @@ impl Search {
                 .max_by(|a, b| value(a).total_cmp(&value(b)).then(b.effects.cmp(&a.effects)));
             match next {
                 Some(next) if value(&next) > value(&best) + settings.min_round_gain => {
-                    best = self.reconsidered(next);
+                    best = self.with_best_calibration(next);
                 }
                 _ => break,
             }

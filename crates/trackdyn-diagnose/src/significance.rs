@@ -51,7 +51,7 @@ impl Test {
 }
 
 /// Least eigenvalue, relative to the largest, of an independent combination of unit columns.
-const DEPENDENT: f64 = 1e-6;
+const MIN_EIGENVALUE_RATIO: f64 = 1e-6;
 
 /// Tests groups of columns, with the base projected out, as one family.
 pub fn test(
@@ -136,7 +136,7 @@ impl Group {
         let eigen = scaled.symmetric_eigen();
         let largest = eigen.eigenvalues.max();
         let kept: Vec<usize> = (0..count)
-            .filter(|&k| eigen.eigenvalues[k] > DEPENDENT * largest && largest > 0.0)
+            .filter(|&k| eigen.eigenvalues[k] > MIN_EIGENVALUE_RATIO * largest && largest > 0.0)
             .collect();
         // Orthonormal axes as combinations of the columns; zero columns do not take part.
         let axes = DMatrix::from_fn(count, kept.len(), |c, k| {

@@ -181,8 +181,8 @@ mod tests {
     /// smoothed.
     #[test]
     fn the_table_equals_the_solver() {
-        const CLOSE: f64 = 5e-4;
-        const KINKED: f64 = 2e-3;
+        const MAX_ERROR: f64 = 5e-4;
+        const MAX_ERROR_WITH_KINK: f64 = 2e-3;
         for id in [
             "",
             "centripetal",
@@ -218,7 +218,8 @@ mod tests {
                 count += 1.0;
             }
             let error = (squares / count).sqrt();
-            let bound = if model.drive().slip_per_traction > 0.0 { KINKED } else { CLOSE };
+            let bound =
+                if model.drive().slip_per_traction > 0.0 { MAX_ERROR_WITH_KINK } else { MAX_ERROR };
             assert!(count > 350.0 && error < bound, "{id}: {error:.1e} m/s");
         }
     }
@@ -255,7 +256,7 @@ mod tests {
 
     #[test]
     fn a_table_that_starts_from_that_of_a_similar_model_is_the_same() {
-        const SAME: f64 = 1e-5;
+        const MAX_DIFFERENCE: f64 = 1e-5;
         for id in [
             "centripetal",
             "belt-slip motion-resistance",
@@ -276,7 +277,7 @@ mod tests {
             let nodes = anew.beyond.nodes().iter().zip(beside.beyond.nodes());
             let off = nodes.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
             println!("{id}: {off:.1e}, {} and {}", anew.unsolved, beside.unsolved);
-            assert!(off < SAME && anew.unsolved == beside.unsolved, "{id}: {off:.1e}");
+            assert!(off < MAX_DIFFERENCE && anew.unsolved == beside.unsolved, "{id}: {off:.1e}");
         }
     }
 

@@ -35,7 +35,7 @@ impl Evidence {
         check_places(recording, by.max_coordinate)?;
         let recording = with_readings_every(recording, by.min_reading_interval);
         let tau = Clock::of(&recording, None).tau();
-        let (recording, measured) = quieter(&recording, tau);
+        let (recording, measured) = with_quieter_poses(&recording, tau);
         let observations = segments(&recording, tau, by)?;
         let gap =
             spin_test(&observations, gauge).map_or(by.gap_without_spins * gauge, |spin| spin.gap);
@@ -153,7 +153,7 @@ fn tracks(recording: &Recording, samples: &[Sample], begin: f64) -> Vec<Vec<Trac
 
 /// The recording and its noise, with poses moved to regular times where that lowers the noise: a
 /// late stamp looks like motion.
-fn quieter(recording: &Recording, tau: f64) -> (Cow<'_, Recording>, Noise) {
+fn with_quieter_poses(recording: &Recording, tau: f64) -> (Cow<'_, Recording>, Noise) {
     let as_stamped = noise(recording, tau);
     let due = with_regular_poses(recording);
     let as_due = noise(&due, tau);

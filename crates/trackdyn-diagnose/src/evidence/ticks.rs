@@ -68,7 +68,7 @@ fn between_ticks(
             Some(*travel)
         });
         let travel: Vec<f64> = std::iter::once(0.0).chain(travel).collect();
-        likely(&travel, step[side] * interval, settings)
+        smoothed_travel(&travel, step[side] * interval, settings)
     };
     let travel = PerSide::from_fn(of);
     let speed = |side: Side, k: usize| (travel[side][k + 1] - travel[side][k]) / interval;
@@ -81,7 +81,7 @@ fn between_ticks(
 }
 
 /// Smoothed travel with the least expected error, from travel counted in ticks, m.
-fn likely(counted: &[f64], tick: f64, settings: &settings::Evidence) -> Vec<f64> {
+fn smoothed_travel(counted: &[f64], tick: f64, settings: &settings::Evidence) -> Vec<f64> {
     if counted.len() <= 2 * ORDER || tick <= 0.0 {
         return counted.to_vec();
     }

@@ -8,7 +8,7 @@ use trackdyn_model::effect::Symmetry;
 use trackdyn_recording::hold::held;
 
 /// Symmetries of the present speeds: their contrasts do not count as effects of the past.
-const PRESENT: &[Symmetry] =
+const SPEED_SYMMETRIES: &[Symmetry] =
     &[Symmetry::SpeedScale, Symmetry::Reversal, Symmetry::Manoeuvre, Symmetry::Mirror];
 
 /// Contrasts of a, h and y by past track speeds, not whitened.
@@ -30,7 +30,7 @@ pub fn contrasts(
     }
     columns.retain(|column| column.iter().any(|value| value.norm() > 0.0));
     let symmetry = Symmetry::Transient;
-    (!columns.is_empty()).then_some(Contrasts { symmetry, beside: PRESENT, columns })
+    (!columns.is_empty()).then_some(Contrasts { symmetry, beside: SPEED_SYMMETRIES, columns })
 }
 
 /// Exponentially forgotten averages of track speeds, m/s.

@@ -77,7 +77,7 @@ impl Within {
 }
 
 /// Difference of ln friction that counts as rounding.
-const SAME: f64 = 1e-12;
+const LN_FRICTION_ROUNDING: f64 = 1e-12;
 
 /// Input of a transient simulation.
 pub struct Case<'a> {
@@ -400,7 +400,7 @@ impl Inertia {
     /// Parameters that differ, with the difference from here to there.
     fn changes(&self, vehicle: &Vehicle, effects: &Effects) -> Vec<(Unknown, f64)> {
         let level = (level(vehicle) / level(&self.vehicle)).ln();
-        let level = if level.abs() < SAME { 0.0 } else { level };
+        let level = if level.abs() < LN_FRICTION_ROUNDING { 0.0 } else { level };
         let level = std::iter::once((Unknown::FrictionLevel, level));
         let cog = [0, 1].map(|k| (Unknown::Cog(k), vehicle.cog[k] - self.vehicle.cog[k]));
         let change = |effect: EffectId, place: usize| {

@@ -237,8 +237,8 @@ impl Calibration {
 }
 
 /// Sets friction and centre of gravity of a vehicle file to those of a vehicle with the constant
-/// ICRs of a hypothesis, and ln friction to `level`; those of the hypothesis where no vehicle has
-/// these ICRs.
+/// ICRs of a hypothesis, at the friction level `level`; those of the hypothesis where no vehicle
+/// has these ICRs.
 ///
 /// The vehicle also absorbs the ICR shifts of `added` effects that are not in the file as fitted.
 pub fn correct_constants(

@@ -30,7 +30,7 @@ pub(crate) fn corrected(
     with_claims(with_law, found, missing, level)
 }
 
-/// A vehicle file with the claimed effects as fitted, and ln friction at `level`.
+/// A vehicle file with the claimed effects as fitted, at the friction level `level`.
 fn with_claims(file: VehicleFile, found: &Found, missing: &[Missing], level: f64) -> VehicleFile {
     let mut corrected = file;
     let hypothesis = &found.fit.hypothesis;

@@ -23,11 +23,11 @@ pub struct Unseen {
 /// Prediction errors: weighted rms of the whitened residuals, in units of the noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeldOut {
-    /// Of the model before.
+    /// Error of the model before.
     pub before: f64,
-    /// Of the base: with constants, encoders and pose sensor fitted.
+    /// Error of the base: with constants, encoders and pose sensor fitted.
     pub instruments: f64,
-    /// Of the corrected model.
+    /// Error of the corrected model.
     pub after: f64,
     /// Noise floor: error that remains when all contrasts of the ICRs and the instruments are
     /// fitted.

@@ -51,7 +51,7 @@ pub struct Mechanics {
     /// `drive`.
     steady: Arc<Vec<Vec<Steady>>>,
     drive: Drive,
-    /// Departure by changing ground of the twist during each sample, paper's frame.
+    /// Departure of the twist during each sample by changing ground, paper's frame.
     ground: Option<Arc<Vec<Twist>>>,
     /// Departure by inertia.
     in_time: InTime,

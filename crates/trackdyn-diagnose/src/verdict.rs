@@ -190,7 +190,7 @@ mod tests {
         assert!(refused("yaw-inertia", [0.0, 0.03]));
         assert!(!refused("yaw-inertia", [0.01, 0.03]));
         assert!(refused("directional-lugs", [-0.01, 0.002]));
-        // the neutral modulus lies beyond the upper end of its range
+        // the neutral modulus, zero, lies below its range
         assert!(refused("shear-displacement", [1e-5, 2e-3]));
         assert!(!refused("shear-displacement", [1e-4, 2e-3]));
     }

@@ -18,11 +18,11 @@ use trackdyn_model::{EffectId, VehicleFile};
 /// Effects that act as constant ICRs in all their variants, ascending.
 #[derive(Clone, Debug)]
 pub struct Constants {
-    /// Those that do nothing else.
+    /// Effects that do nothing else.
     pub only: Vec<EffectId>,
-    /// Those that mostly do; includes the former.
+    /// Effects that mostly do; includes `only`.
     pub mostly: Vec<EffectId>,
-    /// Those that constant ICRs may stand for: `only`, and all laws that by themselves break at
+    /// Effects that constant ICRs may stand for: `only`, and all laws that by themselves break at
     /// most the mirror symmetry. Where inertia acts at the centre of gravity, the latter show more
     /// than constants do.
     class: Vec<EffectId>,

@@ -25,7 +25,7 @@ pub(super) struct Rivals {
     unasked: usize,
     /// The strongest rivals in its place, refitted.
     exchanged: Vec<(EffectId, Found)>,
-    /// Those of them that explain as much.
+    /// Refitted rivals that explain as much.
     alike: Vec<EffectId>,
 }
 

@@ -214,6 +214,7 @@ impl<S: Scalar> Panels<S> {
     }
 
     /// The patch, cut at the ICR.
+    ///
     /// The slip direction jumps at the ICR, and its components change sign along the lines through
     /// it. The nodes move with the cuts, so the sum stays a smooth function of the motion.
     fn cut(patch: &Patch, slip: &SlipField<S>) -> Self {

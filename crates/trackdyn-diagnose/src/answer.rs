@@ -1,28 +1,28 @@
-//! What is said of a robot: a status, and what was left out of its model.
+//! The answer of a diagnosis: a status, and what the model lacks.
 
 pub use trackdyn_core::status::Status;
 
 use crate::uncertainty::Interval;
 use crate::verdict::Verdict;
 
-/// What kind of thing was left out.
+/// Kind of a missing part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Physics of the robot on its ground.
+    /// Physics of the robot and its ground.
     Physics,
-    /// What encoders and pose sensor make of the motion.
+    /// Encoders or pose sensor.
     Instrument,
-    /// A wrong number, or one of the effects that only move constant ICRs.
+    /// A wrong constant, or one of the effects that act as constant ICRs.
     Constant,
 }
 
-/// Something that was left out, with its sizes.
+/// A claimed missing part of the model.
 #[derive(Clone, Debug)]
 pub struct Missing {
-    /// What kind of thing it is.
+    /// Its kind.
     pub kind: Kind,
     /// The verdict.
     pub verdict: Verdict,
-    /// Its parameters with intervals; empty where it stands for a class of constants.
+    /// Parameters with intervals; empty where it stands for a class of constants.
     pub parameters: Vec<Interval>,
 }

@@ -1,8 +1,9 @@
-//! The base: the vehicle as its file says, with all that is free in every hypothesis.
+//! Base model: the vehicle as filed, with the nuisance parameters that are free in every
+//! hypothesis.
 //!
-//! Free are the constant ICRs, which stand for friction ratio, centre of gravity and their like;
-//! what encoders and pose sensor make of the motion: gains, clock, mount; and the level of friction
-//! and the centre of gravity where mass shows them.
+//! These are the constant ICRs, which stand for friction ratio, centre of gravity and the like;
+//! gains, clock and mount of encoders and pose sensor; and the friction level and the centre of
+//! gravity where inertia shows them.
 
 use crate::equations::{Column, Stack};
 use crate::fit::Fit;
@@ -18,31 +19,30 @@ use trackdyn_core::PerSide;
 use trackdyn_model::{ActiveEffect, Circumstance, EffectId, Effects, Model, Vehicle, VehicleFile};
 use trackdyn_model::{Icrs, Stationary};
 
-/// What every hypothesis starts from.
+/// Start of every hypothesis.
 #[derive(Clone)]
 pub struct Base {
-    /// The vehicle as its file says, moved with the recorded clock and nothing fitted but the
-    /// constant ICRs.
+    /// The vehicle as filed, with only constant ICRs fitted.
     pub as_filed: Fit,
-    /// The base at its best, the vehicle's friction ratio and centre of gravity such that it has
-    /// the constant ICRs that were found.
+    /// The fitted base. Friction ratio and centre of gravity of its vehicle are adjusted to the
+    /// constant ICRs.
     pub fit: Fit,
-    /// What is free in every hypothesis.
+    /// Nuisance parameters, free in every hypothesis.
     pub nuisances: Vec<Unknown>,
-    /// Effects of encoders and pose sensor among them, by their places in the catalogue.
+    /// Instrument effects among them.
     pub instruments: Vec<EffectId>,
-    /// What of the vehicle takes over constant ICRs.
+    /// Which numbers of the vehicle absorb constant ICR offsets.
     pub calibration: Calibration,
 }
 
-/// The offsets of the constant ICRs.
+/// Offsets of the constant ICRs.
 pub const OFFSETS: [Unknown; 3] = [Unknown::Offset(0), Unknown::Offset(1), Unknown::Offset(2)];
 
-/// What only a robot with mass tells: how far it slides, and where it pulls.
-const BY_MASS: [Unknown; 3] = [Unknown::FrictionLevel, Unknown::Cog(0), Unknown::Cog(1)];
+/// Numbers that only inertia shows: how far the robot slides, and where its mass is.
+const SHOWN_BY_INERTIA: [Unknown; 3] = [Unknown::FrictionLevel, Unknown::Cog(0), Unknown::Cog(1)];
 
 impl Base {
-    /// The base of a vehicle for this evidence.
+    /// Fits the base of a vehicle to the evidence.
     pub fn new(file: &VehicleFile, evidence: &Weighted) -> Self {
         let settings = evidence.settings();
         let hypothesis = Hypothesis::filed(file, &settings.prior);
@@ -53,9 +53,9 @@ impl Base {
         for &effect in &instruments {
             nuisances.extend(unknowns_of(effect));
         }
-        // What has mass tells how much friction there is, and where the mass is, if the evidence
-        // knows that better than the owner.
-        let tried: Vec<Unknown> = nuisances.iter().chain(&BY_MASS).copied().collect();
+        // With inertia, the evidence may determine friction level and centre of gravity better than
+        // the vehicle file: they are free then.
+        let tried: Vec<Unknown> = nuisances.iter().chain(&SHOWN_BY_INERTIA).copied().collect();
         let fit = Fit::at(start.clone(), &tried, evidence, Some(&as_filed.mechanics));
         for (place, &unknown) in tried.iter().enumerate().skip(nuisances.len()) {
             let known = fit.solution.covariance[(place, place)].sqrt();
@@ -65,12 +65,12 @@ impl Base {
             }
         }
         let plain = Fit::new(start, &nuisances, evidence, Some(&fit.mechanics));
-        // The vehicle takes over what it can of the constant ICRs; a second fit tells what is left.
+        // The vehicle's numbers absorb constant ICR offsets; a second fit finds the rest.
         let (mut fit, mut calibration) = (plain.clone(), Calibration::None);
         for tried in Calibration::ALL {
             let Some(hypothesis) = tried.calibrated(&plain.hypothesis) else { continue };
             let again = Fit::new(hypothesis, &nuisances, evidence, None);
-            // Where nothing tells them apart, the first one stands.
+            // Where no calibration fits clearly better, the first one is kept.
             let least = settings.base.min_fall_of_calibration;
             let better = if calibration == Calibration::None { -least } else { least };
             if again.objective < fit.objective - better {
@@ -80,7 +80,7 @@ impl Base {
         Self { as_filed, fit, nuisances, instruments, calibration }
     }
 
-    /// This base, at its best for the evidence with another noise, or another scale of residuals.
+    /// The base refitted to evidence with other noise or scale.
     pub fn refitted(&self, evidence: &Weighted) -> Self {
         let again = |fit: &Fit| {
             let (start, before) = (fit.hypothesis.clone(), Some(&fit.mechanics));
@@ -90,8 +90,8 @@ impl Base {
     }
 }
 
-/// The hypothesis with the clock offset that the recording shows by itself, in whatever effect
-/// delays poses.
+/// The hypothesis with the clock offset estimated from the recording, in the effect that delays
+/// poses.
 fn with_clock(hypothesis: &Hypothesis, evidence: &Weighted) -> Hypothesis {
     let own = Model::new(hypothesis.vehicle.clone(), hypothesis.effects.clone()).sensor().delay;
     for effect in EffectId::all() {
@@ -111,8 +111,8 @@ fn with_clock(hypothesis: &Hypothesis, evidence: &Weighted) -> Hypothesis {
     hypothesis.clone()
 }
 
-/// The effects of encoders and pose sensor that this evidence tells from each other and from
-/// constant ICRs, in the catalogue's order.
+/// Instrument effects that this evidence separates from each other and from constant ICRs, in
+/// catalogue order.
 fn free_instruments(
     hypothesis: &Hypothesis,
     evidence: &Weighted,
@@ -135,8 +135,8 @@ fn free_instruments(
     chosen
 }
 
-/// The smallest part of a column beyond the first `base` ones that is its own, as share of its
-/// square.
+/// Smallest share of a column's square, of all columns after the first `base`, that is independent
+/// of the others.
 fn own_share(fit: &Fit, base: usize) -> f64 {
     let samples = fit.residual.len();
     let flat = |of: &[Column]| vec![Prior::flat(); of.len()];
@@ -160,24 +160,24 @@ fn own_share(fit: &Fit, base: usize) -> f64 {
     equations.groups[0].iter().map(share).fold(1.0, f64::min)
 }
 
-/// What of a vehicle's numbers takes over an offset of the ICRs. As long as ICRs are constant,
-/// nothing tells which; effects that act on the centre of gravity do.
+/// Which numbers of a vehicle absorb ICR offsets. Constant ICRs do not tell; effects that act at
+/// the centre of gravity do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Calibration {
     /// Friction ratio and centre of gravity: no offset is left.
     Vehicle,
-    /// The friction ratio, by the distance of the ICRs. What is left is as a mount of the pose
-    /// sensor makes it.
+    /// Friction ratio only, from the distance of the ICRs. The rest acts like a shifted pose
+    /// sensor.
     Friction,
-    /// Nothing.
+    /// None.
     None,
 }
 
 impl Calibration {
-    /// All of them, the first choice first.
+    /// All choices, preferred first.
     pub const ALL: [Self; 3] = [Self::Vehicle, Self::Friction, Self::None];
 
-    /// What of an offset of the ICRs the vehicle ought to take over, m.
+    /// Largest offset that the vehicle should absorb, m.
     pub fn due(self, [left, right, y]: [f64; 3]) -> f64 {
         match self {
             Self::Vehicle => left.abs().max(right.abs()).max(y.abs()),
@@ -186,14 +186,14 @@ impl Calibration {
         }
     }
 
-    /// The hypothesis with a vehicle that takes over the offset of its constant ICRs; none where
-    /// there is no such vehicle.
+    /// The hypothesis with a vehicle that absorbs the ICR offset, by Newton's method; none where no
+    /// such vehicle exists.
     pub fn calibrated(self, hypothesis: &Hypothesis) -> Option<Hypothesis> {
         const ROUNDS: usize = 20;
         let wanted = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset);
         let changed = |by: &Vector3<f64>| -> Vehicle {
             let mut vehicle = hypothesis.vehicle.clone();
-            // Nobody knows one coefficient better than the other.
+            // Neither coefficient is known better than the other.
             vehicle.friction.across *= (by[0] / 2.0).exp();
             vehicle.friction.along *= (-by[0] / 2.0).exp();
             vehicle.cog[0] += by[1];
@@ -225,7 +225,7 @@ impl Calibration {
                 }
                 Self::None => return None,
             };
-            // No more than half a friction ratio, or a tenth of the gauge, at a time.
+            // Step limit: half a unit of ln friction ratio, or a tenth of the gauge.
             let gauge = hypothesis.vehicle.gauge;
             let size = (step[0].abs() / 0.5)
                 .max(step[1].abs() / (0.1 * gauge))
@@ -236,12 +236,11 @@ impl Calibration {
     }
 }
 
-/// Gives a vehicle file the friction and the centre of gravity of a vehicle with the constant ICRs
-/// of a hypothesis, with friction at a level of its own; those of the hypothesis where no vehicle
-/// has them.
+/// Sets friction and centre of gravity of a vehicle file to those of a vehicle with the constant
+/// ICRs of a hypothesis, at the friction level `level`; those of the hypothesis where no vehicle
+/// has these ICRs.
 ///
-/// Of the effects that were `added` the file may have some otherwise, or not: what these moved the
-/// vehicle takes over as well.
+/// The vehicle also absorbs the ICR shifts of `added` effects that are not in the file as fitted.
 pub fn correct_constants(
     file: &mut VehicleFile,
     hypothesis: &Hypothesis,
@@ -263,7 +262,7 @@ pub fn correct_constants(
     file.vehicle.cog = vehicle.cog;
 }
 
-/// The constant ICRs of a vehicle, m: those of a slow spin without effects.
+/// Constant ICRs of a vehicle without effects, in a slow spin, m.
 fn spin(vehicle: &Vehicle) -> Option<Vector3<f64>> {
     spin_with(vehicle, Effects::none())
 }
@@ -274,7 +273,7 @@ fn spin_with(vehicle: &Vehicle, effects: Effects) -> Option<Vector3<f64>> {
     solution.icrs.map(Icrs::to_array).map(Vector3::from)
 }
 
-/// The hypothesis with another vehicle and the offset that leaves its constant ICRs where they are.
+/// The hypothesis with another vehicle, and the offset that keeps its constant ICRs.
 pub fn with_vehicle(hypothesis: &Hypothesis, vehicle: &Vehicle) -> Option<Hypothesis> {
     let offset = spin(&hypothesis.vehicle)? + Vector3::from(hypothesis.offset) - spin(vehicle)?;
     let vehicle = with_friction(vehicle, hypothesis.friction_level);
@@ -287,8 +286,8 @@ mod tests {
     use super::*;
     use crate::settings;
 
-    /// An effect that is not claimed leaves its constant ICRs, and the offset, to the vehicle;
-    /// friction keeps its own level.
+    /// An unclaimed effect leaves its shift of the ICRs, and the offset, to the vehicle; friction
+    /// keeps its own level.
     #[test]
     fn the_vehicle_takes_over_what_is_not_claimed() {
         const LEVEL: f64 = 0.1;
@@ -308,7 +307,7 @@ mod tests {
         let off = spin(&file.vehicle).expect("a spin") - wanted;
         assert!(off.norm() < 1e-6, "{off}");
         assert!((product(&file.vehicle) / before - (2.0 * LEVEL).exp()).abs() < 1e-9);
-        // what stands in the file as it was found is no matter of the vehicle
+        // an effect in the file as fitted is not absorbed
         let mut file = VehicleFile::auriga_alpha();
         file.effects.insert(hypothesis.effect(gradient).expect("there").clone());
         let bare = spin(&file.vehicle).expect("a spin") + Vector3::from(hypothesis.offset);

@@ -1,9 +1,8 @@
-//! Candidates: every effect of the catalogue, and what it would change in this very evidence.
+//! Candidates: every effect of the catalogue, and its signature in this evidence.
 //!
-//! The signature of an effect is the prediction with it less the one without, each solved in full:
-//! a law may have no derivative where it vanishes. Where a law has shapes, directions or places
-//! beside its size, its signature is found for several of them, and the one that explains most
-//! stands for the effect.
+//! The signature of an effect is the prediction with it minus that without, each solved in full,
+//! since a law may not be differentiable at zero size. Where a law has shapes, directions or places
+//! besides its size, several variants are tried, and the best one stands for the effect.
 
 mod between;
 mod places;
@@ -19,31 +18,31 @@ use std::collections::BTreeSet;
 use trackdyn_model::effect::{Card, Parameter, Role};
 use trackdyn_model::{ActiveEffect, EffectId};
 
-/// An effect with one choice of what is no size.
+/// An effect with one choice of shape, direction and place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variant {
-    /// Place in the catalogue.
+    /// The effect.
     pub effect: EffectId,
-    /// Values of all parameters: those of sizes are where its signature is taken.
+    /// Values of all parameters; the signature is taken at these sizes.
     pub values: Vec<f64>,
 }
 
-/// What a size of an effect would change, per unit of it.
+/// Derivative of the prediction by a size of an effect.
 #[derive(Clone, Debug)]
 pub struct Signature {
     /// The size.
     pub unknown: Unknown,
-    /// The change of the prediction per unit, whitened.
+    /// Change of the prediction per unit of the size, whitened.
     pub column: Vec<Vector3<f64>>,
 }
 
 impl Variant {
-    /// The sizes.
+    /// Indices of the sizes among the parameters.
     pub fn sizes(&self) -> Vec<usize> {
         sizes(self.effect)
     }
 
-    /// This variant with its sizes this far from none.
+    /// The variant with sizes at these distances from the neutral ones.
     pub fn with_sizes(&self, sizes: &[f64]) -> Self {
         let mut variant = self.clone();
         for (&parameter, &size) in self.sizes().iter().zip(sizes) {
@@ -54,18 +53,18 @@ impl Variant {
         variant
     }
 
-    /// The signatures of its sizes; none where the effect cannot act there.
+    /// Signatures of all sizes; none where the effect cannot act.
     fn signatures(&self, beside: &Beside) -> Option<Vec<Signature>> {
         self.sizes().into_iter().map(|size| self.signature(size, beside)).collect()
     }
 
-    /// The signature of a size, at the first of its steps that the robot can take.
+    /// Signature of a size, at the first step for which a motion exists.
     fn signature(&self, size: usize, beside: &Beside) -> Option<Signature> {
         let parameters = self.effect.card().parameters;
         let mut values = self.values.clone();
         let mut steps = &beside.evidence.settings().candidates.size_steps[..];
         if let Some(present) = beside.hypothesis.effect(self.effect) {
-            // Known to be there: what more of it would change.
+            // Already present: signature of an increase.
             values = present.values().to_vec();
             steps = &steps[1..];
         } else {
@@ -89,14 +88,14 @@ impl Variant {
     }
 }
 
-/// What signatures are taken beside.
+/// The hypothesis beside which signatures are computed.
 pub struct Beside<'a> {
     hypothesis: &'a Hypothesis,
     evidence: &'a Weighted,
-    /// The hypothesis as it is.
+    /// The hypothesis itself.
     moving: Prepared,
-    /// The hypothesis without inertia: the signature of what neither stands against acceleration
-    /// nor changes the answer to it is taken from stationary motion.
+    /// The hypothesis without inertia: effects that neither depend on acceleration nor change the
+    /// response to it are computed from stationary motion, which is faster.
     still: Prepared,
 }
 
@@ -115,7 +114,7 @@ impl Prepared {
     }
 }
 
-/// Places of the sizes among an effect's parameters.
+/// Indices of the sizes among an effect's parameters.
 pub fn sizes(effect: EffectId) -> Vec<usize> {
     let parameters = effect.card().parameters.iter().enumerate();
     parameters
@@ -124,8 +123,7 @@ pub fn sizes(effect: EffectId) -> Vec<usize> {
         .collect()
 }
 
-/// All variants of all mechanisms that are tried on this evidence, but of the instruments that are
-/// free anyway.
+/// All variants of all mechanisms tried on this evidence, except instruments that are free anyway.
 pub fn candidates(instruments: &[EffectId], evidence: &Evidence) -> Vec<Variant> {
     EffectId::all()
         .filter(|effect| !instruments.contains(effect) && !effect.card().is_form())
@@ -133,8 +131,8 @@ pub fn candidates(instruments: &[EffectId], evidence: &Evidence) -> Vec<Variant>
         .collect()
 }
 
-/// The variants of an effect that are tried on this evidence: none of what knows places or
-/// directions where the evidence has none.
+/// Variants of an effect tried on this evidence: none for effects of place or direction in tables
+/// of steady motion.
 pub fn variants(effect: EffectId, evidence: &Evidence) -> Vec<Variant> {
     let card = effect.card();
     let parameters = card.parameters;
@@ -187,8 +185,8 @@ fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
     }
 }
 
-/// Shapes that are tried: the typical one and one on either side, or as many inside where that is
-/// an end of the range.
+/// Shapes that are tried: the typical one and one on either side, or all inside where it is an end
+/// of the range.
 fn shapes(parameter: &Parameter, ratio: f64) -> Vec<f64> {
     let [low, high] = parameter.range;
     let steps = match parameter.typical {
@@ -202,8 +200,8 @@ fn shapes(parameter: &Parameter, ratio: f64) -> Vec<f64> {
     tried
 }
 
-/// Distance of values that are tried, of a place with this extent, if it has one; of a shape, that
-/// of their logarithms.
+/// Distance between values that are tried; for a place, its extent where it has one; for a shape,
+/// in its logarithm.
 fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f64 {
     match parameter.role {
         Role::Size { .. } => 0.0,
@@ -214,7 +212,7 @@ fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f
 }
 
 impl<'a> Beside<'a> {
-    /// A hypothesis for this evidence.
+    /// A hypothesis on this evidence.
     pub fn new(hypothesis: &'a Hypothesis, evidence: &'a Weighted) -> Self {
         let vehicle = &hypothesis.vehicle;
         let still = hypothesis.effects.iter().filter(|effect| !feels_inertia(vehicle, effect));
@@ -227,15 +225,15 @@ impl<'a> Beside<'a> {
         }
     }
 
-    /// Whether the effect is there already.
+    /// Whether the hypothesis has the effect already.
     pub fn knows(&self, variant: &Variant) -> bool {
         self.hypothesis.effect(variant.effect).is_some()
     }
 
-    /// What an effect changes of the prediction; none where it cannot act.
+    /// Change of the prediction by an effect; none where it has no motion.
     fn change(&self, effect: ActiveEffect) -> Option<Vec<Vector3<f64>>> {
         let vehicle = &self.hypothesis.vehicle;
-        // Friction that only moves constant ICRs answers to acceleration as its level does.
+        // Friction laws that break no symmetry respond to acceleration like the friction level.
         let answers = effect.card().shears() && !effect.card().breaks.is_empty();
         let is_moving = answers || feels_inertia(vehicle, &effect);
         let base = if is_moving { &self.moving } else { &self.still };
@@ -253,13 +251,13 @@ impl<'a> Beside<'a> {
         };
         let changes = with.iter().zip(&base.prediction).map(|(with, without)| with - without);
         let changes: Vec<Vector3<f64>> = changes.collect();
-        // One that is no number would make all that stands beside it in the normal equations none.
+        // A NaN would spoil all other columns of the normal equations.
         let are_numbers = changes.iter().flatten().all(|change| change.is_finite());
         are_numbers.then_some(changes)
     }
 
-    /// The signatures of variants, in parallel; those that cannot act are left out. Of an effect
-    /// that is known to be there the first one stands for all: what is no size is what it is.
+    /// Signatures of variants, in parallel, without those that cannot act. An effect already
+    /// present has one variant only: its shape, direction and place are given.
     pub fn signatures(&self, variants: &[Variant]) -> Vec<(Variant, Vec<Signature>)> {
         let mut known = BTreeSet::new();
         let is_own = |variant: &&Variant| !self.knows(variant) || known.insert(variant.effect);

@@ -1,4 +1,4 @@
-//! The vehicle that a diagnosis leads to.
+//! The corrected vehicle file of a diagnosis.
 
 use crate::answer::{Kind, Missing};
 use crate::base::correct_constants;
@@ -8,9 +8,9 @@ use crate::search::Found;
 use crate::uncertainty::Level;
 use trackdyn_model::VehicleFile;
 
-/// The vehicle that explains the evidence: the filed one, with what is claimed and the level of
-/// friction where it surely differs, and with the law that is proposed. Where the constant ICRs
-/// were wrong, friction ratio and centre of gravity stand for all that could move them.
+/// The filed vehicle with all claims, with the friction level where it clearly differs, and with a
+/// proposed law. Where constant ICRs were wrong, friction ratio and centre of gravity stand for
+/// everything that could have moved them.
 pub(crate) fn corrected(
     file: &VehicleFile,
     best: &Found,
@@ -22,7 +22,7 @@ pub(crate) fn corrected(
     let vehicle = with_friction(&file.vehicle, level);
     let claimed = with_claims(VehicleFile { vehicle, ..file.clone() }, best, missing, level);
     let Some(Proposal { found, effect, .. }) = proposed else { return claimed };
-    // the law first: what it moves is no constant
+    // insert the law first: its shift of the ICRs is no constant
     let mut with_law = claimed;
     if let Some(law) = found.fit.hypothesis.effect(*effect) {
         with_law.effects.insert(law.clone());
@@ -30,7 +30,7 @@ pub(crate) fn corrected(
     with_claims(with_law, found, missing, level)
 }
 
-/// A vehicle file with what is claimed, as a hypothesis has it, and with friction at a level.
+/// A vehicle file with the claimed effects as fitted, at the friction level `level`.
 fn with_claims(file: VehicleFile, found: &Found, missing: &[Missing], level: f64) -> VehicleFile {
     let mut corrected = file;
     let hypothesis = &found.fit.hypothesis;

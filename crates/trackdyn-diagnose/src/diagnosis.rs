@@ -1,4 +1,4 @@
-//! What a diagnosis says: the answer, the evidence for it, the models, and the limits of it.
+//! Result of a diagnosis: the answer, its evidence, the models and the detection limits.
 
 mod evidence;
 mod judged;
@@ -28,90 +28,90 @@ use std::sync::Arc;
 use trackdyn_model::VehicleFile;
 use trackdyn_model::effect::Symmetry;
 
-/// How to diagnose.
+/// Options of a diagnosis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Indices of runs that nothing is fitted or chosen on; empty: none are held out.
+    /// Indices of held-out runs: nothing is fitted or chosen on them. Empty: none.
     pub held_out: Vec<usize>,
-    /// Draws of the bootstrap, and the seed of everything random.
+    /// Number of bootstrap draws, and the seed of all random numbers.
     pub resampling: Resampling,
 }
 
-/// The outcome.
+/// Result of a diagnosis.
 #[derive(Clone)]
 pub struct Diagnosis {
-    /// What is said.
+    /// Status, claims and refusals.
     pub answer: Answer,
-    /// What it was learned from, and what is left of that.
+    /// Evidence, located departures and prediction errors.
     pub evidence: Examined,
-    /// The models before and after.
+    /// Base model and best hypothesis.
     pub models: Models,
-    /// What this evidence could have shown.
+    /// Detection limits, and which effects can be told apart.
     pub limits: Limits,
 }
 
-/// What is said.
+/// What the diagnosis concludes.
 #[derive(Clone)]
 pub struct Answer {
-    /// In a word.
+    /// Overall status.
     pub status: Status,
-    /// Symmetries that the evidence breaks.
+    /// Symmetries that the evidence breaks, ascending.
     pub broken: Vec<Symmetry>,
-    /// One sentence: channel, driving, symmetries.
+    /// One sentence on where the model fails: channel, driving, symmetries.
     pub place: String,
-    /// What was left out.
+    /// Claims: effects that the model lacks.
     pub missing: Vec<Missing>,
-    /// Effects of the best hypothesis that are not claimed, and why.
+    /// Effects of the best hypothesis that are not claimed, with the reason.
     pub refused: Vec<Verdict>,
-    /// A law for what no effect explains, where something is left and one was found.
+    /// Empirical law for what no effect explains; none where nothing is left or no law fits.
     pub proposed: Option<Proposal>,
-    /// The vehicle that explains the evidence.
+    /// The vehicle file with the claims, corrected.
     pub corrected: VehicleFile,
 }
 
-/// What a diagnosis was learned from, and what is left of it.
+/// Evidence of a diagnosis, with the residuals before and after.
 #[derive(Clone)]
 pub struct Examined {
-    /// The evidence of the fit, with the noise that its residuals show.
+    /// Evidence of the fitted runs, with its final noise.
     pub seen: Weighted,
-    /// What is left of held-out runs; none where none were.
+    /// Held-out runs; none where none were held out.
     pub unseen: Option<Unseen>,
-    /// Where the evidence departs from the vehicle as filed with nothing fitted but constant ICRs.
+    /// Departures from the vehicle as filed, with only constant ICRs fitted.
     pub filed: Location,
-    /// Where it departs from the base.
+    /// Departures from the base.
     pub before: Location,
-    /// Where it departs from the corrected model.
+    /// Departures from the corrected model.
     pub after: Location,
-    /// ICRs in cells of driving, before and after.
+    /// ICRs by cells of driving, before and after.
     pub cells: [Vec<Cell>; 2],
-    /// The claimed effects, or else the best candidate, against the evidence.
+    /// Claimed effects, or else the best candidate, against the evidence: series for figures.
     pub exposures: Vec<Exposure>,
-    /// Errors before and after, on held-out runs where there are any.
+    /// Prediction errors before and after, on held-out runs where there are any.
     pub errors: HeldOut,
 }
 
-/// The models before and after.
+/// Models before and after the diagnosis.
 #[derive(Clone)]
 pub struct Models {
-    /// The base: as filed with constants, and with instruments.
+    /// The base: the vehicle as filed, with constant ICRs and instruments fitted.
     pub base: Arc<Base>,
-    /// The best hypothesis, refitted to what is claimed.
+    /// The best hypothesis, reduced to what is claimed and refitted.
     pub best: Found,
-    /// The level of friction in it; none where it is not free.
+    /// Its friction level with an interval; none where friction is not free.
     pub friction_level: Option<Level>,
 }
 
-/// Whether encoders or pose sensor are to blame for something.
+/// Whether encoders or pose sensor are among the claims.
 fn blame_instruments(missing: &[Missing]) -> bool {
     missing.iter().any(|missing| missing.kind == Kind::Instrument)
 }
 
-/// What was there before: an instrument that is claimed is part of what was missing.
+/// The model before: a claimed instrument is part of what was missing, so it is not fitted in it.
 fn before<'a>(base: &'a Base, missing: &[Missing]) -> &'a Fit {
     if blame_instruments(missing) { &base.as_filed } else { &base.fit }
 }
 
-/// The answer in a word, by the symmetries that are left over and what is claimed.
+/// The status, by the symmetries left broken and the claims.
 fn status(left_over: &[Symmetry], missing: &[Missing]) -> Status {
     if !left_over.is_empty() {
         Status::Unexplained
@@ -125,23 +125,23 @@ fn status(left_over: &[Symmetry], missing: &[Missing]) -> Status {
 }
 
 impl Diagnosis {
-    /// Whether encoders or pose sensor are to blame for something: they are then not part of what
-    /// was before.
+    /// Whether encoders or pose sensor are among the claims: the model before then keeps them as
+    /// filed.
     pub fn blames_instruments(&self) -> bool {
         blame_instruments(&self.answer.missing)
     }
 
-    /// What held-out runs say against what is claimed, as a sentence; none where the corrected
-    /// model does better there.
+    /// A sentence where held-out runs contradict the claims; none where the corrected model
+    /// predicts them better.
     pub fn contradiction(&self) -> Option<String> {
         let claims = |kind: Kind| self.answer.missing.iter().any(|missing| missing.kind == kind);
-        // constants are fitted in what was there before too
+        // constants are fitted in the model before, too
         let [physics, instruments] = [Kind::Physics, Kind::Instrument].map(claims);
         self.evidence.errors.contradiction(physics || instruments, physics)
     }
 
-    /// The fit of what was there before: of the vehicle as filed where encoders or pose sensor are
-    /// to blame for something, else with these at their best.
+    /// The fit before: the vehicle as filed where an instrument is claimed, else with instruments
+    /// fitted.
     pub fn fit_before(&self) -> &Fit {
         before(&self.models.base, &self.answer.missing)
     }

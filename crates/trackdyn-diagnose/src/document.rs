@@ -26,24 +26,24 @@ pub struct DiagnosisFile {
     pub status: String,
     /// Where evidence and model differ.
     pub located: LocatedTable,
-    /// What was left out.
+    /// Missing parts of the model.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub missing: Vec<MissingTable>,
-    /// Terms of a law that is proposed for what no effect explains.
+    /// Terms of a law proposed for what no effect explains.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub proposed: Vec<ProposedTable>,
-    /// What that law is worth.
+    /// Quality of that law.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proposal: Option<ProposalTable>,
     /// Errors on held-out runs.
     pub fit: FitTable,
-    /// Smallest size of each effect that would have shown, by the keys of its sizes.
+    /// Smallest detectable size of each effect, by the keys of its sizes.
     #[serde(default)]
     pub detectable: BTreeMap<String, BTreeMap<String, f64>>,
     /// Settings that differ from their defaults.
     #[serde(default, skip_serializing_if = "Settings::are_defaults")]
     pub settings: Settings,
-    /// Where it comes from.
+    /// Source of the evidence.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub source: Option<Table>,
 }
@@ -53,16 +53,16 @@ pub struct DiagnosisFile {
 pub struct LocatedTable {
     /// Root mean square of the whitened residual of the base model.
     pub excess_over_noise: f64,
-    /// Shares of the excess.
+    /// Shares of the chi-squared above noise.
     pub channels: Channels,
-    /// Letters of the symmetries that are broken.
+    /// Letters of the broken symmetries.
     pub broken: Vec<String>,
     /// One sentence.
     #[serde(rename = "where")]
     pub place: String,
 }
 
-/// Shares of the excess by channel.
+/// Shares of the chi-squared above noise, by channel.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Channels {
     /// Across.
@@ -73,18 +73,18 @@ pub struct Channels {
     pub yaw: f64,
 }
 
-/// Something that was left out.
+/// A missing part of the model.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct MissingTable {
-    /// Its id; the first of several that explain it alike.
+    /// Effect id; the first of several that explain it equally well.
     pub effect: String,
-    /// All ids that explain it alike.
+    /// Ids of all effects that explain it equally well.
     pub one_of: Vec<String>,
-    /// Its parameters; empty where it stands for a class.
+    /// Parameters; empty where it stands for a class.
     pub parameters: Vec<ParameterTable>,
-    /// What speaks for it.
+    /// Statistical support.
     pub evidence: SupportTable,
-    /// What would decide between several; absent where one is named.
+    /// How to decide between several; absent where one is named.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub separate_by: Option<String>,
 }
@@ -104,34 +104,33 @@ pub struct ParameterTable {
     pub unit: String,
 }
 
-/// What speaks for a claim.
+/// Statistical support of a claim.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct SupportTable {
-    /// Family-wise probability of chance.
+    /// Family-wise p value.
     pub p: f64,
-    /// Logarithm of the Bayes factor against the best model without it.
+    /// ln Bayes factor against the best alternative.
     pub ln_bayes_factor: f64,
-    /// Gain of log-likelihood on blocks that were left out of the fit.
+    /// Cross-validated gain of log-likelihood, on blocks left out of the fit.
     pub held_out_gain: f64,
 }
 
-/// Errors on held-out runs, in units of the noise; on those of the fit where none were held out.
+/// Errors on held-out runs, in units of the noise; on the fitted runs where none were held out.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct FitTable {
-    /// Whether runs were held out; older files do not say.
+    /// Whether runs were held out; absent in older files.
     #[serde(default)]
     pub are_held_out: bool,
-    /// Before.
+    /// Error of the model before.
     pub held_out_before: f64,
-    /// With nothing but the base fitted, constants, encoders and pose sensor; older files have
-    /// none.
+    /// Error of the base, with constants, encoders and pose sensor fitted; absent in older files.
     #[serde(default)]
     pub held_out_instruments: f64,
-    /// After.
+    /// Error of the corrected model.
     pub held_out_after: f64,
-    /// What no model can go below.
+    /// Noise floor, which no model can go below.
     pub noise_floor: f64,
-    /// Share of the excess that is explained; one where there is none.
+    /// Share of the excess that is explained; one where there is no excess.
     pub excess_explained: f64,
 }
 
@@ -139,7 +138,7 @@ impl DiagnosisFile {
     /// The file of a diagnosis.
     ///
     /// # Panics
-    /// Never: a source is a table.
+    /// Never: a source serialises to a table.
     pub fn new(diagnosis: &Diagnosis, source: &Source) -> Self {
         let located = &diagnosis.evidence.before;
         let detectable = diagnosis.limits.detectable.iter().filter_map(|one| {
@@ -190,17 +189,17 @@ impl DiagnosisFile {
         document.parse_as(SCHEMA)
     }
 
-    /// Its text.
+    /// The file as TOML text.
     ///
     /// # Panics
-    /// Never: it holds only what TOML can say.
+    /// Never: all values can be written as TOML.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("numbers, texts and tables are TOML")
     }
 }
 
 impl ParameterTable {
-    /// The table of a parameter of an effect; none of what is no parameter.
+    /// Table of an effect's parameter; none for other unknowns.
     fn of(interval: &Interval) -> Option<Self> {
         let parameter = interval.unknown.parameter()?;
         Some(Self {
@@ -230,7 +229,7 @@ fn missing(missing: &crate::diagnosis::Missing) -> MissingTable {
     }
 }
 
-/// What would decide between the members of a class.
+/// How to decide between the members of a class.
 pub fn separate_by(missing: &crate::diagnosis::Missing) -> String {
     match missing.kind {
         Kind::Constant => {
@@ -254,7 +253,7 @@ pub fn separate_by(missing: &crate::diagnosis::Missing) -> String {
     }
 }
 
-/// The driving in which an effect is no constant of the ICRs; none where there is no such driving.
+/// Driving in which an effect does not act as constant ICRs; none where there is none.
 fn told_by(card: &Card) -> Option<&'static str> {
     card.breaks.iter().find_map(|symmetry| match symmetry {
         Symmetry::SpeedScale => Some("slowly and fast"),
@@ -269,7 +268,7 @@ fn told_by(card: &Card) -> Option<&'static str> {
     })
 }
 
-/// The number with the digits that the file keeps.
+/// A number rounded to the digits of the file.
 fn rounded(value: f64) -> f64 {
     Digits::Significant(9).round(value)
 }

@@ -1,4 +1,4 @@
-//! Normal equations of what is free, with groups of columns beside it.
+//! Normal equations of the free columns, with groups of further columns.
 
 use crate::normal::{Normal, Prior, Solution};
 use nalgebra::Vector3;
@@ -7,23 +7,23 @@ use std::ops::Range;
 /// A whitened column.
 pub type Column = Vec<Vector3<f64>>;
 
-/// Columns of a fit, that of what is free first and groups of others behind, in one list.
+/// Columns of a linear fit in one list: the free ones first, then groups of others.
 #[derive(Clone, Debug, Default)]
 pub struct Stack {
     /// The columns.
     pub columns: Vec<Column>,
-    /// What is known of the factor of each beforehand.
+    /// Prior of the factor of each column.
     pub priors: Vec<Prior>,
     groups: Vec<Range<usize>>,
 }
 
 impl Stack {
-    /// The columns of what is free.
+    /// A stack of the free columns.
     pub fn new(columns: Vec<Column>, priors: Vec<Prior>) -> Self {
         Self { columns, priors, groups: Vec::new() }
     }
 
-    /// Puts a group of columns behind.
+    /// Appends a group of columns.
     pub fn push(&mut self, group: impl IntoIterator<Item = (Column, Prior)>) {
         let first = self.columns.len();
         for (column, prior) in group {
@@ -33,7 +33,7 @@ impl Stack {
         self.groups.push(first..self.columns.len());
     }
 
-    /// Their normal equations, which `normal` makes of the columns.
+    /// Normal equations of all columns, computed by `normal`.
     pub fn equations(self, normal: impl FnOnce(&[Column]) -> Normal) -> Equations {
         let first = self.groups.first().map_or(self.columns.len(), |group| group.start);
         Equations {
@@ -45,21 +45,21 @@ impl Stack {
     }
 }
 
-/// Normal equations of what is free, and of groups of columns beside it.
+/// Normal equations of the free columns and of groups of further columns.
 #[derive(Clone, Debug)]
 pub struct Equations {
     /// Products of all columns.
     pub normal: Normal,
-    /// What is known of the factor of each beforehand.
+    /// Prior of the factor of each column.
     pub priors: Vec<Prior>,
-    /// Columns of what is free.
+    /// Free columns.
     pub free: Vec<usize>,
     /// Columns of each group.
     pub groups: Vec<Vec<usize>>,
 }
 
 impl Equations {
-    /// The equations with some of the free columns as a group, the last one.
+    /// The equations with some of the free columns moved to a new group, the last one.
     pub fn with_group(self, columns: &[usize]) -> Self {
         let Self { normal, priors, mut free, mut groups } = self;
         free.retain(|column| !columns.contains(column));
@@ -67,17 +67,17 @@ impl Equations {
         Self { normal, priors, free, groups }
     }
 
-    /// All columns and the residual with what is free projected out.
+    /// All other columns and the residual, with the free columns projected out.
     pub fn projected(&self) -> Normal {
         self.normal.projected(&self.free, &self.priors)
     }
 
-    /// The fit of what is free together with more columns.
+    /// Fit of the free columns together with others.
     pub fn fit_with(&self, more: &[usize]) -> Solution {
         self.fit_of(&self.normal, more)
     }
 
-    /// The fit of what is free together with more columns, where blocks count otherwise.
+    /// Fit of the free columns together with others, on reweighted blocks.
     pub fn fit_of(&self, counted: &Normal, more: &[usize]) -> Solution {
         let columns: Vec<usize> = self.free.iter().chain(more).copied().collect();
         counted.fit(&columns, &self.priors)

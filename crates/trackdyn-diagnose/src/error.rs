@@ -1,13 +1,13 @@
-//! Why a recording cannot be diagnosed.
+//! Errors: why a recording cannot be diagnosed.
 
 use crate::progress::Cancelled;
 use trackdyn_core::real;
 
-/// Evidence that does not bear a diagnosis.
+/// Why evidence cannot be diagnosed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Too little driving.
+    /// Too few segments.
     #[error(
         "{found} segments to learn from: expected at least {needed}, that is, some {:.0} s of \
          driving with poses and track speeds by the same clock, in seconds, in runs that are not \
@@ -17,12 +17,12 @@ pub enum Error {
     TooFewSegments {
         /// Segments of the runs that are not held out.
         found: usize,
-        /// Segments that are needed.
+        /// Segments needed.
         needed: usize,
         /// Mean duration of a segment, s.
         each: f64,
     },
-    /// Held-out runs without driving.
+    /// Held-out runs without segments.
     #[error(
         "the runs that are held out hold no segment of driving: expected others, or none \
          (--held-out)"
@@ -33,10 +33,10 @@ pub enum Error {
     TooFewPoints {
         /// Points of the table.
         found: usize,
-        /// Points that are needed.
+        /// Points needed.
         needed: usize,
     },
-    /// Noise is neither measurable nor stated.
+    /// Noise neither measurable nor stated.
     #[error(
         "the noise is not known: expected stretches of steady driving or standing with poses (or, \
          in a table of steady points, neighbours on lines of one track speed), or a [noise] table \
@@ -49,7 +49,7 @@ pub enum Error {
          of rotation show in turns only"
     )]
     NoTurning,
-    /// Poses far from where places are looked for.
+    /// Poses too far from the origin for effects with a place.
     #[error(
         "poses lie up to {:.0} m from the origin of their frame: expected at most {:.0} m, for \
          that is where places of the ground are looked for: subtract constants from x and y",
@@ -58,25 +58,25 @@ pub enum Error {
     FarFromOrigin {
         /// Largest distance along an axis, m.
         found: f64,
-        /// Largest that will do, m.
+        /// Largest allowed, m.
         largest: f64,
     },
     /// Clocks of poses and tracks that do not go together.
     #[error("{0}")]
     Clock(String),
-    /// A vehicle that cannot move as recorded.
+    /// A vehicle model without a motion at the recorded speeds.
     #[error("the vehicle does not move as recorded: {0}")]
     NoMotion(String),
-    /// Stopped by its observer.
+    /// Cancelled by the observer.
     #[error("cancelled")]
     Cancelled,
-    /// A setting that does not exist, or a value that it cannot have.
+    /// A setting that does not exist, or a value outside its range.
     #[error(transparent)]
     Setting(#[from] crate::settings::SettingError),
-    /// A plan without time.
+    /// Plan shorter than any manoeuvre.
     #[error("{given} s: expected at least {needed:.2} s, the time of the shortest manoeuvre")]
     TooShort {
-        /// Time that was given, s.
+        /// Given time, s.
         given: f64,
         /// Time of the shortest manoeuvre, s.
         needed: f64,
@@ -90,13 +90,13 @@ impl From<Cancelled> for Error {
 }
 
 impl Error {
-    /// Too few segments, of these durations, s.
+    /// Error for segments with these durations, s.
     pub(crate) fn too_few_segments(durations: impl Iterator<Item = f64>, needed: usize) -> Self {
-        // The duration that readings and poses of ten a second give.
-        const USUAL: f64 = 0.3;
+        // Segment duration for readings and poses at 10 Hz.
+        const USUAL_DURATION: f64 = 0.3;
         let durations: Vec<f64> = durations.collect();
         let found = durations.len();
         let mean = durations.iter().sum::<f64>() / real(found);
-        Self::TooFewSegments { found, needed, each: if found == 0 { USUAL } else { mean } }
+        Self::TooFewSegments { found, needed, each: if found == 0 { USUAL_DURATION } else { mean } }
     }
 }

@@ -1,8 +1,7 @@
-//! What was seen, in one form for drives and for tables of steady motion.
+//! Observed motion, in one form for recordings and for tables of steady motion.
 //!
 //! A sample is a motion over a time in which the track speeds are known. A steady operating point
-//! is one of a microsecond: what moves so shortly moves by its velocity, and the same prediction
-//! serves both.
+//! is a sample of a microsecond, whose motion is velocity times time: one prediction serves both.
 
 pub mod planned;
 mod points;
@@ -23,11 +22,11 @@ use trackdyn_recording::TrackSample;
 pub struct Sample {
     /// Index of its run.
     pub run: usize,
-    /// Index of the block that it belongs to: blocks are independent of one another.
+    /// Index of its block: blocks are statistically independent.
     pub block: usize,
     /// Time at which it begins, s of the pose clock since the recording began.
     pub start: f64,
-    /// How long it lasts, s.
+    /// Duration, s.
     pub duration: f64,
     /// Motion seen from its first pose: forward (m), left (m), yaw (rad).
     pub motion: Vector3<f64>,
@@ -35,25 +34,25 @@ pub struct Sample {
     pub pose: Pose,
     /// Mean track speeds, m/s.
     pub speeds: PerSide<f64>,
-    /// Change of the track speeds over it, per its length, m/s².
+    /// Change of the track speeds over the sample, divided by its duration, m/s².
     pub acceleration: PerSide<f64>,
     /// Whether its first pose is the last one of the sample before it.
     pub follows: bool,
 }
 
-/// What samples are, and how noisy they are by themselves, before any model is asked.
+/// Kind of samples, with their noise measured without a model.
 #[derive(Clone, Debug)]
 pub enum Origin {
-    /// Segments of a drive, whose neighbours share a noisy pose, with the noise that was measured
-    /// on the recording.
+    /// Segments of a drive, whose neighbours share a noisy pose, with the noise measured on the
+    /// recording.
     Drive(SegmentNoise),
     /// Points of steady motion, without places, headings, times and transients, with the inverse
-    /// standard deviation of each channel of each; zero where one was not measured.
+    /// standard deviation of each channel; zero where not measured.
     SteadyPoints(Arc<[Vector3<f64>]>),
 }
 
 impl Origin {
-    /// What one sample is, in the plural.
+    /// Word for its samples, in the plural.
     pub fn samples(&self) -> &'static str {
         match self {
             Self::Drive(_) => "segments",
@@ -61,7 +60,7 @@ impl Origin {
         }
     }
 
-    /// What is held out as a whole, in the plural.
+    /// Word for what is held out as a whole, in the plural.
     pub fn runs(&self) -> &'static str {
         match self {
             Self::Drive(_) => "runs",
@@ -70,8 +69,8 @@ impl Origin {
     }
 }
 
-/// The samples of recordings or of a table, and the settings by which they are diagnosed. It does
-/// not change; what its residuals weigh is [`Weighted`](crate::weighted::Weighted)'s to say.
+/// Samples of recordings or of a table, and the settings of their diagnosis. Immutable; noise and
+/// weights are in [`Weighted`](crate::weighted::Weighted).
 #[derive(Clone)]
 pub struct Evidence {
     samples: Arc<[Sample]>,
@@ -86,12 +85,12 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// The samples, runs in a row.
+    /// The samples, in order of their runs.
     pub fn samples(&self) -> &[Sample] {
         &self.samples
     }
 
-    /// Readings of the tracks of each run; none of a run without samples.
+    /// Track readings of each run; empty for a run without samples.
     pub fn tracks(&self) -> &[Vec<TrackSample>] {
         &self.tracks
     }
@@ -106,22 +105,22 @@ impl Evidence {
         self.blocks
     }
 
-    /// What counts as independent and what the noise is taken from, in words.
+    /// How blocks were formed and noise measured, in words.
     pub fn description(&self) -> &str {
         &self.description
     }
 
-    /// Clock offset of the poses against the encoders that the recording itself shows, s.
+    /// Clock offset of the poses against the encoders, estimated from the recording, s.
     pub fn tau(&self) -> f64 {
         self.tau
     }
 
-    /// What its samples are: segments of a drive, or points of steady motion.
+    /// Kind of its samples: segments of a drive, or points of steady motion.
     pub fn origin(&self) -> &Origin {
         &self.origin
     }
 
-    /// The settings by which it was made and is diagnosed.
+    /// Settings by which it was made and is diagnosed.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
@@ -132,8 +131,7 @@ impl Evidence {
         speeds.fold(0.0, |most, track| most.max(track.v_left.abs()).max(track.v_right.abs()))
     }
 
-    /// The evidence with readings at regular times: stamps of a clock that ticks evenly, and is
-    /// read late by chance.
+    /// The evidence with track readings at regular times: corrects stamps that are late by chance.
     pub fn with_regular_stamps(&self) -> Self {
         let mut tracks = self.tracks.clone();
         for run in &mut tracks {
@@ -142,12 +140,12 @@ impl Evidence {
         Self { tracks, ..self.clone() }
     }
 
-    /// Steps in which the encoders' speeds come for the ticks that they count, m/s.
+    /// Quantisation step of the encoder speeds, m/s.
     pub fn steps(&self) -> PerSide<f64> {
         ticks::steps(&self.tracks, &self.settings.evidence)
     }
 
-    /// The evidence with even speeds between the ticks of encoders whose speeds come in such steps,
+    /// The evidence with encoder speeds smoothed between ticks of the given quantisation steps,
     /// m/s.
     pub fn with_speeds_between_ticks(&self, steps: PerSide<f64>) -> Self {
         Self {
@@ -156,7 +154,7 @@ impl Evidence {
         }
     }
 
-    /// What these runs show, by whether each of all is one of them.
+    /// The evidence of some runs: `runs` says of each whether it is kept.
     pub fn of_runs(&self, runs: &[bool]) -> Self {
         let indices: Vec<usize> =
             (0..self.samples.len()).filter(|&index| runs[self.samples[index].run]).collect();

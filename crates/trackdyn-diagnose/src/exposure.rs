@@ -1,8 +1,8 @@
-//! What an effect would change against what was seen: the picture of a fit.
+//! Added-variable series of an effect: its predicted change against the observed departure, for
+//! figures.
 //!
-//! Whatever else is free is taken out of both, as in an added-variable plot: what is left of the
-//! departure then lies on a line of slope one if the effect is there at its size, and about zero if
-//! it is not.
+//! All that is free is projected out of both. The points then scatter about a line of slope one if
+//! the effect has its estimated size, and of slope zero if it is absent.
 
 use crate::fit::Fit;
 use crate::mechanics::{Instruments, Mechanics};
@@ -12,19 +12,19 @@ use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use trackdyn_model::EffectId;
 
-/// An effect against the evidence, sample by sample, whitened.
+/// Predicted and observed change by an effect, for each sample, whitened.
 #[derive(Clone, Debug)]
 pub struct Exposure {
-    /// Place of the effect in the catalogue.
+    /// The effect.
     pub effect: EffectId,
     /// Change of the prediction by the effect at its estimated size.
     pub predicted: Vec<Vector3<f64>>,
-    /// Departure of the evidence from the prediction without it.
+    /// Residual of the prediction without the effect.
     pub observed: Vec<Vector3<f64>>,
 }
 
 impl Exposure {
-    /// Of an effect of a fit: without it, it is as the vehicle file has it.
+    /// Series of a fitted effect, against the fit with the effect as filed.
     pub fn of_fitted(search: &Search, fit: &Fit, effect: EffectId) -> Self {
         let Search { evidence, base, .. } = search;
         let without = fit.hypothesis.with_effect_of(&base.as_filed.hypothesis, effect);
@@ -40,7 +40,7 @@ impl Exposure {
         Self { effect, predicted, observed }.beside(&others, &fit.residual, evidence)
     }
 
-    /// Of a candidate beside the base.
+    /// Series of a screened candidate beside the base.
     pub fn of_candidate(search: &Search, one: &Screened) -> Self {
         let fit = &search.base.fit;
         let mut predicted = vec![Vector3::zeros(); fit.residual.len()];
@@ -57,7 +57,7 @@ impl Exposure {
         )
     }
 
-    /// With what these columns explain taken out.
+    /// Both series with these columns projected out.
     fn beside(
         self,
         columns: &[Vec<Vector3<f64>>],

@@ -1,8 +1,8 @@
-//! The fit of a hypothesis: all its unknowns by Gauss and Newton's method, robustly.
+//! Fit of a hypothesis: robust maximum a posteriori estimate by Gauss-Newton steps.
 //!
 //! # Law
-//! Minimise Σ ρ(|z|) + ½ Σ ((θ − m)/s)², z the whitened residual of a sample, ρ Huber's loss of its
-//! length, and m, s what is known of each unknown beforehand.
+//! Minimise Σ ρ(|z|) + ½ Σ ((θ − m)/s)², with z the whitened residual of a sample, ρ Huber's loss
+//! of its norm, and m, s the prior mean and standard deviation of each unknown θ.
 
 use crate::evidence::Evidence;
 use crate::hypothesis::{Hypothesis, Unknown, neutral, typical, typical_size};
@@ -16,28 +16,28 @@ use rayon::prelude::*;
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::Role;
 
-/// A hypothesis at its best.
+/// A fitted hypothesis.
 #[derive(Clone)]
 pub struct Fit {
-    /// The hypothesis with its fitted numbers.
+    /// The hypothesis with its estimates.
     pub hypothesis: Hypothesis,
-    /// What was free.
+    /// Unknowns of the fit.
     pub unknowns: Vec<Unknown>,
-    /// Places of those that are not held at a bound.
+    /// Indices of the unknowns that are not held at a bound.
     pub free: Vec<usize>,
-    /// Its mechanics.
+    /// Its mechanics, which predicts the motion.
     pub mechanics: Mechanics,
-    /// Whitened and scaled residuals.
+    /// Whitened and scaled residual of each sample.
     pub residual: Vec<Vector3<f64>>,
-    /// Derivatives of the prediction by the unknowns, whitened and scaled alike.
+    /// Jacobian of the prediction, a column for each unknown, whitened and scaled alike.
     pub columns: Vec<Vec<Vector3<f64>>>,
-    /// Twice the objective.
+    /// Twice the objective: −2 ln posterior up to a constant.
     pub objective: f64,
-    /// The linear fit at the end.
+    /// The linearised fit at the estimate.
     pub solution: Solution,
 }
 
-/// Step of a difference quotient, away from an upper bound.
+/// Step of a finite difference, taken away from an upper bound.
 fn step(hypothesis: &Hypothesis, unknown: Unknown, settings: &settings::Fit) -> f64 {
     let value = hypothesis.get(unknown);
     let size = match unknown {
@@ -48,7 +48,7 @@ fn step(hypothesis: &Hypothesis, unknown: Unknown, settings: &settings::Fit) -> 
             let parameter = unknown.parameter().expect("an effect's");
             match parameter.role {
                 Role::Size { .. } => {
-                    // a size may be the scale of a law: what a larger step changes is not its
+                    // a size may set the scale of a law: a step beyond that scale gives no
                     // derivative
                     let distance = (value - neutral(parameter)).abs();
                     let typical = typical_size(parameter);
@@ -68,7 +68,7 @@ fn step(hypothesis: &Hypothesis, unknown: Unknown, settings: &settings::Fit) -> 
     if value + size > high { -size } else { size }
 }
 
-/// The derivatives of the prediction by unknowns, as whitened columns.
+/// Jacobian of the prediction in the given unknowns by finite differences, whitened columns.
 pub fn columns(
     hypothesis: &Hypothesis,
     mechanics: &Mechanics,
@@ -80,7 +80,7 @@ pub fn columns(
     columns.map(|column| evidence.white(column)).collect()
 }
 
-/// The derivatives of the prediction by unknowns, not whitened.
+/// Jacobian of the prediction in the given unknowns by finite differences, not whitened.
 pub fn derivatives(
     hypothesis: &Hypothesis,
     mechanics: &Mechanics,
@@ -105,7 +105,7 @@ pub fn derivatives(
         .collect()
 }
 
-/// Whether an unknown leaves the balance of forces as it is: offsets, sensors, gains and lags.
+/// Whether an unknown leaves the balance of forces alone: offsets, sensors, gains and lags.
 fn is_outside(hypothesis: &Hypothesis, unknown: Unknown) -> bool {
     match unknown {
         Unknown::Offset(_) => true,
@@ -114,19 +114,19 @@ fn is_outside(hypothesis: &Hypothesis, unknown: Unknown) -> bool {
     }
 }
 
-/// A hypothesis with its residuals.
+/// A hypothesis with its prediction and residuals.
 pub struct Point {
     hypothesis: Hypothesis,
     mechanics: Mechanics,
     prediction: Vec<Vector3<f64>>,
     residual: Vec<Vector3<f64>>,
-    /// Twice the objective.
+    /// Twice the objective; ∞ where the hypothesis has no motion.
     pub objective: f64,
 }
 
 impl Point {
-    /// The point of a hypothesis some of whose numbers are free. `before` is the mechanics of a
-    /// hypothesis that resembles it ([`Mechanics::beside`]).
+    /// Evaluates a hypothesis, some of whose numbers are unknowns of a fit. `before` is the
+    /// mechanics of a similar hypothesis, for reuse ([`Mechanics::beside`]).
     pub fn new(
         hypothesis: Hypothesis,
         unknowns: &[Unknown],
@@ -148,22 +148,22 @@ impl Point {
         let objective = if mechanics.failure().is_some() {
             f64::INFINITY
         } else {
-            // of ∞ and what is no number, the smaller is ∞
+            // min of ∞ and NaN is ∞
             (evidence.loss(&residual) + penalty(&hypothesis, unknowns, evidence)).min(f64::INFINITY)
         };
         Self { hypothesis, mechanics, prediction, residual, objective }
     }
 }
 
-/// What these numbers cost by being where they were not expected.
+/// Prior penalty Σ ((θ − m)/s)² of these unknowns.
 fn penalty(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Weighted) -> f64 {
     let known = priors(hypothesis, unknowns, evidence);
     known.iter().map(|prior| (prior.mean / prior.deviation).powi(2)).sum()
 }
 
 impl Fit {
-    /// Fits the unknowns of a hypothesis, from its numbers on. `before` is the mechanics of a
-    /// hypothesis that resembles it ([`Mechanics::beside`]).
+    /// Fits the unknowns of a hypothesis, starting from its values. `before` is the mechanics of a
+    /// similar hypothesis, for reuse ([`Mechanics::beside`]).
     pub fn new(
         start: Hypothesis,
         unknowns: &[Unknown],
@@ -174,9 +174,9 @@ impl Fit {
         Self::from_point(start, unknowns, evidence)
     }
 
-    /// Whether a number of an effect ended at the limit of its physical range.
+    /// Whether a parameter of an effect ended at a limit of its physical range.
     pub fn is_at_limit(&self, unknown: Unknown) -> bool {
-        /// Part of the range that is rounding.
+        /// Distance to a limit, as share of the range, that counts as rounding.
         const ROUNDING: f64 = 1e-6;
         let value = self.hypothesis.get(unknown);
         unknown.parameter().is_some_and(|parameter| {
@@ -185,12 +185,12 @@ impl Fit {
         })
     }
 
-    /// Fits the unknowns of a hypothesis from this point on.
+    /// Fits the unknowns of a hypothesis, starting from an evaluated point.
     ///
-    /// What inertia adds stays that of one motion in time, with its derivatives, as long as what it
-    /// does not come from resembles what it was found for. Where the fit ends it is found anew
-    /// unless that is near, and the fit goes on from there, or from a share of the way if these
-    /// derivatives led astray.
+    /// During a descent the inertial departure is extrapolated linearly from one simulated motion
+    /// ([`Mechanics::on_the_way`]). At the end it is simulated anew unless the end is near that
+    /// motion. The fit then goes on from there, or from a share of the way if the extrapolation
+    /// misled it.
     pub fn from_point(start: Point, unknowns: &[Unknown], evidence: &Weighted) -> Self {
         let mut fit = Self::linearised(start, unknowns, evidence);
         for _ in 0..evidence.settings().fit.max_restarts {
@@ -212,7 +212,7 @@ impl Fit {
         fit
     }
 
-    /// The hypothesis a share of the way to the end of a descent from here.
+    /// The hypothesis at a share of the way from here to `end`.
     fn towards(&self, end: &Self, share: f64) -> Hypothesis {
         self.shifted(|k| {
             let unknown = self.unknowns[k];
@@ -220,7 +220,7 @@ impl Fit {
         })
     }
 
-    /// The hypothesis with each of the unknowns shifted, by its place.
+    /// The hypothesis with unknown k shifted by `by(k)`.
     fn shifted(&self, by: impl Fn(usize) -> f64) -> Hypothesis {
         let places = self.unknowns.iter().enumerate();
         places.fold(self.hypothesis.clone(), |moved, (k, &unknown)| {
@@ -229,14 +229,14 @@ impl Fit {
         })
     }
 
-    /// The end of the descent from here, with what inertia adds as it was found.
+    /// Descends from here, with the inertial departure extrapolated from one simulated motion.
     ///
-    /// Derivatives stand as long as they foretell what a step gains. Where those of another point
-    /// do not, they are found anew, be it that their step led nowhere: the end is where derivatives
-    /// of the point itself promise next to nothing, or lead nowhere.
+    /// The Jacobian is kept as long as it predicts the decrease of each step; otherwise it is
+    /// computed anew, even after a step that failed. The end is where a Jacobian of the point
+    /// itself promises almost no decrease, or its step fails.
     ///
-    /// With it comes what the objective fell by since the derivatives were found; `are_own` says
-    /// that those to begin with are of this point.
+    /// Returns the end and the decrease of the objective since the Jacobian was computed; `are_own`
+    /// says whether the initial Jacobian is of the initial point.
     fn descent(self, are_own: bool, evidence: &Weighted) -> (Self, f64) {
         let mut fit = self;
         let (mut are_own, mut since) = (are_own, 0.0);
@@ -267,7 +267,8 @@ impl Fit {
         (fit, since)
     }
 
-    /// The end of the descent from here, with derivatives that describe it.
+    /// Descends from here; the Jacobian at the end is computed anew if the objective fell far
+    /// since.
     fn descended(self, evidence: &Weighted) -> Self {
         let (end, since) = self.descent(true, evidence);
         if since < evidence.settings().fit.max_fall_of_jacobian {
@@ -278,8 +279,8 @@ impl Fit {
         Self::linearised(point, &unknowns, evidence)
     }
 
-    /// The point of a share of the step that lowers the objective; none where no share does, or
-    /// where the whole step promises next to nothing.
+    /// The point after the largest tried share of the step that lowers the objective; none where no
+    /// share does, or the promised decrease is negligible.
     fn next(&self, evidence: &Weighted) -> Option<Point> {
         let settings = &evidence.settings().fit;
         if self.solution.gain < settings.min_promised_fall {
@@ -294,9 +295,9 @@ impl Fit {
         })
     }
 
-    /// Twice the objective where the number at this place of the unknowns is held at a value and
-    /// the others are refitted, from where the linear fit takes them. What inertia adds stays that
-    /// of one motion in time, with its derivatives.
+    /// Profile of twice the objective: the unknown at index `place` is held at `value` and the
+    /// others are refitted, starting from their linear prediction. The inertial departure is
+    /// extrapolated from one simulated motion.
     pub fn profile(&self, place: usize, value: f64, evidence: &Weighted) -> f64 {
         let held = self.unknowns[place];
         let covariance = &self.solution.covariance;
@@ -312,7 +313,7 @@ impl Fit {
         objective + penalty(&hypothesis, &[held], evidence)
     }
 
-    /// A hypothesis as it stands, with its derivatives.
+    /// A hypothesis with its present values and Jacobian, without a fit.
     pub fn at(
         hypothesis: Hypothesis,
         unknowns: &[Unknown],
@@ -323,7 +324,7 @@ impl Fit {
         Self::linearised(point, unknowns, evidence)
     }
 
-    /// This hypothesis on other evidence, with its derivatives.
+    /// This hypothesis on other evidence, with its Jacobian, without a fit.
     pub fn on(&self, evidence: &Weighted) -> Self {
         Self::at(self.hypothesis.clone(), &self.unknowns, evidence, None)
     }
@@ -334,7 +335,7 @@ impl Fit {
         Self::with_columns(point, unknowns, columns, evidence)
     }
 
-    /// A point with these derivatives.
+    /// A point with this Jacobian.
     fn with_columns(
         point: Point,
         unknowns: &[Unknown],
@@ -344,7 +345,7 @@ impl Fit {
         let Point { hypothesis, mechanics, residual, objective, .. } = point;
         let priors = priors(&hypothesis, unknowns, evidence);
         let normal = evidence.normal(&residual, &columns);
-        // At a bound that the step would cross, an unknown stays.
+        // An unknown at a bound that its step would cross is held there.
         let mut free: Vec<usize> = (0..unknowns.len()).collect();
         let solution = loop {
             let solution = normal.fit(&free, &priors);
@@ -360,7 +361,7 @@ impl Fit {
                 None => break solution,
             }
         };
-        let solution = spread(&solution, &free, &priors);
+        let solution = extended_to_all(&solution, &free, &priors);
         Self {
             hypothesis,
             unknowns: unknowns.to_vec(),
@@ -373,22 +374,22 @@ impl Fit {
         }
     }
 
-    /// The hypothesis a share of the step further.
+    /// The hypothesis after a share of the Gauss-Newton step.
     fn stepped(&self, share: f64) -> Hypothesis {
         self.shifted(|k| share * self.solution.estimate[k])
     }
 
-    /// What was free, without the parameters of an effect.
+    /// Unknowns of the fit without those of an effect.
     pub fn unknowns_without(&self, effect: EffectId) -> Vec<Unknown> {
         self.unknowns.iter().copied().filter(|unknown| !unknown.is_of(effect)).collect()
     }
 
-    /// Logarithm of the evidence, up to what all hypotheses share; −∞ where the linear fit has no
-    /// solution.
+    /// Log evidence (marginal likelihood) by Laplace's method, up to a constant that all hypotheses
+    /// share; −∞ where the linearised fit is singular.
     ///
-    /// −½ minimum − ½ ln det(1 + S J S)
+    /// −½ minimum − ½ ln det(1 + S J S), J the information and S the prior deviations.
     pub fn ln_evidence(&self) -> f64 {
-        // of −∞ and what is no number, the larger is −∞
+        // max of −∞ and NaN is −∞
         (-0.5 * (self.objective + self.solution.occam)).max(f64::NEG_INFINITY)
     }
 }
@@ -399,9 +400,9 @@ fn at_bound(hypothesis: &Hypothesis, unknown: Unknown, step: f64) -> bool {
     (value <= low && step < 0.0) || (value >= high && step > 0.0)
 }
 
-/// A solution of some unknowns as one of all: the others do not move, and nothing more is known of
-/// them.
-fn spread(solution: &Solution, free: &[usize], priors: &[Prior]) -> Solution {
+/// A solution of the free unknowns, extended to all: the others do not move and keep their prior
+/// variance.
+fn extended_to_all(solution: &Solution, free: &[usize], priors: &[Prior]) -> Solution {
     let variances: Vec<f64> = priors.iter().map(|prior| prior.deviation.powi(2)).collect();
     let mut estimate = DVector::zeros(priors.len());
     let mut covariance = DMatrix::from_diagonal(&DVector::from(variances));
@@ -420,7 +421,7 @@ mod tests {
     use crate::hypothesis::unknowns_of;
     use trackdyn_model::VehicleFile;
 
-    /// A quotient over no step at all would be no number.
+    /// A zero step would make the finite difference NaN.
     #[test]
     fn every_number_has_a_step_to_take_wherever_it_stands() {
         let prior = settings::Prior::default();

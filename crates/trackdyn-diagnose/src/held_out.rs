@@ -1,4 +1,4 @@
-//! Errors before and after, on runs that nothing was fitted or chosen on where there are any.
+//! Prediction errors before and after, on held-out runs where there are any.
 
 use crate::evidence::Evidence;
 use crate::fit::Fit;
@@ -9,35 +9,36 @@ use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use trackdyn_core::real;
 
-/// What is left of runs that nothing was fitted or chosen on.
+/// Residuals of held-out runs, on which nothing was fitted or chosen.
 #[derive(Clone)]
 pub struct Unseen {
-    /// What they show.
+    /// Evidence of these runs.
     pub evidence: Weighted,
-    /// Whitened residuals before.
+    /// Whitened residuals of the model before.
     pub before: Vec<Vector3<f64>>,
-    /// After.
+    /// Whitened residuals of the corrected model.
     pub after: Vec<Vector3<f64>>,
 }
 
-/// Errors on runs that were held out, in units of the noise.
+/// Prediction errors: weighted rms of the whitened residuals, in units of the noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeldOut {
-    /// Root mean square of the whitened residual before.
+    /// Error of the model before.
     pub before: f64,
-    /// With nothing but the base fitted: constants, encoders and pose sensor.
+    /// Error of the base: with constants, encoders and pose sensor fitted.
     pub instruments: f64,
-    /// After.
+    /// Error of the corrected model.
     pub after: f64,
-    /// What is left when everything that moves ICRs or instruments, model or not, is fitted away.
+    /// Noise floor: error that remains when all contrasts of the ICRs and the instruments are
+    /// fitted.
     pub noise_floor: f64,
-    /// Whether the runs really were held out; else these are the runs of the fit.
+    /// Whether the runs were held out; otherwise they are those of the fit.
     pub are_held_out: bool,
 }
 
 impl HeldOut {
-    /// What these errors say against what is claimed beside constants, physics or instruments; none
-    /// where that does better than what it was compared with.
+    /// A sentence where held-out runs contradict claims other than constants; none where the
+    /// corrected model predicts better than the models without them.
     pub(crate) fn contradiction(&self, claims: bool, claims_physics: bool) -> Option<String> {
         let Self { before, instruments, after, are_held_out, .. } = *self;
         if !are_held_out {
@@ -59,8 +60,8 @@ impl HeldOut {
         }
     }
 
-    /// Share of the excess over the noise floor that the corrected model explains; none where there
-    /// is no excess.
+    /// Share of the squared excess over the noise floor that the corrected model explains; none
+    /// where there is no excess.
     pub fn excess_explained(&self) -> Option<f64> {
         let excess = self.before.powi(2) - self.noise_floor.powi(2);
         (excess > 1e-3 * self.noise_floor.powi(2))
@@ -68,7 +69,7 @@ impl HeldOut {
     }
 }
 
-/// The errors on evidence, with the fits to it.
+/// Errors of three fits on their own evidence.
 pub(crate) fn errors(
     evidence: &Weighted,
     [before, instruments, after]: [&Fit; 3],
@@ -85,8 +86,8 @@ pub(crate) fn errors(
     HeldOut { before, instruments, after: error, noise_floor, are_held_out: false }
 }
 
-/// Judges three fits, of what was there before, of the base and of the best hypothesis, by runs
-/// that nothing was fitted or chosen on, in the noise that `seen` has.
+/// Errors of three fits (model before, base, best hypothesis) on held-out runs, weighed with the
+/// noise of `seen`.
 pub(crate) fn judged(
     unseen: &Evidence,
     seen: &Weighted,
@@ -117,7 +118,7 @@ mod tests {
         assert_eq!(errors(1.5, 1.3, 1.1).contradiction(true, true), None);
         let filed = errors(1.2, 1.3, 1.25).contradiction(true, true).expect("the file does better");
         assert!(filed.contains("1.250 with it and 1.200 without"), "{filed}");
-        // what encoders did wrong is explained, and the physics beside it makes it worse
+        // instruments explain the errors, and the claimed physics makes them worse
         let physics =
             errors(3.0, 1.1, 1.2).contradiction(true, true).expect("instruments do better");
         assert!(physics.contains("1.200 with it and 1.100 with encoders"), "{physics}");

@@ -1,45 +1,43 @@
-//! A hypothesis: a vehicle, effects with their sizes, and a constant offset of the ICRs.
+//! A hypothesis: a vehicle, effects with their sizes, and constant offsets of the ICRs.
 
 use crate::settings;
 use trackdyn_model::effect::{Card, Parameter, Role};
 use trackdyn_model::{ActiveEffect, EffectId, Effects, Vehicle, VehicleFile};
 
-/// What is supposed.
+/// A hypothesis on the robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hypothesis {
     /// The vehicle.
     pub vehicle: Vehicle,
-    /// Effects that act.
+    /// Active effects.
     pub effects: Effects,
-    /// What is added to the ICRs (x_l, x_r, y), m: all that slow driving on level ground can tell.
+    /// Offset of the ICRs (x_l, x_r, y), m: all that slow driving on level ground identifies.
     pub offset: [f64; 3],
-    /// ln of the factor by which both friction coefficients of the vehicle differ from those first
-    /// supposed: steady driving knows their ratio alone, but what has mass slides the farther the
-    /// less friction there is.
+    /// ln of the factor of both friction coefficients against the initial vehicle. Steady driving
+    /// identifies their ratio only; with inertia, a robot slides farther on less friction.
     pub friction_level: f64,
-    /// By what the centre of gravity (x_c, y_c) of the vehicle differs from the one first supposed,
-    /// m: constant ICRs move with it as with much else, but with every start and stop mass pulls
-    /// where it is.
+    /// Shift of the centre of gravity (x_c, y_c) against the initial vehicle, m. Constant ICRs
+    /// confound it with other numbers; with inertia, every start and stop shows it.
     pub cog_moved: [f64; 2],
-    /// Largest change of the level of friction.
+    /// Largest |friction_level|.
     pub max_friction_change: f64,
 }
 
-/// A number of a hypothesis.
+/// A free number of a hypothesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Unknown {
     /// Offset of x_l, x_r or y.
     Offset(usize),
-    /// Level of friction.
+    /// Friction level.
     FrictionLevel,
     /// Centre of gravity, x_c or y_c.
     Cog(usize),
-    /// Parameter of an effect, both by their places in the catalogue.
+    /// Parameter of an effect, by its index.
     Effect(EffectId, usize),
 }
 
 impl Unknown {
-    /// The card of its effect; none of what is no effect's.
+    /// Card of its effect; none if it belongs to no effect.
     pub fn card(self) -> Option<&'static Card> {
         match self {
             Self::Offset(_) | Self::FrictionLevel | Self::Cog(_) => None,
@@ -47,7 +45,7 @@ impl Unknown {
         }
     }
 
-    /// The parameter of the catalogue; none of what is no effect's.
+    /// Parameter in the catalogue; none if it belongs to no effect.
     pub fn parameter(self) -> Option<&'static Parameter> {
         match self {
             Self::Offset(_) | Self::FrictionLevel | Self::Cog(_) => None,
@@ -61,13 +59,13 @@ impl Unknown {
     }
 }
 
-/// The unknowns of an effect.
+/// Unknowns of an effect: all its parameters.
 pub fn unknowns_of(effect: EffectId) -> impl Iterator<Item = Unknown> {
     (0..effect.card().parameters.len()).map(move |parameter| Unknown::Effect(effect, parameter))
 }
 
-/// A parameter's value at which its effect is not there, within the physical range; its typical
-/// value where it is no size.
+/// Value of a parameter without the effect, clamped to the physical range; the typical value for a
+/// parameter that is no size.
 pub fn neutral(parameter: &Parameter) -> f64 {
     match parameter.role {
         Role::Size { neutral } => neutral.clamp(parameter.range[0], parameter.range[1]),
@@ -75,12 +73,12 @@ pub fn neutral(parameter: &Parameter) -> f64 {
     }
 }
 
-/// Distance of an effect's parameter from none.
+/// Distance of an effect's parameter from its neutral value.
 pub fn beyond_none(effect: &ActiveEffect, place: usize) -> f64 {
     effect.values()[place] - neutral(&effect.card().parameters[place])
 }
 
-/// Distance of the typical size from none, in the parameter's unit.
+/// Distance of the typical from the neutral size, in the parameter's unit.
 pub fn typical_size(parameter: &Parameter) -> f64 {
     match parameter.role {
         Role::Size { neutral } => (parameter.typical - neutral).abs(),
@@ -89,7 +87,7 @@ pub fn typical_size(parameter: &Parameter) -> f64 {
 }
 
 impl Hypothesis {
-    /// What a vehicle file says.
+    /// The hypothesis of a vehicle file.
     pub fn filed(file: &VehicleFile, settings: &settings::Prior) -> Self {
         let VehicleFile { vehicle, effects } = file.clone();
         let settings::Prior { max_friction_change, .. } = *settings;
@@ -97,7 +95,7 @@ impl Hypothesis {
         Self { vehicle, effects, offset, friction_level: 0.0, cog_moved, max_friction_change }
     }
 
-    /// What an unknown may be.
+    /// Allowed range of an unknown.
     pub fn range(&self, unknown: Unknown) -> [f64; 2] {
         match (unknown, unknown.parameter()) {
             (Unknown::FrictionLevel, _) => [-self.max_friction_change, self.max_friction_change],
@@ -106,7 +104,7 @@ impl Hypothesis {
         }
     }
 
-    /// Value of an unknown; that of no effect where the effect is not there.
+    /// Value of an unknown; the neutral one where the effect is absent.
     pub fn get(&self, unknown: Unknown) -> f64 {
         match unknown {
             Unknown::Offset(k) => self.offset[k],
@@ -116,8 +114,8 @@ impl Hypothesis {
         }
     }
 
-    /// This hypothesis with another value of an unknown, within its physical range. An effect that
-    /// was not there comes with no size and the typical values of what is no size.
+    /// The hypothesis with another value of an unknown, clamped to its range. An absent effect is
+    /// added with neutral sizes and the typical values of all other parameters.
     pub fn with(&self, unknown: Unknown, value: f64) -> Self {
         let mut changed = self.clone();
         let [low, high] = self.range(unknown);
@@ -145,19 +143,19 @@ impl Hypothesis {
         changed
     }
 
-    /// The effect at a place of the catalogue, where it is there.
+    /// The effect, where it is active.
     pub fn effect(&self, effect: EffectId) -> Option<&ActiveEffect> {
         find(&self.effects, effect)
     }
 
-    /// This hypothesis with an effect switched on, or with other values.
+    /// The hypothesis with an effect added or replaced.
     pub fn with_effect(&self, effect: ActiveEffect) -> Self {
         let mut changed = self.clone();
         changed.effects.insert(effect);
         changed
     }
 
-    /// This hypothesis with an effect as another hypothesis has it: without it where that one is.
+    /// The hypothesis with an effect as in another hypothesis: absent where it is absent there.
     pub fn with_effect_of(&self, other: &Self, effect: EffectId) -> Self {
         match other.effect(effect) {
             Some(known) => self.with_effect(known.clone()),
@@ -165,7 +163,7 @@ impl Hypothesis {
         }
     }
 
-    /// This hypothesis without an effect.
+    /// The hypothesis without an effect.
     pub fn without(&self, effect: EffectId) -> Self {
         let others = self.effects.iter().filter(|active| active.effect() != effect);
         let effects = others.cloned().collect();
@@ -173,13 +171,12 @@ impl Hypothesis {
     }
 }
 
-/// The effect at a place of the catalogue, where it is there.
+/// The effect in a set, where it is active.
 pub fn find(effects: &Effects, effect: EffectId) -> Option<&ActiveEffect> {
     effects.iter().find(|active| active.effect() == effect)
 }
 
-/// Value of an effect's parameter, both by their places in the catalogue; that of no effect where
-/// the effect is not there.
+/// Value of an effect's parameter; the neutral one where the effect is absent.
 pub fn value(effects: &Effects, effect: EffectId, parameter: usize) -> f64 {
     find(effects, effect).map_or_else(
         || neutral(&effect.card().parameters[parameter]),
@@ -187,7 +184,7 @@ pub fn value(effects: &Effects, effect: EffectId, parameter: usize) -> f64 {
     )
 }
 
-/// A vehicle with both friction coefficients times e^`level`.
+/// A vehicle with both friction coefficients multiplied by e^`level`.
 pub fn with_friction(vehicle: &Vehicle, level: f64) -> Vehicle {
     let mut changed = vehicle.clone();
     changed.friction.across *= level.exp();
@@ -232,8 +229,7 @@ pub fn with_values(effect: &ActiveEffect, values: &[f64]) -> ActiveEffect {
 mod tests {
     use super::*;
 
-    /// A step of a fit may promise anything; forces of 10³⁰ N balance nowhere, and take long to say
-    /// so.
+    /// A step of a fit may be huge; with forces of 10³⁰ N a solve fails slowly.
     #[test]
     fn numbers_stay_within_what_they_may_be() {
         let settings = settings::Prior::default();

@@ -1,42 +1,42 @@
-//! What this evidence could show, and could tell apart.
+//! Detectability and isolability: what this evidence could show, and tell apart.
 
 use crate::hypothesis::{Unknown, neutral};
 use crate::search::{Found, Screened, Search};
 use nalgebra::DMatrix;
 use trackdyn_model::EffectId;
 
-/// The effects' signatures against each other, with all that is free projected out.
+/// Signatures of all effects compared, with all that is free projected out.
 #[derive(Clone, Debug)]
 pub struct Isolability {
-    /// Places of the effects in the catalogue, ascending.
+    /// The effects, ascending.
     pub effects: Vec<EffectId>,
-    /// z of each effect at its typical size.
+    /// z of each effect at its typical size: norm of its signature.
     pub detection: Vec<f64>,
-    /// |cosine| between the signatures of two effects: one where they cannot be told apart.
+    /// |cosine| between two signatures: one where the effects cannot be told apart.
     pub cosines: DMatrix<f64>,
-    /// z of each effect at its typical size beside the other one.
+    /// z of each effect at its typical size, with the other one's signature projected out.
     pub separation: DMatrix<f64>,
-    /// z from which on an effect is detectable.
+    /// Least z of a detectable effect.
     pub min_detected_z: f64,
-    /// Each size parameter, with z per unit of it.
+    /// Each size parameter with its z per unit.
     sizes: Vec<(Unknown, f64)>,
 }
 
-/// The smallest change of an effect's size that this evidence could have shown.
+/// Smallest detectable change of an effect's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detectable {
-    /// Place of the effect in the catalogue.
+    /// The effect.
     pub effect: EffectId,
-    /// Place of the size among its parameters.
+    /// Index of the size among its parameters.
     pub parameter: usize,
-    /// How far the size would have to be off to stand out five standard deviations: from none, from
-    /// the filed one where the vehicle file has the effect, from the fitted one where the best
-    /// hypothesis adds it. None where no physical size would.
+    /// Detectable distance, in the parameter's unit: from the neutral size, from the filed size
+    /// where the vehicle file has the effect, or from the fitted size where the best hypothesis
+    /// adds it. None where no physical size is detectable.
     pub size: Option<f64>,
 }
 
 impl Isolability {
-    /// Of the best variant of each screened effect, beside the best hypothesis.
+    /// Compares the best variant of each screened effect, beside the best hypothesis.
     pub fn new(search: &Search, best: &Found, screened: &[Screened]) -> Self {
         let mut order: Vec<&Screened> =
             screened.iter().filter(|one| !best.effects.contains(&one.effect)).collect();
@@ -44,7 +44,7 @@ impl Isolability {
         let entries: Vec<usize> = order.iter().map(|one| one.entry).collect();
         let equations = search.equations(&best.fit, &entries);
         let (projected, groups) = (equations.projected(), &equations.groups);
-        // The signature at typical sizes, as one column.
+        // Signature at typical sizes, as one column.
         let typical = |place: usize| -> Vec<f64> {
             let parameters = order[place].effect.card().parameters;
             let sizes = crate::candidate::sizes(order[place].effect);
@@ -81,7 +81,7 @@ impl Isolability {
                 sizes.push((signature.unknown, projected.product(column, column).max(0.0).sqrt()));
             }
         }
-        // Those that are in the best hypothesis already: by how well they are known.
+        // Sizes fitted in the best hypothesis: by their standard deviation.
         for (k, &unknown) in best.fit.unknowns.iter().enumerate() {
             let Unknown::Effect(_, _) = unknown else { continue };
             let is_size = unknown.parameter().is_some_and(|parameter| {
@@ -97,7 +97,7 @@ impl Isolability {
         Self { effects, detection, cosines, separation, min_detected_z, sizes }
     }
 
-    /// The smallest size of every effect that would have stood out.
+    /// Smallest detectable size of every effect.
     pub fn detectable(&self) -> Vec<Detectable> {
         self.sizes
             .iter()

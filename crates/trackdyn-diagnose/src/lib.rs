@@ -1,29 +1,28 @@
-//! Which physics: what a model of a tracked robot lacks, from its recordings.
+//! Finds which physical effects a model of a tracked robot lacks, from recordings of its driving.
 //!
-//! - [`evidence`]: what was seen, drives and tables of steady motion alike; [`weighted`]: what its
-//!   residuals weigh.
-//! - [`noise`]: how noisy that is, from what driving cannot explain.
-//! - [`hypothesis`]: a vehicle with effects; [`mechanics`], [`surface`]: what it predicts of the
-//!   evidence.
-//! - [`prior`]: what is known of its unknowns beforehand.
+//! - [`evidence`]: samples of recordings or tables of steady motion; [`weighted`]: whitening and
+//!   robust weights of their residuals.
+//! - [`noise`]: noise covariance, estimated from what no contrast of the driving can explain.
+//! - [`hypothesis`]: a vehicle with effects; [`mechanics`], [`surface`]: its prediction of each
+//!   sample.
+//! - [`prior`]: prior distributions of the unknowns.
 //! - [`settings`]: all numbers that decide an answer.
-//! - [`fit`], [`normal`], [`equations`]: its unknowns at their best, and normal equations by
-//!   blocks.
+//! - [`fit`], [`normal`], [`equations`]: robust nonlinear least squares, and normal equations
+//!   summed by blocks.
 //! - [`base`]: what is free in every hypothesis: constant ICRs, encoders and pose sensor.
-//! - [`locate`], [`significance`], [`place`]: where evidence departs from it, without a model of
-//!   why.
-//! - [`candidate`], [`search`]: the signature of every effect, and which effects explain the
-//!   evidence.
-//! - [`verdict`], [`uncertainty`], [`isolability`]: what is claimed, how large it is, what is told
-//!   apart.
-//! - [`proposal`]: the form of a force for what no effect explains.
-//! - [`answer`], [`held_out`]: what is said, and what runs say of it that nothing was fitted on.
-//! - [`mod@diagnosis`]: all of it in order, and what comes out; [`document`]: as a file;
-//!   [`exposure`]: for the eye.
-//! - [`mod@plan`]: the driving that would tell apart what is left; [`error`]: why none of it can be
-//!   done.
+//! - [`locate`], [`significance`], [`place`]: tests, without any effect, of where residuals depart
+//!   from zero.
+//! - [`candidate`], [`search`]: the signature of every effect, and the search for the best
+//!   hypothesis.
+//! - [`verdict`], [`uncertainty`], [`isolability`]: claims, intervals, and which effects can be
+//!   told apart.
+//! - [`proposal`]: an empirical force law for what no effect explains.
+//! - [`answer`], [`held_out`]: the status, and errors on runs that were not fitted.
+//! - [`mod@diagnosis`]: all stages in order and their result; [`document`]: the result as a file;
+//!   [`exposure`]: series for figures.
+//! - [`mod@plan`]: driving that separates rival effects; [`error`]: why a diagnosis is impossible.
 //!
-//! No effect is known by name here: what an effect does is asked of the simulator.
+//! No effect is known by name here: the simulator is asked what an effect does.
 
 pub mod answer;
 pub mod base;

@@ -1,10 +1,10 @@
-//! Where evidence departs from constant ICRs, without a model of why.
+//! Tests of where evidence departs from constant ICRs, without a model of the cause.
 //!
 //! # Law
-//! On level ground and in slow driving the ICR triple is one point (the constancy theorem).
-//! Whatever else moves it does so with speed, direction, manoeuvre, side, heading, place, time or
-//! change of speed. Each symmetry is tested by the departures that would break it: the ICRs'
-//! derivative of the prediction times a function of how the robot was driven.
+//! On level ground and in slow driving the ICRs are constant (the constancy theorem). Any other
+//! effect moves them with speed, direction, manoeuvre, side, heading, place, time or change of
+//! speed. Each symmetry is tested by contrasts that would break it: the Jacobian by the ICRs times
+//! a function of how the robot was driven.
 
 pub mod cells;
 mod contrasts;
@@ -29,10 +29,10 @@ use trackdyn_core::real;
 use trackdyn_model::effect::Symmetry;
 use waves::strongest_wave;
 
-/// Derivatives of a prediction by x_l, x_r and y, not whitened.
+/// Jacobian of a prediction by x_l, x_r and y, not whitened.
 pub type IcrColumns = [Vec<Vector3<f64>>; 3];
 
-/// Derivatives of the prediction by x_l, x_r and y, not whitened.
+/// Jacobian of the prediction by x_l, x_r and y, by finite differences, not whitened.
 pub fn icr_columns(evidence: &Evidence, fit: &Fit) -> IcrColumns {
     let instruments = Instruments::of(&fit.hypothesis);
     let step = evidence.settings().fit.icr_difference * fit.hypothesis.vehicle.gauge;
@@ -45,42 +45,42 @@ pub fn icr_columns(evidence: &Evidence, fit: &Fit) -> IcrColumns {
     })
 }
 
-/// A test of one symmetry.
+/// Test of one symmetry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SymmetryTest {
     /// The symmetry.
     pub symmetry: Symmetry,
-    /// The strongest test of its contrasts, as part of the family of all symmetries.
+    /// The most significant test of its contrasts, family-wise over all symmetries.
     pub test: Test,
 }
 
 /// Where the evidence departs from a prediction.
 #[derive(Clone, Debug)]
 pub struct Location {
-    /// Root mean square of the whitened residual: one where only noise is left.
+    /// Weighted root mean square of the whitened residual: one where only noise is left.
     pub excess_over_noise: f64,
-    /// Shares of the excess: longitudinal, lateral, yaw.
+    /// Shares of the chi-squared above noise: longitudinal, lateral, yaw.
     pub channels: [f64; 3],
-    /// The test of every symmetry that this evidence can test.
+    /// Tests of all symmetries for which this evidence has contrasts.
     pub tests: Vec<SymmetryTest>,
-    /// The strongest wave of the ground, where it breaks the symmetry of places more than anything
-    /// plainer does.
+    /// The most significant wave of the ground, where it breaks the symmetry of places more than
+    /// any plainer contrast.
     pub wave: Option<Wave>,
-    /// What the contrasts of all symmetries together explain, as χ² beyond their number.
+    /// Chi-squared explained by all contrasts jointly, minus its degrees of freedom.
     pub explicable: f64,
-    /// Largest family-wise p of a broken symmetry, and of one that a corrected model leaves over.
+    /// Largest family-wise p of a broken symmetry, and of one that a corrected model leaves broken.
     pub max_p: [f64; 2],
 }
 
 impl Location {
-    /// The symmetries that are broken.
+    /// Symmetries that are significantly broken.
     pub fn broken(&self) -> Vec<Symmetry> {
         let tests = self.tests.iter().filter(|test| test.test.p < self.max_p[0]);
         tests.map(|test| test.symmetry).collect()
     }
 
-    /// The symmetries that a corrected model still breaks: surely, and by more than a χ² of `form`,
-    /// which the form of its laws may leave.
+    /// Symmetries that a corrected model leaves significantly broken, by a chi-squared above
+    /// `form`, the tolerance for the form of its laws.
     pub fn left_over(&self, form: f64) -> Vec<Symmetry> {
         let tests = self.tests.iter();
         let beyond = |test: &SymmetryTest| test.test.statistic - real(test.test.degrees);
@@ -89,19 +89,19 @@ impl Location {
     }
 }
 
-/// What a fit leaves, to be located.
+/// Residual of a fit, to be located.
 #[derive(Clone, Copy)]
 pub struct Residual<'a> {
     /// The evidence.
     pub evidence: &'a Weighted,
-    /// The fit.
+    /// The fit that leaves it.
     pub fit: &'a Fit,
-    /// Derivatives of its prediction by x_l, x_r and y, not whitened.
+    /// Jacobian of the prediction by x_l, x_r and y, not whitened.
     pub icrs: &'a IcrColumns,
 }
 
 impl Residual<'_> {
-    /// What it shows.
+    /// Tests all symmetries on the residual.
     pub fn locate(&self, resampling: Resampling) -> Location {
         let Self { evidence, fit, icrs } = *self;
         let settings = &evidence.settings().location;
@@ -138,7 +138,7 @@ impl Residual<'_> {
         }
         Location {
             excess_over_noise: excess(evidence, residual),
-            channels: shares(evidence, residual),
+            channels: channel_shares(evidence, residual),
             tests: strongest,
             wave: None,
             explicable: all.first().map_or(0.0, |all| all.statistic - real(all.degrees)),
@@ -146,7 +146,7 @@ impl Residual<'_> {
         }
     }
 
-    /// What it shows in waves of the ground as well: these are the strictest test of places.
+    /// Tests all symmetries, and waves of the ground as the strictest test of places.
     pub fn locate_in_waves(&self, resampling: Resampling) -> Location {
         let mut location = self.locate(resampling);
         let Self { evidence, fit, icrs } = *self;
@@ -154,8 +154,7 @@ impl Residual<'_> {
             let wave = strongest_wave(evidence, &fit.residual, beside, icrs, resampling);
             wave.filter(|wave| wave.test.p < location.max_p[0])
         };
-        // What plainer contrasts show is in some waves as well, and in the best of so many by
-        // chance.
+        // A plainer contrast shows in some waves too, and more so in the best of many by chance.
         let wave = strongest(&fit.columns).and_then(|_| {
             let plainer =
                 contrasts(evidence, icrs).into_iter().flat_map(|contrasts| contrasts.columns);
@@ -172,12 +171,12 @@ impl Residual<'_> {
     }
 }
 
-/// Root mean square of the whitened residual over what was measured.
+/// Weighted root mean square of the whitened residual over all measured values.
 pub fn excess(evidence: &Weighted, residual: &[Vector3<f64>]) -> f64 {
     excess_of(evidence, residual, |_, _| true)
 }
 
-/// The excess over those samples and channels that count.
+/// Weighted root mean square of the whitened residual over selected samples and channels.
 pub fn excess_of(
     evidence: &Weighted,
     residual: &[Vector3<f64>],
@@ -196,7 +195,7 @@ pub fn excess_of(
     (sum / f64::max(count, 1.0)).sqrt()
 }
 
-fn shares(evidence: &Weighted, residual: &[Vector3<f64>]) -> [f64; 3] {
+fn channel_shares(evidence: &Weighted, residual: &[Vector3<f64>]) -> [f64; 3] {
     let weights = evidence.weights(residual);
     let beyond: [f64; 3] = std::array::from_fn(|channel| {
         let measured = (0..residual.len()).filter(|&index| evidence.is_measured(index, channel));

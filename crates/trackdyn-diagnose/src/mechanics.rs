@@ -1,21 +1,19 @@
-//! What a hypothesis predicts of the evidence.
+//! Prediction of the motion by a hypothesis.
 //!
-//! The prediction starts each sample at its observed pose and moves the body with the recorded
-//! track speeds.
+//! Each sample starts at its observed pose and integrates the twist for the recorded track speeds.
 //!
 //! # Law
-//! The twist is that of the stationary motion, plus two departures that are small where they are at
-//! all:
-//! - of ground that changes with place, heading or time: the stationary motion there less the one
-//!   without,
-//! - of inertia: the motion in time less the stationary one, over the sample.
+//! The twist is that of the stationary motion, plus two small departures:
+//! - ground that changes with place, heading or time: the stationary motion there minus the one on
+//!   uniform ground,
+//! - inertia: the transient motion minus the stationary one, over the sample.
 //!
 //! # Assumes
-//! The departures are found without the laws that change the shear stress, which need a quadrature
-//! per solve. What these change in that by ground is a product of two small things; what they
-//! change in that by inertia is found from it in a few steps. Where no motion in time goes through,
-//! that of a hypothesis that resembles this one stands in: the ticks of a coarse counter may tip a
-//! high robot over that never was near to it.
+//! Both departures are computed without shear-stress laws, which need a quadrature per solve. Their
+//! influence on the ground departure is of second order and neglected; that on the inertial
+//! departure is found from it in a few Newton steps. Where the transient simulation fails, the
+//! departure of a similar hypothesis is used: ticks of a coarse encoder may tip over a high robot
+//! that never was close to it.
 
 mod belts;
 mod ground;
@@ -41,48 +39,49 @@ use trackdyn_model::{ActiveEffect, Drive, Effects, Model, Sensor, Vehicle};
 use trackdyn_recording::TrackSample;
 use trackdyn_recording::hold::pieces;
 
-/// Samples that one task predicts or solves.
+/// Samples that one parallel task predicts or solves.
 const TASK: usize = 64;
 
-/// The expensive part of a prediction: all that does not hang on sensors, gains and lags of the
-/// drive, and constant offsets of the ICRs.
+/// The expensive part of a prediction: independent of sensors, of gains and lags of the drive, and
+/// of constant ICR offsets.
 #[derive(Clone)]
 pub struct Mechanics {
     surface: Surface,
-    /// The stationary motion at each reading, of belts that follow the encoders as `drive` says.
+    /// Stationary motion at each reading of each run, for belts that follow the encoders by
+    /// `drive`.
     steady: Arc<Vec<Vec<Steady>>>,
     drive: Drive,
-    /// What changing ground adds to the twist during each sample, paper's frame.
+    /// Departure of the twist during each sample by changing ground, paper's frame.
     ground: Option<Arc<Vec<Twist>>>,
-    /// What inertia adds.
+    /// Departure by inertia.
     in_time: InTime,
-    /// The laws of the shear stress.
+    /// Laws of the shear stress.
     shear: Vec<ActiveEffect>,
 }
 
-/// What inertia adds to the stationary motion.
+/// Departure of the transient from the stationary motion.
 #[derive(Clone)]
 enum InTime {
-    /// Nothing: no effect stands against acceleration, or the evidence has none.
+    /// None: no effect depends on acceleration, or the evidence is a table of steady points.
     Stationary,
-    /// What was found for this robot, or near it.
+    /// Computed for this robot or a similar one.
     Found {
-        /// What is added without the laws of the shear stress.
+        /// Departure without shear-stress laws.
         inertia: InertiaNear,
-        /// What these laws change in that, at each reading; none where there are none, or where
-        /// what it was taken from knew no inertia.
+        /// Change of it by shear-stress laws, at each reading; none without such laws, or where the
+        /// hypothesis that it would be copied from had no inertial departure.
         sheared: Option<Arc<Vec<Vec<Twist>>>>,
     },
-    /// What was found for another robot, without laws of the shear stress: no motion in time goes
-    /// through with this one.
+    /// Taken from another robot, without shear-stress laws: the transient simulation of this one
+    /// fails.
     OfAnother(InertiaNear),
-    /// The hypothesis cannot be: no forces balance over a good part of the speeds, or no motion in
-    /// time goes through with it.
+    /// The hypothesis is impossible: forces do not balance over a large share of the speeds, or the
+    /// transient simulation fails.
     Impossible(String),
 }
 
 impl InTime {
-    /// What is added without the laws of the shear stress; none where nothing is.
+    /// Departure without shear-stress laws; none where there is no departure.
     fn inertia(&self) -> Option<&InertiaNear> {
         match self {
             Self::Found { inertia, .. } | Self::OfAnother(inertia) => Some(inertia),
@@ -90,7 +89,7 @@ impl InTime {
         }
     }
 
-    /// What laws of the shear stress change in that, at each reading.
+    /// Change of the departure by shear-stress laws, at each reading.
     fn sheared(&self) -> Option<&Arc<Vec<Vec<Twist>>>> {
         match self {
             Self::Found { sheared, .. } => sheared.as_ref(),
@@ -99,34 +98,34 @@ impl InTime {
     }
 }
 
-/// Encoders and pose sensor of a hypothesis, and the offset of its ICRs: the cheap part.
+/// Encoders, pose sensor and constant ICR offsets of a hypothesis: the cheap part of a prediction.
 #[derive(Clone, Copy, Debug)]
 pub struct Instruments {
-    /// From the encoders to the belts.
+    /// From encoder speeds to belt speeds.
     pub drive: Drive,
-    /// What is reported of the motion.
+    /// Mount and delay of the pose sensor.
     pub sensor: Sensor,
-    /// What is added to the ICRs (x_l, x_r, y), m.
+    /// Constant offset of the ICRs (x_l, x_r, y), m.
     pub offset: [f64; 3],
 }
 
 impl Instruments {
-    /// Those of a hypothesis.
+    /// Instruments of a hypothesis.
     pub fn of(hypothesis: &Hypothesis) -> Self {
         let model = Model::new(hypothesis.vehicle.clone(), hypothesis.effects.clone());
         Self { drive: *model.drive(), sensor: *model.sensor(), offset: hypothesis.offset }
     }
 }
 
-/// Whether an effect says something of sensors, gains and lags alone: no balance of forces knows
-/// it.
+/// Whether an effect concerns sensors, gains and lags only: it does not enter the balance of
+/// forces.
 pub fn is_instrument(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
     let outside = |stage: &Stage| matches!(stage, Stage::Drive | Stage::Sense);
     effect.card().stages.iter().all(outside)
         && single(vehicle, effect).drive().slip_per_traction == 0.0
 }
 
-/// Whether an effect stands against acceleration.
+/// Whether an effect's forces depend on acceleration.
 pub fn feels_inertia(vehicle: &Vehicle, effect: &ActiveEffect) -> bool {
     Transient::feels_inertia(&single(vehicle, effect))
 }
@@ -137,9 +136,9 @@ impl Mechanics {
         Self::found(None, None, hypothesis, evidence, InertiaNear::here)
     }
 
-    /// Mechanics where `before` is the mechanics of a hypothesis that resembles it, and some
-    /// numbers are free: where the effects of inertia are about the same, what these add is taken
-    /// from there, for its change is a product of two small things.
+    /// Mechanics of a hypothesis with free unknowns. `before` is the mechanics of a similar
+    /// hypothesis: where its inertial effects are about equal, its inertial departure is reused,
+    /// since the error is of second order.
     pub fn beside(
         before: Option<&Self>,
         hypothesis: &Hypothesis,
@@ -155,8 +154,9 @@ impl Mechanics {
         )
     }
 
-    /// The mechanics of a hypothesis on the way of a fit: what inertia adds is taken from here,
-    /// however far what it comes from has moved, as long as the rest resembles this one.
+    /// Mechanics of a hypothesis during a fit: the inertial departure is extrapolated linearly from
+    /// this one over any distance in the parameters with known slopes, as long as the others stay
+    /// near.
     pub fn on_the_way(
         &self,
         hypothesis: &Hypothesis,
@@ -183,11 +183,11 @@ impl Mechanics {
         })
     }
 
-    /// Mechanics of a hypothesis that differs by a step, be it that of a difference quotient: what
-    /// inertia adds is taken from here wherever it can be, for what it jumps by elsewhere would be
-    /// divided by the step.
+    /// Mechanics of a hypothesis that differs by one step, as of a finite difference. The inertial
+    /// departure is extrapolated wherever possible: a jump by a new simulation would be divided by
+    /// the step.
     ///
-    /// What laws of the shear stress change in that stays too, unless it is one of these that
+    /// Its change by shear-stress laws stays too, unless such a law is what differs.
     /// differs.
     pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
         let inertia = |inert: Vec<ActiveEffect>, case: &Case| {
@@ -203,7 +203,7 @@ impl Mechanics {
         Self::found(Some(self), Some(self), hypothesis, evidence, inertia)
     }
 
-    /// `kept` lends what laws of the shear stress change in inertia, where these are the same.
+    /// `kept` supplies the change of inertia by shear-stress laws where these laws are equal.
     fn found(
         before: Option<&Self>,
         kept: Option<&Self>,
@@ -234,7 +234,7 @@ impl Mechanics {
             constant.iter().filter(|effect| effect.card().shears()).cloned().collect();
         let still =
             Self { surface, steady, drive, ground: None, in_time: InTime::Stationary, shear };
-        // What cannot be needs no departures, which cost most where no forces balance.
+        // An impossible hypothesis needs no departures, which cost most where no forces balance.
         if let Some(reason) = unbalanced(&still.surface, settings.max_unsolved_share) {
             return Self { in_time: InTime::Impossible(reason), ..still };
         }
@@ -253,8 +253,7 @@ impl Mechanics {
             return Self { ground, ..still };
         }
         let case = Case { vehicle, model: &simple, largest, drive: &drive, evidence };
-        // Where no motion in time goes through, that of a hypothesis that resembles this one is
-        // taken.
+        // Where the transient simulation fails, the departure of a similar hypothesis is taken.
         let known = before.and_then(|before| before.in_time.inertia());
         let in_time = match (inertia(inert, &case), known) {
             (Ok(inertia), _) => {
@@ -267,8 +266,8 @@ impl Mechanics {
         Self { ground, in_time, ..still }
     }
 
-    /// What the laws of the shear stress change in what inertia adds: as it was `kept` where they
-    /// are the same.
+    /// Change of the inertial departure by shear-stress laws: copied from `kept` where the laws are
+    /// equal.
     fn sheared(
         &self,
         kept: Option<&Self>,
@@ -284,7 +283,7 @@ impl Mechanics {
         }
     }
 
-    /// Whether what inertia adds comes from the same motion in time.
+    /// Whether both inertial departures come from one transient simulation.
     pub fn has_inertia_of(&self, other: &Self) -> bool {
         match (self.in_time.inertia(), other.in_time.inertia()) {
             (Some(here), Some(there)) => here.is_from(there),
@@ -293,8 +292,9 @@ impl Mechanics {
         }
     }
 
-    /// Why the hypothesis cannot be: part of the contact lifts, or no motion balances the forces,
-    /// over a good part of the speeds, or no motion in time goes through. None where it can.
+    /// Why the hypothesis is impossible: over a large share of the speeds part of the contact lifts
+    /// or no motion balances the forces, or the transient simulation fails. None where it is
+    /// possible.
     pub fn failure(&self) -> Option<&str> {
         match &self.in_time {
             InTime::Impossible(reason) => Some(reason),
@@ -302,12 +302,13 @@ impl Mechanics {
         }
     }
 
-    /// Whether the forces hang on where the robot is, where it heads, or when.
+    /// Whether forces depend on place, heading or time.
     pub fn knows_places(&self) -> bool {
         self.ground.is_some()
     }
 
-    /// The motion of every sample, as the pose sensor reports it: forward (m), left (m), yaw (rad).
+    /// Predicted motion of each sample as reported by the pose sensor: forward (m), left (m), yaw
+    /// (rad).
     pub fn predict(&self, instruments: &Instruments, evidence: &Evidence) -> Vec<Vector3<f64>> {
         let Instruments { drive, sensor, offset } = instruments;
         let steady = if *drive == self.drive {
@@ -347,8 +348,7 @@ impl Mechanics {
     }
 }
 
-/// Why no robot moves so that has these stationary motions, at more than this share of the speeds;
-/// none where one may.
+/// Reason if more than the share `most` of the speeds has no stationary motion; none otherwise.
 fn unbalanced(surface: &Surface, most: f64) -> Option<String> {
     let share = surface.unsolved();
     (share > most).then(|| {
@@ -359,15 +359,14 @@ fn unbalanced(surface: &Surface, most: f64) -> Option<String> {
     })
 }
 
-/// The stationary motion at each reading of each run.
+/// Stationary motion at each reading of each run.
 fn steady(surface: &Surface, drive: &Drive, tracks: &[Vec<TrackSample>]) -> Vec<Vec<Steady>> {
     let belts = lagging(tracks, drive.time_constant);
     let motion = |reading: &TrackSample| surface.motion(drive.driven(reading.speeds()));
     belts.par_iter().map(|run| run.iter().map(motion).collect()).collect()
 }
 
-/// The motion over a sample, seen from its start, with the twist (REP-103) at each reading that it
-/// holds.
+/// Motion over a sample seen from its start, by the twist (REP-103) at each of its readings.
 fn motion_over(
     tracks: &[TrackSample],
     sample: &Sample,
@@ -381,7 +380,7 @@ fn motion_over(
     })
 }
 
-/// A robot as finely as noisy data can tell.
+/// A model with a resolution that suffices for noisy data.
 fn coarse(vehicle: &Vehicle, effects: Effects) -> Model {
     Model::new(vehicle.clone(), effects).with_resolution(Resolution::Coarse)
 }
@@ -390,9 +389,8 @@ fn single(vehicle: &Vehicle, effect: &ActiveEffect) -> Model {
     coarse(vehicle, std::iter::once(effect.clone()).collect())
 }
 
-/// What a change of the twist is at the point from which the ICRs have this offset: δv = ω × r,
-/// with y for all of them and the mean of the x as r. The rest of the offset is no matter of where
-/// one looks from.
+/// A change of the twist, moved to the point that the ICR offset shifts to: δv = ω × r, with r the
+/// offset in y and the mean offset in x. The difference of the x offsets does not move that point.
 fn seen_from(twist: &Twist, [left, right, y]: &[f64; 3]) -> Twist {
     let middle = f64::midpoint(*left, *right);
     Twist { v_x: twist.v_x + y * twist.w, v_y: twist.v_y - middle * twist.w, w: twist.w }

@@ -1,31 +1,28 @@
-//! How noisy the evidence is: what is left when all that driving could explain is fitted away.
+//! Noise estimation from the residuals that driving cannot explain.
 //!
 //! # Law
-//! To the base belong constant ICRs, encoders and pose sensor; beside them stand the contrasts of
-//! [`locate`](crate::locate), which let the ICRs go with speed, direction, manoeuvre, side,
-//! heading, place, time and change of speed, whatever the reason, ICRs that go with the speed of
-//! turning, and the answer to acceleration. The residual r of all these is noise: white noise R of
-//! each pose, which neighbouring segments share, a random walk q within each segment, and a heading
-//! of the sensor that wanders, by which all later segments of a run are seen turned
-//! ([`SegmentNoise`]). The seven variances are those under which r is most likely, with a
-//! heavy-tailed likelihood, so that outliers do not count:
+//! Fitted away are the base (constant ICRs, encoders, pose sensor); the contrasts of
+//! [`locate`](crate::locate), by which ICRs vary with speed, direction, manoeuvre, side, heading,
+//! place, time and change of speed; ICRs that vary with the speed of turning; and the response to
+//! acceleration. The remaining residual r is noise ([`SegmentNoise`]): white noise R of each pose,
+//! shared by neighbouring segments, a random walk q within each segment, and a wandering heading of
+//! the sensor that turns all later segments of a run. Its seven variances maximise a restricted
+//! likelihood with heavy tails, so that outliers count little:
 //!
 //! maximise Σ ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν) − ½ ln det(Xᵀ V⁻¹ X),  z = L⁻¹ r, L the
-//! Cholesky factor of their covariance V, X the columns that were fitted.
+//! Cholesky factor of the covariance V, X the fitted columns.
 //!
-//! The last term gives back what the fit took of the noise: without it a walk, which is slow, would
-//! vanish into all that is slow in the driving. It is nearly linear in the logarithms of the
-//! variances, and taken to be so. The level is then set by the median of |z|², which is that of a
-//! χ² with three degrees of freedom, less what was fitted.
+//! The last term corrects for the degrees of freedom of the fit: without it a walk, which is slow,
+//! would vanish into slow contrasts. It is taken as linear in the log variances. The level is then
+//! set by the median of |z|², that of a χ² with three degrees of freedom, corrected for the fit.
 //!
-//! Physics may leave more than contrasts can take up, and what is slow in it is then taken for a
-//! walk. Where a hypothesis does explain more, the noise is looked for once more beside it, and
-//! stands if what a run adds up to falls along one axis: a walk that is next to nothing in a sample
-//! is what hides slow changes.
+//! Physics that contrasts cannot represent is at first taken for a walk. Where a hypothesis
+//! explains more, noise is estimated again beside it, and accepted if the variance summed over a
+//! run falls along one axis: a walk that is negligible in a sample may still hide slow changes.
 //!
-//! What is measured without any model ([`trackdyn_estimate::noise`]) is where this starts from.
-//! Poses alone cannot tell the ripple of a drive, which the encoders see, from a walk of the pose;
-//! nor can encoders alone tell counts that err against each other from slip.
+//! The search starts from noise measured without a model ([`trackdyn_estimate::noise`]). Poses
+//! alone cannot separate ripple of the drive, which the encoders see, from a walk of the pose; nor
+//! can encoders alone separate their own errors from slip.
 //!
 //! # Sources
 //! Lange, Little, Taylor, Journal of the American Statistical Association 84(408), 1989 (t
@@ -43,23 +40,23 @@ use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median};
 use trackdyn_core::{Pose, real};
 use trackdyn_estimate::weighting::SegmentNoise;
 
-/// Median of a χ² with three degrees of freedom.
-const MEDIAN: f64 = 2.365_973_884_375_338;
+/// Median of χ² with three degrees of freedom.
+const MEDIAN_OF_CHI_SQUARE_3: f64 = 2.365_973_884_375_338;
 
-/// Variances of a noise: of poses, of their walk, of the heading's.
+/// Number of variances: three of the pose, three of its walk, one of the heading.
 const COUNT: usize = 7;
 
 /// Their logarithms.
 type Variances = SVector<f64, COUNT>;
 
-/// The evidence with the noise that the residuals beside a fit show. Tables of steady points keep
+/// The evidence with noise estimated from the residuals of a fit. Tables of steady points keep
 /// theirs.
 pub fn with_remaining_noise(evidence: &Weighted, fit: &Fit) -> Weighted {
     let Some(&measured) = evidence.noise() else { return evidence.clone() };
     remaining(evidence, measured, &Flexible::new(evidence, fit))
 }
 
-/// The evidence with the noise that is left beside what is flexible, from what was measured on.
+/// The evidence with noise estimated beside all flexible columns, starting from `measured`.
 fn remaining(evidence: &Weighted, measured: SegmentNoise, flexible: &Flexible) -> Weighted {
     let settings = &evidence.settings().noise;
     let mut noise = noise_of(&start(&measured, settings), settings);
@@ -69,14 +66,13 @@ fn remaining(evidence: &Weighted, measured: SegmentNoise, flexible: &Flexible) -
         let taken = flexible.taken(&evidence, &noise, &left.columns);
         noise = most_likely(&evidence, noise, &left.residual, &taken);
         evidence = evidence.with_noise(noise);
-        evidence = evidence.without(&outlying(&evidence, &noise, &left.residual));
+        evidence = evidence.without(&outliers(&evidence, &noise, &left.residual));
     }
     evidence
 }
 
-/// Where a search begins, as logarithms: a variance of next to nothing has no slope, neither in its
-/// likelihood nor in what was taken of it, so that a walk begins at a part of the white noise at
-/// least.
+/// Log variances to start from. A negligible variance has no gradient, neither in the likelihood
+/// nor in the correction, so a walk starts at a share of the white noise at least.
 fn start(measured: &SegmentNoise, settings: &settings::Noise) -> Variances {
     let SegmentNoise { pose, mut walk, heading } = *measured;
     for (walk, pose) in walk.iter_mut().zip(pose) {
@@ -86,15 +82,14 @@ fn start(measured: &SegmentNoise, settings: &settings::Noise) -> Variances {
     variances_of(&SegmentNoise { pose, walk, heading })
 }
 
-/// The evidence without the samples at whose poses the sensor erred, beside a fit, in the noise
-/// that it has.
+/// The evidence without samples at outlying poses, judged beside a fit with the present noise.
 pub fn without_outliers(evidence: &Weighted, fit: &Fit) -> Weighted {
     let mut evidence = evidence.clone();
     let Some(&noise) = evidence.noise() else { return evidence };
     let flexible = Flexible::new(&evidence, fit);
-    // Each round judges what outliers of the one before stood beside.
+    // Outliers of one round mask others, which the next round judges.
     loop {
-        let lost = outlying(&evidence, &noise, &flexible.left(&evidence).residual);
+        let lost = outliers(&evidence, &noise, &flexible.left(&evidence).residual);
         if lost.is_empty() {
             return evidence;
         }
@@ -102,7 +97,7 @@ pub fn without_outliers(evidence: &Weighted, fit: &Fit) -> Weighted {
     }
 }
 
-/// The noise in words: what each pose is off by, and what is added in a second.
+/// The noise in words: error of each pose, and what is added per second.
 pub fn sentence(noise: &SegmentNoise) -> String {
     let [forward, left, yaw] = noise.walk;
     let walk = [forward, left, yaw + noise.heading];
@@ -114,15 +109,14 @@ pub fn sentence(noise: &SegmentNoise) -> String {
     format!("each pose {}; more in a second {}", of(noise.pose), of(walk))
 }
 
-/// The evidence with the noise beside a hypothesis that explains more than contrasts can; none
-/// where this does not make it smaller along any axis.
+/// The evidence with noise estimated beside a hypothesis that explains more than contrasts; none
+/// where no axis has less noise.
 pub fn sharper(evidence: &Weighted, fit: &Fit) -> Option<Weighted> {
     let before = evidence.noise()?;
     let again = with_remaining_noise(evidence, fit);
     let after = again.noise()?;
     let time = run_time(evidence)?;
-    // A yaw that walks and a heading that wanders are alike in a sample, and not in what a run
-    // tells of slow changes.
+    // A walk in yaw and a wandering heading look alike in a sample, but not over a run.
     let added = |noise: &SegmentNoise| {
         let ([forward, left, yaw], [x, y, turn]) = (noise.pose, noise.walk);
         let pairs = [(forward, x), (left, y), (yaw, turn), (yaw, noise.heading)];
@@ -134,7 +128,7 @@ pub fn sharper(evidence: &Weighted, fit: &Fit) -> Option<Weighted> {
     is_less.then_some(again)
 }
 
-/// Mean time of a run that has samples, s; none where there are none.
+/// Mean duration of a run with samples, s; none without samples.
 fn run_time(evidence: &Weighted) -> Option<f64> {
     let samples = evidence.samples();
     let runs = samples.chunk_by(|a, b| a.run == b.run).count();
@@ -142,9 +136,9 @@ fn run_time(evidence: &Weighted) -> Option<f64> {
     (runs > 0).then(|| time / real(runs))
 }
 
-/// Samples at whose shared pose the sensor erred: the one that ends there is far off, both together
-/// are not.
-fn outlying(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
+/// Samples that share an outlying pose: the one that ends there has a large residual, both composed
+/// have a small one.
+fn outliers(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) -> Vec<usize> {
     let mut white = left.to_vec();
     evidence.whiten(&mut white);
     let settings = &evidence.settings().noise;
@@ -153,8 +147,7 @@ fn outlying(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
     let mut lost: Vec<usize> = Vec::new();
     for index in 1..samples.len() {
         let pair = [index - 1, index];
-        // What a pose that erred tells of the next ones is wrong too, and is judged in the next
-        // round.
+        // Samples conditioned on an outlying pose are wrong too, and are judged in the next round.
         if lost.last().is_some_and(|last| index <= last + settings.outlier_distance) {
             continue;
         }
@@ -169,8 +162,7 @@ fn outlying(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
         let off = expected.relative(&observed);
         let duration = samples[pair[0]].duration + samples[pair[1]].duration;
         let reach = observed.x.hypot(observed.y).powi(2);
-        // the poses at both ends, the walk between them, and what the first one's yaw makes of the
-        // way
+        // poses at both ends, the walk between them, and the first yaw error times the distance
         let variance = |k: usize| {
             let turned = if k < 2 { noise.pose[2] * reach } else { noise.heading * duration };
             2.0 * noise.pose[k] + noise.walk[k] * duration + turned
@@ -185,10 +177,10 @@ fn outlying(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
     lost
 }
 
-/// The noise under which residuals are most likely.
+/// Maximum-likelihood noise of the residuals.
 ///
-/// A variance that is next to nothing has no slope in its logarithm: what starts there stays. So
-/// the search starts from what was measured, and from white noise alone.
+/// A negligible variance has no gradient in its logarithm and would stay. So the search starts
+/// twice: from the measured noise, and from white noise alone.
 fn most_likely(
     evidence: &Weighted,
     measured: SegmentNoise,
@@ -206,7 +198,8 @@ fn most_likely(
     let mut squares: Vec<f64> = squares.filter(|square| *square > 0.0).collect();
     let numbers = 3.0 * real(squares.len());
     let free = (numbers - taken.sum()).max(1.0);
-    let level = median(&mut squares).map_or(1.0, |median| median / MEDIAN * numbers / free);
+    let level =
+        median(&mut squares).map_or(1.0, |median| median / MEDIAN_OF_CHI_SQUARE_3 * numbers / free);
     SegmentNoise {
         pose: noise.pose.map(|v| v * level),
         walk: noise.walk.map(|v| v * level),
@@ -214,17 +207,16 @@ fn most_likely(
     }
 }
 
-/// Residuals whose noise is looked for.
+/// Likelihood of the noise of residuals.
 struct Likelihood<'a> {
     evidence: &'a Weighted,
     residual: &'a [Vector3<f64>],
-    /// Of how many of them each variance was taken by what was fitted.
+    /// Degrees of freedom that the fit took from each variance.
     taken: &'a Variances,
 }
 
 impl Likelihood<'_> {
-    /// White noise of the poses that would leave as much as there is: two of them meet in a
-    /// segment.
+    /// White pose noise that would explain all residuals: two poses meet in a segment.
     fn white_alone(&self) -> SegmentNoise {
         let mut squares: [Vec<f64>; 3] = Default::default();
         for residual in self.residual {
@@ -239,7 +231,7 @@ impl Likelihood<'_> {
         SegmentNoise { pose, walk: [0.0; 3], heading: 0.0 }
     }
 
-    /// The logarithms of the variances of the maximum next to a start, and what is reached there.
+    /// Local maximum from a start: log variances, and log-likelihood.
     fn climb(&self, start: Variances) -> (Variances, f64) {
         let mut here = start;
         let sum = |terms: &[f64], here: &Variances| {
@@ -273,7 +265,7 @@ impl Likelihood<'_> {
         (evidence, white)
     }
 
-    /// The logarithm of the likelihood of each segment.
+    /// Log-likelihood of each segment.
     fn terms(&self, variances: &Variances) -> Vec<f64> {
         let settings = &self.evidence.settings().noise;
         let (evidence, white) = self.white(&noise_of(variances, settings));
@@ -290,7 +282,7 @@ impl Likelihood<'_> {
             .collect()
     }
 
-    /// The step of Berndt and others: (Σ g gᵀ)⁻¹ Σ g, g the derivatives of each term.
+    /// Step of Berndt et al.: (Σ g gᵀ)⁻¹ Σ g, with g the gradient of each term.
     fn step(&self, here: &Variances, terms: &[f64]) -> Variances {
         let settings::Noise { difference, max_step, .. } = self.evidence.settings().noise;
         let there: [Vec<f64>; COUNT] = std::array::from_fn(|k| {
@@ -336,7 +328,7 @@ mod tests {
     const TRUE: SegmentNoise =
         SegmentNoise { pose: [9e-6, 4e-6, 4e-6], walk: [1e-6, 4e-6, 2.5e-7], heading: 2.5e-7 };
 
-    /// A winding drive of 1500 segments, and what was seen beside its motion.
+    /// A winding drive of 1500 segments with these errors added to its motion.
     fn drive(errors: &[Vector3<f64>]) -> Evidence {
         let tracks: Vec<TrackSample> = (0..=1500 * READINGS)
             .map(|k| {
@@ -362,10 +354,10 @@ mod tests {
         })
     }
 
-    /// Noise of that kind: white numbers with its correlations.
+    /// Noise with the true covariance: coloured white numbers.
     fn noisy(evidence: &Weighted, seed: u64) -> Vec<Vector3<f64>> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        // A sum of twelve uniform numbers is normal enough, and has variance one.
+        // A sum of twelve uniform numbers is nearly normal with variance one.
         let mut normal = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
         let mut residual: Vec<_> =
             evidence.samples().iter().map(|_| Vector3::from_fn(|_, _| normal())).collect();
@@ -407,9 +399,9 @@ mod tests {
         let evidence = Weighted::new(drive(&[]));
         for seed in 1..6 {
             let noise = found(&evidence, &noisy(&evidence, seed));
-            // A variance is known to √(2/n) of itself from n independent numbers: 1500 for a pose;
-            // a walk shows against poses of 2 to 4 mm over a dozen segments and more, 100 times in
-            // the drive, 16 % and in yaw, the smallest, over fifty, 27 %.
+            // A variance is known to √(2/n) of itself from n independent numbers: 1500 for a pose.
+            // A walk shows against poses of 2 to 4 mm over a dozen segments or more, 100 times in
+            // the drive: 16 %; in yaw, the smallest, over fifty segments: 27 %.
             let close = |found: f64, truth: f64, deviation: f64| {
                 assert!((found / truth).ln().abs() < 4.0 * deviation, "{seed}: {noise:?}");
             };
@@ -419,12 +411,12 @@ mod tests {
             for (k, deviation) in [0.16, 0.16, 0.27].into_iter().enumerate() {
                 close(noise.walk[k], TRUE.walk[k], deviation);
             }
-            // as strong as the walk in yaw, and seen there as well as to the side
+            // as strong as the walk in yaw, and it shows to the side as well
             close(noise.heading, TRUE.heading, 0.27);
         }
     }
 
-    /// Sixty functions of time, from one period in the drive on: where a walk is.
+    /// Sixty slow functions of time, from one period per drive upwards: where a walk has its power.
     #[test]
     fn a_walk_is_found_beside_what_takes_all_that_is_slow() {
         const COLUMNS: usize = 60;
@@ -442,8 +434,7 @@ mod tests {
             samples.iter().map(along).collect()
         };
         let columns: Vec<_> = (0..COLUMNS).map(column).collect();
-        // Poses that seem to have no noise forward, and nothing that walks: as what is measured
-        // without a model may say.
+        // No forward pose noise and no walk, as a measurement without a model may give.
         let measured = SegmentNoise { pose: [0.0, 4e-6, 4e-6], walk: [0.0; 3], heading: 0.0 };
         let mut logarithms = [[0.0; COUNT]; 2];
         for seed in 0..SEEDS {
@@ -465,7 +456,7 @@ mod tests {
         }
         let [unaware, aware] = logarithms;
         assert!(unaware[3].min(unaware[5]) < -0.5, "it matters: {unaware:.3?}");
-        // as well as beside nothing: within four standard errors of the mean
+        // as accurate as without columns: within four standard errors of the mean
         for (off, deviation) in aware.into_iter().zip([0.05, 0.05, 0.05, 0.16, 0.16, 0.27, 0.27]) {
             assert!(off.abs() < 4.0 * deviation / f64::from(SEEDS).sqrt(), "{aware:.3?}");
         }
@@ -478,8 +469,8 @@ mod tests {
         let mut residual = clean.clone();
         let far: Vec<usize> = (20..1480).step_by(40).collect();
         for (&index, size) in far.iter().zip([0.05, -0.08, 0.12].into_iter().cycle()) {
-            // A pose that lies `size` m ahead and to the left, and is turned: the end of one sample
-            // and the start of the next.
+            // A pose displaced by `size` m forward and half to the left, and turned: the end of one
+            // sample and the start of the next.
             let samples = evidence.samples();
             let sample = |k: usize| {
                 let motion = samples[k].motion;
@@ -495,7 +486,7 @@ mod tests {
         }
         let seen = Weighted::new(drive(&residual));
         let noise = found(&seen, &residual);
-        let lost = outlying(&seen.with_noise(noise), &noise, &residual);
+        let lost = outliers(&seen.with_noise(noise), &noise, &residual);
         let expected: Vec<usize> = far.iter().flat_map(|&index| [index, index + 1]).collect();
         assert_eq!(lost, expected);
         let after = found(&seen.without(&lost), &residual);

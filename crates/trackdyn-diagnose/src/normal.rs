@@ -1,8 +1,7 @@
 //! Normal equations, summed block by block.
 //!
-//! All that a linear model of the residuals can say is in the products of its columns. Kept per
-//! block, they answer at once what a fit without some columns, without some blocks, or with other
-//! blocks would be.
+//! A linear model of the residuals depends on the products of its columns only. Kept per block,
+//! they give the fit without some columns, without some blocks, or with resampled blocks at once.
 
 mod scaled;
 
@@ -12,13 +11,13 @@ use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Residuals and columns, both whitened, three rows per sample.
+/// Residual and columns of a linear fit, whitened, three rows per sample.
 pub struct Columns<'a> {
-    /// The residuals.
+    /// The residual.
     pub residual: &'a [Vector3<f64>],
-    /// Derivatives of the prediction.
+    /// Columns of the Jacobian of the prediction.
     pub columns: &'a [Vec<Vector3<f64>>],
-    /// What each sample counts: less than one where it lies far out.
+    /// Weight of each sample: below one for outliers.
     pub weights: &'a [f64],
     /// Block of each sample.
     pub blocks: &'a [usize],
@@ -26,55 +25,55 @@ pub struct Columns<'a> {
     pub count: usize,
 }
 
-/// Products of columns and residual, per block and in all; the residual stands last.
+/// Products of columns and residual, per block and in total; the residual comes last.
 #[derive(Clone, Debug)]
 pub struct Normal {
     blocks: Vec<DMatrix<f64>>,
     total: DMatrix<f64>,
 }
 
-/// A linear fit: θ minimises |r − C θ|² + Σ (θ − m)²/s².
+/// Solution of a linear fit: θ minimises |r − C θ|² + Σ (θ − m)²/s².
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// θ, in the order of the columns asked for.
     pub estimate: DVector<f64>,
-    /// Its covariance if noise and priors are what they are taken for.
+    /// Covariance of θ, if noise and priors are right.
     pub covariance: DMatrix<f64>,
-    /// The minimum.
+    /// Value of the minimum.
     pub misfit: f64,
-    /// By how much it lies below θ = 0.
+    /// Decrease from θ = 0 to the minimum.
     pub gain: f64,
-    /// ln det(1 + S J S), twice the logarithm of Occam's factor: what it costs that the factors
-    /// were not known before.
+    /// ln det(1 + S J S) = −2 ln Occam's factor, the cost of prior uncertainty; J is the
+    /// information, S = diag(s).
     pub occam: f64,
-    /// −½ minimum − ½ ln det(1 + S J S): the logarithm of the evidence up to what all models share.
+    /// Log evidence up to a constant shared by all models: −½ minimum − ½ ln det(1 + S J S).
     pub ln_evidence: f64,
 }
 
-/// What is known of a column's factor beforehand: normal with this mean and standard deviation.
+/// Normal prior of a column's factor, possibly truncated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prior {
     /// Mean.
     pub mean: f64,
     /// Standard deviation.
     pub deviation: f64,
-    /// Logarithm of the part of it that lies where the factor can be: the density is larger by
-    /// that.
+    /// Log probability of the normal within the allowed range: the truncated density is larger by
+    /// the inverse.
     pub ln_mass: f64,
 }
 
 impl Prior {
-    /// A normal prior wherever the factor is.
+    /// A normal prior without limits.
     pub fn normal(mean: f64, deviation: f64) -> Self {
         Self { mean, deviation, ln_mass: 0.0 }
     }
 
-    /// Nothing is known: of no unknown is the scale anywhere near as large.
+    /// A flat prior: wider than the scale of any unknown.
     pub fn flat() -> Self {
         Self::normal(0.0, 1e9)
     }
 
-    /// This prior within a range.
+    /// This prior, truncated to a range.
     pub fn within(self, [low, high]: [f64; 2]) -> Self {
         let below = |end: f64| {
             0.5 * statrs::function::erf::erfc(
@@ -84,25 +83,26 @@ impl Prior {
         Self { ln_mass: (below(high) - below(low)).ln(), ..self }
     }
 
-    /// An even density over a width, whose standard deviation is left as wide as that.
+    /// A uniform density over a width, with that width as its standard deviation.
     pub fn even(mean: f64, width: f64) -> Self {
-        // a normal density of this deviation is 1/√(2π) of the even one at its middle
+        // at its mean, such a normal density is 1/√(2π) of the uniform one
         let ln_mass = -0.5 * std::f64::consts::TAU.ln();
         Self { mean, deviation: width, ln_mass }
     }
 }
 
-/// Part of its own square by which a column may differ from others and still be taken for them.
+/// Ridge on the scaled diagonal: columns that differ by less, relative to their square, count as
+/// equal.
 const RIDGE: f64 = 1e-10;
 
-/// Part of its own square that a column must have beyond others not to be a combination of them.
-const DEPENDENT: f64 = 1e-8;
+/// Least share of a column's square that must be independent of the columns before it.
+const MIN_INDEPENDENT_SHARE: f64 = 1e-8;
 
-/// Part of its own square that is left of a column where others explain all of it but rounding.
-const EXPLAINED: f64 = 1e-10;
+/// Largest share of a column's square left by projection that counts as rounding.
+const MAX_ROUNDING_SHARE: f64 = 1e-10;
 
 impl Normal {
-    /// The products of these columns.
+    /// Products of columns and residual.
     pub fn new(of: &Columns) -> Self {
         let size = of.columns.len() + 1;
         let mut samples = vec![Vec::new(); of.count];
@@ -114,7 +114,7 @@ impl Normal {
         let blocks: Vec<DMatrix<f64>> = samples
             .par_iter()
             .map(|samples| {
-                // √W (C, r), a column of the matrix for each column and the residual
+                // √W (C, r): a matrix column for each column and for the residual
                 let mut rows = DMatrix::zeros(3 * samples.len(), size);
                 for (k, column) in
                     of.columns.iter().map(Vec::as_slice).chain([of.residual]).enumerate()
@@ -142,12 +142,12 @@ impl Normal {
         self.blocks.len()
     }
 
-    /// Products of all blocks; the residual stands last.
+    /// Products summed over all blocks; the residual comes last.
     pub fn total(&self) -> &DMatrix<f64> {
         &self.total
     }
 
-    /// Products of a block; the residual stands last.
+    /// Products of one block; the residual comes last.
     pub fn block(&self, block: usize) -> &DMatrix<f64> {
         &self.blocks[block]
     }
@@ -157,7 +157,7 @@ impl Normal {
         self.total[(self.columns(), self.columns())]
     }
 
-    /// These equations with each block counted this many times.
+    /// The equations with each block counted this many times.
     pub fn counted(&self, times: &[f64]) -> Self {
         let blocks: Vec<DMatrix<f64>> =
             self.blocks.iter().zip(times).map(|(block, times)| block * *times).collect();
@@ -165,7 +165,7 @@ impl Normal {
         Self { blocks, total }
     }
 
-    /// These equations without some blocks: what is fitted on the others is judged on these.
+    /// The equations without some blocks, for cross-validation.
     pub fn without(&self, held_out: &Range<usize>) -> Self {
         let times: Vec<f64> = (0..self.blocks.len())
             .map(|block| if held_out.contains(&block) { 0.0 } else { 1.0 })
@@ -173,7 +173,7 @@ impl Normal {
         self.counted(&times)
     }
 
-    /// The fit of some columns.
+    /// Fits the factors of some columns; all others are zero.
     pub fn fit(&self, columns: &[usize], priors: &[Prior]) -> Solution {
         let count = columns.len();
         let last = self.columns();
@@ -200,8 +200,7 @@ impl Normal {
         };
         let gain = gradient.dot(&estimate);
         let misfit = self.squares() + penalty - gain;
-        // det(1 + S J S) = det(J + S⁻²) · Π s²; densities that end where a factor cannot be are
-        // larger by what they leave out
+        // det(1 + S J S) = det(J + S⁻²) · Π s²; truncated priors are denser by 1/mass
         let occam: f64 = ln_det
             + columns
                 .iter()
@@ -211,7 +210,7 @@ impl Normal {
         Solution { estimate, covariance, misfit, gain, occam, ln_evidence }
     }
 
-    /// Squared residuals of a block at given factors of some columns.
+    /// Sum of squared residuals of a block at given factors of some columns.
     pub fn squares_at(&self, block: usize, columns: &[usize], factors: &DVector<f64>) -> f64 {
         let (products, last) = (&self.blocks[block], self.columns());
         let crossed: f64 =
@@ -219,7 +218,7 @@ impl Normal {
         products[(last, last)] - 2.0 * crossed + self.change_at(block, columns, factors)
     }
 
-    /// Squared change of a block's prediction by factors of some columns.
+    /// Squared norm of the change of a block's prediction at given factors of some columns.
     pub fn change_at(&self, block: usize, columns: &[usize], factors: &DVector<f64>) -> f64 {
         let products = &self.blocks[block];
         let mut squares = 0.0;
@@ -231,8 +230,8 @@ impl Normal {
         squares
     }
 
-    /// Square of what is left of a column beside `others`, whose factors are known to their priors,
-    /// with what these cost: min over θ of |c − C θ|² + Σ (θ/s)².
+    /// Squared norm of a column beside `others`, whose factors are free within their priors: min
+    /// over θ of |c − C θ|² + Σ (θ/s)².
     pub fn beside(&self, column: usize, others: &[usize], priors: &[Prior]) -> f64 {
         let square = self.product(column, column);
         let precisions: Vec<f64> = others.iter().map(|&k| priors[k].deviation.powi(-2)).collect();
@@ -241,21 +240,20 @@ impl Normal {
         (square - right.dot(&factor.solve(&right))).max(0.0)
     }
 
-    /// Removes from columns and residual what `base` columns explain (with their priors), block by
-    /// block with the factors of the whole.
+    /// Projects `base` columns (with their priors) out of all others and the residual; the factors
+    /// are those of the total, applied to each block.
     pub fn projected(&self, base: &[usize], priors: &[Prior]) -> Self {
         let precisions: Vec<f64> = base.iter().map(|&i| priors[i].deviation.powi(-2)).collect();
         let others: Vec<usize> = (0..=self.columns()).filter(|j| !base.contains(j)).collect();
-        self.without_what(base, &precisions, &others)
+        self.projected_out(base, &precisions, &others)
     }
 
-    /// Removes from these columns, and not from the residual, what `others` explain.
+    /// Projects `others` out of these columns, but not out of the residual.
     pub fn cleared(&self, columns: &[usize], others: &[usize]) -> Self {
-        self.without_what(others, &vec![0.0; others.len()], columns)
+        self.projected_out(others, &vec![0.0; others.len()], columns)
     }
 
-    /// The factor of columns' information with these precisions. Columns that stand for each other
-    /// count as one.
+    /// Cholesky factor of the information of columns plus precisions. Collinear columns count once.
     fn factored(&self, columns: &[usize], precisions: &[f64]) -> Option<Scaled> {
         let mut matrix = self.information(columns);
         for (k, precision) in precisions.iter().enumerate() {
@@ -264,12 +262,12 @@ impl Normal {
         Scaled::with_ridge(&matrix, RIDGE)
     }
 
-    fn without_what(&self, base: &[usize], precisions: &[f64], of: &[usize]) -> Self {
+    fn projected_out(&self, base: &[usize], precisions: &[f64], of: &[usize]) -> Self {
         let size = self.total.nrows();
         let Some(factor) = self.factored(base, precisions) else { return self.clone() };
         let right = DMatrix::from_fn(base.len(), of.len(), |a, j| self.total[(base[a], of[j])]);
         let solved = factor.solve(&right);
-        // T = 1 − P with P the factors of the base columns in every other column
+        // T = 1 − P, with P the factors of the base columns in every other column
         let mut transform = DMatrix::identity(size, size);
         for (a, &i) in base.iter().enumerate() {
             for (b, &j) in of.iter().enumerate() {
@@ -279,9 +277,9 @@ impl Normal {
         let mut blocks: Vec<DMatrix<f64>> =
             self.blocks.iter().map(|block| transform.tr_mul(block) * &transform).collect();
         let total = sum(&blocks, size);
-        // What is explained but for rounding is nothing: it has no sign, and no inverse.
+        // A column explained up to rounding is set to zero: its rest has no sign and no inverse.
         let is_gone =
-            |&&k: &&usize| k < size - 1 && total[(k, k)] <= EXPLAINED * self.total[(k, k)];
+            |&&k: &&usize| k < size - 1 && total[(k, k)] <= MAX_ROUNDING_SHARE * self.total[(k, k)];
         for &gone in of.iter().filter(is_gone) {
             for block in &mut blocks {
                 block.row_mut(gone).fill(0.0);
@@ -292,10 +290,10 @@ impl Normal {
         Self { blocks, total }
     }
 
-    /// The columns that are no combination of those before them.
+    /// Columns that are not a linear combination of those before them.
     pub fn independent(&self) -> Vec<usize> {
         let mut kept: Vec<usize> = Vec::new();
-        // Rows of the Cholesky factor of what is kept.
+        // Rows of the Cholesky factor of the kept columns.
         let mut rows: Vec<Vec<f64>> = Vec::new();
         for column in 0..self.columns() {
             let mut row: Vec<f64> = Vec::with_capacity(kept.len() + 1);
@@ -305,7 +303,7 @@ impl Normal {
             }
             let square = self.product(column, column);
             let own = square - row.iter().map(|part| part * part).sum::<f64>();
-            if own > DEPENDENT * square {
+            if own > MIN_INDEPENDENT_SHARE * square {
                 row.push(own.sqrt());
                 rows.push(row);
                 kept.push(column);
@@ -314,8 +312,8 @@ impl Normal {
         kept
     }
 
-    /// Takes out of a residual what these columns, by their places, explain of it. They must be
-    /// [`independent`](Self::independent).
+    /// Subtracts the least-squares fit of these columns, by their indices, from a residual. They
+    /// must be [`independent`](Self::independent).
     pub fn take(
         &self,
         places: &[usize],
@@ -330,9 +328,8 @@ impl Normal {
         }
     }
 
-    /// The factors of columns that leave least of the residual, and ln det of the columns'
-    /// products. The columns must be [`independent`](Self::independent); none where rounding shows
-    /// that they are not.
+    /// Least-squares factors of columns, and ln det of their information. The columns must be
+    /// [`independent`](Self::independent); none where rounding shows that they are not.
     pub fn least_squares(&self, columns: &[usize]) -> Option<(DVector<f64>, f64)> {
         let factor = Scaled::new(&self.information(columns))?;
         let last = self.columns();
@@ -340,12 +337,12 @@ impl Normal {
         Some((factor.solve(&right), factor.ln_det()))
     }
 
-    /// Products of columns among each other.
+    /// Products of these columns with each other: their information.
     pub fn information(&self, columns: &[usize]) -> DMatrix<f64> {
         DMatrix::from_fn(columns.len(), columns.len(), |a, b| self.total[(columns[a], columns[b])])
     }
 
-    /// Product of two columns.
+    /// Product of two columns, summed over all samples.
     pub fn product(&self, a: usize, b: usize) -> f64 {
         self.total[(a, b)]
     }
@@ -359,7 +356,7 @@ fn sum(blocks: &[DMatrix<f64>], size: usize) -> DMatrix<f64> {
 mod tests {
     use super::*;
 
-    /// Three columns, of which the last is the sum of the others, and one of nothing.
+    /// Three columns, the last of which is the sum of the others, and a zero column.
     #[test]
     fn what_columns_explain_hangs_on_the_independent_ones_alone() {
         const SAMPLES: usize = 40;
@@ -384,8 +381,7 @@ mod tests {
         let [a, b, c] = [(0, 0), (0, 1), (1, 1)].map(|(i, j)| normal.product(i, j));
         assert!((ln_det - (a * c - b * b).ln()).abs() < 1e-9, "{ln_det}");
         assert_eq!(factors.len(), 2);
-        // what all of a column is explained by leaves nothing at all of it, in no block and no
-        // product
+        // a column that is explained completely leaves exactly zero, in every block and product
         let flat = [Prior::flat(); 4];
         let projected = normal.projected(&[0, 1], &flat);
         assert_eq!((0..=4).map(|k| projected.product(2, k).abs()).fold(0.0, f64::max), 0.0);
@@ -393,7 +389,7 @@ mod tests {
         let known = [Prior::normal(0.0, 0.1); 4];
         let expected = a - b * b / (c + 100.0);
         assert!((normal.beside(0, &[1], &known) / expected - 1.0).abs() < 1e-8);
-        // a column of nothing takes nothing away
+        // a zero column changes nothing
         assert!(
             (normal.beside(0, &[1, 3], &flat) / normal.beside(0, &[1], &flat) - 1.0).abs() < 1e-8
         );
@@ -405,8 +401,8 @@ mod tests {
         }
     }
 
-    /// Half of a normal density about none is twice as large; an even one over a turn is what ∫
-    /// exp(-θ²/2σ²) dθ/360 says.
+    /// Half of a normal density about zero is twice as large; a uniform one over a turn gives ∫
+    /// exp(-θ²/2σ²) dθ/360.
     #[test]
     fn priors_end_where_a_factor_cannot_be() {
         let size = Prior::normal(0.0, 0.3);

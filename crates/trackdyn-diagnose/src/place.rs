@@ -1,4 +1,4 @@
-//! Where a mismatch sits, in a sentence.
+//! Where a mismatch lies, as a sentence.
 
 use crate::base::Base;
 use crate::evidence::Sample;
@@ -10,7 +10,7 @@ use trackdyn_model::effect::Symmetry;
 /// Channels in words, in the order of a motion.
 pub const CHANNELS: [&str; 3] = ["longitudinal", "lateral", "yaw"];
 
-/// What a broken symmetry says, in words.
+/// A broken symmetry in words.
 pub fn words(symmetry: Symmetry, location: &Location) -> String {
     let words = match symmetry {
         Symmetry::SpeedScale => "the ICRs move with speed",
@@ -34,7 +34,7 @@ pub fn words(symmetry: Symmetry, location: &Location) -> String {
     }
 }
 
-/// The sentence of a diagnosis, from what was located before and after it.
+/// Sentence on where the model fails, from the locations before and after the correction.
 pub fn sentence(
     evidence: &Weighted,
     base: &Base,
@@ -58,7 +58,7 @@ pub fn sentence(
     parts.join("; ")
 }
 
-/// The manoeuvre, and the mean track speed of it, with the largest residuals.
+/// Manoeuvre with the largest residuals, and its mean track speed, m/s.
 fn worst(evidence: &Weighted, base: &Base) -> Option<(Manoeuvre, f64)> {
     let (residual, settings) = (&base.fit.residual, &evidence.settings().location);
     let weights = evidence.weights(residual);

@@ -1,9 +1,8 @@
-//! The next manoeuvre: driving that tells apart what a diagnosis could not.
+//! Plan of the next drive: manoeuvres that separate effects which a diagnosis could not tell apart.
 //!
-//! Each member of a class is a hypothesis of its own: the vehicle with that effect at the size at
-//! which it explains the recording. Every manoeuvre of a menu is driven by all of them in
-//! simulation, and the sequence with the largest separation per second is put together step by
-//! step.
+//! Each member of a class is a hypothesis: the vehicle with that effect, at the size that explains
+//! the recording. All of them drive every manoeuvre of a menu in simulation, and a sequence with
+//! the largest separation per second is chosen greedily.
 
 mod document;
 pub mod menu;
@@ -32,23 +31,23 @@ use trackdyn_model::Stationary;
 use trackdyn_model::{Circumstance, Model, VehicleFile};
 use trackdyn_recording::TrackSample;
 
-/// How to plan.
+/// Options of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Largest track speed, m/s, above zero.
     pub fastest: f64,
-    /// Longest time of all manoeuvres together, s.
+    /// Longest total time of the manoeuvres, s.
     pub duration: f64,
     /// Standard deviation of a pose along each axis, m.
     pub noise_xy: f64,
     /// Standard deviation of a pose's yaw, rad.
     pub noise_yaw: f64,
-    /// All numbers that decide.
+    /// Settings: all numbers that decide.
     pub method: Settings,
 }
 
 impl Default for Options {
-    /// A laboratory's poses.
+    /// Poses as in a laboratory, 1 mm and 1 mrad.
     fn default() -> Self {
         let method = Settings::default();
         Self { fastest: 1.0, duration: 60.0, noise_xy: 1e-3, noise_yaw: 1e-3, method }
@@ -56,8 +55,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The noise: white noise of each pose, and as much again per √s by which poses and encoders
-    /// wander.
+    /// Assumed noise: white noise of each pose, and a random walk as large after a second.
     fn noise(&self) -> SegmentNoise {
         let variances = [self.noise_xy.powi(2), self.noise_xy.powi(2), self.noise_yaw.powi(2)];
         SegmentNoise { pose: variances, walk: variances, heading: 0.0 }
@@ -67,60 +65,60 @@ impl Options {
 /// A manoeuvre of a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// What is driven.
+    /// The manoeuvre.
     pub manoeuvre: Manoeuvre,
-    /// When it begins, s.
+    /// Start, s.
     pub start: f64,
-    /// √ of its part of each pair's z².
+    /// √ of its share of each pair's z².
     pub z: Vec<f64>,
 }
 
-/// Whether driving tells two rivals apart.
+/// Whether driving separates two rivals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Answer {
-    /// The plan does.
+    /// The plan separates them.
     Plan,
-    /// It takes about this time, s.
+    /// It takes about this long, s.
     Longer(f64),
     /// No manoeuvre of the menu does.
     Never,
 }
 
-/// Two rivals.
+/// Separation of two rivals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Separation {
-    /// Index of the question that it belongs to.
+    /// Index of their question.
     pub question: usize,
-    /// Both, by their places in the catalogue.
+    /// The two effects.
     pub effects: [EffectId; 2],
     /// z over the whole plan.
     pub z: f64,
-    /// z over all manoeuvres of the menu, one after the other.
+    /// z over all manoeuvres of the menu, driven one after the other.
     pub menu: f64,
-    /// Whether driving tells them apart.
+    /// Whether driving separates them.
     pub answer: Answer,
 }
 
-/// What to drive next.
+/// A plan of what to drive next.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The manoeuvres, in the order in which they are driven.
+    /// Manoeuvres in driving order.
     pub steps: Vec<Step>,
-    /// What they separate.
+    /// Pairs of rivals with their separation.
     pub pairs: Vec<Separation>,
-    /// Number of manoeuvres to choose from, and how long all of them take, s.
+    /// Number of manoeuvres in the menu, and their total time, s.
     pub menu: (usize, f64),
-    /// z from which on two rivals count as told apart.
+    /// Least z at which two rivals count as separated.
     pub min_separation: f64,
 }
 
 impl Plan {
-    /// How long it takes, s.
+    /// Total time, s.
     pub fn duration(&self) -> f64 {
         self.steps.iter().map(|step| step.manoeuvre.duration()).sum()
     }
 
-    /// The commands; none where there is nothing to drive.
+    /// Track commands; none where there is nothing to drive.
     pub fn schedule(&self) -> Option<Schedule> {
         let speeds = self.steps.iter().flat_map(|step| &step.manoeuvre.speeds);
         let last = PerSide::default();
@@ -132,17 +130,17 @@ impl Plan {
     }
 }
 
-/// The number with the digits that files of plans keep.
+/// A number rounded to the digits of plan files.
 fn rounded(value: f64) -> f64 {
     Digits::Decimals(6).round(value)
 }
 
-/// Plans what separates the members of these classes. `progress` is told of each finished stage,
-/// and may ask to stop.
+/// Plans driving that separates the members of each class. `progress` is called after each stage,
+/// and may cancel.
 ///
 /// # Errors
-/// [`Error::NoMotion`] for a vehicle that cannot move so, [`Error::TooShort`] for a time in which
-/// no manoeuvre of the menu can be driven, [`Error::Cancelled`].
+/// [`Error::NoMotion`] for a vehicle without a motion, [`Error::TooShort`] for a duration shorter
+/// than every manoeuvre, [`Error::Cancelled`].
 pub fn plan(
     questions: &[Question],
     file: &VehicleFile,
@@ -171,16 +169,16 @@ pub fn plan(
     Ok(plan)
 }
 
-/// Stages that progress is reported of.
+/// Stages reported to `progress`.
 pub const STAGES: [&str; 3] = ["rivals", "choice", "separation"];
 
-/// Distance between the ICRs of a slow spin, m.
+/// Distance between the ICRs in a slow spin, m.
 fn gap(file: &VehicleFile, settings: &settings::Plan) -> Result<f64, Error> {
-    const SLOW: f64 = 0.1;
+    const SPIN_SPEED: f64 = 0.1;
     let model = Model::new(file.vehicle.clone(), file.effects.clone());
-    let speeds = PerSide::new(-SLOW, SLOW);
+    let speeds = PerSide::new(-SPIN_SPEED, SPIN_SPEED);
     let solution = Stationary::new(&model, &Circumstance::default()).solve(speeds);
-    let gap = 2.0 * SLOW / solution.twist.w;
+    let gap = 2.0 * SPIN_SPEED / solution.twist.w;
     let [least, most] = settings.gap_limits.map(|limit| file.vehicle.gauge * limit);
     let limits = least..most;
     if limits.contains(&gap) {
@@ -190,11 +188,11 @@ fn gap(file: &VehicleFile, settings: &settings::Plan) -> Result<f64, Error> {
     }
 }
 
-/// A class of rivals on typical driving.
+/// A class of rivals, compared on the whole menu.
 struct Class {
     rivals: Vec<Rival>,
     pairs: Vec<Pair>,
-    /// Whether it matters where, or when, a manoeuvre is driven.
+    /// Whether forces depend on where, or when, a manoeuvre is driven.
     knows_places: bool,
 }
 
@@ -228,19 +226,19 @@ impl Class {
         self.pairs.iter().map(|pair| pair.of).collect()
     }
 
-    /// The products of each pair over these runs.
+    /// Products of each pair over these runs.
     fn products(&self, runs: &[PlannedRun], options: &Options) -> Vec<crate::normal::Normal> {
         products(&self.of(), &self.rivals, &evidence(runs, &self.rivals[0], options))
     }
 }
 
-/// What runs would show if the fitted member is the one.
+/// Evidence that runs would give if the fitted member is true.
 fn evidence(runs: &[PlannedRun], fitted: &Rival, options: &Options) -> Weighted {
     let moves = |evidence: &Evidence| fitted.moves(evidence);
     Weighted::new(Evidence::planned(runs, options.noise(), fitted.delay(), &options.method, moves))
 }
 
-/// Manoeuvres in a row as a run, each a block of its own.
+/// Manoeuvres one after the other as a run, each a block.
 fn run(manoeuvres: &[&Manoeuvre], start: f64, pose: Pose) -> PlannedRun {
     let mut tracks = Vec::new();
     let mut blocks = Vec::new();
@@ -257,33 +255,32 @@ fn run(manoeuvres: &[&Manoeuvre], start: f64, pose: Pose) -> PlannedRun {
     PlannedRun { tracks, pose, blocks }
 }
 
-/// What a pair would show in each manoeuvre of the menu, and has shown in those that are chosen
-/// already.
+/// Information on a pair: of each manoeuvre of the menu, and of those chosen so far.
 struct Outlook {
     menu: Vec<DMatrix<f64>>,
     chosen: DMatrix<f64>,
     known: DMatrix<f64>,
-    /// z² from which on the rivals are told apart.
+    /// z² at which the rivals count as separated.
     decided: f64,
 }
 
 impl Outlook {
-    /// z² beyond what is chosen, of more manoeuvres of the menu.
+    /// Increase of z² by more manoeuvres of the menu.
     fn gain(&self, more: &[usize]) -> f64 {
         let with = more.iter().fold(self.chosen.clone(), |sum, &k| sum + &self.menu[k]);
         squared(&with, &self.known) - squared(&self.chosen, &self.known)
     }
 
-    /// What a gain counts: less where the rivals are told apart already.
+    /// Weight of a gain: lower where the rivals are nearly separated.
     fn weight(&self) -> f64 {
         self.decided / (self.decided + squared(&self.chosen, &self.known))
     }
 }
 
-/// The manoeuvres of the menu that separate best, in the order of their choice.
+/// Indices of the chosen manoeuvres, in the order of their choice.
 ///
-/// Step by step the one, or the two together, with the most weighted z² per second; two, for what
-/// shows in a difference between manoeuvres shows in none of them alone.
+/// Greedy: each step adds the manoeuvre, or the pair, with the most weighted z² per second. Pairs
+/// are tried because a difference between two manoeuvres may show what neither shows alone.
 fn chosen(classes: &[Class], menu: &[Manoeuvre], options: &Options) -> Vec<usize> {
     let mut chosen: Vec<usize> = Vec::new();
     let knows_places = classes.iter().any(|class| class.knows_places);
@@ -322,7 +319,7 @@ fn chosen(classes: &[Class], menu: &[Manoeuvre], options: &Options) -> Vec<usize
     chosen
 }
 
-/// The manoeuvre or the two with the best rate within a time, s.
+/// The manoeuvre or pair with the largest rate that fits into the time left, s.
 fn proposals(
     menu: &[Manoeuvre],
     left: f64,
@@ -335,11 +332,11 @@ fn proposals(
         std::iter::once(vec![a]).chain(pairs)
     });
     let rated = first.filter(|more| fits(more)).map(|more| (rate(&more), more));
-    // Equal rates, as those of mirror images: the one that stands first.
+    // Equal rates, as of mirror images: the first one.
     rated.max_by(|(a, one), (b, other)| a.total_cmp(b).then(other.cmp(one)))
 }
 
-/// Exchanges chosen manoeuvres for others while that separates more of what is separated least.
+/// Exchanges chosen manoeuvres for others as long as the least separated pairs gain.
 fn exchange(chosen: &mut [usize], outlooks: &[Outlook], menu: &[Manoeuvre], options: &Options) {
     let value = |of: &[usize]| -> f64 {
         let all = outlooks.iter().map(|outlook| {
@@ -370,7 +367,7 @@ fn exchange(chosen: &mut [usize], outlooks: &[Outlook], menu: &[Manoeuvre], opti
     }
 }
 
-/// The outlook of each pair that the menu separates, after what is chosen.
+/// Information on each pair that the menu can separate, after the chosen manoeuvres.
 fn outlooks(
     classes: &[Class],
     menu: &[Manoeuvre],
@@ -409,12 +406,12 @@ fn outlooks(
     outlooks
 }
 
-/// Whether some driving separates a pair.
+/// Whether the whole menu separates a pair.
 fn is_open(pair: &Pair, settings: &settings::Plan) -> bool {
     pair.typical >= settings.min_separation
 }
 
-/// What a sequence separates, driven in a row.
+/// Separations by a sequence that is driven in a row.
 fn judged(classes: &[Class], menu: &[Manoeuvre], chosen: &[usize], options: &Options) -> Plan {
     let settings = &options.method.plan;
     let min_separation = settings.min_separation;
@@ -440,7 +437,7 @@ fn judged(classes: &[Class], menu: &[Manoeuvre], chosen: &[usize], options: &Opt
                     step.z.push(share.sqrt());
                 }
             }
-            // z grows with the root of the time.
+            // z grows with the square root of time.
             let longer = |time: f64, z: f64| Answer::Longer(time * (min_separation / z).powi(2));
             let answer = if z >= min_separation {
                 Answer::Plan

@@ -1,4 +1,4 @@
-//! What is known of each number before the evidence.
+//! Priors of all unknowns.
 
 use crate::evidence::Evidence;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, typical_size};
@@ -8,7 +8,7 @@ use trackdyn_model::contact::Friction;
 use trackdyn_model::effect::Role;
 use trackdyn_model::{Circumstance, Model, Vehicle};
 
-/// What is known of an unknown beforehand, as standard deviation around no effect.
+/// Prior of an unknown, centred on the neutral value of a size and the typical value of a shape.
 ///
 /// # Panics
 /// Never: an unknown of an effect has a parameter.
@@ -38,7 +38,7 @@ pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> 
                     };
                     Prior::normal(middle, far * spread.max(settings.min_area))
                 }
-                // all alike, wherever it stands
+                // uniform, wherever it stands
                 Role::Direction => return Prior::even(hypothesis.get(unknown), 360.0),
                 Role::Shape => {
                     let deviation = settings.shape_deviation * parameter.typical;
@@ -50,7 +50,7 @@ pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> 
     }
 }
 
-/// Standard deviation of the logarithm of friction, as its owner knows it.
+/// Prior standard deviation of ln friction, from the uncertainties in the vehicle file.
 fn friction_known(vehicle: &Vehicle, settings: &settings::Prior) -> f64 {
     let friction = &vehicle.uncertainty.friction;
     match (friction.across, friction.along) {
@@ -63,16 +63,15 @@ fn friction_known(vehicle: &Vehicle, settings: &settings::Prior) -> f64 {
     }
 }
 
-/// Standard deviation of a coordinate of the centre of gravity, as its owner knows it, m.
+/// Prior standard deviation of a coordinate of the centre of gravity, m.
 fn cog_known(vehicle: &Vehicle, axis: usize, settings: &settings::Prior) -> f64 {
     let settings::Prior { cog_deviation, min_cog_deviation, .. } = *settings;
     let measured = vehicle.uncertainty.cog.map(|deviations| deviations[axis]);
     measured.unwrap_or(cog_deviation * vehicle.gauge).max(min_cog_deviation * vehicle.gauge)
 }
 
-/// How far an effect's size may be from none because the owner measured what it changes: the
-/// vehicle's centre of gravity, or its friction ratio. None where it changes something else, or
-/// nothing is known.
+/// Prior standard deviation of a size whose effect shifts the centre of gravity or the friction
+/// ratio, from their measured uncertainties. None for other effects, or without such uncertainties.
 pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
     let Unknown::Effect(effect, place) = unknown else { return None };
     let parameters = effect.card().parameters;
@@ -101,7 +100,7 @@ pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
     None
 }
 
-/// Middle and spread of the recorded places along an axis of the world, m.
+/// Middle and half range of the recorded positions along an axis of the world, m.
 pub fn area(evidence: &Evidence, role: Role) -> [f64; 2] {
     let Role::Place { axis } = role else { return [0.0, 1.0] };
     let coordinates = evidence.samples().iter().map(|sample| [sample.pose.x, sample.pose.y][axis]);
@@ -110,7 +109,7 @@ pub fn area(evidence: &Evidence, role: Role) -> [f64; 2] {
     [f64::midpoint(low, high), (high - low) / 2.0]
 }
 
-/// Priors of steps from where a hypothesis stands.
+/// Priors of steps from the present values of a hypothesis.
 pub fn priors(hypothesis: &Hypothesis, unknowns: &[Unknown], evidence: &Evidence) -> Vec<Prior> {
     unknowns
         .iter()

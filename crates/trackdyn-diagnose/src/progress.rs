@@ -1,4 +1,4 @@
-//! How far a diagnosis has come, and whether it shall go on.
+//! Progress of a diagnosis, and its cancellation.
 
 use std::cell::Cell;
 use std::ops::ControlFlow;
@@ -6,28 +6,28 @@ use std::ops::ControlFlow;
 /// A stage of a diagnosis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Stage {
-    /// The base, and the noise that is left beside it.
+    /// Fit of the base, and noise estimation.
     Noise,
-    /// Readings without the errors of a recorder.
+    /// Cleaning of the readings.
     Readings,
-    /// What each candidate would change.
+    /// Signatures of all candidates.
     Signatures,
-    /// The best hypothesis.
+    /// Search for the best hypothesis.
     Search,
-    /// What of it is claimed.
+    /// Verdicts on its effects.
     Verdicts,
-    /// Where the evidence departs, before and after.
+    /// Departures before and after the correction.
     Location,
-    /// Errors on the runs that judge.
+    /// Errors on held-out runs.
     HeldOut,
-    /// A form for what no effect explains.
+    /// Empirical law for what no effect explains.
     Proposal,
-    /// What this evidence could have shown.
+    /// Detection limits.
     Limits,
 }
 
 impl Stage {
-    /// All of them, in order.
+    /// All stages, in order.
     pub const ALL: [Self; 9] = [
         Self::Noise,
         Self::Readings,
@@ -40,7 +40,7 @@ impl Stage {
         Self::Limits,
     ];
 
-    /// Its name in a word or two.
+    /// Name in a word or two.
     pub fn name(self) -> &'static str {
         match self {
             Self::Noise => "noise",
@@ -56,43 +56,43 @@ impl Stage {
     }
 }
 
-/// How far a diagnosis has come.
+/// Progress of a diagnosis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// What is being done, or was just finished.
+    /// Stage that is running, or has just finished.
     pub stage: Stage,
-    /// Stages that are finished. A repeat that turned out not to be needed counts as finished.
+    /// Number of finished stages. A repeat that is not needed counts as finished.
     pub done: usize,
-    /// Stages of the longest way.
+    /// Stages of the longest course.
     pub total: usize,
 }
 
-/// A function that is told where a stage begins, where it ends and before each refit, and says
-/// whether to go on. After [`ControlFlow::Break`] the diagnosis ends at once, as cancelled.
+/// Callback at the start and end of each stage and before each refit, which says whether to
+/// continue. [`ControlFlow::Break`] ends the diagnosis at once, as cancelled.
 pub type Observer<'a> = dyn Fn(Progress) -> ControlFlow<()> + Sync + 'a;
 
-/// The observer that looks at nothing and never stops.
+/// An observer that never cancels.
 pub fn unobserved(_: Progress) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// The observer wants no more.
+/// The observer cancelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cancelled;
 
-/// Counts finished stages and tells an observer.
+/// Counts finished stages and calls an observer.
 pub struct Watch<'a> {
     observer: &'a Observer<'a>,
     at: Cell<Progress>,
 }
 
 impl<'a> Watch<'a> {
-    /// A watch over so many stages.
+    /// A watch over this number of stages.
     pub fn new(observer: &'a Observer<'a>, total: usize) -> Self {
         Self { observer, at: Cell::new(Progress { stage: Stage::Noise, done: 0, total }) }
     }
 
-    /// Does the work of a stage.
+    /// Runs a stage.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -100,10 +100,10 @@ impl<'a> Watch<'a> {
         self.try_stage(stage, || Ok(work()))
     }
 
-    /// Does the work of a stage that may fail, or be cancelled meanwhile.
+    /// Runs a stage that may fail or be cancelled.
     ///
     /// # Errors
-    /// Those of the work, and [`Cancelled`].
+    /// Errors of the work, and [`Cancelled`].
     pub fn try_stage<T, E: From<Cancelled>>(
         &self,
         stage: Stage,
@@ -117,13 +117,13 @@ impl<'a> Watch<'a> {
         Ok(result)
     }
 
-    /// Counts stages that are not needed.
+    /// Counts stages that are not needed as finished.
     pub fn skip(&self, stages: usize) {
         let at = self.at.get();
         self.at.set(Progress { done: at.done + stages, ..at });
     }
 
-    /// Whether to go on, asked before each refit.
+    /// Asks the observer whether to continue; called before each refit.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -136,7 +136,7 @@ impl<'a> Watch<'a> {
 }
 
 impl Watch<'static> {
-    /// The watch of what is done for itself, without an observer.
+    /// A watch without an observer.
     pub fn none() -> Self {
         Self::new(&unobserved, 0)
     }

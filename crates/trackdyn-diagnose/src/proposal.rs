@@ -1,14 +1,13 @@
-//! A form for what the catalogue does not explain: terms of an empirical force that are worth their
-//! keep.
+//! Proposal of an empirical force law for what the catalogue does not explain.
 //!
 //! # Law
-//! The residual of the best hypothesis is regressed on the signatures of all terms that the forms
-//! of the catalogue offer, each found by the simulator with a little of that force, with everything
-//! else that is free beside them. What is chosen goes into the simulator as a force, and all
-//! numbers are fitted anew.
+//! Sparse regression: the residual of the best hypothesis is regressed on the signatures of all
+//! terms of the catalogue's forms, computed by the simulator with a small force each, beside all
+//! that is free. The selected terms enter the simulator as a force, and everything is refitted.
 //!
 //! # Assumes
-//! That a force on the body can stand for it. It is never called an effect, for it has no cause.
+//! A force on the body can stand for what is missing. It is never called an effect, for it names no
+//! cause.
 
 mod selection;
 pub mod symmetry;
@@ -33,39 +32,39 @@ use trackdyn_core::real;
 use trackdyn_model::effect::{Symmetry, Term};
 use trackdyn_model::{EffectId, Effects, Model, Vehicle};
 
-/// A law that is proposed for what no effect explains.
+/// An empirical law for what no effect explains.
 #[derive(Clone)]
 pub struct Proposal {
-    /// The form, by its place in the catalogue.
+    /// The form of the law.
     pub effect: EffectId,
-    /// Its terms, most telling first.
+    /// Its terms, largest evidence first.
     pub terms: Vec<Proposed>,
-    /// The best hypothesis with it, refitted.
+    /// The best hypothesis with the law, refitted.
     pub found: Found,
-    /// Where that one still departs from the evidence.
+    /// Departures from it.
     pub after: Location,
-    /// Symmetries that are surely broken still.
+    /// Symmetries that it leaves significantly broken.
     pub left_over: Vec<Symmetry>,
-    /// Errors without the law and with it, on the runs that judge the diagnosis.
+    /// Errors without and with the law, on held-out runs where there are any.
     pub held_out: HeldOut,
-    /// Length of the contact, m.
+    /// Contact length between its ends, m.
     pub contact_length: f64,
 }
 
-/// A term of the law.
+/// A term of a proposed law.
 #[derive(Clone, Debug)]
 pub struct Proposed {
     /// The term.
     pub term: Term,
-    /// Its coefficients with their 95 % intervals.
+    /// Coefficients with 95 % intervals.
     pub coefficients: Vec<Interval>,
-    /// What speaks for it.
+    /// Statistical support.
     pub support: Support,
 }
 
 impl Proposal {
-    /// Share of what the best hypothesis left above the noise floor that the law explains, at most
-    /// one, for the floor is an estimate; none where nothing was left.
+    /// Share of the best hypothesis's excess over the noise floor that the law explains; limited to
+    /// one, as the floor is an estimate. None where there was no excess.
     pub fn explains(&self) -> Option<f64> {
         self.held_out.excess_explained().map(|share| share.min(1.0))
     }
@@ -76,7 +75,7 @@ impl Proposal {
         phrases.collect::<Vec<_>>().join("; ")
     }
 
-    /// Symmetries that its terms break, ascending.
+    /// Symmetries that the terms break, ascending.
     pub fn breaks(&self) -> Vec<Symmetry> {
         let breaks = |symmetry: &Symmetry| {
             self.terms.iter().any(|proposed| proposed.term.breaks.contains(symmetry))
@@ -85,7 +84,7 @@ impl Proposal {
     }
 }
 
-/// A best hypothesis that leaves something unexplained, and what is known of it.
+/// A best hypothesis that leaves symmetries broken, with its residuals.
 #[derive(Clone, Copy)]
 pub struct Unexplained<'a> {
     /// The evidence of the fit.
@@ -94,25 +93,25 @@ pub struct Unexplained<'a> {
     pub base: &'a Arc<Base>,
     /// The best hypothesis.
     pub best: &'a Found,
-    /// Where the vehicle as filed departs from the evidence.
+    /// Departures from the vehicle as filed.
     pub filed: &'a Location,
-    /// Where the base does.
+    /// Departures from the base.
     pub before: &'a Location,
-    /// Where the best hypothesis does.
+    /// Departures from the best hypothesis.
     pub after: &'a Location,
-    /// Errors of the best hypothesis, on the runs that judge it.
+    /// Errors of the best hypothesis, on held-out runs where there are any.
     pub held_out: HeldOut,
-    /// These runs; none where none were held out.
+    /// Held-out runs; none where none were held out.
     pub unseen: Option<&'a Unseen>,
 }
 
-/// The law of the first form that has one to propose.
+/// The law of the first form that yields one.
 pub fn propose(unexplained: &Unexplained, resampling: Resampling) -> Option<Proposal> {
     let forms = EffectId::all().filter(|effect| effect.card().is_form());
     forms.into_iter().find_map(|effect| law(effect, unexplained, resampling))
 }
 
-/// The law of a form: its terms chosen, and fitted in the simulator.
+/// The law of a form: terms selected, then fitted in the simulator.
 fn law(effect: EffectId, unexplained: &Unexplained, resampling: Resampling) -> Option<Proposal> {
     let Unexplained { evidence, base, best, .. } = *unexplained;
     let settings = evidence.settings();
@@ -137,8 +136,8 @@ fn law(effect: EffectId, unexplained: &Unexplained, resampling: Resampling) -> O
     let after = residual.locate_in_waves(resampling);
     let held_out = judged(unexplained, &found.fit);
     let still = after.left_over(form);
-    // A law that leaves most of it, breaks what was whole, or fails where nothing was fitted, is
-    // none.
+    // A law is rejected if it leaves most of the departure, breaks other symmetries, or fails on
+    // held-out runs.
     let remains = remainder(&after, &left_over) / remainder(unexplained.after, &left_over);
     let at_limit = |&unknown: &Unknown| unknown.is_of(effect) && found.fit.is_at_limit(unknown);
     let sound = remains < settings.proposal.max_remainder
@@ -167,13 +166,13 @@ fn law(effect: EffectId, unexplained: &Unexplained, resampling: Resampling) -> O
     })
 }
 
-/// What breaks these symmetries: χ² beyond its degrees of freedom.
+/// Chi-squared of these symmetries beyond their degrees of freedom.
 fn remainder(location: &Location, symmetries: &[Symmetry]) -> f64 {
     let tests = location.tests.iter().filter(|test| symmetries.contains(&test.symmetry));
     tests.map(|test| (test.test.statistic - real(test.test.degrees)).max(0.0)).sum()
 }
 
-/// The normal equations of the best fit with the signatures of all terms beside.
+/// Normal equations of the best fit, extended by the signatures of all terms.
 fn library(effect: EffectId, terms: Vec<Term>, search: &Search, fit: &Fit) -> Library {
     let Search { evidence, .. } = search;
     let mut unknowns: Vec<Unknown> = terms
@@ -192,7 +191,7 @@ fn library(effect: EffectId, terms: Vec<Term>, search: &Search, fit: &Fit) -> Li
     Library { effect, terms, unknowns, equations, settings: evidence.settings().clone() }
 }
 
-/// The best hypothesis with the chosen terms as a force in the simulator, everything fitted anew.
+/// The best hypothesis with the selected terms as a force in the simulator, refitted.
 fn refitted(
     effect: EffectId,
     selected: &[Selected],
@@ -217,7 +216,7 @@ fn refitted(
     Found { effects, ln_evidence: fit.ln_evidence(), fit }
 }
 
-/// The errors without the law and with it, on the runs that judge the diagnosis.
+/// Errors without and with the law, on held-out runs where there are any.
 fn judged(unexplained: &Unexplained, fit: &Fit) -> HeldOut {
     let HeldOut { instruments, after: before, noise_floor, are_held_out, .. } =
         unexplained.held_out;
@@ -228,7 +227,7 @@ fn judged(unexplained: &Unexplained, fit: &Fit) -> HeldOut {
     HeldOut { before, instruments, after, noise_floor, are_held_out }
 }
 
-/// Length of the contact between its ends, m.
+/// Contact length between its ends, m.
 fn contact_length(vehicle: &Vehicle) -> f64 {
     let model = Model::new(vehicle.clone(), Effects::none());
     let [rear, front] = model.footprint().ends;

@@ -1,10 +1,10 @@
-//! Random draws by which chance is measured.
+//! Random draws of the bootstrap.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-/// How often something is drawn, and from which random numbers. Draws are independent of one
-/// another and of the order in which they are made.
+/// Number of bootstrap draws and their seed. Each draw has its own random stream, independent of
+/// the order of evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Resampling {
     /// Number of draws.
@@ -20,12 +20,12 @@ impl Default for Resampling {
 }
 
 impl Resampling {
-    /// A single draw, for what is asked of the statistic alone.
+    /// A single draw, where only the statistic is needed, not its p value.
     pub fn once(self) -> Self {
         Self { draws: 1, ..self }
     }
 
-    /// The random numbers of a draw.
+    /// Random stream of a draw.
     pub fn random(&self, draw: usize) -> ChaCha8Rng {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         random.set_stream(draw as u64);

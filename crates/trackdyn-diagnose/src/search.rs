@@ -1,10 +1,10 @@
-//! The search: which effects, together with all that is free, explain the evidence best.
+//! Search for the effects that, with all that is free, explain the evidence best.
 //!
-//! Screening is linear: all signatures stand side by side in one set of normal equations, which
-//! answers for every single effect and every pair of the best dozen at once. What looks best is
-//! then refitted with the whole simulator. After each change, every effect of the best hypothesis
-//! is left out again and exchanged for every other one: a search that only adds is fooled by
-//! effects that resemble each other.
+//! Screening is linear: the signatures of all candidates stand in one set of normal equations,
+//! which gives the evidence of every effect and of every pair of the best ones. The best are
+//! refitted with the whole simulator. After each change, every effect of the best hypothesis is
+//! left out and exchanged for every other one: forward selection alone fails where effects resemble
+//! each other.
 
 mod done;
 
@@ -30,37 +30,37 @@ pub struct Catalogue {
     pub entries: Vec<(Variant, Vec<Signature>)>,
 }
 
-/// What the linear screen says of a candidate beside a fit.
+/// Linear estimate of what a candidate adds to a fit.
 #[derive(Clone, Debug)]
 pub struct Screened {
     /// Index of the variant in the catalogue.
     pub entry: usize,
-    /// Place of its effect.
+    /// Its effect.
     pub effect: EffectId,
     /// Gain of ln evidence.
     pub gain: f64,
-    /// Gain of the likelihood alone, as z: √ of what twice the misfit falls by.
+    /// √ of the decrease of the linear misfit (chi-squared): the gain of the likelihood alone.
     pub z: f64,
-    /// Estimated sizes, as distances from none.
+    /// Estimated sizes, as distances from the neutral size.
     pub sizes: Vec<f64>,
-    /// Whether a size had to be held within its physical range.
+    /// Whether an estimated size lies outside its physical range.
     pub held: bool,
 }
 
-/// A hypothesis with the effects that it adds to the base.
+/// A fitted hypothesis, with the effects that it adds to the base.
 #[derive(Clone)]
 pub struct Found {
     /// The added effects, ascending.
     pub effects: Vec<EffectId>,
     /// The fit.
     pub fit: Fit,
-    /// Its ln evidence.
+    /// Its log evidence.
     pub ln_evidence: f64,
 }
 
-/// Everything that a search looks at.
+/// Evidence, base and candidates of a search, with a cache of its refits.
 pub struct Search {
-    /// The evidence, in the noise that it is searched in.
+    /// The evidence, with the noise used in the search.
     pub evidence: Weighted,
     /// The base.
     pub base: Arc<Base>,
@@ -87,19 +87,19 @@ impl Search {
         Self::new(evidence, base, Catalogue { entries })
     }
 
-    /// The base as a hypothesis that adds nothing.
+    /// The base, as a hypothesis without added effects.
     pub fn nothing(&self) -> Found {
         let fit = self.base.fit.clone();
         Found { effects: Vec::new(), ln_evidence: fit.ln_evidence(), fit }
     }
 
-    /// The normal equations of a fit with the signatures of these catalogue entries beside.
+    /// Normal equations of a fit, extended by the signatures of these catalogue entries.
     pub fn equations(&self, fit: &Fit, entries: &[usize]) -> Equations {
         let signatures = entries.iter().map(|&entry| &self.catalogue.entries[entry].1[..]);
         self.equations_with(fit, &signatures.collect::<Vec<_>>())
     }
 
-    /// The normal equations of a fit with these signatures beside, those of an effect together.
+    /// Normal equations of a fit, extended by these signatures; those of an effect form a group.
     pub fn equations_with(&self, fit: &Fit, beside: &[&[Signature]]) -> Equations {
         let Fit { hypothesis, unknowns, columns, residual, .. } = fit;
         let mut stack = Stack::new(columns.clone(), priors(hypothesis, unknowns, &self.evidence));
@@ -112,7 +112,7 @@ impl Search {
         stack.equations(|columns| self.evidence.normal(residual, columns))
     }
 
-    /// Screens all candidates beside a fit; the best variant of each effect, best first.
+    /// Screens all candidates beside a fit: the best variant of each effect, best first.
     pub fn screen(&self, beside: &Found) -> Vec<Screened> {
         let entries: Vec<usize> = (0..self.catalogue.entries.len())
             .filter(|&entry| !beside.effects.contains(&self.catalogue.entries[entry].0.effect))
@@ -130,7 +130,7 @@ impl Search {
                     fit.estimate.rows(equations.free.len(), group.len()).iter().copied().collect();
                 let held = !is_physical(&beside.fit.hypothesis, variant, &sizes);
                 let drop = (without.misfit - fit.misfit).max(0.0);
-                // Where the robot never met it, there is nothing to see.
+                // An effect that the robot never met has zero signatures.
                 let unseen =
                     group.iter().all(|&column| equations.normal.product(column, column) == 0.0);
                 Screened {
@@ -161,8 +161,8 @@ impl Search {
         best
     }
 
-    /// The variants between those of the catalogue that gain most, of what shows beside the base at
-    /// all.
+    /// Variants between those of the catalogue with a higher gain, for effects that show beside the
+    /// base.
     pub fn between(&self, beside: &Beside) -> Vec<(Variant, Vec<Signature>)> {
         let nothing = self.nothing();
         let alone = |variant: &Variant, signatures: &[Signature]| -> f64 {
@@ -180,8 +180,8 @@ impl Search {
             .collect()
     }
 
-    /// The pairs of the best dozen, best first: gain of ln evidence and both, with the sizes of a
-    /// pair.
+    /// Pairs of the best screened candidates, best first: joint gain of ln evidence, and both with
+    /// their joint sizes.
     fn pairs(&self, beside: &Found, screened: &[Screened]) -> Vec<(f64, [Screened; 2])> {
         let dozen: Vec<&Screened> =
             screened.iter().take(self.settings().search.max_paired).collect();
@@ -204,7 +204,7 @@ impl Search {
                 let physical = is_physical(hypothesis, variant(dozen[a]), &first)
                     && is_physical(hypothesis, variant(dozen[b]), &second);
                 if physical {
-                    // what each gains is what both gain: neither may show by itself
+                    // each carries the gain of both: alone, neither may show
                     let gain = fit.ln_evidence - without.ln_evidence;
                     let with =
                         |one: &Screened, sizes: Vec<f64>| Screened { gain, sizes, ..one.clone() };
@@ -216,7 +216,7 @@ impl Search {
         pairs
     }
 
-    /// Refits with more effects.
+    /// Refits the hypothesis with more effects, from the cache where known.
     pub fn refit(&self, beside: &Found, more: &[Screened]) -> Found {
         let added = more.iter().map(|one| (one.entry, one.sizes.clone())).collect();
         self.done.or_else(Key::new(beside, Step::Add(added)), || self.refitted(beside, more))
@@ -240,9 +240,10 @@ impl Search {
             let fit = Fit::from_point(start, &unknowns, evidence);
             self.recalibrated(effects.clone(), fit)
         };
-        // Of a law that is not in proportion the screen may promise a size that is far too large to
-        // come back from: one that explains less than none at all, or keeps little of what it
-        // promised. Each may lie behind a crest.
+        // For a nonlinear law the screen may promise a size so large that the fit does not return
+        // from it. If the point explains less than no effect, or the fit keeps little of the
+        // promised gain, a start at smaller sizes is tried too: either may lie beyond a crest of
+        // the objective.
         let promised = more.iter().map(|one| one.gain).fold(0.0, f64::max);
         let kept = |found: &Found| found.ln_evidence - beside.ln_evidence;
         let mut far = Some(start(1.0));
@@ -260,7 +261,7 @@ impl Search {
         if kept(&other) > kept(&found) { other } else { found }
     }
 
-    /// The hypothesis with more effects, of a share of the sizes that the screen found.
+    /// The hypothesis with more effects, at a share of the screened sizes.
     fn with(&self, beside: &Found, more: &[Screened], share: f64) -> Hypothesis {
         let mut hypothesis = beside.fit.hypothesis.clone();
         for one in more {
@@ -268,7 +269,7 @@ impl Search {
             let sizes: Vec<f64> = one.sizes.iter().map(|size| share * size).collect();
             let present = hypothesis.effect(one.effect).map(|effect| effect.values().to_vec());
             let values = match present {
-                // Known to be there already: its size moves from where it is.
+                // Already present: its size changes from its present value.
                 Some(mut values) => {
                     for (&place, size) in variant.sizes().iter().zip(&sizes) {
                         values[place] += size;
@@ -282,9 +283,8 @@ impl Search {
         hypothesis
     }
 
-    /// A fit of a hypothesis that adds these effects, after the vehicle took back what is its own:
-    /// what an effect adds to the constant ICRs had gone into the vehicle's friction and centre of
-    /// gravity before.
+    /// Refits after constant ICR offsets were converted to the vehicle's own numbers: friction and
+    /// centre of gravity had absorbed what an added effect now explains.
     fn recalibrated(&self, effects: Vec<EffectId>, mut fit: Fit) -> Found {
         let settings = &self.settings().search;
         for _ in 0..settings.recalibrations {
@@ -306,9 +306,9 @@ impl Search {
         Found { effects, ln_evidence: fit.ln_evidence(), fit }
     }
 
-    /// What was found, with the constant ICRs as another of the vehicle's numbers, where its
-    /// effects now tell that it is this one.
-    fn reconsidered(&self, found: Found) -> Found {
+    /// Expresses the constant ICRs by another of the vehicle's numbers, where the effects found now
+    /// favour that one.
+    fn with_best_calibration(&self, found: Found) -> Found {
         let filed = &self.base.as_filed.hypothesis.vehicle;
         let Some(whole) = with_vehicle(&found.fit.hypothesis, filed) else { return found };
         let least = self.settings().search.min_fall_of_meaning;
@@ -324,8 +324,8 @@ impl Search {
         best
     }
 
-    /// The hypothesis without one of its added effects, refitted from there: the base itself may
-    /// have ended further off.
+    /// The hypothesis without one of its added effects, refitted from there: the base itself may be
+    /// a worse local minimum.
     pub fn without(&self, found: &Found, effect: EffectId) -> Found {
         self.done.or_else(Key::new(found, Step::Leave(effect)), || self.left_out(found, effect))
     }
@@ -343,8 +343,8 @@ impl Search {
         if is_base && is_further { self.nothing() } else { without }
     }
 
-    /// Whether the screen only makes an effect of the vehicle file a little larger or smaller: no
-    /// law is known better.
+    /// Whether the screen changes an effect of the vehicle file only slightly: no law is known more
+    /// accurately than that.
     fn is_as_filed(&self, one: &Screened) -> bool {
         let filed = self.base.as_filed.hypothesis.effect(one.effect);
         filed.is_some_and(|filed| {
@@ -410,8 +410,8 @@ impl Search {
                 Ok(self.refit(beside, more))
             });
             let refitted: Vec<Found> = refitted.collect::<Result<_, Cancelled>>()?;
-            // An added effect must be worth it; one that is left out, or exchanged, must only not
-            // be missed.
+            // An added effect must gain the required evidence; leaving out or exchanging one must
+            // only not lose it.
             let value = |found: &Found| {
                 #[expect(clippy::cast_precision_loss, reason = "at most three")]
                 let added = found.effects.len() as f64;
@@ -423,7 +423,7 @@ impl Search {
                 .max_by(|a, b| value(a).total_cmp(&value(b)).then(b.effects.cmp(&a.effects)));
             match next {
                 Some(next) if value(&next) > value(&best) + settings.min_round_gain => {
-                    best = self.reconsidered(next);
+                    best = self.with_best_calibration(next);
                 }
                 _ => break,
             }
@@ -432,7 +432,7 @@ impl Search {
     }
 }
 
-/// Whether sizes, as distances from none, lie within their physical ranges.
+/// Whether sizes, as distances from the present ones, lie within their physical ranges.
 fn is_physical(beside: &Hypothesis, variant: &Variant, sizes: &[f64]) -> bool {
     variant.sizes().iter().zip(sizes).all(|(&place, size)| {
         let unknown = Unknown::Effect(variant.effect, place);

@@ -1,21 +1,21 @@
-//! Significance without a noise model: random signs for whole blocks.
+//! Significance without a noise model: wild bootstrap with random signs of blocks.
 //!
 //! # Law
-//! If nothing is missing, the score of a block (its residuals along some columns) is as likely to
-//! point one way as the other. Signs are drawn anew for each block (wild bootstrap), all tests are
-//! repeated with them, and the largest statistic of each draw is kept: a test is significant as
-//! part of the family if it exceeds nearly all of these.
+//! Without an effect, the score of a block (its residuals along some columns) has either sign with
+//! equal probability. Signs are drawn for each block, all tests are repeated, and the largest
+//! statistic of each draw is kept (max-T): a family-wise p is the share of draws that reach the
+//! observed statistic.
 //!
-//! What is there must not pass for chance. Signs are given to what a block's score u_b leaves
-//! beside the fitted size as the other blocks know it, I_b being the information of the block, Σ
-//! I_b = 1:
+//! An effect must not inflate its own null distribution. Signs are therefore given to the
+//! jackknifed score: what the score u_b of a block leaves beside the estimate of the other blocks.
+//! With I_b the information of the block, Σ I_b = 1:
 //!
 //! ũ_b = u_b − I_b (1 − I_b + λ)⁻¹ (θ − u_b),  θ = Σ u_b
 //!
-//! λ holds the size at none where the others know nothing: what one block alone has seen stays as
-//! it is, and may be chance. So that such a group does not hide all others of its family,
-//! statistics are divided by the dispersion c = Σ |ũ_b|²/k of their scores, k the degrees of
-//! freedom, where it is larger than the one that the noise alone would give.
+//! The ridge λ keeps the estimate at zero where the other blocks have no information: what one
+//! block alone shows stays in its score, and may be chance. Such a group would hide all others of
+//! its family. Statistics are therefore divided by the dispersion c = Σ |ũ_b|²/k, k the degrees of
+//! freedom, where c > 1.
 //!
 //! # Sources
 //! Wu, Annals of Statistics 14(4), 1986; Cameron, Gelbach, Miller, Review of Economics and
@@ -33,28 +33,27 @@ use trackdyn_core::real;
 /// A family-wise test of one group of columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Test {
-    /// Squared length of the score in its own metric: χ² with `degrees` degrees of freedom if
-    /// nothing is missing and the noise is what it is taken for.
+    /// Squared norm of the score in its own metric: χ² with `degrees` degrees of freedom if there
+    /// is no effect and the noise model is right.
     pub statistic: f64,
-    /// Independent columns in the group.
+    /// Number of independent columns in the group.
     pub degrees: usize,
-    /// Probability that the largest statistic of all groups is as large by chance.
+    /// Family-wise p: probability that the largest statistic of all groups is as large by chance.
     pub p: f64,
 }
 
 impl Test {
-    /// Whether it is further from chance than another one.
+    /// Whether it is more significant than another test.
     pub fn is_stronger(&self, other: &Self) -> bool {
         let beyond = |test: &Self| test.statistic - real(test.degrees);
         self.p < other.p || (self.p == other.p && beyond(self) > beyond(other))
     }
 }
 
-/// Part of the largest eigenvalue of the products of columns, each of length one, up to which a
-/// combination of them counts as nothing.
-const DEPENDENT: f64 = 1e-6;
+/// Least eigenvalue, relative to the largest, of an independent combination of unit columns.
+const MIN_EIGENVALUE_RATIO: f64 = 1e-6;
 
-/// Tests groups of columns of which the base was projected out, all as one family.
+/// Tests groups of columns, with the base projected out, as one family.
 pub fn test(
     projected: &Normal,
     groups: &[Vec<usize>],
@@ -85,7 +84,7 @@ pub fn test_family(groups: &[Group], resampling: Resampling) -> Vec<Test> {
         .zip(observed)
         .map(|(group, statistic)| {
             let score = group.normal_score(statistic);
-            // As large as the observed arrangement within rounding counts as large.
+            // Draws equal to the observed statistic within rounding count as reaching it.
             let exceeding = largest.iter().filter(|other| **other >= score - 1e-9).count();
             let share = real(exceeding + 1) / real(resampling.draws + 1);
             let p = if group.degrees == 0 { 1.0 } else { share };
@@ -94,19 +93,19 @@ pub fn test_family(groups: &[Group], resampling: Resampling) -> Vec<Test> {
         .collect()
 }
 
-/// Scores of a group of columns, in axes in which they are independent and of unit size.
+/// Scores of a group of columns, in orthonormal axes of their information.
 pub struct Group {
     /// Sum over the blocks.
     score: DVector<f64>,
-    /// What each block's score leaves beside it, a column per block.
+    /// Jackknifed score of each block, one column per block.
     remainders: DMatrix<f64>,
-    /// c ≥ 1.
+    /// Dispersion c ≥ 1.
     dispersion: f64,
     degrees: usize,
 }
 
 impl Group {
-    /// Columns of which the base was projected out.
+    /// Scores of columns with the base projected out.
     pub fn new(projected: &Normal, columns: &[usize], settings: &settings::Location) -> Self {
         let last = projected.columns();
         let blocks = (0..projected.blocks()).map(|block| {
@@ -120,7 +119,7 @@ impl Group {
         Self::of(&blocks.collect::<Vec<_>>(), settings)
     }
 
-    /// Of each block, the products of the columns with the residual, and among each other.
+    /// Scores from blocks: products of the columns with the residual, and with each other.
     pub fn of(blocks: &[(DVector<f64>, DMatrix<f64>)], settings: &settings::Location) -> Self {
         let count = blocks.first().map_or(0, |(score, _)| score.len());
         if count == 0 {
@@ -137,9 +136,9 @@ impl Group {
         let eigen = scaled.symmetric_eigen();
         let largest = eigen.eigenvalues.max();
         let kept: Vec<usize> = (0..count)
-            .filter(|&k| eigen.eigenvalues[k] > DEPENDENT * largest && largest > 0.0)
+            .filter(|&k| eigen.eigenvalues[k] > MIN_EIGENVALUE_RATIO * largest && largest > 0.0)
             .collect();
-        // Axes of unit size, as combinations of the columns; one of nothing has no part in them.
+        // Orthonormal axes as combinations of the columns; zero columns do not take part.
         let axes = DMatrix::from_fn(count, kept.len(), |c, k| {
             let scale = length[c] * eigen.eigenvalues[kept[k]].sqrt();
             if scale > 0.0 { eigen.eigenvectors[(c, kept[k])] / scale } else { 0.0 }
@@ -167,7 +166,7 @@ impl Group {
         (&self.remainders * signs).norm_squared()
     }
 
-    /// A χ² of this dispersion as nearly a standard normal number, whatever its degrees of freedom.
+    /// Transforms χ² over the dispersion to an approximately standard normal score.
     ///
     /// # Sources
     /// Wilson, Hilferty, Proceedings of the National Academy of Sciences 17(12), 1931.
@@ -190,7 +189,7 @@ fn left_beside(
 ) -> DVector<f64> {
     let count = own.len();
     let known = DMatrix::from_diagonal_element(count, count, 1.0 + ridge) - information;
-    // positive definite: no block knows more than all of them
+    // positive definite: no block has more information than all together
     let size = known.cholesky().map(|known| known.solve(&(whole - own)));
     size.map_or_else(|| own.clone(), |size| own - information * size)
 }
@@ -207,9 +206,8 @@ mod tests {
     const PER_BLOCK: usize = 30;
     const RESAMPLING: Resampling = Resampling { draws: 999, seed: 1 };
 
-    /// White noise, and columns of which the first two are seen by all blocks and the last by one
-    /// of them. `sizes` are what of the first and the last is in the residual, in standard
-    /// deviations.
+    /// White noise, and three columns: the first two show in all blocks, the last in one. `sizes`
+    /// are the first and the last effect in the residual, in standard deviations.
     fn evidence(seed: u64, sizes: [f64; 2]) -> Normal {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut normal = || (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0;
@@ -243,7 +241,7 @@ mod tests {
         test(normal, &[vec![0], vec![1], vec![2]], RESAMPLING, &settings)
     }
 
-    /// Of a column that others explain rounding is left, of any sign: it is no evidence.
+    /// A column explained by others leaves rounding of either sign: that is no evidence.
     #[test]
     fn rounding_is_no_evidence() {
         let settings = &settings::Location::default();
@@ -269,9 +267,9 @@ mod tests {
 
     #[test]
     fn an_effect_is_not_its_own_chance() {
-        // Six standard deviations, a thousand million to one by the noise, in all of 20 recordings.
-        // Among its own signs, Σ ± u_b of 36 blocks would be twice as large as the noise makes it,
-        // and one in four recordings would show nothing.
+        // Six standard deviations, p = 1e-9 by the noise, in all of 20 recordings. Signs of plain
+        // scores u_b of 36 blocks would double their statistic, and miss the effect in one
+        // recording of four.
         for seed in 0..20 {
             let tests = tests_of(&evidence(seed, [8.0, 0.0]));
             assert!(tests[0].p < 0.002, "{seed}: {:?}", tests[0]);

@@ -1,12 +1,12 @@
-//! The stationary motion as a function of both belt speeds, tabulated.
+//! Table of the stationary motion over both belt speeds.
 //!
-//! Laws that change the shear stress need a quadrature per solve, and a recording has tens of
-//! thousands of readings.
+//! Shear-stress laws need a quadrature per solve, and a recording has tens of thousands of
+//! readings.
 //!
-//! What is interpolated is the twist beyond the mean belt speed, over the difference of the belt
-//! speeds: finite also where a track holds the robot and its other ICR is infinitely far. Belts
-//! that slip on their sprockets lose speed without any difference too, under a load along the
-//! tracks: there it is over the size of the speeds.
+//! The table holds the twist minus the mean belt speed, divided by the difference of the belt
+//! speeds: this stays finite where one track holds the robot and the other ICR is at infinity. With
+//! belts that slip on their sprockets, a load along the tracks costs speed even without a
+//! difference: then it is divided by the norm of the speeds.
 
 mod table;
 
@@ -22,15 +22,15 @@ use trackdyn_model::{Icrs, Near, Stationary, Status};
 /// A table of stationary motions.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// (v_x, v_y − V̄, w) over the scale.
+    /// (v_x, v_y − V̄, w) divided by the scale.
     beyond: Table,
     scale: Scale,
-    /// Where the search for the motion of each node of a similar model starts.
+    /// Start of the solve at each node, for a similar model.
     starts: Arc<Vec<Option<Near>>>,
     unsolved: usize,
 }
 
-/// What the twist beyond the mean belt speed is taken over.
+/// Divisor of the tabulated twist.
 #[derive(Clone, Copy, Debug)]
 enum Scale {
     /// V_r − V_l.
@@ -49,11 +49,11 @@ impl Scale {
 }
 
 impl Surface {
-    /// The stationary motions of a model whose gain is one, up to belt speeds of size `largest`,
-    /// m/s.
+    /// Tabulates the stationary motions of a model with unit gain, up to belt speeds of norm
+    /// `largest`, m/s.
     ///
-    /// Where friction depends on the speed of slip, nodes are even in its logarithm over a `range`
-    /// of speeds. `before` is the table of a model that resembles it: each solve starts from there.
+    /// Where friction depends on slip speed, nodes are even in the logarithm of the speed over the
+    /// ratio `range`. `before` is the table of a similar model, from which solves start.
     pub fn new(model: &Model, largest: f64, range: f64, before: Option<&Self>) -> Self {
         let spacing =
             if depends_on_slip_speed(model) { Spacing::logarithmic(range) } else { Spacing::Even };
@@ -76,18 +76,18 @@ impl Surface {
         Self { beyond: Table::new(grid, &solved), scale, starts: Arc::new(starts), unsolved }
     }
 
-    /// Where the search for the motion at a node of this grid starts.
+    /// Start of the solve at a node of this grid.
     fn near(&self, index: usize, grid: &Grid) -> Option<Near> {
         let known = self.starts[index].filter(|_| self.beyond.grid() == grid);
         known.or_else(|| self.motion(grid.speeds(index)).near())
     }
 
-    /// Share of the nodes without a motion: part of the contact lifts, or no balance was found.
+    /// Share of the nodes without a motion: part of the contact lifts, or the solve failed.
     pub fn unsolved(&self) -> f64 {
         real(self.unsolved) / real(Grid::NODES)
     }
 
-    /// The stationary motion (paper's frame) at belt speeds.
+    /// Stationary motion (paper's frame) at these belt speeds.
     pub fn motion(&self, speeds: PerSide<f64>) -> Steady {
         let (difference, mean) =
             (speeds.right - speeds.left, f64::midpoint(speeds.left, speeds.right));
@@ -104,10 +104,10 @@ impl Surface {
     }
 }
 
-/// A stationary motion at one pair of belt speeds.
+/// Stationary motion at one pair of belt speeds.
 #[derive(Clone, Copy, Debug)]
 pub struct Steady {
-    /// V̄, m/s; of equal speeds that of the motion.
+    /// Mean speed V̄, m/s; for equal belt speeds, the speed of the motion.
     mean: f64,
     difference: f64,
     /// (v_x, v_y − V̄, w)/(V_r − V_l).
@@ -115,12 +115,12 @@ pub struct Steady {
 }
 
 impl Steady {
-    /// Where the search for this motion starts; none where the robot drives straight.
+    /// Start for a solve of this motion; none for straight driving.
     pub fn near(&self) -> Option<Near> {
         near(&self.beyond).filter(|_| self.difference != 0.0)
     }
 
-    /// The twist (paper's frame), with the ICRs moved by `offset` (x_l, x_r, y), m.
+    /// Twist (paper's frame), with the ICRs shifted by `offset` (x_l, x_r, y), m.
     pub fn twist(&self, offset: &[f64; 3]) -> Twist {
         let Self { mean, difference, beyond } = *self;
         let [across, along, turn] = moved(beyond, offset);
@@ -128,7 +128,7 @@ impl Steady {
     }
 }
 
-/// Whether friction depends on how fast the contact slips.
+/// Whether friction depends on the slip speed.
 fn depends_on_slip_speed(model: &Model) -> bool {
     model.effects().iter().any(|effect| {
         let card = effect.card();
@@ -136,13 +136,13 @@ fn depends_on_slip_speed(model: &Model) -> bool {
     })
 }
 
-/// The twist beyond the mean belt speed, (v_x, v_y − V̄, w).
+/// Twist minus the mean belt speed, (v_x, v_y − V̄, w).
 fn beyond(speeds: PerSide<f64>, twist: &Twist) -> Vector3<f64> {
     let mean = f64::midpoint(speeds.left, speeds.right);
     Vector3::new(twist.v_x, twist.v_y - mean, twist.w)
 }
 
-/// Where the search for a motion with this normalised twist starts.
+/// Start for a solve of a motion with this normalised twist.
 fn near(twist: &Vector3<f64>) -> Option<Near> {
     let (middle, half) = (-twist[1] / twist[2], 0.5 / twist[2]);
     let icrs = Icrs { x_left: middle - half, x_right: middle + half, y: twist[0] / twist[2] };
@@ -153,7 +153,7 @@ fn near(twist: &Vector3<f64>) -> Option<Near> {
     Some(Near::Held(if twist[1] < 0.0 { Side::Left } else { Side::Right }))
 }
 
-/// A normalised twist after its ICRs were moved by (x_l, x_r, y), m.
+/// Normalised twist with its ICRs shifted by (x_l, x_r, y), m.
 fn moved(twist: Vector3<f64>, [left, right, y]: &[f64; 3]) -> [f64; 3] {
     // t = 1/(x_r − x_l); v_x = t y; v_y − V̄ = −t (x_l + x_r)/2
     let turn = twist[2] / (1.0 + twist[2] * (right - left));
@@ -167,22 +167,22 @@ mod tests {
     use trackdyn_model::contact::{Friction, Resolution};
     use trackdyn_model::{Effects, RunningGear, VehicleFile};
 
-    /// Ratio of speeds of a logarithmic table.
+    /// Speed ratio of a logarithmic table.
     const RANGE: f64 = 30.0;
 
-    /// Typical effects by their names, with spaces between.
+    /// Typical effects, by names separated by spaces.
     fn effects(ids: &str) -> Effects {
         ids.split_whitespace().map(|id| id.parse().expect("an effect")).collect()
     }
 
-    /// Effects of every kind that steady motion shows. The root mean square of the table's error
-    /// must stay below what laboratory sensors resolve in a hundred segments, 0.5 mm/s at speeds of
-    /// up to 1 m/s. A belt that slips comes to stick near straight driving: that kink lies inside a
-    /// sector, and is smoothed.
+    /// Effects of every kind that steady motion shows. The rms error of the table must stay below
+    /// what laboratory sensors resolve in a hundred segments, 0.5 mm/s at speeds up to 1 m/s. A
+    /// slipping belt starts to stick near straight driving: that kink lies inside a sector, and is
+    /// smoothed.
     #[test]
     fn the_table_equals_the_solver() {
-        const CLOSE: f64 = 5e-4;
-        const KINKED: f64 = 2e-3;
+        const MAX_ERROR: f64 = 5e-4;
+        const MAX_ERROR_WITH_KINK: f64 = 2e-3;
         for id in [
             "",
             "centripetal",
@@ -204,7 +204,7 @@ mod tests {
             for k in 0..400_u32 {
                 let (a, b) = (f64::from(k) * 0.618_034, f64::from(k) * 0.414_214);
                 let left = 2.0 * a.fract() - 1.0;
-                // every fifth drives straight
+                // every fifth is straight
                 let right = if k % 5 == 0 { left } else { 2.0 * b.fract() - 1.0 };
                 let speeds = PerSide::new(left, right);
                 let solution = solver.solve(speeds);
@@ -212,20 +212,21 @@ mod tests {
                     continue;
                 }
                 let (table, twist) = (surface.motion(speeds).twist(&[0.0; 3]), solution.twist);
-                // The yaw rate as the speed of a track.
+                // The yaw rate as a track speed.
                 let off = [table.v_x - twist.v_x, table.v_y - twist.v_y, 0.4 * (table.w - twist.w)];
                 squares += off.iter().map(|off| off * off).sum::<f64>();
                 count += 1.0;
             }
             let error = (squares / count).sqrt();
-            let bound = if model.drive().slip_per_traction > 0.0 { KINKED } else { CLOSE };
+            let bound =
+                if model.drive().slip_per_traction > 0.0 { MAX_ERROR_WITH_KINK } else { MAX_ERROR };
             assert!(count > 350.0 && error < bound, "{id}: {error:.1e} m/s");
         }
     }
 
-    /// A recording of some minutes tells a yaw rate to less than a thousandth: what inertia that
-    /// grows with the square of the speed does must be known far better, or the error of the table
-    /// is taken for an effect.
+    /// A recording of some minutes determines a yaw rate to less than a thousandth: the table must
+    /// be far better for inertia that grows with the square of the speed, or its error looks like
+    /// an effect.
     #[test]
     fn the_table_of_a_quick_robot_on_wheels_is_finer_than_its_sensors() {
         let mut vehicle = VehicleFile::auriga_alpha().vehicle;
@@ -255,7 +256,7 @@ mod tests {
 
     #[test]
     fn a_table_that_starts_from_that_of_a_similar_model_is_the_same() {
-        const SAME: f64 = 1e-5;
+        const MAX_DIFFERENCE: f64 = 1e-5;
         for id in [
             "centripetal",
             "belt-slip motion-resistance",
@@ -276,7 +277,7 @@ mod tests {
             let nodes = anew.beyond.nodes().iter().zip(beside.beyond.nodes());
             let off = nodes.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
             println!("{id}: {off:.1e}, {} and {}", anew.unsolved, beside.unsolved);
-            assert!(off < SAME && anew.unsolved == beside.unsolved, "{id}: {off:.1e}");
+            assert!(off < MAX_DIFFERENCE && anew.unsolved == beside.unsolved, "{id}: {off:.1e}");
         }
     }
 

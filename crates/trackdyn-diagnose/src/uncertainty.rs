@@ -1,4 +1,4 @@
-//! Intervals of fitted parameters.
+//! Confidence intervals of fitted parameters.
 
 use crate::equations::Equations;
 use crate::evidence::Evidence;
@@ -17,33 +17,33 @@ use trackdyn_model::EffectId;
 /// A fitted parameter with its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
-    /// Which.
+    /// The parameter.
     pub unknown: Unknown,
     /// Estimate, in its unit.
     pub value: f64,
-    /// Lower end of the interval.
+    /// Lower end.
     pub low: f64,
     /// Upper end.
     pub high: f64,
 }
 
-/// A level of friction that was found: the logarithm of the factor of both coefficients.
+/// Fitted friction level: ln of the factor of both friction coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
     /// Estimate.
     pub value: f64,
-    /// Half of its 95 % interval.
+    /// Half width of its 95 % interval.
     pub half: f64,
-    /// Whether it surely differs from that of the vehicle file.
+    /// Whether it clearly differs from the vehicle file.
     pub is_sure: bool,
 }
 
-/// The 95 % intervals of what is free in a hypothesis.
+/// 95 % confidence intervals of the unknowns of a hypothesis.
 ///
-/// The widest one of three counts: by the noise, and by how much the estimate changes where a
-/// block, or a whole run, is left out, (B − 1)/B Σ (θ₋ᵦ − θ)², which no noise model enters. An
-/// interval ends where the profile likelihood, all other numbers refitted, has fallen by as much as
-/// it would at Student's quantile of that variance, were it a parabola.
+/// The largest of three variances counts: that by the noise, and two jackknife variances (B − 1)/B
+/// Σ (θ₋ᵦ − θ)², with blocks or whole runs left out, which need no noise model. An interval ends
+/// where the profile likelihood (all other unknowns refitted) has fallen as far as a parabola with
+/// that variance would at Student's quantile.
 ///
 /// # Sources
 /// The block jackknife: Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3). Profile likelihood:
@@ -52,11 +52,11 @@ pub struct Level {
 pub struct Uncertainty<'a> {
     search: &'a Search,
     fit: &'a Fit,
-    /// Half the intervals, were the likelihood a parabola.
+    /// Half widths for a parabolic likelihood.
     halves: Vec<f64>,
 }
 
-/// What may be independent of each other, as ranges of blocks: blocks, and runs.
+/// Candidates for independent groups, as ranges of blocks: single blocks, and runs.
 fn groupings(evidence: &Evidence, counts: impl Fn(usize) -> bool) -> [Vec<Range<usize>>; 2] {
     let blocks = (0..evidence.blocks()).filter(|&block| counts(block));
     let blocks: Vec<Range<usize>> = blocks.map(|block| block..block + 1).collect();
@@ -65,15 +65,14 @@ fn groupings(evidence: &Evidence, counts: impl Fn(usize) -> bool) -> [Vec<Range<
         let run = runs.entry(sample.run).or_insert(sample.block..sample.block + 1);
         *run = run.start.min(sample.block)..run.end.max(sample.block + 1);
     }
-    // Points of a table are runs of their own, several to a block: what is left out with one is
-    // left out with all.
+    // Each point of a table is a run, several to a block: a block is left out once, as a whole.
     let mut runs: Vec<Range<usize>> = runs.into_values().collect();
     runs.dedup();
     [blocks, runs]
 }
 
 impl<'a> Uncertainty<'a> {
-    /// Those of the best hypothesis.
+    /// Uncertainty of the best hypothesis.
     pub fn of(search: &'a Search, best: &'a Found) -> Self {
         let fit = &best.fit;
         let Equations { normal, priors, .. } = search.equations(fit, &[]);
@@ -103,7 +102,7 @@ impl<'a> Uncertainty<'a> {
         Self { search, fit, halves }
     }
 
-    /// The parameters of these effects with their 95 % intervals.
+    /// 95 % intervals of the parameters of these effects.
     pub fn intervals(&self, effects: &[EffectId]) -> Vec<Interval> {
         let is_asked = |unknown: &Unknown| effects.iter().any(|&effect| unknown.is_of(effect));
         let places = (0..self.halves.len()).filter(|&place| is_asked(&self.fit.unknowns[place]));
@@ -128,11 +127,11 @@ impl<'a> Uncertainty<'a> {
         })
     }
 
-    /// How far the interval of a number reaches, by where it would end if the likelihood were a
-    /// parabola. It does not go beyond what the number may be.
+    /// Distance from the estimate to an end of the interval, within the parameter's range.
+    /// `parabola` is the signed distance for a parabolic likelihood.
     ///
-    /// √(rise of twice the objective) is in proportion to the distance for a parabola, and nearly
-    /// so for what is no parabola.
+    /// The search is nearly linear: √(rise of twice the objective) is proportional to the distance
+    /// for a parabola, and nearly so otherwise.
     fn end(&self, place: usize, parabola: f64) -> f64 {
         let Self { search: Search { evidence, .. }, fit, .. } = self;
         if !fit.free.contains(&place) {
@@ -144,7 +143,7 @@ impl<'a> Uncertainty<'a> {
         let variance = fit.solution.covariance[(place, place)];
         let asked = parabola.abs() / variance.sqrt();
         let room = if parabola < 0.0 { value - low } else { high - value };
-        // Distances that are too short and too far, with the roots of the rise there.
+        // Bracket: distance and √rise of a point that is too near, and of one that is too far.
         let (mut near, mut far) = ([0.0, 0.0], None);
         let mut distance = parabola.abs();
         let settings = &evidence.settings().limits;
@@ -174,7 +173,7 @@ impl<'a> Uncertainty<'a> {
         distance.min(room)
     }
 
-    /// The level of friction; none where it is not free.
+    /// Friction level with its interval; none where friction is not free.
     pub fn friction_level(&self) -> Option<Level> {
         let unknowns = &self.fit.unknowns;
         let place = unknowns.iter().position(|one| *one == Unknown::FrictionLevel)?;

@@ -1,5 +1,5 @@
-//! The verdict on each effect of the best hypothesis: claimed, or why not, and what it cannot be
-//! told from.
+//! Verdict on each effect of the best hypothesis: claimed or refused, and with which effects it is
+//! confounded.
 
 mod constants;
 mod instruments;
@@ -30,24 +30,24 @@ use support::Change;
 use trackdyn_model::effect::Role;
 use trackdyn_model::{ActiveEffect, EffectId, VehicleFile};
 
-/// Something that was left out, or why it is not claimed.
+/// Verdict on an effect: a claim, or a refusal with its reason.
 #[derive(Clone, Debug)]
 pub struct Verdict {
-    /// Place of the effect in the catalogue.
+    /// The effect.
     pub effect: EffectId,
-    /// All effects that explain it as well, ascending, itself among them.
+    /// All effects that explain it as well, ascending, this one included.
     pub one_of: Vec<EffectId>,
-    /// The effect as it was found; none where it stands for a class of constants.
+    /// The effect with its fitted parameters; none where it stands for a class of constants.
     pub found: Option<ActiveEffect>,
-    /// What speaks for it.
+    /// Statistical support of the claim.
     pub support: Support,
-    /// Why it is not claimed; none where it is.
+    /// Why it is not claimed; none where it is claimed.
     pub refused: Option<Refusal>,
 }
 
 /// Judges effects that the best hypothesis adds.
 ///
-/// `file` is the vehicle's.
+/// `file` is the vehicle file.
 ///
 /// # Errors
 /// [`Cancelled`], by the observer of the watch.
@@ -61,8 +61,8 @@ pub fn judge(
     watch: &Watch,
 ) -> Result<Vec<Verdict>, Cancelled> {
     let departure = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
-    // What mostly moves constant ICRs is known to a part of all that moved them. What a law beyond
-    // their class breaks none of them does.
+    // The form error of what may act as constant ICRs is a share of all that moved them. It cannot
+    // mimic a law outside their class, which breaks symmetries that constants keep.
     let by_constants = LazyCell::new(|| constants::departure(search, best, constants, file));
     let of = |effect: EffectId| {
         let rivals = Rivals::new(search, best, constants, effect, watch)?;
@@ -92,8 +92,8 @@ pub fn judge(
     effects.iter().copied().map(of).collect()
 }
 
-/// Why a claim is refused by the rules; none where it is not. The `whole` is √ of what the misfit
-/// falls by with all laws.
+/// Refusal by the statistical rules; none where all are met. `whole` is the √ of the decrease of
+/// chi-squared by all laws together.
 fn refusal(support: &Support, whole: f64, rules: &settings::Verdict) -> Option<Refusal> {
     if let Some(reason) = support.falls_short(rules) {
         return Some(reason);
@@ -106,8 +106,8 @@ fn refusal(support: &Support, whole: f64, rules: &settings::Verdict) -> Option<R
     (z < needed).then_some(Refusal::WithinForm { z, needed })
 }
 
-/// An effect that the vehicle file knows, at nearly the sizes that it gives: no law is known
-/// better.
+/// Refuses an effect of the vehicle file with nearly the filed sizes: no law is known more
+/// accurately.
 fn nearly_as_filed(search: &Search, found: &Fit, effect: EffectId) -> Option<Refusal> {
     let filed = search.base.as_filed.hypothesis.effect(effect)?;
     let found = found.hypothesis.effect(effect)?;
@@ -118,7 +118,7 @@ fn nearly_as_filed(search: &Search, found: &Fit, effect: EffectId) -> Option<Ref
     near.then_some(Refusal::NearlyAsFiled { effect })
 }
 
-/// A size of the effect that ended at the limit of its physical range.
+/// Refuses an effect with a size at the limit of its physical range.
 fn at_limit(fit: &Fit, unknown: Unknown, effect: EffectId) -> Option<Refusal> {
     let parameter = unknown.parameter()?;
     let is_size = matches!(parameter.role, Role::Size { .. });
@@ -127,10 +127,10 @@ fn at_limit(fit: &Fit, unknown: Unknown, effect: EffectId) -> Option<Refusal> {
         .then_some(Refusal::AtLimit { size: unknown, value })
 }
 
-/// Why what an effect changes is no more than what laws of the vehicle file may leave; none where
-/// it is more.
+/// Refuses what errors in the laws of the vehicle file could cause; none where it is more than
+/// that.
 ///
-/// Such a law is known to a part of what it does: its radius of gyration is hardly ever measured.
+/// Such laws are known to a share of their size: a radius of gyration is hardly ever measured.
 fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<Refusal> {
     let filed = &search.base.as_filed.hypothesis;
     let laws: Vec<&(Variant, Vec<Signature>)> = search
@@ -155,7 +155,7 @@ fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<Re
     })
 }
 
-/// The verdict with its claim refused where its sizes may all be none by their own intervals.
+/// The verdict, refused where the intervals of all its sizes include the neutral size.
 pub fn unless_unsure(verdict: Verdict, intervals: &[Interval]) -> Verdict {
     let places = sizes(verdict.effect).into_iter();
     let sizes: Vec<&Interval> = places
@@ -190,7 +190,7 @@ mod tests {
         assert!(refused("yaw-inertia", [0.0, 0.03]));
         assert!(!refused("yaw-inertia", [0.01, 0.03]));
         assert!(refused("directional-lugs", [-0.01, 0.002]));
-        // the range of a modulus ends above none
+        // the neutral modulus, zero, lies below its range
         assert!(refused("shear-displacement", [1e-5, 2e-3]));
         assert!(!refused("shear-displacement", [1e-4, 2e-3]));
     }

@@ -1,4 +1,4 @@
-//! Evidence and what its residuals weigh.
+//! Evidence with the noise model that whitens its residuals.
 
 use crate::evidence::{Evidence, Origin, Sample};
 use crate::normal::{Columns, Normal};
@@ -9,14 +9,13 @@ use trackdyn_core::robust::deviation_about_zero;
 use trackdyn_estimate::gauss_newton::Huber;
 use trackdyn_estimate::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 
-/// Evidence with the noise by which its residuals are weighed, and without the samples that are
-/// lost. Whatever asks what was seen may ask this. The evidence is shared: another noise copies
-/// none of it.
+/// Evidence with the noise that weighs its residuals, and without the samples marked lost. It
+/// dereferences to [`Evidence`], which is shared: a copy with other noise copies no samples.
 #[derive(Clone)]
 pub struct Weighted {
     evidence: Arc<Evidence>,
     whitening: Whitening,
-    /// By what the whitened residuals of each channel are larger than the noise says.
+    /// Factor by which whitened residuals of each channel exceed the noise model.
     scale: [f64; 3],
 }
 
@@ -28,17 +27,17 @@ impl Deref for Weighted {
     }
 }
 
-/// What makes residuals white: of unit variance and without correlation.
+/// How residuals become white: unit variance, no correlation.
 #[derive(Clone)]
 enum Whitening {
-    /// Neighbours share a noisy pose.
+    /// Segments of a drive: neighbours share a noisy pose, so their errors correlate.
     Segments { noise: SegmentNoise, whitener: Arc<Whitener>, lost: Arc<[bool]> },
-    /// Inverse standard deviations of the channels; zero where one was not measured.
+    /// Independent points: inverse standard deviation of each channel; zero where not measured.
     Points(Arc<[Vector3<f64>]>),
 }
 
 impl Whitening {
-    /// That of segments in a noise. Those that are lost tell nothing, nor of their neighbours.
+    /// Whitening of segments. A lost one has no weight and shares no pose with its neighbours.
     fn of(noise: SegmentNoise, samples: &[Sample], lost: Arc<[bool]>) -> Self {
         let seen = samples.iter().enumerate().map(|(index, sample)| Seen {
             motion: sample.motion.into(),
@@ -53,7 +52,7 @@ impl Whitening {
 }
 
 impl Weighted {
-    /// Evidence in the noise that was measured on it without a model, with all samples.
+    /// Evidence with all samples and the noise that was measured without a model.
     pub fn new(evidence: impl Into<Arc<Evidence>>) -> Self {
         let evidence = evidence.into();
         let whitening = match evidence.origin() {
@@ -66,7 +65,7 @@ impl Weighted {
         Self { evidence, whitening, scale: [1.0; 3] }
     }
 
-    /// Noise of the segments of a recording; none of a table.
+    /// Noise of the segments of a recording; none for a table.
     pub fn noise(&self) -> Option<&SegmentNoise> {
         match &self.whitening {
             Whitening::Segments { noise, .. } => Some(noise),
@@ -74,15 +73,15 @@ impl Weighted {
         }
     }
 
-    /// The segments of a recording in another noise; points of a table as they are.
+    /// The evidence with another noise; a table stays as it is.
     pub fn with_noise(&self, noise: SegmentNoise) -> Self {
         let Whitening::Segments { lost, .. } = &self.whitening else { return self.clone() };
         let whitening = Whitening::of(noise, self.samples(), Arc::clone(lost));
         Self { whitening, ..self.clone() }
     }
 
-    /// All segments of a recording, those that were lost among them, in another noise; points of a
-    /// table as they are.
+    /// The evidence with another noise and all segments, lost ones restored; a table stays as it
+    /// is.
     pub fn with_all_in(&self, noise: SegmentNoise) -> Self {
         if matches!(self.whitening, Whitening::Points(_)) {
             return self.clone();
@@ -92,7 +91,7 @@ impl Weighted {
         Self { whitening, ..self.clone() }
     }
 
-    /// The segments of a recording without some more of them; points of a table as they are.
+    /// The evidence with these segments marked lost, too; a table stays as it is.
     pub fn without(&self, samples: &[usize]) -> Self {
         let Whitening::Segments { noise, lost, .. } = &self.whitening else { return self.clone() };
         let mut lost = lost.to_vec();
@@ -103,7 +102,7 @@ impl Weighted {
         Self { whitening, ..self.clone() }
     }
 
-    /// What other runs of a recording show, in the noise and the scale of these.
+    /// Other runs of the recording, with the noise and scale of these.
     pub fn weigh(&self, others: &Evidence) -> Self {
         let others = Self { scale: self.scale, ..Self::new(others.clone()) };
         match self.noise() {
@@ -112,24 +111,22 @@ impl Weighted {
         }
     }
 
-    /// The evidence with white residuals of each channel this much smaller: they are larger than
-    /// the noise says.
+    /// The evidence with whitened residuals of each channel divided by `scale`.
     pub fn with_scale(&self, scale: [f64; 3]) -> Self {
         Self { scale, ..self.clone() }
     }
 
-    /// By what the whitened residuals of each channel are taken to be larger than the noise says.
+    /// Factor by which whitened residuals of each channel are divided, since they exceed the noise.
     pub fn scale(&self) -> [f64; 3] {
         self.scale
     }
 
-    /// The samples with other readings of the encoders, weighed alike.
+    /// The samples with other encoder readings and the present weights.
     pub fn with_readings(&self, other: impl FnOnce(&Evidence) -> Evidence) -> Self {
         Self { evidence: Arc::new(other(&self.evidence)), ..self.clone() }
     }
 
-    /// Makes a column of residuals or of their derivatives white by the noise, in place: unit
-    /// variance, no correlation.
+    /// Whitens a column of residuals or derivatives in place: unit variance, no correlation.
     pub fn whiten(&self, column: &mut [Vector3<f64>]) {
         match &self.whitening {
             Whitening::Segments { whitener, lost, .. } => {
@@ -149,7 +146,7 @@ impl Weighted {
         }
     }
 
-    /// A column of residuals or of their derivatives, whitened and scaled.
+    /// A column of residuals or derivatives, whitened and scaled.
     pub fn white(&self, mut column: Vec<Vector3<f64>>) -> Vec<Vector3<f64>> {
         self.whiten(&mut column);
         let inverse = Vector3::from(self.scale.map(f64::recip));
@@ -159,38 +156,38 @@ impl Weighted {
         column
     }
 
-    /// The white residual of a prediction.
+    /// Whitened and scaled residual, observed minus predicted.
     pub fn residual(&self, prediction: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         let samples = self.samples().iter().zip(prediction);
         self.white(samples.map(|(sample, motion)| sample.motion - motion).collect())
     }
 
-    /// The normal equations of a white residual and white columns, by blocks.
+    /// Normal equations of whitened residual and columns, summed by blocks.
     pub fn normal(&self, residual: &[Vector3<f64>], columns: &[Vec<Vector3<f64>>]) -> Normal {
         let blocks: Vec<usize> = self.samples().iter().map(|sample| sample.block).collect();
         let (weights, count) = (&self.weights(residual), self.blocks());
         Normal::new(&Columns { residual, columns, weights, blocks: &blocks, count })
     }
 
-    /// What each sample of a white residual weighs: less where it lies far out.
+    /// Huber weight of each sample of a whitened residual.
     pub fn weights(&self, residual: &[Vector3<f64>]) -> Vec<f64> {
         let huber = self.huber();
         residual.iter().map(|sample| huber.weight(sample.norm())).collect()
     }
 
-    /// Twice the loss of a white residual.
+    /// Twice the Huber loss of a whitened residual.
     pub fn loss(&self, residual: &[Vector3<f64>]) -> f64 {
         let huber = self.huber();
         residual.iter().map(|sample| huber.value(sample.norm())).sum()
     }
 
-    /// The loss of the length of a whitened residual.
+    /// Huber's loss of the norm of a whitened residual.
     fn huber(&self) -> Huber {
         Huber { threshold: self.settings().evidence.huber_threshold }
     }
 
-    /// By what a white residual is larger in each channel than the noise says, from its median: one
-    /// where nothing is left but noise.
+    /// Ratio of residual to modelled noise for each channel, by the median absolute residual: one
+    /// where only noise is left.
     pub fn residual_scale(&self, residual: &[Vector3<f64>]) -> [f64; 3] {
         std::array::from_fn(|channel| {
             let measured = residual.iter().enumerate();
@@ -201,8 +198,7 @@ impl Weighted {
         })
     }
 
-    /// Gives a white column the noise's correlations, in place: the inverse of
-    /// [`Weighted::whiten`].
+    /// Colours a white column in place: the inverse of [`Weighted::whiten`].
     pub fn colour(&self, column: &mut [Vector3<f64>]) {
         match &self.whitening {
             Whitening::Segments { whitener, .. } => whitener.colour(column),
@@ -214,8 +210,7 @@ impl Weighted {
         }
     }
 
-    /// Logarithms of the determinants of what whitens each sample, given those before it; none of a
-    /// table.
+    /// Log determinant of the whitening of each sample, given those before it; none for a table.
     pub fn ln_determinants(&self) -> Vec<f64> {
         match &self.whitening {
             Whitening::Segments { whitener, .. } => whitener.ln_determinants().collect(),
@@ -223,7 +218,7 @@ impl Weighted {
         }
     }
 
-    /// Numbers that were measured: of each sample up to three.
+    /// Number of measured values: up to three for each sample.
     pub fn measured(&self) -> usize {
         let is_measured =
             |sample| (0..3).filter(|&channel| self.is_measured(sample, channel)).count();

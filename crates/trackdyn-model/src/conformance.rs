@@ -1,4 +1,4 @@
-//! What every effect of the catalogue must satisfy.
+//! Conformance tests for every effect of the catalogue.
 
 use crate::contact::pressure::Footprint;
 use crate::contact::quadrature::SlipSite;
@@ -11,7 +11,7 @@ use crate::{Effects, VehicleFile};
 use std::collections::BTreeSet;
 use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist, Wrench};
 
-/// Every effect with the typical sizes of its parameters.
+/// Every effect with typical parameters.
 fn all() -> impl Iterator<Item = ActiveEffect> {
     CATALOGUE.iter().map(|card| {
         let typical: Vec<_> = card.parameters.iter().map(|p| (p.key, p.typical)).collect();
@@ -26,13 +26,13 @@ fn turn<S: Scalar>(z: [S; 3]) -> Motion<S> {
 
 const ICR: [f64; 3] = [-0.37, 0.05, 1.2];
 
-/// A fast left turn while it changes.
+/// A fast left turn with acceleration.
 fn changing_turn() -> Motion {
     let acceleration = Twist { v_x: 0.1, v_y: 0.3, w: -0.2 };
     Motion { acceleration, ..turn(ICR) }
 }
 
-/// A place, heading and time at which every effect shows.
+/// A place, heading and time at which every effect acts.
 const ELSEWHERE: Circumstance = Circumstance { position: [3.0, 0.5], heading: 0.4, time: 60.0 };
 
 #[test]
@@ -119,7 +119,7 @@ fn hooks_act_at_the_stages_of_the_card_and_nowhere_else() {
     }
 }
 
-/// A belt that stops behind a lag gets slower than numbers that have a reciprocal.
+/// Behind a lag, a stopping belt becomes so slow that the reciprocal of its speed overflows.
 #[test]
 fn forces_and_their_derivatives_are_finite_however_slow_the_belts_are() {
     const SLOW: [f64; 7] = [1e-3, 1e-100, 1e-300, 1e-311, 5e-324, 0.0, -1e-311];
@@ -172,8 +172,8 @@ fn total<S: Scalar>(model: &Model, ground: &Ground, motion: &Motion<S>) -> [S; 3
     [sum.force_x, sum.force_y, sum.moment]
 }
 
-/// All that a model says of a turn: the wrench on the body over its weight, the drive and the
-/// sensor, SI.
+/// Everything that a model predicts of a turn: the wrench on the body over its weight, the drive
+/// and the sensor, SI.
 fn behaviour(effects: Effects) -> Vec<f64> {
     let vehicle = VehicleFile::auriga_alpha().vehicle;
     let weight = vehicle.mass * trackdyn_core::STANDARD_GRAVITY;
@@ -191,7 +191,7 @@ fn behaviour(effects: Effects) -> Vec<f64> {
     .concat()
 }
 
-/// How far an effect with these values moves the behaviour: its largest change.
+/// Largest change of the prediction by an effect with these values.
 fn departure(card: &Card, value: impl Fn(&Parameter) -> f64) -> f64 {
     let settings: Vec<_> = card.parameters.iter().map(|p| (p.key, value(p))).collect();
     let effect = ActiveEffect::new(card.id, &settings).expect("values in range");
@@ -200,8 +200,7 @@ fn departure(card: &Card, value: impl Fn(&Parameter) -> f64) -> f64 {
     changes.map(|(with, without)| (with - without).abs()).fold(0.0, f64::max)
 }
 
-/// The neutral value of a size, or the physical one that is nearest to it; none of other
-/// parameters.
+/// Neutral value of a size, clamped to its range; none for other parameters.
 fn neutral(parameter: &Parameter) -> Option<f64> {
     let [low, high] = parameter.range;
     match parameter.role {
@@ -212,8 +211,9 @@ fn neutral(parameter: &Parameter) -> Option<f64> {
 
 #[test]
 fn an_effect_is_there_where_one_of_its_sizes_is_not_neutral_and_nowhere_else() {
-    /// Most that neutral sizes leave of what typical ones do. It is nothing but for sizes whose
-    /// neutral value is a limit: their ranges begin at a two-hundredth or less of what is typical.
+    /// Largest change at neutral sizes, relative to typical ones. It is zero unless the neutral
+    /// value is a limit outside the range, which starts at a two-hundredth of the typical size or
+    /// less.
     const LEFT: f64 = 0.01;
     for card in CATALOGUE {
         let least = LEFT * departure(card, |parameter| parameter.typical);
@@ -223,7 +223,7 @@ fn an_effect_is_there_where_one_of_its_sizes_is_not_neutral_and_nowhere_else() {
             assert!(left <= least, "{}: neutral sizes leave {left}", card.id);
         }
         let sizes: Vec<_> = card.parameters.iter().filter(|p| neutral(p).is_some()).collect();
-        // Of many sizes each does a part.
+        // Of several sizes each causes a share.
         let least = least / trackdyn_core::real(sizes.len());
         for size in sizes {
             let alone = departure(card, |parameter| match neutral(parameter) {

@@ -2,7 +2,7 @@
 //!
 //! Friction is the anisotropic Coulomb law of eqs (22)-(23), `τ = −[μ] p s/|s|`, under a pressure
 //! that is linear along the track. [`closed_form`] integrates it exactly; [`quadrature`] integrates
-//! what effects change about it.
+//! the changes by effects.
 
 pub mod closed_form;
 pub mod patch;
@@ -30,9 +30,8 @@ pub struct Friction {
 
 /// Friction wrench on the body from the patches of one side, about the frame's origin.
 ///
-/// Closed form for each patch where it keeps its digits; where the ICR is so far away that the
-/// closed form would cancel, the integrand is smooth and a Gauss rule is exact to the digits asked
-/// for.
+/// Each patch uses the closed form where it is accurate. Where the ICR is so far away that the
+/// closed form cancels, the integrand is smooth and a Gauss rule has the requested digits.
 pub fn friction_wrench<S: Scalar>(
     patches: &[Patch],
     friction: Friction,
@@ -43,7 +42,7 @@ pub fn friction_wrench<S: Scalar>(
     let is_near = |patch: &&Patch| closed_form::applies(patch, slip, resolution);
     let far = patches.iter().filter(|patch| !is_near(patch));
     let mut wrench = quadrature::far_field_wrench(far, friction, pressure, slip, resolution);
-    // The closed form needs an ICR: a field that does not rotate has none.
+    // The closed form needs an ICR: a field without rotation has none.
     if patches.iter().any(|patch| is_near(&patch)) {
         let near = patches.iter().filter(is_near);
         wrench += closed_form::friction_wrench(near, friction, pressure, slip);

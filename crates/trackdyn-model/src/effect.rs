@@ -1,7 +1,7 @@
-//! What an effect is: a card, parameters, and hooks on the pipeline.
+//! The trait of an effect: a card, parameters, and hooks on the pipeline.
 //!
 //! An effect is physics that the base model leaves out. It is written once, in one file of
-//! [`effects`](crate::effects), and serves the simulator and the diagnosis alike.
+//! [`effects`](crate::effects), for simulator and diagnosis alike.
 
 mod term;
 
@@ -14,9 +14,9 @@ use trackdyn_core::{PerSide, Scalar, Wrench};
 
 /// A mechanism that the base model leaves out.
 ///
-/// A hook adds to or multiplies what it is given and never assigns, so effects combine in any
-/// order. A hook that an effect does not override does nothing. [`Card::stages`] names the hooks
-/// that act; the conformance tests hold the two together.
+/// A hook adds to or multiplies its argument and never assigns, so effects combine in any order.
+/// The default of each hook does nothing. [`Card::stages`] names the hooks that act, which the
+/// conformance tests check.
 pub trait Effect: Copy + Sized {
     /// Description and parameters.
     const CARD: Card;
@@ -24,22 +24,21 @@ pub trait Effect: Copy + Sized {
     /// Whether it is a mechanism or a form.
     const NATURE: Nature = Nature::Mechanism;
 
-    /// Whether it is a part of Newton's second law: all of them together are the law in full.
+    /// Whether it is a term of Newton's second law; all of these together are the complete law.
     const IS_INERTIA: bool = false;
 
-    /// The terms of a form; none of a mechanism.
+    /// Terms of a form; empty for a mechanism.
     fn terms() -> Vec<Term> {
         Vec::new()
     }
 
-    /// The effect with its parameters in the order and the units of the card, each within its
-    /// range.
+    /// The effect with these parameter values, in the order and units of the card, within range.
     fn from_values(values: &[f64]) -> Self;
 
-    /// Stage `body`: what the machine is.
+    /// Stage `body`: mass and geometry of the machine.
     fn body(&self, _vehicle: &mut Vehicle) {}
 
-    /// Stage `drive`: from the speeds that the encoders show to those of the belts.
+    /// Stage `drive`: from encoder speeds to belt speeds.
     fn drive(&self, _drive: &mut Drive) {}
 
     /// Stage `ground`: friction under each side and gravity at this place, heading and time.
@@ -48,10 +47,10 @@ pub trait Effect: Copy + Sized {
     /// Stage `load`: centre of pressure of the whole machine, (x, y) in m.
     fn load<S: Scalar>(&self, _situation: &Situation<S>, _centre_of_pressure: &mut [S; 2]) {}
 
-    /// Stage `shear`: factors on the shear stress, and stress beside it, at a point of the contact.
+    /// Stage `shear`: factors on the shear stress, and added stress, at a point of the contact.
     fn shear<S: Scalar>(&self, _site: &Site<S>, _stress: &mut ShearStress<S>) {}
 
-    /// Stage `wrench`: forces on the body beside friction and weight.
+    /// Stage `wrench`: forces on the body in addition to friction and weight.
     fn wrench<S: Scalar>(
         &self,
         _situation: &Situation<S>,
@@ -64,18 +63,18 @@ pub trait Effect: Copy + Sized {
     fn sense(&self, _sensor: &mut Sensor) {}
 }
 
-/// What a reader of the catalogue sees of an effect.
+/// Catalogue entry of an effect.
 #[derive(Debug, PartialEq)]
 pub struct Card {
     /// Name in files and on the command line, kebab-case.
     pub id: &'static str,
-    /// One line: what it is.
+    /// Description in one line.
     pub title: &'static str,
-    /// The law, in the letters of the parameters.
+    /// The law, with the letters of the parameters.
     pub law: &'static str,
-    /// What is assumed, and where the law ends.
+    /// Assumptions, and limits of validity.
     pub assumes: &'static str,
-    /// Where in a map or a recording it shows.
+    /// Where it shows in a map or a recording.
     pub shows: &'static str,
     /// Invariances of the ICR triple that it breaks.
     pub breaks: &'static [Symmetry],
@@ -83,18 +82,17 @@ pub struct Card {
     pub stages: &'static [Stage],
     /// Parameters, in the order of [`Effect::from_values`].
     pub parameters: &'static [Parameter],
-    /// Where the law comes from.
+    /// Sources of the law.
     pub sources: &'static [&'static str],
 }
 
 impl Card {
-    /// Whether it changes the shear stress, which then needs a quadrature.
+    /// Whether it changes the shear stress, which then needs quadrature.
     pub fn shears(&self) -> bool {
         self.stages.contains(&Stage::Shear)
     }
 
-    /// Whether it acts around a place of the world, over an extent that is its shape, and not on
-    /// the robot wherever it is.
+    /// Whether it acts around a place in the world, over an extent that is its shape parameter.
     pub fn has_extent(&self) -> bool {
         let is_place = |one: &Parameter| matches!(one.role, Role::Place { .. });
         let is_shape = |one: &Parameter| one.role == Role::Shape;
@@ -111,32 +109,31 @@ pub struct Parameter {
     pub symbol: &'static str,
     /// Unit, `1` for pure numbers.
     pub unit: &'static str,
-    /// What it is.
+    /// Description.
     pub meaning: &'static str,
-    /// What it does in the law.
+    /// Role in the law.
     pub role: Role,
-    /// Smallest and largest value that is physical.
+    /// Smallest and largest physical value.
     pub range: [f64; 2],
-    /// A size that a roboticist may meet; the default where none is given.
+    /// Typical value; the default.
     pub typical: f64,
 }
 
 impl Parameter {
-    /// Its unit as it stands behind a number; nothing for pure numbers.
+    /// Unit as printed after a number; empty for pure numbers.
     pub fn unit_behind(&self) -> String {
         if self.unit == "1" { String::new() } else { format!(" {}", self.unit) }
     }
 }
 
-/// What a parameter does in the law of its effect.
+/// Role of a parameter in the law of its effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {
-    /// How large the effect is. Where all its sizes are neutral there is no effect, whatever its
-    /// other parameters are.
+    /// Size of the effect. If all sizes are neutral there is no effect, whatever the other
+    /// parameters are.
     Size {
-        /// Value at which the law is that of the base model, in the parameter's unit. It may lie
-        /// below the physical range: then the law approaches the base model towards that end of the
-        /// range.
+        /// Value at which the law equals the base model, in the parameter's unit. It may lie
+        /// outside the physical range: then the law approaches the base model towards that end.
         neutral: f64,
     },
     /// A coordinate of a place in the world, m.
@@ -146,7 +143,7 @@ pub enum Role {
     },
     /// A direction in the world, counter-clockwise from its x axis.
     Direction,
-    /// A constant of the law that says nothing where the sizes are neutral.
+    /// Another constant of the law, without influence where the sizes are neutral.
     Shape,
 }
 
@@ -162,25 +159,25 @@ impl Role {
     }
 }
 
-/// An invariance that the ICR triple (x_l, x_r, y), as encoders and pose sensor show it, has in the
-/// base model.
+/// An invariance of the ICRs (x_l, x_r, y), as encoders and pose sensor show them, in the base
+/// model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Symmetry {
-    /// S: all speeds scaled by one factor.
+    /// S: scaling all speeds by a common factor.
     SpeedScale,
-    /// R: all speeds reversed.
+    /// R: reversing all speeds.
     Reversal,
-    /// P: same-sign arc, counter-rotation, spin.
+    /// P: changing between same-sign arc, counter-rotation and spin.
     Manoeuvre,
-    /// M: left and right exchanged (on a machine with its centre of gravity in the middle).
+    /// M: exchanging left and right (for a centre of gravity in the middle).
     Mirror,
-    /// H: turned to another heading.
+    /// H: turning to another heading.
     Heading,
-    /// X: moved to another place.
+    /// X: moving to another place.
     Place,
-    /// T: done at another time.
+    /// T: driving at another time.
     Time,
-    /// D: speeds that change against steady ones.
+    /// D: changing the speeds instead of holding them.
     Transient,
     /// 0: equal track speeds drive straight ahead, as fast as the encoders show.
     Straight,
@@ -219,24 +216,24 @@ impl Symmetry {
 /// A stage of the pipeline from belt speeds to the balance of forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// What the machine is.
+    /// Mass and geometry of the machine.
     Body,
-    /// How fast the belts run when the encoders show a speed.
+    /// Belt speeds at given encoder speeds.
     Drive,
-    /// What the ground is at this place, heading and time.
+    /// Ground at a place, heading and time.
     Ground,
-    /// How the weight spreads over the patches.
+    /// Distribution of the weight over the patches.
     Load,
-    /// How much friction a point of the contact mobilises.
+    /// Friction mobilised at a point of the contact.
     Shear,
-    /// What else acts on the body.
+    /// Other forces on the body.
     Wrench,
-    /// What the pose sensor reports.
+    /// Motion as reported by the pose sensor.
     Sense,
 }
 
 impl Stage {
-    /// The stages in the order in which the model walks them.
+    /// All stages, in the order of evaluation.
     pub const ALL: [Self; 7] =
         [Self::Body, Self::Drive, Self::Ground, Self::Load, Self::Shear, Self::Wrench, Self::Sense];
 

@@ -1,4 +1,4 @@
-//! The sum of all forces on the body at a motion, and how it changes with the motion.
+//! Sum of all forces on the body at a motion, and its derivatives.
 
 use crate::transient::gripping;
 use crate::{Ground, Model, Motion};
@@ -9,7 +9,7 @@ use trackdyn_core::{Dual, PerSide, Scalar, Twist, Wrench};
 /// along (N) and moment (N·m), columns v_x, v_y (m/s) and w (rad/s) or their rates, paper's frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Forces<'a> {
-    /// The robot.
+    /// The robot's model.
     pub model: &'a Model,
     /// The ground under it.
     pub ground: &'a Ground,
@@ -18,21 +18,20 @@ pub struct Forces<'a> {
 }
 
 impl Forces<'_> {
-    /// Their sum at belt speeds (m/s), a twist and its rate: zero where the motion is one of the
-    /// model.
+    /// Sum at belt speeds (m/s), a twist and its rate: zero for a motion of the model.
     pub fn sum(&self, belts: PerSide<f64>, twist: &Twist, rate: &Twist) -> Vector3<f64> {
         let Twist { v_x, v_y, w } = *twist;
         Vector3::from(self.at(belts, [v_x, v_y, w], *rate))
     }
 
-    /// The derivatives of their sum by the twist.
+    /// Derivatives of the sum by the twist.
     pub fn by_twist(&self, belts: PerSide<f64>, twist: &Twist, rate: &Twist) -> Matrix3<f64> {
         let Twist { v_x, v_y, w } = *rate;
         let rate = Twist { v_x: v_x.into(), v_y: v_y.into(), w: w.into() };
         gradients(&self.at(belts, Dual::variables([twist.v_x, twist.v_y, twist.w]), rate))
     }
 
-    /// The derivatives of their sum by the rate of the twist.
+    /// Derivatives of the sum by the rate of the twist.
     pub fn by_rate(&self, belts: PerSide<f64>, twist: &Twist, rate: &Twist) -> Matrix3<f64> {
         let [v_x, v_y, w] = Dual::variables([rate.v_x, rate.v_y, rate.w]);
         let twist = [twist.v_x, twist.v_y, twist.w].map(Dual::from);
@@ -95,8 +94,8 @@ mod tests {
         }
     }
 
-    /// In the stages of a motion in time they balance, the last one of each step is its end, and
-    /// both together move the body.
+    /// The forces balance in all stages of a transient motion; the last stage of each step is its
+    /// end, and the weighted stages move the body.
     #[test]
     fn they_balance_in_every_stage_of_a_motion_in_time() {
         let texts = ["yaw-inertia:strength=1,gyration_m=0.3", "centripetal"];

@@ -4,14 +4,14 @@ use trackdyn_core::{PerSide, Twist};
 
 /// Instantaneous centres of rotation of the two tracks in the paper's frame, m.
 ///
-/// Both lie on one line across the vehicle: they share y with the ICR of the hull.
+/// Both lie on one line across the vehicle: their y is that of the hull's ICR.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Icrs {
     /// x of the left track's ICR, x_l; negative in ordinary motion.
     pub x_left: f64,
     /// x of the right track's ICR, x_r.
     pub x_right: f64,
-    /// y of both, and of the hull's ICR.
+    /// y of both ICRs and of the hull's.
     pub y: f64,
 }
 
@@ -29,8 +29,7 @@ impl Icrs {
         [self.x_left, self.x_right, self.y]
     }
 
-    /// The ICRs of a hull with this twist and belts with these speeds (m/s); none where it does not
-    /// turn.
+    /// ICRs of a hull with this twist and belts with these speeds (m/s); none without turning.
     pub fn of_motion(belt_speed: PerSide<f64>, twist: &Twist) -> Option<Self> {
         // x = (V − v_y)/w, y = v_x/w
         let x = |speed: f64| (speed - twist.v_y) / twist.w;
@@ -41,14 +40,14 @@ impl Icrs {
         })
     }
 
-    /// Steering efficiency χ of a vehicle with this gauge: 1 for an ideal differential drive.
+    /// Steering efficiency χ for this gauge: 1 for an ideal differential drive.
     pub fn steering_efficiency(&self, gauge: f64) -> f64 {
         // χ = L/(x_r − x_l), eq. (12)
         gauge / (self.x_right - self.x_left)
     }
 
-    /// Eccentricity e: 0 where the ICRs lie symmetrically, positive where the centre of turning is
-    /// right of the middle.
+    /// Eccentricity e: 0 for ICRs symmetric about the middle, positive where their centre is to the
+    /// right.
     pub fn eccentricity(&self) -> f64 {
         // e = (x_r + x_l)/(x_r − x_l), eq. (13)
         (self.x_right + self.x_left) / (self.x_right - self.x_left)

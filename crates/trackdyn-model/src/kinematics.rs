@@ -24,7 +24,7 @@ impl Kinematics {
         Self { icrs, alpha: PerSide::new(1.0, 1.0) }
     }
 
-    /// The ideal differential drive: ICRs on the track centre-lines.
+    /// Ideal differential drive: ICRs on the track centre-lines.
     pub fn ideal(gauge: f64) -> Self {
         Self::new(Icrs { x_left: -gauge / 2.0, x_right: gauge / 2.0, y: 0.0 })
     }
@@ -46,8 +46,8 @@ impl Kinematics {
         }
     }
 
-    /// Track speeds as they would be measured, m/s, at a forward speed and a yaw rate: inverse
-    /// kinematics. The lateral speed v_x = ω y follows: the vehicle cannot choose it.
+    /// Measured track speeds, m/s, for a forward speed and a yaw rate: inverse kinematics. The
+    /// lateral speed v_x = ω y follows and cannot be chosen.
     pub fn track_speeds(&self, forward: f64, yaw_rate: f64) -> PerSide<f64> {
         let Icrs { x_left, x_right, .. } = self.icrs;
         PerSide {

@@ -1,22 +1,22 @@
-//! How a tracked robot moves over ground, and which numbers say it.
+//! Mechanics of a tracked robot: the forces on it, and the motion and kinematic parameters that
+//! follow.
 //!
-//! What pushes:
-//! - [`vehicle`]: mass, running gear, centre of gravity, friction; [`vehicle_file`]: as a file.
+//! Forces:
+//! - [`vehicle`]: mass, running gear, centre of gravity, friction; [`vehicle_file`]: the file.
 //! - [`contact`]: friction of a patch, in closed form or by quadrature.
-//! - [`pipeline`]: what passes between the stages of the balance of forces.
-//! - [`effect`]: what an effect is; [`effects`]: the catalogue, one file each.
+//! - [`pipeline`]: the values passed between the stages of the balance of forces.
+//! - [`effect`]: the trait of an effect; [`effects`]: the catalogue, one file each.
 //! - [`model`]: a vehicle with its effects, and the balance of forces at a motion.
 //!
-//! How it moves:
-//! - [`Forces`]: what pushes the body at a motion, and how that changes with it.
-//! - [`newton`]: the search for the motion at which forces balance.
-//! - [`stationary`]: that motion for a pair of track speeds; [`transient`]: the motion in time.
+//! Motion:
+//! - [`Forces`]: the sum of forces at a motion, and its Jacobian.
+//! - [`newton`]: Newton's and Broyden's method for the balance of forces.
+//! - [`stationary`]: the motion at constant track speeds; [`transient`]: the motion over time.
 //! - [`map`]: the stationary motion over a grid of speeds, its means, spreads and sectors.
-//! - [`kinematics`]: what the means are for: equations (7)-(13) with constant ICRs.
+//! - [`kinematics`]: constant ICRs, equations (7)-(13).
 //!
-//! Laws are written over one scalar type, so each has exact derivatives. What pushes never iterates
-//! and knows nothing of how the robot moves. The paper's frame holds throughout: x right, y
-//! forward.
+//! Laws are generic over one scalar type, so each has exact derivatives. The modules of forces do
+//! not iterate and do not depend on those of motion. All use the paper's frame: x right, y forward.
 
 #[cfg(test)]
 mod conformance;

@@ -26,13 +26,13 @@ pub struct IcrMap {
 }
 
 impl IcrMap {
-    /// Solves every pair, in parallel. `progress` is told the number of pairs of each finished row.
+    /// Solves every pair in parallel. `progress` receives the number of pairs of each finished row.
     ///
-    /// Each pair is solved on its own from a cold start, so the map does not depend on the number
-    /// of threads.
+    /// Each pair is solved independently from a cold start, so the map does not depend on the
+    /// number of threads.
     ///
     /// # Panics
-    /// Never: `progress` cannot ask to stop.
+    /// Never: `progress` cannot cancel.
     pub fn solve(
         model: &Model,
         grid: Grid,
@@ -47,8 +47,7 @@ impl IcrMap {
             .expect("progress never asks to stop")
     }
 
-    /// As [`IcrMap::solve`], until `progress` asks to stop after one of the rows: then there is no
-    /// map.
+    /// Like [`IcrMap::solve`], but `progress` may cancel after a row: then there is no map.
     pub fn solve_unless_stopped(
         model: &Model,
         grid: Grid,
@@ -65,7 +64,7 @@ impl IcrMap {
         Some(Self { grid, solutions: rows?.concat(), gauge: model.vehicle().gauge })
     }
 
-    /// The solutions in which the robot turns: only these define ICRs that a motion shows.
+    /// Solutions in which the robot turns; only these have ICRs.
     pub fn turning(&self) -> impl Iterator<Item = &Solution> {
         self.solutions.iter().filter(|solution| solution.status == Status::Turning)
     }
@@ -79,13 +78,13 @@ impl IcrMap {
         counts
     }
 
-    /// Means and spreads over the turning motions; none where the robot never turns.
+    /// Means and standard deviations over the turning motions; none where the robot never turns.
     pub fn statistics(&self) -> Option<Statistics> {
         Statistics::of(self.turning().filter_map(|solution| solution.icrs), self.gauge)
     }
 
-    /// Means and spreads by the signs of V_l, V_r and |V_r| − |V_l| (sec. 4.1), where these explain
-    /// nine tenths of the variance of one of x_l, x_r, y; empty otherwise.
+    /// Means and standard deviations by the signs of V_l, V_r and |V_r| − |V_l| (sec. 4.1), where
+    /// these explain nine tenths of the variance of x_l, x_r or y; empty otherwise.
     pub fn sectors(&self) -> Vec<Sector> {
         sector::sectors(self)
     }

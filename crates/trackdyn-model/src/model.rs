@@ -8,7 +8,7 @@ use crate::pipeline::{Circumstance, Drive, Ground, Motion, Sensor, Site, Situati
 use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Side, Wrench};
 
-/// A vehicle with its effects: what pushes it at a given motion.
+/// A vehicle with its effects, and the forces on it at a given motion.
 ///
 /// # Law
 /// Stationary motion, eqs (14)-(15): friction + weight along the slope + what effects add = 0.
@@ -28,7 +28,7 @@ pub struct Model {
     extent: PerSide<Extent>,
     drive: Drive,
     sensor: Sensor,
-    /// Those of the effects that change the shear stress.
+    /// Effects that change the shear stress.
     shear_laws: Effects,
     resolution: Resolution,
 }
@@ -38,14 +38,14 @@ pub struct Model {
 pub struct Balance<S = f64> {
     /// Friction on each side.
     pub friction: PerSide<Wrench<S>>,
-    /// All else: weight along the slope and what effects add.
+    /// All other forces: weight along the slope, and those of effects.
     pub load: Wrench<S>,
     /// Weight on each side, N.
     pub normal_load: PerSide<S>,
 }
 
 impl<S: Scalar> Balance<S> {
-    /// All of them, which are zero together where they balance.
+    /// Sum of all forces, zero at balance.
     #[inline]
     pub fn sum(&self) -> Wrench<S> {
         let mut sum = self.load;
@@ -73,12 +73,12 @@ impl Model {
         Self { vehicle, effects, patches, footprint, extent, drive, sensor, shear_laws, resolution }
     }
 
-    /// This model with the shear stress integrated this finely.
+    /// The model with another resolution of the shear-stress quadrature.
     pub fn with_resolution(self, resolution: Resolution) -> Self {
         Self { resolution, ..self }
     }
 
-    /// How finely the shear stress is integrated.
+    /// Resolution of the shear-stress quadrature.
     pub fn resolution(&self) -> Resolution {
         self.resolution
     }
@@ -103,17 +103,17 @@ impl Model {
         &self.footprint
     }
 
-    /// Middle and size of each side's contact.
+    /// Centre and size of each side's contact.
     pub fn extent(&self) -> &PerSide<Extent> {
         &self.extent
     }
 
-    /// Stage `drive`: from the speeds that the encoders show to those of the belts.
+    /// Stage `drive`: from encoder speeds to belt speeds.
     pub fn drive(&self) -> &Drive {
         &self.drive
     }
 
-    /// Stage `sense`: what the pose sensor reports.
+    /// Stage `sense`: the reported motion.
     pub fn sensor(&self) -> &Sensor {
         &self.sensor
     }
@@ -154,7 +154,7 @@ impl Model {
         Balance { friction, load, normal_load }
     }
 
-    /// Whether some of the contact would have to pull at this motion.
+    /// Whether the pressure is not positive somewhere in the contact at this motion.
     pub fn lifts(&self, ground: &Ground, motion: &Motion) -> bool {
         let situation = self.situation(ground, motion);
         let (normal_load, pressure) = self.load(&situation);
@@ -164,8 +164,8 @@ impl Model {
         })
     }
 
-    /// Whether no pressure of the ground can bear the load at this motion: it would have to act
-    /// outside the contact.
+    /// Whether the resultant load lies outside the contact at this motion, so that no pressure can
+    /// bear it.
     pub fn tips(&self, ground: &Ground, motion: &Motion) -> bool {
         let (normal_load, pressure) = self.load(&self.situation(ground, motion));
         let [rear, front] = self.footprint.ends;
@@ -179,8 +179,7 @@ impl Model {
         Situation { vehicle: &self.vehicle, ground, footprint: &self.footprint, motion }
     }
 
-    /// Stage `load`: weight on each side (N; negative where it would have to pull) and the
-    /// pressure.
+    /// Stage `load`: weight on each side (N; negative where it would have to pull) and pressure.
     #[inline]
     fn load<S: Scalar>(&self, situation: &Situation<S>) -> (PerSide<S>, PerSide<Pressure<S>>) {
         let mut centre_of_pressure = self.vehicle.cog.map(S::from);

@@ -1,30 +1,30 @@
-//! Newton's method for a few equations, damped so that each step reduces the residual.
+//! Damped Newton's method, and Broyden's method, for a few equations.
 
 use crate::contact::Resolution;
 use nalgebra::{SMatrix, SVector};
 use trackdyn_core::Dual;
 
-/// When a point counts as a root.
+/// Criteria of convergence.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance {
-    /// Residual at which the iteration stops.
+    /// Norm of the residual at which the iteration stops.
     pub converged: f64,
-    /// Residual up to which a point counts as a root when rounding keeps it from `converged`.
+    /// Norm of the residual up to which a point counts as a root when rounding prevents more.
     pub rounding: f64,
 }
 
 impl Tolerance {
-    /// The tolerance for friction with half the digits.
+    /// Tolerance for friction computed to half the digits.
     const COARSE: Self = Self { converged: 1e-8, rounding: 1e-7 };
 
-    /// The tolerance for friction of this resolution: a root is no finer than that.
+    /// Tolerance at a resolution of friction: a root is no more accurate than that.
     pub fn at(self, resolution: Resolution) -> Self {
         if resolution == Resolution::Fine { self } else { Self::COARSE }
     }
 }
 
-/// Residual below which one more step of a quadratic method is expected to be the last: its
-/// derivatives are then not computed.
+/// Residual below which the next Newton step is expected to be the last, so that its Jacobian is
+/// not computed.
 const LAST_STEP_RESIDUAL: f64 = 1e-6;
 
 const MAX_ITERATIONS: usize = 80;
@@ -32,8 +32,8 @@ const MAX_ITERATIONS: usize = 80;
 /// Share of the predicted decrease of the residual's norm that a step must bring.
 const SUFFICIENT_DECREASE: f64 = 1e-4;
 
-/// Smallest share of a Newton step that is tried. Where a smaller one would be needed, no root is
-/// near, and another start is tried sooner.
+/// Smallest share of a Newton step that is tried: below, no root is near, and another start is
+/// better.
 const MIN_STEP_SHARE: f64 = 1e-3;
 
 /// Residual and Jacobian at a point.
@@ -43,7 +43,7 @@ pub struct Evaluation<const N: usize> {
 }
 
 impl<const N: usize> Evaluation<N> {
-    /// From the residual in dual numbers whose derivatives are by the unknowns.
+    /// From a residual in dual numbers with derivatives by the unknowns.
     #[inline]
     pub fn of_dual(residual: [Dual<N>; N]) -> Self {
         Self {
@@ -53,7 +53,7 @@ impl<const N: usize> Evaluation<N> {
     }
 }
 
-/// Where the iteration ended.
+/// End of the iteration.
 #[derive(Clone, Copy, Debug)]
 pub struct Convergence<const N: usize> {
     /// The last point.
@@ -64,18 +64,17 @@ pub struct Convergence<const N: usize> {
     pub iterations: usize,
     /// Whether the point is a root to rounding.
     pub is_root: bool,
-    /// Inverse of the Jacobian near the point, where it was asked for and has one.
+    /// Inverse of the Jacobian near the point; none where it is singular or was not computed.
     pub inverse: Option<SMatrix<f64, N, N>>,
 }
 
-/// Largest ratio of the residuals after and before a step without derivatives.
+/// Largest ratio of the residual after a Broyden step to that before.
 const MAX_RESIDUAL_RATIO: f64 = 0.6;
 
-/// Iterates from a `start` near a root without derivatives, by Broyden's method; none where that
-/// does not lead there.
+/// Broyden's method from a `start` near a root; none where it does not converge.
 ///
-/// `value` is the residual there, `inverse` that of a Jacobian not far from here. Each step
-/// corrects it by what the residual changed along the step:
+/// `value` is the residual at the start, `inverse` the inverse Jacobian at a nearby point. Each
+/// step s with change y of the residual updates it:
 /// B ← B + (s − B y) sᵀB/(sᵀB y).
 #[inline]
 pub fn from_near<const N: usize>(
@@ -108,8 +107,8 @@ pub fn from_near<const N: usize>(
     Some(Convergence { point, residual: norm, iterations, is_root: true, inverse })
 }
 
-/// Iterates from `start`. `evaluate` gives residual and Jacobian, `residual` the residual alone; no
-/// step moves the first two unknowns by more than `longest_step`.
+/// Newton's method from `start`. `evaluate` gives residual and Jacobian, `residual` the residual
+/// alone. No step moves the first two unknowns by more than `longest_step`.
 #[inline]
 pub fn solve<const N: usize>(
     start: SVector<f64, N>,
@@ -161,8 +160,8 @@ pub fn solve<const N: usize>(
     ended(point, norm, iterations, inverse)
 }
 
-/// The first end that is a root, else the one with the smallest residual. Starts after a root are
-/// not tried.
+/// The first result that is a root, or else the one with the smallest residual. Lazy: starts after
+/// a root are not tried.
 pub fn first_root<E, const N: usize>(
     ends: impl Iterator<Item = E>,
     convergence: impl Fn(&E) -> &Convergence<N>,
@@ -212,7 +211,7 @@ mod tests {
         let f = |z| quadratic(root)(z).residual;
         let begin = |distance: f64| {
             let start = root + Vector3::repeat(distance);
-            // the Jacobian of another place
+            // the Jacobian of another point
             from_near((start, f(start)), Matrix3::identity() * 0.9, EXACT, f)
         };
         let found = begin(0.1).expect("it is near");

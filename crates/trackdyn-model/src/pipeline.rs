@@ -1,4 +1,4 @@
-//! What passes between the stages that effects hook into.
+//! Values passed between the stages of the pipeline, into which effects hook.
 //!
 //! ```text
 //! encoder speeds -> drive -> belt speeds, place, heading, time

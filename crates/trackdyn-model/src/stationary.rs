@@ -1,20 +1,20 @@
-//! The stationary motion at a pair of track speeds.
+//! Stationary motion at a pair of track speeds.
 //!
 //! # Law
-//! Find the twist at which all forces on the body balance, eqs (14)-(15).
+//! The twist at which all forces on the body balance, eqs (14)-(15).
 //!
 //! # Unknowns
 //! The ICR (x, y) of one track, the *anchor*, and the turn t = w/(V_r − V_l) = 1/(x_r − x_l). All
-//! three stay finite: at small speed differences, where the twist degenerates, and at t → 0, where
-//! the other track's ICR runs to infinity.
+//! three stay finite for small speed differences, where the twist degenerates, and for t → 0, where
+//! the other track's ICR goes to infinity.
 //!
 //! # When a robot does not turn
 //! A track with much more load than the other can hold the robot: it sticks, the robot drives
-//! straight at its speed, and the other track slips. No slip direction exists on the sticking
-//! track, so the balance has no solution with t > 0. The residual is continued to t < 0 by
-//! multiplying the force of the slipping track and all forces beside friction by 1 − L t: there, a
-//! root says that the anchor breaks loose only under so much more force, that is, that it holds.
-//! One Newton iteration thus decides between turning and holding.
+//! straight at its speed, and the other track slips. The sticking track has no slip direction, so
+//! the balance has no solution with t > 0. The residual is continued to t < 0 by multiplying the
+//! force of the slipping track and all forces besides friction by 1 − L t. A root there means that
+//! the anchor would break loose only under that multiple of the forces: it holds. One Newton
+//! iteration thus decides between turning and holding.
 
 mod solution;
 
@@ -26,42 +26,41 @@ use crate::{Balance, Circumstance, Ground, Model, Motion};
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
 
-/// Speed, m/s, of the spin that stands for the limit of slow driving.
+/// Speed of the spin that represents the limit of slow driving, m/s.
 const SPIN_SPEED: f64 = 1e-6;
 
-/// Residual over the weight, and change of belt speeds over the faster one at which speed and
-/// traction agree.
+/// Tolerance of the residual over the weight; and, for belts that slip, of the change of belt
+/// speeds over the faster one.
 const TOLERANCE: Tolerance = Tolerance { converged: 1e-13, rounding: 1e-11 };
 
-/// Residual below which a search from a known motion may stop: the result is compared with that
-/// motion.
+/// Largest tolerance of a solve from a known motion: both results are compared with each other.
 const MAX_COMPARED_RESIDUAL: f64 = 1e-10;
 
-/// Largest number of alternations between belt speeds and traction.
+/// Largest number of iterations between belt speeds and traction.
 const MAX_ALTERNATIONS: usize = 100;
 
-/// A motion that is nearly the wanted one: where a search starts.
+/// A similar motion: start of a solve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Near {
-    /// It turns, with these ICRs.
+    /// A turning motion with these ICRs.
     Turning(Icrs),
     /// The track of this side holds the robot.
     Held(Side),
-    /// It was found for a model that resembles this one.
+    /// A motion of a similar model.
     Linearised(Linearised),
 }
 
-/// A motion with its linearisation: a search from there needs no derivatives.
+/// A motion with its inverse Jacobian, so that Broyden's method can start there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Linearised {
     anchor: Side,
     /// The unknowns.
     point: Vector3<f64>,
-    /// Inverse of the derivative of the residual by them.
+    /// Inverse of the Jacobian of the residual.
     inverse: Matrix3<f64>,
 }
 
-/// The ICRs of both tracks by that of the anchor and the turn; none where there is no turn.
+/// ICRs of both tracks from that of the anchor and the turn; none without a turn.
 fn icrs(anchor: Side, unknowns: &Vector3<f64>) -> Option<Icrs> {
     let [x, y, turn] = [unknowns[0], unknowns[1], unknowns[2]];
     let other = x - anchor.sign() / turn;
@@ -71,22 +70,22 @@ fn icrs(anchor: Side, unknowns: &Vector3<f64>) -> Option<Icrs> {
     })
 }
 
-/// Solver for the stationary motions of one model at one place, heading and time.
+/// Solver for the stationary motions of a model at one place, heading and time.
 #[derive(Clone, Debug)]
 pub struct Stationary<'m> {
     model: &'m Model,
     ground: Ground,
-    /// Force and moment that count as 1 in the residual, N and N·m.
+    /// Unit of force and moment in the residual, N and N·m.
     scale: [f64; 2],
-    /// Where searches start first.
+    /// First start of each solve.
     near: Option<Near>,
 }
 
 impl<'m> Stationary<'m> {
-    /// The solver for a model.
+    /// A solver for a model.
     ///
-    /// Solves one slow spin: without effects all motions share its ICRs (the constancy theorem),
-    /// and with effects it is a good start for any of them.
+    /// It solves one slow spin: without effects all motions share its ICRs (the constancy theorem),
+    /// and with effects it is a good start.
     pub fn new(model: &'m Model, circumstance: &Circumstance) -> Self {
         let mut solver = Self::from_start(model, circumstance, None);
         let spin = solver.solve_belts(PerSide::new(-SPIN_SPEED, SPIN_SPEED));
@@ -94,25 +93,25 @@ impl<'m> Stationary<'m> {
         solver
     }
 
-    /// The solver that starts from this motion in place of the slow spin.
+    /// A solver that starts from this motion instead of the slow spin.
     pub fn from_start(model: &'m Model, circumstance: &Circumstance, near: Option<Near>) -> Self {
         let weight = model.vehicle().weight();
         let scale = [weight, weight * model.vehicle().gauge];
         Self { model, ground: model.ground(circumstance), scale, near }
     }
 
-    /// This solver with this motion as its first start, where one is known.
+    /// The solver with this motion as first start; unchanged for none.
     pub fn starting_at(&self, near: Option<Near>) -> Self {
         Self { near: near.or(self.near), ..self.clone() }
     }
 
-    /// The stationary motion at the track speeds that the encoders show, m/s.
+    /// Stationary motion at these encoder speeds, m/s.
     ///
-    /// Each pair of speeds is solved by itself, so the order of solves does not matter. The result
-    /// carries its status; read it before the numbers.
+    /// Each pair of speeds is solved independently, so the order does not matter. Check the status
+    /// of the result first.
     ///
-    /// Where belts slip on their sprockets, speeds and traction are found by alternation: Coulomb's
-    /// friction depends on ratios of speeds alone, so the next traction hardly differs.
+    /// Where belts slip on their sprockets, speeds and traction are iterated in turn: Coulomb
+    /// friction depends on ratios of speeds only, so traction hardly changes.
     pub fn solve(&self, track_speed: PerSide<f64>) -> Solution {
         let driven = self.model.drive().driven(track_speed);
         let mut solution = self.solve_belts(driven);
@@ -123,8 +122,8 @@ impl<'m> Stationary<'m> {
         Solution { track_speed, ..solution }
     }
 
-    /// The motion of belts that slip on sprockets of these speeds, m/s, sought from that of belts
-    /// that do not.
+    /// Motion of belts that slip on sprockets with these speeds (m/s), starting from the motion
+    /// without slip.
     fn slipping(&self, driven: PerSide<f64>, firm: Solution) -> Solution {
         let settled = TOLERANCE.at(self.model.resolution()).converged;
         let tolerance = settled * driven.left.abs().max(driven.right.abs());
@@ -140,15 +139,14 @@ impl<'m> Stationary<'m> {
             if change <= tolerance {
                 return solution;
             }
-            // Traction that turns the robot the other way than it turns comes before traction that
-            // does not turn it.
+            // Before belts stick in straight driving, traction reverses the turn.
             if may_be_straight && difference(&next) * difference(&belts) <= 0.0 {
                 if let Some(straight) = self.straight(driven) {
                     return straight;
                 }
                 may_be_straight = false;
             }
-            // What turns back is met half-way.
+            // An oscillating iteration takes half steps.
             if step.left * last.left + step.right * last.right < 0.0 {
                 share *= 0.5;
             }
@@ -159,16 +157,16 @@ impl<'m> Stationary<'m> {
         Solution { status: Status::NotConverged, ..solution }
     }
 
-    /// The straight motion behind sprockets of these speeds, m/s, where traction takes up their
+    /// Straight motion behind sprockets with these speeds (m/s), where slip takes up their
     /// difference; none where it does not.
     ///
     /// # Law
     /// Both tracks stick: κ T/N = (V_d − V)/|V_d| with one V on both sides, and T_l + T_r + F = 0,
-    /// F the load along the tracks. They hold where friction in a vanishing turn, to the left and
-    /// to the right, would turn the robot back.
+    /// with F the load along the tracks. They hold where friction in a vanishing turn to either
+    /// side would turn the robot back.
     fn straight(&self, driven: PerSide<f64>) -> Option<Solution> {
         if driven.left == 0.0 || driven.right == 0.0 {
-            return None; // a belt that stands has no slip to stand with the other
+            return None; // a standing belt cannot slip on its sprocket
         }
         let slip = self.model.drive().slip_per_traction;
         let rolling = PerSide::from_fn(|_| f64::midpoint(driven.left, driven.right));
@@ -199,8 +197,7 @@ impl<'m> Stationary<'m> {
         })
     }
 
-    /// Traction of each side over its normal load, forward positive; none where no motion was
-    /// found.
+    /// Traction of each side over its normal load, forward positive; none without a motion.
     fn traction(&self, solution: &Solution) -> Option<PerSide<f64>> {
         let anchor = match solution.status {
             Status::NotConverged => return None,
@@ -217,7 +214,7 @@ impl<'m> Stationary<'m> {
         let balance = self.model.balance(&self.ground, &motion);
         let mut traction = balance.friction.map(|wrench| wrench.force_y);
         if let Status::Holds(side) = solution.status {
-            // What holds the robot balances all else.
+            // The holding track balances all other forces.
             let held = -balance.load.force_y - traction[side.other()];
             traction = match side {
                 Side::Left => PerSide::new(held, traction.right),
@@ -227,7 +224,7 @@ impl<'m> Stationary<'m> {
         Some(PerSide::from_fn(|side| traction[side] / balance.normal_load[side]))
     }
 
-    /// The stationary motion at these speeds of the belts, m/s.
+    /// Stationary motion at these belt speeds, m/s.
     ///
     /// # Panics
     /// Never: at least four starts are tried.
@@ -252,7 +249,7 @@ impl<'m> Stationary<'m> {
             .solution()
     }
 
-    /// The side with more grip: it holds on longer.
+    /// The side with more grip, which is more likely to hold.
     fn better_anchor(&self) -> Side {
         let vehicle = self.model.vehicle();
         let grip = |side: Side| {
@@ -263,12 +260,12 @@ impl<'m> Stationary<'m> {
     }
 }
 
-/// By how much the right belt is faster, m/s.
+/// Speed of the right minus that of the left belt, m/s.
 fn difference(belt_speed: &PerSide<f64>) -> f64 {
     belt_speed.right - belt_speed.left
 }
 
-/// One pair of speeds, anchored at one track.
+/// A pair of speeds, anchored at one track.
 #[derive(Clone, Copy)]
 struct Problem<'s> {
     solver: &'s Stationary<'s>,
@@ -276,14 +273,14 @@ struct Problem<'s> {
     anchor: Side,
 }
 
-/// Where Newton's iteration ended.
+/// Result of Newton's iteration.
 struct Root<'s> {
     problem: Problem<'s>,
     convergence: Convergence<3>,
 }
 
 impl<'s> Problem<'s> {
-    /// Starting points, the most promising first.
+    /// Starts, most promising first.
     fn starts(&self) -> impl Iterator<Item = Vector3<f64>> {
         let model = self.solver.model;
         let (gauge, cog_y) = (model.vehicle().gauge, model.vehicle().cog[1]);
@@ -292,7 +289,7 @@ impl<'s> Problem<'s> {
         let [rear, front] = model.footprint().ends;
         let x = gauge / 2.0 + (front - rear) / 4.0;
         let turning = Vector3::new(outwards * x, cog_y, 0.5 / x);
-        // The anchor breaks loose under twice the other track's friction, whose lever is the gauge.
+        // The anchor breaks loose under twice the other track's friction, with the gauge as lever.
         let x = gauge / 2.0 + model.footprint().gyration_squared / gauge;
         let holding = Vector3::new(outwards * x, cog_y, -1.0 / gauge);
         let from = |icrs: Icrs| {
@@ -324,8 +321,7 @@ impl<'s> Problem<'s> {
         Root { problem: self, convergence }
     }
 
-    /// The root near a known one of this anchor; none where derivatives from there do not lead to
-    /// it.
+    /// Broyden's method from a known root of this anchor; none where it does not converge.
     fn solve_beside(self, known: &Linearised) -> Option<Root<'s>> {
         let residual = |z: Vector3<f64>| Vector3::from(self.residual([z[0], z[1], z[2]]));
         let tolerance = TOLERANCE.at(self.solver.model.resolution());
@@ -341,12 +337,11 @@ impl<'s> Problem<'s> {
         Motion::anchored(self.belt_speed, self.anchor, [x, y], turn)
     }
 
-    /// Force over weight and moment over weight times gauge.
+    /// Residual: force over weight, and moment over weight times gauge.
     #[inline]
     fn residual<S: Scalar>(&self, z: [S; 3]) -> [S; 3] {
         let balance = self.solver.model.balance(&self.solver.ground, &self.motion(z));
-        // What the track that is held has to bear: a root at a multiple of it above one proves that
-        // it bears once as much.
+        // Load on the holding track: if it bears a multiple above one, it bears the load itself.
         let mut borne = balance.load;
         borne += balance.friction[self.anchor.other()];
         if z[2].value() <= 0.0 {
@@ -377,7 +372,7 @@ impl Root<'_> {
         } else {
             Status::Turning
         };
-        // A robot that is held, or whose tracks run alike, moves straight.
+        // A held robot, or one with equal track speeds, moves straight.
         let twist = if turn <= 0.0 || belt_speed.left == belt_speed.right {
             Twist { v_x: 0.0, v_y: belt_speed[anchor], w: 0.0 }
         } else {

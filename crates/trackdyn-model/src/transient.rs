@@ -1,26 +1,24 @@
-//! The motion in time.
+//! Transient motion: simulation over time.
 //!
 //! # Law
-//! At every moment all forces on the body balance, eqs (14)-(15), inertia among them where the
-//! effects `yaw-inertia` and `centripetal` are on: together they are Newton's second law. Without
-//! them the robot is at its stationary motion at once.
+//! All forces on the body balance at every moment, eqs (14)-(15). With the effects `yaw-inertia`
+//! and `centripetal` they include inertia and are Newton's second law. Without, the motion is
+//! always the stationary one.
 //!
 //! # Stick and slip
-//! Coulomb friction has no value where a whole track sticks. There, and only there, it is
-//! regularised: the friction wrench of a side is multiplied by σ/√(σ² + ε²), where σ is the root
-//! mean square of its slip velocity. A wrench of the exact law opposes the slip, and so does a
-//! fraction of it: energy never grows. With the default ε = [`STICKING_SLIP_VELOCITY`], a track
-//! that slips at 1 cm/s has friction exact to 5·10⁻⁹, and a parked robot creeps less than 0.1 mm in
-//! a minute at up to 80 % of the friction limit.
+//! Coulomb friction is undefined where a whole track sticks. Only there it is regularised: the
+//! friction wrench of a side is multiplied by σ/√(σ² + ε²), with σ the root mean square of its slip
+//! velocity. As a fraction of a wrench that opposes the slip, it never adds energy. With the
+//! default ε = [`STICKING_SLIP_VELOCITY`], friction of a track that slips at 1 cm/s is exact to
+//! 5·10⁻⁹, and a parked robot creeps less than 0.1 mm a minute at up to 80 % of the friction limit.
 //!
 //! # Method
-//! The two-stage singly diagonal implicit Runge-Kutta method of order 2 (Alexander 1977), which
-//! damps stiff parts at once. Each stage is one balance of forces with the acceleration (u −
-//! u_b)/(γ h): the same equations as the stationary ones, solved by Broyden's method from the last
-//! balance, else by the same Newton iteration with exact derivatives. Where belts slip on their
-//! sprockets, the traction of both sides is sought with the twist: near straight driving friction
-//! turns over within a small slip, and belts at speeds by an earlier traction would jump to and
-//! fro.
+//! Two-stage singly diagonally implicit Runge-Kutta method of order 2 (Alexander 1977), which is
+//! L-stable. Each stage is a balance of forces with the acceleration (u − u_b)/(γ h): the
+//! stationary equations with inertia, solved by Broyden's method from the last balance, or else by
+//! Newton's method with exact derivatives. Where belts slip on their sprockets, the traction of
+//! both sides is solved with the twist: near straight driving friction reverses within a small
+//! slip, and belt speeds by an earlier traction would oscillate.
 //!
 //! # Sources
 //! Alexander, SIAM Journal on Numerical Analysis 14(6), 1977.
@@ -37,84 +35,82 @@ use trackdyn_core::{Moment, PerSide, Plant, Pose, Stopped, Trajectory, Twist};
 /// Slip velocity ε below which a track sticks, m/s.
 pub const STICKING_SLIP_VELOCITY: f64 = 1e-6;
 
-/// Coefficient γ = 1 − 1/√2 of the method: it makes the second stage the end of the step.
+/// Coefficient γ = 1 − 1/√2 of the method, whose second stage is the end of the step.
 pub const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
-/// Largest number of halvings of a step for its error.
+/// Largest number of halvings of a step for accuracy.
 const MAX_REFINEMENTS: u32 = 2;
 
 /// Largest number of halvings of a step for convergence.
 const MAX_HALVINGS: u32 = 10;
 
-/// A step as it was taken.
+/// A step of the simulation.
 #[derive(Clone, Copy, Debug)]
 pub struct Step {
-    /// Its end, s.
+    /// End time, s.
     pub end: f64,
-    /// Its length h, s.
+    /// Duration h, s.
     pub duration: f64,
-    /// Its stages, the second of which is its end. The body moves by 1 − γ of the first twist and γ
-    /// of the second.
+    /// Its stages; the second one is its end. The body moves by the twist (1 − γ) u₁ + γ u₂.
     pub stages: [Instant; 2],
 }
 
-/// A motion in which the forces on a body balance.
+/// A motion in which all forces balance.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant {
-    /// Speeds of the belts, m/s.
+    /// Belt speeds, m/s.
     pub belt_speed: PerSide<f64>,
     /// Twist, paper's frame.
     pub twist: Twist,
-    /// Its rate, as the method takes it: (u − u_b)/(γ h).
+    /// Rate of the twist in the method: (u − u_b)/(γ h).
     pub rate: Twist,
 }
 
-/// A robot that moves in time.
+/// Simulation of a robot over time.
 #[derive(Clone, Debug)]
 pub struct Transient<'m> {
     model: &'m Model,
     longest_step: f64,
-    /// Estimated error of the twist, m/s, from which on a step is halved.
+    /// Estimated error of the twist above which a step is halved, m/s.
     tolerance: f64,
     /// Slip velocity below which a track sticks, m/s.
     creep: f64,
-    /// Whether some force depends on acceleration. A body without inertia jumps, and its
-    /// acceleration means nothing.
+    /// Whether forces depend on acceleration. Without inertia the twist jumps, and its rate is
+    /// meaningless.
     has_inertia: bool,
-    /// Whether the motion continues where some of the contact would have to pull.
+    /// Whether the simulation continues with negative pressure on part of the contact.
     may_pull: bool,
-    /// The steps so far; none where they are not asked for.
+    /// Recorded steps; none unless requested.
     steps: Option<Vec<Step>>,
     state: State,
 }
 
-/// What the next step starts from.
+/// State at the start of a step.
 #[derive(Clone, Copy, Debug)]
 struct State {
     t: f64,
     pose: Pose,
     /// Twist, paper's frame.
     twist: Twist,
-    /// Speeds of the sprockets, after gain and lag, m/s.
+    /// Sprocket speeds, after gain and lag, m/s.
     driven: PerSide<f64>,
-    /// Speeds of the belts, m/s.
+    /// Belt speeds, m/s.
     belt_speed: PerSide<f64>,
     /// Traction over normal load, forward positive, where belts slip on their sprockets; else zero.
     traction: PerSide<f64>,
-    /// Whether some of the contact would have to pull.
+    /// Whether the pressure is negative on part of the contact.
     lifts: bool,
-    /// Whether no pressure, not even a pulling one, can bear the load.
+    /// Whether the resultant load lies outside the contact.
     tips: bool,
-    /// What is known of the Jacobian of the last balance.
+    /// Inverse Jacobian of the last balance.
     inverse: Inverse,
 }
 
 impl<'m> Transient<'m> {
-    /// Longest step, s, unless another one is asked for. What it costs in accuracy is measured in
-    /// docs/theory/transient.md.
+    /// Default of the longest step, s. Its accuracy is measured in docs/theory/transient.md.
     pub const STEP: f64 = 0.01;
 
-    /// The robot at rest at a pose (REP-103) and time.
+    /// A robot at rest at a pose (REP-103) and time.
     pub fn at_rest(model: &'m Model, t: f64, pose: Pose) -> Self {
         let still = PerSide::new(0.0, 0.0);
         let twist = Twist::zero();
@@ -141,48 +137,48 @@ impl<'m> Transient<'m> {
         }
     }
 
-    /// This motion with another longest step, s.
+    /// Sets the longest step, s.
     pub fn with_step(self, longest_step: f64) -> Self {
         Self { longest_step, ..self }
     }
 
-    /// This motion with steps halved where the estimated error of the twist is larger than
-    /// `tolerance`, m/s; the yaw rate counts by the speeds of the tracks.
+    /// Sets the estimated error of the twist above which a step is halved, m/s; the yaw rate counts
+    /// as a track speed.
     pub fn with_tolerance(self, tolerance: f64) -> Self {
         Self { tolerance, ..self }
     }
 
-    /// This motion with tracks that stick below another slip velocity than
-    /// [`STICKING_SLIP_VELOCITY`], m/s: larger ones are solved sooner.
+    /// Sets the slip velocity below which a track sticks (default [`STICKING_SLIP_VELOCITY`]), m/s;
+    /// a larger one is faster.
     pub fn with_creep(self, creep: f64) -> Self {
         Self { creep, ..self }
     }
 
-    /// This motion, continued where part of the contact lifts until the robot tips over: the
-    /// pressure stays linear, and pulls there. Where the load shifts by 1 + ε times what keeps all
-    /// of the contact down, forces are off by a part of ε².
+    /// Lets the simulation continue where part of the contact lifts, until the robot tips over. The
+    /// pressure stays linear and becomes negative there: a load shift of 1 + ε times the limit of
+    /// lifting causes a relative error of ε² in the forces.
     pub fn with_pull(self) -> Self {
         Self { may_pull: true, ..self }
     }
 
-    /// This motion, keeping its steps.
+    /// Records the steps.
     pub fn with_steps(self) -> Self {
         Self { steps: Some(Vec::new()), ..self }
     }
 
-    /// The steps since they were asked for.
+    /// The recorded steps.
     pub fn into_steps(self) -> Vec<Step> {
         self.steps.unwrap_or_default()
     }
 
-    /// This motion with another twist (paper's frame).
+    /// Sets the twist (paper's frame).
     pub fn with_twist(mut self, twist: Twist) -> Self {
         self.state.twist = twist;
         self
     }
 
-    /// One step to the time `end` at the speeds `shown` by the encoders, in halves where it does
-    /// not converge, or its error is larger than asked for.
+    /// One step to time `end` at the encoder speeds `shown`, halved if it does not converge or its
+    /// error is too large.
     fn step(&mut self, shown: PerSide<f64>, end: f64, halvings: u32) -> Result<(), Stopped> {
         if let Some((state, stages, error)) = self.advanced(shown, end)
             && (error <= self.tolerance || halvings >= MAX_REFINEMENTS)
@@ -202,8 +198,8 @@ impl<'m> Transient<'m> {
         self.step(shown, end, halvings + 1)
     }
 
-    /// The state at the end of a step, its stages, and the estimated error of its twist, m/s; none
-    /// where no balance is found.
+    /// State at the end of a step, its stages, and the estimated error of its twist, m/s; none
+    /// without convergence.
     fn advanced(&self, shown: PerSide<f64>, end: f64) -> Option<(State, [Instant; 2], f64)> {
         let start = self.state;
         let h = end - start.t;
@@ -216,7 +212,7 @@ impl<'m> Transient<'m> {
             w: rate(start.twist.w, first.twist.w),
         };
         let second = self.stage(&first, shown, h, GAMMA * h, base, first.twist)?;
-        // The pose moves by the weighted twists of the stages.
+        // The pose moves by the weighted mean of the stages' twists.
         let mean = |a: f64, b: f64| (1.0 - GAMMA) * a + GAMMA * b;
         let twist = Twist {
             v_x: mean(first.twist.v_x, second.twist.v_x),
@@ -224,7 +220,7 @@ impl<'m> Transient<'m> {
             w: mean(first.twist.w, second.twist.w),
         };
         let pose = start.pose.compose(&Pose::exp(&ros_twist_from_paper(&twist), h));
-        // Beside the method of order 1, u + h u̇₁.
+        // Error estimate: difference from the method of order 1, u + h u̇₁.
         let off = |a: f64, b: f64, c: f64| c - (a + (b - a) / GAMMA);
         let (u, u_1, u_2) = (start.twist, first.twist, second.twist);
         let turn = off(u.w, u_1.w, u_2.w) * self.model.vehicle().gauge / 2.0;
@@ -241,8 +237,8 @@ impl<'m> Transient<'m> {
         Some((State { t: end, pose, ..second }, stages, error))
     }
 
-    /// Solves the balance `after` seconds from the start of the step, with the acceleration
-    /// (u − `base`)/`duration`; `guess` is where the search starts.
+    /// Solves the balance `after` seconds from the start of the step, with the acceleration (u −
+    /// `base`)/`duration`; `guess` is the start.
     fn stage(
         &self,
         before: &State,
@@ -255,7 +251,7 @@ impl<'m> Transient<'m> {
         let drive = self.model.drive();
         let target = drive.driven(shown);
         let lag = drive.time_constant;
-        // T dV/dt = V_e − V while V_e is held
+        // T dV/dt = V_e − V at constant V_e
         let remaining = if lag > 0.0 { (-after / lag).exp() } else { 0.0 };
         let driven = PerSide::from_fn(|side| {
             target[side] + remaining * (self.state.driven[side] - target[side])
@@ -283,8 +279,8 @@ impl<'m> Transient<'m> {
         Some(State { twist, driven, belt_speed, traction, lifts, tips, inverse, ..*before })
     }
 
-    /// Whether the forces beside friction depend on the acceleration: else the robot is at its
-    /// stationary motion at once.
+    /// Whether forces other than friction depend on acceleration; otherwise the motion is always
+    /// the stationary one.
     pub fn feels_inertia(model: &Model) -> bool {
         let still = Twist::zero();
         let force = |acceleration: Twist| {

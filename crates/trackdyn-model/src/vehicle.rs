@@ -1,4 +1,4 @@
-//! The vehicle: mass, running gear, centre of gravity and the friction it stands on.
+//! The vehicle: mass, running gear, centre of gravity and friction.
 
 use crate::contact::{Friction, Patch};
 use trackdyn_core::{STANDARD_GRAVITY, Side};
@@ -9,9 +9,9 @@ mod uncertainty;
 pub use check::VehicleError;
 pub use uncertainty::{FrictionUncertainty, Uncertainty};
 
-/// A tracked or skid-steer vehicle on its ground.
+/// A tracked or skid-steer vehicle, and its friction on the ground.
 ///
-/// [`VehicleFile`](crate::VehicleFile) checks the values on the way in; whoever changes one calls
+/// [`VehicleFile`](crate::VehicleFile) checks the values it reads; after a change, call
 /// [`Vehicle::check`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vehicle {
@@ -23,15 +23,15 @@ pub struct Vehicle {
     pub gauge: f64,
     /// Centre of gravity (x_c, y_c) in the paper's frame, m.
     pub cog: [f64; 2],
-    /// What touches the ground on each side.
+    /// Running gear of each side.
     pub running_gear: RunningGear,
     /// Friction coefficients.
     pub friction: Friction,
-    /// How well these values are known.
+    /// Measurement uncertainties of these values.
     pub uncertainty: Uncertainty,
 }
 
-/// What touches the ground on one side.
+/// Running gear of one side.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RunningGear {
     /// One belt.
@@ -41,7 +41,7 @@ pub enum RunningGear {
         /// Width of the belt b, m.
         belt_width: f64,
     },
-    /// Wheels that turn together.
+    /// A row of wheels that turn together.
     Wheels {
         /// Contact length of one tyre, m.
         contact_length: f64,

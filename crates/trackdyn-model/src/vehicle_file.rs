@@ -11,7 +11,7 @@ use trackdyn_core::document::{Document, DocumentError};
 
 const SCHEMA: &str = "trackdyn.vehicle/1";
 
-/// A vehicle and the effects that its file switches on.
+/// A vehicle and the active effects of its file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VehicleFile {
     /// The vehicle.
@@ -24,7 +24,7 @@ impl VehicleFile {
     /// Auriga-alpha, the vehicle of the paper, as in `configs/vehicles/auriga-alpha.toml`.
     ///
     /// # Panics
-    /// Never: the file is part of the program, and a test reads it.
+    /// Never: the file is embedded, and a test reads it.
     pub fn auriga_alpha() -> Self {
         let document =
             Document::new("auriga-alpha.toml (embedded)", include_str!("auriga-alpha.toml"));
@@ -52,10 +52,10 @@ impl VehicleFile {
         Ok(Self { vehicle, effects })
     }
 
-    /// The file's text, in a fixed order of keys: equal vehicles have equal texts.
+    /// The file as text, with keys in a fixed order: equal vehicles have equal texts.
     ///
     /// # Panics
-    /// Never: the tables hold only what TOML can say.
+    /// Never: all values can be written as TOML.
     pub fn to_toml(&self) -> String {
         let vehicle = &self.vehicle;
         let uncertainty = &vehicle.uncertainty;
@@ -153,12 +153,12 @@ struct FrictionTable {
     mu_y_sd: Option<Spanned<f64>>,
 }
 
-/// A value that stands in no file.
+/// A value that is never written to a file.
 fn unplaced<T>(value: T) -> Spanned<T> {
     Spanned::new(0..0, value)
 }
 
-/// A value that a file may leave out.
+/// A value that a file may omit.
 fn optional<T: Copy>(value: Option<&Spanned<T>>) -> Option<T> {
     value.map(|value| *value.get_ref())
 }
@@ -237,7 +237,7 @@ impl Tables {
             .collect()
     }
 
-    /// Where the value of a key that [`Vehicle::check`] names stands.
+    /// Position in the file of a value that [`Vehicle::check`] names.
     fn span_of(&self, key: &str) -> Range<usize> {
         let (table, name) = key.split_once('.').unwrap_or(("", key));
         let span = match (table, name) {

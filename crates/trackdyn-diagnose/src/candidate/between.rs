@@ -1,4 +1,4 @@
-//! Places, directions and shapes between those that are tried of every effect.
+//! Refinement of places, directions and shapes between the values that are tried.
 
 use super::places::extent;
 use super::{Beside, Signature, Variant, spacing};
@@ -6,8 +6,7 @@ use rayon::prelude::*;
 use trackdyn_model::effect::Role;
 
 impl Variant {
-    /// This variant with a step of what is no size: `share` of half the distance between values
-    /// that are tried.
+    /// The variant with one parameter moved by `share` of half the distance between tried values.
     fn moved(&self, parameter: usize, share: f64, beside: &Beside) -> Self {
         let of = self.effect.card();
         let card = &of.parameters[parameter];
@@ -21,9 +20,9 @@ impl Variant {
 }
 
 impl Beside<'_> {
-    /// The variant near one of this gain that gains most, with its signatures: steps to all sides
-    /// of what is no size, half as long where none is better. None where the variant itself is the
-    /// best.
+    /// The variant near `start` with the largest gain, and its signatures, by pattern search: steps
+    /// to both sides in each shape, direction and place, halved where none improves. None where
+    /// `start` is the best.
     pub fn between(
         &self,
         start: &Variant,

@@ -1,18 +1,17 @@
-//! Where an effect with an extent may lie: where the robot was.
+//! Places tried for effects with an extent: where the robot was.
 
 use crate::evidence::Evidence;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use trackdyn_model::effect::{Card, Role};
 
-/// The extent of a place, m; none where it has none.
+/// Extent of an effect's place, m; none where it has none.
 pub(super) fn extent(of: &Card, values: &[f64]) -> Option<f64> {
     let shape = of.parameters.iter().position(|one| one.role == Role::Shape);
     shape.filter(|_| of.has_extent()).map(|place| values[place])
 }
 
-/// These values with every place that is tried of their extent; as they are where they have
-/// none.
+/// The values with every place that is tried for their extent; unchanged without an extent.
 pub(super) fn of_extent(of: &Card, values: Vec<f64>, evidence: &Evidence) -> Vec<Vec<f64>> {
     let Some(extent) = extent(of, &values) else { return vec![values] };
     let placed = |place: [f64; 2]| {
@@ -25,7 +24,7 @@ pub(super) fn of_extent(of: &Card, values: Vec<f64>, evidence: &Evidence) -> Vec
     visited(evidence, extent).into_iter().map(placed).collect()
 }
 
-/// Middles of the squares with this side (m) that hold most of the samples.
+/// Centres of the squares with this side (m) that hold most samples.
 fn visited(evidence: &Evidence, side: f64) -> Vec<[f64; 2]> {
     #[expect(clippy::cast_possible_truncation, reason = "robots stay within millions of squares")]
     let square = |place: f64| (place / side).floor() as i64;
@@ -58,7 +57,7 @@ mod tests {
 
     const NOISE: SegmentNoise = SegmentNoise { pose: [1e-6; 3], walk: [0.0; 3], heading: 0.0 };
 
-    /// Circles with a radius of 1 m, and then 30 m straight on.
+    /// Circles with a radius of 1 m, then 30 m straight ahead.
     fn drive() -> Evidence {
         let reading = |k: usize| {
             let t = 0.03 * trackdyn_core::real(k);

@@ -1,5 +1,5 @@
-//! Evidence before the search: the runs of the fit and those that judge, their noise, and readings
-//! without the errors of a recorder.
+//! Evidence before the search: split into fitted and held-out runs, its noise, and readings cleaned
+//! of recorder errors.
 
 use crate::base::Base;
 use crate::error::Error;
@@ -10,19 +10,19 @@ use crate::settings;
 use crate::weighted::Weighted;
 use trackdyn_model::VehicleFile;
 
-/// Evidence of the fit, and of the runs that judge it.
+/// Evidence of the fitted and of the held-out runs.
 pub(super) struct Split {
-    /// Runs that everything is fitted and chosen on.
+    /// Runs on which everything is fitted and chosen.
     pub seen: Evidence,
-    /// Runs that were held out; none where none were.
+    /// Held-out runs; none where none were held out.
     pub unseen: Option<Evidence>,
 }
 
 impl Split {
-    /// Evidence without the runs that are held out, by their indices, and these apart.
+    /// Splits evidence by the indices of held-out runs.
     ///
     /// # Errors
-    /// Too few segments to fit, or none in runs that are held out.
+    /// Too few segments to fit, or none in the held-out runs.
     pub fn new(evidence: &Evidence, held_out: &[usize]) -> Result<Self, Error> {
         let is_held_out: Vec<bool> =
             (0..evidence.runs().len()).map(|run| held_out.contains(&run)).collect();
@@ -42,19 +42,19 @@ impl Split {
     }
 }
 
-/// Evidence in the noise that is left beside a base.
+/// Evidence with the noise that remains beside a base model.
 pub(super) struct InNoise {
     /// The evidence.
     pub seen: Weighted,
-    /// The base, as it is in the noise that was measured without a model.
+    /// The base, fitted with the noise that was measured without a model.
     pub base: Base,
 }
 
 impl InNoise {
-    /// The evidence in the noise that a vehicle's base leaves.
+    /// Estimates the noise of evidence from the residuals of a vehicle's base model.
     ///
     /// # Errors
-    /// Evidence without turning, or a vehicle that cannot move so.
+    /// Evidence without turning, or a vehicle for which no motion exists.
     pub fn of(seen: Evidence, file: &VehicleFile) -> Result<Self, Error> {
         let measured = Weighted::new(seen);
         let base = Base::new(file, &measured);
@@ -68,17 +68,17 @@ impl InNoise {
     }
 }
 
-/// Evidence with the readings that stand.
+/// Evidence with cleaned readings, where cleaning helped.
 pub(super) struct Cleaned {
-    /// The evidence of the fit.
+    /// Evidence of the fitted runs.
     pub seen: Weighted,
-    /// That of the runs that judge.
+    /// Evidence of the held-out runs.
     pub unseen: Option<Evidence>,
 }
 
 impl Cleaned {
-    /// Readings without late stamps, then without ticks: both are noise that a lag of the drive
-    /// would smooth. Readings changed so stand unless they explain less.
+    /// Removes late stamps, then encoder ticks: a fit would mistake either noise for a drive lag. A
+    /// cleaning is kept unless the fit becomes worse.
     pub fn of(seen: Weighted, unseen: Option<Evidence>, base: &Base) -> Self {
         let steps = seen.steps();
         let as_read = Self { seen, unseen };
@@ -86,8 +86,7 @@ impl Cleaned {
         even.unless_worse(base, |evidence| evidence.with_speeds_between_ticks(steps))
     }
 
-    /// The evidence with other readings, in the noise that is left beside them, unless they explain
-    /// less.
+    /// Evidence with cleaned readings and its re-estimated noise, unless the base fits worse.
     fn unless_worse(self, base: &Base, cleaned: impl Fn(&Evidence) -> Evidence) -> Self {
         let base = base.refitted(&self.seen);
         let tried = self.seen.with_readings(&cleaned);
@@ -102,7 +101,7 @@ impl Cleaned {
     }
 }
 
-/// Whether the constant ICRs are determined at all.
+/// Whether the constant ICRs are determined: needs turning.
 fn turns(fit: &Fit, settings: &settings::Base) -> bool {
     let gauge = fit.hypothesis.vehicle.gauge;
     let covariance = &fit.solution.covariance;

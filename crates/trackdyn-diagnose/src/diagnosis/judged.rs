@@ -1,4 +1,4 @@
-//! The verdicts: what of the best hypothesis is claimed, and what is refused.
+//! Verdicts: which effects of the best hypothesis are claimed, and which refused.
 
 use super::searched::Searched;
 use crate::answer::{Kind, Missing};
@@ -15,25 +15,25 @@ use trackdyn_model::{EffectId, VehicleFile};
 
 /// A search with its verdicts.
 pub(super) struct Judged {
-    /// Evidence, base and candidates.
+    /// Evidence, base and catalogue of candidates.
     pub search: Search,
-    /// All candidates beside the base, best first.
+    /// All candidates screened beside the base, best first.
     pub screened: Vec<Screened>,
-    /// Effects that move constant ICRs.
+    /// Effects that act as constant ICRs.
     pub constants: Constants,
-    /// The best hypothesis, refitted to what is claimed.
+    /// The best hypothesis, reduced to what is claimed and refitted.
     pub best: Found,
-    /// The level of friction in it; none where it is not free.
+    /// Its friction level with an interval; none where friction is not free.
     pub friction_level: Option<Level>,
-    /// What is claimed.
+    /// Claims.
     pub missing: Vec<Missing>,
-    /// What is not.
+    /// Refused effects, with the reason.
     pub refused: Vec<Verdict>,
 }
 
 impl Judged {
-    /// Judges all that the best hypothesis adds, then instruments and constants beside what is left
-    /// of it.
+    /// Judges the effects of the best hypothesis, then instruments and constant ICRs beside those
+    /// that remain.
     pub fn of(
         searched: Searched,
         file: &VehicleFile,
@@ -70,8 +70,8 @@ impl Judged {
         Ok(Self { search, screened, constants, best, friction_level, missing, refused })
     }
 
-    /// The evidence in a larger noise; none where what no effect explains is no larger than the
-    /// noise that it was judged in.
+    /// Evidence with residuals scaled down where unexplained residuals exceed the noise; none where
+    /// they do not.
     pub fn rescaled(&self) -> Option<Weighted> {
         let evidence = &self.search.evidence;
         let scale = evidence.residual_scale(&self.best.fit.residual);
@@ -82,7 +82,7 @@ impl Judged {
 }
 
 impl Judged {
-    /// The claimed effects, or else the best candidate, against the evidence.
+    /// Claimed effects, or else the best candidate, against the evidence: series for figures.
     pub fn exposures(&self) -> Vec<Exposure> {
         let Self { search, screened, constants, best, missing, .. } = self;
         let claimed = missing.iter().filter(|missing| missing.kind != Kind::Constant);
@@ -92,7 +92,7 @@ impl Judged {
         if !claimed.is_empty() {
             return claimed;
         }
-        // Of what constant ICRs can stand for, there is nothing to see.
+        // An effect equivalent to constant ICRs shows nothing in a figure.
         let shows = |one: &&Screened| {
             one.gain.is_finite() && one.z > 0.0 && !constants.only.contains(&one.effect)
         };
@@ -101,21 +101,21 @@ impl Judged {
     }
 }
 
-/// The verdicts on what the best hypothesis adds.
+/// Verdicts on the effects of the best hypothesis.
 struct Physics {
-    /// The best hypothesis, without what was refused.
+    /// The best hypothesis, without the refused effects.
     best: Found,
-    /// The verdicts on what it adds.
+    /// Verdicts that claim.
     verdicts: Vec<Verdict>,
-    /// The intervals of what is claimed.
+    /// Confidence intervals of the claimed parameters.
     intervals: Vec<Interval>,
-    /// What was refused.
+    /// Refused effects.
     refused: Vec<Verdict>,
 }
 
 impl Physics {
-    /// A claim is judged beside all others: each time the weakest of them is refused, those that
-    /// are left are asked again.
+    /// Backward elimination: while any claim is refused, the weakest refused effect is left out and
+    /// the others are judged again.
     fn of(
         search: &Search,
         found: Found,
@@ -124,7 +124,8 @@ impl Physics {
         resampling: Resampling,
         watch: &Watch,
     ) -> Result<Self, Cancelled> {
-        // What mostly moves constant ICRs is free in every hypothesis: it stays, claimed or not.
+        // Effects that mostly act as constant ICRs are free in every hypothesis: they stay, even
+        // refused.
         let stays = |one: &Verdict| constants.mostly.contains(&one.effect);
         let mut best = found;
         let mut refused: Vec<Verdict> = Vec::new();

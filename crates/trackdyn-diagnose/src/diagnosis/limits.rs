@@ -1,28 +1,27 @@
-//! What this evidence could have shown, and told apart.
+//! Detection limits: what this evidence could have shown, and told apart.
 
 use super::judged::Judged;
 use crate::isolability::{Detectable, Isolability};
 use crate::search::Screened;
 use trackdyn_model::EffectId;
 
-/// What this evidence could have shown, and told apart.
+/// Detection limits: what this evidence could have shown, and told apart.
 #[derive(Clone)]
 pub struct Limits {
-    /// All candidates beside the base, best first.
+    /// All candidates screened beside the base, best first.
     pub screened: Vec<Screened>,
-    /// All candidates beside the corrected model, best first.
+    /// All candidates screened beside the corrected model, best first.
     pub left: Vec<Screened>,
-    /// Effects that only move constant ICRs.
+    /// Effects that act as constant ICRs only.
     pub constants: Vec<EffectId>,
-    /// What this evidence can tell apart, of all candidates beside the base, what is claimed among
-    /// them.
+    /// Separations of all candidates, claimed ones included, beside the base.
     pub resemblance: Isolability,
-    /// Smallest sizes that would have shown.
+    /// Smallest detectable size of each effect.
     pub detectable: Vec<Detectable>,
 }
 
 impl Limits {
-    /// The limits of what was judged.
+    /// Detection limits of a judged search.
     pub(super) fn of(judged: &Judged) -> Self {
         let Judged { search, screened, constants, best, .. } = judged;
         Self {

@@ -1,4 +1,4 @@
-//! Where the evidence departs from the models before and after.
+//! Where residuals depart from zero, before and after the correction.
 
 use super::judged::Judged;
 use crate::locate::cells::{Cell, cells};
@@ -10,22 +10,22 @@ use crate::verdict::tolerated;
 use std::collections::BTreeSet;
 use trackdyn_model::effect::Symmetry;
 
-/// Where the evidence departs.
+/// Located departures of the evidence from each model.
 pub(super) struct Located {
-    /// From the vehicle as filed with nothing fitted but constant ICRs.
+    /// From the vehicle as filed, with only constant ICRs fitted.
     pub filed: Location,
     /// From the base.
     pub before: Location,
     /// From the best hypothesis.
     pub after: Location,
-    /// Symmetries that the best hypothesis leaves broken.
+    /// Symmetries still broken by the best hypothesis.
     pub left_over: Vec<Symmetry>,
-    /// ICRs in cells of driving, beside the base and beside the best hypothesis.
+    /// ICRs by cells of driving, for the base and for the best hypothesis.
     pub cells: [Vec<Cell>; 2],
 }
 
 impl Located {
-    /// Where the evidence departs from what was judged.
+    /// Locates departures from the base and the best hypothesis.
     pub fn of(judged: &Judged, resampling: Resampling) -> Self {
         let evidence = &judged.search.evidence;
         let (base, best) = (&judged.search.base, &judged.best);
@@ -41,13 +41,13 @@ impl Located {
         Self { filed, before, after, left_over, cells }
     }
 
-    /// Symmetries that the evidence breaks, ascending.
+    /// Symmetries that the evidence breaks before or after, ascending.
     pub fn broken(&self) -> Vec<Symmetry> {
         let all = [self.before.broken(), self.filed.broken(), self.left_over.clone()].concat();
         BTreeSet::from_iter(all).into_iter().collect()
     }
 
-    /// One sentence: channel, driving, symmetries.
+    /// One sentence on where the model fails: channel, driving, symmetries.
     pub fn sentence(&self, search: &Search) -> String {
         let locations = [&self.before, &self.after];
         sentence(&search.evidence, &search.base, locations, &self.broken())

@@ -14,17 +14,17 @@ use crate::proposal::{Unexplained, propose};
 use crate::weighted::Weighted;
 use trackdyn_model::VehicleFile;
 
-/// Stages of a round of search and verdicts.
+/// Stages in one round of search and verdicts.
 const ROUND: usize = searched::STAGES_SHARPENED + 1;
 
-/// Stages of the longest way: noise, readings, two rounds, location, held-out runs, proposal and
+/// Stages of the longest course: noise, readings, two rounds, location, held-out runs, proposal and
 /// limits.
 pub const STAGES: usize = 2 + 2 * ROUND + 4;
 
-/// Diagnoses evidence. `observer` is told how far it has come, and may stop it.
+/// Diagnoses evidence. `observer` receives the progress and may cancel.
 ///
 /// # Errors
-/// Evidence without turning, or with too little driving; a vehicle that cannot move so;
+/// Evidence without turning, or with too few samples; a vehicle for which no motion exists;
 /// [`Error::Cancelled`].
 pub fn diagnose(
     evidence: &Evidence,
@@ -35,18 +35,18 @@ pub fn diagnose(
     let resampling = options.resampling;
     let watch = &Watch::new(observer, STAGES);
 
-    // Evidence: runs that are fitted, and runs that judge.
+    // Evidence: runs to fit, and held-out runs.
     let Split { seen, unseen } = Split::new(evidence, &options.held_out)?;
 
-    // Noise: what is left when all that driving could explain is fitted away.
+    // Noise: the residual scatter after everything that driving could explain is fitted.
     let InNoise { seen, base } = watch.try_stage(Stage::Noise, || InNoise::of(seen, file))?;
 
-    // Cleaned: late stamps and ticks are taken out of the readings.
+    // Cleaned: late stamps and encoder ticks are removed from the readings.
     let Cleaned { seen, unseen } =
         watch.stage(Stage::Readings, || Cleaned::of(seen, unseen, &base))?;
 
-    // Signatures and search, sharpened: once more in the noise beside what was found, where that is
-    // smaller. Then the verdicts.
+    // Signatures and search, repeated with smaller noise where the best hypothesis shows that the
+    // noise was overestimated. Then the verdicts.
     let judged_in = |seen: &Weighted| -> Result<Judged, Error> {
         let base = base.refitted(seen);
         let searched = Searched::sharpened(seen, base, watch)?;
@@ -55,8 +55,8 @@ pub fn diagnose(
     };
     let first = judged_in(&seen)?;
 
-    // Rescaled: residuals larger than the noise that no effect explains make every claim less sure,
-    // so that all is searched and judged once more in a noise as large as they are.
+    // Rescaled: unexplained residuals larger than the noise make claims too certain, so search and
+    // verdicts are repeated with the residuals scaled down.
     let judged = if let Some(seen) = first.rescaled() {
         drop(first); // its signatures take as much memory as the next ones
         judged_in(&seen)?
@@ -65,14 +65,14 @@ pub fn diagnose(
         first
     };
 
-    // Location: where the evidence departs from the models before and after.
+    // Location: where residuals depart from zero before and after the correction.
     let located = watch.stage(Stage::Location, || Located::of(&judged, resampling))?;
 
-    // Held-out runs: errors where nothing was fitted or chosen.
+    // Held-out runs: prediction errors where nothing was fitted or chosen.
     let tested = || Tested::of(&judged, unseen.as_ref(), resampling);
     let tested = watch.stage(Stage::HeldOut, tested)?;
 
-    // Proposal: a form for what no effect explains.
+    // Proposal: an empirical law for what no effect explains.
     let proposed = watch.stage(Stage::Proposal, || {
         let unexplained = Unexplained {
             evidence: &judged.search.evidence,

@@ -1,4 +1,4 @@
-//! The search: what every candidate would change, and the best hypothesis.
+//! Signatures of all candidates, and the search for the best hypothesis.
 
 use crate::base::Base;
 use crate::candidate::{Beside, candidates};
@@ -8,22 +8,22 @@ use crate::search::{Catalogue, Found, Screened, Search};
 use crate::weighted::Weighted;
 use std::sync::Arc;
 
-/// Stages of a search, and of one that may be repeated in a smaller noise.
+/// Stages of one search, and of one that may be repeated with smaller noise.
 pub(super) const STAGES: usize = 2;
 pub(super) const STAGES_SHARPENED: usize = 2 * STAGES;
 
-/// A search that has ended.
+/// A finished search.
 pub(super) struct Searched {
-    /// Evidence, base and candidates.
+    /// Evidence, base and catalogue of candidates.
     pub search: Search,
-    /// All candidates beside the base, best first.
+    /// All candidates screened beside the base, best first.
     pub screened: Vec<Screened>,
     /// The best hypothesis.
     pub found: Found,
 }
 
 impl Searched {
-    /// Searches evidence beside a base.
+    /// Searches the evidence once.
     fn of(seen: &Weighted, base: Base, watch: &Watch) -> Result<Self, Cancelled> {
         let search = watch.stage(Stage::Signatures, || with_signatures(seen, base))?;
         watch.try_stage(Stage::Search, || {
@@ -33,8 +33,8 @@ impl Searched {
         })
     }
 
-    /// Searches evidence beside a base; once more where the noise beside what was found is smaller:
-    /// that hypothesis explains more than contrasts can, which passed for noise.
+    /// Searches the evidence, and once more where the best hypothesis leaves less noise: it
+    /// explains what contrasts cannot, which had been counted as noise.
     pub fn sharpened(seen: &Weighted, base: Base, watch: &Watch) -> Result<Self, Cancelled> {
         let first = Self::of(seen, base, watch)?;
         if let Some(seen) = sharper(&first.search.evidence, &first.found.fit) {
@@ -48,7 +48,8 @@ impl Searched {
     }
 }
 
-/// A search with the signatures of all candidates, and of those between them that gain more.
+/// A search with the signatures of all candidates, and of refined variants between them that gain
+/// more.
 fn with_signatures(seen: &Weighted, base: Base) -> Search {
     let base = Arc::new(base);
     let tried = candidates(&base.instruments, seen);

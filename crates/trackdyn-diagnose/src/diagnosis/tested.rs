@@ -1,4 +1,4 @@
-//! Errors on the runs that judge.
+//! Prediction errors on held-out runs.
 
 use super::before;
 use super::judged::Judged;
@@ -6,16 +6,16 @@ use crate::evidence::Evidence;
 use crate::held_out::{HeldOut, Unseen, errors, judged as judged_on};
 use crate::resampling::Resampling;
 
-/// What the runs that judge say.
+/// Prediction errors of the models before and after.
 pub(super) struct Tested {
     /// Errors before and after.
     pub errors: HeldOut,
-    /// What is left of held-out runs; none where none were.
+    /// Residuals of held-out runs; none where none were held out.
     pub unseen: Option<Unseen>,
 }
 
 impl Tested {
-    /// Errors on held-out runs, or else on those of the fit.
+    /// Errors on held-out runs, or else on the fitted ones.
     pub fn of(judged: &Judged, unseen: Option<&Evidence>, resampling: Resampling) -> Self {
         let (seen, base) = (&judged.search.evidence, &judged.search.base);
         let fits = [before(base, &judged.missing), &base.fit, &judged.best.fit];

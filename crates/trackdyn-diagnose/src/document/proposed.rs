@@ -1,4 +1,4 @@
-//! The tables of a proposed law.
+//! Tables of a proposed law.
 
 use super::{ParameterTable, SupportTable, rounded};
 use crate::proposal::Proposal;
@@ -8,45 +8,45 @@ use trackdyn_model::effect::Symmetry;
 /// A term of a proposed law.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct ProposedTable {
-    /// The form that it belongs to: its id in vehicle files.
+    /// Its form: the id in vehicle files.
     pub form: String,
     /// Its key.
     pub term: String,
-    /// The component of the wrench.
+    /// Component of the wrench.
     pub component: String,
-    /// How large it is: of cosine and sine, and of two axes, the length.
+    /// Size: the coefficient, or the norm of a pair (cosine and sine, or two axes).
     pub value: f64,
     /// Lower end of the 95 % interval.
     pub low95: f64,
     /// Upper end of the interval.
     pub high95: f64,
-    /// What it counts.
+    /// Unit.
     pub unit: String,
-    /// All of it in words.
+    /// The term in words.
     pub what: String,
     /// Letters of the symmetries that the term breaks.
     pub symmetries: Vec<String>,
-    /// Its coefficients.
+    /// Coefficients.
     pub parameters: Vec<ParameterTable>,
-    /// What speaks for it; the Bayes factor is against the law without the term.
+    /// Statistical support; the Bayes factor is against the law without the term.
     pub evidence: SupportTable,
 }
 
-/// What a proposed law is worth.
+/// Quality of a proposed law.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct ProposalTable {
-    /// Share of what the named effects leave above the noise floor; absent where that is nothing.
+    /// Share of the excess over the noise floor that it explains; absent where there was no excess.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub explains: Option<f64>,
-    /// Error without it on held-out runs.
+    /// Error without the law on held-out runs.
     pub held_out_before: f64,
-    /// Error with it.
+    /// Error with the law.
     pub held_out_after: f64,
-    /// Letters of the symmetries that are surely broken still.
+    /// Letters of the symmetries that it leaves significantly broken.
     pub left_over: Vec<String>,
 }
 
-/// The terms of a law.
+/// Tables of the terms.
 pub(super) fn terms(proposal: &Proposal) -> Vec<ProposedTable> {
     let card = proposal.effect.card();
     proposal
@@ -76,7 +76,7 @@ pub(super) fn terms(proposal: &Proposal) -> Vec<ProposedTable> {
         .collect()
 }
 
-/// The law as a whole.
+/// Table of the law.
 pub(super) fn law(proposal: &Proposal) -> ProposalTable {
     ProposalTable {
         explains: proposal.explains().map(rounded),

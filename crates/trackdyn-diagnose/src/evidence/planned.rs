@@ -1,4 +1,4 @@
-//! Evidence of driving that is planned: what a drive would show.
+//! Evidence of planned driving: the samples that a drive would give.
 
 use super::{Evidence, Origin, Sample};
 use crate::settings::Settings;
@@ -9,25 +9,25 @@ use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_recording::TrackSample;
 use trackdyn_recording::hold::{held, travelled};
 
-/// Readings of the encoders in a sample, as in the paper: nine of 30 ms per 0.27 s.
+/// Encoder readings in a sample, as in the paper: nine of 30 ms per 0.27 s.
 pub const READINGS: usize = 9;
 
-/// A run that is planned.
+/// A planned run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlannedRun {
-    /// Readings of the tracks, at equal intervals, whole samples of [`READINGS`]; one more ends the
+    /// Track readings at equal intervals, whole samples of [`READINGS`], plus one that ends the
     /// run.
     pub tracks: Vec<TrackSample>,
-    /// Pose at the first of them.
+    /// Pose at the first reading.
     pub pose: Pose,
-    /// Readings at which blocks begin, the first one among them, ascending.
+    /// Indices of the readings at which blocks begin, ascending, starting with the first.
     pub blocks: Vec<usize>,
 }
 
 impl Evidence {
-    /// What runs would show. `moves` says how the robot moves in each sample; as this may hang on
-    /// where it is, it is asked twice, the second time with the poses that follow from its first
-    /// answer. `tau` is by how much the poses would be late, s.
+    /// Samples of planned runs. `moves` predicts the motion of each sample. As motion may depend on
+    /// the pose, it is called twice, the second time with poses integrated from its first answer.
+    /// `tau` is the delay of the poses, s.
     pub fn planned(
         runs: &[PlannedRun],
         noise: SegmentNoise,
@@ -55,14 +55,13 @@ impl Evidence {
         first.moved(runs, &moves(&first))
     }
 
-    /// The pose at which the last sample of a run ends.
+    /// Pose at the end of the last sample of a run.
     pub fn last_pose(&self, run: usize) -> Option<Pose> {
         let last = self.samples.iter().rfind(|sample| sample.run == run)?;
         Some(last.pose.compose(&pose(&last.motion)))
     }
 
-    /// What it would be with these motions of the samples, one after the other from where each run
-    /// begins.
+    /// The evidence with these motions, with poses integrated from the start of each run.
     fn moved(&self, runs: &[PlannedRun], motions: &[Vector3<f64>]) -> Self {
         let mut at = Pose::default();
         let mut run = None;

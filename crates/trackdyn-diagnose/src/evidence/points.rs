@@ -1,4 +1,4 @@
-//! Evidence of tables of steady motion.
+//! Evidence from tables of steady motion.
 
 use super::{Evidence, Origin, Sample};
 use crate::error::Error;
@@ -15,14 +15,14 @@ const CHANNELS: [Channel; 3] =
     [|point| point.v_forward, |point| point.v_lateral, |point| point.yaw_rate];
 
 impl Evidence {
-    /// The points of a table. Their scatter comes from neighbours on lines of one track speed: of
-    /// each point against the straight line through the two beside it, which no model enters.
+    /// The points of a table. Their scatter is measured without a model: each point against the
+    /// straight line through its two neighbours on a line of constant speed of one track.
     ///
-    /// Points are blocks of their own where they are few, else neighbours in the table's order are
-    /// taken together: what shifts during a series of measurements shifts neighbours alike.
+    /// Each point is a block where they are few; otherwise neighbours in the table are grouped,
+    /// since drift during a series of measurements shifts neighbours alike.
     ///
     /// # Errors
-    /// Too few points, or no lines to see the scatter on.
+    /// Too few points, or no lines of constant track speed to measure scatter on.
     pub fn of_points(points: &[OperatingPoint], settings: &Settings) -> Result<Self, Error> {
         settings.check()?;
         let settings::Evidence { min_points, max_table_blocks, instant, .. } = settings.evidence;

@@ -1,4 +1,4 @@
-//! Evidence of recordings of driving.
+//! Evidence from recordings of driving.
 
 use super::{Evidence, Origin, Sample};
 use crate::error::Error;
@@ -18,11 +18,10 @@ use trackdyn_estimate::{Clock, SegmentOptions};
 use trackdyn_recording::{Recording, Run, TrackSample};
 
 impl Evidence {
-    /// The segments of a recording, with the noise that the recording shows without any model. It
-    /// is where [`noise`](crate::noise) starts from.
+    /// The segments of a recording, with noise measured on the recording without a model: the
+    /// starting values of [`noise`](crate::noise).
     ///
-    /// `gauge` (m) turns the noise of the encoders into noise of the yaw where the robot never
-    /// spins.
+    /// `gauge` (m) converts encoder noise to yaw noise where the robot never spins.
     ///
     /// # Errors
     /// Too few segments, no noise measured or stated, poses far from the origin of their frame, or
@@ -38,7 +37,7 @@ impl Evidence {
         let recording = with_readings_every(recording, by.min_reading_interval);
         let clock = Clock::of(&recording, None).map_err(|cause| Error::Clock(cause.to_string()))?;
         let tau = clock.tau();
-        let (recording, measured) = quieter(&recording, tau);
+        let (recording, measured) = with_quieter_poses(&recording, tau);
         let observations = segments(&recording, tau, by)?;
         let gap =
             spin_test(&observations, gauge).map_or(by.gap_without_spins * gauge, |spin| spin.gap);
@@ -62,7 +61,7 @@ impl Evidence {
     }
 }
 
-/// Whether all poses lie where places are looked for.
+/// Checks that all poses lie within the region in which effects may have places.
 fn check_places(recording: &Recording, largest: f64) -> Result<(), Error> {
     let poses = recording.runs().iter().flat_map(Run::poses);
     let along = |at: &Pose| at.x.abs().max(at.y.abs());
@@ -73,8 +72,8 @@ fn check_places(recording: &Recording, largest: f64) -> Result<(), Error> {
     Ok(())
 }
 
-/// Its segments with a clock offset of `tau` (s), cut so that readings are there for every offset
-/// from none at all to beyond that one.
+/// Segments at a clock offset of `tau` (s), cut such that readings cover every offset from zero to
+/// beyond `tau`.
 fn segments(
     recording: &Recording,
     tau: f64,
@@ -93,8 +92,8 @@ fn segments(
     Ok(observations)
 }
 
-/// Noise of the segments: measured, or else as the maker of the recording states it. `gap` is the
-/// distance of the ICRs, m.
+/// Noise of the segments: measured, or else as stated in the recording. `gap` is the distance of
+/// the ICRs, m.
 fn noise_of_segments(
     recording: &Recording,
     measured: &Noise,
@@ -104,14 +103,14 @@ fn noise_of_segments(
     SegmentNoise::measured(measured, gap).or(stated).ok_or(Error::NoNoise)
 }
 
-/// When the recording begins, in whole seconds of its clock. Time is counted from there: laws that
-/// know it begin where the recording begins, whatever its clock shows.
+/// Start of the recording in whole seconds of its clock. Sample times count from it, so that laws
+/// of time start with the recording.
 fn begin(recording: &Recording) -> f64 {
     let readings = recording.runs().iter().flat_map(Run::tracks);
     readings.fold(f64::INFINITY, |first, track| first.min(track.t)).floor()
 }
 
-/// A sample of each segment, with times that are counted from where the recording begins.
+/// One sample for each segment, with times since `begin`.
 fn samples(
     recording: &Recording,
     observations: &Observations,
@@ -143,8 +142,7 @@ fn samples(
     observations.segments().iter().map(sample).collect()
 }
 
-/// The readings of each run that has samples, with times that are counted from where the recording
-/// begins.
+/// Track readings of each run that has samples, with times since `begin`.
 fn tracks(recording: &Recording, samples: &[Sample], begin: f64) -> Vec<Vec<TrackSample>> {
     let of_run = |(run, of): (usize, &Run)| {
         if !samples.iter().any(|sample| sample.run == run) {
@@ -155,13 +153,13 @@ fn tracks(recording: &Recording, samples: &[Sample], begin: f64) -> Vec<Vec<Trac
     recording.runs().iter().enumerate().map(of_run).collect()
 }
 
-/// The recording and its noise, with poses at the times at which they were due if these are less
-/// noisy: what is stamped late by chance moves meanwhile.
-fn quieter(recording: &Recording, tau: f64) -> (Cow<'_, Recording>, Noise) {
+/// The recording and its noise, with poses moved to regular times where that lowers the noise: a
+/// late stamp looks like motion.
+fn with_quieter_poses(recording: &Recording, tau: f64) -> (Cow<'_, Recording>, Noise) {
     let as_stamped = noise(recording, tau);
     let due = with_regular_poses(recording);
     let as_due = noise(&due, tau);
-    // logarithm of the product of the white noise's standard deviations
+    // log of the product of the white-noise standard deviations
     let level = |noise: &Noise| -> Option<f64> {
         let poses = noise.moving.as_ref()?;
         let axes = [poses.forward, poses.lateral, poses.yaw];

@@ -1,11 +1,10 @@
-//! Readings of encoders that count in coarse ticks.
+//! Smoothing of encoder readings that count coarse ticks.
 //!
-//! Travel is always known to a tick q, with an error of variance q²/12 about its mean; differences
-//! of travel are speeds that jump by q/T though the belt runs evenly, and a lag of the drive would
-//! smooth them. Between ticks the belt's acceleration is taken to change as little as they allow:
-//! travel S minimises Σ (S_k − S̃_k)² + λ Σ (Δ³S_k)² (Whittaker 1923), which delays nothing and
-//! leaves even accelerations as they are. λ is the one with the least expected error (Mallows'
-//! C_p), for the variance is known.
+//! Travel is known to a tick q, with an error variance of q²/12. Its differences are speeds that
+//! jump by q/T though the belt runs evenly; a fitted drive lag would smooth them. Whittaker
+//! smoothing (1923) keeps changes of acceleration small: travel S minimises Σ (S_k − S̃_k)² + λ Σ
+//! (Δ³S_k)². It delays nothing and leaves constant acceleration unchanged. As the variance is
+//! known, λ minimises the expected error (Mallows' C_p).
 
 use crate::settings;
 use std::f64::consts::PI;
@@ -13,20 +12,19 @@ use trackdyn_core::{PerSide, Side, real};
 use trackdyn_estimate::regular::stretches;
 use trackdyn_recording::TrackSample;
 
-/// Order of the differences that are kept small.
+/// Order of the penalised differences.
 const ORDER: usize = 3;
 
-/// Weights of a third difference.
+/// Coefficients of the third difference.
 const DIFFERENCE: [f64; ORDER + 1] = [-1.0, 3.0, -3.0, 1.0];
 
-/// Smallest difference of two speeds that encoders showed, q/T, m/s; zero where all are the same.
+/// Quantisation step of the speeds of each track, q/T, m/s; zero where all are equal.
 pub(super) fn steps(runs: &[Vec<TrackSample>], settings: &settings::Evidence) -> PerSide<f64> {
     let speeds = |side| runs.iter().flatten().map(move |track| speed(track, side));
     PerSide::from_fn(|side| step(speeds(side), settings.min_speed_step))
 }
 
-/// The readings of all runs with even speeds between the ticks of their encoders, which come in
-/// such steps (m/s).
+/// Readings of all runs with speeds smoothed between ticks; `step` is the quantisation step (m/s).
 pub(super) fn smoothed(
     runs: &[Vec<TrackSample>],
     step: PerSide<f64>,
@@ -42,7 +40,7 @@ pub(super) fn smoothed(
     runs.iter().map(smooth).collect()
 }
 
-/// Smallest difference of two speeds of one track that is no rounding, m/s.
+/// Smallest difference of two speeds of one track above rounding, m/s.
 fn step(speeds: impl Iterator<Item = f64>, rounding: f64) -> f64 {
     let mut shown: Vec<f64> = speeds.collect();
     shown.sort_by(f64::total_cmp);
@@ -54,8 +52,7 @@ fn speed(reading: &TrackSample, side: Side) -> f64 {
     reading.speeds()[side]
 }
 
-/// A stretch of readings at even intervals (s), whose speeds come in `step`s (m/s), with even
-/// speeds.
+/// Smoothed readings of a stretch with regular `interval` (s) and quantisation step `step` (m/s).
 fn between_ticks(
     stretch: &[TrackSample],
     interval: f64,
@@ -63,7 +60,7 @@ fn between_ticks(
     settings: &settings::Evidence,
 ) -> Vec<TrackSample> {
     if interval <= 0.0 {
-        return stretch.to_vec(); // a single reading, of a steady point
+        return stretch.to_vec(); // single reading of a steady point
     }
     let of = |side: Side| {
         let travel = stretch.iter().scan(0.0, |travel, reading| {
@@ -71,7 +68,7 @@ fn between_ticks(
             Some(*travel)
         });
         let travel: Vec<f64> = std::iter::once(0.0).chain(travel).collect();
-        likely(&travel, step[side] * interval, settings)
+        smoothed_travel(&travel, step[side] * interval, settings)
     };
     let travel = PerSide::from_fn(of);
     let speed = |side: Side, k: usize| (travel[side][k + 1] - travel[side][k]) / interval;
@@ -83,8 +80,8 @@ fn between_ticks(
     even.collect()
 }
 
-/// Travel with the least expected error, of travel that was counted in ticks, m.
-fn likely(counted: &[f64], tick: f64, settings: &settings::Evidence) -> Vec<f64> {
+/// Smoothed travel with the least expected error, from travel counted in ticks, m.
+fn smoothed_travel(counted: &[f64], tick: f64, settings: &settings::Evidence) -> Vec<f64> {
     if counted.len() <= 2 * ORDER || tick <= 0.0 {
         return counted.to_vec();
     }
@@ -106,8 +103,8 @@ fn likely(counted: &[f64], tick: f64, settings: &settings::Evidence) -> Vec<f64>
     best.1
 }
 
-/// tr(H)/n of many samples: the mean over so many frequencies of what the filter lets through,
-/// 1/(1 + λ (2 − 2 cos ω)³).
+/// Degrees of freedom per sample, tr(H)/n for large n: mean over `frequencies` of the filter's
+/// response 1/(1 + λ (2 − 2 cos ω)³).
 fn freedom(lambda: f64, frequencies: usize) -> f64 {
     let passes = |k: usize| {
         let omega = PI * (real(k) + 0.5) / real(frequencies);
@@ -116,7 +113,7 @@ fn freedom(lambda: f64, frequencies: usize) -> f64 {
     (0..frequencies).map(passes).sum::<f64>() / real(frequencies)
 }
 
-/// Solves (1 + λ D'D) S = S̃, D the third differences, by LDL' of its band.
+/// Solves (1 + λ D'D) S = S̃, with D the third differences, by banded LDL'.
 fn whittaker(counted: &[f64], lambda: f64) -> Vec<f64> {
     let count = counted.len();
     // row k of the matrix: elements (k, k), (k, k − 1), ...
@@ -159,7 +156,7 @@ fn whittaker(counted: &[f64], lambda: f64) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Frequencies over which a freedom is summed.
+    /// Frequencies over which the response is averaged.
     const FREQUENCIES: usize = 512;
 
     const INTERVAL: f64 = 0.05;
@@ -171,16 +168,16 @@ mod tests {
         assert_eq!(smoothed(std::slice::from_ref(&point), steps, &settings), [point]);
     }
 
-    /// Travel at the readings of ramps between speeds, m.
+    /// Travel up to reading k with varying acceleration, m.
     fn travel(k: i32) -> f64 {
-        // v = 0.4 sin t³ᐟ² has changes of every rate up to 3 m/s²
+        // v = 0.4 sin t³ᐟ² has accelerations up to 3 m/s²
         let steps = 40;
         let speed = |t: f64| 0.4 * t.powf(1.5).sin();
         let dt = INTERVAL / f64::from(steps);
         (0..k * steps).map(|step| dt * speed(dt * (f64::from(step) + 0.5))).sum()
     }
 
-    /// Readings of travel that is counted in ticks.
+    /// Readings of travel counted in ticks.
     fn counted(tick: f64) -> Vec<TrackSample> {
         let shown = |k: i32| tick * (travel(k) / tick + 0.3).floor();
         let reading = |k: i32| {
@@ -190,7 +187,7 @@ mod tests {
         (0..400).map(reading).collect()
     }
 
-    /// Root mean square errors of speed (m/s) and of travel about its mean (m).
+    /// Root mean square errors of speed (m/s) and of travel about its mean error (m).
     fn errors(run: &[TrackSample]) -> [f64; 2] {
         let rms = |of: &[f64]| (of.iter().map(|e| e * e).sum::<f64>() / real(of.len())).sqrt();
         let truth = |k: i32| travel(k + 1) - travel(k);
@@ -222,7 +219,7 @@ mod tests {
         }
     }
 
-    /// What a smoother does to even accelerations is what a lag does beside a clock.
+    /// A smoother that bent constant acceleration would act like a drive lag.
     #[test]
     fn even_accelerations_stay_as_they_are() {
         let ramp: Vec<f64> = (0..60).map(|k| 1e-4 * f64::from(k * k)).collect();
@@ -241,7 +238,7 @@ mod tests {
                 whittaker(&unit, lambda)[k]
             };
             let trace = (0..count).map(diagonal).sum::<f64>() / real(count);
-            // the ends are freer
+            // the ends have more freedom
             let far = freedom(lambda, FREQUENCIES);
             let near = far + 0.03;
             assert!((far..near).contains(&trace), "{lambda}: {trace}, {far}");

@@ -1,4 +1,4 @@
-//! The ICR triple in cells of driving.
+//! ICRs by cells of driving: manoeuvre, speed and direction.
 
 use super::IcrColumns;
 use super::contrasts::Manoeuvre;
@@ -8,24 +8,24 @@ use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use trackdyn_core::real;
 
-/// A cell of driving and how the ICRs there depart from the fitted ones.
+/// A cell of driving, and the departure of its ICRs from the fitted ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
-    /// How it was driven.
+    /// Manoeuvre.
     pub manoeuvre: Manoeuvre,
-    /// Third of the speeds, 0 the slowest.
+    /// Third of the speed distribution, 0 the slowest.
     pub speed: usize,
-    /// Forward (for spins: to the left).
+    /// Whether it drives forward; for spins, to the left.
     pub forward: bool,
-    /// Mean of the larger track speed, m/s.
+    /// Mean speed of the faster track, m/s.
     pub mean_speed: f64,
-    /// Samples in it.
+    /// Number of samples.
     pub samples: usize,
-    /// Departure of x_l, x_r and y, m, with one standard deviation.
+    /// Departure of x_l, x_r and y with its standard deviation, m.
     pub departure: [(f64, f64); 3],
 }
 
-/// The cells with enough turning.
+/// All cells with enough samples that turn.
 pub fn cells(evidence: &Weighted, residual: &[Vector3<f64>], icrs: &IcrColumns) -> Vec<Cell> {
     let (samples, settings) = (evidence.samples(), &evidence.settings().location);
     let fast = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs());

@@ -1,8 +1,8 @@
-//! Functions of how the robot was driven that break one symmetry each.
+//! Contrasts: functions of the driving that break one symmetry each.
 //!
-//! Over the sectors of (V_l, V_r) a function is even or odd under reversal R and mirror M. With c
+//! Functions on the sectors of (V_l, V_r) are even or odd under reversal R and mirroring M. With c
 //! the sign of V_l + V_r and d that of V_r − V_l: c is odd under R, d under R and M, c d under M.
-//! Of the ICRs, the middle a = (x_l + x_r)/2 is odd under M, half their distance h and y are even.
+//! Of the ICRs, the middle a = (x_l + x_r)/2 is odd under M; half their distance h and y are even.
 
 use super::departures::{Contrasts, middle_half_y};
 use super::{IcrColumns, past};
@@ -13,22 +13,22 @@ use trackdyn_core::{PerSide, Side};
 use trackdyn_model::effect::Symmetry;
 use trackdyn_recording::hold::held;
 
-/// How a sample was driven.
+/// Kind of motion of a sample, by its track speeds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Manoeuvre {
-    /// Tracks alike.
+    /// Equal track speeds.
     Straight,
     /// Both tracks forward, or both backward.
     Arc,
-    /// Tracks against each other at different speeds.
+    /// Opposite directions at different speeds.
     CounterRotation,
-    /// Tracks against each other at about the same speed.
+    /// Opposite directions at about equal speeds.
     Spin,
 }
 
 impl Manoeuvre {
-    /// The manoeuvre of a sample, by the ratio of its slower to its faster track, from −1 (spin) to
-    /// 1 (straight).
+    /// Manoeuvre of a sample, by the ratio of its slower to its faster track, from −1 (spin) to 1
+    /// (straight).
     pub fn of(sample: &Sample, settings: &settings::Location) -> Self {
         let (left, right) = (sample.speeds.left, sample.speeds.right);
         let (slow, fast) = if left.abs() < right.abs() { (left, right) } else { (right, left) };
@@ -44,7 +44,7 @@ impl Manoeuvre {
         }
     }
 
-    /// In words.
+    /// Name in words.
     pub fn name(self) -> &'static str {
         match self {
             Self::Straight => "straight driving",
@@ -55,9 +55,9 @@ impl Manoeuvre {
     }
 }
 
-/// Columns that break a symmetry, not whitened; none of what the evidence has no spread in.
+/// Contrasts of all symmetries that the evidence can test, not whitened.
 ///
-/// `icrs` are the derivatives of the prediction by x_l, x_r and y.
+/// `icrs` is the Jacobian of the prediction by x_l, x_r and y.
 pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Contrasts> {
     let moved = &middle_half_y(icrs);
     let (samples, settings) = (evidence.samples(), &evidence.settings().location);
@@ -77,17 +77,17 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Contrasts> {
     all
 }
 
-/// The contrasts of some samples, symmetry by symmetry.
+/// Collects contrasts, symmetry by symmetry.
 struct Collector<'a> {
     samples: &'a [Sample],
     settings: &'a settings::Location,
-    /// Derivatives by a, h and y.
+    /// Jacobian by a, h and y.
     moved: &'a [Vec<Vector3<f64>>; 3],
     all: Vec<Contrasts>,
 }
 
 impl Collector<'_> {
-    /// Adds a column times a number of each sample, by its index, unless nothing comes of it.
+    /// Adds a column multiplied by a function of the sample's index, unless the product is zero.
     fn add_each(&mut self, symmetry: Symmetry, of: &[Vector3<f64>], by: impl Fn(usize) -> f64) {
         let column: Vec<Vector3<f64>> =
             of.iter().enumerate().map(|(index, value)| value * by(index)).collect();
@@ -105,7 +105,7 @@ impl Collector<'_> {
         self.add_each(symmetry, of, |index| by(&samples[index]));
     }
 
-    /// One in a channel of every sample: forward, left, yaw.
+    /// Unit column of a channel: forward, left or yaw.
     fn along(&self, channel: usize) -> Vec<Vector3<f64>> {
         vec![Vector3::from_fn(|k, _| if k == channel { 1.0 } else { 0.0 }); self.samples.len()]
     }
@@ -169,7 +169,7 @@ impl Collector<'_> {
         }
     }
 
-    /// The motion is ahead of the speeds or behind them, and ICRs move as speeds change.
+    /// Motion ahead of or behind the speeds, and ICRs that move as speeds change.
     fn of_changes_of_speed(&mut self, fastest: f64) {
         let change = |s: &Sample| (s.acceleration.left + s.acceleration.right) * s.duration / 2.0;
         let turning = |s: &Sample| (s.acceleration.right - s.acceleration.left) * s.duration;
@@ -183,8 +183,7 @@ impl Collector<'_> {
         }
     }
 
-    /// What a track does where it turns round: play in its drive, or soil that yields the other
-    /// way.
+    /// Reversals of a track: backlash in its drive, or soil that yields the other way.
     fn of_turning_round(&mut self, turned: &[PerSide<f64>]) {
         let [forward, left, yaw] = [0, 1, 2].map(|channel| self.along(channel));
         self.add_each(Symmetry::Transient, &forward, |k| turned[k].right + turned[k].left);
@@ -206,7 +205,7 @@ fn is(sample: &Sample, manoeuvre: Manoeuvre, settings: &settings::Location) -> f
     if Manoeuvre::of(sample, settings) == manoeuvre { 1.0 } else { 0.0 }
 }
 
-/// How often each track turns round in each sample: to forward positive, to backward negative.
+/// Reversals of each track in each sample: positive to forward, negative to backward.
 fn turned(evidence: &Evidence) -> Vec<PerSide<f64>> {
     let slowest = evidence.settings().location.min_running_speed * evidence.fastest();
     let mut turned = Vec::with_capacity(evidence.samples().len());
@@ -235,7 +234,7 @@ fn sign(value: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value.signum() }
 }
 
-/// A coordinate from −1 to 1 over the samples.
+/// A coordinate of the samples, scaled to the range from −1 to 1.
 fn scaled(samples: &[Sample], of: impl Fn(&Sample) -> f64) -> impl Fn(&Sample) -> f64 {
     let range = samples.iter().map(&of);
     let (low, high) =
@@ -253,8 +252,7 @@ pub(super) mod tests {
     use trackdyn_estimate::weighting::SegmentNoise;
     use trackdyn_recording::TrackSample;
 
-    /// Two runs through the same speeds of the left track, one per sample, the right one at 0.3
-    /// m/s.
+    /// Two runs with these speeds of the left track, one per sample, and 0.3 m/s of the right one.
     pub(in crate::locate) fn two_runs(left: &[f64]) -> Evidence {
         let last = left.last().copied().expect("a speed");
         let speeds = left.iter().flat_map(|speed| std::iter::repeat_n(*speed, READINGS));
@@ -273,12 +271,13 @@ pub(super) mod tests {
 
     #[test]
     fn a_track_turns_round_where_it_goes_the_other_way_after_whatever_rest() {
-        // forward, rest, backward, noise of a standing encoder, forward; the other track runs on
+        // forward, rest, backward, noise of a standing encoder, forward; the right track runs
+        // steadily
         let left = [0.5, 0.5, 0.0, -0.4, -0.001, 0.001, 0.6, 0.6];
         let evidence = two_runs(&left);
         let once = [0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0.0];
         let found = turned(&evidence);
-        // a run knows nothing of the one before
+        // no memory of the previous run
         let expected = [once, once].concat();
         assert_eq!(found.iter().map(|turned| turned.left).collect::<Vec<_>>(), expected);
         assert!(found.iter().all(|turned| turned.right == 0.0));

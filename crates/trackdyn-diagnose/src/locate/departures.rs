@@ -4,20 +4,19 @@ use super::IcrColumns;
 use nalgebra::Vector3;
 use trackdyn_model::effect::Symmetry;
 
-/// Departures that break one symmetry in one way.
+/// Contrasts that break one symmetry in one way.
 #[derive(Clone, Debug)]
 pub struct Contrasts {
     /// The symmetry.
     pub symmetry: Symmetry,
-    /// Symmetries whose plain contrasts, those beside nothing, do not count as departures of this
-    /// kind.
+    /// Symmetries whose plain contrasts (those with an empty `beside`) are projected out first.
     pub beside: &'static [Symmetry],
-    /// The departures, not whitened.
+    /// Columns, not whitened.
     pub columns: Vec<Vec<Vector3<f64>>>,
 }
 
-/// Derivatives of the prediction by a = (x_l + x_r)/2, h = (x_r − x_l)/2 and y, each ICR as far as
-/// it moves.
+/// Jacobian of the prediction by a = (x_l + x_r)/2, h = (x_r − x_l)/2 and y: ∂/∂a = ∂/∂x_r +
+/// ∂/∂x_l, ∂/∂h = ∂/∂x_r − ∂/∂x_l.
 pub fn middle_half_y([left, right, y]: &IcrColumns) -> [Vec<Vector3<f64>>; 3] {
     let combine = |sign: f64| -> Vec<Vector3<f64>> {
         left.iter().zip(right).map(|(left, right)| right + left * sign).collect()

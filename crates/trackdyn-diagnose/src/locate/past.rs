@@ -1,5 +1,4 @@
-//! Departures that hang on what the tracks did before: heat, soil that was worked, a tank that
-//! sloshes.
+//! Contrasts by what the tracks did before: heat, worked soil, a sloshing tank.
 
 use super::departures::Contrasts;
 use crate::evidence::Evidence;
@@ -8,11 +7,11 @@ use trackdyn_core::PerSide;
 use trackdyn_model::effect::Symmetry;
 use trackdyn_recording::hold::held;
 
-/// What present speeds say is not the past.
-const PRESENT: &[Symmetry] =
+/// Symmetries of the present speeds: their contrasts do not count as effects of the past.
+const SPEED_SYMMETRIES: &[Symmetry] =
     &[Symmetry::SpeedScale, Symmetry::Reversal, Symmetry::Manoeuvre, Symmetry::Mirror];
 
-/// The departures of a, h and y by what the tracks did before, not whitened.
+/// Contrasts of a, h and y by past track speeds, not whitened.
 pub fn contrasts(
     evidence: &Evidence,
     [middle, half, y]: &[Vec<Vector3<f64>>; 3],
@@ -31,10 +30,10 @@ pub fn contrasts(
     }
     columns.retain(|column| column.iter().any(|value| value.norm() > 0.0));
     let symmetry = Symmetry::Transient;
-    (!columns.is_empty()).then_some(Contrasts { symmetry, beside: PRESENT, columns })
+    (!columns.is_empty()).then_some(Contrasts { symmetry, beside: SPEED_SYMMETRIES, columns })
 }
 
-/// What the tracks did, forgotten by and by, m/s.
+/// Exponentially forgotten averages of track speeds, m/s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Past {
     /// |V_r − V_l|
@@ -45,8 +44,7 @@ struct Past {
     uneven: f64,
 }
 
-/// What the tracks did until the middle of each sample, forgotten within some seconds; nothing
-/// before a run.
+/// Averages up to the middle of each sample with this memory (s); zero at the start of a run.
 fn past(evidence: &Evidence, seconds: f64) -> Vec<Past> {
     let mut all = Vec::with_capacity(evidence.samples().len());
     let (mut past, mut until, mut run) = (Past::default(), 0.0, None);
@@ -83,12 +81,12 @@ mod tests {
         for (k, past) in found.iter().enumerate() {
             let k = k % (forth + back);
             let [driven, rested] = [k.min(forth), k.saturating_sub(forth)].map(real);
-            // half a sample is behind its middle
+            // plus half a sample up to its middle
             let [driven, rested] =
                 if k < forth { [driven + 0.5, 0.0] } else { [driven, rested + 0.5] };
             let [came, stayed] =
                 [-(-driven * length / seconds).exp_m1(), (-rested * length / seconds).exp()];
-            // |V_r − V_l| is 0.8 m/s and then nothing, the sum of their sizes 0.8 and then 0.6 m/s
+            // |V_r − V_l| is 0.8, then 0 m/s; |V_l| + |V_r| is 0.8, then 0.6 m/s
             assert!((past.turning - 0.8 * came * stayed).abs() < 1e-12, "{k}: {past:?}");
             let running = 0.8 * came * stayed + 0.6 * (1.0 - stayed);
             assert!((past.running - running).abs() < 1e-12, "{k}: {past:?}");

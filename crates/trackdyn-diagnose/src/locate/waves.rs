@@ -1,14 +1,14 @@
-//! Departures that come and go with the place: waves of the ground.
+//! Contrasts that vary with the place: waves of the ground.
 //!
 //! # Law
-//! Whatever the ground does that depends on the place alone is a sum of waves. To first order a
-//! field φ of its friction moves the distance of the ICRs by its level, and their middle and y by
-//! its slope across and along the body:
+//! Any dependence on place is a sum of waves. To first order a field φ of the ground's friction
+//! moves half the distance of the ICRs with its value, and their middle and y with its gradient
+//! across and along the body:
 //!
 //! δh ∝ φ,  δa ∝ ∂φ/∂left,  δy ∝ ∂φ/∂forward,  φ = A cos k·p + B sin k·p
 //!
-//! so that a wave k has six departures. Waves are as many as the area that was driven on resolves,
-//! the longest first.
+//! so that each wave number k has six columns. Wave numbers are as dense as the driven area
+//! resolves, longest waves first.
 
 use super::IcrColumns;
 use super::departures::middle_half_y;
@@ -24,20 +24,21 @@ use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 use trackdyn_core::real;
 
-/// A wave of the ground, and its test as part of the family of all waves.
+/// A wave of the ground, with its test, family-wise over all waves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wave {
-    /// Its length, m.
+    /// Wavelength, m.
     pub length: f64,
-    /// Direction across its crests in the frame of the poses, rad, from −π/2 to π/2.
+    /// Direction of the wave vector in the frame of the poses, rad, from −π/2 to π/2.
     pub direction: f64,
     /// Its test.
     pub test: Test,
 }
 
-/// The strongest wave in a residual beside what else may explain it; none in tables of steady
-/// motions.
+/// The most significant wave in a residual, beside other columns that may explain it; none in
+/// tables of steady motion.
 ///
+/// `residual` and `beside` are whitened, `icrs` is not.
 /// `residual` and the columns `beside` are whitened, `icrs` are not.
 pub fn strongest_wave(
     evidence: &Weighted,
@@ -69,10 +70,10 @@ pub fn strongest_wave(
     waves.reduce(|best, wave| if wave.test.is_stronger(&best.test) { wave } else { best })
 }
 
-/// Wave numbers k, rad/m, of one direction each, the longest waves first.
+/// Wave vectors k, rad/m, one of each pair ±k, longest waves first.
 fn numbers(evidence: &Evidence) -> Vec<Vector2<f64>> {
     let settings = &evidence.settings().location;
-    // poses at either end may be far off
+    // without the outermost poses, which may be stray
     let extent = |of: &dyn Fn(&Sample) -> f64| {
         let mut values: Vec<f64> = evidence.samples().iter().map(of).collect();
         values.sort_by(f64::total_cmp);
@@ -87,12 +88,12 @@ fn numbers(evidence: &Evidence) -> Vec<Vector2<f64>> {
     };
     let step = Vector2::new(extent(&|s| s.pose.x), extent(&|s| s.pose.y))
         .map(|extent| TAU / (settings.waves_per_length * extent));
-    // half of an ellipse has as many: π/2 K²/(Δk_x Δk_y)
+    // half an ellipse holds π/2 K²/(Δk_x Δk_y) wave vectors
     let largest = (2.0 * real(settings.max_waves) * step.x * step.y / PI).sqrt();
     let largest = largest.min(TAU / settings.min_wavelength);
     let multiples =
         |step: f64| (0..).map(move |k: u32| step * f64::from(k)).take_while(move |k| *k <= largest);
-    // k and −k are one wave
+    // k and −k are equivalent
     let other = |[x, y]: [f64; 2]| (x > 0.0 && y > 0.0).then_some([x, -y]);
     let mut numbers: Vec<Vector2<f64>> = multiples(step.x)
         .flat_map(|x| multiples(step.y).map(move |y| [x, y]))
@@ -104,7 +105,7 @@ fn numbers(evidence: &Evidence) -> Vec<Vector2<f64>> {
     numbers
 }
 
-/// The departures of a wave, not whitened.
+/// The six columns of a wave, not whitened.
 fn columns(
     evidence: &Evidence,
     [middle, half, y]: &[Vec<Vector3<f64>>; 3],
@@ -127,11 +128,11 @@ fn columns(
     columns
 }
 
-/// A residual from which what may explain it is projected out, with the weights of the samples.
+/// A residual with the other columns projected out, and the square roots of the sample weights.
 struct Remainder {
     roots: Vec<f64>,
     blocks: Vec<Range<usize>>,
-    /// Orthonormal columns of what may explain it.
+    /// Orthonormal basis of the other columns.
     beside: DMatrix<f64>,
     residual: DVector<f64>,
 }

@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 use trackdyn_recording::TrackSample;
 
-/// Readings without the steps between them: v'_k = (v_{k−1} + 2 v_k + v_{k+1})/4.
+/// Readings smoothed by v'_k = (v_{k−1} + 2 v_k + v_{k+1})/4.
 ///
-/// A counter's ticks make the speeds jump to and fro, by more than a robot's speed changes between
-/// two readings. Stationary motion averages that out; a body with mass under dry friction, shaken
-/// so, would slide more easily than it does.
+/// Encoder ticks make speeds alternate by more than a robot's speed changes between two readings.
+/// Stationary motion averages that out. A mass on dry friction would not: shaken like that, it
+/// slides more easily than it should.
 pub fn smooth(run: &[TrackSample]) -> Vec<TrackSample> {
     (0..run.len())
         .map(|k| {
@@ -19,7 +19,7 @@ pub fn smooth(run: &[TrackSample]) -> Vec<TrackSample> {
         .collect()
 }
 
-/// Readings of belts that follow with a lag, each with its mean over the time that it holds.
+/// Readings of belts with a first-order lag (s), each averaged over the time that it holds.
 pub fn lagging(tracks: &[Vec<TrackSample>], time_constant: f64) -> Cow<'_, [Vec<TrackSample>]> {
     if time_constant <= 0.0 {
         return Cow::Borrowed(tracks);
@@ -35,7 +35,7 @@ fn lagging_run(tracks: &[TrackSample], time_constant: f64) -> Vec<TrackSample> {
         let next = tracks.get(index + 1).map_or(reading.t, |next| next.t);
         let steps = (next - reading.t) / time_constant;
         let remaining = (-steps).exp();
-        // V(t) = V_e + (V_0 − V_e) e^(−t/T); its mean over the time that V_e holds
+        // V(t) = V_e + (V_0 − V_e) e^(−t/T); its mean while V_e holds
         let share = if steps > 1e-9 { (1.0 - remaining) / steps } else { 1.0 };
         let shown = [reading.v_left, reading.v_right];
         let mean: [f64; 2] = std::array::from_fn(|k| shown[k] + (belts[k] - shown[k]) * share);

@@ -1,4 +1,4 @@
-//! Ground that changes with place, heading or time.
+//! Departure by ground that changes with place, heading or time.
 
 use super::{TASK, coarse, single};
 use crate::evidence::{Evidence, Origin, Sample};
@@ -9,7 +9,7 @@ use trackdyn_model::effect::Role;
 use trackdyn_model::{ActiveEffect, Circumstance, Drive, Effects, Model, Motion, Vehicle};
 use trackdyn_model::{Stationary, Status};
 
-/// Where the robot was during a sample.
+/// Place, heading and time of the robot at the middle of a sample.
 fn circumstance(sample: &Sample) -> Circumstance {
     let half =
         Pose::exp(&Pose::new(sample.motion[0], sample.motion[1], sample.motion[2]).log(1.0), 0.5);
@@ -21,18 +21,18 @@ fn circumstance(sample: &Sample) -> Circumstance {
     }
 }
 
-/// How an effect acts where, and when, a recording was driven.
+/// How an effect acts over the poses and times of the evidence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acts {
-    /// Its place lies elsewhere.
+    /// Nowhere: its place was never visited.
     Nowhere,
-    /// Everywhere alike.
+    /// Equally everywhere.
     Alike,
-    /// Its forces hang on where the robot is, where it heads, or when.
+    /// Its forces depend on place, heading or time.
     Varying,
 }
 
-/// How an effect acts on this evidence.
+/// How an effect acts over the poses and times of this evidence.
 pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Acts {
     let probes = evidence.settings().mechanics.probes;
     if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
@@ -42,7 +42,7 @@ pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Ac
     let level = Circumstance::default();
     let model = single(vehicle, effect);
     let samples = evidence.samples();
-    // A place may be crossed between any two.
+    // A place may be crossed between any two samples.
     let has_place = effect.card().parameters.iter().any(|p| matches!(p.role, Role::Place { .. }));
     let step = if has_place { 1 } else { (samples.len() / probes).max(1) };
     let there = forces(&model, &level);
@@ -53,7 +53,7 @@ pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Ac
     if has_place && is_absent() { Acts::Nowhere } else { Acts::Alike }
 }
 
-/// Forces in a turn at these belt speeds: by the friction of each side, and all others.
+/// Forces in a turn at these belt speeds: friction of each side, and all others.
 fn probed(model: &Model, at: &Circumstance, speeds: PerSide<f64>) -> [Wrench; 3] {
     let gauge = model.vehicle().gauge;
     let motion = Motion::anchored(speeds, Side::Left, [-gauge, 0.1 * gauge], 0.5 / gauge);
@@ -61,8 +61,8 @@ fn probed(model: &Model, at: &Circumstance, speeds: PerSide<f64>) -> [Wrench; 3]
     [balance.friction.left, balance.friction.right, balance.load]
 }
 
-/// The stationary motion where each sample was, less the one without the effects that know places,
-/// headings or times. `table` is nearly that one: where the search starts.
+/// Stationary motion at the place of each sample, minus that without the effects of place, heading
+/// or time. `table` approximates the latter and starts the solves.
 pub fn by_ground(
     with: &Model,
     without: &Model,
@@ -76,7 +76,7 @@ pub fn by_ground(
         .map(|sample| {
             let (speeds, at) = (drive.driven(sample.speeds), circumstance(sample));
             let nothing = Twist::zero();
-            // beside a patch forces are those of level ground
+            // outside a patch forces equal those of level ground
             if probed(with, &at, speeds) == probed(without, &Circumstance::default(), speeds) {
                 return nothing;
             }
@@ -111,7 +111,7 @@ mod tests {
         Mechanics::new(hypothesis, evidence).predict(&Instruments::of(hypothesis), evidence)
     }
 
-    /// A robot that turns thirty metres from where poses are counted from.
+    /// A robot that turns thirty metres from the origin of its poses.
     #[test]
     fn ground_where_the_robot_never_is_changes_nothing_wherever_poses_are_counted_from() {
         let (file, settings) = (VehicleFile::auriga_alpha(), Settings::default());

@@ -1,9 +1,9 @@
-//! What inertia adds to the stationary motion.
+//! Departure of the transient from the stationary motion.
 //!
 //! # Law
-//! The motion in time less the stationary motion, over each sample. Around the numbers θ₀ of the
-//! hypothesis that it was found for, it is linear in those that are free: d(θ) = d(θ₀) + Σ (θ − θ₀)
-//! ∂d/∂θ, as far as `mechanics.reach`, and on the way of a fit however far.
+//! Transient minus stationary motion over each sample. Around the parameters θ₀ that were simulated
+//! it is linear in the free ones, d(θ) = d(θ₀) + Σ (θ − θ₀) ∂d/∂θ, used within `mechanics.reach`,
+//! and over any distance during a fit.
 
 use super::belts::{lagging, smooth};
 use super::sheared::{self, Without};
@@ -23,67 +23,67 @@ use trackdyn_model::{ActiveEffect, Circumstance, Drive, EffectId, Effects, Model
 use trackdyn_model::{Forces, Transient};
 use trackdyn_recording::TrackSample;
 
-/// Longest steps of a motion in time, and the error of the twist from which on one is halved.
+/// Step control of the transient simulation.
 #[derive(Clone, Copy)]
 struct Steps {
-    /// s.
+    /// Longest step, s.
     longest: f64,
-    /// m/s.
+    /// Estimated error of the twist above which a step is halved, m/s.
     tolerance: f64,
 }
 
 impl Steps {
-    /// Those of the motion in time itself. By default what inertia adds is what steps of 2 ms make
-    /// it, to one standard deviation of laboratory sensors in eight minutes of driving. A belt
-    /// jumps with each reading; on dry friction a body follows in some milliseconds, which one long
-    /// step passes over, unseen by its error.
+    /// Steps of the transient motion itself. With the defaults the departure agrees with that of 2
+    /// ms steps to one standard deviation of laboratory sensors over eight minutes of driving.
+    /// Belts jump at each reading and on dry friction a body follows in milliseconds: longer steps
+    /// would skip that, unseen by the error estimate.
     fn fine(settings: &settings::Mechanics) -> Self {
         Self { longest: settings.max_step, tolerance: settings.step_tolerance }
     }
 
-    /// Those beside laws of the shear stress. By default, by readings: nine of these standard
-    /// deviations, alike with and without a law.
+    /// Steps for shear-stress laws. With the defaults they err by nine of these standard
+    /// deviations, but alike with and without a law, so that the errors cancel.
     fn coarse(settings: &settings::Mechanics) -> Self {
         Self { longest: settings.max_sheared_step, tolerance: settings.sheared_step_tolerance }
     }
 }
 
-/// How far a hypothesis may be from where the motion in time was found to be taken for near, in
-/// typical sizes.
+/// Largest distances to the simulated parameters over which a departure is extrapolated, in typical
+/// sizes.
 #[derive(Clone, Copy)]
 pub struct Within {
-    /// Numbers that a slope is known of.
+    /// For parameters with a known slope.
     known: f64,
-    /// Others.
+    /// For all others.
     unknown: f64,
-    /// Lag of the belts, s.
+    /// For the lag of the belts, s.
     late: f64,
 }
 
 impl Within {
-    /// Near enough to end a fit with.
+    /// Near enough for the end of a fit.
     pub fn reach(settings: &settings::Mechanics) -> Self {
         let settings::Mechanics { reach, max_lag_change, .. } = *settings;
         Self { known: reach, unknown: reach, late: max_lag_change }
     }
 
-    /// On the way of a fit: as far as slopes may lead.
+    /// During a fit: any distance where slopes are known.
     pub fn the_way(settings: &settings::Mechanics) -> Self {
         Self { known: f64::MAX, unknown: settings.reach_without_slope, late: f64::MAX }
     }
 
-    /// A step of a difference quotient, be it as large as it may.
+    /// A finite-difference step of any size.
     pub const A_STEP: Self = Self { known: f64::MAX, unknown: f64::MAX, late: f64::MAX };
 }
 
-/// Difference of the logarithm of friction that is rounding.
-const SAME: f64 = 1e-12;
+/// Difference of ln friction that counts as rounding.
+const LN_FRICTION_ROUNDING: f64 = 1e-12;
 
-/// What the motion in time is found for.
+/// Input of a transient simulation.
 pub struct Case<'a> {
-    /// The robot, without what effects make of it.
+    /// The vehicle without effects.
     pub vehicle: &'a Vehicle,
-    /// The robot, inertia among its effects.
+    /// The vehicle with effects, inertia among them.
     pub model: &'a Model,
     /// Largest speed of a belt, m/s.
     pub largest: f64,
@@ -97,34 +97,34 @@ impl Case<'_> {
     }
 }
 
-/// What inertia adds, near where it was found.
+/// Inertial departure, valid near the simulated parameters.
 #[derive(Clone)]
 pub struct InertiaNear {
     at: Arc<Inertia>,
-    /// How it changes with what is free.
+    /// Its derivatives by the free parameters.
     slopes: Vec<Arc<Slope>>,
-    /// What the change adds up to, per sample; none at the very place.
+    /// Extrapolated change of each sample; none at the simulated parameters themselves.
     shift: Option<Arc<Vec<Twist>>>,
 }
 
-/// How what inertia adds changes with a number of the hypothesis.
+/// Derivative of the departure by one parameter, by a finite difference.
 struct Slope {
     by: Unknown,
-    /// Where it was found.
+    /// Where it was computed.
     at: Arc<Inertia>,
-    /// The change of each sample per unit of the number.
+    /// Change of each sample per unit of the parameter.
     change: Vec<Twist>,
 }
 
 impl InertiaNear {
-    /// What these effects add, without knowing how that changes.
+    /// Departure simulated for this case, without derivatives. `inert` are the effects of inertia.
     pub fn here(inert: Vec<ActiveEffect>, case: &Case) -> Result<Self, String> {
         Ok(Self { at: Arc::new(Inertia::new(inert, case)?), slopes: Vec::new(), shift: None })
     }
 
-    /// What it adds to a hypothesis that resembles the one it was found for. `inert` are the
-    /// effects that it comes from; how it changes with what is `free` is found too, at a delay of
-    /// the poses, s.
+    /// Departure of a hypothesis: extrapolated from `before` where it is near and all slopes are
+    /// known, otherwise simulated. `inert` are the effects of inertia; slopes by the `free`
+    /// unknowns are computed where missing, at a pose delay of `delay`, s.
     pub fn beside(
         before: Option<&Self>,
         inert: Vec<ActiveEffect>,
@@ -143,8 +143,8 @@ impl InertiaNear {
             None => Self::here(inert, case)?,
         };
         let before = before.map_or(&[][..], |before| &before.slopes);
-        // Slopes of a robot that is not quite this one lead astray: moments of inertia go with the
-        // square of a radius.
+        // Slopes of a clearly different robot mislead: moments of inertia are quadratic in a
+        // radius.
         let alike = |slope: &&Arc<Slope>| slope.at.is_alike(&here.at);
         let slopes: Vec<Arc<Slope>> = free
             .par_iter()
@@ -157,8 +157,8 @@ impl InertiaNear {
         Ok(Self { slopes, ..here })
     }
 
-    /// What inertia adds for a hypothesis that differs; none where it comes from other effects
-    /// there, or differs by more than what this is good for.
+    /// Departure extrapolated to a hypothesis; none where its inertial effects differ, or it is
+    /// farther away than `within` allows.
     pub fn moved(&self, inert: &[ActiveEffect], case: &Case, within: Within) -> Option<Self> {
         let late = self.at.later(case.drive).abs();
         if !are_same(&self.at.inert, inert) || !self.at.is_close(case.vehicle) || late > within.late
@@ -192,13 +192,13 @@ impl InertiaNear {
         self.slopes.iter().map(Arc::as_ref).find(|slope| slope.by == by)
     }
 
-    /// What it adds where it was found.
+    /// The departure at the simulated parameters.
     pub fn unmoved(&self) -> Self {
         Self { shift: None, ..self.clone() }
     }
 
-    /// What laws of the shear stress change in it where it was found, at each reading. `with` has
-    /// the stationary motions of a robot with them, `case` is that robot without.
+    /// Change of the departure by shear-stress laws, at each reading, at the simulated parameters.
+    /// `with` is the table of stationary motions with the laws, `case` the robot without.
     pub fn sheared(&self, laws: &[ActiveEffect], with: &Surface, case: &Case) -> Vec<Vec<Twist>> {
         let without = Surface::new(
             case.model,
@@ -209,13 +209,13 @@ impl InertiaNear {
         self.at.sheared(laws, [with, &without])
     }
 
-    /// Whether both come from one motion in time.
+    /// Whether both come from one transient simulation.
     pub fn is_from(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.at, &other.at)
     }
 
-    /// What it adds to the twist (paper's frame) during a sample, of this index, with belts that
-    /// lag as this drive's do and poses that are late, s.
+    /// Departure of the twist (paper's frame) during the sample with this index, for the belt lag
+    /// of `drive` and a pose delay, s.
     pub fn departure(&self, index: usize, sample: &Sample, drive: &Drive, delay: f64) -> Twist {
         let departure = self.at.departure(sample, delay + self.at.later(drive));
         self.shift.as_ref().map_or(departure, |shift| departure + shift[index])
@@ -223,13 +223,14 @@ impl InertiaNear {
 }
 
 impl Slope {
-    /// By the difference of motions in time; none where there is no such motion.
+    /// Derivative by a finite difference of two simulations; none where neither side can be
+    /// simulated.
     fn new(by: Unknown, at: &Arc<Inertia>, case: &Case, delay: f64) -> Option<Self> {
         let departures = |inertia: &Inertia| -> Vec<Twist> {
             let samples = case.evidence.samples().par_iter();
             samples.map(|sample| inertia.departure(sample, delay)).collect()
         };
-        // A robot that is about to tip stands on one side of where it is.
+        // A robot that is about to tip can be simulated on one side only.
         let (there, step) = [1.0, -1.0].into_iter().find_map(|sign| {
             let (model, step) = stepped(by, case, sign)?;
             Some((Inertia::new(Vec::new(), &Case { model: &model, ..*case }).ok()?, step))
@@ -241,8 +242,8 @@ impl Slope {
     }
 }
 
-/// The robot with a number changed by a step of this sign, and the step; none where it would leave
-/// what is physical.
+/// The model with one parameter changed by a step of this sign, and the step; none where it would
+/// leave its physical range.
 fn stepped(by: Unknown, case: &Case, sign: f64) -> Option<(Model, f64)> {
     let (vehicle, effects) = (case.vehicle, case.model.effects());
     let settings = case.settings();
@@ -271,8 +272,8 @@ fn stepped(by: Unknown, case: &Case, sign: f64) -> Option<(Model, f64)> {
     }
 }
 
-/// Whether a motion in time may change with a number: what is typically zero has no size to step
-/// by, and is near only where it is equal.
+/// Whether the departure can be differentiated by a parameter: one whose typical size is zero has
+/// no step, and counts as near only if equal.
 pub fn has_slope(by: Unknown, model: &Model) -> bool {
     match by {
         Unknown::Offset(_) => false,
@@ -281,7 +282,7 @@ pub fn has_slope(by: Unknown, model: &Model) -> bool {
     }
 }
 
-/// Typical size of a number of a robot; that of the logarithm of friction is one.
+/// Typical size of a parameter, as a unit of distance; one for ln friction.
 fn size(by: Unknown, vehicle: &Vehicle, settings: &settings::Mechanics) -> f64 {
     match by {
         Unknown::Cog(_) => settings.cog_size * vehicle.gauge,
@@ -289,19 +290,19 @@ fn size(by: Unknown, vehicle: &Vehicle, settings: &settings::Mechanics) -> f64 {
     }
 }
 
-/// Typical size of a parameter; one for the logarithm of friction.
+/// Typical size of a parameter of an effect; one for ln friction.
 fn typical(by: Unknown) -> f64 {
     by.parameter().map_or(1.0, typical_size)
 }
 
-/// Whether a change of a number, however small, has to be known by its slope: it is one of these
-/// effects, or of none.
+/// Whether any change of a parameter, however small, needs a slope: it belongs to one of these
+/// effects, or to the vehicle.
 fn needs_slope(by: Unknown, effects: &[ActiveEffect]) -> bool {
     let card = by.card();
     card.is_none_or(|card| effects.iter().any(|effect| effect.card().id == card.id))
 }
 
-/// Whether effects are the same, with whatever values.
+/// Whether both lists hold the same effects, with any values.
 fn are_same(known: &[ActiveEffect], effects: &[ActiveEffect]) -> bool {
     let ids = |effects: &[ActiveEffect]| -> Vec<&str> {
         effects.iter().map(|effect| effect.card().id).collect()
@@ -314,28 +315,27 @@ fn level(vehicle: &Vehicle) -> f64 {
     (vehicle.friction.across * vehicle.friction.along).sqrt()
 }
 
-/// What inertia adds to the stationary motion.
+/// A simulated inertial departure.
 struct Inertia {
-    /// The effects that it comes from.
+    /// The effects of inertia.
     inert: Vec<ActiveEffect>,
-    /// The robot, without what effects make of it.
+    /// The vehicle without effects.
     vehicle: Vehicle,
-    /// The robot.
+    /// The vehicle with effects.
     model: Model,
-    /// From its encoders to its belts.
+    /// From its encoder speeds to its belt speeds.
     drive: Drive,
-    /// Motion in time of each run, by the clock of the encoders.
+    /// Transient motion of each run, by the encoder clock.
     paths: Vec<Trajectory>,
-    /// Coarse steps of it, once they were asked for.
+    /// Its coarse steps, computed on demand.
     steps: OnceLock<Vec<Vec<Step>>>,
-    /// Speeds of the belts behind it, m/s.
+    /// Belt speeds, m/s.
     belts: Vec<Vec<TrackSample>>,
-    /// The stationary motions without it.
+    /// Table of stationary motions.
     surface: Surface,
-    /// Their twists at the speeds of the belts.
+    /// Stationary twists at the belt speeds.
     steady: Vec<Vec<Twist>>,
-    /// The sums of forces in these, which the table of stationary motions leaves, once they were
-    /// asked for.
+    /// Sums of forces in these, nonzero by the error of the table, computed on demand.
     left: OnceLock<Vec<Vec<Vector3<f64>>>>,
     settings: settings::Mechanics,
 }
@@ -377,7 +377,7 @@ impl Inertia {
         })
     }
 
-    /// Whether it was found for the very same.
+    /// Whether it was simulated for exactly this case.
     fn is_for(&self, inert: &[ActiveEffect], case: &Case) -> bool {
         let Case { vehicle, model, drive, .. } = case;
         self.inert == inert
@@ -386,22 +386,21 @@ impl Inertia {
             && self.drive == **drive
     }
 
-    /// By how much belts lag more with this drive, s: what changes slowly is late by the time
-    /// constant.
+    /// Additional belt lag of this drive, s: slow changes are delayed by the time constant.
     fn later(&self, drive: &Drive) -> f64 {
         drive.time_constant - self.drive.time_constant
     }
 
-    /// Whether the vehicle, without what effects make of it, has about this friction ratio.
+    /// Whether the vehicle, without effects, has about this friction ratio.
     fn is_close(&self, vehicle: &Vehicle) -> bool {
         let ratio = |vehicle: &Vehicle| vehicle.friction.across / vehicle.friction.along;
         (ratio(&self.vehicle) / ratio(vehicle)).ln().abs() < self.settings.max_vehicle_change
     }
 
-    /// The numbers that differ, with the difference from here to there.
+    /// Parameters that differ, with the difference from here to there.
     fn changes(&self, vehicle: &Vehicle, effects: &Effects) -> Vec<(Unknown, f64)> {
         let level = (level(vehicle) / level(&self.vehicle)).ln();
-        let level = if level.abs() < SAME { 0.0 } else { level };
+        let level = if level.abs() < LN_FRICTION_ROUNDING { 0.0 } else { level };
         let level = std::iter::once((Unknown::FrictionLevel, level));
         let cog = [0, 1].map(|k| (Unknown::Cog(k), vehicle.cog[k] - self.vehicle.cog[k]));
         let change = |effect: EffectId, place: usize| {
@@ -415,7 +414,7 @@ impl Inertia {
         level.chain(cog).chain(of_effects).filter(|(_, change)| *change != 0.0).collect()
     }
 
-    /// Whether slopes found for one robot do for the other.
+    /// Whether slopes of one robot serve for the other.
     fn is_alike(&self, other: &Self) -> bool {
         let settings = &self.settings;
         let mut changes = self.changes(&other.vehicle, other.model.effects()).into_iter();
@@ -426,9 +425,9 @@ impl Inertia {
             })
     }
 
-    /// What laws of the shear stress change in the motion in time, at each reading. What they add
-    /// to the stationary motion is the difference of one robot `with` and `without` them: in what
-    /// else it differs from this one is the slopes' to say.
+    /// Change of the transient motion by shear-stress laws, at each reading. Their change of the
+    /// stationary motion is the difference between the tables `with` and `without` them; other
+    /// differences from this robot are covered by the slopes.
     fn sheared(&self, laws: &[ActiveEffect], [with, without]: [&Surface; 2]) -> Vec<Vec<Twist>> {
         let added = |belts: &[TrackSample]| -> Vec<Twist> {
             let [with, without] = [with, without].map(|surface| stationary(surface, belts));
@@ -444,8 +443,7 @@ impl Inertia {
         let creep = self.settings.stick_speed;
         let with = Forces { model: &with, ground: &grounds[0], creep };
         let without = Forces { model: &self.model, ground: &grounds[1], creep };
-        // Both on one thread: another job of the pool, taken up in between, would wait for this
-        // one.
+        // Sequential: a job of the thread pool taken up in between would wait for this one.
         let steps =
             self.steps.get_or_init(|| self.belts.iter().map(|run| self.steps(run)).collect());
         let left = self.left.get_or_init(|| {
@@ -463,7 +461,7 @@ impl Inertia {
         .collect()
     }
 
-    /// Steps of the motion in time over a run, coarse ones where it goes through in these.
+    /// Steps of the transient motion over a run: coarse ones, or fine ones where the former fail.
     fn steps(&self, run: &[TrackSample]) -> Vec<Step> {
         let creep = self.settings.stick_speed;
         let path = |steps| path_in_time(&self.model, &self.surface, run, steps, creep);
@@ -472,7 +470,7 @@ impl Inertia {
         found.map(|(_, steps)| steps).unwrap_or_default()
     }
 
-    /// The motion in time less the stationary motion, as a twist over a sample.
+    /// Transient minus stationary motion, as a twist over a sample.
     fn departure(&self, sample: &Sample, delay: f64) -> Twist {
         let (from, until) = (sample.start, sample.start + sample.duration);
         let path = &self.paths[sample.run];
@@ -486,12 +484,12 @@ impl Inertia {
     }
 }
 
-/// The stationary twist at each reading of a run.
+/// Stationary twist at each reading of a run.
 fn stationary(surface: &Surface, belts: &[TrackSample]) -> Vec<Twist> {
     belts.iter().map(|reading| surface.motion(reading.speeds()).twist(&[0.0; 3])).collect()
 }
 
-/// The motion in time over a run, and its steps. A track sticks below a slip of `creep`, m/s.
+/// Transient motion over a run, and its steps. A track sticks below a slip of `creep`, m/s.
 fn path_in_time(
     model: &Model,
     surface: &Surface,

@@ -1,27 +1,26 @@
-//! What laws of the shear stress change in the motion in time.
+//! Change of the transient motion by shear-stress laws.
 //!
 //! # Law
-//! A motion in time with these laws takes a quadrature for each of many balances of forces. Near it
-//! few are enough. With û the motion without the laws, D what they add to it, and G and G₀ the sums
-//! of forces with and without them, in each stage of each step of û
+//! A transient simulation with these laws takes a quadrature for each evaluation of the forces. Few
+//! are enough if it starts from the motion û without the laws. With D their addition to it, and G
+//! and G₀ the sums of forces with and without them, each stage of each step of û solves
 //!
 //! ```text
 //! G(û + D, û̇ + (D − D_b)/(γ h)) = G₀(û, û̇) = 0
 //! ```
 //!
-//! D_b from the stages before, as û has it from its own ([`transient`](trackdyn_model::transient)).
-//! The first stage begins at D as it is in stationary motion, the second at that of the first, and
-//! both with the derivatives of the stage before, by Broyden's method; a step that, by what the
-//! last ones left, ends in balance is taken without a look. Where that leads nowhere, it begins
-//! with the derivatives of the stage itself, which are
+//! D_b follows from the previous stages, by the scheme of û
+//! ([`transient`](trackdyn_model::transient)). The first stage starts at D of the stationary
+//! motion, the second at that of the first. Both use Broyden's method with the inverse Jacobian of
+//! the previous stage. A step that by the last rate of convergence ends in balance is not evaluated
+//! again. Where that fails, the Jacobian is computed anew, G_a without the laws:
 //!
 //! ```text
 //! G_u + G_a/(γ h)
 //! ```
 //!
-//! with G_a that without the laws. Where these lead nowhere either, as much of one step is taken as
-//! comes nearer to a balance: where a track nearly sticks a law may be steep, and the whole step
-//! lead far away.
+//! Where that fails too, a share of one step that lowers the residual is taken: near sticking a law
+//! may be steep, and the whole step would lead far away.
 
 use crate::settings;
 use nalgebra::{Matrix3, Vector3};
@@ -31,29 +30,29 @@ use trackdyn_model::newton::{self, Convergence, Tolerance};
 use trackdyn_model::transient::{GAMMA, Instant, Step};
 use trackdyn_recording::TrackSample;
 
-/// A run without the laws.
+/// A run simulated without the laws.
 pub struct Without<'a> {
-    /// The steps of its motion in time.
+    /// Steps of its transient motion.
     pub steps: &'a [Step],
-    /// Speeds of the belts, m/s.
+    /// Belt speeds, m/s.
     pub belts: &'a [TrackSample],
-    /// The stationary twist at each of their readings.
+    /// Stationary twist at each of these readings.
     pub steady: &'a [Twist],
-    /// The sum of forces in that, which the tables of stationary motions leave.
+    /// Sum of forces in it, nonzero by the error of the tables.
     pub left: &'a [Vector3<f64>],
 }
 
-/// What is known of the derivatives of a stage from those before.
+/// Inverse Jacobian carried over from the previous stage.
 #[derive(Clone, Copy)]
 struct Known {
-    /// Inverse of them.
+    /// The inverse.
     inverse: Matrix3<f64>,
-    /// Part of the residual that a step with it is taken to leave.
+    /// Expected ratio of the residual after a step to that before.
     leaves: f64,
 }
 
-/// What the laws add to the twist (paper's frame) while each reading of a run holds. `forces` are
-/// those with and without the laws, `shifts` is what they add to the stationary twist at each
+/// Mean change of the twist (paper's frame) by the laws while each reading of a run holds. `forces`
+/// are those with and without the laws, `shifts` their change of the stationary twist at each
 /// reading.
 pub fn departures(
     [with, without]: [&Forces; 2],
@@ -70,7 +69,7 @@ pub fn departures(
         let [from, until] = [pair[0].t, pair[1].t];
         let speeds = pair[0].speeds();
         let (here, shift) = (run.steady[reading] + shifts[reading], vector(&shifts[reading]));
-        // What the tables and rules of both leave of a stationary motion is no change of it.
+        // What tables and quadrature leave unbalanced in the stationary motion counts as balance.
         let rest = with.sum(speeds, &here, &still) - run.left[reading];
         let mut sum = Vector3::zeros();
         while let Some(step) = steps.next_if(|step| step.end <= until) {
@@ -97,41 +96,40 @@ pub fn departures(
     departures
 }
 
-/// A stage in which what the laws add is sought.
+/// A stage whose change D by the laws is sought.
 struct Stage<'a> {
     with: &'a Forces<'a>,
     without: &'a Forces<'a>,
-    /// The motion without them.
+    /// Motion without the laws.
     instant: Instant,
     /// 1/(γ h), 1/s.
     per_second: f64,
-    /// The sum of forces that counts as balance.
+    /// Sum of forces that counts as balance.
     rest: Vector3<f64>,
     settings: &'a settings::Mechanics,
 }
 
 impl Stage<'_> {
-    /// The motion with something `added`, which was `base` before.
+    /// Twist and acceleration with a change `added` of the twist; `base` is D_b.
     fn moved(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> (Twist, Twist) {
         let faster = (added - base) * self.per_second;
         (self.instant.twist + twist_of(added), self.instant.rate + twist_of(&faster))
     }
 
-    /// By how much the forces are off balance, over the weight, and the moment over that times the
-    /// gauge.
+    /// Unbalanced forces over the weight, and moment over weight times gauge.
     fn residual(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> Vector3<f64> {
         let (twist, rate) = self.moved(added, base);
         let off = self.with.sum(self.instant.belt_speed, &twist, &rate) - self.rest;
         off.component_div(&self.scale())
     }
 
-    /// What counts as one: the weight for both forces, the weight times the gauge for the moment.
+    /// Unit of the residual: weight for both forces, weight times gauge for the moment.
     fn scale(&self) -> Vector3<f64> {
         let vehicle = self.with.model.vehicle();
         Vector3::new(1.0, 1.0, vehicle.gauge) * vehicle.weight()
     }
 
-    /// The inverse of the derivative of that; none where it has none.
+    /// Inverse Jacobian of the residual; none where it is singular.
     fn inverse(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> Option<Matrix3<f64>> {
         let (twist, rate) = self.moved(added, base);
         let belts = self.instant.belt_speed;
@@ -141,8 +139,8 @@ impl Stage<'_> {
         Some(derivative.try_inverse()? * Matrix3::from_diagonal(&self.scale()))
     }
 
-    /// What is added, sought from `start`. `known` is that of a stage before, and after it that of
-    /// this one.
+    /// Solves for the change, starting at `start`. `known` is the inverse Jacobian of the previous
+    /// stage, and is replaced by that of this one.
     fn solve(
         &self,
         start: &Vector3<f64>,
@@ -177,7 +175,7 @@ impl Stage<'_> {
     }
 }
 
-/// Part of the residual that each step of a search left, which began `off` balance.
+/// Mean ratio of the residual after a step to that before, of a solve that began at `off`.
 fn leaves(off: &Vector3<f64>, found: &Convergence<3>) -> f64 {
     if found.iterations == 0 {
         return 1.0;

@@ -1,4 +1,4 @@
-//! What driving could explain of a residual, and what fitting it takes of the noise.
+//! Columns of all that driving could explain in a residual, and the noise lost to fitting them.
 
 use super::{COUNT, Variances, noise_of, variances_of};
 use crate::evidence::Evidence;
@@ -13,17 +13,16 @@ use rayon::prelude::*;
 use trackdyn_core::real;
 use trackdyn_estimate::weighting::SegmentNoise;
 
-/// The residual of a fit, and all that driving could explain of it. Nothing is white.
+/// Residual of a fit, and all columns that driving could explain; not whitened.
 pub(super) struct Flexible {
     pub(super) residual: Vec<Vector3<f64>>,
     pub(super) columns: Vec<Vec<Vector3<f64>>>,
-    /// Columns of the fit itself, which come first.
+    /// Number of columns of the fit itself, which come first.
     pub(super) own: usize,
 }
 
-/// What friction that falls or rises with the speed of slip may do: ICRs, and the answer to
-/// acceleration, that go with the speed of turning. Contrasts, which are tested, keep to a few
-/// columns; here there may be many.
+/// ICRs and response to acceleration that vary with the speed of turning, as by friction that
+/// depends on slip speed. Contrasts are few because they are tested; here there may be many.
 fn turning(evidence: &Evidence, of: &[Vec<Vector3<f64>>]) -> Vec<Vec<Vector3<f64>>> {
     let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
     let [quickly, slowly] =
@@ -38,8 +37,7 @@ fn turning(evidence: &Evidence, of: &[Vec<Vector3<f64>>]) -> Vec<Vec<Vector3<f64
     of.iter().flat_map(|value| laws.map(|law| column(value, law))).collect()
 }
 
-/// What changes in the motion with the level of friction, known or not: how soon it answers to
-/// acceleration.
+/// Change of the motion with the friction level, free or not: how fast it responds to acceleration.
 fn answer_to_acceleration(evidence: &Evidence, fit: &Fit) -> Vec<Vec<Vector3<f64>>> {
     let Fit { hypothesis, mechanics, .. } = fit;
     let level = [Unknown::FrictionLevel];
@@ -48,14 +46,14 @@ fn answer_to_acceleration(evidence: &Evidence, fit: &Fit) -> Vec<Vec<Vector3<f64
     derivatives(hypothesis, &mechanics, &prediction, &level, evidence)
 }
 
-/// White by the noise alone, whatever its scale: this is where noise is looked for.
+/// Whitened by the noise alone, without the residual scale.
 fn white(evidence: &Weighted, column: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let mut column = column.to_vec();
     evidence.whiten(&mut column);
     column
 }
 
-/// What is left of a residual, not white, and the columns that were fitted.
+/// Residual after the fit, not whitened, and the indices of the fitted columns.
 pub(super) struct Left {
     pub(super) residual: Vec<Vector3<f64>>,
     pub(super) columns: Vec<usize>,
@@ -78,8 +76,8 @@ impl Flexible {
         Self { residual, columns, own: unknowns.len() }
     }
 
-    /// What is left when all columns are fitted in the evidence's noise, or the fit's own where a
-    /// recording is so short that all would leave less than half.
+    /// Fits all columns with the evidence's noise; only the fit's own where the recording is so
+    /// short that all would leave less than half of the degrees of freedom.
     pub(super) fn left(&self, evidence: &Weighted) -> Left {
         let mut residual = white(evidence, &self.residual);
         let columns: Vec<_> = self.columns.iter().map(|column| white(evidence, column)).collect();
@@ -94,8 +92,8 @@ impl Flexible {
         Left { residual, columns: fitted }
     }
 
-    /// Of how many residuals these columns, fitted, took the part that each variance has in them:
-    /// −d ln det(Xᵀ V⁻¹ X)/d ln v.
+    /// Degrees of freedom that the fitted columns take from each variance v: −d ln det(Xᵀ V⁻¹ X)/d
+    /// ln v.
     pub(super) fn taken(
         &self,
         evidence: &Weighted,

@@ -1,9 +1,9 @@
-//! The factor of a matrix whose rows have units of their own.
+//! Cholesky factor of a matrix whose rows have different units.
 
 use nalgebra::allocator::Allocator;
 use nalgebra::{Cholesky, DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix};
 
-/// The Cholesky factor of a positive matrix M, scaled to one on its diagonal: L Lᵀ = S M S, S =
+/// Cholesky factor of a positive definite matrix M, scaled to unit diagonal: L Lᵀ = S M S, S =
 /// diag(M)^(−½).
 pub struct Scaled {
     cholesky: Cholesky<f64, Dyn>,
@@ -11,12 +11,12 @@ pub struct Scaled {
 }
 
 impl Scaled {
-    /// The factor; none where the matrix is not positive.
+    /// The factor; none where the matrix is not positive definite.
     pub fn new(matrix: &DMatrix<f64>) -> Option<Self> {
         Self::with_ridge(matrix, 0.0)
     }
 
-    /// The factor with a ridge on the scaled diagonal. A row of nothing counts as none.
+    /// The factor with a ridge on the scaled diagonal. Zero rows are ignored.
     pub fn with_ridge(matrix: &DMatrix<f64>, ridge: f64) -> Option<Self> {
         let scale = matrix.diagonal().map(|square| match square {
             square if square > 0.0 => square.sqrt().recip(),
@@ -68,7 +68,7 @@ impl Scaled {
 mod tests {
     use super::*;
 
-    /// Rows of metres, radians and parts in a thousand, whose squares lie twelve digits apart.
+    /// Rows in metres, radians and parts in a thousand, whose squares differ by twelve digits.
     #[test]
     fn units_do_not_matter() {
         let units = [1e6, 1.0, 1e-6];

@@ -11,7 +11,7 @@ pub struct PlanFile {
     schema: &'static str,
     duration_s: f64,
     fastest_m_s: f64,
-    /// What was taken for the noise of a pose.
+    /// Assumed noise of a pose.
     noise: NoiseTable,
     manoeuvre: Vec<ManoeuvreTable>,
     pair: Vec<PairTable>,
@@ -39,13 +39,13 @@ struct SeparationTable {
     z_per_second: f64,
 }
 
-/// Two members over the whole plan.
+/// Separation of two members by the whole plan.
 #[derive(Clone, Debug, Serialize)]
 struct PairTable {
     members: [&'static str; 2],
     z: f64,
     z_per_second: f64,
-    /// z of the whole menu.
+    /// z over the whole menu.
     z_of_menu: f64,
     decides: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -100,16 +100,16 @@ impl PlanFile {
         }
     }
 
-    /// Its text.
+    /// The file as TOML text.
     ///
     /// # Panics
-    /// Never: it holds only what TOML can say.
+    /// Never: all values can be written as TOML.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("numbers, texts and tables are TOML")
     }
 }
 
-/// The measurements that tell effects apart at rest.
+/// Measurements at rest that separate the effects.
 pub fn measurements(effects: impl IntoIterator<Item = EffectId>) -> Vec<&'static str> {
     let mut all = Vec::new();
     for measurement in effects.into_iter().map(measurement) {

@@ -1,7 +1,7 @@
 //! Manoeuvres that any tracked robot can drive on a free floor, each from rest to rest.
 //!
-//! No track stands still beside one that runs: resistance turns round there, and which way it
-//! points is no one's choice.
+//! No track stands still while the other one runs: motion resistance changes its sign there, and
+//! its direction is not determined.
 
 use crate::evidence::planned::READINGS;
 use crate::settings;
@@ -14,21 +14,21 @@ pub const INTERVAL: f64 = 0.03;
 /// A manoeuvre from rest to rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Manoeuvre {
-    /// What is driven, in words.
+    /// Name in words.
     pub name: String,
-    /// Track speeds of each interval, m/s; whole samples.
+    /// Track speeds of each interval, m/s; a multiple of whole samples.
     pub speeds: Vec<PerSide<f64>>,
 }
 
 impl Manoeuvre {
-    /// How long it takes, s.
+    /// Duration, s.
     pub fn duration(&self) -> f64 {
         INTERVAL * real(self.speeds.len())
     }
 }
 
-/// The menu up to track speeds of `fastest` (m/s, above zero). `gap` is the distance between the
-/// ICRs, x_r − x_l, by which turns are measured, m.
+/// The menu for track speeds up to `fastest` (m/s, above zero). `gap` is the distance of the ICRs,
+/// x_r − x_l, which sets the angle of turns, m.
 pub fn menu(fastest: f64, gap: f64, settings: &settings::Plan) -> Vec<Manoeuvre> {
     let mut menu = Vec::new();
     for side in SIDES {
@@ -102,7 +102,7 @@ fn both(speed: f64) -> PerSide<f64> {
     PerSide::new(speed, speed)
 }
 
-/// Straight runs, with starts and stops, and there and back.
+/// Straight runs: steady, with starts and stops, and out and back.
 fn straight(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &settings::Plan) {
     for (word, sense) in DIRECTIONS {
         for share in [0.5, 1.0] {
@@ -134,7 +134,7 @@ fn straight(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &settings::Plan) 
     }
 }
 
-/// Speeds that change sharply.
+/// Sharp changes of speed.
 fn transients(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &settings::Plan) {
     let mut steps = |name: String, between: [PerSide<f64>; 2]| {
         let mut drive = Drive::new(settings);
@@ -180,7 +180,7 @@ fn creeping(menu: &mut Vec<Manoeuvre>, fastest: f64, settings: &settings::Plan) 
 fn headings(side: Turning, fastest: f64, gap: f64, settings: &settings::Plan) -> Manoeuvre {
     let mut drive = Drive::new(settings);
     for _ in 0..8 {
-        // There and back on the same arc: what is left is the heading.
+        // Out and back on one arc: the difference between arcs is the heading.
         for sense in [1.0, -1.0] {
             drive.to(side.turn(sense * 0.4 * fastest, 0.5), settings.gentle_ramp);
             drive.hold(settings.rest);
@@ -203,7 +203,7 @@ fn square(side: Turning, fastest: f64, gap: f64, settings: &settings::Plan) -> M
     drive.finish(format!("square to the {}", side.name))
 }
 
-/// A manoeuvre that is being written, one command per interval.
+/// A manoeuvre under construction, one command per interval.
 struct Drive<'a> {
     speeds: Vec<PerSide<f64>>,
     settings: &'a settings::Plan,
@@ -218,7 +218,7 @@ impl<'a> Drive<'a> {
         self.speeds.last().copied().unwrap_or_default()
     }
 
-    /// Goes to these speeds within a number of intervals.
+    /// Ramps to these speeds within a number of intervals.
     fn to(&mut self, target: PerSide<f64>, intervals: usize) {
         let from = self.now();
         for k in 1..=intervals {
@@ -232,7 +232,7 @@ impl<'a> Drive<'a> {
         self.speeds.extend(std::iter::repeat_n(self.now(), intervals));
     }
 
-    /// Turns on the spot by an angle, from rest to rest, at no more than a speed.
+    /// Turns on the spot by an angle (rad), from rest to rest, at `fastest` (m/s) or less.
     fn spin(&mut self, side: Turning, angle: f64, fastest: f64, gap: f64) {
         // V_r − V_l = ω (x_r − x_l), eq. (9): each track runs half of the arc.
         let ramp = self.settings.gentle_ramp;
@@ -241,14 +241,14 @@ impl<'a> Drive<'a> {
         while INTERVAL * real(ramp + steady) * fastest < arc {
             steady += 1;
         }
-        // Up and down a ramp run as far as one ramp's time at full speed.
+        // Two ramps cover as much as one ramp's time at full speed.
         let speed = arc / (INTERVAL * real(ramp + steady));
         self.to(side.spin(speed), ramp);
         self.hold(steady);
         self.to(both(0.0), ramp);
     }
 
-    /// To rest, and on to whole samples.
+    /// Ramps to rest and pads to whole samples.
     fn finish(mut self, name: String) -> Manoeuvre {
         if self.now() != both(0.0) {
             self.to(both(0.0), self.settings.gentle_ramp);

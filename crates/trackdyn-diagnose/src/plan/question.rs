@@ -1,4 +1,4 @@
-//! What a diagnosis left open.
+//! Questions that a diagnosis left open.
 
 use crate::diagnosis::Status;
 use crate::document::DiagnosisFile;
@@ -9,7 +9,7 @@ use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_model::effect::Role;
 use trackdyn_model::{EffectId, effect::Stage};
 
-/// What of a diagnosis file is asked, with its places.
+/// The part of a diagnosis file that is read, with positions for errors.
 #[derive(Deserialize)]
 struct Stated {
     status: Spanned<String>,
@@ -17,7 +17,7 @@ struct Stated {
     missing: Vec<StatedMissing>,
 }
 
-/// What a diagnosis states of something that was left out.
+/// A missing part as stated in a diagnosis file.
 #[derive(Deserialize)]
 struct StatedMissing {
     effect: Spanned<String>,
@@ -25,30 +25,30 @@ struct StatedMissing {
     parameters: Vec<StatedParameter>,
 }
 
-/// What a diagnosis states of a parameter.
+/// A parameter as stated in a diagnosis file.
 #[derive(Deserialize)]
 struct StatedParameter {
     name: Spanned<String>,
     value: Spanned<f64>,
 }
 
-/// Effects that explain a recording alike.
+/// A class of effects that explain a recording equally well.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Question {
-    /// The one that was fitted, by its place in the catalogue.
+    /// The effect that was fitted.
     pub effect: EffectId,
-    /// All of them, ascending.
+    /// All members, ascending.
     pub members: Vec<EffectId>,
-    /// The fitted values of its parameters; typical ones where the file has none.
+    /// Fitted values of its parameters; typical ones where the file has none.
     pub values: Vec<f64>,
 }
 
 impl Question {
-    /// The questions of a diagnosis file.
+    /// Reads the questions of a diagnosis file.
     ///
     /// # Errors
-    /// A [`DocumentError`] that points at a word that is none of the schema's, an id that is not in
-    /// the catalogue, or a parameter that its effect does not have.
+    /// A [`DocumentError`] that points at a word outside the schema, an id outside the catalogue,
+    /// or a parameter that the effect does not have.
     pub fn of(document: &Document) -> Result<Vec<Self>, DocumentError> {
         DiagnosisFile::from_document(document)?;
         let file: Stated = document.parse()?;
@@ -95,7 +95,7 @@ impl Question {
                 }
                 values[known] = *value.get_ref();
             }
-            // Sizes of none are no question.
+            // An effect with neutral sizes raises no question.
             let sizes = card.parameters.iter().zip(&values);
             let is_there = |(parameter, value): (&trackdyn_model::effect::Parameter, &f64)| {
                 matches!(parameter.role, Role::Size { .. }) && *value != neutral(parameter)
@@ -108,14 +108,14 @@ impl Question {
     }
 }
 
-/// The place of an effect in the catalogue.
+/// Looks up an effect in the catalogue.
 fn place(document: &Document, key: &str, id: &Spanned<String>) -> Result<EffectId, DocumentError> {
     let found = EffectId::of(id.get_ref());
     let expected = "an effect of the catalogue (see `trackdyn effects`)";
     found.ok_or_else(|| document.value_error(id.span(), key, expected))
 }
 
-/// What can be measured at rest where driving cannot tell an effect from another.
+/// Measurement at rest that helps where driving cannot separate an effect from others.
 pub fn measurement(effect: EffectId) -> &'static str {
     match effect.card().stages.first() {
         None | Some(Stage::Body) => "weigh each track, front and rear (mass and its centre)",

@@ -1,4 +1,4 @@
-//! The effects that explain a recording alike, each at the size at which it does.
+//! Rivals: effects that explain a recording equally well, each at its fitted size.
 
 use super::question::Question;
 use crate::base::{Base, Calibration, OFFSETS};
@@ -14,20 +14,20 @@ use nalgebra::Vector3;
 use std::sync::Arc;
 use trackdyn_model::{EffectId, VehicleFile};
 
-/// One of the members of a class.
+/// One member of a class.
 #[derive(Clone)]
 pub struct Rival {
-    /// Place in the catalogue.
+    /// The effect.
     pub effect: EffectId,
-    /// The vehicle with it.
+    /// The vehicle with the effect.
     pub hypothesis: Hypothesis,
-    /// What is free beside: constant ICRs, encoders and pose sensor, and its own parameters.
+    /// Unknowns: constant ICRs, instruments, and the effect's own parameters.
     pub unknowns: Vec<Unknown>,
 }
 
 impl Rival {
-    /// The member that the diagnosis fitted, at its fitted size: the vehicle's, else the
-    /// diagnosis's, else its typical one.
+    /// The member that the diagnosis fitted. Its parameters are those of the vehicle file, or else
+    /// of the diagnosis, or else typical.
     pub fn fitted(question: &Question, file: &VehicleFile, settings: &Settings) -> Self {
         let effect = question.effect;
         let given = Hypothesis::filed(file, &settings.prior);
@@ -38,22 +38,22 @@ impl Rival {
         Self { effect, hypothesis, unknowns: Vec::new() }
     }
 
-    /// The mechanics of it on this evidence.
+    /// Mechanics of the rival on this evidence.
     pub fn mechanics(&self, evidence: &Evidence) -> Mechanics {
         Mechanics::new(&self.hypothesis, evidence)
     }
 
-    /// How the robot moves if it is this one.
+    /// Predicted motion of each sample.
     pub fn moves(&self, evidence: &Evidence) -> Vec<Vector3<f64>> {
         self.mechanics(evidence).predict(&Instruments::of(&self.hypothesis), evidence)
     }
 
-    /// By how much poses are late, s.
+    /// Delay of the poses, s.
     pub fn delay(&self) -> f64 {
         Instruments::of(&self.hypothesis).sensor.delay
     }
 
-    /// The others of the class, each at what mimics this one best on driving where this one acts.
+    /// The other members, each fitted to the motion of this one on the given driving.
     pub fn mimicked(&self, question: &Question, driving: &Weighted) -> Vec<Self> {
         let without = self.hypothesis.without(self.effect);
         let driving = &weighed_coarsely(driving, &without);
@@ -85,8 +85,8 @@ impl Rival {
     }
 }
 
-/// This driving so coarsely weighed that no part of what an effect changes counts as an
-/// outlier: here it is what is looked for.
+/// The driving with a noise so large that no change by the effect counts as an outlier: the change
+/// is the signal here.
 fn weighed_coarsely(driving: &Weighted, without: &Hypothesis) -> Weighted {
     let mechanics = Mechanics::new(without, driving);
     let residual = driving.residual(&mechanics.predict(&Instruments::of(without), driving));

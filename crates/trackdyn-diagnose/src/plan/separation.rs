@@ -1,9 +1,9 @@
-//! How well driving tells two rivals apart.
+//! Separation of two rivals by driving.
 //!
 //! # Law
-//! z² = min over θ of |W (p_A − p_B − C θ)|² + Σ (θ/s)²: p the predicted motions, C the derivatives
-//! of p_B by all that is free beside B and by B's own parameters, W the whitening of the noise, s
-//! the prior deviations.
+//! z² = min over θ of |W (p_A − p_B − C θ)|² + Σ (θ/s)²: p the predicted motions, C the Jacobian of
+//! p_B by all that is free and by B's own parameters, W the whitening, s the prior standard
+//! deviations.
 
 use super::rivals::Rival;
 use crate::evidence::Evidence;
@@ -15,21 +15,21 @@ use crate::weighted::Weighted;
 use nalgebra::{DMatrix, DVector, Vector3};
 use rayon::prelude::*;
 
-/// Two rivals, and what is known of all that is free beside them before the plan is driven.
+/// Two rivals, and the information on their nuisance parameters before the plan is driven.
 #[derive(Clone, Debug)]
 pub struct Pair {
-    /// Both, by their places among the rivals; the second is taken at its best.
+    /// Indices of both; the second is the one that is refitted.
     pub of: [usize; 2],
-    /// Inverse covariance of the unknowns of the second, from priors alone.
+    /// Prior information (inverse covariance) of the second one's unknowns.
     pub prior: DMatrix<f64>,
-    /// What the typical driving tells.
+    /// Information from typical driving.
     pub driven: DMatrix<f64>,
-    /// z over the typical driving: all manoeuvres of the menu.
+    /// z over typical driving: all manoeuvres of the menu.
     pub typical: f64,
 }
 
 impl Pair {
-    /// Two rivals on typical driving.
+    /// Compares two rivals on typical driving.
     pub fn new(of: [usize; 2], rivals: &[Rival], driving: &Evidence, products: &Normal) -> Self {
         let second = &rivals[of[1]];
         let precision = second
@@ -45,14 +45,14 @@ impl Pair {
     }
 }
 
-/// How the robot moves if a rival is the one.
+/// Predicted motion of a rival.
 struct Predicted {
     moves: Vec<Vector3<f64>>,
-    /// By its unknowns, whitened; none of a rival that is never second.
+    /// Whitened Jacobian by its unknowns; empty for a rival that is never second.
     derivatives: Vec<Vec<Vector3<f64>>>,
 }
 
-/// The products of differences and derivatives of each pair, block by block.
+/// Products of difference and Jacobian of each pair, block by block.
 pub fn products(pairs: &[[usize; 2]], rivals: &[Rival], evidence: &Weighted) -> Vec<Normal> {
     let is_second = |k: usize| pairs.iter().any(|pair| pair[1] == k);
     let seen: Vec<Predicted> = rivals
@@ -87,16 +87,16 @@ pub fn products(pairs: &[[usize; 2]], rivals: &[Rival], evidence: &Weighted) -> 
         .collect()
 }
 
-/// z² of products where `known` is the inverse covariance of the unknowns beforehand.
+/// z² by products, where `known` is the prior information of the unknowns.
 pub fn squared(products: &DMatrix<f64>, known: &DMatrix<f64>) -> f64 {
     let (_, remaining) = fitted(products, known);
     remaining
 }
 
-/// z² of each block at the unknowns that suit all blocks together.
+/// Share of each block in z², at the joint estimate of the unknowns.
 pub fn shares(products: &Normal, known: &DMatrix<f64>) -> Vec<f64> {
     let (estimate, _) = fitted(products.total(), known);
-    // (−θ, 1) on the products of a block.
+    // (−θ, 1) on the products of a block
     let mut factors = -estimate;
     factors = factors.push(1.0);
     (0..products.blocks())

@@ -1,10 +1,10 @@
-//! What plans must and cannot separate, on Auriga-alpha.
+//! What plans must separate, and what they cannot, on Auriga-alpha.
 
 use super::*;
 use std::ops::ControlFlow;
 use trackdyn_core::document::Document;
 
-/// The question of a diagnosis that names the first of these members, at this size.
+/// A question whose fitted effect is the first member, at this size.
 fn question(members: &[&str], parameters: &str) -> Vec<Question> {
     let list: Vec<String> = members.iter().map(|id| format!("\"{id}\"")).collect();
     let text = format!(
@@ -54,7 +54,7 @@ fn a_clock_and_a_lag_differ_where_speeds_change_only() {
         .map(|pair| (pair[1].left - pair[0].left).abs().max((pair[1].right - pair[0].right).abs()));
     let sharpest = changes.fold(0.0, f64::max) / super::menu::INTERVAL;
     assert!(sharpest > 1.5 * gentle, "{name}: {sharpest}");
-    // Steady driving: the same readings on and on.
+    // Steady driving: constant readings.
     let question = &question(&members, "")[0];
     let menu = menu(1.0, 0.83, &Options::default().method.plan);
     let class = Class::new(question, &file, &menu, &Options::default()).expect("a class");
@@ -64,7 +64,7 @@ fn a_clock_and_a_lag_differ_where_speeds_change_only() {
     };
     let products = class.products(&[run(&[&steady], 0.0, Pose::default())], &Options::default());
     let z = squared(products[0].total(), &class.pairs[0].prior).sqrt();
-    // Far below what one pose resolves.
+    // Far below the resolution of one pose.
     assert!(z < 0.1, "{z}");
 }
 
@@ -78,7 +78,7 @@ fn resistance_and_a_drag_behind_are_told_apart_within_a_minute() {
     assert!(plan.pairs[0].z > 5.0 && plan.pairs[0].answer == Answer::Plan);
     assert!(plan.duration() <= 60.0 + 1e-9);
     let squares: f64 = plan.steps.iter().map(|step| step.z[0].powi(2)).sum();
-    // The rest is what the unknowns are away from their priors.
+    // The rest is the penalty of the unknowns' priors.
     assert!((squares.sqrt() / plan.pairs[0].z - 1.0).abs() < 0.05);
     let schedule = plan.schedule().expect("a schedule");
     assert!((schedule.duration() - plan.duration()).abs() < 1e-6);
@@ -99,7 +99,7 @@ fn what_only_moves_constant_icrs_is_never_told_apart() {
     assert_eq!(measurements(plan.pairs[0].effects).len(), 2);
 }
 
-/// Mirrored, members are told apart as well as before.
+/// Mirrored members are separated as well as before.
 #[test]
 fn mirrored_members_have_the_same_separation() {
     let members = ["resistance-split", "motion-resistance", "encoder-scale"];

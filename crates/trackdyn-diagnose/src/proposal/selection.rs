@@ -1,4 +1,4 @@
-//! Which terms: forward selection, with elimination and exchange after every step.
+//! Selection of terms: forward steps, each followed by exchange and elimination.
 
 use crate::equations::Equations;
 use crate::hypothesis::Unknown;
@@ -10,36 +10,36 @@ use rayon::prelude::*;
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::Term;
 
-/// All admissible terms of a form beside a fit.
+/// All admissible terms of a form, beside a fit.
 pub(super) struct Library {
-    /// The form, by its place in the catalogue.
+    /// The form.
     pub effect: EffectId,
     /// The terms.
     pub terms: Vec<Term>,
-    /// Coefficients, ascending: the columns behind those of the fit.
+    /// Coefficients, ascending; their columns follow those of the fit.
     pub unknowns: Vec<Unknown>,
-    /// Normal equations: what is free, and the coefficients as one group.
+    /// Normal equations: what is free, and all coefficients as one group.
     pub equations: Equations,
     /// The settings of the diagnosis.
     pub settings: Settings,
 }
 
-/// A term that was chosen.
+/// A selected term.
 pub(super) struct Selected {
-    /// Its place in the library.
+    /// Index in the library.
     pub term: usize,
-    /// What speaks for it.
+    /// Statistical support.
     pub support: Support,
 }
 
 impl Library {
-    /// The coefficients of a term.
+    /// Coefficients of a term.
     pub(super) fn unknowns(&self, term: usize) -> Vec<Unknown> {
         let coefficients = self.terms[term].coefficients.iter();
         coefficients.map(|&k| Unknown::Effect(self.effect, k)).collect()
     }
 
-    /// The estimates of the coefficients of some terms together, as changes.
+    /// Joint estimates of the coefficients of some terms, as changes.
     pub(super) fn estimate(&self, terms: &[usize]) -> Vec<(Unknown, f64)> {
         let columns = self.columns(terms);
         let solution = self.equations.fit_with(&columns);
@@ -48,7 +48,7 @@ impl Library {
         of_terms.map(|(&column, step)| (self.unknowns[column - free], *step)).collect()
     }
 
-    /// The columns of some terms, each once.
+    /// Columns of some terms, without repetition.
     fn columns(&self, terms: &[usize]) -> Vec<usize> {
         let mut columns = Vec::new();
         for &term in terms {
@@ -61,7 +61,7 @@ impl Library {
         columns
     }
 
-    /// The columns of a term.
+    /// Columns of a term.
     fn group(&self, term: usize) -> Vec<usize> {
         let place = |unknown: Unknown| self.unknowns.iter().position(|other| *other == unknown);
         let places = self.unknowns(term).into_iter().filter_map(place);
@@ -72,7 +72,7 @@ impl Library {
         self.equations.fit_with(&self.columns(terms)).ln_evidence
     }
 
-    /// The best choice with one more of the terms, or with another in the place of one.
+    /// The choice of terms with the largest log evidence.
     fn best_of(&self, choices: Vec<Vec<usize>>) -> Option<(Vec<usize>, f64)> {
         let valued: Vec<(Vec<usize>, f64)> = choices
             .into_par_iter()
@@ -84,7 +84,7 @@ impl Library {
         valued.into_iter().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
     }
 
-    /// What speaks for a term beside the others.
+    /// Support of a term beside the others.
     fn support(&self, term: usize, terms: &[usize], resampling: Resampling) -> Support {
         let others: Vec<usize> = terms.iter().copied().filter(|other| *other != term).collect();
         let base = self.columns(&others);
@@ -109,7 +109,8 @@ impl Library {
     }
 }
 
-/// The terms that are worth it, most telling first; none where no term is.
+/// Terms that meet the rules of a claim, largest evidence first: the weakest is dropped until all
+/// do.
 pub(super) fn select(library: &Library, resampling: Resampling) -> Vec<Selected> {
     let rules = &library.settings.verdict;
     let mut chosen = search(library);
@@ -143,8 +144,8 @@ fn search(library: &Library) -> Vec<usize> {
     chosen
 }
 
-/// The choice after every exchange of one term for another that helps, and without those that are
-/// not missed.
+/// The choice after all exchanges of a term that help, and without terms whose loss costs too
+/// little.
 fn exchanged(
     library: &Library,
     all: &[usize],

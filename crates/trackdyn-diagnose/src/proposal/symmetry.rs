@@ -1,10 +1,10 @@
-//! Which terms the symmetries of the evidence admit.
+//! Which terms the broken and kept symmetries admit.
 
 use crate::locate::Location;
 use crate::settings;
 use trackdyn_model::effect::{Symmetry, Term};
 
-/// The symmetries that the evidence clearly keeps beside all of these predictions.
+/// Symmetries that the evidence clearly keeps beside all three predictions.
 pub fn kept(locations: [&Location; 3], settings: &settings::Proposal) -> Vec<Symmetry> {
     let keeps = |symmetry: &Symmetry| {
         locations.iter().all(|location| {
@@ -15,8 +15,8 @@ pub fn kept(locations: [&Location; 3], settings: &settings::Proposal) -> Vec<Sym
     Symmetry::ALL.into_iter().filter(keeps).collect()
 }
 
-/// Whether a term breaks a symmetry that is left over, and none that the evidence clearly keeps, or
-/// cannot show.
+/// Whether a term breaks a symmetry that is left broken, and none that the evidence clearly keeps
+/// or cannot test.
 pub fn is_admissible(
     term: &Term,
     location: &Location,
@@ -30,8 +30,8 @@ pub fn is_admissible(
         && !shown.iter().any(|symmetry| kept.contains(symmetry))
 }
 
-/// The symmetries by which a term must show. What changes with place or time may cancel in all
-/// others over a drive that goes about, and what changes with the heading in those of the speeds.
+/// Symmetries in which a term must show. Effects of place or time may average out in all others
+/// over a long drive, and effects of heading in those of the speeds.
 fn shown(term: &Term) -> Vec<Symmetry> {
     let of = |asked: &[Symmetry]| -> Vec<Symmetry> {
         term.breaks.iter().filter(|symmetry| asked.contains(symmetry)).copied().collect()

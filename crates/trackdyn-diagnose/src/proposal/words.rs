@@ -1,4 +1,4 @@
-//! A term in words.
+//! A term of a proposed law in words.
 
 use super::Proposed;
 use crate::uncertainty::Interval;
@@ -9,13 +9,12 @@ use trackdyn_model::effect::Pairing;
 pub struct Size {
     /// Estimate.
     pub value: f64,
-    /// Half the width of the interval.
+    /// Half width of the interval.
     pub half: f64,
 }
 
 impl Proposed {
-    /// How large the term is: its coefficient, or the length of the vector that its coefficients
-    /// make.
+    /// Size of the term: its coefficient, or the norm of its coefficients.
     pub fn size(&self) -> Size {
         match self.term.pairing {
             Pairing::Alone | Pairing::Spring => size(&self.coefficients[0]),
@@ -26,9 +25,9 @@ impl Proposed {
         }
     }
 
-    /// The heading at which a term is largest, or the direction in the world towards which it
-    /// points or grows, degrees counter-clockwise from the world's x axis, with half its 95 %
-    /// interval; none of terms without.
+    /// Heading at which a term is largest, or direction in the world in which it points or grows,
+    /// degrees counter-clockwise from the world's x axis, with half its 95 % interval; none for
+    /// terms without a direction.
     pub fn direction(&self) -> Option<Size> {
         let times = match self.term.pairing {
             Pairing::Heading(times) => f64::from(times),
@@ -41,7 +40,7 @@ impl Proposed {
         Some(Size { value: angle.to_degrees() / times, half: half.to_degrees() / times })
     }
 
-    /// The term in a phrase, such as "sideways force of 0.0310 ± 0.0040 of the weight times
+    /// The term as a phrase, such as "sideways force of 0.0310 ± 0.0040 of the weight times
     /// cos(heading − 40° ± 7°)".
     pub fn phrase(&self, contact_length: f64) -> String {
         let term = &self.term;
@@ -85,13 +84,13 @@ fn size(interval: &Interval) -> Size {
     Size { value: interval.value, half: (interval.high - interval.low) / 2.0 }
 }
 
-/// Length and angle (rad) of a pair of coefficients.
+/// Norm and angle (rad) of a pair of coefficients.
 fn polar(pair: &[Interval]) -> [f64; 2] {
     let (a, b) = (pair[0].value, pair[1].value);
     [a.hypot(b), b.atan2(a)]
 }
 
-/// Half the mean width of the intervals of a pair.
+/// Mean half width of the intervals of a pair.
 fn half(pair: &[Interval]) -> f64 {
     f64::midpoint(size(&pair[0]).half, size(&pair[1]).half)
 }
@@ -113,7 +112,7 @@ mod tests {
     use crate::verdict::Support;
     use trackdyn_model::EffectId;
 
-    /// The term of a key, with these coefficients ± 0.004.
+    /// A term with these coefficients ± 0.004.
     fn proposed(key: &str, values: &[f64]) -> Proposed {
         let form = EffectId::all().find(|effect| effect.card().is_form());
         let effect = form.expect("a form");
@@ -152,7 +151,8 @@ mod tests {
     fn forces_of_the_world_point_and_springs_pull_to_a_place() {
         let west = proposed("world_x", &[-0.05, 0.0]);
         assert!(west.phrase(0.7).ends_with("of the weight towards 180° ± 5° of the world"));
-        // The force at the origin of the world is that of a spring as long as the way to its end.
+        // The spring's force at the origin of the world is its stiffness times the distance to its
+        // end.
         let spring = proposed("spring", &[0.01, 0.05, -0.02]);
         assert!(spring.phrase(0.7).ends_with("towards the place (3.5, -1.4) m"));
         let drag = proposed("forward_speed", &[-0.1]);

@@ -1,7 +1,7 @@
-//! What a search has refitted already.
+//! Cache of the refits of a search.
 //!
-//! Rounds that exchange effects, and the verdicts after them, come to the same refits as rounds
-//! before: from the same hypothesis the same step leads to the same end.
+//! Rounds of exchange and the verdicts ask for many refits again: the result depends only on the
+//! hypothesis that it starts from and on the step.
 
 use super::Found;
 use crate::hypothesis::{Hypothesis, Unknown};
@@ -12,12 +12,12 @@ use trackdyn_model::EffectId;
 #[derive(Default)]
 pub struct Done(Mutex<Vec<(Key, Found)>>);
 
-/// From where a refit begins.
+/// Start of a refit.
 #[derive(PartialEq)]
 pub struct Key {
     from: Hypothesis,
     unknowns: Vec<Unknown>,
-    /// It differs where what inertia adds does.
+    /// Distinguishes starts that differ in their inertial departure.
     objective: f64,
     step: Step,
 }
@@ -25,14 +25,14 @@ pub struct Key {
 /// What a refit changes.
 #[derive(PartialEq)]
 pub enum Step {
-    /// Entries of the catalogue come in, with these sizes.
+    /// Adds catalogue entries with these sizes.
     Add(Vec<(usize, Vec<f64>)>),
-    /// An effect is left out.
+    /// Leaves out an effect.
     Leave(EffectId),
 }
 
 impl Key {
-    /// That of a step from a hypothesis.
+    /// Key of a step from a hypothesis.
     pub fn new(from: &Found, step: Step) -> Self {
         let Found { fit, .. } = from;
         let (from, unknowns) = (fit.hypothesis.clone(), fit.unknowns.clone());
@@ -41,7 +41,7 @@ impl Key {
 }
 
 impl Done {
-    /// The end that a refit came to, or that of this one.
+    /// The cached result of a refit, or that of running it now.
     pub fn or_else(&self, key: Key, refit: impl FnOnce() -> Found) -> Found {
         let known = self.known(&key);
         known.unwrap_or_else(|| {

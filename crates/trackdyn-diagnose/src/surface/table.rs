@@ -1,29 +1,28 @@
-//! A smooth function of both belt speeds, tabulated.
+//! Table of a piecewise smooth function of both belt speeds.
 //!
-//! Within a sector (the signs of V_l, V_r, V_r − V_l and V_r + V_l) it is a smooth function of the
-//! direction φ and the size ρ of (V_l, V_r); between sectors it may jump. It is interpolated on
-//! Chebyshev nodes of each sector, which lie inside it, so that no node stands on an edge.
+//! Within a sector (signs of V_l, V_r, V_r − V_l and V_r + V_l) the function is smooth in the
+//! direction φ and norm ρ of (V_l, V_r); between sectors it may jump. Each sector is interpolated
+//! on Chebyshev nodes of the first kind, none of which lies on an edge.
 
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_4, PI};
 use trackdyn_core::{PerSide, real};
 
-/// Sectors of directions.
+/// Number of sectors.
 const SECTORS: usize = 8;
 
-/// Nodes in the direction, and in the size.
+/// Number of nodes in direction, and in norm.
 const ANGLES: usize = 6;
 const SIZES: usize = 10;
 
-/// How the nodes of the size lie.
+/// Spacing of the nodes in ρ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spacing {
-    /// Even in ρ: what grows with the square of the speed is a polynomial.
+    /// Even in ρ: exact for a square of the speed.
     Even,
-    /// Even in ln ρ: friction that depends on the slip speed does so most where it is small.
+    /// Even in ln ρ: friction that depends on slip speed varies most at small ones.
     Logarithmic {
-        /// Ratio R of the largest to the smallest tabulated speed; below, the value is that of the
-        /// smallest.
+        /// Ratio R of the largest to the smallest tabulated speed; below, the value stays constant.
         range: f64,
         /// 1/(2 ln R).
         scale: f64,
@@ -31,12 +30,12 @@ pub enum Spacing {
 }
 
 impl Spacing {
-    /// Even in the logarithm of speeds with this ratio of the largest to the smallest.
+    /// Even in the logarithm, for this ratio of the largest to the smallest speed.
     pub fn logarithmic(range: f64) -> Self {
         Self::Logarithmic { range, scale: 0.5 / range.ln() }
     }
 
-    /// ρ/ρ_max at a place of [0, 1].
+    /// ρ/ρ_max at a coordinate in [0, 1].
     fn part(self, place: f64) -> f64 {
         match self {
             Self::Even => place,
@@ -45,7 +44,7 @@ impl Spacing {
         }
     }
 
-    /// The place in [0, 1] of (ρ/ρ_max)².
+    /// Coordinate in [0, 1] of (ρ/ρ_max)².
     fn place(self, squared: f64) -> f64 {
         let place = match self {
             Self::Even => squared.sqrt(),
@@ -55,7 +54,7 @@ impl Spacing {
     }
 }
 
-/// The places of a table's nodes.
+/// Nodes of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// ρ_max, the largest tabulated speed, m/s.
@@ -81,7 +80,7 @@ impl Grid {
         Self { largest, spacing, angles: Nodes::new(), sizes: Nodes::new() }
     }
 
-    /// The belt speeds of a node, m/s.
+    /// Belt speeds of a node, m/s.
     pub fn speeds(&self, index: usize) -> PerSide<f64> {
         let (sector, rest) = (index / (SIZES * ANGLES), index % (SIZES * ANGLES));
         let (size, angle) = (self.sizes.at[rest / ANGLES], self.angles.at[rest % ANGLES]);
@@ -92,24 +91,24 @@ impl Grid {
 }
 
 impl Table {
-    /// The table of values at all nodes, in their order; where there is none, that of the nearest
-    /// node of the same sector, or zero.
+    /// Table of the values at all nodes, in order; a missing one takes that of the nearest node of
+    /// its sector, or zero.
     pub fn new(grid: Grid, values: &[Option<Vector3<f64>>]) -> Self {
         Self { grid, nodes: filled(values) }
     }
 
-    /// The values at its nodes.
+    /// Values at the nodes.
     #[cfg(test)]
     pub fn nodes(&self) -> &[Vector3<f64>] {
         &self.nodes
     }
 
-    /// Where its nodes are.
+    /// Nodes of the table.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// The value at belt speeds.
+    /// Interpolated value at belt speeds.
     pub fn at(&self, speeds: PerSide<f64>) -> Vector3<f64> {
         let Grid { largest, spacing, angles, sizes } = &self.grid;
         let squared =
@@ -131,7 +130,7 @@ impl Table {
     }
 }
 
-/// The nodes, with the nearest one of the same sector where one has no value.
+/// Values with missing ones replaced by the nearest node of the sector.
 fn filled(values: &[Option<Vector3<f64>>]) -> Vec<Vector3<f64>> {
     let place = |index: usize| (index % (SIZES * ANGLES) / ANGLES, index % ANGLES);
     let fill = |index: usize| {
@@ -152,7 +151,7 @@ fn filled(values: &[Option<Vector3<f64>>]) -> Vec<Vector3<f64>> {
 #[derive(Clone, Debug, PartialEq)]
 struct Nodes<const N: usize> {
     at: [f64; N],
-    /// 1/Π (x_k − x_j), over all other nodes j.
+    /// Barycentric weight c_k = 1/Π (x_k − x_j), over all other nodes j.
     weight: [f64; N],
 }
 

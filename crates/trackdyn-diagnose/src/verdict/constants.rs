@@ -1,5 +1,5 @@
-//! Constant ICRs that differ from those of the vehicle file: a wrong number, or one of a class of
-//! effects.
+//! Verdict on constant ICRs that differ from those of the vehicle file: a wrong number, or a class
+//! of effects that act alike.
 
 use super::{Refusal, Support, Verdict, refusal};
 use crate::base::OFFSETS;
@@ -15,22 +15,21 @@ use trackdyn_core::real;
 use trackdyn_model::effect::Symmetry;
 use trackdyn_model::{EffectId, VehicleFile};
 
-/// Effects that move the constant ICRs in all their variants, by their places in the catalogue,
-/// ascending.
+/// Effects that act as constant ICRs in all their variants, ascending.
 #[derive(Clone, Debug)]
 pub struct Constants {
-    /// Those that move nothing else.
+    /// Effects that do nothing else.
     pub only: Vec<EffectId>,
-    /// Those that mostly do, the former among them.
+    /// Effects that mostly do; includes `only`.
     pub mostly: Vec<EffectId>,
-    /// Those that constant ICRs may stand for: what moves nothing else, and all laws that by
-    /// themselves break no symmetry but that of the sides. Where inertia acts at the centre of
-    /// gravity, more is seen of these.
+    /// Effects that constant ICRs may stand for: `only`, and all laws that by themselves break at
+    /// most the mirror symmetry. Where inertia acts at the centre of gravity, the latter show more
+    /// than constants do.
     class: Vec<EffectId>,
 }
 
 impl Constants {
-    /// The effects of whose signatures next to nothing is their own beyond constant ICRs.
+    /// Classifies effects by the share of their signatures that is left beside constant ICRs.
     pub fn of(search: &Search) -> Self {
         let fit = &search.base.fit;
         let entries: Vec<usize> = (0..search.catalogue.entries.len()).collect();
@@ -62,14 +61,14 @@ impl Constants {
         Self { only, mostly: within(settings.max_mostly_constant_share), class }
     }
 
-    /// Whether an effect mostly moves constant ICRs, and breaks no symmetry that they do not.
+    /// Whether an effect mostly acts as constant ICRs, and breaks no symmetry that they keep.
     pub(super) fn could_be_constant(&self, effect: EffectId) -> bool {
         self.mostly.contains(&effect) && self.class.contains(&effect)
     }
 }
 
-/// The best hypothesis with the vehicle as filed, no offset, and no effect that mostly stands for
-/// one but what is claimed; and what else is free in it.
+/// The best hypothesis with the vehicle as filed, zero offsets, and without unclaimed effects that
+/// mostly act as constants; and its remaining unknowns.
 fn as_filed(
     search: &Search,
     best: &Found,
@@ -93,7 +92,7 @@ fn as_filed(
     (filed, best.fit.unknowns.iter().copied().filter(is_fixed).collect())
 }
 
-/// √ of what the misfit falls by when constant ICRs may differ from those of the vehicle file.
+/// √ of the decrease of chi-squared when constant ICRs may differ from those of the vehicle file.
 pub(super) fn departure(
     search: &Search,
     best: &Found,
@@ -106,8 +105,8 @@ pub(super) fn departure(
     (dropped.objective - best.fit.objective).max(0.0).sqrt()
 }
 
-/// Constant ICRs that differ from those of the vehicle file by less than is needed, in gauges: no
-/// model of the contact is better.
+/// Refuses constant ICRs that differ from the vehicle file by less than `needed` gauges: contact
+/// models are no more accurate.
 fn as_good_as_filed(free: &Fit, needed: f64) -> Option<Refusal> {
     let Hypothesis { vehicle, offset, .. } = &free.hypothesis;
     let largest = offset.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
@@ -115,7 +114,7 @@ fn as_good_as_filed(free: &Fit, needed: f64) -> Option<Refusal> {
 }
 
 /// Judges the constant ICRs against those of the vehicle file: a wrong number, or one of the class
-/// of effects that only move them. Effects that are `claimed` stay where they are.
+/// of effects that act alike. Effects that are `claimed` stay in the hypothesis.
 ///
 /// # Errors
 /// [`Cancelled`], by the observer of the watch.
@@ -148,7 +147,7 @@ pub fn judge_constants(
     };
     let refused =
         refusal(&support, 0.0, rules).or_else(|| as_good_as_filed(&free, rules.min_icr_difference));
-    // What the owner measured can have moved within its uncertainty only: is that enough?
+    // A number that the owner measured may move within its uncertainty only: is that enough?
     let can = |effect: &EffectId| -> Result<bool, Cancelled> {
         if unknowns_of(*effect).all(|unknown| measured(&file.vehicle, unknown).is_none()) {
             return Ok(true);

@@ -1,4 +1,4 @@
-//! Encoders and pose sensor that are not what the vehicle file says.
+//! Verdicts on encoders and pose sensor that differ from the vehicle file.
 
 use super::rivals::is_rival;
 use super::{Support, Verdict, refusal};
@@ -12,7 +12,7 @@ use crate::settings::Settings;
 use std::cell::LazyCell;
 use trackdyn_model::EffectId;
 
-/// Judges the effects of encoders and pose sensor that are free in every hypothesis.
+/// Judges the instrument effects, which are free in every hypothesis.
 ///
 /// # Errors
 /// [`Cancelled`], by the observer of the watch.
@@ -25,10 +25,10 @@ pub fn judge_instruments(
     let filed = &search.base.as_filed.hypothesis;
     let Settings { verdict: rules, answer, .. } = search.settings();
     let mut verdicts = Vec::new();
-    // What the form of any law leaves, be it known or named, may look like a sensor.
+    // The form error of any law, filed or found, may look like a sensor error.
     let laws = LazyCell::new(|| {
         let more = without_laws(search, best).objective - best.fit.objective;
-        // A robot that these laws hold on the ground cannot be asked how it moves without them.
+        // Without laws that keep this robot on the ground there is no motion to compare with.
         if more.is_finite() { more.max(0.0).sqrt() } else { 0.0 }
     });
     for &effect in &search.base.instruments {
@@ -73,7 +73,7 @@ pub fn judge_instruments(
     Ok(verdicts)
 }
 
-/// The best hypothesis with an instrument as the vehicle file has it.
+/// The best hypothesis with one instrument effect as filed, refitted.
 fn without_instrument(search: &Search, best: &Found, effect: EffectId) -> Found {
     let hypothesis = best.fit.hypothesis.with_effect_of(&search.base.as_filed.hypothesis, effect);
     let unknowns = best.fit.unknowns_without(effect);
@@ -82,7 +82,7 @@ fn without_instrument(search: &Search, best: &Found, effect: EffectId) -> Found 
     Found { effects: best.effects.clone(), ln_evidence: fit.ln_evidence(), fit }
 }
 
-/// The best hypothesis without any law of forces.
+/// The best hypothesis without any law of forces, refitted.
 fn without_laws(search: &Search, best: &Found) -> Fit {
     let Fit { hypothesis, unknowns, .. } = &best.fit;
     let vehicle = &hypothesis.vehicle;

@@ -4,86 +4,86 @@ use crate::hypothesis::Unknown;
 use std::fmt;
 use trackdyn_model::EffectId;
 
-/// Why something is not claimed, with what it had and what it needed. Written, it is a sentence
-/// without its full stop.
+/// Why an effect is not claimed, with the value found and the value needed. Its text is a sentence
+/// without the full stop.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// The evidence is not much more probable with it than without.
+    /// The ln Bayes factor against the best alternative is too small.
     Weak {
         /// Logarithm of the Bayes factor.
         ln_bayes_factor: f64,
-        /// The least that is needed.
+        /// Least value needed.
         needed: f64,
     },
-    /// It is strong, but so few blocks of time show it that any single event would look alike.
+    /// Strong, but shown by so few blocks of time that any single event would look alike.
     MetOnce {
-        /// Blocks of time that show it, as many as show it alike.
+        /// Effective number of blocks that show it.
         blocks: f64,
-        /// Family-wise probability of chance.
+        /// Family-wise p value.
         p: f64,
     },
-    /// The best of all that were tried may be as good by chance.
+    /// The best of all tested candidates may be as good by chance.
     Chance {
-        /// Family-wise probability of chance.
+        /// Family-wise p value.
         p: f64,
     },
-    /// It foretells blocks that were left out of its fit too badly.
+    /// Its cross-validated gain is too small.
     NotForetold {
-        /// Gain of log-likelihood on these blocks.
+        /// Gain of log-likelihood on blocks left out of the fit.
         gain: f64,
         /// Its standard error.
         error: f64,
-        /// Standard errors that are needed.
+        /// Standard errors needed.
         needed: f64,
     },
-    /// Recordings that were resampled name something else too often.
+    /// Bootstrap recordings too often name another effect.
     Unstable {
         /// Share of them that name it.
         share: f64,
-        /// The least share that is needed.
+        /// Least share needed.
         needed: f64,
     },
-    /// The other laws may leave as much by their form.
+    /// Errors in the form of the other laws may be as large.
     WithinForm {
-        /// √ of what the misfit falls by with it.
+        /// √ of the decrease of chi-squared by it.
         z: f64,
-        /// The least that is needed: a part of what the misfit falls by with all laws.
+        /// Least value needed: a share of that by all laws.
         needed: f64,
     },
-    /// A size ended where it can physically be no larger or smaller.
+    /// A size ended at the limit of its physical range.
     AtLimit {
         /// The size.
         size: Unknown,
         /// Its value.
         value: f64,
     },
-    /// So many effects explain it as well that not all of them were asked.
+    /// So many effects explain it as well that not all were refitted.
     TooMany {
         /// Their number.
         effects: usize,
     },
-    /// An effect that the vehicle file has explains it at nearly the size that stands there.
+    /// An effect of the vehicle file explains it at nearly the filed size.
     NearlyAsFiled {
         /// That effect.
         effect: EffectId,
     },
-    /// Laws of the vehicle file of a slightly other size may leave it.
+    /// Laws of the vehicle file with slightly other sizes may cause it.
     WithinFiled {
-        /// These laws; one stands as often as it has variants.
+        /// These laws; one occurs as often as it has variants.
         laws: Vec<EffectId>,
-        /// Standard deviations by which it is apart from them.
+        /// Its separation from them, standard deviations.
         apart: f64,
-        /// The least that is needed.
+        /// Least separation needed.
         needed: f64,
     },
-    /// All its sizes may be none, by their own intervals.
+    /// The intervals of all its sizes include the neutral size.
     MayBeNone,
     /// Constant ICRs are nearly those of the vehicle file.
     ConstantsAsFiled {
-        /// The largest of their differences, m.
+        /// Largest difference, m.
         largest: f64,
-        /// The least that is needed, as part of the gauge.
+        /// Least difference needed, as share of the gauge.
         needed: f64,
     },
 }

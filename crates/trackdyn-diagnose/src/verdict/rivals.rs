@@ -1,4 +1,4 @@
-//! What explains an effect's part as well as it does.
+//! Rivals: effects that explain the part of a claimed effect as well.
 
 use super::support::{self, Change};
 use super::{Constants, Refusal, Support};
@@ -16,21 +16,21 @@ use trackdyn_model::EffectId;
 /// The rivals of an effect of the best hypothesis.
 pub(super) struct Rivals {
     effect: EffectId,
-    /// The best hypothesis without it.
+    /// The best hypothesis without the effect.
     pub without: Found,
-    /// What refitting with it changed; none where none of its sizes is there.
+    /// Change of the prediction by refitting with it; none where all its sizes are neutral.
     pub changed: Option<Change>,
     screened: Vec<Screened>,
-    /// Rivals that nobody asked, of which the screen says that they do as well.
+    /// Number of rivals not refitted whose screened gain is as high.
     unasked: usize,
-    /// The strongest of them in its place, refitted.
+    /// The strongest rivals in its place, refitted.
     exchanged: Vec<(EffectId, Found)>,
-    /// Those of them that do as well.
+    /// Refitted rivals that explain as much.
     alike: Vec<EffectId>,
 }
 
 impl Rivals {
-    /// Puts what the screen leaves open in the place of an effect.
+    /// Refits the strongest rivals of an effect in its place.
     ///
     /// # Errors
     /// [`Cancelled`], by the observer of the watch.
@@ -50,7 +50,7 @@ impl Rivals {
         let own = screened.iter().find(|one| one.effect == effect).map_or(0.0, |one| one.gain);
         let is_close = |one: &&Screened| one.effect != effect && is_rival(one, own, best, settings);
         let close: Vec<&Screened> = screened.iter().filter(is_close).collect();
-        // Where constant ICRs moved far the linear screen is blind to what else such a law does.
+        // Where constant ICRs moved far, the linear screen does not see what else such a law does.
         let is_asked = |(place, one): &(usize, &&Screened)| {
             *place < settings.max_rivals || constants.could_be_constant(one.effect)
         };
@@ -80,15 +80,15 @@ impl Rivals {
         Ok(Self { effect, without, changed, screened, unasked, exchanged, alike })
     }
 
-    /// The effect and the rivals that were refitted, each with its hypothesis.
+    /// The effect and its refitted rivals, each with its hypothesis.
     pub fn refitted<'a>(&'a self, best: &'a Found) -> impl Iterator<Item = (EffectId, &'a Found)> {
         let rivals = self.exchanged.iter().map(|(rival, found)| (*rival, found));
         std::iter::once((self.effect, best)).chain(rivals)
     }
 
-    /// The effect with all that explains its part as well, ascending, and the share of resampled
-    /// recordings that name one of them. What other recordings of the same robot would name instead
-    /// is one answer with it.
+    /// The effect with all rivals that explain its part as well, ascending, and the share of
+    /// bootstrap recordings that name one of them. Effects that such recordings name instead are
+    /// added until the share suffices.
     pub fn answer(
         &self,
         search: &Search,
@@ -112,7 +112,7 @@ impl Rivals {
         (one_of, stable)
     }
 
-    /// What speaks for an answer beside the strongest hypothesis that is none of it.
+    /// Support of an answer against the best hypothesis without any of its members.
     pub fn support(
         &self,
         search: &Search,
@@ -133,7 +133,7 @@ impl Rivals {
         })
     }
 
-    /// Where all that were asked explain it as well, those that were not may.
+    /// Refuses where all refitted rivals explain it as well and others were not refitted.
     pub fn too_many(&self) -> Option<Refusal> {
         let alike = self.alike.len();
         (self.unasked > 0 && alike >= self.exchanged.len())
@@ -141,10 +141,10 @@ impl Rivals {
     }
 }
 
-/// Whether the linear screen leaves it open that a candidate does as well as what gains `own`.
+/// Whether the linear screen leaves open that a candidate explains as much as one with gain `own`.
 ///
-/// Signatures of encoders and pose sensor are taken far from where they are needed; they promise
-/// less than they keep.
+/// Instruments get more room: their signatures are computed far from the estimate and underrate
+/// their gain.
 pub(super) fn is_rival(
     one: &Screened,
     own: f64,
@@ -159,9 +159,9 @@ pub(super) fn is_rival(
         && !best.effects.contains(&one.effect)
 }
 
-/// Separation of an effect from rivals: the part of what refitting with it changed that neither the
-/// rivals' signatures nor what is free can stand for, in standard deviations. Sizes of rivals of
-/// which something is `known` have this standard deviation.
+/// Separation of an effect from rivals: norm of the change by refitting with it, beside the rivals'
+/// signatures and all that is free, in standard deviations. `known` gives the prior deviation of a
+/// rival's size, where it has one.
 pub(super) fn separation(
     search: &Search,
     without: &Found,

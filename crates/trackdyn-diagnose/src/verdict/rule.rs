@@ -1,9 +1,9 @@
-//! The rules by which a claim can be refused, in words with their numbers.
+//! Rules that a claim must meet, in words with their numbers.
 
 use super::Refusal;
 use crate::settings::Settings;
 
-/// A rule that every claim must keep.
+/// A rule that every claim must meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// Broken by [`Refusal::Weak`].
@@ -33,7 +33,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    /// All of them, in the order in which they are told.
+    /// All rules, in the order of the report.
     pub const ALL: [Self; 12] = [
         Self::Chance,
         Self::Blocks,
@@ -49,7 +49,7 @@ impl Rule {
         Self::Rivals,
     ];
 
-    /// Paths of the settings that it goes by.
+    /// Paths of the settings that it uses.
     pub fn settings(self) -> &'static [&'static str] {
         match self {
             Self::BayesFactor => &["verdict.min_ln_bayes_factor"],
@@ -66,7 +66,7 @@ impl Rule {
         }
     }
 
-    /// What it asks for, as the end of "it is claimed only where".
+    /// Its condition, as the end of "it is claimed only where".
     pub fn sentence(self, settings: &Settings) -> String {
         let Settings { verdict, answer, .. } = settings;
         match self {
@@ -142,7 +142,7 @@ impl Refusal {
     }
 }
 
-/// A part of one, to a hundredth of a percent.
+/// A share in percent, rounded to a hundredth of a percent.
 fn percent(part: f64) -> String {
     format!("{} %", (1e4 * part).round() / 1e2)
 }

@@ -1,4 +1,4 @@
-//! What speaks for a claim.
+//! Statistical support of a claim.
 
 use super::Refusal;
 use crate::candidate::{Signature, sizes};
@@ -18,30 +18,30 @@ use std::slice;
 use trackdyn_core::real;
 use trackdyn_model::EffectId;
 
-/// What tells the seed of resampled recordings from that of other draws.
+/// Separates the seed of the bootstrap of recordings from that of other draws.
 const RESAMPLED_SEED: u64 = 0x5eed;
 
-/// What speaks for a claim.
+/// Statistical support of a claim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Support {
-    /// Family-wise probability of chance.
+    /// Family-wise p value.
     pub p: f64,
-    /// Logarithm of the Bayes factor.
+    /// ln Bayes factor against the best alternative.
     pub ln_bayes_factor: f64,
-    /// Gain of log-likelihood on blocks that were held out.
+    /// Cross-validated gain of log-likelihood, on blocks left out of the fit.
     pub held_out_gain: f64,
     /// Its standard error.
     pub held_out_error: f64,
-    /// Share of resampled recordings in which it, or a member of its class, is the best.
+    /// Share of bootstrap recordings in which it, or a member of its class, is the best.
     pub stable: f64,
-    /// √ of what the misfit falls by.
+    /// √ of the decrease of chi-squared by it.
     pub z: f64,
-    /// Blocks of time that show it, as many as show it alike.
+    /// Effective number of blocks that show it.
     pub blocks: f64,
 }
 
 impl Support {
-    /// Nothing speaks for it.
+    /// No support at all.
     pub(crate) fn none() -> Self {
         Self {
             p: 1.0,
@@ -54,15 +54,15 @@ impl Support {
         }
     }
 
-    /// Whether all that speaks against it is that the robot met it once: so few blocks of time show
-    /// it that what happened once, whatever it was, would look the same.
+    /// Whether it is strong but was met only once: so few blocks show it that any single event
+    /// would look alike.
     pub fn is_met_once(&self, rules: &settings::Verdict) -> bool {
         self.ln_bayes_factor >= rules.min_ln_bayes_factor
             && self.p >= rules.max_p
             && self.blocks < rules.min_blocks
     }
 
-    /// What it lacks of what every claim must reach; none where it lacks nothing.
+    /// First of the general rules that it breaks; none where it meets them.
     pub(crate) fn falls_short(&self, rules: &settings::Verdict) -> Option<Refusal> {
         let Self { p, ln_bayes_factor, held_out_gain, held_out_error, blocks, .. } = *self;
         let needed = rules.min_ln_bayes_factor;
@@ -82,11 +82,11 @@ impl Support {
         })
     }
 
-    /// The support of an effect of the catalogue, beside the best hypothesis without it.
+    /// Support of a catalogue effect, beside the best hypothesis without it.
     ///
-    /// Chance is asked of all variants of all effects as one family: the best was chosen from them.
-    /// An effect with one size stands in it by the change that refitting found, for the variant
-    /// that the screen liked best.
+    /// The p value is family-wise over all variants of all effects, since the best was chosen from
+    /// them. An effect with one size enters with the change that refitting found, in place of its
+    /// best screened variant.
     pub(super) fn of_effect(
         search: &Search,
         without: &Found,
@@ -107,16 +107,15 @@ impl Support {
         }
     }
 
-    /// What blocks say for columns: what they gain where they were left out, and how many show it.
-    /// What is free beside them has been projected out.
+    /// Support of columns by blocks: cross-validated gain, and effective number of blocks. All that
+    /// is free beside them has been projected out.
     pub(crate) fn of_blocks(projected: &Normal, known: &[Prior], columns: &[usize]) -> Self {
         let (held_out_gain, held_out_error) = cross_validated(projected, known, columns);
         let blocks = shown_by(projected, known, columns);
         Self { held_out_gain, held_out_error, blocks, ..Self::none() }
     }
 
-    /// Family-wise probability of chance of a variant, with these signatures, among all that were
-    /// tried.
+    /// Family-wise p value of a variant, with these signatures, among all variants.
     fn chance(
         search: &Search,
         without: &Found,
@@ -138,7 +137,7 @@ impl Support {
         place.map_or(1.0, |place| tests()[place].p)
     }
 
-    /// The support of columns of a fit, asked of the residual with their part put back: `parts` are
+    /// Support of columns of a fit, tested on the residual with their part added back; `parts` are
     /// their factors.
     pub(super) fn of_columns(
         search: &Search,
@@ -163,10 +162,10 @@ impl Support {
     }
 }
 
-/// The effects that are named beside a hypothesis, by the share of resampled recordings in which
-/// each is the best: by the screen, or, of the effects that were refitted, by the change that this
-/// found and the evidence that it has. Asked is which one it is, not whether there is any: what the
-/// screen puts further behind its best than a claim must be ahead does not take part.
+/// Share of bootstrap recordings (resampled blocks) in which each effect explains most. Effects are
+/// compared by the linear screen; refitted ones by their fitted change and the evidence that it
+/// gained. The question is which effect it is, not whether any: screened effects behind the best by
+/// the ln Bayes factor of a claim do not take part.
 pub(super) fn named(
     search: &Search,
     without: &Found,
@@ -198,7 +197,7 @@ pub(super) fn named(
     let Equations { normal, groups, .. } = &equations;
     let evidence_with =
         |normal: &Normal, group: &[usize]| equations.fit_of(normal, group).ln_evidence;
-    // What refitting gains beyond what its change does in a linear fit.
+    // Evidence that refitting gains beyond the linear fit of its change.
     let before = evidence_with(normal, &[]);
     let contenders_beyond = contenders.iter().zip(groups).map(|((effect, _, gain), group)| {
         let beyond = gain.map_or(0.0, |gain| gain - (evidence_with(normal, group) - before));
@@ -226,15 +225,15 @@ pub(super) fn named(
     shares
 }
 
-/// What refitting with an effect changed of the prediction.
+/// Change of the prediction by refitting with an effect.
 pub(super) struct Change {
-    /// The change per unit of the first size that is there.
+    /// Change per unit of its first size that differs.
     pub signature: Signature,
-    /// How far that size is from where it was without the effect.
+    /// Difference of that size with and without the effect.
     pub size: f64,
 }
 
-/// What refitting with an effect changed; none where none of its sizes is there.
+/// Change of the prediction by refitting with an effect; none where none of its sizes differs.
 pub(super) fn change(effect: EffectId, without: &Found, with: &Found) -> Option<Change> {
     let unknowns = sizes(effect).into_iter().map(|place| Unknown::Effect(effect, place));
     let distance = |unknown| with.fit.hypothesis.get(unknown) - without.fit.hypothesis.get(unknown);
@@ -245,12 +244,12 @@ pub(super) fn change(effect: EffectId, without: &Found, with: &Found) -> Option<
     Some(Change { signature: Signature { unknown, column }, size })
 }
 
-/// Blocks that show what columns change, as many as show it alike. What is free beside them has
+/// Effective number of blocks that show the change by columns. All that is free beside them has
 /// been projected out.
 ///
 /// # Law
-/// (Σ |s_b|²)²/Σ |s_b|⁴, s_b the change of a block's prediction: one where one block shows all of
-/// it, n where n show the same.
+/// (Σ |s_b|²)²/Σ |s_b|⁴, s_b the change of a block's prediction: one where a single block shows all
+/// of it, n where n blocks show it equally.
 fn shown_by(projected: &Normal, known: &[Prior], columns: &[usize]) -> f64 {
     let factors = projected.fit(columns, known).estimate;
     let changes =
@@ -260,16 +259,15 @@ fn shown_by(projected: &Normal, known: &[Prior], columns: &[usize]) -> f64 {
     if squares > 0.0 { sum * sum / squares } else { 0.0 }
 }
 
-/// Gain of log-likelihood by columns on each block, left out of their fit, and its standard error.
-/// What is free beside them has been projected out: where one block alone knows a number of that,
-/// leaving it out says nothing of the columns.
+/// Cross-validated gain of log-likelihood by columns, each block left out of the fit in turn, and
+/// its standard error. All that is free beside them has been projected out: a block that alone
+/// determines a nuisance parameter would otherwise spoil the gain.
 ///
 /// # Law
-/// Where the fit of the other blocks expects the change s_b of a block's prediction, it expects a
-/// gain of |s_b|²/2 there, and noise makes it vary by |s_b|. With λ = Σ g_b/Σ |s_b|² the standard
-/// error is the root of Σ (g_b − λ |s_b|²)², or of Σ |s_b|² where blocks differ less than by the
-/// noise. That an effect shows in some blocks more than in others is the driving, and that it gains
-/// everywhere by another part of what was expected its form: both are no chance.
+/// Where the other blocks predict a change s_b in block b, the expected gain is |s_b|²/2 and noise
+/// makes it vary by |s_b|. With λ = Σ g_b/Σ |s_b|² the standard error is √Σ (g_b − λ |s_b|²)², and
+/// at least √Σ |s_b|². The factors |s_b|² and λ take out what is not chance: some drives excite an
+/// effect more, and its form may be wrong by a constant factor.
 pub fn cross_validated(projected: &Normal, known: &[Prior], columns: &[usize]) -> (f64, f64) {
     let nothing = DVector::zeros(columns.len());
     let gains = (0..projected.blocks()).map(|block| {
@@ -292,8 +290,8 @@ mod tests {
     use crate::normal::Columns;
     use nalgebra::Vector3;
 
-    /// An effect that has this size in each block and could be seen in those for which that is
-    /// asked, over samples of one block after the other.
+    /// An effect with this size in each block, of twenty samples, that shows in the blocks selected
+    /// by `is_seen`.
     fn seen(sizes: &[f64], is_seen: impl Fn(usize) -> bool) -> Normal {
         const SAMPLES: usize = 20;
         let blocks: Vec<usize> =
@@ -314,7 +312,7 @@ mod tests {
 
     const FREE: [Prior; 1] = [Prior { mean: 0.0, deviation: 1e6, ln_mass: 0.0 }];
 
-    /// Gain and its standard error of an effect that has this size in each block.
+    /// Gain and standard error of an effect with this size in each block.
     fn of_sizes(sizes: &[f64]) -> (f64, f64) {
         cross_validated(&seen(sizes, |_| true), &FREE, &[0])
     }
@@ -324,7 +322,7 @@ mod tests {
         // |c|² of a block is 20 (0.2² + 0.1²) = 1, and z² is 36
         let (gain, error) = of_sizes(&[2.0; 9]);
         assert!((gain - 18.0).abs() < 1e-6 && (error - 6.0).abs() < 1e-6, "{gain} {error}");
-        // half the size in some blocks is another form, no chance
+        // half the size in some blocks is another form, not chance
         let (gain, error) = of_sizes(&[4.0, 2.0, 4.0, 2.0, 4.0, 2.0, 4.0, 2.0, 4.0]);
         let needed = settings::Verdict::default().min_held_out_gain;
         assert!(gain > needed * error, "{gain} {error}");
@@ -361,7 +359,7 @@ mod tests {
         sizes[3] = 20.0;
         let (gain, _) = of_sizes(&sizes);
         assert!(gain < 0.0, "{gain}");
-        // nor what changes its sign
+        // nor does one that changes its sign
         let (gain, _) = of_sizes(&[3.0, -3.0, 3.0, -3.0, 3.0, -3.0, 3.0, -3.0]);
         assert!(gain < 0.0, "{gain}");
     }

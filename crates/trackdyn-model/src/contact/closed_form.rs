@@ -28,11 +28,11 @@ use trackdyn_core::{Scalar, Wrench};
 const MAX_DISTANCE: f64 = 6.0;
 
 /// Distance to the ICR, in half diagonals of the patch, up to which the closed form is used where
-/// half the digits are enough: it keeps these farther out, and costs a half to a quarter of a
+/// half the digits suffice: it has these farther out, at a half to a quarter of the cost of
 /// quadrature.
 const MAX_COARSE_DISTANCE: f64 = 50.0;
 
-/// Whether the closed form keeps its digits for this patch and slip.
+/// Whether the closed form is accurate for this patch and slip.
 #[inline]
 pub fn applies<S: Scalar>(patch: &Patch, slip: &SlipField<S>, resolution: Resolution) -> bool {
     let reach = if resolution == Resolution::Fine { MAX_DISTANCE } else { MAX_COARSE_DISTANCE };
@@ -99,7 +99,7 @@ impl EdgeMoments {
 
 /// ∫ dt/r = asinh(t₂/|c|) − asinh(t₁/|c|), in the form that does not cancel.
 ///
-/// On the edge's own line (c = 0) the integral may diverge, but it is used times c only: zero.
+/// For c = 0 the integral may diverge, but it is only used times c: zero.
 #[inline]
 fn log_moment(c_squared: f64, t: [f64; 2], r: [f64; 2]) -> f64 {
     if c_squared < f64::MIN_POSITIVE {
@@ -116,8 +116,7 @@ fn log_moment(c_squared: f64, t: [f64; 2], r: [f64; 2]) -> f64 {
     ratio.ln()
 }
 
-/// One of the three integrands: its area integral and its derivatives by the ICR, under the
-/// pressures 1 and y.
+/// One of the three integrals with its derivatives by the ICR, under the pressures 1 and y.
 #[derive(Clone, Copy, Default)]
 struct Integral {
     /// ∬ g and ∬ y g.

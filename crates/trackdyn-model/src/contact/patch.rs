@@ -39,7 +39,7 @@ impl Patch {
     }
 }
 
-/// Middle and size of one side's contact.
+/// Centre and size of one side's contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
     /// Centroid (x, y), m.

@@ -21,11 +21,11 @@ impl<S: Scalar> Pressure<S> {
     }
 }
 
-/// How the load of one side spreads over its patches: area, centroid and radius of gyration of the
-/// contact area along y.
+/// Distribution of the load of one side over its patches: area, centroid and radius of gyration of
+/// the contact along y.
 ///
 /// A rigid hull on equal springs sinks linearly, so one linear pressure serves a long track and a
-/// row of wheels alike.
+/// row of wheels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Footprint {
     /// Contact area, m².
@@ -59,9 +59,9 @@ impl Footprint {
         }
     }
 
-    /// Middle and size of the contact of these patches, which are alike but for their x.
+    /// Centre and size of the contact of these patches, which differ in y only.
     pub fn extent(&self, patches: &[Patch]) -> Extent {
-        // All patches of a side have one width and one middle line.
+        // All patches of a side have the same width and centre-line.
         let Patch { x: [left, right], .. } = patches[0];
         Extent {
             middle: [f64::midpoint(left, right), self.centroid],
@@ -88,8 +88,7 @@ impl Footprint {
         Pressure { at_origin: mean - gradient * self.centroid, gradient }
     }
 
-    /// The centre of pressure (y, m) of a `normal_load` (N) that bears on the ground with this
-    /// pressure.
+    /// Centre of pressure (y, m) of a `normal_load` (N) with this pressure.
     pub fn centre_of_pressure(&self, normal_load: f64, pressure: &Pressure) -> f64 {
         // y_p = ȳ + ρ² A p′/N
         self.centroid + self.gyration_squared * self.area * pressure.gradient / normal_load

@@ -1,6 +1,6 @@
 //! Friction wrench of a rectangle by Gauss-Legendre quadrature.
 //!
-//! Used where the closed form does not reach: laws that change along the track, and ICRs so far
+//! Used where the closed form does not apply: laws that change the shear stress, and ICRs so far
 //! away that the slip direction is nearly uniform.
 
 use crate::contact::closed_form::distance_squared;
@@ -25,8 +25,8 @@ impl Rule {
         Self { across: nodes(across), along: nodes(along) }
     }
 
-    /// The rule with nodes along that crowd towards both ends of a panel, u → (3u − u³)/2: what
-    /// builds up from where a point enters the contact is steep there.
+    /// A rule with nodes concentrated at both ends of a panel, u → (3u − u³)/2: a stress that
+    /// builds up from the point of entry is steep there.
     fn graded(across: usize, along: usize) -> Self {
         let mut rule = Self::new(across, along);
         for (node, weight) in &mut rule.along {
@@ -37,9 +37,9 @@ impl Rule {
     }
 }
 
-/// Distances of the ICR, in half diagonals of the patch, from which on n nodes each way suffice.
-/// Pressure and lever are linear along the track, so the error falls as (2 d)^(2−2n): 10⁻¹⁶ at
-/// these, but for the last, whose ICRs begin where the closed form ends.
+/// Distances of the ICR, in half diagonals of the patch, beyond which n nodes each way suffice.
+/// Pressure and lever are linear along the track, so the error is (2 d)^(2−2n): 10⁻¹⁶ at these,
+/// except for the last, which begins where the closed form ends.
 const NODES_BY_DISTANCE: [(f64, usize); 6] =
     [(5000.0, 3), (232.0, 4), (50.0, 5), (20.0, 6), (10.8, 7), (0.0, 8)];
 
@@ -47,41 +47,39 @@ const NODES_BY_DISTANCE: [(f64, usize); 6] =
 static FAR_FIELD: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
     LazyLock::new(|| NODES_BY_DISTANCE.map(|(_, n)| Rule::new(n, n)));
 
-/// The rules for half the digits, 10⁻⁸: the exponent 2n − 2 is halved.
+/// Rules for half the digits, 10⁻⁸: the exponent 2n − 2 is halved.
 static FAR_FIELD_COARSE: LazyLock<[Rule; NODES_BY_DISTANCE.len()]> =
     LazyLock::new(|| NODES_BY_DISTANCE.map(|(_, n)| n / 2 + 1).map(|n| Rule::new(n, n)));
 
 /// Resolves a shear stress that builds up over a percent of the track's length.
 static FINE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(8, 24));
 
-/// Resolves a shear stress that builds up over a few percent of the length, to a thousandth of what
-/// the law changes, in a quarter of the time of [`FINE`].
+/// Resolves a shear stress that builds up over a few percent of the length, to a thousandth of the
+/// change by the law, in a quarter of the time of [`FINE`].
 static COARSE: LazyLock<Rule> = LazyLock::new(|| Rule::graded(4, 12));
 
-/// [`COARSE`] for a patch that is hardly longer than wide.
+/// [`COARSE`] for a patch hardly longer than wide.
 static COARSE_SHORT: LazyLock<Rule> = LazyLock::new(|| Rule::graded(6, 8));
 
-/// Resolves what a law changes to some hundredths of it, in an eighth of the time of [`COARSE`].
+/// Resolves the change by a law to a few hundredths, in an eighth of the time of [`COARSE`].
 static ROUGH: LazyLock<Rule> = LazyLock::new(|| Rule::graded(1, 5));
 
-/// [`ROUGH`] for a patch that is hardly longer than wide.
+/// [`ROUGH`] for a patch hardly longer than wide.
 static ROUGH_SHORT: LazyLock<Rule> = LazyLock::new(|| Rule::graded(2, 3));
 
-/// How finely the shear stress is integrated.
+/// Resolution of the shear-stress quadrature.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Resolution {
-    /// The base law to all digits, and what other laws change to all that their kinks allow.
+    /// Base law to all digits; changes by other laws as accurately as their kinks allow.
     #[default]
     Fine,
-    /// The base law to eight digits, and what others change to a thousandth: for comparing with
-    /// noisy data.
+    /// Base law to eight digits, changes by other laws to a thousandth: for noisy data.
     Coarse,
-    /// The base law to eight digits, and what others change to some hundredths: for what is a
-    /// correction itself.
+    /// Base law to eight digits, changes by other laws to a few hundredths: for corrections.
     Rough,
 }
 
-/// Friction wrench under the base law where the ICR is far from every patch, about the origin.
+/// Friction wrench of the base law about the origin, where the ICR is far from every patch.
 pub fn far_field_wrench<'p, S: Scalar>(
     patches: impl Iterator<Item = &'p Patch>,
     friction: Friction,
@@ -103,10 +101,10 @@ pub fn far_field_wrench<'p, S: Scalar>(
     wrench
 }
 
-/// Wrench about the origin of the stress that a shear law adds to the base law.
+/// Wrench about the origin of the change of stress by shear laws.
 ///
-/// `law` gives factor f and added stress at a site. Only the departure f (τ + τ_added) − τ from the
-/// base law is integrated, on panels cut at the ICR: the base law itself stays exact, and a weak
+/// `law` gives factor f and added stress at a site. Only the difference f (τ + τ_added) − τ from
+/// the base law is integrated, on panels cut at the ICR: the base law stays exact, and a weak
 /// effect has a small error.
 pub fn departure_wrench<S: Scalar>(
     patches: &[Patch],
@@ -142,12 +140,12 @@ pub struct SlipSite<S> {
     pub position: [S; 2],
     /// Unit slip (see [`SlipField::direction_at`]).
     pub unit_slip: [S; 2],
-    /// Length of the unit slip, positive.
+    /// Norm of the unit slip, positive.
     pub unit_slip_length: S,
 }
 
 impl<S: Scalar> SlipSite<S> {
-    /// Shear stress on the body, Pa, with factors on the two friction coefficients.
+    /// Shear stress on the body, Pa, with factors on both friction coefficients.
     #[inline]
     fn traction(&self, friction: Friction, pressure: &Pressure<S>, factors: [S; 2]) -> [S; 2] {
         // τ = −[μ] p s/|s|, eq. (22)
@@ -178,7 +176,7 @@ fn integrate<S: Scalar>(
                     let x = mid_x + half_x * node_x;
                     let unit_slip = slip.direction_at([x, y]);
                     let squared = unit_slip[0] * unit_slip[0] + unit_slip[1] * unit_slip[1];
-                    // A node on the ICR itself: no direction, and no area.
+                    // A node on the ICR itself has no slip direction, and no area.
                     if squared.value() < f64::MIN_POSITIVE {
                         continue;
                     }
@@ -204,8 +202,8 @@ struct Panels<S> {
     rows: [Option<[S; 2]>; 2],
 }
 
-/// Smallest turn of the unit slip over the patch at which it is cut at the ICR: below, the ICR is
-/// so far that the place of a cut has no digits.
+/// Smallest change of the unit slip over the patch for which it is cut at the ICR: below, the ICR
+/// is so far away that the cut has no significant digits.
 const MIN_TURN: f64 = 1e-9;
 
 impl<S: Scalar> Panels<S> {
@@ -217,8 +215,8 @@ impl<S: Scalar> Panels<S> {
 
     /// The patch, cut at the ICR.
     ///
-    /// The slip direction jumps there, and its components change sign along the lines through it.
-    /// The nodes move with the cuts: the sum stays a smooth function of the motion.
+    /// The slip direction jumps at the ICR, and its components change sign along the lines through
+    /// it. The nodes move with the cuts, so the sum stays a smooth function of the motion.
     fn cut(patch: &Patch, slip: &SlipField<S>) -> Self {
         if slip.rotation.value().abs() * patch.width().hypot(patch.length()) < MIN_TURN {
             return Self::whole(patch);
@@ -228,7 +226,7 @@ impl<S: Scalar> Panels<S> {
     }
 }
 
-/// The interval, cut in two where `at` lies inside it.
+/// The interval, cut in two if `at` lies inside.
 fn cut<S: Scalar>([low, high]: [f64; 2], at: S) -> [Option<[S; 2]>; 2] {
     let (low_edge, high_edge) = (S::from(low), S::from(high));
     if at.value() > low && at.value() < high {
@@ -242,7 +240,7 @@ fn cut<S: Scalar>([low, high]: [f64; 2], at: S) -> [Option<[S; 2]>; 2] {
 mod tests {
     use super::*;
 
-    /// The rule has fewer nodes the farther the ICR is, and loses nothing by it.
+    /// The rule has fewer nodes the farther away the ICR is, at equal accuracy.
     #[test]
     fn far_fields_are_exact_at_every_distance() {
         let patch = Patch::centred([0.2, -0.3], 0.1, 0.4);

@@ -1,13 +1,13 @@
-//! What a law beyond the base one does to the shear stress at a point.
+//! Change of the shear stress at a point by effects.
 
 use trackdyn_core::Scalar;
 
-/// What effects make of the shear stress at a point: τ = f ∘ (τ_base + τ_added).
+/// Shear stress at a point with effects: τ = f ∘ (τ_base + τ_added).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShearStress<S> {
     /// Factors f on the stress across and along the track, 1.
     pub factor: [S; 2],
-    /// Stress on the body beside the base law's, across and along the track, Pa.
+    /// Added stress on the body, across and along the track, Pa.
     pub added: [S; 2],
 }
 

@@ -5,8 +5,8 @@ use trackdyn_core::Scalar;
 /// Slip velocity field of one side: `s(x, y) = speed · (lateral − rotation·y, forward +
 /// rotation·x)`.
 ///
-/// Coulomb friction sees the direction alone, so the field keeps its scale apart: the direction
-/// stays well defined when the robot drives straight and the slip vanishes.
+/// Coulomb friction depends on the direction only, so the field has a separate scale: the direction
+/// stays defined when the robot drives straight and the slip vanishes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipField<S = f64> {
     /// Unit slip of the origin along x, 1.
@@ -26,7 +26,7 @@ impl<S: Scalar> SlipField<S> {
         [self.lateral - self.rotation * y, self.forward + self.rotation * x]
     }
 
-    /// The zero of the field: the ICR of the track, m. Infinite where the field does not rotate.
+    /// Zero of the field: ICR of the track, m. Infinite where the field does not rotate.
     #[inline]
     pub fn icr(&self) -> [S; 2] {
         let inverse = self.rotation.recip();

@@ -1,4 +1,4 @@
-//! Effects that are switched on.
+//! Active effects: effects with parameter values.
 
 use super::{CATALOGUE, EffectError, EffectId, Law};
 use crate::contact::ShearStress;
@@ -16,8 +16,8 @@ pub struct ActiveEffect {
 }
 
 impl ActiveEffect {
-    /// The effect `id` with `settings` (key, value) and the typical size of every parameter that
-    /// they leave out; the coefficients of a form that they leave out are none.
+    /// The effect `id` with `settings` (key, value). Parameters left out have their typical value;
+    /// coefficients of a form are zero.
     ///
     /// # Errors
     /// Unknown effect or parameter (with the nearest name), a parameter given twice, or a value
@@ -49,7 +49,7 @@ impl ActiveEffect {
         Ok(Self { effect, law: Law::from_values(effect, &values), values })
     }
 
-    /// Which effect it is.
+    /// The effect.
     pub fn effect(&self) -> EffectId {
         self.effect
     }
@@ -64,8 +64,7 @@ impl ActiveEffect {
         &self.values
     }
 
-    /// Parameters with the values that a text has to give: all of a mechanism, and of a form those
-    /// that it has.
+    /// Parameters that a text must state: all of a mechanism, and the nonzero ones of a form.
     pub fn stated(&self) -> impl Iterator<Item = (&'static Parameter, f64)> {
         let card = self.card();
         let values = card.parameters.iter().zip(self.values.iter().copied());
@@ -116,10 +115,10 @@ impl Effects {
         Self::default()
     }
 
-    /// Adds what is not there yet of Newton's second law, with typical sizes.
+    /// Adds the missing terms of Newton's second law, with typical sizes.
     ///
     /// # Panics
-    /// Never: both are of the catalogue.
+    /// Never: all are in the catalogue, with typical sizes in range.
     pub fn with_inertia(mut self) -> Self {
         for card in CATALOGUE.iter().filter(|card| card.is_inertia()) {
             if self.get(card.id).is_none() {
@@ -130,15 +129,15 @@ impl Effects {
         self
     }
 
-    /// Removes the inertia that resists changes of speed: the robot is at its stationary motion at
-    /// once. The inertial forces of a steady turn stay.
+    /// Removes inertia against changes of speed: the motion is then always the stationary one. The
+    /// inertial forces of a steady turn stay.
     pub fn quasi_static(mut self) -> Self {
         let is_kept = |card: &Card| !card.is_inertia() || card.breaks != [Symmetry::Transient];
         self.0.retain(|effect| is_kept(effect.card()));
         self
     }
 
-    /// Switches an effect on; it replaces one of the same id.
+    /// Adds an effect; it replaces one of the same id.
     pub fn insert(&mut self, effect: ActiveEffect) {
         match self.0.binary_search_by_key(&effect.effect, |present| present.effect) {
             Ok(position) => self.0[position] = effect,
@@ -146,7 +145,7 @@ impl Effects {
         }
     }
 
-    /// The effect of this id, where it is there.
+    /// The effect of this id, if active.
     pub fn get(&self, id: &str) -> Option<&ActiveEffect> {
         self.iter().find(|effect| effect.card().id == id)
     }

@@ -5,12 +5,11 @@ use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::pipeline::Site;
 use trackdyn_core::Scalar;
 
-/// Sine of the angle of the slip to the track within which the wall of soil changes sides. A force
-/// that jumped there could not balance one that is less than the jump: a robot that speeds up
-/// straight ahead would not move at all.
+/// Sine of the slip angle over which the wall of soil changes sides. With a jump, forces below its
+/// size could not be balanced: a robot that speeds up straight ahead would not move at all.
 const WALL_TURN_SINE: f64 = 0.01;
 
-/// A resistance to lateral slip that knows its sign alone.
+/// A resistance to lateral slip that depends on its sign only.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bulldozing {
     coefficient: f64,

@@ -4,7 +4,7 @@ use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Situation;
 use trackdyn_core::{PerSide, Scalar, Wrench};
 
-/// The force that keeps the centre of gravity on its circle.
+/// The centripetal force on the centre of gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Centripetal {
     strength: f64,

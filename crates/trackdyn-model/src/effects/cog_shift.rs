@@ -1,9 +1,9 @@
-//! A centre of gravity elsewhere than the vehicle file says.
+//! A centre of gravity that differs from the vehicle file.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::vehicle::Vehicle;
 
-/// The centre of gravity moved in the plane.
+/// A horizontal shift of the centre of gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CogShift {
     shift: [f64; 2],

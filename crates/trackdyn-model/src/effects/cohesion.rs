@@ -1,11 +1,11 @@
-//! Adhesion beside friction.
+//! Adhesion in addition to friction.
 
 use crate::contact::ShearStress;
 use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::pipeline::Site;
 use trackdyn_core::Scalar;
 
-/// Ground that resists shear without any load on it.
+/// Ground that resists shear even without load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cohesion {
     cohesion: f64,

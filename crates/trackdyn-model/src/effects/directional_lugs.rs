@@ -1,11 +1,11 @@
-//! Lugs that grip better one way than the other.
+//! Lugs that grip better in one direction than in the other.
 
 use crate::contact::ShearStress;
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Site;
 use trackdyn_core::Scalar;
 
-/// Friction along the track that knows forward from backward.
+/// Friction along the track that differs between forward and backward slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DirectionalLugs {
     excess: f64,

@@ -1,4 +1,4 @@
-//! What the list of effects expands to.
+//! Expansion of the list of effects.
 
 /// Declares the modules of the catalogue, the list of cards and the dispatch of the hooks.
 ///
@@ -10,10 +10,10 @@ macro_rules! catalogue {
         /// The cards of all effects, in the catalogue's order.
         pub const CATALOGUE: &[Card] = &[$(<$module::$effect as Effect>::CARD),+];
 
-        /// What each effect of the catalogue is.
+        /// Kind of each effect of the catalogue.
         const NATURES: &[Nature] = &[$(<$module::$effect as Effect>::NATURE),+];
 
-        /// Whether each effect of the catalogue is a part of Newton's second law.
+        /// Whether each effect of the catalogue is a term of Newton's second law.
         const INERTIAL: &[bool] = &[$(<$module::$effect as Effect>::IS_INERTIA),+];
 
         /// The terms of each effect of the catalogue.

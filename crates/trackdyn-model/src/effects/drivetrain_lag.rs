@@ -1,4 +1,4 @@
-//! Belts that follow the encoders late.
+//! Belts that follow the encoders with a lag.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Drive;

@@ -1,10 +1,10 @@
-//! Encoders that show another speed than the belts have.
+//! Encoders that show a wrong speed.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Drive;
 use trackdyn_core::PerSide;
 
-/// A factor between encoder and belt on each side.
+/// A factor between encoder and belt speed on each side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EncoderScale {
     scale: PerSide<f64>,

@@ -1,31 +1,31 @@
-//! What can be wrong about the choice of an effect.
+//! Errors in the choice of an effect.
 
 use super::CATALOGUE;
 use crate::effect::{Card, Parameter};
 
-/// An effect that cannot be switched on as asked.
+/// An effect that cannot be activated as requested.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EffectError {
     /// No such id in the catalogue.
     UnknownEffect {
-        /// The id that was asked for.
+        /// Requested id.
         id: String,
     },
     /// The effect has no such parameter.
     UnknownParameter {
         /// The effect.
         card: &'static Card,
-        /// The key that was asked for.
+        /// Requested key.
         key: String,
     },
-    /// A value that is not physical.
+    /// A value outside the physical range.
     OutOfRange {
         /// The effect.
         card: &'static Card,
         /// The parameter.
         parameter: &'static Parameter,
-        /// The value that was asked for.
+        /// Requested value.
         value: f64,
     },
     /// A parameter that was given twice.
@@ -63,7 +63,7 @@ impl std::fmt::Display for EffectError {
 }
 
 impl EffectError {
-    /// What would have been right.
+    /// Nearest valid alternative.
     pub fn expected(&self) -> String {
         match self {
             Self::UnknownEffect { id } => {

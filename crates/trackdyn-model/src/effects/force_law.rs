@@ -13,7 +13,7 @@ use trackdyn_core::{PerSide, STANDARD_GRAVITY, Scalar, Wrench};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceLaw {
     coefficients: [f64; COUNT],
-    /// Unit of time of the terms that know it, s.
+    /// Time unit of the time-dependent terms, s.
     time_scale: f64,
 }
 

@@ -4,7 +4,7 @@ use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::pipeline::Ground;
 use trackdyn_core::Side;
 
-/// Friction across the tracks that differs from what the vehicle file says.
+/// Friction across the tracks that differs from the vehicle file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrictionAnisotropy {
     ratio: f64,

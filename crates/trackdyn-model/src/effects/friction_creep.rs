@@ -57,7 +57,7 @@ impl Effect for FrictionCreep {
 }
 
 impl FrictionCreep {
-    /// Part of full friction at a slip speed, m/s.
+    /// Share of full friction at a slip speed, m/s.
     fn mobilised<S: Scalar>(&self, slip_speed: S) -> S {
         let Self { speed, sharpness } = *self;
         // 1 − (1 + |s|/(n v_c))^−n
@@ -76,7 +76,7 @@ mod tests {
         let part = |sharpness: f64, slip_speed: f64| -> f64 {
             FrictionCreep { speed: 0.02, sharpness }.mobilised(slip_speed)
         };
-        // a hyperbola, and nearly an exponential
+        // a hyperbola, then nearly an exponential
         assert!((part(1.0, 0.06) - 0.75).abs() < 1e-12);
         assert!((part(20.0, 0.02) - (1.0 - (-1.0_f64).exp())).abs() < 0.01);
         for sharpness in [1.0, 3.0, 20.0] {

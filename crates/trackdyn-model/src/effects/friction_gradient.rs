@@ -5,7 +5,7 @@ use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::pipeline::Site;
 use trackdyn_core::Scalar;
 
-/// More friction in front than behind, as of belts that are worn or ground that is cleared.
+/// More friction in front than behind, as with worn belts or cleared ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrictionGradient {
     gradient: f64,

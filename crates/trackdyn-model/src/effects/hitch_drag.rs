@@ -1,18 +1,18 @@
-//! Something passive that is dragged behind.
+//! A passive load dragged behind the robot.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Situation;
 use trackdyn_core::{PerSide, STANDARD_GRAVITY, Scalar, Wrench};
 
-/// A force against the motion of a point behind the robot.
+/// A friction force against the motion of a point behind the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HitchDrag {
     drag: f64,
     distance: f64,
 }
 
-/// Speed, m/s, far below any that drives, over which the drag turns round: it has no direction at
-/// rest.
+/// Speed over which the drag changes its direction, m/s: far below driving speeds. At rest it has
+/// no direction.
 const REST_SPEED: f64 = 1e-7;
 
 impl Effect for HitchDrag {

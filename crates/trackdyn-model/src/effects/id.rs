@@ -1,12 +1,11 @@
-//! Which effect of the catalogue.
+//! Identifier of a catalogue effect.
 
 use super::{CATALOGUE, EffectError};
 use crate::effect::Card;
 use std::fmt;
 use std::str::FromStr;
 
-/// An effect of the catalogue. Ids are ordered as the catalogue is; written, they are the id of
-/// vehicle files.
+/// An effect of the catalogue. Ordered as the catalogue; printed as its id in vehicle files.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct EffectId {
     /// Index in [`CATALOGUE`], below its length.
@@ -36,7 +35,7 @@ impl EffectId {
         self.card().id
     }
 
-    /// Index of its constructor, nature and terms, which stand in the catalogue's order.
+    /// Index of its constructor, nature and terms, in catalogue order.
     pub(super) fn index(self) -> usize {
         self.index
     }

@@ -1,10 +1,10 @@
-//! Load transfer of a centre of gravity above the ground.
+//! Load transfer by a centre of gravity above the ground.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Situation;
 use trackdyn_core::Scalar;
 
-/// The weight leans outwards in a turn, and downhill on a slope.
+/// The weight shifts outwards in a turn, and downhill on a slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadTransfer {
     cog_height: f64,

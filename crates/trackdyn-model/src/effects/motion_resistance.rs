@@ -4,7 +4,7 @@ use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Situation;
 use trackdyn_core::{PerSide, Scalar, Side, Wrench};
 
-/// The ground holds each track back in proportion to its load.
+/// Resistance of the ground to each track, proportional to its load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionResistance {
     coefficient: f64,

@@ -9,23 +9,22 @@ impl Card {
         self.place().map_or(Nature::Mechanism, |place| NATURES[place])
     }
 
-    /// Whether it is a form: what no mechanism of the catalogue explains may be described by it.
+    /// Whether it is a form, which may describe what no mechanism explains.
     pub fn is_form(&self) -> bool {
         self.nature() == Nature::Form
     }
 
-    /// Whether it is a part of Newton's second law, which owners know without a measurement.
+    /// Whether it is a term of Newton's second law, which owners know without a measurement.
     pub fn is_inertia(&self) -> bool {
         self.place().is_some_and(|place| INERTIAL[place])
     }
 
-    /// The terms of a form; none of a mechanism.
+    /// Terms of a form; empty for a mechanism.
     pub fn terms(&self) -> Vec<Term> {
         self.place().map_or_else(Vec::new, |place| TERMS[place]())
     }
 
-    /// Value of a parameter that is not given: the typical one, and none of a coefficient of a
-    /// form.
+    /// Default of a parameter: the typical value, or zero for a coefficient of a form.
     pub fn default_of(&self, parameter: &Parameter) -> f64 {
         match parameter.role {
             Role::Size { neutral } if self.is_form() => neutral,

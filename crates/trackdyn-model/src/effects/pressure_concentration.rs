@@ -5,7 +5,7 @@ use crate::effect::{Card, Effect, Parameter, Role, Stage};
 use crate::pipeline::Site;
 use trackdyn_core::Scalar;
 
-/// More pressure at the ends of a patch than in its middle, or the other way round.
+/// More pressure at the ends of a patch than in its middle, or vice versa.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PressureConcentration {
     concentration: f64,

@@ -5,7 +5,7 @@ use crate::effects::motion_resistance::add_resistance;
 use crate::pipeline::Situation;
 use trackdyn_core::{PerSide, Scalar, Side, Wrench};
 
-/// One side is held back more than the other.
+/// More resistance to one side than to the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ResistanceSplit {
     difference: f64,

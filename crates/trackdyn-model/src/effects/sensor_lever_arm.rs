@@ -1,9 +1,9 @@
-//! A pose sensor that does not sit over the origin.
+//! A pose sensor away from the origin of the hull.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Sensor;
 
-/// The place of the pose sensor on the hull.
+/// Position of the pose sensor on the hull.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorLeverArm {
     lever: [f64; 2],

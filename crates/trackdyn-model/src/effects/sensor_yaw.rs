@@ -1,9 +1,9 @@
-//! A pose sensor that looks askew.
+//! A pose sensor mounted at an angle.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Sensor;
 
-/// The heading of the pose sensor against the hull's.
+/// Heading of the pose sensor relative to the hull.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorYaw {
     yaw: f64,

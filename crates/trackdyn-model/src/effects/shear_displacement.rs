@@ -1,19 +1,19 @@
-//! Shear stress that builds up with shear displacement, and may give way again.
+//! Shear stress that builds up with shear displacement, and may pass a peak.
 
 use crate::contact::ShearStress;
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Site;
 use trackdyn_core::Scalar;
 
-/// Way over which soil with a hump gives way again, in shear deformation moduli: the peak lies at
-/// two to three of them, when nearly all friction is mobilised.
+/// Length over which soil falls from its peak, in shear deformation moduli. The peak lies at two to
+/// three moduli, when nearly all friction is mobilised.
 const HUMP_LENGTH_IN_MODULI: f64 = 4.0;
 
-/// Smallest speed of a belt that moves, m/s: in a year it creeps a tenth of a millimetre. Behind
-/// a lag a belt that stops gets slower than numbers that have a reciprocal.
+/// Smallest speed of a moving belt, m/s: 0.03 mm in a year. Behind a lag, a stopping belt becomes
+/// so slow that the reciprocal overflows.
 const MIN_BELT_SPEED: f64 = 1e-12;
 
-/// Soil or rubber that must be sheared some way before it resists fully.
+/// Soil or rubber that resists fully only after some shear displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShearDisplacement {
     modulus: f64,
@@ -73,7 +73,7 @@ impl Effect for ShearDisplacement {
         }
         let [x, y] = site.slip.position;
         let entry = if belt_speed.value() > 0.0 { site.patch.y[1] } else { site.patch.y[0] };
-        // The slip is linear in y, so ∫ s dt is its value half-way times |y_entry − y|/|V|.
+        // The slip is linear in y, so ∫ s dt is its mid-way value times |y_entry − y|/|V|.
         let travelled = (-y + entry).abs();
         let half_way = site.slip_field().direction_at([x, (y + entry) * 0.5]);
         let unit_slip = (half_way[0] * half_way[0] + half_way[1] * half_way[1]).sqrt();
@@ -83,7 +83,7 @@ impl Effect for ShearDisplacement {
 }
 
 impl ShearDisplacement {
-    /// Friction after shearing this far, m, as part of what remains after long shearing.
+    /// Friction after a shear displacement, m, relative to its residual value.
     fn mobilised<S: Scalar>(&self, displacement: S) -> S {
         let ratio = displacement * (1.0 / self.modulus);
         // 1 − exp(−j/K)

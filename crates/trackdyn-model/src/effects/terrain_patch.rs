@@ -1,4 +1,4 @@
-//! Other ground in one place.
+//! A patch of different ground.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Ground;
@@ -83,7 +83,7 @@ impl Effect for TerrainPatch {
 }
 
 impl TerrainPatch {
-    /// The part of a line between two places that lies on the disc.
+    /// Share of a line between two places that lies on the disc.
     fn share(&self, [from, to]: [[f64; 2]; 2]) -> f64 {
         let along = [to[0] - from[0], to[1] - from[1]];
         let away = [from[0] - self.centre[0], from[1] - self.centre[1]];

@@ -1,9 +1,9 @@
-//! Clocks of encoders and poses that differ.
+//! A clock offset between encoders and poses.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Sensor;
 
-/// Poses with stamps that are late.
+/// Poses with late stamps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimeOffset {
     delay: f64,

@@ -1,4 +1,4 @@
-//! Inertia of the body while its motion changes.
+//! Inertia of the body against changes of motion.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
 use crate::pipeline::Situation;

@@ -16,7 +16,7 @@ const FRAME: &str = "paper";
 /// Digits of the numbers of a file, apart from covariances.
 const DIGITS: Digits = Digits::Decimals(12);
 
-/// Where the numbers of a file come from.
+/// Provenance of the numbers in a file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
@@ -28,29 +28,28 @@ pub struct Source {
     pub vehicle: String,
     /// Fingerprint of the vehicle file with its effects, or of the recording.
     pub fingerprint: String,
-    /// Fingerprint of the poses of the recording: it tells the drive that was fitted from other
-    /// drives.
+    /// Fingerprint of the recorded poses, which identifies the fitted drive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose_fingerprint: Option<String>,
-    /// Name of the recording, where the numbers come from one.
+    /// Name of the recording; none for a map.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<String>,
-    /// Its runs that were used.
+    /// Runs that were used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub runs: Option<String>,
-    /// The time of each of these runs that was used, s from its first reading, where not all was.
+    /// Time used of each of these runs, s from its first reading; none where all was used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time_s: Option<[f64; 2]>,
-    /// Speeds per track and largest speed, m/s.
+    /// Grid of the map.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridSource>,
-    /// Effects that were switched on, with their parameters.
+    /// Active effects with their parameters.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub effects: Vec<String>,
-    /// Seed of the random numbers, where any were drawn.
+    /// Seed of the random numbers, if any were drawn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed: Option<u64>,
-    /// Motions of each kind in the map.
+    /// Number of motions of each kind in the map.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motions: Option<BTreeMap<String, usize>>,
 }
@@ -102,9 +101,9 @@ pub struct KinematicsFile {
     /// Standard deviations over the map.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spread: Option<Spread>,
-    /// Where the numbers come from.
+    /// Provenance of the numbers.
     pub source: Source,
-    /// One set per sector, where the map is piecewise.
+    /// One set per sector, for a piecewise constant map.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sector: Vec<SectorTable>,
 }
@@ -160,8 +159,7 @@ impl KinematicsFile {
         }
     }
 
-    /// This file with α, the belt speeds per speeds that the encoders show; unchanged where both
-    /// are 1.
+    /// The file with α, the ratio of belt to encoder speeds; unchanged where both are 1.
     pub fn with_alpha(self, alpha: PerSide<f64>) -> Self {
         if alpha == PerSide::new(1.0, 1.0) {
             return self;
@@ -187,7 +185,7 @@ impl KinematicsFile {
         }
     }
 
-    /// What every file has.
+    /// Fields common to all files.
     fn of_icrs(icrs: &Icrs, steering_efficiency: f64, source: Source) -> Self {
         let unplaced = |value| Spanned::new(0..0, DIGITS.round(value));
         Self {
@@ -224,10 +222,10 @@ impl KinematicsFile {
         Ok(file)
     }
 
-    /// The file's text.
+    /// The file as TOML text.
     ///
     /// # Panics
-    /// Never: the fields hold only what TOML can say.
+    /// Never: all values can be written as TOML.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("numbers, texts and tables are TOML")
     }
@@ -241,16 +239,16 @@ impl KinematicsFile {
         })
     }
 
-    /// The kinematic model for these track speeds, m/s: that of their sector where the map is
-    /// piecewise, else that of the whole map.
+    /// Kinematic model for these track speeds, m/s: that of their sector where the map is
+    /// piecewise, or else that of the whole map.
     pub fn kinematics_at(&self, speed: PerSide<f64>) -> Kinematics {
         let signs = Sector::signs_of(speed);
         let sector = self.sector.iter().find(|sector| sector.signs() == signs);
         sector.map_or_else(|| self.kinematics(), |sector| self.with_icrs(sector.icrs()))
     }
 
-    /// Track speeds, m/s, for a forward speed and a yaw rate, and the model that gives them: one
-    /// whose sector holds the speeds, else that of the whole map.
+    /// Track speeds, m/s, for a forward speed and a yaw rate, with the model used: that of the
+    /// sector that holds the speeds, or else that of the whole map.
     pub fn track_speeds(&self, forward: f64, yaw_rate: f64) -> (PerSide<f64>, Kinematics) {
         let of = |kinematics: Kinematics| (kinematics.track_speeds(forward, yaw_rate), kinematics);
         self.sector
@@ -268,7 +266,7 @@ impl KinematicsFile {
     }
 }
 
-/// The numbers that a reader divides or multiplies by, with their places.
+/// Numbers that a reader divides or multiplies by, with their positions in the file.
 #[derive(Deserialize)]
 struct Divisors {
     steering_efficiency: Spanned<f64>,
@@ -280,7 +278,7 @@ struct Divisors {
     sector: Vec<SectorDivisors>,
 }
 
-/// What a sector is divided by.
+/// Divisors of a sector.
 #[derive(Deserialize)]
 struct SectorDivisors {
     x_icr_left_m: Spanned<f64>,
@@ -319,7 +317,7 @@ impl Divisors {
 /// Largest distance of an ICR from the robot, m.
 const MAX_ICR_DISTANCE: f64 = 1e4;
 
-/// Refuses a coordinate of an ICR that is too far from the robot, m.
+/// Rejects an ICR coordinate too far from the robot, m.
 fn near(document: &Document, value: &Spanned<f64>, key: &str) -> Result<(), DocumentError> {
     if value.get_ref().abs() <= MAX_ICR_DISTANCE {
         return Ok(());
@@ -328,7 +326,7 @@ fn near(document: &Document, value: &Spanned<f64>, key: &str) -> Result<(), Docu
     Err(document.value_error(value.span(), key, expected))
 }
 
-/// Refuses ICRs of which the right one is not to the right of the left one, m.
+/// Rejects ICRs where the right one is not right of the left one, m.
 fn separated(
     document: &Document,
     left: &Spanned<f64>,

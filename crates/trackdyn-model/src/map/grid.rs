@@ -1,26 +1,26 @@
 //! Grids of track speeds.
 
-/// Evenly spaced speeds from −max to +max, the same for both tracks.
+/// Evenly spaced speeds from −max to +max, equal for both tracks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
     points: usize,
     max_speed: f64,
 }
 
-/// A grid that cannot be.
+/// An invalid grid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GridError {
     /// Too few or too many points.
     #[error("grid = {0}: expected {expected}", expected = self.expected())]
     Points(usize),
-    /// A speed that is not positive, or that no robot drives.
+    /// A speed that is not positive, or too large for a robot.
     #[error("speed = {0}: expected {expected}", expected = self.expected())]
     Speed(f64),
 }
 
 impl GridError {
-    /// What would be accepted.
+    /// Valid values.
     pub fn expected(&self) -> String {
         match self {
             Self::Points(_) => format!("2 to {} points per track", Grid::MAX_POINTS),

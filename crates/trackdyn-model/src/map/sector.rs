@@ -1,11 +1,11 @@
-//! Sectors of the speed plane in which a map is constant.
+//! Sectors of the speed plane in which a map is nearly constant.
 
 use crate::icr::Icrs;
 use crate::map::{IcrMap, Statistics};
 use std::collections::BTreeMap;
 use trackdyn_core::{PerSide, real};
 
-/// Largest spread of equal ICRs, m: rounding of the solver, with room.
+/// Largest standard deviation of equal ICRs, m: rounding of the solver, with a margin.
 const ICR_ROUNDING: f64 = 1e-9;
 
 /// The ICRs of one sector.
@@ -13,7 +13,7 @@ const ICR_ROUNDING: f64 = 1e-9;
 pub struct Sector {
     /// Signs (−1, 0, 1) of V_l, V_r and |V_r| − |V_l|.
     pub signs: [i8; 3],
-    /// Means and spreads of its motions.
+    /// Means and standard deviations of its motions.
     pub statistics: Statistics,
 }
 
@@ -36,8 +36,7 @@ impl Sector {
 /// Largest share of the variance of a coordinate within the sectors of a piecewise map.
 const MAX_WITHIN_SHARE: f64 = 0.1;
 
-/// The sectors of a map if they explain nine tenths of the variance of x_l, x_r or y; empty
-/// otherwise.
+/// Sectors of a map, if they explain nine tenths of the variance of x_l, x_r or y; empty otherwise.
 pub(super) fn sectors(map: &IcrMap) -> Vec<Sector> {
     let Some(whole) = map.statistics() else { return Vec::new() };
     let mut members: BTreeMap<[i8; 3], Vec<Icrs>> = BTreeMap::new();
@@ -60,8 +59,8 @@ pub(super) fn sectors(map: &IcrMap) -> Vec<Sector> {
                 count(&sector.statistics) * sector.statistics.spread.to_array()[k].powi(2)
             })
             .sum();
-        // Each sector takes one mean: with few pairs of speeds, the means would explain all of the
-        // variance.
+        // Each sector takes one degree of freedom: otherwise few pairs of speeds would always be
+        // explained.
         let free = count(&whole) - real(sectors.len());
         variance > ICR_ROUNDING.powi(2) && within < MAX_WITHIN_SHARE * variance * free
     });

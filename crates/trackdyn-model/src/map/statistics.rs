@@ -1,8 +1,8 @@
-//! Means and spreads of ICRs.
+//! Means and standard deviations of ICRs.
 
 use crate::icr::Icrs;
 
-/// Means and spreads of a set of ICRs.
+/// Means and standard deviations of a set of ICRs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Statistics {
     /// Number of motions.
@@ -22,7 +22,7 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Statistics of these ICRs on a vehicle with this gauge; none of an empty set.
+    /// Statistics of these ICRs for a vehicle with this gauge; none for an empty set.
     pub fn of(icrs: impl Iterator<Item = Icrs>, gauge: f64) -> Option<Self> {
         let all: Vec<Icrs> = icrs.collect();
         #[expect(clippy::cast_precision_loss, reason = "at most four million pairs")]

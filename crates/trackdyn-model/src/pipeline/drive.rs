@@ -1,11 +1,11 @@
-//! From the speeds that the encoders show to the speeds of the belts.
+//! Drive: from encoder speeds to belt speeds.
 
 use trackdyn_core::{PerSide, Scalar};
 
-/// The way from the encoders to the belts.
+/// Gain, slip and lag between encoders and belts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
-    /// Speed of the belt per speed that the encoder shows, α, 1; eqs (20)-(21).
+    /// Ratio of belt to encoder speed, α, 1; eqs (20)-(21).
     pub gain: PerSide<f64>,
     /// Share of its speed that a belt loses per traction over normal load, 1.
     pub slip_per_traction: f64,
@@ -14,19 +14,19 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// Belts that do what the encoders show, at once.
+    /// Belts that follow the encoders exactly.
     pub fn direct() -> Self {
         Self { gain: PerSide::new(1.0, 1.0), slip_per_traction: 0.0, time_constant: 0.0 }
     }
 
-    /// Steady speeds of the sprockets, m/s, at the speeds that the encoders show (m/s).
+    /// Steady sprocket speeds, m/s, at these encoder speeds (m/s).
     pub fn driven(&self, shown: PerSide<f64>) -> PerSide<f64> {
         // V = α V_e
         PerSide::from_fn(|side| self.gain[side] * shown[side])
     }
 
-    /// Speeds of the belts, m/s, behind sprockets of these speeds, m/s, at the traction of each
-    /// side over its normal load, forward positive, 1.
+    /// Belt speeds, m/s, for these sprocket speeds (m/s) and the traction of each side over its
+    /// normal load, forward positive, 1.
     pub fn belt_speed<S: Scalar>(&self, driven: PerSide<f64>, traction: PerSide<S>) -> PerSide<S> {
         PerSide::from_fn(|side| {
             // V = V_d − κ |V_d| T/N

@@ -1,4 +1,4 @@
-//! What the world is where the robot stands.
+//! Ground and gravity at the robot's place, heading and time.
 
 use crate::contact::Friction;
 use crate::contact::pressure::Footprint;
@@ -6,7 +6,7 @@ use crate::vehicle::Vehicle;
 use trackdyn_core::frames::{paper_from_ros, ros_from_paper};
 use trackdyn_core::{PerSide, Pose, STANDARD_GRAVITY, Side};
 
-/// Where the robot is and when, in the world's frame (REP-103).
+/// Place, heading and time of the robot, in the world's frame (REP-103).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Circumstance {
     /// Position of the robot's origin (x, y), m.
@@ -24,7 +24,7 @@ impl Circumstance {
         paper_from_ros([cos * x + sin * y, cos * y - sin * x])
     }
 
-    /// A place of the robot (paper's frame), in the world, m.
+    /// A point of the robot (paper's frame) in the world, m.
     pub fn to_world(&self, place: [f64; 2]) -> [f64; 2] {
         let ([x, y], [ahead, left]) = (self.position, ros_from_paper(place));
         let there = Pose::new(x, y, self.heading).compose(&Pose::new(ahead, left, 0.0));
@@ -32,10 +32,10 @@ impl Circumstance {
     }
 }
 
-/// The ground under the robot and the pull of gravity, in the paper's frame.
+/// Ground under the robot, and gravity, in the paper's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ground {
-    /// Where the robot is and when.
+    /// Place, heading and time.
     pub circumstance: Circumstance,
     /// Rear and front end of the middle line of each side's contact, m.
     pub lines: PerSide<[[f64; 2]; 2]>,
@@ -48,8 +48,7 @@ pub struct Ground {
 }
 
 impl Ground {
-    /// Level ground with the same friction everywhere, under a vehicle with this contact on each
-    /// side.
+    /// Level ground with uniform friction, under a vehicle with this contact on each side.
     pub fn level(vehicle: &Vehicle, footprint: &Footprint, circumstance: Circumstance) -> Self {
         let line = |side: Side| footprint.ends.map(|y| [side.sign() * vehicle.gauge / 2.0, y]);
         Self {

@@ -3,7 +3,7 @@
 use crate::contact::{Extent, SlipField};
 use trackdyn_core::{PerSide, Scalar, Side, Twist};
 
-/// Motion of the hull and the slip that it gives to both belts.
+/// Motion of the hull, and the slip of both belts.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion<S = f64> {
     /// Belt speeds relative to the hull, forward positive, m/s.
@@ -17,12 +17,12 @@ pub struct Motion<S = f64> {
 }
 
 impl<S: Scalar> Motion<S> {
-    /// The motion at which the track `anchor` has its ICR at (x, y) and the hull turns by
-    /// `turn` = w/(V_r − V_l) = 1/(x_r − x_l) ≥ 0, 1/m.
+    /// Motion with the ICR of the track `anchor` at (x, y) and the hull turning by `turn` = w/(V_r
+    /// − V_l) = 1/(x_r − x_l) ≥ 0, 1/m.
     ///
-    /// At `turn` = 0 the anchor track sticks while the other one slips straight; its slip direction
-    /// is the limit from above. Where the belt speeds are equal the robot moves straight, and both
-    /// slip directions are the limit of a vanishing left turn.
+    /// At `turn` = 0 the anchor track sticks while the other slips straight; its slip direction is
+    /// the limit from above. At equal belt speeds the robot moves straight, and both slip
+    /// directions are the limit of a vanishing left turn.
     #[inline]
     pub fn anchored(belt_speed: PerSide<f64>, anchor: Side, icr: [S; 2], turn: S) -> Self {
         let [x, y] = icr;
@@ -37,7 +37,7 @@ impl<S: Scalar> Motion<S> {
             rotation: S::from(sense),
             speed: turn * difference.abs(),
         };
-        // The other belt slips by V_anchor − V_other = ±(V_r − V_l) more along y, in units of |V_r
+        // The other belt slips along y by V_anchor − V_other = ±(V_r − V_l) more, in units of |V_r
         // − V_l|.
         let other_slip = SlipField {
             lateral: turn * y * sense,
@@ -62,11 +62,11 @@ impl<S: Scalar> Motion<S> {
         }
     }
 
-    /// The motion of a hull whose twist departs from straight driving at the left belt's speed by
-    /// `departure`, with its acceleration.
+    /// Motion of a hull whose twist departs by `departure` from straight driving at the left belt's
+    /// speed, with its acceleration.
     ///
-    /// Slip is what a departure leaves of the speeds, so a track that sticks keeps all digits of
-    /// its creep. A slip field is scaled by its root mean square over the side's contact.
+    /// Slip is computed from the departure, so the creep of a sticking track keeps all digits. A
+    /// slip field is scaled by its root mean square over the side's contact.
     #[inline]
     pub fn departing(
         belt_speed: PerSide<S>,

@@ -1,4 +1,4 @@
-//! What a pose sensor reports of the hull's motion.
+//! Pose sensor: the reported motion of the hull.
 
 use trackdyn_core::frames::{paper_twist_from_ros, ros_from_paper, ros_twist_from_paper};
 use trackdyn_core::{Moment, Pose, Trajectory, Twist};
@@ -6,18 +6,18 @@ use trackdyn_core::{Moment, Pose, Trajectory, Twist};
 /// Mount and errors of the pose sensor, in the paper's frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sensor {
-    /// Where it sits on the hull: right and forward of the origin, m.
+    /// Position on the hull: right and forward of the origin, m.
     pub lever: [f64; 2],
-    /// Its heading against the hull's, counter-clockwise, rad.
+    /// Heading relative to the hull, counter-clockwise, rad.
     pub yaw: f64,
-    /// Yaw rate that it reports of a robot at rest, rad/s.
+    /// Yaw rate reported at rest, rad/s.
     pub yaw_rate_bias: f64,
-    /// By how much its stamps are late, s.
+    /// Delay of its stamps, s.
     pub delay: f64,
 }
 
 impl Sensor {
-    /// The twist in the sensor's axes that is reported of the hull's twist.
+    /// Reported twist, in the sensor's axes, for a twist of the hull.
     pub fn reported(&self, twist: &Twist) -> Twist {
         let [v_x, v_y] = twist.velocity_at(self.lever);
         let (sin, cos) = self.yaw.sin_cos();
@@ -34,8 +34,8 @@ impl Sensor {
         Pose::new(x, y, self.yaw)
     }
 
-    /// The path that is reported of a hull's path: the sensor's poses with late stamps, on the path
-    /// that the reported twists draw. Speeds of the belts do not belong to it and keep their time.
+    /// Reported path for a path of the hull: the sensor's poses, integrated from reported twists,
+    /// with late stamps. Belt speeds keep their times.
     pub fn reported_path(&self, path: &Trajectory) -> Trajectory {
         let mut reported = Trajectory::default();
         let mut pose = None;

@@ -1,4 +1,4 @@
-//! What the hooks of an effect see.
+//! Arguments of the hooks of an effect.
 
 use crate::contact::pressure::Footprint;
 use crate::contact::quadrature::SlipSite;
@@ -7,7 +7,7 @@ use crate::pipeline::{Ground, Motion};
 use crate::vehicle::Vehicle;
 use trackdyn_core::{Scalar, Side};
 
-/// The vehicle, the ground and the motion.
+/// Vehicle, ground and motion.
 #[derive(Clone, Copy)]
 pub struct Situation<'a, S> {
     /// The vehicle.
@@ -21,7 +21,7 @@ pub struct Situation<'a, S> {
 }
 
 impl<S: Scalar> Situation<'_, S> {
-    /// Acceleration of the centre of gravity on its circle, ω × v, (x, y) in m/s²: all there is in
+    /// Centripetal acceleration of the centre of gravity, ω × v, (x, y) in m/s²: the only one in
     /// stationary motion.
     #[inline]
     pub fn steady_acceleration(&self) -> [S; 2] {
@@ -37,7 +37,7 @@ impl<S: Scalar> Situation<'_, S> {
 
 /// A point of the contact under one side.
 pub struct Site<'a, S> {
-    /// The vehicle, the ground and the motion.
+    /// Vehicle, ground and motion.
     pub situation: &'a Situation<'a, S>,
     /// The side.
     pub side: Side,

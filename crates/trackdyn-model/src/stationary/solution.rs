@@ -1,35 +1,35 @@
-//! What a solve returns.
+//! Result of a stationary solve.
 
 use super::{Linearised, Near};
 use crate::icr::Icrs;
 use trackdyn_core::{PerSide, Side, Twist};
 
-/// A stationary motion, or why there is none.
+/// A stationary motion, or the failure to find one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution {
-    /// What kind of motion it is; read it before the numbers.
+    /// Kind of motion; check it first.
     pub status: Status,
-    /// Track speeds as the encoders show them, m/s.
+    /// Encoder speeds of the tracks, m/s.
     pub track_speed: PerSide<f64>,
-    /// Speeds of the belts over the hull, m/s: the same, unless an effect acts between the two.
+    /// Belt speeds relative to the hull, m/s: equal to the encoders' unless an effect acts in
+    /// between.
     pub belt_speed: PerSide<f64>,
     /// Twist of the hull, paper's frame.
     pub twist: Twist,
-    /// The ICRs of the tracks by the speeds α V that odometry knows, which a belt that slips on its
-    /// sprocket does not reach; none where one track holds the robot, or both do. At equal speeds
-    /// of belts that do not slip they are the limit of a vanishing turn.
+    /// ICRs of the tracks for the speeds α V known to odometry, which a slipping belt does not
+    /// reach; none where one or both tracks hold the robot. For equal speeds of belts that do not
+    /// slip, the limit of a vanishing turn.
     pub icrs: Option<Icrs>,
-    /// Norm of the sum of forces over the weight and moments over weight times gauge.
+    /// Norm of force over weight and moment over weight times gauge.
     pub residual: f64,
-    /// Newton steps.
+    /// Number of Newton steps.
     pub iterations: usize,
-    /// Where a search for what a similar model does at these speeds starts; none where no
-    /// derivatives were found.
+    /// Start for a solve of a similar model at these speeds; none without an inverse Jacobian.
     pub linearised: Option<Linearised>,
 }
 
 impl Solution {
-    /// Where the search for a motion that is nearly this one starts; none where none was found.
+    /// Start for a solve of a similar motion; none without one.
     pub fn near(&self) -> Option<Near> {
         match self.status {
             Status::Turning | Status::Straight => self.icrs.map(Near::Turning),
@@ -42,24 +42,24 @@ impl Solution {
 /// Kind of stationary motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The robot turns, and both tracks slip about their ICRs.
+    /// The robot turns, and both tracks slip.
     Turning,
-    /// Both tracks stick, and the robot drives straight: the track speeds are equal, or belts that
-    /// slip on their sprockets take up the difference.
+    /// Both tracks stick, and the robot drives straight: the track speeds are equal, or slip of
+    /// belts on sprockets takes up the difference.
     Straight,
-    /// The track speeds differ, but this track holds the robot straight while the other one slips.
+    /// The track speeds differ, but this track holds the robot straight while the other slips.
     Holds(Side),
-    /// The forces balance only where part of the contact pulls: the patch lifts.
+    /// Forces balance only with negative pressure on part of the contact: a patch lifts.
     Lifts,
     /// No balance was found.
     NotConverged,
 }
 
 impl Status {
-    /// The kinds, in the order in which summaries list them.
+    /// Names of the kinds, in the order of summaries.
     pub const NAMES: [&'static str; 5] = ["turning", "straight", "held", "lifts", "not converged"];
 
-    /// Position in [`Status::NAMES`].
+    /// Index in [`Status::NAMES`].
     pub fn index(self) -> usize {
         match self {
             Self::Turning => 0,

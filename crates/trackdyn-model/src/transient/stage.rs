@@ -1,51 +1,50 @@
-//! One stage of a step: the balance of forces at the end of a short time.
+//! A stage of a step: the balance of forces at the end of a short interval.
 
 use crate::newton::{self, Convergence, Evaluation, Tolerance};
 use crate::{Balance, Ground, Model, Motion};
 use nalgebra::{SMatrix, SVector, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Twist};
 
-/// Tolerance of the residual over the weight: 10⁻⁹ of gravity is far below what moves a robot.
+/// Tolerance of the residual over the weight: 10⁻⁹ of gravity moves no robot.
 const TOLERANCE: Tolerance = Tolerance { converged: 1e-11, rounding: 1e-9 };
 
-/// Number of unknowns where belts follow their sprockets: the departure from straight driving at
-/// the left belt's speed.
+/// Number of unknowns without belt slip: departure of the twist from straight driving at the left
+/// belt's speed.
 const UNKNOWNS_WITHOUT_SLIP: usize = 3;
 
-/// Number of unknowns where belts slip on their sprockets: the traction of both sides over their
-/// normal load is unknown too.
+/// Number of unknowns with belt slip on the sprockets: also the traction of both sides over their
+/// normal load.
 const UNKNOWNS_WITH_SLIP: usize = 5;
 
-/// What is held fixed while the twist is sought.
+/// Fixed values of a stage.
 pub struct Stage<'a> {
     pub model: &'a Model,
     pub ground: &'a Ground,
-    /// Speeds of the sprockets, m/s.
+    /// Sprocket speeds, m/s.
     pub driven: PerSide<f64>,
-    /// Twist from which the acceleration counts, paper's frame.
+    /// Base twist u_b of the acceleration, paper's frame.
     pub base: Twist,
-    /// One over the time from there, 1/s; zero where there is no inertia.
+    /// 1/(γ h), 1/s; zero without inertia.
     pub per_second: f64,
     /// Slip velocity ε below which a track sticks, m/s.
     pub creep: f64,
 }
 
-/// A motion from which the search starts.
+/// Start of a solve.
 pub struct Start {
     pub twist: Twist,
-    /// Speeds of the belts that went with it, m/s.
+    /// Belt speeds at that motion, m/s.
     pub belt_speed: PerSide<f64>,
     /// Traction over normal load, forward positive.
     pub traction: PerSide<f64>,
-    /// What is known of the Jacobian there.
+    /// Inverse Jacobian at that motion, if known.
     pub inverse: Inverse,
 }
 
-/// Where the forces balance.
+/// A solved balance.
 pub struct Balanced {
     pub motion: Motion,
-    /// Traction over normal load, forward positive, of belts that slip on their sprockets; else
-    /// zero.
+    /// Traction over normal load, forward positive, with belt slip on the sprockets; else zero.
     pub traction: PerSide<f64>,
     pub inverse: Inverse,
 }
@@ -60,7 +59,7 @@ pub enum Inverse {
 }
 
 impl Stage<'_> {
-    /// Finds the motion in which the forces balance; none where the search ends elsewhere.
+    /// Solves the balance; none without convergence.
     pub fn solve(&self, start: &Start) -> Option<Balanced> {
         if self.model.drive().slip_per_traction == 0.0 {
             let known = if let Inverse::Firm(known) = start.inverse { Some(known) } else { None };
@@ -83,7 +82,7 @@ impl Stage<'_> {
         found.is_root.then(|| Balanced { motion, traction: traction(&z), inverse })
     }
 
-    /// Starts from where the search is told to; then from tracks that stick.
+    /// Solves from the given start, then from turning and sticking tracks.
     fn search<const N: usize>(
         &self,
         start: &Start,
@@ -108,8 +107,7 @@ impl Stage<'_> {
         if let Some(near) = near {
             return near;
         }
-        // Stick in the direction in which the robot slid before; of a robot that did not, held
-        // back.
+        // Nearly stick, in the direction of the previous slip; without one, against the motion.
         let slid = follows.norm();
         let sticks = if slid > 0.0 {
             follows * (self.creep / slid.max(self.creep))
@@ -130,8 +128,8 @@ impl Stage<'_> {
         newton::first_root(ends, |end| end).expect("several starts were tried")
     }
 
-    /// A turn at this difference of the belt speeds, about a point a quarter of the contact length
-    /// outside the slower track's centre-line.
+    /// A turn with this difference of belt speeds (m/s), about a point a quarter of the contact
+    /// length outside the slower track's centre-line.
     fn turning(&self, difference: f64) -> Vector3<f64> {
         let [rear, front] = self.model.footprint().ends;
         let x = self.model.vehicle().gauge / 2.0 + (front - rear) / 4.0;
@@ -156,8 +154,8 @@ impl Stage<'_> {
         Motion::departing(belt_speed, departure, acceleration, self.model.extent())
     }
 
-    /// Force over weight and moment over weight times gauge. Where belts slip, also the difference
-    /// of friction and traction of each side, over the weight.
+    /// Residual: force over weight and moment over weight times gauge. With belt slip, also
+    /// friction minus traction of each side, over the weight.
     #[inline]
     fn residual<S: Scalar, const N: usize>(&self, z: [S; N]) -> [S; N] {
         let motion = self.motion(&z);
@@ -176,15 +174,14 @@ impl Stage<'_> {
     }
 }
 
-/// Traction of each side over its normal load, by the unknowns; zero where they do not hold it.
+/// Traction of each side over its normal load in the unknowns; zero where it is none of them.
 #[inline]
 fn traction<S: Scalar, const N: usize>(z: &[S; N]) -> PerSide<S> {
     let at = |k: usize| z.get(k).copied().unwrap_or(S::from(0.0));
     PerSide::new(at(UNKNOWNS_WITHOUT_SLIP), at(UNKNOWNS_WITHOUT_SLIP + 1))
 }
 
-/// The forces on the body with the friction of tracks that stick below the slip velocity `creep`,
-/// m/s.
+/// Forces on the body, with friction regularised below the slip velocity `creep`, m/s.
 #[inline]
 pub fn gripping<S: Scalar>(
     model: &Model,
@@ -199,7 +196,7 @@ pub fn gripping<S: Scalar>(
     Balance { friction, ..balance }
 }
 
-/// Share of its friction that a side with the root mean square slip σ (m/s) has.
+/// Regularisation factor of friction at the root mean square slip σ, m/s.
 #[inline]
 fn grip<S: Scalar>(slip: S, creep: f64) -> S {
     // σ/√(σ² + ε²)

@@ -1,10 +1,10 @@
-//! What a vehicle must satisfy.
+//! Validity of a vehicle's values.
 
 use crate::contact::pressure::Footprint;
 use crate::vehicle::{RunningGear, Vehicle};
 use trackdyn_core::Side;
 
-/// A value of a vehicle that cannot be.
+/// An invalid value of a vehicle.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{key} = {value}: expected {expected}")]
 pub struct VehicleError {
@@ -12,16 +12,16 @@ pub struct VehicleError {
     pub key: &'static str,
     /// The value.
     pub value: String,
-    /// What was expected.
+    /// Expected values.
     pub expected: String,
 }
 
 impl Vehicle {
-    /// Checks all values, and that the vehicle stands on the whole of its running gear.
+    /// Checks all values, and that the pressure is positive on the whole contact.
     ///
     /// # Errors
-    /// The first value that cannot be; for a centre of gravity outside the limits the error says
-    /// which end or side lifts.
+    /// The first invalid value; for a centre of gravity outside the limits, the error names the end
+    /// or side that lifts.
     pub fn check(&self) -> Result<(), VehicleError> {
         positive("mass_kg", self.mass, "a positive mass in kg")?;
         positive("gauge_m", self.gauge, "a positive distance between the track centre-lines in m")?;

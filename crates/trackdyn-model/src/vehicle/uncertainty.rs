@@ -1,11 +1,10 @@
-//! How well the values of a vehicle are known.
+//! Measurement uncertainties of a vehicle's values.
 
 use crate::vehicle::VehicleError;
 
-/// Standard deviations of the values of a vehicle that were measured; none where they are not
-/// known.
+/// Standard deviations of measured values of a vehicle; none where unknown.
 ///
-/// Zero says that a value is exact.
+/// Zero means exact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Uncertainty {
     /// Of the mass, kg.
@@ -61,7 +60,7 @@ mod tests {
     use crate::VehicleFile;
     use trackdyn_core::document::Document;
 
-    /// Auriga-alpha as the program writes it, with deviations.
+    /// Auriga-alpha as written by the program, with deviations.
     const MEASURED: &str = r#"schema = "trackdyn.vehicle/1"
 name = "Auriga-alpha"
 mass_kg = 258.0
@@ -96,7 +95,7 @@ mu_y_sd = 0.1
             Uncertainty { mass: Some(0.5), gauge: Some(0.0), cog: Some([0.005, 0.01]), friction }
         );
         assert_eq!(file.to_toml(), MEASURED);
-        // Each key stands for itself.
+        // Keys are independent of each other.
         for line in MEASURED.split_inclusive('\n').filter(|line| line.contains("_sd")) {
             let text = MEASURED.replace(line, "");
             assert_eq!(read(&text).expect("a vehicle").to_toml(), text);

@@ -30,7 +30,7 @@ macro_rules! coefficients {
         $key:literal $component:ident $(($axis:expr))?, $sign:ident,
         $argument:ident $(($times:expr))?, $typical:ident, $meaning:literal;
     )+) => {
-        /// What each coefficient multiplies.
+        /// Factor of each coefficient.
         pub(super) const FACTORS: &[Factor] = &[$(Factor {
             component: Component::$component $(($axis))?,
             sign: Sign::$sign,

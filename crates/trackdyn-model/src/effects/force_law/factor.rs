@@ -1,4 +1,4 @@
-//! What a coefficient of the law multiplies, and which symmetries that breaks.
+//! Factor of a coefficient of the force law, and the symmetries that it breaks.
 
 use crate::effect::{Pairing, Parameter, Symmetry, Term};
 use crate::pipeline::Situation;
@@ -27,16 +27,16 @@ pub(super) enum Component {
     Spring,
 }
 
-/// A sign of the belt speeds.
+/// A sign of the belt speeds, as a factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Sign {
     /// One.
     Any,
-    /// That of V_l + V_r.
+    /// Sign of V_l + V_r.
     Along,
-    /// That of V_r − V_l.
+    /// Sign of V_r − V_l.
     Turning,
-    /// Both.
+    /// Product of both.
     Both,
 }
 
@@ -71,7 +71,7 @@ pub(super) enum Argument {
     Time,
 }
 
-/// What makes quantities dimensionless.
+/// Scales that make quantities dimensionless.
 pub(super) struct Scales {
     /// ℓ, m.
     pub length: f64,
@@ -79,7 +79,7 @@ pub(super) struct Scales {
     pub time: f64,
 }
 
-/// The situation in dimensionless numbers.
+/// Motion, heading, place and time in dimensionless numbers.
 pub(super) struct Arguments<S> {
     speed: S,
     rate: S,
@@ -114,7 +114,7 @@ fn sign(value: f64) -> f64 {
 }
 
 impl Factor {
-    /// The dimensionless number.
+    /// Value of the function.
     pub(super) fn value<S: Scalar>(&self, of: &Arguments<S>) -> S {
         let &Arguments { speed, rate, heading, .. } = of;
         let argument = match self.argument {
@@ -142,9 +142,9 @@ impl Factor {
             }
     }
 
-    /// Whether it changes its sign with all speeds, and with sides.
+    /// Whether the factor is odd under reversal, and under mirroring.
     ///
-    /// Both speeds and ω are odd under reversal; ω and the sense of the turn are odd in the mirror.
+    /// Speeds and ω are odd under reversal; ω and the sense of turning are odd under mirroring.
     fn is_odd(&self) -> [bool; 2] {
         let sign = match self.sign {
             Sign::Any => [false, false],
@@ -163,9 +163,9 @@ impl Factor {
 
     /// Invariances of the ICRs that it breaks, ascending.
     ///
-    /// Friction changes its sign with the speeds and knows nothing of their size: reversal stays
-    /// whole where the force is odd, the speed scale where it is of degree zero. In the mirror
-    /// sideways force and moment change their signs, forward force does not.
+    /// Friction changes sign with the speeds and does not depend on their magnitude: reversal is
+    /// kept if the force is odd, the speed scale if it is of degree zero. Mirroring changes the
+    /// sign of lateral force and moment, not of forward force.
     fn breaks(&self) -> Vec<Symmetry> {
         let [reversed, mirrored] = self.is_odd();
         let in_world = matches!(self.component, Component::World(_) | Component::Spring);
@@ -194,7 +194,7 @@ impl Factor {
         Symmetry::ALL.into_iter().filter(broken).collect()
     }
 
-    /// What the component goes with, in letters; sine and cosine are left to the pairing.
+    /// The factor as text; sine and cosine are left to the pairing.
     fn words(&self) -> String {
         let sign = match self.sign {
             Sign::Any => "",
@@ -217,8 +217,7 @@ impl Factor {
     }
 }
 
-/// The terms of all coefficients: cosine and sine of a heading, and the axes of the world, belong
-/// together.
+/// Terms of all coefficients. Cosine and sine of a heading, and the axes of the world, form pairs.
 pub(super) fn terms(factors: &[Factor], parameters: &'static [Parameter]) -> Vec<Term> {
     let mut terms = Vec::new();
     for (k, factor) in factors.iter().enumerate() {

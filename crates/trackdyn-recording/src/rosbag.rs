@@ -3,7 +3,8 @@
 //! Track speeds come from `sensor_msgs/JointState`, poses from `nav_msgs/Odometry`,
 //! `geometry_msgs/PoseStamped`, `PoseWithCovarianceStamped`, `TransformStamped` or
 //! `tf2_msgs/TFMessage`, readings of the IMU from `sensor_msgs/Imu`. The layouts of these types are
-//! known here: the message definitions in the bag do not matter. All of a bag is one run.
+//! known here: the message definitions in the bag do not matter. All of a bag is one run, but for
+//! clocks that begin anew, as in a simulation: each time begins a run.
 //!
 //! Positions of joints that wrap after a turn are unwrapped. Where both frames are named and no
 //! topic has their poses, these are composed along a chain of transforms, such as map → odom →
@@ -15,6 +16,7 @@ use std::path::Path;
 
 mod cdr;
 mod chain;
+mod clock;
 mod collector;
 mod date;
 mod frames;
@@ -22,6 +24,7 @@ mod inspection;
 mod joints;
 mod mcap_file;
 mod message;
+mod names;
 mod options;
 mod sqlite_file;
 mod storage;
@@ -30,7 +33,7 @@ mod visitor;
 
 pub use inspection::{Inspection, TopicSummary, inspect};
 pub(crate) use message::yaw_of_quaternion;
-pub use options::{JointSignal, RosbagOptions};
+pub use options::{Dating, JointSignal, RosbagOptions};
 pub(crate) use storage::is_bag;
 pub use topic::Role;
 
@@ -52,5 +55,5 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
         path: Some(path.to_owned()),
         epoch_ns: Some(collected.epoch_ns),
     };
-    Recording::new(name, "unknown", vec![collected.run], source, warnings)
+    Recording::new(name, "unknown", collected.runs, source, warnings)
 }

@@ -10,9 +10,10 @@
 //! topic has their poses, these are composed along a chain of transforms, such as map → odom →
 //! base_link.
 
-use crate::recording::{Recording, Source};
+use crate::recording::{Doubt, Recording, Source};
 use crate::{Error, Format};
 use std::path::Path;
+use trackdyn_core::{PerSide, Side};
 
 mod cdr;
 mod chain;
@@ -55,5 +56,39 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
         path: Some(path.to_owned()),
         epoch_ns: Some(collected.epoch_ns),
     };
+    let joints = collected.joints;
     Recording::new(name, "unknown", collected.runs, source, warnings)
+        .map_err(|error| with_options(error, &joints))
+}
+
+/// An error with the options that help, by the joints of each side as they were taken.
+fn with_options(error: Error, joints: &PerSide<Vec<String>>) -> Error {
+    let Error::Contradiction { path, doubt, remedy } = error else { return error };
+    let option = |side: Side, names: &[String], reversed: bool| {
+        let word = names::word(side);
+        let name = |name: &String| match (reversed, name.strip_prefix('-')) {
+            (true, Some(bare)) => format!("--{word}-joint {bare}"),
+            (true, None) => format!("--{word}-joint -{name}"),
+            (false, _) => format!("--{word}-joint {name}"),
+        };
+        names.iter().map(name).collect::<Vec<_>>().join(" ")
+    };
+    let [left, right] = Side::BOTH.map(|side| (side, joints[side].as_slice()));
+    let remedy = match doubt {
+        Doubt::Reversed(side) => {
+            format!("reverse it by {}", option(side, &joints[side], true))
+        }
+        Doubt::BothReversed => format!(
+            "reverse them by {} {}, or choose poses whose x axis points forward",
+            option(left.0, left.1, true),
+            option(right.0, right.1, true)
+        ),
+        Doubt::Swapped => format!(
+            "swap the sides by {} {}, or choose poses whose z axis points up",
+            option(left.0, right.1, false),
+            option(right.0, left.1, false)
+        ),
+        _ => remedy,
+    };
+    Error::Contradiction { path, doubt, remedy }
 }

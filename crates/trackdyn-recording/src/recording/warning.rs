@@ -38,6 +38,11 @@ pub enum Warning {
         /// Their source.
         poses: String,
     },
+    /// Poses with a yaw alone.
+    PositionsUnknown {
+        /// Runs whose positions are not known.
+        runs: usize,
+    },
     /// Messages that are not what their type says, or lack what is needed.
     MessagesSkipped {
         /// Their topic.
@@ -217,6 +222,11 @@ impl fmt::Display for Warning {
                 f,
                 "{poses}: if it comes from the tracks themselves, it agrees with any model of \
                  them: poses have to come from something else"
+            ),
+            Self::PositionsUnknown { runs } => write!(
+                f,
+                "poses: in {runs} runs x and y are empty, or never change while the tracks travel: \
+                 positions are not known, only yaw counts"
             ),
             Self::MessagesSkipped { topic, count, reason } => {
                 write!(f, "{topic}: {count} messages skipped, the first because {reason}")

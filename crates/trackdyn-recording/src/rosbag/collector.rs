@@ -14,6 +14,7 @@ use crate::Error;
 use crate::recording::{UncheckedRun, Warning};
 use std::collections::BTreeMap;
 use std::path::Path;
+use trackdyn_core::PerSide;
 
 mod alike;
 mod choice;
@@ -55,6 +56,8 @@ pub(super) struct Collected {
     pub(super) runs: Vec<UncheckedRun>,
     /// Unix time of t = 0, ns.
     pub(super) epoch_ns: i64,
+    /// Joints of each side as they were taken, with a `-` where they are reversed.
+    pub(super) joints: PerSide<Vec<String>>,
     /// What was chosen, dated or skipped.
     pub(super) warnings: Vec<Warning>,
 }

@@ -148,7 +148,15 @@ pub(super) fn runs(
         let (poses, imu) = (poses.collect::<Vec<_>>().into(), imu.collect::<Vec<_>>().into());
         runs.push(UncheckedRun { id, tracks, poses, imu });
     }
-    Ok(Collected { runs, epoch_ns, warnings })
+    let names = PerSide::from_fn(|side| {
+        let of_side = chosen.joints.iter().filter(|joint| joint.side == side);
+        let name = |joint: &Joint| match joint.sign {
+            sign if sign < 0.0 => format!("-{}", joint.name),
+            _ => joint.name.clone(),
+        };
+        of_side.map(name).collect()
+    });
+    Ok(Collected { runs, epoch_ns, joints: names, warnings })
 }
 
 /// The values of a run.

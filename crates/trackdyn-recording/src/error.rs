@@ -1,5 +1,6 @@
 //! What can go wrong with a recording.
 
+use crate::recording::Doubt;
 use std::path::PathBuf;
 use trackdyn_core::document::DocumentError;
 use trackdyn_core::output::OutputError;
@@ -99,6 +100,16 @@ pub enum Error {
         problem: String,
         /// Topics with their types.
         available: String,
+    },
+    /// Tracks and poses that contradict each other.
+    #[error("{}: {doubt}: {remedy}", path.display())]
+    Contradiction {
+        /// The file or folder.
+        path: PathBuf,
+        /// What contradicts what.
+        doubt: Doubt,
+        /// What is expected, and which option helps.
+        remedy: String,
     },
     /// A run that the recording does not have.
     #[error("run {run} is not in the recording: expected {expected}")]

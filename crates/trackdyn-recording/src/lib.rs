@@ -24,6 +24,6 @@ pub mod tum;
 pub use error::Error;
 pub use format::read;
 pub use operating_points::{OperatingPoint, OperatingPoints};
-pub use recording::{Format, Recording, Run, Source, StatedNoise, UncheckedRun, Warning};
+pub use recording::{Doubt, Format, Recording, Run, Source, StatedNoise, UncheckedRun, Warning};
 pub use sample::{ImuSample, PoseSample, Series, TrackSample};
 pub use selection::RunList;

@@ -5,13 +5,17 @@ use std::path::PathBuf;
 
 mod cleaning;
 mod content;
+mod doubt;
+mod positions;
 mod run;
 mod source;
 mod spikes;
+mod stretches;
 mod warning;
 
 pub use cleaning::MIN_GAP_RATIO;
 pub(crate) use cleaning::clean;
+pub use doubt::Doubt;
 pub use run::{Run, UncheckedRun};
 pub use source::{Format, Source};
 pub use warning::{Cleaning, Finding, Warning};
@@ -53,7 +57,8 @@ impl Recording {
     /// is left out, with a warning.
     ///
     /// # Errors
-    /// [`Error::Empty`] when no run is left.
+    /// [`Error::Empty`] when no run is left, [`Error::Contradiction`] when tracks and poses that were
+    /// read from files contradict each other.
     pub fn new(
         name: impl Into<String>,
         robot: impl Into<String>,
@@ -64,7 +69,19 @@ impl Recording {
         let name = name.into();
         let mut cleanings = Vec::new();
         let mut kept: Vec<Run> = Vec::with_capacity(runs.len());
+        let path = source.path.clone().unwrap_or_else(|| PathBuf::from(&name));
+        // What is computed is meant as it is.
+        let is_read = source.format != Format::Memory;
+        let contradiction = |doubt: Doubt| {
+            let (path, remedy) = (path.clone(), doubt.remedy());
+            Error::Contradiction { path, doubt, remedy }
+        };
+        let mut without_yaw = 0;
         for run in runs {
+            if let Some(doubt) = doubt::of_rows(&run).filter(|_| is_read) {
+                return Err(contradiction(doubt));
+            }
+            without_yaw += run.poses.samples.iter().filter(|row| lacks_yaw(row)).count();
             let run = Run::new(run, &mut cleanings);
             if run.is_usable() {
                 kept.push(run);
@@ -77,13 +94,27 @@ impl Recording {
             }
         }
         if kept.is_empty() {
-            let path = source.path.clone().unwrap_or_else(|| PathBuf::from(&name));
             let found = warning::gather(cleanings).into_iter().map(|one| format!("; {one}"));
             let found: String = found.collect();
-            let message = format!("no run with track speeds and at least two poses{found}");
+            let orientation = match without_yaw {
+                0 => String::new(),
+                count => format!(
+                    "; {count} poses have a position and no orientation (a quaternion of zeros, or \
+                     an empty yaw): expected poses with a yaw; of a bag, --pose-topic chooses others"
+                ),
+            };
+            let message =
+                format!("no run with track speeds and at least two poses{orientation}{found}");
             return Err(Error::Empty { path, message });
         }
+        if let Some(doubt) = doubt::of_runs(&kept).filter(|_| is_read) {
+            return Err(contradiction(doubt));
+        }
         kept.sort_by_key(Run::id);
+        let runs = kept.iter().filter(|run| !run.has_positions()).count();
+        if runs > 0 {
+            warnings.push(Warning::PositionsUnknown { runs });
+        }
         warnings.extend(warning::gather(cleanings).into_iter().map(Warning::Cleaned));
         let fingerprint = content::fingerprint(&kept);
         let pose_fingerprint = content::pose_fingerprint(&kept);
@@ -126,6 +157,11 @@ impl Recording {
         Self { runs, ..self.clone() }
     }
 
+    /// Whether the positions of all poses are known; where they are not, only yaw was measured.
+    pub fn has_positions(&self) -> bool {
+        self.runs.iter().all(Run::has_positions)
+    }
+
     /// Pose noise as its maker states it.
     pub fn stated_noise(&self) -> Option<StatedNoise> {
         self.stated_noise
@@ -156,4 +192,9 @@ impl Recording {
     pub fn duration(&self) -> f64 {
         self.runs.iter().map(Run::duration).sum()
     }
+}
+
+/// Whether a pose has a position and no orientation.
+fn lacks_yaw(row: &crate::sample::PoseSample) -> bool {
+    row.pose.x.is_finite() && row.pose.y.is_finite() && row.pose.yaw.is_nan()
 }

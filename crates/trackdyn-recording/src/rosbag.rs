@@ -3,18 +3,21 @@
 //! Track speeds come from `sensor_msgs/JointState`, poses from `nav_msgs/Odometry`,
 //! `geometry_msgs/PoseStamped`, `PoseWithCovarianceStamped`, `TransformStamped` or
 //! `tf2_msgs/TFMessage`, readings of the IMU from `sensor_msgs/Imu`. The layouts of these types are
-//! known here: the message definitions in the bag do not matter. All of a bag is one run.
+//! known here: the message definitions in the bag do not matter. All of a bag is one run, but for
+//! clocks that begin anew, as in a simulation: each time begins a run.
 //!
 //! Positions of joints that wrap after a turn are unwrapped. Where both frames are named and no
 //! topic has their poses, these are composed along a chain of transforms, such as map → odom →
 //! base_link.
 
-use crate::recording::{Recording, Source};
+use crate::recording::{Doubt, Recording, Source};
 use crate::{Error, Format};
 use std::path::Path;
+use trackdyn_core::{PerSide, Side};
 
 mod cdr;
 mod chain;
+mod clock;
 mod collector;
 mod date;
 mod frames;
@@ -22,6 +25,7 @@ mod inspection;
 mod joints;
 mod mcap_file;
 mod message;
+mod names;
 mod options;
 mod sqlite_file;
 mod storage;
@@ -30,7 +34,7 @@ mod visitor;
 
 pub use inspection::{Inspection, TopicSummary, inspect};
 pub(crate) use message::yaw_of_quaternion;
-pub use options::{JointSignal, RosbagOptions};
+pub use options::{Dating, JointSignal, RosbagOptions};
 pub(crate) use storage::is_bag;
 pub use topic::Role;
 
@@ -52,5 +56,39 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
         path: Some(path.to_owned()),
         epoch_ns: Some(collected.epoch_ns),
     };
-    Recording::new(name, "unknown", vec![collected.run], source, warnings)
+    let joints = collected.joints;
+    Recording::new(name, "unknown", collected.runs, source, warnings)
+        .map_err(|error| with_options(error, &joints))
+}
+
+/// An error with the options that help, by the joints of each side as they were taken.
+fn with_options(error: Error, joints: &PerSide<Vec<String>>) -> Error {
+    let Error::Contradiction { path, doubt, remedy } = error else { return error };
+    let option = |side: Side, names: &[String], reversed: bool| {
+        let word = names::word(side);
+        let name = |name: &String| match (reversed, name.strip_prefix('-')) {
+            (true, Some(bare)) => format!("--{word}-joint {bare}"),
+            (true, None) => format!("--{word}-joint -{name}"),
+            (false, _) => format!("--{word}-joint {name}"),
+        };
+        names.iter().map(name).collect::<Vec<_>>().join(" ")
+    };
+    let [left, right] = Side::BOTH.map(|side| (side, joints[side].as_slice()));
+    let remedy = match doubt {
+        Doubt::Reversed(side) => {
+            format!("reverse it by {}", option(side, &joints[side], true))
+        }
+        Doubt::BothReversed => format!(
+            "reverse them by {} {}, or choose poses whose x axis points forward",
+            option(left.0, left.1, true),
+            option(right.0, right.1, true)
+        ),
+        Doubt::Swapped => format!(
+            "swap the sides by {} {}, or choose poses whose z axis points up",
+            option(left.0, right.1, false),
+            option(right.0, left.1, false)
+        ),
+        _ => remedy,
+    };
+    Error::Contradiction { path, doubt, remedy }
 }

@@ -1,6 +1,7 @@
 //! A continuous part of a recording.
 
 use super::cleaning::{clean, held, unwrap_yaw};
+use super::positions::settle;
 use super::spikes::mend;
 use super::warning::Cleaning;
 use crate::sample::{ImuSample, PoseSample, Series, TrackSample};
@@ -25,18 +26,31 @@ pub struct Run {
     tracks: Series<TrackSample>,
     poses: Series<PoseSample>,
     imu: Series<ImuSample>,
+    has_positions: bool,
 }
 
 impl Run {
     /// Cleans the rows; `cleanings` takes what was found.
     pub fn new(mut rows: UncheckedRun, cleanings: &mut Vec<Cleaning>) -> Self {
+        let has_positions = settle(&mut rows);
         clean(&mut rows.tracks, rows.id, cleanings);
         clean(&mut rows.poses, rows.id, cleanings);
         clean(&mut rows.imu, rows.id, cleanings);
         mend(&mut rows.tracks.samples, rows.id, cleanings);
         held(&rows.poses.samples, &rows.tracks.samples, rows.id, cleanings);
         unwrap_yaw(&mut rows.poses.samples, rows.id, cleanings);
-        Self { id: rows.id, tracks: rows.tracks, poses: rows.poses, imu: rows.imu }
+        Self { id: rows.id, tracks: rows.tracks, poses: rows.poses, imu: rows.imu, has_positions }
+    }
+
+    /// This run with positions as well known as those of the run that it is a part of.
+    pub(crate) fn as_part_of(self, whole: &Self) -> Self {
+        Self { has_positions: whole.has_positions, ..self }
+    }
+
+    /// Whether the positions of its poses are known. Where they are not, x and y are 0 throughout
+    /// and only yaw was measured.
+    pub fn has_positions(&self) -> bool {
+        self.has_positions
     }
 
     /// Whether it has readings, and poses enough for a motion.

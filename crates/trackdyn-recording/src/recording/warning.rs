@@ -38,6 +38,11 @@ pub enum Warning {
         /// Their source.
         poses: String,
     },
+    /// Poses with a yaw alone.
+    PositionsUnknown {
+        /// Runs whose positions are not known.
+        runs: usize,
+    },
     /// Messages that are not what their type says, or lack what is needed.
     MessagesSkipped {
         /// Their topic.
@@ -53,6 +58,28 @@ pub enum Warning {
         topic: String,
         /// How many.
         count: u64,
+    },
+    /// Clocks of two topics that differ by more than messages are late.
+    ClocksDiffer {
+        /// The topics.
+        topics: [String; 2],
+        /// Median by which stamps of the second are later against their logging than those of the
+        /// first, s.
+        offset: f64,
+        /// Whether all messages were dated by their logging instead.
+        by_log: bool,
+    },
+    /// A clock that was set in the middle: all messages were dated by their logging.
+    ClockSet {
+        /// The topic.
+        topic: String,
+    },
+    /// Stamps that step back and go on from there, as a simulation does that is reset.
+    ClockReset {
+        /// The topic.
+        topic: String,
+        /// Runs that come of it.
+        runs: usize,
     },
     /// A joint that is reported modulo a turn: whole turns were added.
     TurnsAdded {
@@ -208,12 +235,49 @@ impl fmt::Display for Warning {
                 "{poses}: if it comes from the tracks themselves, it agrees with any model of \
                  them: poses have to come from something else"
             ),
+            Self::PositionsUnknown { runs } => write!(
+                f,
+                "poses: in {runs} runs x and y are empty, or never change while the tracks travel: \
+                 positions are not known, only yaw counts"
+            ),
             Self::MessagesSkipped { topic, count, reason } => {
                 write!(f, "{topic}: {count} messages skipped, the first because {reason}")
             }
             Self::LogTime { topic, count } => {
                 write!(f, "{topic}: {count} messages without a stamp, dated by their logging")
             }
+            Self::ClocksDiffer { topics: [first, second], offset, by_log } => {
+                let order = if *offset < 0.0 { "earlier" } else { "later" };
+                write!(
+                    f,
+                    "clocks: by the log, stamps of {second} are {:.3} s {order} than those of \
+                     {first}: ",
+                    offset.abs()
+                )?;
+                if *by_log {
+                    write!(
+                        f,
+                        "clocks of their own, so all is dated by its logging (--dated-by header \
+                         keeps the stamps)"
+                    )
+                } else {
+                    write!(
+                        f,
+                        "taken for a delay, so the stamps are kept (--dated-by log, or --tau, if \
+                         the clocks differ)"
+                    )
+                }
+            }
+            Self::ClockSet { topic } => write!(
+                f,
+                "{topic}: its clock was set while it was logged, so all is dated by its logging \
+                 (--dated-by header keeps the stamps)"
+            ),
+            Self::ClockReset { topic, runs } => write!(
+                f,
+                "{topic}: stamps step back and go on from there, as after the reset of a \
+                 simulation: {runs} runs"
+            ),
             Self::TurnsAdded { joint, count } => {
                 write!(f, "{joint}: its position wraps ({count} times), whole turns added")
             }

@@ -2,9 +2,10 @@
 
 use super::cdr::Cdr;
 use super::chain;
-use super::date::{Received, Stamped, dated};
+use super::clock::{By, Clock, decide};
+use super::date::{Received, Stamped};
 use super::frames::{Frames, same_frame};
-use super::joints::{Joints, Reading};
+use super::joints::Joints;
 use super::message::{header, imu, planar_pose};
 use super::options::RosbagOptions;
 use super::topic::{Layout, Role, Topic};
@@ -13,19 +14,26 @@ use crate::Error;
 use crate::recording::{UncheckedRun, Warning};
 use std::collections::BTreeMap;
 use std::path::Path;
+use trackdyn_core::PerSide;
 
+mod alike;
 mod choice;
+mod joint;
+mod merge;
+mod publishers;
+mod signal;
 mod speeds;
+mod tracks;
 mod turns;
 
 use choice::Sources;
+use speeds::Streams;
 
 /// What the messages of a bag say, kept by source until it is clear which one to use.
 pub(super) struct Collector<'a> {
     options: &'a RosbagOptions,
     joints: Joints,
     seen: Vec<Topic>,
-    readings: BTreeMap<String, Vec<Received<Reading>>>,
     poses: BTreeMap<PoseKey, Vec<Received<[f64; 3]>>>,
     imu: BTreeMap<String, Vec<Received<[f64; 3]>>>,
     /// What the transforms of all topics link.
@@ -42,12 +50,14 @@ struct PoseKey {
     child: String,
 }
 
-/// A run and how it came about.
+/// Runs and how they came about.
 pub(super) struct Collected {
     /// The rows; t = 0 at `epoch_ns`.
-    pub(super) run: UncheckedRun,
+    pub(super) runs: Vec<UncheckedRun>,
     /// Unix time of t = 0, ns.
     pub(super) epoch_ns: i64,
+    /// Joints of each side as they were taken, with a `-` where they are reversed.
+    pub(super) joints: PerSide<Vec<String>>,
     /// What was chosen, dated or skipped.
     pub(super) warnings: Vec<Warning>,
 }
@@ -58,7 +68,6 @@ impl<'a> Collector<'a> {
             options,
             joints: Joints::new(options),
             seen: Vec::new(),
-            readings: BTreeMap::new(),
             poses: BTreeMap::new(),
             imu: BTreeMap::new(),
             frames: Frames::default(),
@@ -66,29 +75,50 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// Chooses among the sources and makes the run.
+    /// Chooses among the sources and makes the runs.
     pub(super) fn finish(self, path: &Path) -> Result<Collected, Error> {
         let mut warnings = Vec::new();
-        let readings = all_dated(self.readings, String::as_str, &mut warnings);
-        let poses = all_dated(self.poses, |key| &key.topic, &mut warnings);
-        let imu = all_dated(self.imu, String::as_str, &mut warnings);
         for (topic, (count, reason)) in &self.skipped {
             let (topic, reason) = (topic.clone(), reason.clone());
             warnings.push(Warning::MessagesSkipped { topic, count: *count, reason });
         }
         let sources = Sources { path, options: self.options, seen: &self.seen };
-        let readings = sources.tracks(readings, &self.skipped, &mut warnings)?;
-        let poses = match (self.options.frames(), poses.is_empty()) {
+        let chosen = sources.tracks(self.joints.into_sources(), &self.skipped, &mut warnings)?;
+        let (poses, pose_topic, chained) = match (self.options.frames(), self.poses.is_empty()) {
             (Some(ends), true) if !self.frames.is_empty() => {
                 let chain = chain::read(path, self.options, &self.frames, ends)?;
                 warnings.extend(chain.warnings);
-                chain.poses
+                (Vec::new(), String::new(), Some(chain.poses))
             }
-            _ => sources.poses(poses, &mut warnings)?,
+            _ => {
+                let (topic, poses) = sources.poses(self.poses, &mut warnings)?;
+                (poses, topic, None)
+            }
         };
-        let imu = sources.imu(imu, &mut warnings)?;
-        warnings.extend(self.joints.guessed());
-        speeds::run(path, self.options, self.joints.met(), readings, poses, imu, warnings)
+        let (imu_topic, imu) = sources.imu(self.imu, &mut warnings)?;
+        // Clocks of the tracks come first: others are compared with them.
+        let mut clocks: Vec<Clock> = Vec::new();
+        for joint in &chosen.joints {
+            if clocks.iter().all(|clock| clock.topic != joint.topic) {
+                let of_topic = chosen.joints.iter().filter(|other| other.topic == joint.topic);
+                let most = of_topic.map(|joint| &joint.signals).max_by_key(|all| all.len());
+                clocks.extend(most.map(|all| Clock::of(&joint.topic, all.iter())));
+            }
+        }
+        clocks.push(Clock::of(&pose_topic, poses.iter()));
+        clocks.push(Clock::of(&imu_topic, imu.iter()));
+        let by = match &chained {
+            // Poses of a chain stand at the stamps of its links.
+            Some(_) => By::Header,
+            None => {
+                let (by, told) = decide(&clocks, self.options.dated_by);
+                warnings.extend(told);
+                by
+            }
+        };
+        warnings.extend(clocks.iter().flat_map(|clock| clock.warnings(by)));
+        let streams = Streams { chosen, poses, pose_topic, chained, imu, imu_topic };
+        speeds::runs(path, self.options, &clocks, by, streams, warnings)
     }
 
     fn keep_pose(&mut self, topic: &Topic, frames: [&str; 2], received: Received<[f64; 3]>) {
@@ -126,8 +156,8 @@ impl<'a> Collector<'a> {
         match layout {
             Layout::JointState => {
                 let stamp_ns = header(&mut cdr).map_err(decode)?.stamp_ns;
-                let value = self.joints.reading(&mut cdr).map_err(|error| error.to_string())?;
-                push(&mut self.readings, &topic.name, Received { stamp_ns, log_ns, value });
+                let received = Received { stamp_ns, log_ns, value: () };
+                self.joints.take(&topic.name, received, &mut cdr).map_err(decode)?;
             }
             Layout::Imu => {
                 let stamp_ns = header(&mut cdr).map_err(decode)?.stamp_ns;
@@ -163,20 +193,6 @@ impl<'a> Collector<'a> {
         self.keep_pose(topic, [header.frame, child], received);
         Ok(())
     }
-}
-
-/// All series with their dates; `topic` names the topic of a key.
-fn all_dated<K: Ord, T>(
-    series: BTreeMap<K, Vec<Received<T>>>,
-    topic: impl Fn(&K) -> &str,
-    warnings: &mut Vec<Warning>,
-) -> BTreeMap<K, Vec<Stamped<T>>> {
-    let dates = series.into_iter().map(|(key, received)| {
-        let (dated, warning) = dated(topic(&key), received);
-        warnings.extend(warning);
-        (key, dated)
-    });
-    dates.collect()
 }
 
 /// Appends without making a new key where there is one.

@@ -12,6 +12,7 @@ use crate::Error;
 use crate::recording::Warning;
 use std::collections::BTreeMap;
 use std::path::Path;
+use trackdyn_core::Side;
 
 /// Contents of a bag.
 #[derive(Clone, Debug, PartialEq)]
@@ -183,15 +184,14 @@ fn suggest(topics: &[TopicSummary]) -> RosbagOptions {
         _ => None,
     };
     let tracks = only(of(Role::Tracks).collect());
-    let side = |word: &str| {
+    let side = |side: Side| {
         let named = topics.iter().find(|topic| Some(&topic.name) == tracks.as_ref());
-        let joints = named.map(|topic| topic.joints.as_slice()).unwrap_or_default();
-        joints.iter().filter(|joint| joint.to_lowercase().contains(word)).cloned().collect()
+        named.map(|topic| joints::of_side(&topic.joints, side)).unwrap_or_default()
     };
     let (pose, frames) = suggest_poses(of(Role::Poses).collect());
     RosbagOptions {
-        left_joints: side("left"),
-        right_joints: side("right"),
+        left_joints: side(Side::Left),
+        right_joints: side(Side::Right),
         tracks_topic: tracks,
         parent_frame: frames.as_ref().map(|(parent, _)| parent.clone()),
         child_frame: frames.map(|(_, child)| child).filter(|child| !child.is_empty()),

@@ -1,212 +1,171 @@
-//! Track speeds from the joints of wheels or sprockets.
+//! The joints of wheels or sprockets, as the messages of a bag tell them.
+//!
+//! Messages of one topic that list other joints, or have other signals, are kept apart: they may
+//! come from another publisher.
 
 use super::cdr::{Cdr, CdrError};
-use super::options::{JointSignal, RosbagOptions};
-use crate::recording::Warning;
+use super::date::Received;
+use super::names::{self, Part};
+use super::options::RosbagOptions;
 use trackdyn_core::{PerSide, Side};
 
-/// Mean of a side's joints in one message.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Reading {
-    /// Speed in rad/s or position in rad.
-    pub(super) sides: PerSide<f64>,
-    /// The single positions behind the means; empty where these are speeds.
-    pub(super) angles: Vec<JointAngle>,
-    /// Whether it is a position.
-    pub(super) is_position: bool,
+/// Messages of one topic with these joints and signals.
+#[derive(Clone, Debug)]
+pub(super) struct Source {
+    pub(super) topic: String,
+    /// All joints of a message, in its order.
+    pub(super) names: Vec<String>,
+    /// Whether each joint has a position and a velocity.
+    has: [bool; 2],
+    /// Number of messages.
+    pub(super) messages: u64,
+    /// Times of the messages; empty where no joint counts.
+    pub(super) received: Vec<Received<()>>,
+    /// The joints that may count for a side.
+    pub(super) columns: Vec<Column>,
 }
 
-/// Position of one joint in one message.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct JointAngle {
-    /// Its place in [`Joints::met`].
-    pub(super) joint: usize,
-    /// The side it counts for.
+/// A joint that may count for a side, and its signals in all messages of its source.
+#[derive(Clone, Debug)]
+pub(super) struct Column {
+    /// Its place in a message.
+    place: usize,
+    pub(super) name: String,
     pub(super) side: Side,
-    /// What a radian of it adds to the mean of its side: a sign over a count.
-    pub(super) share: f64,
-    /// As reported, rad.
-    pub(super) angle: f64,
+    /// -1 where it counts backwards.
+    pub(super) sign: f64,
+    /// What it moves; a wheel where the options name it.
+    pub(super) part: Part,
+    /// Positions, rad; empty where the messages have none.
+    pub(super) positions: Vec<f64>,
+    /// Velocities, rad/s; empty where the messages have none.
+    pub(super) velocities: Vec<f64>,
 }
 
-/// Why a message gives no reading.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum JointProblem {
-    /// It cannot be decoded.
-    Cdr(CdrError),
-    /// Joints of a side are not in it.
-    Absent {
-        /// The side.
-        side: Side,
-        /// Its joints; none where any with its name would have done.
-        wanted: Vec<String>,
-        /// The joints of the message.
-        found: Vec<String>,
-    },
-    /// It has neither velocities nor positions of the kind wanted.
-    NoSignal,
-}
-
-impl std::fmt::Display for JointProblem {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Cdr(error) => error.fmt(f),
-            Self::Absent { side, wanted, found } => {
-                let (side, found) = (word(*side), found.join(", "));
-                let wanted = match &wanted[..] {
-                    [] => format!("no joint has \"{side}\" in its name"),
-                    wanted => {
-                        format!("not all of the {side} joints ({}) are in it", wanted.join(", "))
-                    }
-                };
-                write!(f, "{wanted}, but {found}")
-            }
-            Self::NoSignal => write!(f, "the joints have no such signal"),
-        }
+impl Column {
+    /// Position and velocity in a message; NaN where there is none.
+    pub(super) fn signals(&self, row: usize) -> [f64; 2] {
+        [&self.positions, &self.velocities].map(|all| all.get(row).copied().unwrap_or(f64::NAN))
     }
 }
 
-impl From<CdrError> for JointProblem {
-    fn from(error: CdrError) -> Self {
-        Self::Cdr(error)
-    }
-}
-
-/// Which joints belong to which side.
+/// Takes the joints of all messages.
 #[derive(Clone, Debug)]
 pub(super) struct Joints {
-    names: PerSide<Vec<String>>,
-    signal: JointSignal,
-    /// Joints whose positions were read, in the order in which they turned up.
-    met: Vec<String>,
-    /// Joints that were taken for those of a side by their names, where none were named.
-    taken: PerSide<Vec<String>>,
+    named: PerSide<Vec<String>>,
+    sources: Vec<Source>,
+    /// Where the last message belonged.
+    last: usize,
 }
 
 impl Joints {
     pub(super) fn new(options: &RosbagOptions) -> Self {
-        let names = PerSide::new(options.left_joints.clone(), options.right_joints.clone());
-        let taken = PerSide::new(Vec::new(), Vec::new());
-        Self { names, signal: options.joint_signal, met: Vec::new(), taken }
+        let named = PerSide::new(options.left_joints.clone(), options.right_joints.clone());
+        Self { named, sources: Vec::new(), last: 0 }
     }
 
-    /// +1 or −1 for a joint of this side, `None` for any other.
-    fn sign(&self, side: Side, joint: &str) -> Option<f64> {
-        let names = &self.names[side];
-        if names.is_empty() {
-            return joint.to_lowercase().contains(word(side)).then_some(1.0);
-        }
-        names.iter().find_map(|name| match name.strip_prefix('-') {
-            Some(reversed) if reversed == joint => Some(-1.0),
-            _ => (name == joint).then_some(1.0),
-        })
+    /// What all messages told.
+    pub(super) fn into_sources(self) -> Vec<Source> {
+        self.sources
     }
 
-    /// Names of the joints whose positions were read, by [`JointAngle::joint`].
-    pub(super) fn met(&self) -> &[String] {
-        &self.met
-    }
-
-    fn place(&mut self, joint: &str) -> usize {
-        self.met.iter().position(|name| name == joint).unwrap_or_else(|| {
-            self.met.push(joint.to_owned());
-            self.met.len() - 1
-        })
-    }
-
-    /// How many joints a side must have in a message; at least one where none is named.
-    fn needed(&self, side: Side) -> usize {
-        self.names[side].len().max(1)
-    }
-
-    /// Whether the joints of both sides have numbers.
-    fn are_finite(&self, mut names: Cdr, mut values: Cdr, count: usize) -> Result<bool, CdrError> {
-        for _ in 0..count {
-            let (name, value) = (names.text()?, values.f64()?);
-            let is_taken = Side::BOTH.into_iter().any(|side| self.sign(side, name).is_some());
-            if is_taken && !value.is_finite() {
-                return Ok(false);
-            }
-        }
-        Ok(true)
-    }
-
-    /// What was taken for the joints of a side by its name alone.
-    pub(super) fn guessed(&self) -> Vec<Warning> {
-        let sides = [(Side::Left, "left joints"), (Side::Right, "right joints")];
-        let guessed = sides.into_iter().filter(|(side, _)| !self.taken[*side].is_empty());
-        let warning = |(side, what)| Warning::Chosen { what, taken: self.taken[side].join(", ") };
-        guessed.map(warning).collect()
-    }
-
-    /// The reading of a `sensor_msgs/JointState` after its header: `string[] name, float64[]
-    /// position, velocity, effort`.
-    pub(super) fn reading(&mut self, cdr: &mut Cdr) -> Result<Reading, JointProblem> {
+    /// Takes a `sensor_msgs/JointState` after its header: `string[] name, float64[] position,
+    /// velocity, effort`.
+    pub(super) fn take(
+        &mut self,
+        topic: &str,
+        received: Received<()>,
+        cdr: &mut Cdr,
+    ) -> Result<(), CdrError> {
         let count = cdr.length()?;
-        let names_at = cdr.clone();
+        let mut names = Vec::with_capacity(count.min(64));
         for _ in 0..count {
-            cdr.text()?;
+            names.push(cdr.text()?);
         }
-        let (positions, position_count) = cdr.f64_sequence()?;
-        let (velocities, velocity_count) = cdr.f64_sequence()?;
-        // a driver that has no velocities may send numbers that are none
-        let has_velocity = count > 0
-            && velocity_count == count
-            && self.are_finite(names_at.clone(), velocities.clone(), count)?;
-        let has_position = count > 0 && position_count == count;
-        let is_position = match self.signal {
-            JointSignal::Any => !has_velocity && has_position,
-            JointSignal::Velocity => false,
-            JointSignal::Position => true,
-        };
-        if !(if is_position { has_position } else { has_velocity }) {
-            return Err(JointProblem::NoSignal);
+        let signals = [cdr.f64_sequence()?, cdr.f64_sequence()?];
+        let has = [0, 1].map(|signal| count > 0 && signals[signal].1 == count);
+        let is_it =
+            |source: &Source| source.has == has && source.topic == topic && source.names == names;
+        if !self.sources.get(self.last).is_some_and(is_it) {
+            self.last = self.sources.iter().position(is_it).unwrap_or_else(|| {
+                let source = Source::new(&self.named, topic, &names, has);
+                self.sources.push(source);
+                self.sources.len() - 1
+            });
         }
-        let mut all = names_at.clone();
-        let (mut names, mut values) = (names_at, if is_position { positions } else { velocities });
-        let mut angles = Vec::new();
-        let mut sums = PerSide::new(0.0, 0.0);
-        let mut found = PerSide::new(0_u32, 0_u32);
-        for _ in 0..count {
-            let (name, value) = (names.text()?, values.f64()?);
-            for side in Side::BOTH {
-                if let Some(sign) = self.sign(side, name) {
-                    sums[side] += sign * value;
-                    found[side] += 1;
-                    if self.names[side].is_empty()
-                        && !self.taken[side].iter().any(|one| one == name)
-                    {
-                        self.taken[side].push(name.to_owned());
-                    }
-                    if is_position {
-                        let joint = self.place(name);
-                        angles.push(JointAngle { joint, side, share: sign, angle: value });
-                    }
+        let source = &mut self.sources[self.last];
+        source.messages += 1;
+        if source.columns.is_empty() || has == [false; 2] {
+            return Ok(());
+        }
+        for (signal, (mut values, _)) in signals.into_iter().enumerate() {
+            let mut columns = source.columns.iter_mut().peekable();
+            for place in 0..if has[signal] { count } else { 0 } {
+                let value = values.f64()?;
+                while let Some(column) = columns.next_if(|column| column.place == place) {
+                    let all =
+                        if signal == 0 { &mut column.positions } else { &mut column.velocities };
+                    all.push(value);
                 }
             }
         }
-        for side in Side::BOTH {
-            if (found[side] as usize) < self.needed(side) {
-                let found = (0..count).map(|_| Ok(all.text()?.to_owned()));
-                let found = found.collect::<Result<_, CdrError>>()?;
-                let wanted = self.names[side].clone();
-                return Err(JointProblem::Absent { side, wanted, found });
-            }
-        }
-        let sides = PerSide::from_fn(|side| sums[side] / f64::from(found[side]));
-        for angle in &mut angles {
-            angle.share /= f64::from(found[angle.side]);
-        }
-        Ok(Reading { sides, angles, is_position })
+        source.received.push(received);
+        Ok(())
     }
 }
 
-/// The name of a side.
-fn word(side: Side) -> &'static str {
-    match side {
-        Side::Left => "left",
-        Side::Right => "right",
+impl Source {
+    fn new(named: &PerSide<Vec<String>>, topic: &str, names: &[&str], has: [bool; 2]) -> Self {
+        let column = |place: usize, side: Side| {
+            let name = names[place];
+            let (sign, part) = if named[side].is_empty() {
+                (taken_by_name(topic, name) == Some(side)).then(|| (1.0, part(topic, name)))
+            } else {
+                sign(&named[side], name).map(|sign| (sign, Part::Wheel))
+            }?;
+            let (positions, velocities) = (Vec::new(), Vec::new());
+            Some(Column { place, name: name.to_owned(), side, sign, part, positions, velocities })
+        };
+        let places = 0..names.len();
+        let columns = places.flat_map(|place| Side::BOTH.map(|side| column(place, side)));
+        Self {
+            topic: topic.to_owned(),
+            names: names.iter().map(|&name| name.to_owned()).collect(),
+            has,
+            messages: 0,
+            received: Vec::new(),
+            columns: columns.flatten().collect(),
+        }
     }
+}
+
+/// The side of a joint by its name, else by that of its topic.
+fn taken_by_name(topic: &str, name: &str) -> Option<Side> {
+    names::side(name).or_else(|| names::side(topic))
+}
+
+/// What a joint moves by its name, else by that of its topic.
+fn part(topic: &str, name: &str) -> Part {
+    match names::part(name) {
+        Part::Unknown if names::side(name).is_none() => names::part(topic),
+        part => part,
+    }
+}
+
+/// +1 or -1 for a joint that is named, which a `-` before the name reverses.
+fn sign(named: &[String], joint: &str) -> Option<f64> {
+    named.iter().find_map(|name| match name.strip_prefix('-') {
+        Some(reversed) if reversed == joint => Some(-1.0),
+        _ => (name == joint).then_some(1.0),
+    })
+}
+
+/// The joints of a list that are taken for those of a side by their names.
+pub(super) fn of_side(joints: &[String], side: Side) -> Vec<String> {
+    let on_side = joints.iter().filter(|joint| names::side(joint) == Some(side));
+    let best = on_side.clone().map(|joint| names::part(joint)).max();
+    let taken = on_side.filter(|joint| Some(names::part(joint)) == best);
+    taken.filter(|_| best != Some(Part::Other)).cloned().collect()
 }
 
 /// The names of the joints in a message and the signals it has (position, velocity).
@@ -253,19 +212,40 @@ mod tests {
     }
 
     #[test]
-    fn velocities_that_are_no_numbers_give_way_to_positions() {
-        let names = ["wheel_left", "wheel_right", "lidar"];
+    fn messages_with_other_joints_or_signals_are_kept_apart() {
         let mut joints = Joints::new(&RosbagOptions::default());
-        let mut read = |velocities: &[f64]| {
-            let bytes = message(&names, [&[1.0, 2.0, 3.0], velocities]);
-            joints.reading(&mut Cdr::new(&bytes).expect("CDR")).expect("a reading")
+        let mut take = |names: &[&str], positions: &[f64], velocities: &[f64], log_ns: i64| {
+            let bytes = message(names, [positions, velocities]);
+            let received = Received { stamp_ns: None, log_ns, value: () };
+            joints.take("/joints", received, &mut Cdr::new(&bytes).expect("CDR"))
         };
-        let reading = read(&[f64::NAN, f64::NAN, 0.1]);
-        assert!(reading.is_position);
-        assert_eq!(reading.sides, PerSide::new(1.0, 2.0));
-        // those of other joints do not count
-        let reading = read(&[0.4, 0.5, f64::NAN]);
-        assert!(!reading.is_position);
-        assert_eq!(reading.sides, PerSide::new(0.4, 0.5));
+        take(&["lidar", "wheel_left", "wheel_right"], &[1.0, 2.0, 3.0], &[], 0).expect("a message");
+        take(&["wheel_left"], &[5.0], &[6.0], 1).expect("a message");
+        take(&["lidar", "wheel_left", "wheel_right"], &[4.0, 8.0, 9.0], &[], 2).expect("a message");
+        take(&["lidar"], &[4.0], &[], 3).expect("a message");
+        let sources = joints.into_sources();
+        assert_eq!(sources.len(), 3);
+        let names: Vec<&str> = sources[0].columns.iter().map(|one| one.name.as_str()).collect();
+        assert_eq!(names, ["wheel_left", "wheel_right"]);
+        assert_eq!(sources[0].columns[0].positions, [2.0, 8.0]);
+        assert_eq!(sources[0].columns[1].positions, [3.0, 9.0]);
+        assert!(sources[0].columns[1].signals(1)[1].is_nan());
+        assert_eq!(sources[1].columns[0].signals(0), [5.0, 6.0]);
+        assert_eq!((sources[2].messages, sources[2].received.len()), (1, 0));
+    }
+
+    #[test]
+    fn topics_name_the_side_where_joints_do_not() {
+        let options = RosbagOptions { right_joints: vec!["-w".into()], ..Default::default() };
+        for (topic, side, sign) in
+            [("/left_wheel/state", Side::Left, 1.0), ("/x", Side::Right, -1.0)]
+        {
+            let mut joints = Joints::new(&options);
+            let bytes = message(&["w"], [&[1.0], &[]]);
+            let received = Received { stamp_ns: None, log_ns: 0, value: () };
+            joints.take(topic, received, &mut Cdr::new(&bytes).expect("CDR")).expect("a message");
+            let sources = joints.into_sources();
+            assert!(sources[0].columns.iter().any(|one| (one.side, one.sign) == (side, sign)));
+        }
     }
 }

@@ -8,7 +8,8 @@ pub struct RosbagOptions {
     /// Topic of the `sensor_msgs/JointState`.
     pub tracks_topic: Option<String>,
     /// Joints of the left side; their mean counts, and a `-` before a name reverses its sign.
-    /// Empty: those with `left` in their name.
+    /// Empty: those whose name has a word of the side, such as `left`, `l` or `fl`, without parts
+    /// that carry no robot, such as flippers. They have to move alike.
     pub left_joints: Vec<String>,
     /// Joints of the right side, in the same way.
     pub right_joints: Vec<String>,
@@ -25,6 +26,8 @@ pub struct RosbagOptions {
     pub child_frame: Option<String>,
     /// Topic of the `sensor_msgs/Imu`, whose axes must be those of the body.
     pub imu_topic: Option<String>,
+    /// What dates the messages.
+    pub dated_by: Dating,
 }
 
 impl RosbagOptions {
@@ -42,10 +45,22 @@ impl RosbagOptions {
     }
 }
 
+/// What dates the messages of a bag.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Dating {
+    /// Their stamps; their logging where the stamps of tracks and poses are of different clocks.
+    #[default]
+    Any,
+    /// The stamps in their headers.
+    Header,
+    /// The times at which they were logged.
+    Log,
+}
+
 /// Signal of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum JointSignal {
-    /// The velocity where the messages have one, else the position.
+    /// The velocity where the joints have one that moves, else the position.
     #[default]
     Any,
     /// Velocity, rad/s.

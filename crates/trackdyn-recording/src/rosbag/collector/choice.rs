@@ -1,9 +1,11 @@
 //! Which of several sources to use.
 
-use super::{PoseKey, Reading, RosbagOptions, Stamped};
+use super::tracks::{self, Chosen};
+use super::{PoseKey, Received, RosbagOptions};
 use crate::Error;
 use crate::recording::Warning;
 use crate::rosbag::frames::may_be_odometry;
+use crate::rosbag::joints::Source;
 use crate::rosbag::topic::{Topic, list};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -29,28 +31,27 @@ struct Wanted<'a> {
 impl Sources<'_> {
     pub(super) fn tracks(
         &self,
-        readings: BTreeMap<String, Vec<Stamped<Reading>>>,
+        joints: Vec<Source>,
         skipped: &BTreeMap<String, (u64, String)>,
         warnings: &mut Vec<Warning>,
-    ) -> Result<Vec<Stamped<Reading>>, Error> {
-        let mut kinds = vec!["no sensor_msgs/JointState with both sides".to_owned()];
-        kinds.extend(skipped.iter().map(|(topic, (count, reason))| {
-            format!("{topic}: {count} messages skipped, because {reason}")
-        }));
-        let wanted = Wanted {
-            what: "track speeds",
-            kind: &kinds.join("; "),
-            named: self.options.tracks_topic.as_deref(),
-            options: "--tracks-topic",
-        };
-        self.only(&wanted, readings, warnings, Clone::clone)
+    ) -> Result<Chosen, Error> {
+        let what = "track speeds";
+        if joints.iter().all(|source| source.names.is_empty()) {
+            let mut kinds = vec!["no sensor_msgs/JointState with both sides".to_owned()];
+            kinds.extend(skipped.iter().map(|(topic, (count, reason))| {
+                format!("{topic}: {count} messages skipped, because {reason}")
+            }));
+            let named = self.options.tracks_topic.as_deref();
+            return Err(self.none(what, &kinds.join("; "), named, "--tracks-topic"));
+        }
+        tracks::choose(joints, self.options, warnings).map_err(|problem| self.refuse(what, problem))
     }
 
     pub(super) fn poses(
         &self,
-        poses: BTreeMap<PoseKey, Vec<Stamped<[f64; 3]>>>,
+        poses: BTreeMap<PoseKey, Vec<Received<[f64; 3]>>>,
         warnings: &mut Vec<Warning>,
-    ) -> Result<Vec<Stamped<[f64; 3]>>, Error> {
+    ) -> Result<(String, Vec<Received<[f64; 3]>>), Error> {
         let wanted = Wanted {
             what: "poses",
             kind: "no Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or \
@@ -63,9 +64,9 @@ impl Sources<'_> {
             child => format!("{} of {child:?} in {:?}", key.topic, key.parent),
         };
         let odometry = poses.keys().find(|key| self.may_be_odometry(key)).map(name);
-        let chosen = self.only(&wanted, poses, warnings, name)?;
+        let (key, chosen) = self.only(&wanted, poses, warnings, name)?;
         warnings.extend(odometry.map(|poses| Warning::OwnOdometry { poses }));
-        Ok(chosen)
+        Ok((key.topic, chosen))
     }
 
     /// Whether poses may come from the tracks themselves.
@@ -77,16 +78,16 @@ impl Sources<'_> {
     /// An IMU is welcome and not needed: where several could be it, none is taken.
     pub(super) fn imu(
         &self,
-        imu: BTreeMap<String, Vec<Stamped<[f64; 3]>>>,
+        imu: BTreeMap<String, Vec<Received<[f64; 3]>>>,
         warnings: &mut Vec<Warning>,
-    ) -> Result<Vec<Stamped<[f64; 3]>>, Error> {
+    ) -> Result<(String, Vec<Received<[f64; 3]>>), Error> {
         match (&self.options.imu_topic, imu.len()) {
-            (None, 0) => Ok(Vec::new()),
+            (None, 0) => Ok((String::new(), Vec::new())),
             (None, 2..) => {
                 let names: Vec<&str> = imu.keys().map(String::as_str).collect();
                 let taken = format!("none of {}, each of which could be it", names.join(", "));
                 warnings.push(Warning::Chosen { what: "imu", taken });
-                Ok(Vec::new())
+                Ok((String::new(), Vec::new()))
             }
             (named, _) => {
                 let (kind, named) = ("no sensor_msgs/Imu", named.as_deref());
@@ -103,26 +104,31 @@ impl Sources<'_> {
         sources: BTreeMap<K, V>,
         warnings: &mut Vec<Warning>,
         name: impl Fn(&K) -> String,
-    ) -> Result<V, Error> {
+    ) -> Result<(K, V), Error> {
         let Wanted { what, kind, named, options } = *wanted;
-        let refuse = |problem: String| Error::Topic {
-            path: self.path.to_owned(),
-            what,
-            problem,
-            available: list(self.seen.iter()),
-        };
         let names: Vec<String> = sources.keys().map(&name).collect();
         if names.len() > 1 {
-            return Err(refuse(format!("several fit: {}; choose by {options}", names.join(", "))));
+            return Err(self
+                .refuse(what, format!("several fit: {}; choose by {options}", names.join(", "))));
         }
         let Some((key, values)) = sources.into_iter().next() else {
-            let absent = named.filter(|name| !self.seen.iter().any(|topic| topic.name == **name));
-            let absent = absent.map(|name| format!("{name} is not there; choose by {options}"));
-            return Err(refuse(absent.unwrap_or_else(|| kind.to_owned())));
+            return Err(self.none(what, kind, named, options));
         };
         if named.is_none() {
             warnings.push(Warning::Chosen { what, taken: name(&key) });
         }
-        Ok(values)
+        Ok((key, values))
+    }
+
+    /// Why there is nothing: the topic that is named is not there, or has nothing of its kind.
+    fn none(&self, what: &'static str, kind: &str, named: Option<&str>, options: &str) -> Error {
+        let absent = named.filter(|name| !self.seen.iter().any(|topic| topic.name == **name));
+        let absent = absent.map(|name| format!("{name} is not there; choose by {options}"));
+        self.refuse(what, absent.unwrap_or_else(|| kind.to_owned()))
+    }
+
+    fn refuse(&self, what: &'static str, problem: String) -> Error {
+        let available = list(self.seen.iter());
+        Error::Topic { path: self.path.to_owned(), what, problem, available }
     }
 }

@@ -1,75 +1,185 @@
 //! Joint signals as track speeds, and stamps as seconds.
 
-use super::{Collected, Reading, RosbagOptions, Stamped, turns};
+use super::joint::Joint;
+use super::merge::{Merged, Part, merge};
+use super::signal::Signal;
+use super::tracks::Chosen;
+use super::{Collected, Received, RosbagOptions, Stamped, turns};
 use crate::Error;
 use crate::recording::{Cleaning, UncheckedRun, Warning, clean};
+use crate::rosbag::clock::{By, Clock, segment};
+use crate::rosbag::date::seconds;
 use crate::sample::{ImuSample, PoseSample, Series, TrackSample};
 use std::path::Path;
-use trackdyn_core::Pose;
+use trackdyn_core::{PerSide, Pose};
 
-/// The run of these sources; t = 0 at the earliest stamp.
-pub(super) fn run(
+/// What was chosen, as it was received.
+pub(super) struct Streams {
+    pub(super) chosen: Chosen,
+    pub(super) poses: Vec<Received<[f64; 3]>>,
+    pub(super) pose_topic: String,
+    /// Poses along a chain of transforms, in place of others.
+    pub(super) chained: Option<Vec<Stamped<[f64; 3]>>>,
+    pub(super) imu: Vec<Received<[f64; 3]>>,
+    pub(super) imu_topic: String,
+}
+
+/// Values with their run and time.
+type Dated<T> = Vec<(usize, Stamped<T>)>;
+
+/// Dates messages and tells the runs that they belong to.
+struct Dates<'a> {
+    clocks: &'a [Clock],
+    by: By,
+    /// Loggings at which another run begins.
+    resets: &'a [i64],
+}
+
+impl Dates<'_> {
+    fn of<T: Copy>(&self, topic: &str, received: &[Received<T>]) -> Dated<T> {
+        let Some(clock) = self.clocks.iter().find(|clock| clock.topic == topic) else {
+            return Vec::new();
+        };
+        // A clock that begins anew as often does so at a message of its own.
+        let own = clock.resets();
+        let resets = if own.len() == self.resets.len() { own } else { self.resets };
+        let dated = received.iter().filter_map(|one| {
+            Some((segment(resets, one.log_ns), (clock.date(self.by, one)?, one.value)))
+        });
+        dated.collect()
+    }
+}
+
+/// The runs of these streams; t = 0 at the earliest time.
+pub(super) fn runs(
     path: &Path,
     options: &RosbagOptions,
-    joints: &[String],
-    mut readings: Vec<Stamped<Reading>>,
-    poses: Vec<Stamped<[f64; 3]>>,
-    imu: Vec<Stamped<[f64; 3]>>,
+    clocks: &[Clock],
+    by: By,
+    streams: Streams,
     mut warnings: Vec<Warning>,
 ) -> Result<Collected, Error> {
+    let Streams { chosen, poses, pose_topic, chained, imu, imu_topic } = streams;
+    let refuse = |problem: &str| Error::Topic {
+        path: path.to_owned(),
+        what: "track speeds",
+        problem: problem.to_owned(),
+        available: format!(
+            "{} readings of the joints",
+            chosen.joints.iter().map(|joint| joint.signals.len()).max().unwrap_or_default()
+        ),
+    };
     let Some(radius) = options.wheel_radius else {
-        return Err(Error::Topic {
-            path: path.to_owned(),
-            what: "track speeds",
-            problem: "joints turn in rad/s: expected the radius of wheel or sprocket, \
-                      --wheel-radius METRES"
-                .to_owned(),
-            available: format!("{} readings of the joints", readings.len()),
-        });
+        return Err(refuse(
+            "joints turn in rad/s: expected the radius of wheel or sprocket, --wheel-radius METRES",
+        ));
     };
-    let stamps = readings.iter().map(|(stamp, _)| *stamp);
-    let stamps = stamps.chain(poses.iter().chain(&imu).map(|(stamp, _)| *stamp));
-    let epoch_ns = stamps.min().unwrap_or_default();
-    let seconds = |stamp| seconds_between(epoch_ns, stamp);
-
-    warnings.extend(turns::unwrap(&mut readings, joints, seconds));
-    // The first messages of a driver may lack what it does not know yet.
-    let positions = readings.iter().filter(|(_, reading)| reading.is_position).count();
-    let are_positions = 2 * positions > readings.len();
-    let joint = |(stamp, reading): &Stamped<Reading>| TrackSample {
-        t: seconds(*stamp),
-        v_left: reading.sides.left * radius,
-        v_right: reading.sides.right * radius,
+    let anew = clocks.iter().rev().max_by_key(|clock| clock.resets().len());
+    let resets = anew.map(Clock::resets).unwrap_or_default();
+    let count = resets.len() + 1;
+    if let Some(clock) = anew.filter(|_| count > 1) {
+        if chained.is_some() {
+            return Err(refuse(
+                "stamps step back, as after the reset of a simulation: poses along a chain of \
+                 transforms need a bag without such steps; cut it there",
+            ));
+        }
+        warnings.push(Warning::ClockReset { topic: clock.topic.clone(), runs: count });
+    }
+    let dates = Dates { clocks, by, resets };
+    let poses = match chained {
+        Some(chained) => chained.into_iter().map(|pose| (0, pose)).collect(),
+        None => dates.of(&pose_topic, &poses),
     };
-    let same_signal = readings.iter().filter(|(_, reading)| reading.is_position == are_positions);
-    let mut tracks: Series<TrackSample> = same_signal.map(joint).collect::<Vec<_>>().into();
-    let other_signal = readings.len() - tracks.samples.len();
-    if other_signal > 0 {
-        warnings.push(Warning::MessagesSkipped {
-            topic: options.tracks_topic.clone().unwrap_or_else(|| "joints".to_owned()),
-            count: other_signal as u64,
-            reason: "it has another signal than most messages".to_owned(),
-        });
-    }
-    if are_positions {
-        let mut cleanings: Vec<Cleaning> = Vec::new();
-        clean(&mut tracks, 0, &mut cleanings);
-        cleanings.retain(|cleaning| cleaning.finding.changes_rows());
-        warnings.extend(cleanings.into_iter().map(Warning::Cleaned));
-        tracks = speeds_of_positions(&tracks.samples).into();
-    }
+    let imu = dates.of(&imu_topic, &imu);
+    let joints: Vec<Dated<f64>> = chosen
+        .joints
+        .iter()
+        .map(|joint| values(&dates, joint, chosen.signal, &mut warnings))
+        .collect();
+    let times = joints.iter().flatten().map(|(_, (time, _))| *time);
+    let times = times.chain(poses.iter().chain(&imu).map(|(_, (time, _))| *time));
+    let epoch_ns = times.min().unwrap_or_default();
 
-    let poses = poses
-        .into_iter()
-        .map(|(stamp, [x, y, yaw])| PoseSample { t: seconds(stamp), pose: Pose::new(x, y, yaw) });
-    let imu = imu.into_iter().map(|(stamp, [gyro_z, acc_x, acc_y])| ImuSample {
-        t: seconds(stamp),
-        gyro_z,
-        acc_x,
-        acc_y,
+    let mut runs = Vec::with_capacity(count);
+    for (run, id) in (0..count).zip(0_i64..) {
+        let mut parts = Vec::with_capacity(joints.len());
+        for (joint, values) in chosen.joints.iter().zip(&joints) {
+            let mut values = of_run(values, run);
+            if chosen.signal == Signal::Position {
+                values.sort_by_key(|(time, _)| *time);
+                let at = |stamp| seconds(epoch_ns, stamp);
+                warnings.extend(turns::unwrap(&joint.name, &mut values, at));
+            }
+            for (_, value) in &mut values {
+                *value *= joint.sign;
+            }
+            parts.push(Part { side: joint.side, values });
+        }
+        let Merged { sides, left_out } = merge(&parts);
+        if left_out > 0 {
+            let topic = chosen.joints.first().map(|joint| joint.topic.clone()).unwrap_or_default();
+            let reason = "another joint has no reading there".to_owned();
+            warnings.push(Warning::MessagesSkipped { topic, count: left_out as u64, reason });
+        }
+        let sample = |(time, sides): &Stamped<PerSide<f64>>| TrackSample {
+            t: seconds(epoch_ns, *time),
+            v_left: sides.left * radius,
+            v_right: sides.right * radius,
+        };
+        let mut tracks: Series<TrackSample> = sides.iter().map(sample).collect::<Vec<_>>().into();
+        if chosen.signal == Signal::Position {
+            let mut cleanings: Vec<Cleaning> = Vec::new();
+            clean(&mut tracks, id, &mut cleanings);
+            cleanings.retain(|cleaning| cleaning.finding.changes_rows());
+            warnings.extend(cleanings.into_iter().map(Warning::Cleaned));
+            tracks = speeds_of_positions(&tracks.samples).into();
+        }
+        let poses = of_run(&poses, run).into_iter().map(|(time, [x, y, yaw])| PoseSample {
+            t: seconds(epoch_ns, time),
+            pose: Pose::new(x, y, yaw),
+        });
+        let imu = of_run(&imu, run).into_iter().map(|(time, [gyro_z, acc_x, acc_y])| ImuSample {
+            t: seconds(epoch_ns, time),
+            gyro_z,
+            acc_x,
+            acc_y,
+        });
+        let (poses, imu) = (poses.collect::<Vec<_>>().into(), imu.collect::<Vec<_>>().into());
+        runs.push(UncheckedRun { id, tracks, poses, imu });
+    }
+    let names = PerSide::from_fn(|side| {
+        let of_side = chosen.joints.iter().filter(|joint| joint.side == side);
+        let name = |joint: &Joint| match joint.sign {
+            sign if sign < 0.0 => format!("-{}", joint.name),
+            _ => joint.name.clone(),
+        };
+        of_side.map(name).collect()
     });
-    let (poses, imu) = (poses.collect::<Vec<_>>().into(), imu.collect::<Vec<_>>().into());
-    Ok(Collected { run: UncheckedRun { id: 0, tracks, poses, imu }, epoch_ns, warnings })
+    Ok(Collected { runs, epoch_ns, joints: names, warnings })
+}
+
+/// The values of a run.
+fn of_run<T: Copy>(dated: &Dated<T>, run: usize) -> Vec<Stamped<T>> {
+    dated.iter().filter(|(of, _)| *of == run).map(|(_, value)| *value).collect()
+}
+
+/// The finite values of a joint's signal.
+fn values(dates: &Dates, joint: &Joint, signal: Signal, warnings: &mut Vec<Warning>) -> Dated<f64> {
+    let place = usize::from(signal == Signal::Velocity);
+    let values: Vec<Received<f64>> = joint
+        .signals
+        .iter()
+        .map(|one| one.with(one.value[place]))
+        .filter(|one| one.value.is_finite())
+        .collect();
+    let lost = joint.signals.len() - values.len();
+    if lost > 0 {
+        let (topic, count) = (joint.topic.clone(), lost as u64);
+        let reason = format!("{} has no {} in it, as in others", joint.name, signal.name());
+        warnings.push(Warning::MessagesSkipped { topic, count, reason });
+    }
+    dates.of(&joint.topic, &values)
 }
 
 /// The difference quotient up to the next position, from the earlier stamp on: held until then, it
@@ -86,35 +196,4 @@ fn speeds_of_positions(positions: &[TrackSample]) -> Vec<TrackSample> {
             }
         })
         .collect()
-}
-
-/// Seconds from one stamp to another, without losing nanoseconds to the size of Unix time.
-#[expect(clippy::cast_precision_loss, reason = "recordings last less than 2⁵³ ns, 104 days")]
-fn seconds_between(epoch_ns: i64, stamp_ns: i64) -> f64 {
-    stamp_ns.saturating_sub(epoch_ns) as f64 / 1e9
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use trackdyn_core::PerSide;
-
-    /// A driver that does not know its speeds yet sends none in its first messages.
-    #[test]
-    fn most_messages_say_what_the_signal_is() {
-        let reading = |is_position: bool, k: i64| {
-            let sides = PerSide::new(2.0, 4.0);
-            (k * 50_000_000, Reading { sides, angles: Vec::new(), is_position })
-        };
-        let readings = (0..20).map(|k| reading(k < 2, k)).collect();
-        let options = RosbagOptions { wheel_radius: Some(0.1), ..RosbagOptions::default() };
-        let bag = Path::new("bag.mcap");
-        let found = run(bag, &options, &[], readings, Vec::new(), Vec::new(), Vec::new());
-        let found = found.expect("a run");
-        assert_eq!(found.run.tracks.samples.len(), 18);
-        assert!(found.run.tracks.samples.iter().all(|sample| sample.v_right == 0.4));
-        let skipped =
-            |warning: &Warning| matches!(warning, Warning::MessagesSkipped { count: 2, .. });
-        assert!(found.warnings.iter().any(skipped));
-    }
 }

@@ -10,54 +10,35 @@
 //! turn, such as that of an encoder that starts anew, is left as it is and told: what happened is
 //! not known.
 
-use super::{Reading, Stamped};
 use crate::recording::Warning;
+use crate::rosbag::date::Stamped;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Largest span beyond a turn of positions that are modulo a turn, rad: single precision and coarse
 /// encoders round them.
 const POSITION_ROUNDING: f64 = 1e-3;
 
-/// Adds whole turns to the positions of joints that wrap. `joints` are their names, `seconds` the
+/// Adds whole turns to the positions of a joint that wraps, in the order of time. `seconds` is the
 /// time of a stamp.
 pub(super) fn unwrap(
-    readings: &mut [Stamped<Reading>],
-    joints: &[String],
+    joint: &str,
+    angles: &mut [Stamped<f64>],
     seconds: impl Fn(i64) -> f64,
 ) -> Vec<Warning> {
-    let mut order: Vec<usize> = (0..readings.len()).collect();
-    order.sort_by_key(|&index| readings[index].0);
+    let values: Vec<(usize, f64)> = angles.iter().map(|(_, angle)| *angle).enumerate().collect();
+    let steps = Steps::of(&values);
     let mut warnings = Vec::new();
-    for (joint, name) in joints.iter().enumerate() {
-        let angles: Vec<(usize, f64)> = order
-            .iter()
-            .filter_map(|&index| {
-                let mut angles = readings[index].1.angles.iter();
-                let angle = angles.find(|angle| angle.joint == joint)?.angle;
-                angle.is_finite().then_some((index, angle))
-            })
-            .collect();
-        let steps = Steps::of(&angles);
-        if steps.wraps > 0 {
-            for (&(index, _), &turns) in angles.iter().zip(&steps.turns) {
-                add(&mut readings[index].1, joint, turns);
-            }
-            warnings.push(Warning::TurnsAdded { joint: name.clone(), count: steps.wraps });
+    if steps.wraps > 0 {
+        for ((_, angle), turns) in angles.iter_mut().zip(&steps.turns) {
+            *angle += TAU * turns;
         }
-        if let Some(&first) = steps.jumps.first() {
-            let t = seconds(readings[angles[first].0].0);
-            let count = steps.jumps.len();
-            warnings.push(Warning::JointJumps { joint: name.clone(), count, t });
-        }
+        warnings.push(Warning::TurnsAdded { joint: joint.to_owned(), count: steps.wraps });
+    }
+    if let Some(&first) = steps.jumps.first() {
+        let (t, count) = (seconds(angles[first].0), steps.jumps.len());
+        warnings.push(Warning::JointJumps { joint: joint.to_owned(), count, t });
     }
     warnings
-}
-
-/// Adds whole turns to the positions of a joint in a message.
-fn add(reading: &mut Reading, joint: usize, turns: f64) {
-    for angle in reading.angles.iter().filter(|angle| angle.joint == joint) {
-        reading.sides[angle.side] += angle.share * TAU * turns;
-    }
 }
 
 /// The steps of one joint.

@@ -1,0 +1,311 @@
+//! Tracks and poses that contradict each other: units, signs and clocks that cannot be right.
+//!
+//! # Law
+//! Every finding is a ratio or a correlation over many stretches of a recording, so that neither
+//! slip nor single wrong readings decide. What slip can explain is left alone.
+
+use super::stretches::{Stretch, path_extent, stretches};
+use super::{Run, UncheckedRun};
+use std::f64::consts::TAU;
+use std::fmt;
+use trackdyn_core::robust::median;
+use trackdyn_core::{Side, real};
+
+/// Fewest stretches that a finding needs.
+const MIN_STRETCHES: usize = 20;
+
+/// Travel of the tracks per travel of the poses, or the reverse, that no slip explains.
+const MIN_CONTRADICTION: f64 = 5.0;
+
+/// Largest ratio of the upper to the lower quartile of this ratio: units change all stretches
+/// alike, tracks that spin on the spot do not.
+const MAX_QUARTILE_RATIO: f64 = 2.0;
+
+/// Largest factor between a ratio and that of two units; slip and a rough radius are in between.
+const MAX_UNIT_ERROR: f64 = 1.3;
+
+/// Correlation from which on two motions are one.
+const MIN_CORRELATION: f64 = 0.7;
+
+/// Least difference of the correlations of two explanations.
+const MIN_CONTRAST: f64 = 0.3;
+
+/// Longest usual interval of poses, s.
+const MAX_INTERVAL: f64 = 10.0;
+
+/// Least way that one track runs more than the other, m, before yaw has to have changed.
+const MIN_TURNING: f64 = 1.0;
+
+/// Ratios of units that are mixed up.
+const UNITS: [(f64, &str); 7] = [
+    (360.0 / TAU, "degrees in place of radians"),
+    (1000.0, "millimetres in place of metres"),
+    (100.0, "centimetres in place of metres"),
+    (39.37, "inches in place of metres"),
+    (25.4, "millimetres in place of inches"),
+    (60.0 / TAU, "turns per minute in place of rad/s"),
+    (TAU, "turns in place of radians"),
+];
+
+/// What contradicts what in a recording.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// Travel of the tracks and of the poses differs by a factor that no slip explains.
+    Travel {
+        /// Travel of the tracks per travel of the poses.
+        ratio: f64,
+        /// The units that have this ratio; none where no usual ones do.
+        units: Option<&'static str>,
+    },
+    /// Stamps in a fraction of a second.
+    Stamps {
+        /// Median interval of the poses, in what should be s.
+        interval: f64,
+        /// The unit that explains them, where there is one.
+        unit: Option<&'static str>,
+    },
+    /// Yaw in degrees.
+    YawInDegrees,
+    /// Poses whose orientation never changes while the tracks turn the robot.
+    ConstantOrientation {
+        /// Way that one track ran more than the other, m.
+        turning: f64,
+    },
+    /// The joints or the speed of a side count backwards.
+    Reversed(Side),
+    /// Both sides count backwards.
+    BothReversed,
+    /// Tracks and poses turn in opposite senses: sides are swapped, or the z axis points down.
+    Swapped,
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Travel { ratio, units } => {
+                let (more, less, factor) = match *ratio {
+                    ratio if ratio > 1.0 => ("tracks", "poses", ratio),
+                    ratio => ("poses", "tracks", 1.0 / ratio),
+                };
+                write!(f, "the {more} travel {factor:.1} times as far as the {less}")?;
+                match units {
+                    Some(units) => write!(f, ", the ratio of {units}"),
+                    None => write!(f, ", which no slip explains"),
+                }
+            }
+            Self::Stamps { interval, unit } => {
+                write!(f, "by the stamps there is a pose every {interval:.3} s")?;
+                match unit {
+                    Some(unit) => write!(f, ", and the motion says that they are {unit}"),
+                    None => write!(f, ", and poses and tracks cover other times"),
+                }
+            }
+            Self::YawInDegrees => {
+                write!(f, "yaw follows the path of the poses in degrees, and not in radians")
+            }
+            Self::ConstantOrientation { turning } => write!(
+                f,
+                "the orientation never changes, while one track runs {turning:.1} m more than the \
+                 other: poses of a GNSS receiver or a filter without a heading"
+            ),
+            Self::Reversed(side) => {
+                let side = if *side == Side::Left { "left" } else { "right" };
+                write!(f, "the {side} side counts backwards: the poses drive where tracks turn")
+            }
+            Self::BothReversed => {
+                write!(f, "both sides count backwards: tracks and poses move in opposite senses")
+            }
+            Self::Swapped => write!(
+                f,
+                "tracks and poses turn in opposite senses: left and right are swapped, or the z \
+                 axis of the poses points down"
+            ),
+        }
+    }
+}
+
+impl Doubt {
+    /// What a user can do, where the reader does not know more.
+    pub(crate) fn remedy(&self) -> String {
+        match self {
+            Self::Travel { .. } => {
+                "expected m, s and rad; for joints, --wheel-radius in m per radian with any gear, \
+                 so for joints in degrees, metres per degree"
+            }
+            Self::Stamps { .. } => "expected seconds in both tables",
+            Self::YawInDegrees => "expected yaw in rad",
+            Self::ConstantOrientation { .. } => {
+                "expected poses with a yaw; of a bag, --pose-topic chooses others"
+            }
+            Self::Reversed(Side::Left) => "expected v_left positive where the robot moves forward",
+            Self::Reversed(Side::Right) => {
+                "expected v_right positive where the robot moves forward"
+            }
+            Self::BothReversed => "expected speeds that are positive where the robot moves forward",
+            Self::Swapped => {
+                "expected x forward, y left, yaw counter-clockwise, and v_right > v_left there"
+            }
+        }
+        .to_owned()
+    }
+}
+
+/// What contradicts the rows of a run before they are cleaned.
+pub(super) fn of_rows(rows: &UncheckedRun) -> Option<Doubt> {
+    let poses = &rows.poses.samples;
+    let steps = path_extent(poses).map(|extent| extent / 40.0).filter(|step| *step > 0.0)?;
+    // R = |Σ exp(2i(θ − yaw))| / n: 1 where the path leads along the heading, forward or backward.
+    let [mut radians, mut degrees] = [(0.0_f64, 0.0_f64, 0_usize); 2];
+    let finite = |pose: &trackdyn_core::Pose| pose.x.is_finite() && pose.yaw.is_finite();
+    let mut finite = poses.iter().map(|sample| sample.pose).filter(finite);
+    let mut start = finite.next()?;
+    for pose in finite {
+        let (x, y) = (pose.x - start.x, pose.y - start.y);
+        if x.hypot(y) < steps {
+            continue;
+        }
+        let path = y.atan2(x);
+        for (unit, sum) in [(1.0, &mut radians), (TAU / 360.0, &mut degrees)] {
+            let turn = trackdyn_core::pose::wrap_angle(unit * (pose.yaw - start.yaw));
+            if turn.abs() < 0.5 {
+                let (sin, cos) = (2.0 * (path - unit * start.yaw - 0.5 * turn)).sin_cos();
+                *sum = (sum.0 + cos, sum.1 + sin, sum.2 + 1);
+            }
+        }
+        start = pose;
+    }
+    let follows = |(cos, sin, count): (f64, f64, usize)| cos.hypot(sin) / real(count.max(1));
+    let are_degrees = degrees.2 >= MIN_STRETCHES
+        && follows(degrees) > 0.9
+        && (radians.2 < degrees.2 / 4 || follows(radians) < 0.6);
+    are_degrees.then_some(Doubt::YawInDegrees)
+}
+
+/// What contradicts what in cleaned runs.
+pub(super) fn of_runs(runs: &[Run]) -> Option<Doubt> {
+    if let Some(doubt) = runs.iter().find_map(of_times) {
+        return Some(doubt);
+    }
+    if let Some(doubt) = orientation(runs) {
+        return Some(doubt);
+    }
+    let stretches: Vec<Stretch> = runs.iter().flat_map(stretches).collect();
+    travel(runs, &stretches).or_else(|| senses(&stretches))
+}
+
+/// Fractions of a second in which stamps are written.
+const FRACTIONS: [(f64, &str); 3] =
+    [(1e3, "milliseconds"), (1e6, "microseconds"), (1e9, "nanoseconds")];
+
+/// Tables of different units of time.
+fn of_times(run: &Run) -> Option<Doubt> {
+    let (poses, tracks) = (run.poses(), run.tracks());
+    let [.., last] = poses else { return None };
+    let covered = [last.t - poses[0].t, run.duration()];
+    let overlap = last.t.min(tracks[tracks.len() - 1].t) - poses[0].t.max(tracks[0].t);
+    let ratio = (covered[0] / covered[1]).max(covered[1] / covered[0]);
+    let fraction = FRACTIONS.iter().find(|(unit, _)| (0.9..1.1).contains(&(ratio / unit)));
+    let unit = fraction.filter(|_| overlap < 0.1 * covered[0].max(covered[1]))?.1;
+    let interval = usual_interval(run).unwrap_or_default();
+    Some(Doubt::Stamps { interval, unit: Some(unit) })
+}
+
+fn usual_interval(run: &Run) -> Option<f64> {
+    median(&mut run.poses().windows(2).map(|pair| pair[1].t - pair[0].t).collect::<Vec<_>>())
+}
+
+/// Yaw that stays the same to the last digits while one track runs more than the other.
+fn orientation(runs: &[Run]) -> Option<Doubt> {
+    let is_constant = |run: &Run| {
+        let first = run.poses()[0].pose.yaw;
+        run.poses().iter().all(|sample| (sample.pose.yaw - first).abs() <= 1e-9)
+    };
+    let turning = |run: &Run| -> f64 {
+        let steps = run.tracks().windows(2);
+        steps.map(|pair| (pair[0].v_right - pair[0].v_left).abs() * (pair[1].t - pair[0].t)).sum()
+    };
+    let turning: f64 = runs.iter().map(turning).sum();
+    (turning >= MIN_TURNING && runs.iter().all(is_constant))
+        .then_some(Doubt::ConstantOrientation { turning })
+}
+
+/// A ratio of the ways of tracks and poses that no slip explains.
+fn travel(runs: &[Run], stretches: &[Stretch]) -> Option<Doubt> {
+    let straight = stretches.iter().filter(|stretch| stretch.is_straight);
+    let mut ratios: Vec<f64> =
+        straight.map(|stretch| stretch.forward_of_tracks().abs() / stretch.distance).collect();
+    ratios.sort_by(f64::total_cmp);
+    let count = ratios.len();
+    if count < MIN_STRETCHES {
+        return None;
+    }
+    let [lower, ratio, upper] = [count / 4, count / 2, count * 3 / 4].map(|at| ratios[at]);
+    let size = ratio.max(1.0 / ratio);
+    if !(lower > 0.0 && upper <= MAX_QUARTILE_RATIO * lower && size >= MIN_CONTRADICTION) {
+        return None;
+    }
+    let is_near = |unit: f64| (size / unit).max(unit / size) <= MAX_UNIT_ERROR;
+    let interval = runs.iter().find_map(usual_interval).unwrap_or_default();
+    if ratio > 1.0 && interval >= MAX_INTERVAL {
+        let unit = FRACTIONS.iter().find(|(unit, _)| is_near(*unit)).map(|(_, name)| *name);
+        return Some(Doubt::Stamps { interval, unit });
+    }
+    let nearest = UNITS.iter().filter(|(unit, _)| is_near(*unit));
+    let nearest =
+        nearest.min_by(|(a, _), (b, _)| (size / a).ln().abs().total_cmp(&(size / b).ln().abs()));
+    Some(Doubt::Travel { ratio, units: nearest.map(|(_, name)| *name) })
+}
+
+/// Sides that count backwards or are swapped.
+///
+/// With F = (V_l + V_r)/2 and D = V_r − V_l, F goes with the way forward and D with the turn. Where
+/// a side counts backwards, F goes with the turn and D with the way.
+fn senses(stretches: &[Stretch]) -> Option<Doubt> {
+    if stretches.len() < MIN_STRETCHES {
+        return None;
+    }
+    let series = |of: &dyn Fn(&Stretch) -> f64| limited(stretches.iter().map(of).collect());
+    let mean = series(&Stretch::forward_of_tracks);
+    let difference = series(&|stretch| stretch.tracks.right - stretch.tracks.left);
+    let forward = series(&|stretch| stretch.forward);
+    let turn = series(&|stretch| stretch.turn);
+    let [right_way, right_turn] = [correlation(&mean, &forward), correlation(&difference, &turn)];
+    let [crossed_way, crossed_turn] =
+        [correlation(&difference, &forward), correlation(&mean, &turn)];
+    let is_crossed = |crossed: f64, right: f64| {
+        crossed.abs() >= MIN_CORRELATION && right.abs() <= crossed.abs() - MIN_CONTRAST
+    };
+    let is_right = right_way.abs() >= MIN_CORRELATION || right_turn.abs() >= MIN_CORRELATION;
+    let crossed = is_crossed(crossed_way, right_way) || is_crossed(crossed_turn, right_turn);
+    if crossed && !is_right {
+        // Right reversed: D = −2 F of the robot. Left reversed: D = +2 F.
+        let sum = crossed_way + crossed_turn;
+        return Some(Doubt::Reversed(if sum < 0.0 { Side::Right } else { Side::Left }));
+    }
+    match (right_way, right_turn) {
+        (way, turn) if turn <= -MIN_CORRELATION && way <= -MIN_CORRELATION => {
+            Some(Doubt::BothReversed)
+        }
+        // Circles in one sense alone do not tell D from F.
+        (_, turn) if turn <= -MIN_CORRELATION => Some(Doubt::Swapped),
+        _ => None,
+    }
+}
+
+/// Values limited to three medians of the sizes of those that are not zero.
+fn limited(mut values: Vec<f64>) -> Vec<f64> {
+    let mut sizes: Vec<f64> = values.iter().map(|v| v.abs()).filter(|size| *size > 0.0).collect();
+    let limit = 3.0 * median(&mut sizes).unwrap_or_default();
+    for value in &mut values {
+        *value = value.clamp(-limit, limit);
+    }
+    values
+}
+
+/// Correlation about zero; 0 where one of them is zero.
+fn correlation(a: &[f64], b: &[f64]) -> f64 {
+    let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let scale = (sum(a, a) * sum(b, b)).sqrt();
+    if scale > 0.0 { sum(a, b) / scale } else { 0.0 }
+}

@@ -1,0 +1,345 @@
+//! Clocks of topics: stamps against the times of logging.
+//!
+//! # Law
+//! A message is logged shortly after its stamp. Two topics have one clock where the medians of
+//! stamp − logging differ by no more than a sensor may be late. Where they differ by more while
+//! both were logged over one time, their stamps cannot be compared, and logging dates both.
+//!
+//! A stamp that steps back and stays back while logging goes on is a clock that was set anew, as by
+//! the reset of a simulation: what follows is another run.
+
+use super::date::{Received, seconds};
+use super::options::Dating;
+use crate::recording::Warning;
+use trackdyn_core::robust::median;
+
+/// Latest that a stamped message may be logged after those of other topics, s: a slow SLAM.
+const MAX_LATENESS: f64 = 2.0;
+
+/// Smallest difference of two clocks that is told, s.
+const MIN_TOLD: f64 = 0.2;
+
+/// Latest stamp after its own logging, s: rounding and clocks kept equal by a network.
+const MAX_AHEAD: f64 = 0.1;
+
+/// Smallest step back of a clock that was set anew, ns.
+const MIN_RESET_NS: i64 = 1_000_000_000;
+
+/// Messages that have to stay back after a reset.
+const RESET_WITNESSES: usize = 3;
+
+/// Largest ratio of the time between first and last stamp to that between their logging, or the
+/// reverse: bags may have been logged anew, at another speed.
+const MAX_SPEED_RATIO: f64 = 1.25;
+
+/// A gap of so many times all the rest of the stamps parts wrong stamps from right ones.
+const MIN_FAR_RATIO: f64 = 100.0;
+
+/// Largest portion of stamps that are taken for wrong.
+const MAX_FAR_PORTION: usize = 10;
+
+/// Fewest stamps among which some can be told to be wrong.
+const MIN_STAMPS: usize = 20;
+
+/// By what the messages of all topics are dated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum By {
+    /// Their stamps.
+    Header,
+    /// Their logging.
+    Log,
+}
+
+/// The clock of a topic.
+#[derive(Clone, Debug)]
+pub(super) struct Clock {
+    pub(super) topic: String,
+    count: usize,
+    undated: usize,
+    /// Stamps outside of which are wrong, ns.
+    right: [i64; 2],
+    wrong: usize,
+    /// Both sides of a long gap have many stamps.
+    broken: bool,
+    /// Median of stamp − logging, s.
+    ahead: f64,
+    /// Time covered by the stamps, and by their logging, s.
+    covered: [f64; 2],
+    /// First and last logging, ns.
+    logged: [i64; 2],
+    /// Loggings at which the stamps begin anew, ns.
+    resets: Vec<i64>,
+}
+
+impl Clock {
+    /// The clock of a topic by all its messages.
+    pub(super) fn of<'a, T: 'a>(
+        topic: &str,
+        received: impl Iterator<Item = &'a Received<T>> + Clone,
+    ) -> Self {
+        let count = received.clone().count();
+        let mut pairs: Vec<(i64, i64)> =
+            received.clone().filter_map(|one| Some((one.log_ns, one.stamp_ns?))).collect();
+        let undated = count - pairs.len();
+        pairs.sort_by_key(|(logged, _)| *logged);
+        let (right, broken) = right_stamps(pairs.iter().map(|(_, stamp)| *stamp).collect());
+        let dated = pairs.len();
+        pairs.retain(|(_, stamp)| (right[0]..=right[1]).contains(stamp));
+        let resets = resets(&pairs);
+        let mut covered = [0.0; 2];
+        let segments = pairs.chunk_by(|a, b| segment(&resets, a.0) == segment(&resets, b.0));
+        for pairs in segments {
+            let stamps = || pairs.iter().map(|(_, stamp)| *stamp);
+            let [Some(first), Some(last)] = [stamps().min(), stamps().max()] else { continue };
+            covered[0] += seconds(first, last);
+            covered[1] += seconds(pairs[0].0, pairs[pairs.len() - 1].0);
+        }
+        let ahead = pairs.iter().map(|(logged, stamp)| seconds(*logged, *stamp));
+        let logged = received.clone().map(|one| one.log_ns);
+        Self {
+            topic: topic.to_owned(),
+            count,
+            undated,
+            right,
+            wrong: dated - pairs.len(),
+            broken,
+            ahead: median(&mut ahead.collect::<Vec<_>>()).unwrap_or_default(),
+            covered,
+            logged: [logged.clone().min().unwrap_or_default(), logged.max().unwrap_or_default()],
+            resets,
+        }
+    }
+
+    /// Loggings at which another run begins, ns.
+    pub(super) fn resets(&self) -> &[i64] {
+        &self.resets
+    }
+
+    fn is_stamped(&self) -> bool {
+        self.undated < self.count
+    }
+
+    /// When a message was measured; none where that is not known.
+    pub(super) fn date<T>(&self, by: By, one: &Received<T>) -> Option<i64> {
+        if by == By::Log || !self.is_stamped() {
+            return Some(one.log_ns);
+        }
+        one.stamp_ns.filter(|stamp| (self.right[0]..=self.right[1]).contains(stamp))
+    }
+
+    /// What is to be said of messages without a right stamp.
+    pub(super) fn warnings(&self, by: By) -> Vec<Warning> {
+        let skipped = |count: usize, reason: &str| {
+            let (topic, reason) = (self.topic.clone(), reason.to_owned());
+            (count > 0).then(|| Warning::MessagesSkipped { topic, count: count as u64, reason })
+        };
+        match by {
+            By::Header if self.is_stamped() => [
+                skipped(self.undated, "it has no stamp, as others have"),
+                skipped(self.wrong, "its stamp is far from all others: the clock was set later"),
+            ]
+            .into_iter()
+            .flatten()
+            .collect(),
+            By::Header => {
+                let (topic, count) = (self.topic.clone(), self.count as u64);
+                Some(Warning::LogTime { topic, count }).filter(|_| count > 0).into_iter().collect()
+            }
+            By::Log => Vec::new(),
+        }
+    }
+
+    /// Whether stamps and logging cover one length of time.
+    fn is_as_logged(&self) -> bool {
+        let [stamps, logging] = self.covered;
+        let ratio = stamps / logging;
+        !self.is_stamped() || (1.0 / MAX_SPEED_RATIO..=MAX_SPEED_RATIO).contains(&ratio)
+    }
+
+    /// Whether two topics were logged over one time, at least half of the shorter one.
+    fn was_logged_with(&self, other: &Self) -> bool {
+        let length = |of: &Self| seconds(of.logged[0], of.logged[1]);
+        let start = self.logged[0].max(other.logged[0]);
+        let end = self.logged[1].min(other.logged[1]);
+        2.0 * seconds(start, end) >= length(self).min(length(other))
+    }
+}
+
+/// By what to date the messages of these topics, the one of the tracks first.
+pub(super) fn decide(clocks: &[Clock], dating: Dating) -> (By, Vec<Warning>) {
+    let mut warnings = Vec::new();
+    let by = match dating {
+        Dating::Header => return (By::Header, warnings),
+        Dating::Log => return (By::Log, warnings),
+        Dating::Any => by_evidence(clocks, &mut warnings),
+    };
+    (by, warnings)
+}
+
+fn by_evidence(clocks: &[Clock], warnings: &mut Vec<Warning>) -> By {
+    let Some(first) = clocks.first() else { return By::Header };
+    let can_log = |clock: &Clock| clock.was_logged_with(first);
+    let mut by = By::Header;
+    if let Some(broken) = clocks.iter().find(|clock| clock.broken && can_log(clock)) {
+        warnings.push(Warning::ClockSet { topic: broken.topic.clone() });
+        by = By::Log;
+    }
+    for other in &clocks[1.min(clocks.len())..] {
+        let offset = other.ahead - first.ahead;
+        if offset.abs() <= MIN_TOLD || by == By::Log || other.count == 0 {
+            continue;
+        }
+        let is_as_logged = first.is_as_logged() && other.is_as_logged() && can_log(other);
+        // What is logged before its stamp has another clock than the logger.
+        let is_ahead = first.ahead.max(other.ahead) > MAX_AHEAD
+            && first.ahead.min(other.ahead).abs() <= MAX_AHEAD;
+        let differ = is_as_logged && (is_ahead || offset.abs() > MAX_LATENESS);
+        if differ {
+            by = By::Log;
+        }
+        warnings.push(Warning::ClocksDiffer {
+            topics: [first.topic.clone(), other.topic.clone()],
+            offset,
+            by_log: differ,
+        });
+    }
+    by
+}
+
+/// The run that a message belongs to, by the loggings at which the clock begins anew.
+pub(super) fn segment(resets: &[i64], log_ns: i64) -> usize {
+    resets.partition_point(|reset| *reset <= log_ns)
+}
+
+/// The least and the greatest right stamp, and whether many lie on both sides of a long gap.
+fn right_stamps(mut stamps: Vec<i64>) -> ([i64; 2], bool) {
+    stamps.sort_unstable();
+    let all = stamps.len();
+    if all < MIN_STAMPS {
+        return ([i64::MIN, i64::MAX], false);
+    }
+    let mut left = stamps.as_slice();
+    loop {
+        let (Some(&first), Some(&last)) = (left.first(), left.last()) else {
+            return ([i64::MIN, i64::MAX], false);
+        };
+        let steps = left.windows(2).map(|pair| seconds(pair[0], pair[1])).enumerate();
+        let Some((at, gap)) = steps.max_by(|a, b| a.1.total_cmp(&b.1)) else {
+            return ([first, last], false);
+        };
+        let rest = (seconds(first, last) - gap).max(seconds(0, MIN_RESET_NS));
+        if gap <= MIN_FAR_RATIO * rest {
+            return ([first, last], false);
+        }
+        let (before, after) = left.split_at(at + 1);
+        left = if before.len() > after.len() { before } else { after };
+        if MAX_FAR_PORTION * (all - left.len()) > all {
+            return ([first, last], true);
+        }
+    }
+}
+
+/// Loggings at which stamps step back and stay back. Pairs of logging and stamp, by logging.
+fn resets(pairs: &[(i64, i64)]) -> Vec<i64> {
+    let mut resets = Vec::new();
+    let mut latest = i64::MIN;
+    for (place, &(logged, stamp)) in pairs.iter().enumerate() {
+        let is_back = |stamp: i64| stamp < latest.saturating_sub(MIN_RESET_NS);
+        if is_back(stamp)
+            && pairs[place..].iter().take(RESET_WITNESSES).all(|(_, stamp)| is_back(*stamp))
+        {
+            resets.push(logged);
+            latest = stamp;
+        }
+        latest = latest.max(stamp);
+    }
+    // Publishers with clocks of their own step back all the time: no clock was set anew.
+    if 100 * resets.len() > pairs.len() { Vec::new() } else { resets }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const S: i64 = 1_000_000_000;
+
+    /// A message every 0.1 s, stamped by a clock.
+    fn clock(topic: &str, count: i64, stamp: impl Fn(i64) -> i64) -> (Clock, Vec<Received<()>>) {
+        let all = (0..count).map(|k| Received {
+            stamp_ns: Some(stamp(k * S / 10)).filter(|stamp| *stamp != 0),
+            log_ns: 1_700_000_000 * S + k * S / 10,
+            value: (),
+        });
+        let all: Vec<_> = all.collect();
+        (Clock::of(topic, all.iter()), all)
+    }
+
+    const UNIX: i64 = 1_700_000_000 * S;
+
+    #[test]
+    fn clocks_of_another_epoch_or_ahead_of_the_log_give_way_to_it() {
+        let tracks = clock("tracks", 600, |t| UNIX + t - S / 100).0;
+        for (what, ahead, by) in [
+            ("slam, 0.3 s late", -3 * S / 10, By::Header),
+            ("ahead", 3 * S / 2, By::Log),
+            ("leap seconds", 37 * S, By::Log),
+            ("leap seconds", -37 * S, By::Log),
+            ("since boot", 500 * S - UNIX, By::Log),
+            ("equal", 0, By::Header),
+        ] {
+            let poses = clock("poses", 600, |t| UNIX + t + ahead).0;
+            let clocks = [tracks.clone(), poses];
+            let (found, warnings) = decide(&clocks, Dating::Any);
+            assert_eq!(found, by, "{what}");
+            let is_told = ahead.abs() > S / 5;
+            assert_eq!(warnings.len(), usize::from(is_told), "{what}: {warnings:?}");
+            assert_eq!(decide(&clocks, Dating::Header).0, By::Header);
+        }
+    }
+
+    #[test]
+    fn a_bag_that_was_logged_at_another_time_keeps_its_stamps() {
+        let tracks = clock("tracks", 600, |t| UNIX + t).0;
+        let (_, mut all) = clock("poses", 600, |t| UNIX + t);
+        for one in &mut all {
+            one.log_ns += 86_400 * S;
+        }
+        let poses = Clock::of("poses", all.iter());
+        assert_eq!(decide(&[tracks, poses], Dating::Any).0, By::Header);
+    }
+
+    #[test]
+    fn stamps_before_the_clock_was_set_are_dropped_and_said() {
+        let (clock, all) = clock("tracks", 600, |t| if t < S / 2 { t } else { UNIX + t });
+        let right = all.iter().filter(|one| clock.date(By::Header, one).is_some()).count();
+        assert_eq!(right, 595);
+        // one of the five is no stamp at all
+        let told: Vec<u64> = clock
+            .warnings(By::Header)
+            .iter()
+            .map(|warning| match warning {
+                Warning::MessagesSkipped { count, .. } => *count,
+                other => panic!("{other}"),
+            })
+            .collect();
+        assert_eq!(told, [1, 4]);
+        assert_eq!(decide(&[clock], Dating::Any).0, By::Header);
+    }
+
+    #[test]
+    fn a_clock_that_is_set_in_the_middle_gives_way_to_the_log() {
+        let (clock, all) = clock("tracks", 600, |t| if t < 20 * S { t + S } else { UNIX + t });
+        assert_eq!(decide(&[clock.clone()], Dating::Any).0, By::Log);
+        assert!(all.iter().all(|one| clock.date(By::Log, one) == Some(one.log_ns)));
+    }
+
+    #[test]
+    fn a_reset_begins_another_run_and_a_late_message_does_not() {
+        let (reset, all) = clock("tracks", 600, |t| if t < 30 * S { t + S } else { t - 29 * S });
+        assert_eq!(reset.resets(), [UNIX + 30 * S]);
+        assert_eq!(segment(reset.resets(), all[299].log_ns), 0);
+        assert_eq!(segment(reset.resets(), all[300].log_ns), 1);
+        let late = clock("tracks", 600, |t| if t == 30 * S { S } else { t + S }).0;
+        assert_eq!(late.resets(), [0_i64; 0]);
+    }
+}

@@ -1,0 +1,312 @@
+//! What the name of a joint says: its side, and whether it turns a wheel or a track.
+
+use trackdyn_core::Side;
+
+/// What a joint moves, by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Part {
+    /// A flipper, an arm, a camera or another part that carries no robot forward.
+    Other,
+    /// The name does not say.
+    Unknown,
+    /// A wheel, a track or its sprocket.
+    Wheel,
+}
+
+/// Words that name the left side: by themselves, or as a letter beside that of an axle.
+const LEFT: [&str; 8] = ["fl", "ml", "cl", "rl", "bl", "lf", "lm", "lb"];
+/// Words that name the right side.
+const RIGHT: [&str; 8] = ["fr", "mr", "cr", "rr", "br", "rf", "rm", "rb"];
+
+const WHEEL: [&str; 19] = [
+    "wheel",
+    "wheels",
+    "whl",
+    "track",
+    "tracks",
+    "tread",
+    "treads",
+    "sprocket",
+    "sprockets",
+    "belt",
+    "belts",
+    "crawler",
+    "crawlers",
+    "drive",
+    "motor",
+    "motors",
+    "tire",
+    "tyre",
+    "caterpillar",
+];
+
+/// Parts that may be named beside a wheel or a motor and make it one of their own.
+const OTHER: [&str; 58] = [
+    "flipper",
+    "flippers",
+    "arm",
+    "arms",
+    "gripper",
+    "grippers",
+    "finger",
+    "fingers",
+    "hand",
+    "wrist",
+    "elbow",
+    "shoulder",
+    "manipulator",
+    "sensor",
+    "sensors",
+    "mast",
+    "pan",
+    "tilt",
+    "camera",
+    "cam",
+    "head",
+    "neck",
+    "lidar",
+    "laser",
+    "radar",
+    "antenna",
+    "steer",
+    "steering",
+    "steered",
+    "caster",
+    "castor",
+    "casters",
+    "castors",
+    "swivel",
+    "turret",
+    "boom",
+    "bucket",
+    "blade",
+    "stick",
+    "brush",
+    "fan",
+    "propeller",
+    "thruster",
+    "door",
+    "lid",
+    "hatch",
+    "light",
+    "lamp",
+    "display",
+    "lift",
+    "fork",
+    "winch",
+    "hook",
+    "tool",
+    "plow",
+    "gimbal",
+    "ptu",
+    "valve",
+];
+
+/// Parts that wheels hang on: they do not turn with them, but a wheel may be named after its part.
+const CARRIER: [&str; 18] = [
+    "suspension",
+    "susp",
+    "shock",
+    "spring",
+    "damper",
+    "rocker",
+    "bogie",
+    "bogey",
+    "leg",
+    "hip",
+    "knee",
+    "ankle",
+    "foot",
+    "swing",
+    "knuckle",
+    "upright",
+    "fender",
+    "bumper",
+];
+
+/// Words that are written together, as in `frontleftwheel`.
+const JOINED: [&str; 10] =
+    ["front", "rear", "back", "middle", "mid", "center", "centre", "left", "right", "joint"];
+
+/// The name of a side.
+pub(super) fn word(side: Side) -> &'static str {
+    match side {
+        Side::Left => "left",
+        Side::Right => "right",
+    }
+}
+
+/// The side that a joint is on by its name; none where the name gives none, or both.
+pub(super) fn side(name: &str) -> Option<Side> {
+    let words = words(name);
+    let only = |is: &dyn Fn(&str, Side) -> bool| {
+        let [left, right] =
+            [Side::Left, Side::Right].map(|side| words.iter().any(|word| is(word, side)));
+        (left != right).then_some(if left { Side::Left } else { Side::Right })
+    };
+    let full = |word: &str, side: Side| word == self::word(side);
+    let of_axle = |word: &str, side: Side| match side {
+        Side::Left => LEFT.contains(&word),
+        Side::Right => RIGHT.contains(&word),
+    };
+    let letter = |word: &str, side: Side| match side {
+        Side::Left => word == "l" || word == "lhs",
+        Side::Right => word == "r" || word == "rhs",
+    };
+    if let Some(side) = only(&full) {
+        return Some(side);
+    }
+    if words.iter().any(|word| word == "left" || word == "right") {
+        return None;
+    }
+    only(&of_axle).or_else(|| only(&letter)).or_else(|| {
+        // r_l: rear left
+        let letters: Vec<&str> =
+            words.iter().map(String::as_str).filter(|word| word.len() == 1).collect();
+        (letters == ["r", "l"]).then_some(Side::Left)
+    })
+}
+
+/// What a joint moves by its name.
+pub(super) fn part(name: &str) -> Part {
+    let words = words(name);
+    let has = |list: &[&str]| words.iter().any(|word| list.contains(&word.as_str()));
+    if has(&OTHER) {
+        Part::Other
+    } else if has(&WHEEL) {
+        Part::Wheel
+    } else if has(&CARRIER) {
+        Part::Other
+    } else {
+        Part::Unknown
+    }
+}
+
+/// The words of a name in small letters: it is split at all that is no letter, at capitals, and
+/// where words of sides, axles and wheels are written together.
+fn words(name: &str) -> Vec<String> {
+    let letters: Vec<char> = name.chars().collect();
+    let mut words = Vec::new();
+    let mut word = String::new();
+    for (place, &letter) in letters.iter().enumerate() {
+        let before = place.checked_sub(1).map(|before| letters[before]);
+        // frontLeft, FLWheel
+        let begins = letter.is_uppercase()
+            && before.is_some_and(|before| {
+                before.is_lowercase()
+                    || (before.is_uppercase()
+                        && letters.get(place + 1).is_some_and(|next| next.is_lowercase()))
+            });
+        if (begins || !letter.is_alphabetic()) && !word.is_empty() {
+            words.push(std::mem::take(&mut word));
+        }
+        if letter.is_alphabetic() {
+            word.extend(letter.to_lowercase());
+        }
+    }
+    if !word.is_empty() {
+        words.push(word);
+    }
+    words.iter().flat_map(|word| parted(word)).collect()
+}
+
+/// The words that one is made of; itself where it is not made of known ones.
+fn parted(word: &str) -> Vec<String> {
+    let known = |part: &str| JOINED.contains(&part) || WHEEL.contains(&part);
+    let is_side =
+        |part: &str| LEFT.contains(&part) || RIGHT.contains(&part) || part == "l" || part == "r";
+    // Short words of a side stand at an end, before or after a longer word: lwheel, wheelfl.
+    for length in [2, 1] {
+        if let (Some(start), Some(rest)) = (word.get(..length), word.get(length..))
+            && is_side(start)
+            && let Some(parts) = all_known(rest, &known)
+        {
+            return [vec![start.to_owned()], parts].concat();
+        }
+        let at = word.len().saturating_sub(length);
+        if let (Some(rest), Some(end)) = (word.get(..at), word.get(at..))
+            && is_side(end)
+            && let Some(parts) = all_known(rest, &known)
+        {
+            return [parts, vec![end.to_owned()]].concat();
+        }
+    }
+    all_known(word, &known).unwrap_or_else(|| vec![word.to_owned()])
+}
+
+/// The known words that a word is made of; none where something is left.
+fn all_known(word: &str, known: &impl Fn(&str) -> bool) -> Option<Vec<String>> {
+    if known(word) {
+        return Some(vec![word.to_owned()]);
+    }
+    let splits = word.char_indices().map(|(at, _)| at).skip(3);
+    splits.filter(|&at| known(&word[..at])).find_map(|at| {
+        let rest = all_known(&word[at..], known)?;
+        Some([vec![word[..at].to_owned()], rest].concat())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sides_are_told_by_whole_words() {
+        for name in [
+            "left_wheel",
+            "wheel_left",
+            "base/left",
+            "frontLeftWheel",
+            "FLWheel",
+            "fl_wheel",
+            "wheel_l",
+            "LF",
+            "rear-left-1",
+            "left1",
+            "LEFT",
+            "lwheel",
+            "frontleft_joint",
+            "wheelrl",
+            "r_l_wheel",
+        ] {
+            assert_eq!(side(name), Some(Side::Left), "{name}");
+        }
+        for name in ["right_wheel", "rr", "wheelFR", "BR_motor", "m2.right", "rightwheel", "r1"] {
+            assert_eq!(side(name), Some(Side::Right), "{name}");
+        }
+        for name in [
+            "camera_upright_joint",
+            "bright",
+            "leftover",
+            "cleft",
+            "lidar",
+            "roller",
+            "flipper",
+            "left_right",
+            "rear_wheel",
+            "",
+            "träck",
+            "l_r",
+        ] {
+            assert_eq!(side(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn parts_are_told_by_whole_words() {
+        for (name, expected) in [
+            ("left_track_joint", Part::Wheel),
+            ("frontLeftWheel", Part::Wheel),
+            ("leftwheel", Part::Wheel),
+            ("rocker_left_wheel", Part::Wheel),
+            ("rocker_left", Part::Other),
+            ("left_flipper_track", Part::Other),
+            ("front_left_steering_motor", Part::Other),
+            ("left_caster_wheel", Part::Other),
+            ("front_left", Part::Unknown),
+            ("left_armor", Part::Unknown),
+        ] {
+            assert_eq!(part(name), expected, "{name}");
+        }
+    }
+}

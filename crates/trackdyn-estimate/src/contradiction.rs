@@ -111,6 +111,12 @@ impl Contradiction {
         found
     }
 
+    /// What contradicts a distance of the ICRs with this χ.
+    pub fn of_efficiency(efficiency: &Interval) -> Option<Self> {
+        let chi = efficiency.value;
+        (efficiency.low > MAX_EFFICIENCY).then_some(Self::Efficiency { chi })
+    }
+
     /// What contradicts parameters whatever they were fitted to.
     pub fn of_parameters(parameters: &Parameters, efficiency: &Interval) -> Vec<Self> {
         let [.., left, right] = parameters.0;
@@ -119,9 +125,7 @@ impl Contradiction {
             let (alpha, [low, high]) = (alphas[side], ALPHAS);
             (!(low..=high).contains(&alpha)).then_some(Self::Alpha { side, alpha })
         });
-        let chi = efficiency.value;
-        let efficiency = (efficiency.low > MAX_EFFICIENCY).then_some(Self::Efficiency { chi });
-        efficiency.into_iter().chain(far).collect()
+        Self::of_efficiency(efficiency).into_iter().chain(far).collect()
     }
 }
 

@@ -66,7 +66,7 @@ pub use observations::Observations;
 pub use parameters::{Free, Parameters};
 pub use segment::{Segment, SegmentOptions, segments};
 pub use sensor::{Nuisance, Sensor};
-pub use separation::Separation;
+pub use separation::{Separation, Turning};
 pub use spin_test::{SpinTest, spin_test};
 pub use steady::{SteadyEstimate, fit_points};
 pub use weighting::Weighting;

@@ -1,20 +1,22 @@
 //! The distance between the ICRs from turning alone, where nothing is known of the place.
 //!
 //! # Law
-//! Δψᵢ = k Dᵢ + noise, eq. (9) over a time in which the robot turns by Δψ and the right track runs D
-//! further than the left one; x_r − x_l = 1/k. Residuals count by Huber's loss.
+//! Δψᵢ = k Dᵢ + b Δtᵢ + noise, eq. (9) over a time Δt in which the robot turns by Δψ and the right
+//! track runs D further than the left one; x_r − x_l = 1/k, and b is the bias of a gyroscope, 0 in
+//! tables of steady points. Residuals count by Huber's loss.
 //!
 //! # Assumes
 //! α = 1 on both sides. Parts of a drive ([`Blocks`](crate::Blocks)), or points of a table, say
 //! nothing of one another: the interval is that of a jackknife over them.
 
-use crate::Interval;
 use crate::error::Error;
 use crate::gauss_newton::Loss;
 use crate::observations::Observations;
+use crate::{Clock, Interval, SegmentOptions};
+use nalgebra::{Matrix2, Vector2};
 use trackdyn_core::real;
 use trackdyn_core::robust::deviation_about_zero;
-use trackdyn_recording::OperatingPoint;
+use trackdyn_recording::{OperatingPoint, Recording};
 
 /// Fewest turns, of a drive or of a table.
 const MIN_TURNS: usize = 3;
@@ -43,11 +45,49 @@ struct Turn {
     difference: f64,
     /// Δψ, rad; of a point ω, rad/s.
     yaw: f64,
+    /// Δt, s; 0 for a point.
+    duration: f64,
     /// The part that it belongs to.
     group: usize,
 }
 
+/// What a recording says whose poses have a yaw alone.
+#[derive(Clone, Debug)]
+pub struct Turning {
+    /// Clock offset.
+    pub clock: Clock,
+    /// Segments.
+    pub segments: usize,
+    /// The distance of the ICRs.
+    pub separation: Separation,
+}
+
+impl Turning {
+    /// What the yaw of a recording says; `tau` is the clock offset, s, where it is given.
+    ///
+    /// # Errors
+    /// Those of [`Clock::of`] and [`Separation::of_motions`].
+    pub fn of(recording: &Recording, tau: Option<f64>) -> Result<Self, Error> {
+        let clock = Clock::of(recording, tau)?;
+        let options = SegmentOptions { tau: clock.tau(), ..SegmentOptions::default() };
+        let observations = Observations::new(recording, &options);
+        let separation = Separation::of_motions(&observations)?;
+        Ok(Self { clock, segments: observations.len(), separation })
+    }
+}
+
 impl Separation {
+    /// χ = L/(x_r − x_l), eq. (12), for a gauge, m.
+    pub fn steering_efficiency(&self, gauge: f64) -> Interval {
+        let Interval { value, deviation, low, high } = self.gap;
+        Interval {
+            value: gauge / value,
+            deviation: gauge / value.powi(2) * deviation,
+            low: gauge / high,
+            high: gauge / low,
+        }
+    }
+
     /// The distance by the segments of a drive.
     ///
     /// # Errors
@@ -59,7 +99,8 @@ impl Separation {
                 observations.segments()[range].iter().map(move |segment| {
                     let travelled = observations.travelled(segment);
                     let difference = travelled.right - travelled.left;
-                    Turn { difference, yaw: segment.motion[2], group }
+                    let (yaw, duration) = (segment.motion[2], segment.duration);
+                    Turn { difference, yaw, duration, group }
                 })
             })
             .collect();
@@ -80,7 +121,7 @@ impl Separation {
     pub fn of_points(points: &[OperatingPoint]) -> Result<Self, Error> {
         let turns = points.iter().enumerate().filter_map(|(group, point)| {
             let difference = point.v_right - point.v_left;
-            Some(Turn { difference, yaw: point.yaw_rate?, group })
+            Some(Turn { difference, yaw: point.yaw_rate?, duration: 0.0, group })
         });
         Self::of_turns(&turns.filter(|turn| turn.difference != 0.0).collect::<Vec<_>>())
     }
@@ -117,16 +158,19 @@ fn refused(reason: String) -> Error {
 fn slope<'a>(turns: impl Iterator<Item = &'a Turn>) -> f64 {
     let turns: Vec<Turn> = turns.copied().collect();
     let by = |weight: &dyn Fn(&Turn) -> f64| {
-        let sums = turns.iter().fold([0.0, 0.0], |[cross, square], turn| {
-            let weight = weight(turn);
-            let Turn { difference, yaw, .. } = *turn;
-            [cross + weight * difference * yaw, square + weight * difference * difference]
-        });
-        sums[0] / sums[1]
+        let (mut matrix, mut right) = (Matrix2::zeros(), Vector2::zeros());
+        for turn in &turns {
+            let by = Vector2::new(turn.difference, turn.duration);
+            matrix += weight(turn) * by * by.transpose();
+            right += weight(turn) * by * turn.yaw;
+        }
+        // without times, there is no bias
+        matrix[(1, 1)] += f64::from(u8::from(matrix[(1, 1)] == 0.0));
+        matrix.try_inverse().map_or(Vector2::repeat(f64::NAN), |inverse| inverse * right)
     };
-    let mut k = by(&|_| 1.0);
+    let mut found = by(&|_| 1.0);
     for _ in 0..ITERATIONS {
-        let left = |turn: &Turn| turn.yaw - k * turn.difference;
+        let left = |turn: &Turn| turn.yaw - found.x * turn.difference - found.y * turn.duration;
         let mut sizes: Vec<f64> = turns.iter().map(left).collect();
         // Half of the residuals may be rounded away.
         let least = f64::EPSILON * turns.iter().map(|turn| turn.yaw.abs()).sum::<f64>();
@@ -135,19 +179,18 @@ fn slope<'a>(turns: impl Iterator<Item = &'a Turn>) -> f64 {
             break;
         }
         let next = by(&|turn| Loss::Huber.weight(left(turn) / spread));
-        let is_settled = (next - k).abs() <= 1e-12 * k.abs();
-        k = next;
+        let is_settled = (next.x - found.x).abs() <= 1e-12 * found.x.abs();
+        found = next;
         if is_settled {
             break;
         }
     }
-    k
+    found.x
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::SegmentOptions;
     use crate::synthetic::{Synthetic, random_steps};
 
     #[test]
@@ -187,6 +230,8 @@ mod tests {
                     sample.pose.x = 0.0;
                     sample.pose.y = 0.0;
                     sample.pose.yaw += if k % 97 == 41 { 0.5 } else { 0.0 };
+                    // the bias of a gyroscope
+                    sample.pose.yaw += 0.02 * sample.t;
                 }
                 rows
             });

@@ -113,7 +113,10 @@ impl Recording {
         kept.sort_by_key(Run::id);
         let runs = kept.iter().filter(|run| !run.has_positions()).count();
         if runs > 0 {
-            warnings.push(Warning::PositionsUnknown { runs });
+            warnings.push(Warning::PositionsUnknown { runs, of: kept.len() });
+        }
+        if runs < kept.len() {
+            kept.retain(Run::has_positions);
         }
         warnings.extend(warning::gather(cleanings).into_iter().map(Warning::Cleaned));
         let fingerprint = content::fingerprint(&kept);

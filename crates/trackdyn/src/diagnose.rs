@@ -65,8 +65,9 @@ impl Prepared {
     /// # Errors
     /// [`Error::NoRecording`]; [`Error::RecordingTwice`], for runs count as evidence of their own;
     /// [`Error::PointsNotAlone`]; [`Error::HeldOut`] for runs that are not there,
-    /// [`Error::AllHeldOut`], [`Error::NoRunsToHoldOut`] for runs of a table; [`Error::Diagnose`]
-    /// for too little driving, or noise that is not known.
+    /// [`Error::AllHeldOut`], [`Error::NoRunsToHoldOut`] for runs of a table;
+    /// [`Error::NoPositions`]; [`Error::Diagnose`] for too little driving, or noise that is not
+    /// known.
     pub fn new(
         recordings: &[Recording],
         vehicle: &Vehicle,
@@ -82,7 +83,8 @@ impl Prepared {
                 let held_out = settings.held_out.of_points(evidence.runs().len());
                 (evidence, held_out, None)
             }
-            (None, Some(motion)) => {
+            (None, Some(_)) => {
+                let motion = recording.expect_positions()?;
                 let held_out = settings.held_out.of_motion(motion)?;
                 let evidence = Evidence::of_recording(motion, vehicle.gauge(), &settings.method)
                     .map_err(named)?;

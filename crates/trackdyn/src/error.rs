@@ -87,6 +87,15 @@ pub enum Error {
         /// The table.
         recording: String,
     },
+    /// Poses with a yaw alone where positions are needed.
+    #[error(
+        "{recording}: its poses have a yaw alone: expected poses with positions (`identify` tells \
+         the distance of the ICRs from yaw)"
+    )]
+    NoPositions {
+        /// The recording.
+        recording: String,
+    },
     /// A file with the distance of the ICRs where all parameters are needed.
     #[error(
         "{name}: holds the distance of the ICRs alone: x_l, x_r and y are open. Expected parameters \

@@ -3,17 +3,21 @@
 mod document;
 mod motion;
 mod points;
+mod sourced;
+mod turning;
 
 pub use motion::MotionFit;
 pub use points::PointsFit;
+pub use turning::TurningFit;
 
 use crate::change::Folder;
 use crate::progress::Counter;
 use crate::{Change, Error, Observer, Parameters, Provenance, Recording, Vehicle, unobserved};
+use sourced::Sourced;
 use std::path::Path;
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::identification::Options;
-use trackdyn_estimate::{Contradiction, Nuisance, identify_unless_stopped};
+use trackdyn_estimate::{Contradiction, Nuisance, Turning, identify_unless_stopped};
 use trackdyn_model::kinematics::SeparationFile;
 use trackdyn_recording::Recording as Motion;
 
@@ -65,6 +69,8 @@ pub enum Identification {
     Motion(Box<MotionFit>),
     /// From a table of steady operating points: least squares.
     Points(Box<PointsFit>),
+    /// From a recording whose poses have a yaw alone: the distance of the ICRs.
+    Turning(Box<TurningFit>),
 }
 
 /// Identifies the kinematic parameters of a robot.
@@ -109,10 +115,16 @@ impl<'a> Prepared<'a> {
     /// [`Error::Identify`] for a recording with too little in it, [`Error::Cancelled`].
     pub fn run(&self, observer: &Observer) -> Result<Identification, Error> {
         let Self { recording, vehicle, settings } = *self;
+        let sourced = Sourced::new(recording, vehicle, settings);
         if let Some(points) = recording.points() {
-            return Ok(Identification::Points(Box::new(PointsFit::new(points, vehicle, settings))));
+            return Ok(Identification::Points(Box::new(PointsFit::new(points, sourced))));
         }
         let motion: &Motion = recording.expect_motion()?;
+        let refuse = |cause| Error::Identify { recording: recording.place(), cause };
+        if !motion.has_positions() {
+            let found = Turning::of(motion, settings.tau).map_err(refuse)?;
+            return Ok(Identification::Turning(Box::new(TurningFit { found, sourced })));
+        }
         let options = Options {
             gauge: vehicle.gauge(),
             tau: settings.tau,
@@ -125,9 +137,10 @@ impl<'a> Prepared<'a> {
         let found =
             identify_unless_stopped(motion, &options, &progress).map_err(|cause| match cause {
                 trackdyn_estimate::Error::Cancelled => Error::Cancelled,
-                cause => Error::Identify { recording: recording.place(), cause },
+                cause => refuse(cause),
             })?;
-        let fit = MotionFit::new(found, recording, motion, vehicle, settings);
+        let sourced = sourced.with_seed(settings.genetic.seed);
+        let fit = MotionFit::new(found, motion, vehicle, sourced);
         Ok(Identification::Motion(Box::new(fit)))
     }
 }
@@ -139,6 +152,7 @@ impl Identification {
         let files = match self {
             Self::Motion(fit) => fit.files(provenance),
             Self::Points(fit) => fit.files(provenance),
+            Self::Turning(_) => [None, None],
         };
         let [icrs, with_alphas] = files;
         [(icrs, FILES[0]), (with_alphas, FILES[1])]
@@ -166,6 +180,7 @@ impl Identification {
             Self::Points(points) => points.fits.each_ref().map(|(_, fit)| {
                 fit.as_ref().map_or(Vec::new(), |fit| fit.contradictions(points.gauge()))
             }),
+            Self::Turning(fit) => [fit.contradictions(), Vec::new()],
         }
     }
 
@@ -177,6 +192,7 @@ impl Identification {
         match self {
             Self::Motion(fit) => fit.separation(provenance),
             Self::Points(fit) => fit.separation(provenance),
+            Self::Turning(fit) => fit.separation(provenance),
         }
     }
 

@@ -61,7 +61,7 @@ pub fn odometry(
     parameters: &[Parameters],
     settings: &OdometrySettings,
 ) -> Result<Odometry, Error> {
-    let motion = recording.expect_motion()?;
+    let motion = recording.expect_positions()?;
     let names = names::names(parameters.iter().map(|one| Path::new(one.name())));
     let replayed: Vec<Replayed> = parameters
         .iter()

@@ -146,6 +146,16 @@ impl Recording {
     pub(crate) fn expect_motion(&self) -> Result<&Motion, Error> {
         self.motion().ok_or_else(|| Error::NoMotion { recording: self.place() })
     }
+
+    /// The recording of motion, whose positions are needed.
+    ///
+    /// # Errors
+    /// Those of [`expect_motion`](Self::expect_motion); [`Error::NoPositions`].
+    pub(crate) fn expect_positions(&self) -> Result<&Motion, Error> {
+        let motion = self.expect_motion()?;
+        let refused = || Error::NoPositions { recording: self.place() };
+        motion.has_positions().then_some(motion).ok_or_else(refused)
+    }
 }
 
 impl From<Motion> for Recording {

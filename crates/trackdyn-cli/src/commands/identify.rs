@@ -99,6 +99,7 @@ pub fn run(options: &Options) -> Outcome {
     show(&match &found {
         Identification::Motion(fit) => summary::text(&recording, &vehicle, &fit.found),
         Identification::Points(fit) => points::text(&recording, &vehicle, fit),
+        Identification::Turning(fit) => summary::turning(&recording, &vehicle, fit),
     })?;
     if let Some(separation) = found.separation(&provenance()) {
         show(&summary::separation(&separation))?;

@@ -42,6 +42,8 @@ pub enum Warning {
     PositionsUnknown {
         /// Runs whose positions are not known.
         runs: usize,
+        /// All runs; those without positions are left out where others have them.
+        of: usize,
     },
     /// Messages that are not what their type says, or lack what is needed.
     MessagesSkipped {
@@ -235,10 +237,11 @@ impl fmt::Display for Warning {
                 "{poses}: if it comes from the tracks themselves, it agrees with any model of \
                  them: poses have to come from something else"
             ),
-            Self::PositionsUnknown { runs } => write!(
+            Self::PositionsUnknown { runs, of } => write!(
                 f,
                 "poses: in {runs} runs x and y are empty, or never change while the tracks travel: \
-                 positions are not known, only yaw counts"
+                 positions are not known, {}",
+                if runs == of { "only yaw counts" } else { "and these runs are left out" }
             ),
             Self::MessagesSkipped { topic, count, reason } => {
                 write!(f, "{topic}: {count} messages skipped, the first because {reason}")

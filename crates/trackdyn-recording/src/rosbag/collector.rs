@@ -18,6 +18,7 @@ use trackdyn_core::PerSide;
 
 mod alike;
 mod choice;
+mod gyro;
 mod joint;
 mod merge;
 mod publishers;
@@ -84,18 +85,24 @@ impl<'a> Collector<'a> {
         }
         let sources = Sources { path, options: self.options, seen: &self.seen };
         let chosen = sources.tracks(self.joints.into_sources(), &self.skipped, &mut warnings)?;
+        let (imu_topic, imu) = sources.imu(self.imu, &mut warnings)?;
+        let is_free = !self.options.names_poses();
         let (poses, pose_topic, chained) = match (self.options.frames(), self.poses.is_empty()) {
             (Some(ends), true) if !self.frames.is_empty() => {
                 let chain = chain::read(path, self.options, &self.frames, ends)?;
                 warnings.extend(chain.warnings);
                 (Vec::new(), String::new(), Some(chain.poses))
             }
+            _ if self.poses.is_empty() && is_free && !imu.is_empty() => {
+                let taken = format!("the yaw of the gyroscope {imu_topic}, without positions");
+                warnings.push(Warning::Chosen { what: "poses", taken });
+                (gyro::headings(&imu), imu_topic.clone(), None)
+            }
             _ => {
                 let (topic, poses) = sources.poses(self.poses, &mut warnings)?;
                 (poses, topic, None)
             }
         };
-        let (imu_topic, imu) = sources.imu(self.imu, &mut warnings)?;
         // Clocks of the tracks come first: others are compared with them.
         let mut clocks: Vec<Clock> = Vec::new();
         for joint in &chosen.joints {

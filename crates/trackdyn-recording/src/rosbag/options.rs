@@ -36,6 +36,11 @@ impl RosbagOptions {
         Some([self.parent_frame.as_deref()?, self.child_frame.as_deref()?])
     }
 
+    /// Whether anything is said of the poses.
+    pub(super) fn names_poses(&self) -> bool {
+        [&self.pose_topic, &self.parent_frame, &self.child_frame].iter().any(|one| one.is_some())
+    }
+
     /// Whether poses may come from a topic: from the one that is named, and from transforms that
     /// hold at all times beside it.
     pub(super) fn may_hold_poses(&self, topic: &str) -> bool {

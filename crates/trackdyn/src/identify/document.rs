@@ -96,7 +96,13 @@ pub(super) fn text(identified: &MotionFit, source: &Source) -> String {
     let mut method = vec![of_spin_test(&found.spin_test, gauge)];
     for (fit, file) in found.fits.iter().zip(FILES) {
         method.push(of_genetic(fit, gauge));
-        method.push(of_least_squares(fit, gauge, found.weighted_by_noise, file, identified.force));
+        method.push(of_least_squares(
+            fit,
+            gauge,
+            found.weighted_by_noise,
+            file,
+            identified.sourced.force,
+        ));
     }
     to_toml(&File {
         schema: "trackdyn.identification/1",

@@ -1,9 +1,10 @@
 //! What a recording of motion says of the kinematic parameters.
 
 use super::document;
-use crate::{IdentifySettings, Provenance, Recording, Vehicle};
+use super::sourced::Sourced;
+use crate::{Provenance, Vehicle};
 use trackdyn_estimate::{Free, Identification, Interval};
-use trackdyn_model::kinematics::{KinematicsFile, SeparationFile, Source};
+use trackdyn_model::kinematics::{KinematicsFile, SeparationFile};
 use trackdyn_recording::Recording as Motion;
 
 /// What a recording of motion says of the kinematic parameters.
@@ -11,44 +12,25 @@ use trackdyn_recording::Recording as Motion;
 pub struct MotionFit {
     /// What was found, method by method.
     pub found: Identification,
-    source: Source,
     robot: String,
     vehicle_fingerprint: String,
-    gauge: f64,
-    pub(super) force: bool,
+    pub(super) sourced: Sourced,
 }
 
 impl MotionFit {
     pub(super) fn new(
         found: Identification,
-        recording: &Recording,
         motion: &Motion,
         vehicle: &Vehicle,
-        settings: &IdentifySettings,
+        sourced: Sourced,
     ) -> Self {
-        let source = Source {
-            vehicle: vehicle.name().to_owned(),
-            fingerprint: motion.fingerprint().to_owned(),
-            pose_fingerprint: Some(motion.pose_fingerprint().to_owned()),
-            recording: Some(motion.name().to_owned()),
-            runs: Some(motion.run_list().to_string()),
-            time_s: recording.time(),
-            seed: Some(settings.genetic.seed),
-            ..Source::default()
-        };
-        Self {
-            found,
-            source,
-            robot: motion.robot().to_owned(),
-            vehicle_fingerprint: vehicle.fingerprint(),
-            gauge: vehicle.gauge(),
-            force: settings.force,
-        }
+        let (robot, vehicle_fingerprint) = (motion.robot().to_owned(), vehicle.fingerprint());
+        Self { found, robot, vehicle_fingerprint, sourced }
     }
 
     /// Gauge of the vehicle, m.
     pub fn gauge(&self) -> f64 {
-        self.gauge
+        self.sourced.gauge
     }
 
     /// The robot, as the recording calls it.
@@ -58,7 +40,7 @@ impl MotionFit {
 
     /// The text of `identification.toml` (schema `trackdyn.identification/1`).
     pub fn to_toml(&self, provenance: &Provenance) -> String {
-        document::text(self, &self.source(provenance))
+        document::text(self, &self.sourced.source(provenance))
     }
 
     pub(super) fn vehicle_fingerprint(&self) -> &str {
@@ -68,18 +50,19 @@ impl MotionFit {
     /// The kinematics files of the fits, where the recording determines them and nothing contradicts
     /// them, or where the settings force them.
     pub(super) fn files(&self, provenance: &Provenance) -> [Option<KinematicsFile>; 2] {
-        let source = self.source(provenance);
+        let source = self.sourced.source(provenance);
         self.found.fits.each_ref().map(|fit| {
             let estimate = fit.least_squares.as_ref().ok().filter(|_| fit.doubts.is_empty())?;
             let doubtful = !fit.contradictions.is_empty();
-            if doubtful && !self.force {
+            if doubtful && !self.sourced.force {
                 return None;
             }
             let rows = estimate.covariance_of_parameters();
             let with_alphas = fit.free == Free::IcrsAndAlphas;
             let kinematics = estimate.parameters.kinematics();
             let of = source.clone();
-            let mut file = KinematicsFile::of_fit(&kinematics, self.gauge, with_alphas, rows, of);
+            let mut file =
+                KinematicsFile::of_fit(&kinematics, self.sourced.gauge, with_alphas, rows, of);
             file.doubtful = doubtful;
             Some(file)
         })
@@ -90,12 +73,11 @@ impl MotionFit {
         let is_contradicted = self.found.fits.iter().any(|fit| !fit.contradictions.is_empty());
         let found = self.found.separation.as_ref().ok().filter(|_| !is_contradicted)?;
         let Interval { value, low, high, .. } = found.gap;
-        Some(SeparationFile::new(value, [low, high], self.gauge, self.source(provenance)))
-    }
-
-    /// Where the numbers come from.
-    fn source(&self, provenance: &Provenance) -> Source {
-        let Provenance { command, version } = provenance.clone();
-        Source { command, version, ..self.source.clone() }
+        Some(SeparationFile::new(
+            value,
+            [low, high],
+            self.sourced.gauge,
+            self.sourced.source(provenance),
+        ))
     }
 }

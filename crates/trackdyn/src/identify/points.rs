@@ -1,12 +1,13 @@
 //! What a table of steady operating points says of the kinematic parameters.
 
+use super::sourced::Sourced;
+use crate::Provenance;
 use crate::recording::PointsTable;
-use crate::{IdentifySettings, Provenance, Vehicle};
 use trackdyn_estimate::least_squares::Loss;
 use trackdyn_estimate::steady::{Lagging, SteadyEstimate, lagging};
 use trackdyn_estimate::{Error, Free, Interval, Parameters, Separation, fit_points};
 use trackdyn_model::Kinematics;
-use trackdyn_model::kinematics::{KinematicsFile, SeparationFile, Source};
+use trackdyn_model::kinematics::{KinematicsFile, SeparationFile};
 
 /// What a table of steady operating points says of the kinematic parameters.
 #[derive(Clone, Debug)]
@@ -20,65 +21,56 @@ pub struct PointsFit {
     pub separation: Result<Separation, Error>,
     /// Points that turn less than others that are driven less: a track did not run at its speed.
     pub lagging: Vec<Lagging>,
-    source: Source,
-    gauge: f64,
-    force: bool,
+    sourced: Sourced,
 }
 
 impl PointsFit {
-    pub(super) fn new(table: &PointsTable, vehicle: &Vehicle, settings: &IdentifySettings) -> Self {
-        let gauge = vehicle.gauge();
+    pub(super) fn new(table: &PointsTable, sourced: Sourced) -> Self {
+        let gauge = sourced.gauge;
         let start = Parameters::of(&Kinematics::ideal(gauge));
         let points = table.points();
         let squares = fit_points(points, &start, Free::Icrs, Loss::Squares);
         let fits = [Free::Icrs, Free::IcrsAndAlphas]
             .map(|free| (free, fit_points(points, &start, free, Loss::Huber)));
-        let source = Source {
-            vehicle: vehicle.name().to_owned(),
-            fingerprint: table.fingerprint().to_owned(),
-            recording: Some(table.name().to_owned()),
-            ..Source::default()
-        };
-        let (separation, force) = (Separation::of_points(points), settings.force);
-        Self { fits, squares, separation, lagging: lagging(points), source, gauge, force }
+        let separation = Separation::of_points(points);
+        Self { fits, squares, separation, lagging: lagging(points), sourced }
     }
 
     /// Gauge of the vehicle, m.
     pub fn gauge(&self) -> f64 {
-        self.gauge
+        self.sourced.gauge
     }
 
     /// The distance of the ICRs alone, where that is all that the table determines.
     pub(super) fn separation(&self, provenance: &Provenance) -> Option<SeparationFile> {
-        let contradictions = |fit: &SteadyEstimate| fit.contradictions(self.gauge);
+        let contradictions = |fit: &SteadyEstimate| fit.contradictions(self.sourced.gauge);
         let fits = self.fits.iter().filter_map(|(_, fit)| fit.as_ref().ok());
         let is_contradicted = fits.flat_map(contradictions).next().is_some();
         let found = self.separation.as_ref().ok().filter(|_| !is_contradicted)?;
         let Interval { value, low, high, .. } = found.gap;
-        Some(SeparationFile::new(value, [low, high], self.gauge, self.source(provenance)))
-    }
-
-    /// Where the numbers come from.
-    fn source(&self, provenance: &Provenance) -> Source {
-        let Provenance { command, version } = provenance.clone();
-        Source { command, version, ..self.source.clone() }
+        Some(SeparationFile::new(
+            value,
+            [low, high],
+            self.sourced.gauge,
+            self.sourced.source(provenance),
+        ))
     }
 
     /// The kinematics files of the fits, where the table determines them and nothing contradicts
     /// them, or where the settings force them.
     pub(super) fn files(&self, provenance: &Provenance) -> [Option<KinematicsFile>; 2] {
         self.fits.each_ref().map(|(free, fit)| {
-            let fit = fit.as_ref().ok().filter(|fit| fit.doubts(self.gauge).is_empty())?;
-            let doubtful = !fit.contradictions(self.gauge).is_empty();
-            if doubtful && !self.force {
+            let fit = fit.as_ref().ok().filter(|fit| fit.doubts(self.sourced.gauge).is_empty())?;
+            let doubtful = !fit.contradictions(self.sourced.gauge).is_empty();
+            if doubtful && !self.sourced.force {
                 return None;
             }
-            let source = self.source(provenance);
+            let source = self.sourced.source(provenance);
             let rows = fit.covariance_of_parameters();
             let kinematics = fit.parameters.kinematics();
             let with_alphas = *free == Free::IcrsAndAlphas;
             let mut file =
-                KinematicsFile::of_fit(&kinematics, self.gauge, with_alphas, rows, source);
+                KinematicsFile::of_fit(&kinematics, self.sourced.gauge, with_alphas, rows, source);
             file.doubtful = doubtful;
             Some(file)
         })

@@ -7,6 +7,7 @@ use trackdyn::crates::estimate::{
 };
 use trackdyn::crates::model::kinematics::SeparationFile;
 use trackdyn::crates::recording::Run;
+use trackdyn::identify::TurningFit;
 use trackdyn::{Recording, Vehicle};
 
 /// One screen: the recording, its clock and noise, the methods side by side.
@@ -23,7 +24,9 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) ->
         vehicle.name(),
         vehicle.gauge()
     );
-    clock(&mut text, found);
+    let fits = found.fits.iter().filter_map(|fit| fit.least_squares.as_ref().ok());
+    let mut fitted = fits.flat_map(|estimate| &estimate.unknowns.nuisances);
+    clock(&mut text, &found.clock, fitted.any(|one| *one == Nuisance::TimeOffset));
     noise(&mut text, found);
     match &found.spin_test {
         Ok(spin) => {
@@ -59,12 +62,29 @@ pub fn separation(found: &SeparationFile) -> String {
     )
 }
 
-fn clock(text: &mut String, found: &Identification) {
-    let fits = found.fits.iter().filter_map(|fit| fit.least_squares.as_ref().ok());
-    let mut fitted = fits.flat_map(|estimate| &estimate.unknowns.nuisances);
-    let start =
-        if fitted.any(|one| *one == Nuisance::TimeOffset) { ", where tau starts" } else { "" };
-    let _ = match &found.clock {
+/// One screen where poses have a yaw alone.
+pub fn turning(recording: &Recording, vehicle: &Vehicle, fit: &TurningFit) -> String {
+    let found = &fit.found;
+    let mut text = format!(
+        "{}: {} runs, {} segments; {}, gauge {} m\n\n",
+        recording.name(),
+        recording.runs().len(),
+        found.segments,
+        vehicle.name(),
+        vehicle.gauge()
+    );
+    clock(&mut text, &found.clock, false);
+    text += "  poses      their yaw alone is known: it tells the distance of the ICRs, and not where \
+             they are\n";
+    for contradiction in fit.contradictions() {
+        let _ = writeln!(text, "  contradicted, and not written unless forced: {contradiction}");
+    }
+    text
+}
+
+fn clock(text: &mut String, clock: &Clock, is_fitted: bool) {
+    let start = if is_fitted { ", where tau starts" } else { "" };
+    let _ = match clock {
         Clock::Given(tau) => writeln!(text, "  clock      poses {tau:.3} s late, as given{start}"),
         Clock::Estimated(offset) => writeln!(
             text,

@@ -31,7 +31,7 @@ pub struct Run {
 impl Run {
     /// Cleans the rows; `cleanings` takes what was found.
     pub fn new(mut rows: UncheckedRun, cleanings: &mut Vec<Cleaning>) -> Self {
-        let has_positions = settle(&mut rows);
+        let has_positions = settle(&mut rows.poses.samples, &rows.tracks.samples);
         clean(&mut rows.tracks, rows.id, cleanings);
         clean(&mut rows.poses, rows.id, cleanings);
         clean(&mut rows.imu, rows.id, cleanings);

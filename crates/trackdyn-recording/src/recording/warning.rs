@@ -131,6 +131,8 @@ pub enum Finding {
     NotFinite,
     /// A stamp before the one above it: the rows are sorted.
     Unsorted,
+    /// A stamp that is far from all others, as before a clock was set: the row is dropped.
+    Far,
     /// A stamp that stands there already: the first row is kept.
     Repeated,
     /// A pose that is the one before to the last digit while a track moves: it stays.
@@ -150,7 +152,7 @@ pub enum Finding {
 impl Finding {
     /// Whether rows were dropped or moved because of it.
     pub(crate) fn changes_rows(self) -> bool {
-        matches!(self, Self::NotFinite | Self::Unsorted | Self::Repeated)
+        matches!(self, Self::NotFinite | Self::Unsorted | Self::Far | Self::Repeated)
     }
 }
 
@@ -185,6 +187,7 @@ impl fmt::Display for Cleaning {
         match self.finding {
             Finding::NotFinite => write!(f, "rows with an empty cell, NaN or infinity dropped")?,
             Finding::Unsorted => write!(f, "steps back in time, rows sorted")?,
+            Finding::Far => write!(f, "rows whose stamp is far from all others dropped")?,
             Finding::Repeated => write!(f, "rows with a repeated stamp dropped, the first kept")?,
             Finding::Held => {
                 write!(
@@ -225,7 +228,7 @@ impl fmt::Display for Warning {
             ),
             Self::PositionsUnknown { runs } => write!(
                 f,
-                "poses: in {runs} runs x and y are empty, or never change while the tracks travel: \
+                "poses: x and y are empty, or never change while the tracks travel ({runs} runs): \
                  positions are not known, only yaw counts"
             ),
             Self::MessagesSkipped { topic, count, reason } => {

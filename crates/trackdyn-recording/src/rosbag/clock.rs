@@ -10,6 +10,7 @@
 
 use super::date::{Received, seconds};
 use super::options::Dating;
+use crate::far::{self, Parts};
 use crate::recording::Warning;
 use trackdyn_core::robust::median;
 
@@ -31,15 +32,6 @@ const RESET_WITNESSES: usize = 3;
 /// Largest ratio of the time between first and last stamp to that between their logging, or the
 /// reverse: bags may have been logged anew, at another speed.
 const MAX_SPEED_RATIO: f64 = 1.25;
-
-/// A gap of so many times all the rest of the stamps parts wrong stamps from right ones.
-const MIN_FAR_RATIO: f64 = 100.0;
-
-/// Largest portion of stamps that are taken for wrong.
-const MAX_FAR_PORTION: usize = 10;
-
-/// Fewest stamps among which some can be told to be wrong.
-const MIN_STAMPS: usize = 20;
 
 /// By what the messages of all topics are dated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -211,32 +203,19 @@ pub(super) fn segment(resets: &[i64], log_ns: i64) -> usize {
     resets.partition_point(|reset| *reset <= log_ns)
 }
 
-/// The least and the greatest right stamp, and whether many lie on both sides of a long gap.
+/// Between which stamps all right ones lie, and whether many lie on both sides of a long gap.
 fn right_stamps(mut stamps: Vec<i64>) -> ([i64; 2], bool) {
+    const ALL: [i64; 2] = [i64::MIN, i64::MAX];
     stamps.sort_unstable();
-    let all = stamps.len();
-    if all < MIN_STAMPS {
-        return ([i64::MIN, i64::MAX], false);
-    }
-    let mut left = stamps.as_slice();
-    loop {
-        let (Some(&first), Some(&last)) = (left.first(), left.last()) else {
-            return ([i64::MIN, i64::MAX], false);
-        };
-        let steps = left.windows(2).map(|pair| seconds(pair[0], pair[1])).enumerate();
-        let Some((at, gap)) = steps.max_by(|a, b| a.1.total_cmp(&b.1)) else {
-            return ([first, last], false);
-        };
-        let rest = (seconds(first, last) - gap).max(seconds(0, MIN_RESET_NS));
-        if gap <= MIN_FAR_RATIO * rest {
-            return ([first, last], false);
-        }
-        let (before, after) = left.split_at(at + 1);
-        left = if before.len() > after.len() { before } else { after };
-        if MAX_FAR_PORTION * (all - left.len()) > all {
-            return ([first, last], true);
-        }
-    }
+    let Some(&first) = stamps.first() else { return (ALL, false) };
+    let times: Vec<f64> = stamps.iter().map(|stamp| seconds(first, *stamp)).collect();
+    let Parts::Main(main) = far::parts(&times) else { return (ALL, true) };
+    // Other joints of the topic have stamps close to these: bounds lie within the gaps.
+    let within_gap = |after: usize| {
+        let before = stamps.get(after.checked_sub(1)?)?;
+        Some(i64::midpoint(*before, *stamps.get(after)?))
+    };
+    ([within_gap(main.start).unwrap_or(ALL[0]), within_gap(main.end).unwrap_or(ALL[1])], false)
 }
 
 /// Loggings at which stamps step back and stay back. Pairs of logging and stamp, by logging.

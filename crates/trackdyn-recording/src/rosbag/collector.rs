@@ -11,6 +11,8 @@ use super::options::RosbagOptions;
 use super::topic::{Layout, Role, Topic};
 use super::visitor::Visitor;
 use crate::Error;
+use crate::attitude::Attitude;
+use crate::doubt::Doubt;
 use crate::recording::{UncheckedRun, Warning};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -35,6 +37,8 @@ pub(super) struct Collector<'a> {
     joints: Joints,
     seen: Vec<Topic>,
     poses: BTreeMap<PoseKey, Vec<Received<[f64; 3]>>>,
+    /// How upright they are.
+    attitudes: BTreeMap<PoseKey, Attitude>,
     imu: BTreeMap<String, Vec<Received<[f64; 3]>>>,
     /// What the transforms of all topics link.
     frames: Frames,
@@ -69,6 +73,7 @@ impl<'a> Collector<'a> {
             joints: Joints::new(options),
             seen: Vec::new(),
             poses: BTreeMap::new(),
+            attitudes: BTreeMap::new(),
             imu: BTreeMap::new(),
             frames: Frames::default(),
             skipped: BTreeMap::new(),
@@ -91,8 +96,11 @@ impl<'a> Collector<'a> {
                 (Vec::new(), String::new(), Some(chain.poses))
             }
             _ => {
-                let (topic, poses) = sources.poses(self.poses, &mut warnings)?;
-                (poses, topic, None)
+                let (key, poses) = sources.poses(self.poses, &mut warnings)?;
+                if let Some(count) = self.attitudes.get(&key).and_then(Attitude::tilted) {
+                    return Err(Error::contradiction(path, Doubt::OutOfPlane { count }));
+                }
+                (poses, key.topic, None)
             }
         };
         let (imu_topic, imu) = sources.imu(self.imu, &mut warnings)?;
@@ -121,7 +129,13 @@ impl<'a> Collector<'a> {
         speeds::runs(path, self.options, &clocks, by, streams, warnings)
     }
 
-    fn keep_pose(&mut self, topic: &Topic, frames: [&str; 2], received: Received<[f64; 3]>) {
+    fn keep_pose(
+        &mut self,
+        topic: &Topic,
+        frames: [&str; 2],
+        received: Received<[f64; 3]>,
+        quaternion: [f64; 4],
+    ) {
         let fits = |wanted: &Option<String>, frame: &str| {
             wanted.as_deref().is_none_or(|name| same_frame(name, frame))
         };
@@ -134,6 +148,7 @@ impl<'a> Collector<'a> {
             parent: parent.to_owned(),
             child: child.to_owned(),
         };
+        self.attitudes.entry(key.clone()).or_default().note(quaternion);
         self.poses.entry(key).or_default().push(received);
     }
 
@@ -181,6 +196,7 @@ impl<'a> Collector<'a> {
     ) -> Result<(), super::cdr::CdrError> {
         let header = header(cdr)?;
         let child = if has_child { cdr.text()? } else { "" };
+        let [_, _, _, quaternion @ ..]: [f64; 7] = cdr.clone().f64s()?;
         let value = planar_pose(cdr)?;
         if topic.layout() == Some(Layout::Transforms) {
             self.frames.note(header.frame, child);
@@ -190,7 +206,7 @@ impl<'a> Collector<'a> {
             return Ok(());
         }
         let received = Received { stamp_ns: header.stamp_ns, log_ns, value };
-        self.keep_pose(topic, [header.frame, child], received);
+        self.keep_pose(topic, [header.frame, child], received, quaternion);
         Ok(())
     }
 }

@@ -51,7 +51,7 @@ impl Sources<'_> {
         &self,
         poses: BTreeMap<PoseKey, Vec<Received<[f64; 3]>>>,
         warnings: &mut Vec<Warning>,
-    ) -> Result<(String, Vec<Received<[f64; 3]>>), Error> {
+    ) -> Result<(PoseKey, Vec<Received<[f64; 3]>>), Error> {
         let wanted = Wanted {
             what: "poses",
             kind: "no Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or \
@@ -64,9 +64,9 @@ impl Sources<'_> {
             child => format!("{} of {child:?} in {:?}", key.topic, key.parent),
         };
         let odometry = poses.keys().find(|key| self.may_be_odometry(key)).map(name);
-        let (key, chosen) = self.only(&wanted, poses, warnings, name)?;
+        let chosen = self.only(&wanted, poses, warnings, name)?;
         warnings.extend(odometry.map(|poses| Warning::OwnOdometry { poses }));
-        Ok((key.topic, chosen))
+        Ok(chosen)
     }
 
     /// Whether poses may come from the tracks themselves.

@@ -1,7 +1,7 @@
 //! Joint signals as track speeds, and stamps as seconds.
 
 use super::joint::Joint;
-use super::merge::{Merged, Part, merge};
+use super::merge::{Merged, SideSignal, merge};
 use super::signal::Signal;
 use super::tracks::Chosen;
 use super::{Collected, Received, RosbagOptions, Stamped, turns};
@@ -114,7 +114,7 @@ pub(super) fn runs(
             for (_, value) in &mut values {
                 *value *= joint.sign;
             }
-            parts.push(Part { side: joint.side, values });
+            parts.push(SideSignal { side: joint.side, values });
         }
         let Merged { sides, left_out } = merge(&parts);
         if left_out > 0 {

@@ -41,7 +41,7 @@ impl Run {
     }
 
     /// This run with positions as well known as those of the run that it is a part of.
-    pub(crate) fn as_part_of(self, whole: &Self) -> Self {
+    pub(crate) fn with_positions_of(self, whole: &Self) -> Self {
         Self { has_positions: whole.has_positions, ..self }
     }
 

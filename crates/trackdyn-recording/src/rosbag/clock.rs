@@ -65,13 +65,10 @@ pub(super) struct Clock {
 
 impl Clock {
     /// The clock of a topic by all its messages.
-    pub(super) fn of<'a, T: 'a>(
-        topic: &str,
-        received: impl Iterator<Item = &'a Received<T>> + Clone,
-    ) -> Self {
-        let count = received.clone().count();
+    pub(super) fn of<T>(topic: &str, received: &[Received<T>]) -> Self {
+        let count = received.len();
         let mut pairs: Vec<(i64, i64)> =
-            received.clone().filter_map(|one| Some((one.log_ns, one.stamp_ns?))).collect();
+            received.iter().filter_map(|one| Some((one.log_ns, one.stamp_ns?))).collect();
         let undated = count - pairs.len();
         pairs.sort_by_key(|(logged, _)| *logged);
         let (right, broken) = right_stamps(pairs.iter().map(|(_, stamp)| *stamp).collect());
@@ -87,7 +84,7 @@ impl Clock {
             covered[1] += seconds(pairs[0].0, pairs[pairs.len() - 1].0);
         }
         let ahead = pairs.iter().map(|(logged, stamp)| seconds(*logged, *stamp));
-        let logged = received.clone().map(|one| one.log_ns);
+        let logged = received.iter().map(|one| one.log_ns);
         Self {
             topic: topic.to_owned(),
             count,
@@ -123,7 +120,7 @@ impl Clock {
     pub(super) fn warnings(&self, by: By) -> Vec<Warning> {
         let skipped = |count: usize, reason: &str| {
             let (topic, reason) = (self.topic.clone(), reason.to_owned());
-            (count > 0).then(|| Warning::MessagesSkipped { topic, count: count as u64, reason })
+            (count > 0).then_some(Warning::MessagesSkipped { topic, count: count as u64, reason })
         };
         match by {
             By::Header if self.is_stamped() => [
@@ -250,7 +247,7 @@ mod tests {
             value: (),
         });
         let all: Vec<_> = all.collect();
-        (Clock::of(topic, all.iter()), all)
+        (Clock::of(topic, &all), all)
     }
 
     const UNIX: i64 = 1_700_000_000 * S;
@@ -283,7 +280,7 @@ mod tests {
         for one in &mut all {
             one.log_ns += 86_400 * S;
         }
-        let poses = Clock::of("poses", all.iter());
+        let poses = Clock::of("poses", &all);
         assert_eq!(decide(&[tracks, poses], Dating::Any).0, By::Header);
     }
 

@@ -36,15 +36,18 @@ pub(super) struct Collector<'a> {
     options: &'a RosbagOptions,
     joints: Joints,
     seen: Vec<Topic>,
-    poses: BTreeMap<PoseKey, Vec<Received<[f64; 3]>>>,
+    poses: BTreeMap<PoseKey, Rows>,
     /// How upright they are.
     attitudes: BTreeMap<PoseKey, Attitude>,
-    imu: BTreeMap<String, Vec<Received<[f64; 3]>>>,
+    imu: BTreeMap<String, Rows>,
     /// What the transforms of all topics link.
     frames: Frames,
     /// Per topic: messages that were skipped, and why the first was.
     skipped: BTreeMap<String, (u64, String)>,
 }
+
+/// Poses (x, y, yaw) or readings of an IMU (yaw rate, acceleration forward and to the left).
+type Rows = Vec<Received<[f64; 3]>>;
 
 /// Topic, frame and child frame of poses.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -110,20 +113,18 @@ impl<'a> Collector<'a> {
             if clocks.iter().all(|clock| clock.topic != joint.topic) {
                 let of_topic = chosen.joints.iter().filter(|other| other.topic == joint.topic);
                 let most = of_topic.map(|joint| &joint.signals).max_by_key(|all| all.len());
-                clocks.extend(most.map(|all| Clock::of(&joint.topic, all.iter())));
+                clocks.extend(most.map(|all| Clock::of(&joint.topic, all)));
             }
         }
-        clocks.push(Clock::of(&pose_topic, poses.iter()));
-        clocks.push(Clock::of(&imu_topic, imu.iter()));
-        let by = match &chained {
+        clocks.push(Clock::of(&pose_topic, &poses));
+        clocks.push(Clock::of(&imu_topic, &imu));
+        let (by, told) = if chained.is_some() {
             // Poses of a chain stand at the stamps of its links.
-            Some(_) => By::Header,
-            None => {
-                let (by, told) = decide(&clocks, self.options.dated_by);
-                warnings.extend(told);
-                by
-            }
+            (By::Header, Vec::new())
+        } else {
+            decide(&clocks, self.options.dated_by)
         };
+        warnings.extend(told);
         warnings.extend(clocks.iter().flat_map(|clock| clock.warnings(by)));
         let streams = Streams { chosen, poses, pose_topic, chained, imu, imu_topic };
         speeds::runs(path, self.options, &clocks, by, streams, warnings)

@@ -73,7 +73,7 @@ impl Line {
             (Some((from, first)), Some(&(to, last))) => {
                 let interval = seconds(from, to);
                 let portion = seconds(from, time) / interval;
-                (interval <= MIN_GAP_RATIO * self.usual).then(|| first + portion * (last - first))
+                (interval <= MIN_GAP_RATIO * self.usual).then_some(first + portion * (last - first))
             }
             (Some((known, value)), None) | (None, Some(&(known, value))) => {
                 (seconds(known, time).abs() <= self.usual).then_some(value)

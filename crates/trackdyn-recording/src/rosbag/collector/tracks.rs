@@ -155,12 +155,10 @@ fn absent(sources: &[Source], options: &RosbagOptions, topics: &[String]) -> Opt
         }
     }
     for source in told {
-        problem += &format!(
-            "; {}: {} messages skipped, because {reason}, but {}",
-            source.topic,
-            source.messages,
-            source.names.join(", ")
-        );
+        let (topic, messages, names) = (&source.topic, source.messages, source.names.join(", "));
+        let skipped =
+            format!("; {topic}: {messages} messages skipped, because {reason}, but {names}");
+        problem.push_str(&skipped);
     }
     Some(problem)
 }

@@ -105,6 +105,10 @@ impl Recording {
             return Err(Error::contradiction(&path, doubt));
         }
         kept.sort_by_key(Run::id);
+        warnings.extend(kept.iter().filter_map(|run| {
+            let (offset, run) = (run.offset_without_common_time()?, run.id());
+            Some(Warning::NoCommonTime { run, offset })
+        }));
         let runs = kept.iter().filter(|run| !run.has_positions()).count();
         if runs > 0 {
             warnings.push(Warning::PositionsUnknown { runs });

@@ -28,6 +28,7 @@ fn refused(bag: Bag) -> String {
 /// Compares speeds with the truth at the middle of what a reading holds for: `ahead` s later.
 #[track_caller]
 fn assert_speeds(recording: &Recording, count: usize, ahead: f64, tolerance: f64) {
+    let ahead = ahead - recording.runs()[0].poses()[0].t;
     let tracks = recording.runs()[0].tracks();
     assert!(tracks.len().abs_diff(count) <= 4, "{} readings", tracks.len());
     for sample in tracks {
@@ -142,6 +143,38 @@ fn zeros_of_another_publisher_are_left_out() {
         assert_speeds(&recording, 3000, 0.0, 1e-12);
         assert_says(&recording, "6000 messages skipped");
     }
+}
+
+/// A publisher of all joints of a description sends zeros for flippers too; one of a simulation
+/// sends positions of its own.
+#[test]
+fn other_publishers_of_more_joints_are_left_out() {
+    let all = ["left_wheel", "right_wheel", "front_left_flipper", "left_antenna_mount"];
+    for moves in [0.0, 1.0] {
+        let mut bag = of_joints(50, &["left_wheel", "right_wheel"], |t| {
+            [vec![1.0 + angles(t).left, angles(t).right], vec![speeds(t).left, speeds(t).right]]
+        });
+        for t in times(20) {
+            let of = angles(0.9 * t);
+            let positions = [moves * of.left, moves * of.right, 0.0, 0.0];
+            bag.joints(TOPIC, at(t + 0.003), &all, [&positions, &[]]);
+        }
+        let recording = read(bag);
+        assert_speeds(&recording, 3000, 0.0, 1e-12);
+        assert_says(&recording, "1200 messages skipped");
+    }
+}
+
+/// Readings of the first seconds lack what a driver does not know yet.
+#[test]
+fn messages_that_lack_a_signal_are_left_out() {
+    let recording = read(of_joints(50, &["left_wheel", "right_wheel"], |t| {
+        let PerSide { left, right } = speeds(t);
+        let positions = vec![angles(t).left, angles(t).right];
+        [positions, if t < 0.09 { vec![] } else { vec![left, right] }]
+    }));
+    assert_speeds(&recording, 2995, 0.0, 1e-12);
+    assert_says(&recording, "5 messages skipped, the first because left_wheel has no velocity");
 }
 
 #[test]

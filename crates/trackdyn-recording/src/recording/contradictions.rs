@@ -86,8 +86,21 @@ pub(super) fn of_runs(runs: &[Run]) -> Option<Doubt> {
     if let Some(doubt) = orientation(runs) {
         return Some(doubt);
     }
-    let stretches: Vec<Stretch> = runs.iter().flat_map(stretches).collect();
-    travel(runs, &stretches).or_else(|| senses(&stretches))
+    let late =
+        |tau: f64| -> Vec<Stretch> { runs.iter().flat_map(|run| stretches(run, tau)).collect() };
+    let stretches = late(0.0);
+    travel(runs, &stretches).or_else(|| {
+        // A clock that is off must not look like a sign: the delay that explains most decides.
+        let senses = Senses::of(&stretches);
+        let doubt = senses.doubt()?;
+        let lags = LAGS.into_iter().flat_map(|tau| [tau, -tau]);
+        let others = lags.map(|tau| Senses::of(&late(tau)));
+        let best = others.max_by(|a, b| a.explained().total_cmp(&b.explained()));
+        match best.filter(|best| best.explained() > senses.explained() + MIN_LAG_GAIN) {
+            Some(best) => best.doubt(),
+            None => Some(doubt),
+        }
+    })
 }
 
 /// Fractions of a second in which stamps are written.
@@ -153,39 +166,65 @@ fn travel(runs: &[Run], stretches: &[Stretch]) -> Option<Doubt> {
     Some(Doubt::Travel { ratio, units: nearest.map(|(_, name)| *name) })
 }
 
-/// Sides that count backwards or are swapped.
+/// Delays of the poses that are tried before a sign is doubted, s.
+const LAGS: [f64; 8] = [0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0];
+
+/// Least gain of the sum of two squared correlations by a delay.
+const MIN_LAG_GAIN: f64 = 0.1;
+
+/// How tracks and poses go together: correlations over the stretches.
 ///
 /// With F = (V_l + V_r)/2 and D = V_r − V_l, F goes with the way forward and D with the turn. Where
 /// a side counts backwards, F goes with the turn and D with the way.
-fn senses(stretches: &[Stretch]) -> Option<Doubt> {
-    if stretches.len() < MIN_STRETCHES {
-        return None;
-    }
-    let series = |of: &dyn Fn(&Stretch) -> f64| limited(stretches.iter().map(of).collect());
-    let mean = series(&Stretch::forward_of_tracks);
-    let difference = series(&|stretch| stretch.tracks.right - stretch.tracks.left);
-    let forward = series(&|stretch| stretch.forward);
-    let turn = series(&|stretch| stretch.turn);
-    let [right_way, right_turn] = [correlation(&mean, &forward), correlation(&difference, &turn)];
-    let [crossed_way, crossed_turn] =
-        [correlation(&difference, &forward), correlation(&mean, &turn)];
-    let is_crossed = |crossed: f64, right: f64| {
-        crossed.abs() >= MIN_CORRELATION && right.abs() <= crossed.abs() - MIN_CONTRAST
-    };
-    let is_right = right_way.abs() >= MIN_CORRELATION || right_turn.abs() >= MIN_CORRELATION;
-    let crossed = is_crossed(crossed_way, right_way) || is_crossed(crossed_turn, right_turn);
-    if crossed && !is_right {
-        // Right reversed: D = −2 F of the robot. Left reversed: D = +2 F.
-        let sum = crossed_way + crossed_turn;
-        return Some(Doubt::Reversed(if sum < 0.0 { Side::Right } else { Side::Left }));
-    }
-    match (right_way, right_turn) {
-        (way, turn) if turn <= -MIN_CORRELATION && way <= -MIN_CORRELATION => {
-            Some(Doubt::BothReversed)
+#[derive(Clone, Copy, Debug, Default)]
+struct Senses {
+    /// Of F with the way, and of D with the turn.
+    right: [f64; 2],
+    /// Of D with the way, and of F with the turn.
+    crossed: [f64; 2],
+}
+
+impl Senses {
+    fn of(stretches: &[Stretch]) -> Self {
+        if stretches.len() < MIN_STRETCHES {
+            return Self::default();
         }
-        // Circles in one sense alone do not tell D from F.
-        (_, turn) if turn <= -MIN_CORRELATION => Some(Doubt::Swapped),
-        _ => None,
+        let series = |of: &dyn Fn(&Stretch) -> f64| limited(stretches.iter().map(of).collect());
+        let mean = series(&Stretch::forward_of_tracks);
+        let difference = series(&|stretch| stretch.tracks.right - stretch.tracks.left);
+        let forward = series(&|stretch| stretch.forward);
+        let turn = series(&|stretch| stretch.turn);
+        Self {
+            right: [correlation(&mean, &forward), correlation(&difference, &turn)],
+            crossed: [correlation(&difference, &forward), correlation(&mean, &turn)],
+        }
+    }
+
+    /// Sum of the squared correlations of the better explanation.
+    fn explained(&self) -> f64 {
+        let sum = |[a, b]: [f64; 2]| a * a + b * b;
+        sum(self.right).max(sum(self.crossed))
+    }
+
+    /// Sides that count backwards or are swapped.
+    fn doubt(&self) -> Option<Doubt> {
+        let Self { right, crossed } = *self;
+        let is_strong = |correlation: f64| correlation.abs() >= MIN_CORRELATION;
+        let is_crossed = (0..2).any(|at| {
+            is_strong(crossed[at]) && right[at].abs() <= crossed[at].abs() - MIN_CONTRAST
+        });
+        if is_crossed && !right.into_iter().any(is_strong) {
+            // Right reversed: D = −2 F of the robot. Left reversed: D = +2 F.
+            let side = if crossed[0] + crossed[1] < 0.0 { Side::Right } else { Side::Left };
+            return Some(Doubt::Reversed(side));
+        }
+        let is_against = right.map(|correlation| correlation <= -MIN_CORRELATION);
+        match is_against {
+            [true, true] => Some(Doubt::BothReversed),
+            // A sensor that looks backwards turns as the robot does.
+            [_, false] => None,
+            [false, true] => Some(Doubt::Swapped),
+        }
     }
 }
 

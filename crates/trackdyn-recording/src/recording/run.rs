@@ -56,6 +56,16 @@ impl Run {
         !self.tracks().is_empty() && self.poses().len() >= 2
     }
 
+    /// Time from the first reading of the tracks to the first pose, s, where all poses lie before
+    /// the first reading or after the last; none where they share a time.
+    pub(crate) fn offset_without_common_time(&self) -> Option<f64> {
+        let ([pose, .., last_pose], [reading, ..]) = (self.poses(), self.tracks()) else {
+            return None;
+        };
+        let end = reading.t + self.duration();
+        (pose.t > end || last_pose.t < reading.t).then_some(pose.t - reading.t)
+    }
+
     /// Its number in the recording.
     pub fn id(&self) -> i64 {
         self.id

@@ -38,6 +38,13 @@ pub enum Warning {
         /// Their source.
         poses: String,
     },
+    /// Tracks and poses of a run that share no time.
+    NoCommonTime {
+        /// The run.
+        run: i64,
+        /// Time by which the first pose is later than the first reading of the tracks, s.
+        offset: f64,
+    },
     /// Poses with a yaw alone.
     PositionsUnknown {
         /// Runs whose positions are not known.
@@ -225,6 +232,12 @@ impl fmt::Display for Warning {
                 f,
                 "{poses}: if it comes from the tracks themselves, it agrees with any model of \
                  them: poses have to come from something else"
+            ),
+            Self::NoCommonTime { run, offset } => write!(
+                f,
+                "run {run}: tracks and poses share no time: the first pose is stamped {offset:.3} \
+                 s after the first reading of the tracks, by another clock (--tau, and for a bag \
+                 --dated-by log)"
             ),
             Self::PositionsUnknown { runs } => write!(
                 f,

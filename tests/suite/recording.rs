@@ -1,7 +1,10 @@
 //! Readers, segments, clock offset and noise, on files and on synthetic recordings.
 
 mod clock;
+mod clocks_and_poses;
+mod drives;
 mod folder;
+mod joints;
 mod noise;
 mod parquet;
 mod real;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use trackdyn::crates::core::Pose;
 use trackdyn::crates::model::Effects;
 use trackdyn::crates::model::effect::{Stage, Symmetry};
-use trackdyn::crates::recording::rosbag::JointSignal;
+use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
 use trackdyn::recording::BagOptions;
 use trackdyn::refuse_repeated;
 use trackdyn::{ActiveEffect, Circumstance, Part, ReadOptions, Recording, RunList, Vehicle};
@@ -149,6 +149,18 @@ pub struct RecordingOptions {
     /// Bag: frame whose poses they are
     #[arg(long, value_name = "FRAME")]
     child_frame: Option<String>,
+    /// Bag: what dates its messages [default: their headers, or the log where clocks differ]
+    #[arg(long, value_name = "CLOCK")]
+    dated_by: Option<DatedBy>,
+}
+
+/// What dates the messages of a bag.
+#[derive(Clone, Copy, ValueEnum)]
+enum DatedBy {
+    /// The stamps in their headers
+    Header,
+    /// The times at which they were logged
+    Log,
 }
 
 /// Signals of a joint.
@@ -202,6 +214,11 @@ impl RecordingOptions {
                 pose_topic: self.pose_topic.clone(),
                 parent_frame: self.parent_frame.clone(),
                 child_frame: self.child_frame.clone(),
+                dated_by: match self.dated_by {
+                    None => Dating::Any,
+                    Some(DatedBy::Header) => Dating::Header,
+                    Some(DatedBy::Log) => Dating::Log,
+                },
                 ..BagOptions::default()
             },
         }

@@ -1,7 +1,7 @@
 //! What can go wrong with a recording.
 
-use crate::recording::Doubt;
-use std::path::PathBuf;
+use crate::doubt::Doubt;
+use std::path::{Path, PathBuf};
 use trackdyn_core::document::DocumentError;
 use trackdyn_core::output::OutputError;
 
@@ -132,6 +132,14 @@ pub enum Error {
         /// Length of the longest run, s.
         longest: f64,
     },
+}
+
+impl Error {
+    /// The error of a recording with this doubt, and what can be done about it.
+    pub(crate) fn contradiction(path: &Path, doubt: Doubt) -> Self {
+        let remedy = doubt.remedy();
+        Self::Contradiction { path: path.to_owned(), doubt, remedy }
+    }
 }
 
 impl From<DocumentError> for Error {

@@ -4,12 +4,16 @@
 //! - [`folder`], [`rosbag`], [`tum`]: one reader per format; [`read`] picks by path.
 //! - [`operating_points`]: tables of steady motion, a measured map of ICRs.
 //! - [`selection`]: some of its runs, or a time of them.
+//! - [`doubt`]: what tracks and poses of one recording may contradict each other in.
 //! - [`hold`]: track speeds between two readings.
 //! - [`table`]: CSV tables, for other readers of columns of numbers.
 //!
 //! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
 
+mod attitude;
+pub mod doubt;
 pub mod error;
+mod far;
 pub mod folder;
 pub mod format;
 pub mod hold;
@@ -21,9 +25,10 @@ pub mod selection;
 pub mod table;
 pub mod tum;
 
+pub use doubt::Doubt;
 pub use error::Error;
 pub use format::read;
 pub use operating_points::{OperatingPoint, OperatingPoints};
-pub use recording::{Doubt, Format, Recording, Run, Source, StatedNoise, UncheckedRun, Warning};
+pub use recording::{Format, Recording, Run, Source, StatedNoise, UncheckedRun, Warning};
 pub use sample::{ImuSample, PoseSample, Series, TrackSample};
 pub use selection::RunList;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 mod cleaning;
 mod content;
-mod doubt;
+mod contradictions;
 mod positions;
 mod run;
 mod source;
@@ -15,7 +15,6 @@ mod warning;
 
 pub use cleaning::MIN_GAP_RATIO;
 pub(crate) use cleaning::clean;
-pub use doubt::Doubt;
 pub use run::{Run, UncheckedRun};
 pub use source::{Format, Source};
 pub use warning::{Cleaning, Finding, Warning};
@@ -72,14 +71,10 @@ impl Recording {
         let path = source.path.clone().unwrap_or_else(|| PathBuf::from(&name));
         // What is computed is meant as it is.
         let is_read = source.format != Format::Memory;
-        let contradiction = |doubt: Doubt| {
-            let (path, remedy) = (path.clone(), doubt.remedy());
-            Error::Contradiction { path, doubt, remedy }
-        };
         let mut without_yaw = 0;
         for run in runs {
-            if let Some(doubt) = doubt::of_rows(&run).filter(|_| is_read) {
-                return Err(contradiction(doubt));
+            if let Some(doubt) = contradictions::of_rows(&run).filter(|_| is_read) {
+                return Err(Error::contradiction(&path, doubt));
             }
             without_yaw += run.poses.samples.iter().filter(|row| lacks_yaw(row)).count();
             let run = Run::new(run, &mut cleanings);
@@ -107,10 +102,14 @@ impl Recording {
                 format!("no run with track speeds and at least two poses{orientation}{found}");
             return Err(Error::Empty { path, message });
         }
-        if let Some(doubt) = doubt::of_runs(&kept).filter(|_| is_read) {
-            return Err(contradiction(doubt));
+        if let Some(doubt) = contradictions::of_runs(&kept).filter(|_| is_read) {
+            return Err(Error::contradiction(&path, doubt));
         }
         kept.sort_by_key(Run::id);
+        warnings.extend(kept.iter().filter_map(|run| {
+            let (offset, run) = (run.offset_without_common_time()?, run.id());
+            Some(Warning::NoCommonTime { run, offset })
+        }));
         let runs = kept.iter().filter(|run| !run.has_positions()).count();
         if runs > 0 {
             warnings.push(Warning::PositionsUnknown { runs, of: kept.len() });

@@ -10,7 +10,8 @@
 //! topic has their poses, these are composed along a chain of transforms, such as map → odom →
 //! base_link.
 
-use crate::recording::{Doubt, Recording, Source};
+use crate::doubt::Doubt;
+use crate::recording::{Recording, Source};
 use crate::{Error, Format};
 use std::path::Path;
 use trackdyn_core::{PerSide, Side};

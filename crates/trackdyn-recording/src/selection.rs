@@ -127,7 +127,7 @@ impl Recording {
                 },
                 &mut Vec::new(),
             )
-            .as_part_of(run)
+            .with_positions_of(run)
         };
         let runs: Vec<Run> = self.runs().iter().map(cut).filter(Run::is_usable).collect();
         if runs.is_empty() {

@@ -2,8 +2,10 @@
 //!
 //! A line is `t x y z qx qy qz qw`, blanks between, `#` before a remark
 //! (<https://cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats>). The motion is planar: x, y
-//! and the yaw of the quaternion count, the rest is dropped.
+//! and the yaw of the quaternion count, the rest is dropped; poses of a camera are refused.
 
+use crate::attitude::Attitude;
+use crate::doubt::Doubt;
 use crate::recording::{Recording, Source, UncheckedRun};
 use crate::rosbag::yaw_of_quaternion;
 use crate::sample::{PoseSample, Series};
@@ -40,6 +42,7 @@ pub fn read_poses(path: &Path) -> Result<Series<PoseSample>, Error> {
     let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
     let mut reader = BufReader::with_capacity(1 << 18, file);
     let mut poses = Vec::new();
+    let mut attitude = Attitude::default();
     let mut text = Vec::new();
     let mut line = 0;
     loop {
@@ -51,17 +54,25 @@ pub fn read_poses(path: &Path) -> Result<Series<PoseSample>, Error> {
         let marked = text.strip_prefix(b"\xef\xbb\xbf").filter(|_| line == 1);
         let row = marked.unwrap_or(&text).trim_ascii();
         if !row.is_empty() && row[0] != b'#' {
-            poses.push(parse_row(row, path, line)?);
+            poses.push(parse_row(row, path, line, &mut attitude)?);
         }
     }
     if poses.is_empty() {
         let message = "no poses: expected lines t x y z qx qy qz qw".to_owned();
         return Err(Error::Empty { path: path.to_owned(), message });
     }
+    if let Some(count) = attitude.tilted() {
+        return Err(Error::contradiction(path, Doubt::OutOfPlane { count }));
+    }
     Ok(poses.into())
 }
 
-fn parse_row(row: &[u8], path: &Path, line: u64) -> Result<PoseSample, Error> {
+fn parse_row(
+    row: &[u8],
+    path: &Path,
+    line: u64,
+    attitude: &mut Attitude,
+) -> Result<PoseSample, Error> {
     let mut values = [0.0; 8];
     let mut found = 0;
     for word in row.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()) {
@@ -82,5 +93,6 @@ fn parse_row(row: &[u8], path: &Path, line: u64) -> Result<PoseSample, Error> {
         return Err(Error::Row { path: path.to_owned(), line, found, expected });
     }
     let [t, x, y, _, quaternion @ ..] = values;
+    attitude.note(quaternion);
     Ok(PoseSample { t, pose: Pose::new(x, y, yaw_of_quaternion(quaternion)) })
 }

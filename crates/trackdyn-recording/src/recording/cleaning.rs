@@ -1,6 +1,7 @@
 //! Rows that cannot be used as they are.
 
 use super::warning::{Cleaning, Finding};
+use crate::far::{self, Parts};
 use crate::hold::travelled;
 use crate::sample::{PoseSample, Sample, Series, Stream, TrackSample};
 use std::f64::consts::{PI, TAU};
@@ -16,7 +17,8 @@ const MIN_INTERVAL_RATIO: f64 = 0.1;
 /// Largest distance of a track, m, that a pose sensor may overlook.
 const MAX_STANDING_DISTANCE: f64 = 0.005;
 
-/// Drops rows that are not finite, sorts by time, and keeps the first row of each stamp.
+/// Drops rows that are not finite or far from all others in time, sorts the rest by time, and keeps
+/// the first row of each stamp.
 pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut Vec<Cleaning>) {
     let mut report = |finding, count, t| {
         if count > 0 {
@@ -48,6 +50,15 @@ pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut
     if let Some(&first) = back.first() {
         report(Finding::Unsorted, back.len(), time(first));
         kept.sort_by(|&a, &b| time(a).total_cmp(&time(b)));
+    }
+    let first = kept.first().map_or(0.0, |&index| time(index));
+    let times: Vec<f64> = kept.iter().map(|&index| time(index) - first).collect();
+    if let Parts::Main(main) = far::parts(&times)
+        && main.len() < kept.len()
+    {
+        let wrong = if main.start > 0 { 0 } else { main.end };
+        report(Finding::Far, kept.len() - main.len(), time(kept[wrong]));
+        kept = kept[main].to_vec();
     }
     let before = kept.len();
     let repeated_at =
@@ -165,6 +176,17 @@ mod tests {
         clean(&mut series, 0, &mut cleanings);
         assert_eq!(series, tracks(&[0.0, 3.0]));
         assert_eq!(found(&cleanings), [(Finding::NotFinite, 2)]);
+    }
+
+    #[test]
+    fn rows_before_a_clock_was_set_go() {
+        let right = |k: u32| 1.7e9 + f64::from(k);
+        let all: Vec<f64> = [0.5, 0.75].into_iter().chain((0..30).map(right)).collect();
+        let mut series = tracks(&all);
+        let mut cleanings = Vec::new();
+        clean(&mut series, 0, &mut cleanings);
+        assert_eq!(series, tracks(&all[2..]));
+        assert_eq!((found(&cleanings), cleanings[0].t), (vec![(Finding::Far, 2)], 0.5));
     }
 
     #[test]

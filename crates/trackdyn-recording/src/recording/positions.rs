@@ -1,6 +1,5 @@
 //! Runs whose poses have a yaw alone, as a compass or an integrated gyro writes them.
 
-use super::UncheckedRun;
 use crate::sample::{PoseSample, TrackSample};
 
 /// Least way forward of the tracks, m, before constant positions count for none.
@@ -17,16 +16,13 @@ const MIN_TURN: f64 = 0.5;
 ///
 /// They are not known where all rows with a yaw lack them, and where they never change while the
 /// tracks travel and yaw turns.
-pub(super) fn settle(rows: &mut UncheckedRun) -> bool {
-    let poses = &mut rows.poses.samples;
+pub(super) fn settle(poses: &mut [PoseSample], tracks: &[TrackSample]) -> bool {
     let has_yaw = |sample: &&PoseSample| sample.pose.yaw.is_finite();
     let position = |sample: &PoseSample| [sample.pose.x, sample.pose.y];
     let mut with_yaw = poses.iter().filter(has_yaw).map(position).peekable();
     let Some(&first) = with_yaw.peek() else { return true };
     let is_known = if first.iter().all(|value| value.is_finite()) {
-        with_yaw.any(|position| position != first)
-            || !travels(&rows.tracks.samples)
-            || !turns(poses)
+        with_yaw.any(|position| position != first) || !travels(tracks) || !turns(poses)
     } else {
         with_yaw.any(|position| position.iter().all(|value| value.is_finite()))
     };

@@ -32,7 +32,7 @@ pub struct Run {
 impl Run {
     /// Cleans the rows; `cleanings` takes what was found.
     pub fn new(mut rows: UncheckedRun, cleanings: &mut Vec<Cleaning>) -> Self {
-        let has_positions = settle(&mut rows);
+        let has_positions = settle(&mut rows.poses.samples, &rows.tracks.samples);
         clean(&mut rows.tracks, rows.id, cleanings);
         clean(&mut rows.poses, rows.id, cleanings);
         clean(&mut rows.imu, rows.id, cleanings);
@@ -43,7 +43,7 @@ impl Run {
     }
 
     /// This run with positions as well known as those of the run that it is a part of.
-    pub(crate) fn as_part_of(self, whole: &Self) -> Self {
+    pub(crate) fn with_positions_of(self, whole: &Self) -> Self {
         Self { has_positions: whole.has_positions, ..self }
     }
 
@@ -56,6 +56,16 @@ impl Run {
     /// Whether it has readings, and poses enough for a motion.
     pub(crate) fn is_usable(&self) -> bool {
         !self.tracks().is_empty() && self.poses().len() >= 2
+    }
+
+    /// Time from the first reading of the tracks to the first pose, s, where all poses lie before
+    /// the first reading or after the last; none where they share a time.
+    pub(crate) fn offset_without_common_time(&self) -> Option<f64> {
+        let ([pose, .., last_pose], [reading, ..]) = (self.poses(), self.tracks()) else {
+            return None;
+        };
+        let end = reading.t + self.duration();
+        (pose.t > end || last_pose.t < reading.t).then_some(pose.t - reading.t)
     }
 
     /// Its number in the recording.

@@ -43,8 +43,9 @@ pub(super) fn path_extent(poses: &[PoseSample]) -> Option<f64> {
     extent.is_finite().then_some(extent)
 }
 
-/// The stretches of a run, each up to a portion of the path's extent or half a radian.
-pub(super) fn stretches(run: &Run) -> Vec<Stretch> {
+/// The stretches of a run, each up to a portion of the path's extent or half a radian. Poses are
+/// `tau` s late.
+pub(super) fn stretches(run: &Run, tau: f64) -> Vec<Stretch> {
     let poses = run.poses();
     let (Some(extent), [first_reading, ..]) = (path_extent(poses), run.tracks()) else {
         return Vec::new();
@@ -52,7 +53,8 @@ pub(super) fn stretches(run: &Run) -> Vec<Stretch> {
     let length = if run.has_positions() { extent / PARTS } else { f64::INFINITY };
     let last_reading = run.tracks()[run.tracks().len() - 1].t;
     let mut stretches = Vec::new();
-    let within = |sample: &&PoseSample| (first_reading.t..=last_reading).contains(&sample.t);
+    let within =
+        |sample: &&PoseSample| (first_reading.t..=last_reading).contains(&(sample.t - tau));
     let mut poses = poses.iter().filter(within);
     let Some(mut start) = poses.next() else { return stretches };
     for end in poses {
@@ -65,7 +67,7 @@ pub(super) fn stretches(run: &Run) -> Vec<Stretch> {
         }
         let (sin, cos) = (start.pose.yaw + 0.5 * turn).sin_cos();
         stretches.push(Stretch {
-            tracks: travelled(run.tracks(), start.t, end.t, 0.0),
+            tracks: travelled(run.tracks(), start.t, end.t, tau),
             distance,
             forward: cos * x + sin * y,
             turn,

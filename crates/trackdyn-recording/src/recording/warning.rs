@@ -38,6 +38,13 @@ pub enum Warning {
         /// Their source.
         poses: String,
     },
+    /// Tracks and poses of a run that share no time.
+    NoCommonTime {
+        /// The run.
+        run: i64,
+        /// Time by which the first pose is later than the first reading of the tracks, s.
+        offset: f64,
+    },
     /// Poses with a yaw alone.
     PositionsUnknown {
         /// Runs whose positions are not known.
@@ -133,6 +140,8 @@ pub enum Finding {
     NotFinite,
     /// A stamp before the one above it: the rows are sorted.
     Unsorted,
+    /// A stamp that is far from all others, as before a clock was set: the row is dropped.
+    Far,
     /// A stamp that stands there already: the first row is kept.
     Repeated,
     /// A pose that is the one before to the last digit while a track moves: it stays.
@@ -157,7 +166,7 @@ pub enum Finding {
 impl Finding {
     /// Whether rows were dropped or moved because of it.
     pub(crate) fn changes_rows(self) -> bool {
-        matches!(self, Self::NotFinite | Self::Unsorted | Self::Repeated)
+        matches!(self, Self::NotFinite | Self::Unsorted | Self::Far | Self::Repeated)
     }
 }
 
@@ -194,6 +203,7 @@ impl fmt::Display for Cleaning {
         match self.finding {
             Finding::NotFinite => write!(f, "rows with an empty cell, NaN or infinity dropped")?,
             Finding::Unsorted => write!(f, "steps back in time, rows sorted")?,
+            Finding::Far => write!(f, "rows whose stamp is far from all others dropped")?,
             Finding::Repeated => write!(f, "rows with a repeated stamp dropped, the first kept")?,
             Finding::Held => {
                 write!(
@@ -236,6 +246,12 @@ impl fmt::Display for Warning {
                 f,
                 "{poses}: if it comes from the tracks themselves, it agrees with any model of \
                  them: poses have to come from something else"
+            ),
+            Self::NoCommonTime { run, offset } => write!(
+                f,
+                "run {run}: tracks and poses share no time: the first pose is stamped {offset:.3} \
+                 s after the first reading of the tracks, by another clock (--tau, and for a bag \
+                 --dated-by log)"
             ),
             Self::PositionsUnknown { runs, of } => write!(
                 f,

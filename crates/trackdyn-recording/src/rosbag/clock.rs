@@ -10,6 +10,7 @@
 
 use super::date::{Received, seconds};
 use super::options::Dating;
+use crate::far::{self, Parts};
 use crate::recording::Warning;
 use trackdyn_core::robust::median;
 
@@ -31,15 +32,6 @@ const RESET_WITNESSES: usize = 3;
 /// Largest ratio of the time between first and last stamp to that between their logging, or the
 /// reverse: bags may have been logged anew, at another speed.
 const MAX_SPEED_RATIO: f64 = 1.25;
-
-/// A gap of so many times all the rest of the stamps parts wrong stamps from right ones.
-const MIN_FAR_RATIO: f64 = 100.0;
-
-/// Largest portion of stamps that are taken for wrong.
-const MAX_FAR_PORTION: usize = 10;
-
-/// Fewest stamps among which some can be told to be wrong.
-const MIN_STAMPS: usize = 20;
 
 /// By what the messages of all topics are dated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,13 +65,10 @@ pub(super) struct Clock {
 
 impl Clock {
     /// The clock of a topic by all its messages.
-    pub(super) fn of<'a, T: 'a>(
-        topic: &str,
-        received: impl Iterator<Item = &'a Received<T>> + Clone,
-    ) -> Self {
-        let count = received.clone().count();
+    pub(super) fn of<T>(topic: &str, received: &[Received<T>]) -> Self {
+        let count = received.len();
         let mut pairs: Vec<(i64, i64)> =
-            received.clone().filter_map(|one| Some((one.log_ns, one.stamp_ns?))).collect();
+            received.iter().filter_map(|one| Some((one.log_ns, one.stamp_ns?))).collect();
         let undated = count - pairs.len();
         pairs.sort_by_key(|(logged, _)| *logged);
         let (right, broken) = right_stamps(pairs.iter().map(|(_, stamp)| *stamp).collect());
@@ -95,7 +84,7 @@ impl Clock {
             covered[1] += seconds(pairs[0].0, pairs[pairs.len() - 1].0);
         }
         let ahead = pairs.iter().map(|(logged, stamp)| seconds(*logged, *stamp));
-        let logged = received.clone().map(|one| one.log_ns);
+        let logged = received.iter().map(|one| one.log_ns);
         Self {
             topic: topic.to_owned(),
             count,
@@ -131,7 +120,7 @@ impl Clock {
     pub(super) fn warnings(&self, by: By) -> Vec<Warning> {
         let skipped = |count: usize, reason: &str| {
             let (topic, reason) = (self.topic.clone(), reason.to_owned());
-            (count > 0).then(|| Warning::MessagesSkipped { topic, count: count as u64, reason })
+            (count > 0).then_some(Warning::MessagesSkipped { topic, count: count as u64, reason })
         };
         match by {
             By::Header if self.is_stamped() => [
@@ -211,32 +200,19 @@ pub(super) fn segment(resets: &[i64], log_ns: i64) -> usize {
     resets.partition_point(|reset| *reset <= log_ns)
 }
 
-/// The least and the greatest right stamp, and whether many lie on both sides of a long gap.
+/// Between which stamps all right ones lie, and whether many lie on both sides of a long gap.
 fn right_stamps(mut stamps: Vec<i64>) -> ([i64; 2], bool) {
+    const ALL: [i64; 2] = [i64::MIN, i64::MAX];
     stamps.sort_unstable();
-    let all = stamps.len();
-    if all < MIN_STAMPS {
-        return ([i64::MIN, i64::MAX], false);
-    }
-    let mut left = stamps.as_slice();
-    loop {
-        let (Some(&first), Some(&last)) = (left.first(), left.last()) else {
-            return ([i64::MIN, i64::MAX], false);
-        };
-        let steps = left.windows(2).map(|pair| seconds(pair[0], pair[1])).enumerate();
-        let Some((at, gap)) = steps.max_by(|a, b| a.1.total_cmp(&b.1)) else {
-            return ([first, last], false);
-        };
-        let rest = (seconds(first, last) - gap).max(seconds(0, MIN_RESET_NS));
-        if gap <= MIN_FAR_RATIO * rest {
-            return ([first, last], false);
-        }
-        let (before, after) = left.split_at(at + 1);
-        left = if before.len() > after.len() { before } else { after };
-        if MAX_FAR_PORTION * (all - left.len()) > all {
-            return ([first, last], true);
-        }
-    }
+    let Some(&first) = stamps.first() else { return (ALL, false) };
+    let times: Vec<f64> = stamps.iter().map(|stamp| seconds(first, *stamp)).collect();
+    let Parts::Main(main) = far::parts(&times) else { return (ALL, true) };
+    // Other joints of the topic have stamps close to these: bounds lie within the gaps.
+    let within_gap = |after: usize| {
+        let before = stamps.get(after.checked_sub(1)?)?;
+        Some(i64::midpoint(*before, *stamps.get(after)?))
+    };
+    ([within_gap(main.start).unwrap_or(ALL[0]), within_gap(main.end).unwrap_or(ALL[1])], false)
 }
 
 /// Loggings at which stamps step back and stay back. Pairs of logging and stamp, by logging.
@@ -271,7 +247,7 @@ mod tests {
             value: (),
         });
         let all: Vec<_> = all.collect();
-        (Clock::of(topic, all.iter()), all)
+        (Clock::of(topic, &all), all)
     }
 
     const UNIX: i64 = 1_700_000_000 * S;
@@ -304,7 +280,7 @@ mod tests {
         for one in &mut all {
             one.log_ns += 86_400 * S;
         }
-        let poses = Clock::of("poses", all.iter());
+        let poses = Clock::of("poses", &all);
         assert_eq!(decide(&[tracks, poses], Dating::Any).0, By::Header);
     }
 

@@ -11,6 +11,8 @@ use super::options::RosbagOptions;
 use super::topic::{Layout, Role, Topic};
 use super::visitor::Visitor;
 use crate::Error;
+use crate::attitude::Attitude;
+use crate::doubt::Doubt;
 use crate::recording::{UncheckedRun, Warning};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -35,13 +37,18 @@ pub(super) struct Collector<'a> {
     options: &'a RosbagOptions,
     joints: Joints,
     seen: Vec<Topic>,
-    poses: BTreeMap<PoseKey, Vec<Received<[f64; 3]>>>,
-    imu: BTreeMap<String, Vec<Received<[f64; 3]>>>,
+    poses: BTreeMap<PoseKey, Rows>,
+    /// How upright they are.
+    attitudes: BTreeMap<PoseKey, Attitude>,
+    imu: BTreeMap<String, Rows>,
     /// What the transforms of all topics link.
     frames: Frames,
     /// Per topic: messages that were skipped, and why the first was.
     skipped: BTreeMap<String, (u64, String)>,
 }
+
+/// Poses (x, y, yaw) or readings of an IMU (yaw rate, acceleration forward and to the left).
+type Rows = Vec<Received<[f64; 3]>>;
 
 /// Topic, frame and child frame of poses.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -70,6 +77,7 @@ impl<'a> Collector<'a> {
             joints: Joints::new(options),
             seen: Vec::new(),
             poses: BTreeMap::new(),
+            attitudes: BTreeMap::new(),
             imu: BTreeMap::new(),
             frames: Frames::default(),
             skipped: BTreeMap::new(),
@@ -99,8 +107,11 @@ impl<'a> Collector<'a> {
                 (gyro::headings(&imu), imu_topic.clone(), None)
             }
             _ => {
-                let (topic, poses) = sources.poses(self.poses, &mut warnings)?;
-                (poses, topic, None)
+                let (key, poses) = sources.poses(self.poses, &mut warnings)?;
+                if let Some(count) = self.attitudes.get(&key).and_then(Attitude::tilted) {
+                    return Err(Error::contradiction(path, Doubt::OutOfPlane { count }));
+                }
+                (poses, key.topic, None)
             }
         };
         // Clocks of the tracks come first: others are compared with them.
@@ -109,26 +120,30 @@ impl<'a> Collector<'a> {
             if clocks.iter().all(|clock| clock.topic != joint.topic) {
                 let of_topic = chosen.joints.iter().filter(|other| other.topic == joint.topic);
                 let most = of_topic.map(|joint| &joint.signals).max_by_key(|all| all.len());
-                clocks.extend(most.map(|all| Clock::of(&joint.topic, all.iter())));
+                clocks.extend(most.map(|all| Clock::of(&joint.topic, all)));
             }
         }
-        clocks.push(Clock::of(&pose_topic, poses.iter()));
-        clocks.push(Clock::of(&imu_topic, imu.iter()));
-        let by = match &chained {
+        clocks.push(Clock::of(&pose_topic, &poses));
+        clocks.push(Clock::of(&imu_topic, &imu));
+        let (by, told) = if chained.is_some() {
             // Poses of a chain stand at the stamps of its links.
-            Some(_) => By::Header,
-            None => {
-                let (by, told) = decide(&clocks, self.options.dated_by);
-                warnings.extend(told);
-                by
-            }
+            (By::Header, Vec::new())
+        } else {
+            decide(&clocks, self.options.dated_by)
         };
+        warnings.extend(told);
         warnings.extend(clocks.iter().flat_map(|clock| clock.warnings(by)));
         let streams = Streams { chosen, poses, pose_topic, chained, imu, imu_topic };
         speeds::runs(path, self.options, &clocks, by, streams, warnings)
     }
 
-    fn keep_pose(&mut self, topic: &Topic, frames: [&str; 2], received: Received<[f64; 3]>) {
+    fn keep_pose(
+        &mut self,
+        topic: &Topic,
+        frames: [&str; 2],
+        received: Received<[f64; 3]>,
+        quaternion: [f64; 4],
+    ) {
         let fits = |wanted: &Option<String>, frame: &str| {
             wanted.as_deref().is_none_or(|name| same_frame(name, frame))
         };
@@ -141,6 +156,7 @@ impl<'a> Collector<'a> {
             parent: parent.to_owned(),
             child: child.to_owned(),
         };
+        self.attitudes.entry(key.clone()).or_default().note(quaternion);
         self.poses.entry(key).or_default().push(received);
     }
 
@@ -188,6 +204,7 @@ impl<'a> Collector<'a> {
     ) -> Result<(), super::cdr::CdrError> {
         let header = header(cdr)?;
         let child = if has_child { cdr.text()? } else { "" };
+        let [_, _, _, quaternion @ ..]: [f64; 7] = cdr.clone().f64s()?;
         let value = planar_pose(cdr)?;
         if topic.layout() == Some(Layout::Transforms) {
             self.frames.note(header.frame, child);
@@ -197,7 +214,7 @@ impl<'a> Collector<'a> {
             return Ok(());
         }
         let received = Received { stamp_ns: header.stamp_ns, log_ns, value };
-        self.keep_pose(topic, [header.frame, child], received);
+        self.keep_pose(topic, [header.frame, child], received, quaternion);
         Ok(())
     }
 }

@@ -3,7 +3,7 @@
 use super::BagOptions;
 use crate::Error;
 use std::path::{Path, PathBuf};
-use trackdyn_recording::rosbag::JointSignal;
+use trackdyn_recording::rosbag::{Dating, JointSignal};
 
 /// How a recording is read. By default a bag is read by what it leaves no choice in.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,6 +34,7 @@ impl ReadOptions {
             ("parent_frame", bag.parent_frame.is_some()),
             ("child_frame", bag.child_frame.is_some()),
             ("imu_topic", bag.imu_topic.is_some()),
+            ("dated_by", bag.dated_by != Dating::Any),
         ];
         options.into_iter().filter_map(|(name, given)| given.then_some(name)).collect()
     }

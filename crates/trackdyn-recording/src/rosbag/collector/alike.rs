@@ -6,6 +6,7 @@
 //! means over some readings, and are limited to what the joints usually do: wrong readings and
 //! starts of an encoder must not decide.
 
+use super::turns;
 use crate::rosbag::date::Received;
 
 /// Largest ratio of Σ(a − b)² to (Σa² + Σb²)/2.
@@ -20,7 +21,7 @@ const MEANS: usize = 1000;
 /// Fewest readings in a mean.
 const MIN_READINGS: usize = 5;
 
-/// Largest speed that counts, in 95 % quantiles of the speeds that are not zero.
+/// Largest speed that counts, in 90 % quantiles of the speeds that are not zero.
 const LIMIT: f64 = 1.5;
 
 /// How two joints move.
@@ -42,7 +43,9 @@ pub(super) fn speeds(signals: &[Received<[f64; 2]>], are_positions: bool) -> Vec
     if !are_positions {
         return finite.map(|one| (one.log_ns, value(one))).collect();
     }
-    let finite: Vec<(i64, f64)> = finite.map(|one| (one.log_ns, value(one))).collect();
+    let mut finite: Vec<(i64, f64)> = finite.map(|one| (one.log_ns, value(one))).collect();
+    // What is to be said of wraps is said when the positions are used.
+    let _ = turns::unwrap("", &mut finite, |_| 0.0);
     let steps = finite.windows(2).filter(|pair| pair[1].0 > pair[0].0);
     steps
         .map(|pair| {
@@ -67,7 +70,7 @@ pub(super) fn means(speeds: &[(i64, f64)], edges: &[i64]) -> Vec<f64> {
     let mut sizes: Vec<f64> =
         speeds.iter().map(|(_, speed)| speed.abs()).filter(|size| *size > 0.0).collect();
     sizes.sort_by(f64::total_cmp);
-    let limit = LIMIT * sizes.get(sizes.len() * 95 / 100).copied().unwrap_or(0.0);
+    let limit = LIMIT * sizes.get(sizes.len().saturating_sub(1) * 9 / 10).copied().unwrap_or(0.0);
     let mut sums = vec![(0.0, 0.0); edges.len()];
     for (time, speed) in speeds {
         let Some(at) = edges.partition_point(|edge| edge <= time).checked_sub(1) else { continue };

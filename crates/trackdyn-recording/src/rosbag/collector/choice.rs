@@ -1,7 +1,7 @@
 //! Which of several sources to use.
 
 use super::tracks::{self, Chosen};
-use super::{PoseKey, Received, RosbagOptions};
+use super::{PoseKey, RosbagOptions, Rows};
 use crate::Error;
 use crate::recording::Warning;
 use crate::rosbag::frames::may_be_odometry;
@@ -49,9 +49,9 @@ impl Sources<'_> {
 
     pub(super) fn poses(
         &self,
-        poses: BTreeMap<PoseKey, Vec<Received<[f64; 3]>>>,
+        poses: BTreeMap<PoseKey, Rows>,
         warnings: &mut Vec<Warning>,
-    ) -> Result<(String, Vec<Received<[f64; 3]>>), Error> {
+    ) -> Result<(PoseKey, Rows), Error> {
         let wanted = Wanted {
             what: "poses",
             kind: "no Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or \
@@ -64,9 +64,9 @@ impl Sources<'_> {
             child => format!("{} of {child:?} in {:?}", key.topic, key.parent),
         };
         let odometry = poses.keys().find(|key| self.may_be_odometry(key)).map(name);
-        let (key, chosen) = self.only(&wanted, poses, warnings, name)?;
+        let chosen = self.only(&wanted, poses, warnings, name)?;
         warnings.extend(odometry.map(|poses| Warning::OwnOdometry { poses }));
-        Ok((key.topic, chosen))
+        Ok(chosen)
     }
 
     /// Whether poses may come from the tracks themselves.
@@ -78,9 +78,9 @@ impl Sources<'_> {
     /// An IMU is welcome and not needed: where several could be it, none is taken.
     pub(super) fn imu(
         &self,
-        imu: BTreeMap<String, Vec<Received<[f64; 3]>>>,
+        imu: BTreeMap<String, Rows>,
         warnings: &mut Vec<Warning>,
-    ) -> Result<(String, Vec<Received<[f64; 3]>>), Error> {
+    ) -> Result<(String, Rows), Error> {
         match (&self.options.imu_topic, imu.len()) {
             (None, 0) => Ok((String::new(), Vec::new())),
             (None, 2..) => {

@@ -6,7 +6,7 @@ use trackdyn_core::robust::median;
 use trackdyn_core::{PerSide, Side};
 
 /// A signal of one joint of a side.
-pub(super) struct Part {
+pub(super) struct SideSignal {
     pub(super) side: Side,
     /// In the order of the bag; a joint that counts backwards has the opposite sign already.
     pub(super) values: Vec<Stamped<f64>>,
@@ -21,7 +21,7 @@ pub(super) struct Merged {
 /// Means of the joints of each side at the times of the joint that is read most often. The others
 /// are interpolated between two readings, never over a gap; times that one of them does not reach
 /// are left out.
-pub(super) fn merge(parts: &[Part]) -> Merged {
+pub(super) fn merge(parts: &[SideSignal]) -> Merged {
     let Some(leading) = parts.iter().rev().max_by_key(|part| part.values.len()) else {
         return Merged { sides: Vec::new(), left_out: 0 };
     };
@@ -73,7 +73,7 @@ impl Line {
             (Some((from, first)), Some(&(to, last))) => {
                 let interval = seconds(from, to);
                 let portion = seconds(from, time) / interval;
-                (interval <= MIN_GAP_RATIO * self.usual).then(|| first + portion * (last - first))
+                (interval <= MIN_GAP_RATIO * self.usual).then_some(first + portion * (last - first))
             }
             (Some((known, value)), None) | (None, Some(&(known, value))) => {
                 (seconds(known, time).abs() <= self.usual).then_some(value)
@@ -87,9 +87,9 @@ impl Line {
 mod tests {
     use super::*;
 
-    fn part(side: Side, start: i64, values: &[f64]) -> Part {
+    fn part(side: Side, start: i64, values: &[f64]) -> SideSignal {
         let times = (0..).map(|k| start + k * 10_000_000);
-        Part { side, values: times.zip(values.iter().copied()).collect() }
+        SideSignal { side, values: times.zip(values.iter().copied()).collect() }
     }
 
     #[test]

@@ -50,10 +50,7 @@ pub(super) fn choose(
     warnings: &mut Vec<Warning>,
 ) -> Result<Signal, String> {
     let first = if wanted == JointSignal::Position { Signal::Position } else { Signal::Velocity };
-    let problem = match problem(joints, first) {
-        None => return Ok(first),
-        Some(problem) => problem,
-    };
+    let Some(problem) = problem(joints, first) else { return Ok(first) };
     let other = first.other();
     let is_other = self::problem(joints, other).is_none();
     match wanted {

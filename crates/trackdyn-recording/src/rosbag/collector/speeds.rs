@@ -1,10 +1,10 @@
 //! Joint signals as track speeds, and stamps as seconds.
 
 use super::joint::Joint;
-use super::merge::{Merged, Part, merge};
+use super::merge::{Merged, SideSignal, merge};
 use super::signal::Signal;
 use super::tracks::Chosen;
-use super::{Collected, Received, RosbagOptions, Stamped, turns};
+use super::{Collected, Received, RosbagOptions, Rows, Stamped, turns};
 use crate::Error;
 use crate::recording::{Cleaning, UncheckedRun, Warning, clean};
 use crate::rosbag::clock::{By, Clock, segment};
@@ -16,11 +16,11 @@ use trackdyn_core::{PerSide, Pose};
 /// What was chosen, as it was received.
 pub(super) struct Streams {
     pub(super) chosen: Chosen,
-    pub(super) poses: Vec<Received<[f64; 3]>>,
+    pub(super) poses: Rows,
     pub(super) pose_topic: String,
     /// Poses along a chain of transforms, in place of others.
     pub(super) chained: Option<Vec<Stamped<[f64; 3]>>>,
-    pub(super) imu: Vec<Received<[f64; 3]>>,
+    pub(super) imu: Rows,
     pub(super) imu_topic: String,
 }
 
@@ -114,7 +114,7 @@ pub(super) fn runs(
             for (_, value) in &mut values {
                 *value *= joint.sign;
             }
-            parts.push(Part { side: joint.side, values });
+            parts.push(SideSignal { side: joint.side, values });
         }
         let Merged { sides, left_out } = merge(&parts);
         if left_out > 0 {

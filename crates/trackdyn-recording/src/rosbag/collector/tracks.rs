@@ -39,7 +39,9 @@ pub(super) fn choose(
         let what = "track speeds";
         warnings.push(Warning::Chosen { what, taken: taken.join(", ") });
     }
-    let (mut joints, left_out) = joints(sources, &taken);
+    sources.retain(|source| taken.contains(&source.topic));
+    drop_repeated(&mut sources, warnings);
+    let (mut joints, left_out) = joints(sources);
     let signal = signal::choose(&joints, options.joint_signal, warnings)?;
     for side in Side::BOTH {
         let named = match side {
@@ -63,15 +65,15 @@ pub(super) fn choose(
 /// Leaves out sources whose joints never move where another source has these joints in motion.
 fn drop_idle(sources: &mut Vec<Source>, warnings: &mut Vec<Warning>) {
     let moves: Vec<bool> = sources.iter().map(|source| source.columns.iter().any(moves)).collect();
-    let moving: BTreeSet<String> = sources
+    let moving: BTreeSet<(&str, String)> = sources
         .iter()
         .zip(&moves)
         .filter(|(_, moves)| **moves)
-        .flat_map(|(source, _)| source.columns.iter().map(|column| column.name.clone()))
+        .flat_map(|(source, _)| source.columns.iter().map(|one| (word(one.side), one.name.clone())))
         .collect();
     let is_idle = |source: &Source, moves: bool| {
-        let mut columns = source.columns.iter().peekable();
-        !moves && columns.peek().is_some() && columns.all(|column| moving.contains(&column.name))
+        let mut columns = source.columns.iter().filter(|column| column.part != Part::Other);
+        !moves && columns.any(|column| moving.contains(&(word(column.side), column.name.clone())))
     };
     let mut idle = sources.iter().zip(&moves).map(|(source, moves)| is_idle(source, *moves));
     let idle: Vec<bool> = idle.by_ref().collect();
@@ -84,6 +86,40 @@ fn drop_idle(sources: &mut Vec<Source>, warnings: &mut Vec<Warning>) {
     }
     let mut idle = idle.into_iter();
     sources.retain(|_| !idle.next().unwrap_or(false));
+}
+
+/// Leaves out sources that tell joints of another source of their topic at its times: of both, the
+/// one with velocities stays, else the one with more messages.
+fn drop_repeated(sources: &mut Vec<Source>, warnings: &mut Vec<Warning>) {
+    sources.sort_by_key(|source| {
+        let has_velocities = source.columns.iter().any(|column| !column.velocities.is_empty());
+        std::cmp::Reverse((has_velocities, source.messages))
+    });
+    let mut kept: Vec<Source> = Vec::with_capacity(sources.len());
+    for source in sources.drain(..) {
+        let is_told = |other: &Source| {
+            let shares = |one: &Column| other.columns.iter().any(|two| two.name == one.name);
+            other.topic == source.topic
+                && source.columns.iter().any(shares)
+                && is_within(&source, other)
+        };
+        if kept.iter().any(is_told) {
+            let (topic, count) = (source.topic.clone(), source.messages);
+            let reason = "other messages tell its joints at these times".to_owned();
+            warnings.push(Warning::MessagesSkipped { topic, count, reason });
+        } else {
+            kept.push(source);
+        }
+    }
+    *sources = kept;
+}
+
+/// Whether most messages of a source were logged between the first and the last of another.
+fn is_within(source: &Source, other: &Source) -> bool {
+    let logged = || other.received.iter().map(|one| one.log_ns);
+    let (Some(first), Some(last)) = (logged().min(), logged().max()) else { return false };
+    let within = source.received.iter().filter(|one| (first..=last).contains(&one.log_ns));
+    2 * within.count() > source.received.len()
 }
 
 /// Whether a joint moves at all.
@@ -155,12 +191,10 @@ fn absent(sources: &[Source], options: &RosbagOptions, topics: &[String]) -> Opt
         }
     }
     for source in told {
-        problem += &format!(
-            "; {}: {} messages skipped, because {reason}, but {}",
-            source.topic,
-            source.messages,
-            source.names.join(", ")
-        );
+        let (topic, messages, names) = (&source.topic, source.messages, source.names.join(", "));
+        let skipped =
+            format!("; {topic}: {messages} messages skipped, because {reason}, but {names}");
+        problem.push_str(&skipped);
     }
     Some(problem)
 }
@@ -168,10 +202,10 @@ fn absent(sources: &[Source], options: &RosbagOptions, topics: &[String]) -> Opt
 /// Most kinds of messages that an error lists.
 const MAX_TOLD: usize = 8;
 
-/// The joints of these topics, and those that their names leave out.
-fn joints(sources: Vec<Source>, topics: &[String]) -> (Vec<Joint>, PerSide<Vec<String>>) {
+/// The joints of these sources, and those that their names leave out.
+fn joints(sources: Vec<Source>) -> (Vec<Joint>, PerSide<Vec<String>>) {
     let mut joints: Vec<Joint> = Vec::new();
-    for source in sources.into_iter().filter(|source| topics.contains(&source.topic)) {
+    for source in sources {
         for column in &source.columns {
             let signals = source.received.iter().enumerate();
             let signals = signals.map(|(row, one)| one.with(column.signals(row)));

@@ -6,8 +6,8 @@
 
 use super::stretches::{Stretch, path_extent, stretches};
 use super::{Run, UncheckedRun};
+use crate::doubt::Doubt;
 use std::f64::consts::TAU;
-use std::fmt;
 use trackdyn_core::robust::median;
 use trackdyn_core::{Side, real};
 
@@ -36,6 +36,10 @@ const MAX_INTERVAL: f64 = 10.0;
 /// Least way that one track runs more than the other, m, before yaw has to have changed.
 const MIN_TURNING: f64 = 1.0;
 
+/// Least turning in degrees per metre that one track runs more than the other: that of ICRs 14 m
+/// apart; in radians, of ICRs 0.25 m apart.
+const MIN_DEGREES: f64 = 4.0;
+
 /// Ratios of units that are mixed up.
 const UNITS: [(f64, &str); 7] = [
     (360.0 / TAU, "degrees in place of radians"),
@@ -46,110 +50,6 @@ const UNITS: [(f64, &str); 7] = [
     (60.0 / TAU, "turns per minute in place of rad/s"),
     (TAU, "turns in place of radians"),
 ];
-
-/// What contradicts what in a recording.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Doubt {
-    /// Travel of the tracks and of the poses differs by a factor that no slip explains.
-    Travel {
-        /// Travel of the tracks per travel of the poses.
-        ratio: f64,
-        /// The units that have this ratio; none where no usual ones do.
-        units: Option<&'static str>,
-    },
-    /// Stamps in a fraction of a second.
-    Stamps {
-        /// Median interval of the poses, in what should be s.
-        interval: f64,
-        /// The unit that explains them, where there is one.
-        unit: Option<&'static str>,
-    },
-    /// Yaw in degrees.
-    YawInDegrees,
-    /// Poses whose orientation never changes while the tracks turn the robot.
-    ConstantOrientation {
-        /// Way that one track ran more than the other, m.
-        turning: f64,
-    },
-    /// The joints or the speed of a side count backwards.
-    Reversed(Side),
-    /// Both sides count backwards.
-    BothReversed,
-    /// Tracks and poses turn in opposite senses: sides are swapped, or the z axis points down.
-    Swapped,
-}
-
-impl fmt::Display for Doubt {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Travel { ratio, units } => {
-                let (more, less, factor) = match *ratio {
-                    ratio if ratio > 1.0 => ("tracks", "poses", ratio),
-                    ratio => ("poses", "tracks", 1.0 / ratio),
-                };
-                write!(f, "the {more} travel {factor:.1} times as far as the {less}")?;
-                match units {
-                    Some(units) => write!(f, ", the ratio of {units}"),
-                    None => write!(f, ", which no slip explains"),
-                }
-            }
-            Self::Stamps { interval, unit } => {
-                write!(f, "by the stamps there is a pose every {interval:.3} s")?;
-                match unit {
-                    Some(unit) => write!(f, ", and the motion says that they are {unit}"),
-                    None => write!(f, ", and poses and tracks cover other times"),
-                }
-            }
-            Self::YawInDegrees => {
-                write!(f, "yaw follows the path of the poses in degrees, and not in radians")
-            }
-            Self::ConstantOrientation { turning } => write!(
-                f,
-                "the orientation never changes, while one track runs {turning:.1} m more than the \
-                 other: poses of a GNSS receiver or a filter without a heading"
-            ),
-            Self::Reversed(side) => {
-                let side = if *side == Side::Left { "left" } else { "right" };
-                write!(f, "the {side} side counts backwards: the poses drive where tracks turn")
-            }
-            Self::BothReversed => {
-                write!(f, "both sides count backwards: tracks and poses move in opposite senses")
-            }
-            Self::Swapped => write!(
-                f,
-                "tracks and poses turn in opposite senses: left and right are swapped, or the z \
-                 axis of the poses points down"
-            ),
-        }
-    }
-}
-
-impl Doubt {
-    /// What a user can do, where the reader does not know more.
-    pub(crate) fn remedy(&self) -> String {
-        match self {
-            Self::Travel { .. } => {
-                "expected m, s and rad; for joints, --wheel-radius in m per radian with any gear, \
-                 so for joints in degrees, metres per degree"
-            }
-            Self::Stamps { .. } => "expected seconds in both tables",
-            Self::YawInDegrees => "expected yaw in rad",
-            Self::ConstantOrientation { .. } => {
-                "expected poses with a yaw; of a bag, --pose-topic chooses others"
-            }
-            Self::Reversed(Side::Left) => "expected v_left positive where the robot moves forward",
-            Self::Reversed(Side::Right) => {
-                "expected v_right positive where the robot moves forward"
-            }
-            Self::BothReversed => "expected speeds that are positive where the robot moves forward",
-            Self::Swapped => {
-                "expected x forward, y left, yaw counter-clockwise, and v_right > v_left there"
-            }
-        }
-        .to_owned()
-    }
-}
 
 /// What contradicts the rows of a run before they are cleaned.
 pub(super) fn of_rows(rows: &UncheckedRun) -> Option<Doubt> {
@@ -179,7 +79,20 @@ pub(super) fn of_rows(rows: &UncheckedRun) -> Option<Doubt> {
     let are_degrees = degrees.2 >= MIN_STRETCHES
         && follows(degrees) > 0.9
         && (radians.2 < degrees.2 / 4 || follows(radians) < 0.6);
-    are_degrees.then_some(Doubt::YawInDegrees)
+    // On ice the path says nothing of the heading, but yaw does not outrun the tracks.
+    (are_degrees && turned_per_difference(run) > MIN_DEGREES).then_some(Doubt::YawInDegrees)
+}
+
+/// Unit of yaw per way that one track runs more than the other, 1/m: less than the inverse of the
+/// distance of the ICRs where yaw is in radians.
+fn turned_per_difference(run: &UncheckedRun) -> f64 {
+    let finite = |value: &f64| value.is_finite();
+    let turns = run.poses.samples.windows(2).map(|pair| (pair[1].pose.yaw - pair[0].pose.yaw).abs());
+    let turned: f64 = turns.filter(finite).sum();
+    let differences = run.tracks.samples.windows(2);
+    let differences = differences
+        .map(|pair| (pair[0].v_right - pair[0].v_left).abs() * (pair[1].t - pair[0].t).max(0.0));
+    turned / differences.filter(finite).sum::<f64>()
 }
 
 /// What contradicts what in cleaned runs.
@@ -190,8 +103,21 @@ pub(super) fn of_runs(runs: &[Run]) -> Option<Doubt> {
     if let Some(doubt) = orientation(runs) {
         return Some(doubt);
     }
-    let stretches: Vec<Stretch> = runs.iter().flat_map(stretches).collect();
-    travel(runs, &stretches).or_else(|| senses(&stretches))
+    let late =
+        |tau: f64| -> Vec<Stretch> { runs.iter().flat_map(|run| stretches(run, tau)).collect() };
+    let stretches = late(0.0);
+    travel(runs, &stretches).or_else(|| {
+        // A clock that is off must not look like a sign: the delay that explains most decides.
+        let senses = Senses::of(&stretches);
+        let doubt = senses.doubt()?;
+        let lags = LAGS.into_iter().flat_map(|tau| [tau, -tau]);
+        let others = lags.map(|tau| Senses::of(&late(tau)));
+        let best = others.max_by(|a, b| a.explained().total_cmp(&b.explained()));
+        match best.filter(|best| best.explained() > senses.explained() + MIN_LAG_GAIN) {
+            Some(best) => best.doubt(),
+            None => Some(doubt),
+        }
+    })
 }
 
 /// Fractions of a second in which stamps are written.
@@ -257,39 +183,65 @@ fn travel(runs: &[Run], stretches: &[Stretch]) -> Option<Doubt> {
     Some(Doubt::Travel { ratio, units: nearest.map(|(_, name)| *name) })
 }
 
-/// Sides that count backwards or are swapped.
+/// Delays of the poses that are tried before a sign is doubted, s.
+const LAGS: [f64; 8] = [0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0];
+
+/// Least gain of the sum of two squared correlations by a delay.
+const MIN_LAG_GAIN: f64 = 0.1;
+
+/// How tracks and poses go together: correlations over the stretches.
 ///
 /// With F = (V_l + V_r)/2 and D = V_r − V_l, F goes with the way forward and D with the turn. Where
 /// a side counts backwards, F goes with the turn and D with the way.
-fn senses(stretches: &[Stretch]) -> Option<Doubt> {
-    if stretches.len() < MIN_STRETCHES {
-        return None;
-    }
-    let series = |of: &dyn Fn(&Stretch) -> f64| limited(stretches.iter().map(of).collect());
-    let mean = series(&Stretch::forward_of_tracks);
-    let difference = series(&|stretch| stretch.tracks.right - stretch.tracks.left);
-    let forward = series(&|stretch| stretch.forward);
-    let turn = series(&|stretch| stretch.turn);
-    let [right_way, right_turn] = [correlation(&mean, &forward), correlation(&difference, &turn)];
-    let [crossed_way, crossed_turn] =
-        [correlation(&difference, &forward), correlation(&mean, &turn)];
-    let is_crossed = |crossed: f64, right: f64| {
-        crossed.abs() >= MIN_CORRELATION && right.abs() <= crossed.abs() - MIN_CONTRAST
-    };
-    let is_right = right_way.abs() >= MIN_CORRELATION || right_turn.abs() >= MIN_CORRELATION;
-    let crossed = is_crossed(crossed_way, right_way) || is_crossed(crossed_turn, right_turn);
-    if crossed && !is_right {
-        // Right reversed: D = −2 F of the robot. Left reversed: D = +2 F.
-        let sum = crossed_way + crossed_turn;
-        return Some(Doubt::Reversed(if sum < 0.0 { Side::Right } else { Side::Left }));
-    }
-    match (right_way, right_turn) {
-        (way, turn) if turn <= -MIN_CORRELATION && way <= -MIN_CORRELATION => {
-            Some(Doubt::BothReversed)
+#[derive(Clone, Copy, Debug, Default)]
+struct Senses {
+    /// Of F with the way, and of D with the turn.
+    right: [f64; 2],
+    /// Of D with the way, and of F with the turn.
+    crossed: [f64; 2],
+}
+
+impl Senses {
+    fn of(stretches: &[Stretch]) -> Self {
+        if stretches.len() < MIN_STRETCHES {
+            return Self::default();
         }
-        // Circles in one sense alone do not tell D from F.
-        (_, turn) if turn <= -MIN_CORRELATION => Some(Doubt::Swapped),
-        _ => None,
+        let series = |of: &dyn Fn(&Stretch) -> f64| limited(stretches.iter().map(of).collect());
+        let mean = series(&Stretch::forward_of_tracks);
+        let difference = series(&|stretch| stretch.tracks.right - stretch.tracks.left);
+        let forward = series(&|stretch| stretch.forward);
+        let turn = series(&|stretch| stretch.turn);
+        Self {
+            right: [correlation(&mean, &forward), correlation(&difference, &turn)],
+            crossed: [correlation(&difference, &forward), correlation(&mean, &turn)],
+        }
+    }
+
+    /// Sum of the squared correlations of the better explanation.
+    fn explained(&self) -> f64 {
+        let sum = |[a, b]: [f64; 2]| a * a + b * b;
+        sum(self.right).max(sum(self.crossed))
+    }
+
+    /// Sides that count backwards or are swapped.
+    fn doubt(&self) -> Option<Doubt> {
+        let Self { right, crossed } = *self;
+        let is_strong = |correlation: f64| correlation.abs() >= MIN_CORRELATION;
+        let is_crossed = (0..2).any(|at| {
+            is_strong(crossed[at]) && right[at].abs() <= crossed[at].abs() - MIN_CONTRAST
+        });
+        if is_crossed && !right.into_iter().any(is_strong) {
+            // Right reversed: D = −2 F of the robot. Left reversed: D = +2 F.
+            let side = if crossed[0] + crossed[1] < 0.0 { Side::Right } else { Side::Left };
+            return Some(Doubt::Reversed(side));
+        }
+        let is_against = right.map(|correlation| correlation <= -MIN_CORRELATION);
+        match is_against {
+            [true, true] => Some(Doubt::BothReversed),
+            // A sensor that looks backwards turns as the robot does.
+            [_, false] => None,
+            [false, true] => Some(Doubt::Swapped),
+        }
     }
 }
 

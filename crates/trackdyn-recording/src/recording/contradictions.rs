@@ -80,14 +80,15 @@ pub(super) fn of_rows(rows: &UncheckedRun) -> Option<Doubt> {
         && follows(degrees) > 0.9
         && (radians.2 < degrees.2 / 4 || follows(radians) < 0.6);
     // On ice the path says nothing of the heading, but yaw does not outrun the tracks.
-    (are_degrees && turned_per_difference(run) > MIN_DEGREES).then_some(Doubt::YawInDegrees)
+    (are_degrees && turned_per_difference(rows) > MIN_DEGREES).then_some(Doubt::YawInDegrees)
 }
 
 /// Unit of yaw per way that one track runs more than the other, 1/m: less than the inverse of the
 /// distance of the ICRs where yaw is in radians.
 fn turned_per_difference(run: &UncheckedRun) -> f64 {
     let finite = |value: &f64| value.is_finite();
-    let turns = run.poses.samples.windows(2).map(|pair| (pair[1].pose.yaw - pair[0].pose.yaw).abs());
+    let turns =
+        run.poses.samples.windows(2).map(|pair| (pair[1].pose.yaw - pair[0].pose.yaw).abs());
     let turned: f64 = turns.filter(finite).sum();
     let differences = run.tracks.samples.windows(2);
     let differences = differences

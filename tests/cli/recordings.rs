@@ -170,8 +170,8 @@ fn operating_points_give_icrs_with_intervals() {
     assert_eq!(used.status, 0, "{}", used.stderr);
 }
 
-/// A table without lateral speeds tells x_l and x_r, and nothing of y: that is said, and no file is
-/// written.
+/// A table without lateral speeds tells x_l and x_r, and nothing of y: that is said, and the file
+/// holds their distance.
 #[test]
 fn points_without_lateral_speeds_give_what_they_can() {
     let place = Workplace::new();
@@ -185,12 +185,22 @@ fn points_without_lateral_speeds_give_what_they_can() {
     });
     place.write("floor.csv", &without.collect::<String>());
     let run = place.run(&format!("identify floor.csv --vehicle {}", vehicle()));
-    assert_eq!(run.status, 2, "{}", run.stderr);
+    assert_eq!(run.status, 0, "{}", run.stderr);
     for part in ["measure v_lateral", "x_l      ", "x_r - x_l", "chi"] {
         assert!(run.stdout.contains(part), "{part} is not in:\n{}", run.stdout);
     }
     assert!(!run.stdout.contains("NaN"), "{}", run.stdout);
-    assert!(!place.files().iter().any(|file| file.ends_with("kinematics.toml")));
+    let text = String::from_utf8(place.read("out/kinematics.toml")).expect("text");
+    let file: toml::Table = text.parse().expect("TOML");
+    assert_eq!(file["schema"].as_str(), Some("trackdyn.separation/1"));
+    let gap = file["icr_separation_m"].as_float().expect("a number");
+    assert!((gap - 0.8).abs() < 5e-3, "{gap}");
+    // `export ros2` takes it, and what needs all parameters says what is open.
+    let run = place.run("export ros2 out/kinematics.toml --wheel-radius 0.1 --out ros");
+    assert!(run.status == 0 && run.stderr.contains("the distance of the ICRs alone"));
+    let run = place.run("kinematics --speeds 0.3,0.9 --kinematics out/kinematics.toml");
+    assert_eq!(run.status, 1);
+    assert!(run.stderr.contains("x_l, x_r and y are open"), "{}", run.stderr);
 }
 
 #[test]

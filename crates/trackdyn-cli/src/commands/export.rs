@@ -161,8 +161,8 @@ pub fn run(options: &Options) -> Outcome {
     let name = files.kinematics.display();
     if export.drive().is_separation_alone {
         say(format_args!(
-            "warning: {name} holds the distance of the ICRs alone; the point midway between them is \
-            taken for the origin of the base frame"
+            "warning: {name} holds the distance of the ICRs alone; the point midway between them \
+            is taken for the origin of the base frame"
         ));
     } else {
         say_doubtful(&[Parameters::open(&files.kinematics)?]);

@@ -1,5 +1,5 @@
-//! Stamps of other clocks and poses that lack what is needed: right numbers, or a message that names
-//! the cause.
+//! Stamps of other clocks and poses that lack what is needed: right numbers, or a message that
+//! names the cause.
 
 use super::drives::{Bag, EPOCH, LENGTH, RADIUS, at, ns, poses, quaternion, speeds, times};
 use std::fmt::Write;

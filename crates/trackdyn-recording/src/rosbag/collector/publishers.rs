@@ -5,8 +5,8 @@
 //! A message whose joints are all at exactly 0 and stand still, between two messages of fast
 //! joints, is not from the robot: no wheel stops and starts again within a reading. Where a tenth
 //! of the steps of a fast robot have such messages between them, a second publisher sends them.
-//! What it sends is dropped where at most twice as many zeros follow one another as usually do between
-//! fast messages: longer rows of zeros are a robot that stands.
+//! What it sends is dropped where at most twice as many zeros follow one another as usually do
+//! between fast messages: longer rows of zeros are a robot that stands.
 
 use crate::recording::Warning;
 use crate::rosbag::joints::{Column, Source};

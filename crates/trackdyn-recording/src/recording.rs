@@ -56,8 +56,8 @@ impl Recording {
     /// is left out, with a warning.
     ///
     /// # Errors
-    /// [`Error::Empty`] when no run is left, [`Error::Contradiction`] when tracks and poses that were
-    /// read from files contradict each other.
+    /// [`Error::Empty`] when no run is left, [`Error::Contradiction`] when tracks and poses that
+    /// were read from files contradict each other.
     pub fn new(
         name: impl Into<String>,
         robot: impl Into<String>,
@@ -94,8 +94,9 @@ impl Recording {
             let orientation = match without_yaw {
                 0 => String::new(),
                 count => format!(
-                    "; {count} poses have a position and no orientation (a quaternion of zeros, or \
-                     an empty yaw): expected poses with a yaw; of a bag, --pose-topic chooses others"
+                    "; {count} poses have a position and no orientation (a quaternion of zeros, \
+                     or an empty yaw): expected poses with a yaw; of a bag, --pose-topic chooses \
+                     others"
                 ),
             };
             let message =

@@ -32,6 +32,7 @@ mod sqlite_file;
 mod storage;
 mod topic;
 mod visitor;
+mod words;
 
 pub use inspection::{Inspection, TopicSummary, inspect};
 pub(crate) use message::yaw_of_quaternion;

@@ -1,5 +1,5 @@
-//! Stamps of other clocks and poses that lack what is needed: right numbers, or a message that names
-//! the cause.
+//! Stamps of other clocks and poses that lack what is needed: right numbers, or a message that
+//! names the cause.
 
 use super::drives::{Bag, EPOCH, LENGTH, RADIUS, at, ns, poses, quaternion, speeds, times};
 use std::fmt::Write;
@@ -40,8 +40,11 @@ fn error_of(recording: &Recording, run: usize) -> f64 {
 }
 
 fn notes(recording: &Recording) -> String {
-    recording.warnings().iter().map(|warning| format!("{warning}\n")).collect()
+    recording.warnings().iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
+
+/// Stamp, Unix time in ns, of a time after the beginning, s.
+type Clock<'a> = &'a dyn Fn(f64) -> i64;
 
 #[test]
 fn clocks_of_their_own_are_dated_by_the_log() {
@@ -50,7 +53,7 @@ fn clocks_of_their_own_are_dated_by_the_log() {
     // 37 s of leap seconds, and poses that are stamped after they are logged
     let late = |by: f64| move |t: f64| EPOCH + ns(t + by);
     let unix = late(0.0);
-    let clocks: [(&dyn Fn(f64) -> i64, &dyn Fn(f64) -> i64, &str); 4] = [
+    let clocks: [(Clock, Clock, &str); 4] = [
         (&boot, &unix, "1700000000.000 s later"),
         (&unix, &late(37.0), "37.000 s later"),
         (&unix, &late(-18.0), "18.000 s earlier"),

@@ -13,6 +13,9 @@ pub const RADIUS: f64 = 0.165;
 /// Length of a drive, s.
 pub const LENGTH: f64 = 60.0;
 
+/// Length of a drive in whole seconds.
+const SECONDS: u32 = 60;
+
 /// Unix time of the beginning, ns.
 pub const EPOCH: i64 = 1_700_000_000_000_000_000;
 
@@ -33,7 +36,7 @@ pub fn angles(t: f64) -> PerSide<f64> {
 pub fn poses() -> Vec<(f64, Pose)> {
     let mut pose = Pose::default();
     let step = 0.005;
-    (0..=(LENGTH / step).round() as u32)
+    (0..=200 * SECONDS)
         .map(|k| {
             let t = f64::from(k) * step;
             let found = (t, pose);
@@ -48,10 +51,11 @@ pub fn poses() -> Vec<(f64, Pose)> {
 
 /// Times of readings, `rate` a second.
 pub fn times(rate: u32) -> impl Iterator<Item = f64> {
-    (0..(LENGTH * f64::from(rate)) as u32).map(move |k| f64::from(k) / f64::from(rate))
+    (0..SECONDS * rate).map(move |k| f64::from(k) / f64::from(rate))
 }
 
 /// Nanoseconds after the beginning.
+#[expect(clippy::cast_possible_truncation, reason = "drives last less than 2⁵³ ns, 104 days")]
 pub fn ns(t: f64) -> i64 {
     (t * 1e9).round() as i64
 }

@@ -56,7 +56,7 @@ pub(super) fn of_rows(rows: &UncheckedRun) -> Option<Doubt> {
     let poses = &rows.poses.samples;
     let steps = path_extent(poses).map(|extent| extent / 40.0).filter(|step| *step > 0.0)?;
     // R = |Σ exp(2i(θ − yaw))| / n: 1 where the path leads along the heading, forward or backward.
-    let [mut radians, mut degrees] = [(0.0_f64, 0.0_f64, 0_usize); 2];
+    let [mut radians, mut degrees, mut paths] = [(0.0_f64, 0.0_f64, 0_usize); 3];
     let finite = |pose: &trackdyn_core::Pose| pose.x.is_finite() && pose.yaw.is_finite();
     let mut finite = poses.iter().map(|sample| sample.pose).filter(finite);
     let mut start = finite.next()?;
@@ -66,6 +66,8 @@ pub(super) fn of_rows(rows: &UncheckedRun) -> Option<Doubt> {
             continue;
         }
         let path = y.atan2(x);
+        let (sin, cos) = (2.0 * path).sin_cos();
+        paths = (paths.0 + cos, paths.1 + sin, paths.2 + 1);
         for (unit, sum) in [(1.0, &mut radians), (TAU / 360.0, &mut degrees)] {
             let turn = trackdyn_core::pose::wrap_angle(unit * (pose.yaw - start.yaw));
             if turn.abs() < 0.5 {
@@ -76,8 +78,12 @@ pub(super) fn of_rows(rows: &UncheckedRun) -> Option<Doubt> {
         start = pose;
     }
     let follows = |(cos, sin, count): (f64, f64, usize)| cos.hypot(sin) / real(count.max(1));
-    let are_degrees = degrees.2 >= MIN_STRETCHES
+    let is_large = poses.iter().any(|sample| sample.pose.yaw.abs() > TAU);
+    // A straight path follows a heading that hardly changes, whatever its unit.
+    let are_degrees = is_large
+        && degrees.2 >= MIN_STRETCHES
         && follows(degrees) > 0.9
+        && follows(paths) < 0.8
         && (radians.2 < degrees.2 / 4 || follows(radians) < 0.6);
     // On ice the path says nothing of the heading, but yaw does not outrun the tracks.
     (are_degrees && turned_per_difference(rows) > MIN_DEGREES).then_some(Doubt::YawInDegrees)

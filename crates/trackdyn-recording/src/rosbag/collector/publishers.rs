@@ -1,15 +1,17 @@
-//! Several publishers of one topic: one that never moves sends zeros between the readings of the
-//! other.
+//! Several publishers of the joints: those that never move, or tell what others tell, are left out.
+//! One of the topic of another sends zeros between its readings.
 //!
 //! # Law
 //! A message whose joints are all at exactly 0 and stand still, between two messages of fast
 //! joints, is not from the robot: no wheel stops and starts again within a reading. Where a tenth
 //! of the steps of a fast robot have such messages between them, a second publisher sends them.
-//! What it sends is dropped where at most twice as many zeros follow one another as usually do between
-//! fast messages: longer rows of zeros are a robot that stands.
+//! What it sends is dropped where at most twice as many zeros follow one another as usually do
+//! between fast messages: longer rows of zeros are a robot that stands.
 
 use crate::recording::Warning;
-use crate::rosbag::joints::Source;
+use crate::rosbag::joints::{Column, Source};
+use crate::rosbag::names::{Part, word};
+use std::collections::BTreeSet;
 use trackdyn_core::robust::median;
 
 /// Least portion of the steps between fast messages that have zeros between them.
@@ -79,4 +81,74 @@ fn zeros(source: &Source) -> Option<Vec<bool>> {
         start = end + 1;
     }
     Some(dropped)
+}
+
+/// Leaves out sources whose joints never move where another source has these joints in motion.
+pub(super) fn drop_idle(sources: &mut Vec<Source>, warnings: &mut Vec<Warning>) {
+    let moves: Vec<bool> = sources.iter().map(|source| source.columns.iter().any(moves)).collect();
+    let moving: BTreeSet<(&str, String)> = sources
+        .iter()
+        .zip(&moves)
+        .filter(|(_, moves)| **moves)
+        .flat_map(|(source, _)| source.columns.iter().map(|one| (word(one.side), one.name.clone())))
+        .collect();
+    let is_idle = |source: &Source, moves: bool| {
+        let mut columns = source.columns.iter().filter(|column| column.part != Part::Other);
+        !moves && columns.any(|column| moving.contains(&(word(column.side), column.name.clone())))
+    };
+    let mut idle = sources.iter().zip(&moves).map(|(source, moves)| is_idle(source, *moves));
+    let idle: Vec<bool> = idle.by_ref().collect();
+    for (source, _) in sources.iter().zip(&idle).filter(|(_, idle)| **idle) {
+        let (topic, count) = (source.topic.clone(), source.messages);
+        let reason = "its joints never move, as they do in other messages: another publisher \
+                      sends it"
+            .to_owned();
+        warnings.push(Warning::MessagesSkipped { topic, count, reason });
+    }
+    let mut idle = idle.into_iter();
+    sources.retain(|_| !idle.next().unwrap_or(false));
+}
+
+/// Leaves out sources that tell joints of another source of their topic at its times: of both, the
+/// one with velocities stays, else the one with more messages.
+pub(super) fn drop_repeated(sources: &mut Vec<Source>, warnings: &mut Vec<Warning>) {
+    sources.sort_by_key(|source| {
+        let has_velocities = source.columns.iter().any(|column| !column.velocities.is_empty());
+        std::cmp::Reverse((has_velocities, source.messages))
+    });
+    let mut kept: Vec<Source> = Vec::with_capacity(sources.len());
+    for source in sources.drain(..) {
+        let is_told = |other: &Source| {
+            let shares = |one: &Column| other.columns.iter().any(|two| two.name == one.name);
+            other.topic == source.topic
+                && source.columns.iter().any(shares)
+                && is_within(&source, other)
+        };
+        if kept.iter().any(is_told) {
+            let (topic, count) = (source.topic.clone(), source.messages);
+            let reason = "other messages tell its joints at these times".to_owned();
+            warnings.push(Warning::MessagesSkipped { topic, count, reason });
+        } else {
+            kept.push(source);
+        }
+    }
+    *sources = kept;
+}
+
+/// Whether most messages of a source were logged between the first and the last of another.
+fn is_within(source: &Source, other: &Source) -> bool {
+    let logged = || other.received.iter().map(|one| one.log_ns);
+    let (Some(first), Some(last)) = (logged().min(), logged().max()) else { return false };
+    let within = source.received.iter().filter(|one| (first..=last).contains(&one.log_ns));
+    2 * within.count() > source.received.len()
+}
+
+/// Whether a joint moves at all.
+fn moves(column: &Column) -> bool {
+    let steps = |values: &[f64]| {
+        let mut finite = values.iter().filter(|value| value.is_finite());
+        let first = finite.next().copied();
+        finite.any(|value| Some(*value) != first)
+    };
+    steps(&column.positions) || column.velocities.iter().any(|v| v.is_finite() && *v != 0.0)
 }

@@ -1,0 +1,103 @@
+//! A few bad readings do not move the parameters.
+
+use crate::recovery::{drive, fit};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use trackdyn_estimate::Free;
+use trackdyn_recording::{Recording, Source, TrackSample, Warning};
+
+/// Largest share of the readings that are wrong.
+const MAX_BAD: f64 = 0.02;
+
+/// What can be wrong with a reading of one side.
+#[derive(Clone, Copy, Debug)]
+enum Fault {
+    /// A speed that no wheel has.
+    Spike,
+    /// A counter that begins anew, or wraps: one difference of many radians.
+    Restart,
+    /// The sign of one reading.
+    Flip,
+    /// Half a second of zeros.
+    Dead,
+}
+
+impl Fault {
+    const ALL: [Self; 4] = [Self::Spike, Self::Restart, Self::Flip, Self::Dead];
+
+    /// How many readings it spoils.
+    fn length(self) -> usize {
+        match self {
+            Self::Dead => 16,
+            Self::Spike | Self::Restart | Self::Flip => 1,
+        }
+    }
+
+    fn apply(self, readings: &mut [TrackSample], side: usize, random: &mut ChaCha8Rng) {
+        for reading in readings {
+            let speed = if side == 0 { &mut reading.v_left } else { &mut reading.v_right };
+            let sign = if random.random_bool(0.5) { 1.0 } else { -1.0 };
+            *speed = match self {
+                Self::Spike => sign * random.random_range(3.0..1000.0),
+                Self::Restart => sign * 0.1 * random.random_range(20.0..4000.0) / 0.03,
+                Self::Flip => -*speed,
+                Self::Dead => 0.0,
+            };
+        }
+    }
+}
+
+/// The recording with a random number of faults of these kinds.
+fn corrupted(recording: &Recording, kinds: &[Fault], seed: u64) -> Recording {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let readings: usize = recording.runs().iter().map(|run| run.tracks().len()).sum();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
+    let most = (MAX_BAD * trackdyn_core::real(readings)) as usize;
+    let mut left = random.random_range(1..=most);
+    let mut runs: Vec<_> = recording.runs().iter().cloned().map(|run| run.into_rows()).collect();
+    while left > 0 {
+        let kind = kinds[random.random_range(0..kinds.len())];
+        let length = kind.length().min(left);
+        let run = random.random_range(0..runs.len());
+        let tracks = &mut runs[run].tracks.samples;
+        let first = random.random_range(0..tracks.len() - length);
+        let side = random.random_range(0..2);
+        kind.apply(&mut tracks[first..first + length], side, &mut random);
+        left -= length;
+    }
+    Recording::new("hurt", "robot", runs, Source::computed(), Vec::new()).expect("usable")
+}
+
+/// By how many standard errors x_r − x_l moves, over this many logs: the largest and the mean.
+fn moved(kinds: &[Fault], logs: u64) -> [f64; 2] {
+    let moved: Vec<f64> = (0..logs)
+        .into_par_iter()
+        .map(|seed| {
+            let whole = drive(seed % 20);
+            let good = fit(&whole, Free::Icrs).expect("settles").gap();
+            let hurt = fit(&corrupted(&whole, kinds, seed), Free::Icrs).expect("settles").gap();
+            (hurt.value - good.value).abs() / hurt.deviation.max(good.deviation)
+        })
+        .collect();
+    let mean = moved.iter().sum::<f64>() / trackdyn_core::real(moved.len());
+    [moved.into_iter().fold(0.0, f64::max), mean]
+}
+
+#[test]
+fn bad_readings_move_the_distance_by_less_than_its_standard_error() {
+    for kind in Fault::ALL {
+        println!("{kind:?}: {:?}", moved(&[kind], 125));
+    }
+    let [largest, mean] = moved(&Fault::ALL, 500);
+    println!("all: largest {largest:.2}, mean {mean:.2} standard errors");
+    assert!(largest < 1.0, "{largest}");
+}
+
+#[test]
+fn what_was_mended_is_counted() {
+    let hurt = corrupted(&drive(3), &[Fault::Spike], 3);
+    let is_told =
+        |warning: &Warning| warning.to_string().contains("jump away from their neighbours");
+    assert!(hurt.warnings().iter().any(is_told), "{:?}", hurt.warnings());
+}

@@ -298,11 +298,8 @@ mod tests {
         }
     }
 
-    const SETTINGS: Settings = Settings {
-        max_iterations: 50,
-        settled_below: 1e-8,
-        newton_below: 1e-4,
-    };
+    const SETTINGS: Settings =
+        Settings { max_iterations: 50, settled_below: 1e-8, newton_below: 1e-4 };
 
     fn found(problem: &Decay, settings: &Settings) -> ([f64; 2], Status) {
         let minimum = minimise(problem, problem.at([1.5, 1.0]), settings);

@@ -22,11 +22,8 @@ use nalgebra::{DMatrix, DVector};
 
 /// Change of an unknown in m, 1, s or rad: the iteration has settled below `settled_below`, and
 /// Newton's step is used below `newton_below`, where the loss is nearly a parabola.
-const SETTINGS: Settings = Settings {
-    max_iterations: 100,
-    settled_below: 1e-8,
-    newton_below: 1e-4,
-};
+const SETTINGS: Settings =
+    Settings { max_iterations: 100, settled_below: 1e-8, newton_below: 1e-4 };
 
 /// What is fitted: kinematic parameters, and properties of the pose sensor beside them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,9 +81,7 @@ pub fn least_squares(
             let edge = tau + margin.copysign(point.sensor.tau - tau);
             Err(Error::ClockLeaves { tau: edge, start: tau, margin })
         }
-        Status::NotSettled => {
-            Err(Error::NotConverged { iterations, step: last_change })
-        }
+        Status::NotSettled => Err(Error::NotConverged { iterations, step: last_change }),
     }
 }
 

@@ -1,12 +1,12 @@
 //! From messages to a run.
 
-use super::cdr::Cdr;
 use super::chain;
 use super::date::{Received, Stamped, dated};
 use super::frames::{Frames, same_frame};
 use super::joints::{Joints, Reading};
 use super::message::{header, imu, planar_pose};
 use super::options::RosbagOptions;
+use super::payload::{Payload, PayloadError};
 use super::topic::{Layout, Role, Topic};
 use super::visitor::Visitor;
 use crate::Error;
@@ -114,29 +114,29 @@ impl<'a> Collector<'a> {
         log_ns: i64,
         payload: &[u8],
     ) -> Result<(), String> {
-        let decode = |error: super::cdr::CdrError| error.to_string();
-        let mut cdr = Cdr::new(payload).map_err(decode)?;
+        let decode = |error: PayloadError| error.to_string();
+        let mut payload = topic.payload(payload).map_err(decode)?;
         if layout == Layout::Transforms {
-            let count = cdr.length().map_err(decode)?;
+            let count = payload.length().map_err(decode)?;
             for _ in 0..count {
-                self.take_pose(topic, true, log_ns, &mut cdr).map_err(decode)?;
+                self.take_pose(topic, true, log_ns, &mut payload).map_err(decode)?;
             }
             return Ok(());
         }
         match layout {
             Layout::JointState => {
-                let stamp_ns = header(&mut cdr).map_err(decode)?.stamp_ns;
-                let value = self.joints.reading(&mut cdr).map_err(|error| error.to_string())?;
+                let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
+                let value = self.joints.reading(&mut payload).map_err(|error| error.to_string())?;
                 push(&mut self.readings, &topic.name, Received { stamp_ns, log_ns, value });
             }
             Layout::Imu => {
-                let stamp_ns = header(&mut cdr).map_err(decode)?.stamp_ns;
-                let value = imu(&mut cdr).map_err(decode)?;
+                let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
+                let value = imu(&mut payload).map_err(decode)?;
                 push(&mut self.imu, &topic.name, Received { stamp_ns, log_ns, value });
             }
             Layout::Pose | Layout::PoseOfChild | Layout::Transforms => {
                 let has_child = layout == Layout::PoseOfChild;
-                self.take_pose(topic, has_child, log_ns, &mut cdr).map_err(decode)?;
+                self.take_pose(topic, has_child, log_ns, &mut payload).map_err(decode)?;
             }
         }
         Ok(())
@@ -147,11 +147,11 @@ impl<'a> Collector<'a> {
         topic: &Topic,
         has_child: bool,
         log_ns: i64,
-        cdr: &mut Cdr,
-    ) -> Result<(), super::cdr::CdrError> {
-        let header = header(cdr)?;
-        let child = if has_child { cdr.text()? } else { "" };
-        let value = planar_pose(cdr)?;
+        payload: &mut Payload,
+    ) -> Result<(), PayloadError> {
+        let header = header(payload)?;
+        let child = if has_child { payload.text()? } else { "" };
+        let value = planar_pose(payload)?;
         if topic.layout() == Some(Layout::Transforms) {
             self.frames.note(header.frame, child);
         }

@@ -1,7 +1,7 @@
 //! Track speeds from the joints of wheels or sprockets.
 
-use super::cdr::{Cdr, CdrError};
 use super::options::{JointSignal, RosbagOptions};
+use super::payload::{Payload as Cdr, PayloadError as CdrError};
 use crate::recording::Warning;
 use trackdyn_core::{PerSide, Side};
 

@@ -217,3 +217,31 @@ fn mistakes_are_named() {
         assert!(!place.path().join("out").exists());
     }
 }
+
+/// Parameters that other parts of the answer contradict are not written, unless that is forced;
+/// then they are marked, and whatever works with them says so.
+#[test]
+fn contradicted_parameters_are_written_only_by_force() {
+    let place = Workplace::new();
+    let run = place.run("simulate --quasi-static --runs 2 --duration 20 --out drive");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let vehicle = String::from_utf8(place.read("drive/vehicle.toml")).expect("text");
+    let gauge = vehicle.lines().find(|line| line.starts_with("gauge_m")).expect("a key");
+    place.write("wide.toml", &vehicle.replace(gauge, "gauge_m = 1.3"));
+    let run = place.run("identify drive --vehicle wide.toml");
+    assert_eq!(run.status, 2, "{}", run.stdout);
+    assert!(run.stdout.contains("friction cannot do"), "{}", run.stdout);
+    assert!(!place.path().join("out/kinematics.toml").exists());
+    let run = place.run("identify drive --vehicle wide.toml --force");
+    assert_eq!(run.status, 0, "{}", run.stdout);
+    let file = String::from_utf8(place.read("out/kinematics.toml")).expect("text");
+    assert!(file.contains("doubtful = true"), "{file}");
+    for command in [
+        "odometry drive --vehicle wide.toml --kinematics out/kinematics.toml --out path",
+        "export ros2 out/kinematics.toml --wheel-radius 0.1 --out ros",
+    ] {
+        let run = place.run(command);
+        assert_eq!(run.status, 0, "{command}: {}", run.stderr);
+        assert!(run.stderr.contains("kinematics.toml is doubtful"), "{}", run.stderr);
+    }
+}

@@ -1,5 +1,6 @@
 //! A diagnosis says no more than the evidence bears.
 
+mod candidates;
 mod held_out;
 mod images;
 mod inertia;

@@ -3,7 +3,6 @@
 //! A test that needs private items stands in the file that it tests. All others stand here, those
 //! of the program in `cli`, and the long ones of the diagnosis in `diagnosis`.
 
-mod candidates;
 mod conformance;
 mod diagnoses;
 mod driving;

@@ -1,5 +1,6 @@
 //! Parameters that were put into a recording come out of it.
 
+mod contradictions;
 mod corrupted;
 mod coverage;
 mod manual;

@@ -16,20 +16,26 @@ use crate::{Error, Format};
 use std::path::Path;
 use trackdyn_core::{PerSide, Side};
 
-mod cdr;
 mod chain;
 mod clock;
 mod collector;
+mod compressed;
 mod date;
 mod frames;
 mod inspection;
 mod joints;
+mod mcap_chunk;
 mod mcap_file;
 mod message;
 mod names;
 mod options;
+mod part;
+mod payload;
+mod ros1_file;
+mod ros1_record;
 mod sqlite_file;
 mod storage;
+mod stream;
 mod topic;
 mod visitor;
 mod words;
@@ -52,7 +58,7 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     let mut warnings = storage::scan(path, &mut collector)?;
     let collected = collector.finish(path)?;
     warnings.extend(collected.warnings);
-    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let name = storage::name(path);
     let source = Source {
         format: Format::Rosbag,
         path: Some(path.to_owned()),

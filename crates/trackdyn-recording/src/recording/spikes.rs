@@ -5,10 +5,10 @@
 //! d is the distance of a reading from the median of the five around it, which follows steps and
 //! ramps of the speed. A reading is a spike where
 //!
-//! |d| > max(8 σ, 4 q, v/2, 2 g Δt)
+//! |d| > max(8 σ, 4 q, v/2, g Δt)
 //!
 //! with σ the robust spread of d over the run, q the size of d that 97 % of the readings keep
-//! below, v the speed that 90 % keep below, and 2 g Δt what twice the weight could change in the
+//! below, v the speed that 90 % keep below, and g Δt what the weight could change in the
 //! median interval of the readings. At the ends of a run, where a spike has neighbours on one side
 //! only, it takes four times as much. A spike is replaced by the line between the readings beside
 //! it.
@@ -46,7 +46,7 @@ const USUAL_SHARE: f64 = 0.9;
 const MIN_OF_SPEED: f64 = 0.5;
 
 /// Acceleration that no track has, m/s².
-const MAX_ACCELERATION: f64 = 20.0;
+const MAX_ACCELERATION: f64 = 10.0;
 
 /// Factor on the limit within [`HALF_WINDOW`] of the ends of a run.
 const AT_END: f64 = 4.0;

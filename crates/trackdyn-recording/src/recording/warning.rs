@@ -28,7 +28,18 @@ pub enum Warning {
         /// Messages that were read before.
         messages: u64,
     },
-    /// A file that belongs to a recording and is not there, or cannot be read as it is.
+    /// Chunks of a bag that are damaged: none of their messages is used; those around them are.
+    ChunksDropped {
+        /// The file.
+        path: PathBuf,
+        /// How many chunks.
+        chunks: u64,
+        /// Time from the first to the last of their messages, summed over the chunks, s.
+        seconds: f64,
+        /// What is wrong with the first of them.
+        problem: String,
+    },
+    /// A file that belongs to a recording and is not there.
     PartMissing {
         /// The file.
         path: PathBuf,
@@ -236,10 +247,15 @@ impl fmt::Display for Warning {
             Self::Damaged { path, message, messages } => {
                 write!(f, "{}: {message}; the {messages} messages before are used", path.display())
             }
+            Self::ChunksDropped { path, chunks, seconds, problem } => write!(
+                f,
+                "{}: damaged, and read around the damage: {chunks} chunks are left out, \
+                 {seconds:.3} s of the log are missing (the first chunk: {problem})",
+                path.display()
+            ),
             Self::PartMissing { path } => write!(
                 f,
-                "{}: listed in metadata.yaml, and not there or packed (zstd -d unpacks .zstd \
-                 files); what it holds is missing",
+                "{}: listed in metadata.yaml, and not there; what it holds is missing",
                 path.display()
             ),
             Self::OwnOdometry { poses } => write!(

@@ -5,11 +5,11 @@
 //! rotation about one axis), and never beyond them: poses there are left out. Links of a topic that
 //! ends in `_static` hold at all times.
 
-use super::cdr::{Cdr, CdrError};
 use super::date::{Received, Stamped, dated};
 use super::frames::{Frames, Hop, is_of_odometry};
 use super::message::{header, planar, rigid};
 use super::options::RosbagOptions;
+use super::payload::PayloadError;
 use super::storage;
 use super::topic::{Layout, Topic};
 use super::visitor::Visitor;
@@ -181,12 +181,12 @@ struct Collector<'a> {
 }
 
 impl Collector<'_> {
-    fn take(&mut self, topic: &Topic, log_ns: i64, payload: &[u8]) -> Result<(), CdrError> {
-        let mut cdr = Cdr::new(payload)?;
-        for _ in 0..cdr.length()? {
-            let header = header(&mut cdr)?;
-            let child = cdr.text()?;
-            let transform = rigid(&mut cdr)?;
+    fn take(&mut self, topic: &Topic, log_ns: i64, payload: &[u8]) -> Result<(), PayloadError> {
+        let mut payload = topic.payload(payload)?;
+        for _ in 0..payload.length()? {
+            let header = header(&mut payload)?;
+            let child = payload.text()?;
+            let transform = rigid(&mut payload)?;
             let link = self.links.iter_mut().find(|link| link.hop.link.is(header.frame, child));
             if let (Some(link), Some(value)) = (link, transform) {
                 link.is_static |= topic.is_static();

@@ -1,6 +1,5 @@
 //! From messages to a run.
 
-use super::cdr::Cdr;
 use super::chain;
 use super::clock::{By, Clock, decide};
 use super::date::{Received, Stamped};
@@ -8,6 +7,7 @@ use super::frames::{Frames, same_frame};
 use super::joints::Joints;
 use super::message::{header, imu, planar_pose};
 use super::options::RosbagOptions;
+use super::payload::{Payload, PayloadError};
 use super::topic::{Layout, Role, Topic};
 use super::visitor::Visitor;
 use crate::Error;
@@ -167,29 +167,29 @@ impl<'a> Collector<'a> {
         log_ns: i64,
         payload: &[u8],
     ) -> Result<(), String> {
-        let decode = |error: super::cdr::CdrError| error.to_string();
-        let mut cdr = Cdr::new(payload).map_err(decode)?;
+        let decode = |error: PayloadError| error.to_string();
+        let mut payload = topic.payload(payload).map_err(decode)?;
         if layout == Layout::Transforms {
-            let count = cdr.length().map_err(decode)?;
+            let count = payload.length().map_err(decode)?;
             for _ in 0..count {
-                self.take_pose(topic, true, log_ns, &mut cdr).map_err(decode)?;
+                self.take_pose(topic, true, log_ns, &mut payload).map_err(decode)?;
             }
             return Ok(());
         }
         match layout {
             Layout::JointState => {
-                let stamp_ns = header(&mut cdr).map_err(decode)?.stamp_ns;
+                let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
                 let received = Received { stamp_ns, log_ns, value: () };
-                self.joints.take(&topic.name, received, &mut cdr).map_err(decode)?;
+                self.joints.take(&topic.name, received, &mut payload).map_err(decode)?;
             }
             Layout::Imu => {
-                let stamp_ns = header(&mut cdr).map_err(decode)?.stamp_ns;
-                let value = imu(&mut cdr).map_err(decode)?;
+                let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
+                let value = imu(&mut payload).map_err(decode)?;
                 push(&mut self.imu, &topic.name, Received { stamp_ns, log_ns, value });
             }
             Layout::Pose | Layout::PoseOfChild | Layout::Transforms => {
                 let has_child = layout == Layout::PoseOfChild;
-                self.take_pose(topic, has_child, log_ns, &mut cdr).map_err(decode)?;
+                self.take_pose(topic, has_child, log_ns, &mut payload).map_err(decode)?;
             }
         }
         Ok(())
@@ -200,12 +200,12 @@ impl<'a> Collector<'a> {
         topic: &Topic,
         has_child: bool,
         log_ns: i64,
-        cdr: &mut Cdr,
-    ) -> Result<(), super::cdr::CdrError> {
-        let header = header(cdr)?;
-        let child = if has_child { cdr.text()? } else { "" };
-        let [_, _, _, quaternion @ ..]: [f64; 7] = cdr.clone().f64s()?;
-        let value = planar_pose(cdr)?;
+        payload: &mut Payload,
+    ) -> Result<(), PayloadError> {
+        let header = header(payload)?;
+        let child = if has_child { payload.text()? } else { "" };
+        let [_, _, _, quaternion @ ..]: [f64; 7] = payload.clone().f64s()?;
+        let value = planar_pose(payload)?;
         if topic.layout() == Some(Layout::Transforms) {
             self.frames.note(header.frame, child);
         }

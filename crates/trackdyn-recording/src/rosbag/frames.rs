@@ -41,10 +41,15 @@ pub(super) fn is_of_odometry(parent: &str) -> bool {
     same_frame(parent, ODOMETRY)
 }
 
+/// Whether messages of this type are lists of transforms, of tf2 or of tf.
+pub(super) fn is_transforms(kind: &str) -> bool {
+    kind.ends_with("/TFMessage") || kind.ends_with("/tfMessage")
+}
+
 /// Whether messages of this type may hold the odometry of the tracks: those of an Odometry, and
 /// transforms out of its frame.
 pub(super) fn may_be_odometry<'a>(kind: &str, mut parents: impl Iterator<Item = &'a str>) -> bool {
-    kind.ends_with("/Odometry") || (kind.ends_with("/TFMessage") && parents.any(is_of_odometry))
+    kind.ends_with("/Odometry") || (is_transforms(kind) && parents.any(is_of_odometry))
 }
 
 impl Link {

@@ -1,10 +1,10 @@
 //! What a bag holds, and which options would read it.
 
-use super::cdr::{Cdr, CdrError};
-use super::frames::{Frames, may_be_odometry};
+use super::frames::{Frames, is_transforms, may_be_odometry};
 use super::joints;
 use super::message::header;
 use super::options::RosbagOptions;
+use super::payload::{Payload, PayloadError};
 use super::storage;
 use super::topic::{Layout, Role, STATIC, Topic};
 use super::visitor::Visitor;
@@ -91,37 +91,36 @@ impl Visitor for Observer {
         seen.span_ns = Some((first.min(log_ns), last.max(log_ns)));
         if let Some(layout) = topic.layout() {
             // A message that cannot be decoded has no frames and no joints to show.
-            let _ = seen.look_into(layout, payload);
+            let _ = topic.payload(payload).and_then(|payload| seen.look_into(layout, payload));
         }
     }
 }
 
 impl Seen {
-    fn look_into(&mut self, layout: Layout, payload: &[u8]) -> Result<(), CdrError> {
-        let mut cdr = Cdr::new(payload)?;
+    fn look_into(&mut self, layout: Layout, mut payload: Payload) -> Result<(), PayloadError> {
         match layout {
             Layout::JointState if self.joints.is_empty() => {
-                header(&mut cdr)?;
-                let (names, positions, velocities) = joints::names(&mut cdr)?;
+                header(&mut payload)?;
+                let (names, positions, velocities) = joints::names(&mut payload)?;
                 self.joints = names.into_iter().map(str::to_owned).collect();
                 let signals = [(positions, "position"), (velocities, "velocity")];
                 self.signals =
                     signals.into_iter().filter_map(|(has, name)| has.then_some(name)).collect();
             }
             Layout::Pose => {
-                let frame = header(&mut cdr)?.frame;
+                let frame = header(&mut payload)?.frame;
                 self.note_frames(frame, "");
             }
             Layout::PoseOfChild => {
-                let frame = header(&mut cdr)?.frame;
-                self.note_frames(frame, cdr.text()?);
+                let frame = header(&mut payload)?.frame;
+                self.note_frames(frame, payload.text()?);
             }
             Layout::Transforms => {
-                for _ in 0..cdr.length()? {
-                    let frame = header(&mut cdr)?.frame;
-                    self.note_frames(frame, cdr.text()?);
+                for _ in 0..payload.length()? {
+                    let frame = header(&mut payload)?.frame;
+                    self.note_frames(frame, payload.text()?);
                     // translation and rotation
-                    cdr.skip_f64s(7)?;
+                    payload.skip_f64s(7)?;
                 }
             }
             Layout::JointState | Layout::Imu => {}
@@ -154,7 +153,7 @@ impl Seen {
 /// The topic of the poses and their frames: the only Odometry or stamped pose, else the only topic
 /// of transforms, whose chain from the root to the body of the robot is taken.
 fn suggest_poses(topics: Vec<&TopicSummary>) -> (Option<String>, Option<(String, String)>) {
-    let is_tf = |topic: &&TopicSummary| topic.kind.ends_with("/TFMessage");
+    let is_tf = |topic: &&TopicSummary| is_transforms(&topic.kind);
     let (transforms, direct): (Vec<_>, Vec<_>) = topics.into_iter().partition(is_tf);
     let (stays, moves): (Vec<_>, Vec<_>) =
         transforms.into_iter().partition(|topic| topic.name.ends_with(STATIC));

@@ -3,10 +3,10 @@
 //! Messages of one topic that list other joints, or have other signals, are kept apart: they may
 //! come from another publisher.
 
-use super::cdr::{Cdr, CdrError};
 use super::date::Received;
 use super::names::{self, Part};
 use super::options::RosbagOptions;
+use super::payload::{Payload, PayloadError};
 use trackdyn_core::{PerSide, Side};
 
 /// Messages of one topic with these joints and signals.
@@ -75,8 +75,8 @@ impl Joints {
         &mut self,
         topic: &str,
         received: Received<()>,
-        cdr: &mut Cdr,
-    ) -> Result<(), CdrError> {
+        cdr: &mut Payload,
+    ) -> Result<(), PayloadError> {
         let count = cdr.length()?;
         let mut names = Vec::with_capacity(count.min(64));
         for _ in 0..count {
@@ -169,7 +169,7 @@ pub(super) fn of_side(joints: &[String], side: Side) -> Vec<String> {
 }
 
 /// The names of the joints in a message and the signals it has (position, velocity).
-pub(super) fn names<'a>(cdr: &mut Cdr<'a>) -> Result<(Vec<&'a str>, bool, bool), CdrError> {
+pub(super) fn names<'a>(cdr: &mut Payload<'a>) -> Result<(Vec<&'a str>, bool, bool), PayloadError> {
     let count = cdr.length()?;
     let mut names = Vec::new();
     for _ in 0..count {
@@ -217,7 +217,7 @@ mod tests {
         let mut take = |names: &[&str], positions: &[f64], velocities: &[f64], log_ns: i64| {
             let bytes = message(names, [positions, velocities]);
             let received = Received { stamp_ns: None, log_ns, value: () };
-            joints.take("/joints", received, &mut Cdr::new(&bytes).expect("CDR"))
+            joints.take("/joints", received, &mut Payload::new(&bytes).expect("CDR"))
         };
         take(&["lidar", "wheel_left", "wheel_right"], &[1.0, 2.0, 3.0], &[], 0).expect("a message");
         take(&["wheel_left"], &[5.0], &[6.0], 1).expect("a message");
@@ -243,7 +243,9 @@ mod tests {
             let mut joints = Joints::new(&options);
             let bytes = message(&["w"], [&[1.0], &[]]);
             let received = Received { stamp_ns: None, log_ns: 0, value: () };
-            joints.take(topic, received, &mut Cdr::new(&bytes).expect("CDR")).expect("a message");
+            joints
+                .take(topic, received, &mut Payload::new(&bytes).expect("CDR"))
+                .expect("a message");
             let sources = joints.into_sources();
             assert!(sources[0].columns.iter().any(|one| (one.side, one.sign) == (side, sign)));
         }

@@ -1,22 +1,25 @@
-//! `.mcap` files, read as a stream.
+//! `.mcap` files, read as a stream of records.
+//!
+//! A file is a list of records: operation code (1 byte), length of the content (8 bytes), content.
+//! Chunks hold records too, compressed or not, with a CRC. A chunk that is damaged is dropped as a
+//! whole. Where records end before the end of the file says so, all that stands before is used, and
+//! so is the readable part of the chunk that is cut.
+//!
+//! # Sources
+//! The MCAP format specification, sections "Records" and "Chunk".
 
+use super::mcap_chunk::{Chunks, Decompressed};
+use super::part::Part;
+use super::stream::{ENDS_EARLY, MAX_SIZE, Stream, without_topic};
 use super::topic::Topic;
 use super::visitor::Visitor;
 use crate::Error;
 use crate::recording::Warning;
-use crate::table::unreadable;
 use mcap::records::{Record, op};
-use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::{ErrorKind, Read};
-use std::path::Path;
 
-/// Bytes taken from the file at a time.
-const READ_SIZE: usize = 1 << 20;
-
-/// Largest size of a record, bytes: a longer one is damage.
-const MAX_RECORD_SIZE: usize = 1 << 28;
+/// Operation code and length of a record.
+const HEAD_SIZE: usize = 9;
 
 /// Topics by the ids that the file gives them.
 #[derive(Default)]
@@ -25,58 +28,120 @@ struct Channels {
     topics: HashMap<u16, (Topic, bool)>,
 }
 
-/// Shows the messages of a file; a warning says where it is damaged.
+/// What was read of a file.
+#[derive(Default)]
+struct Progress {
+    messages: u64,
+    /// Messages whose channel no record describes.
+    unknown: u64,
+}
+
+/// Shows the messages of a file; warnings say where it is damaged.
 ///
 /// # Errors
 /// [`Error::Unreadable`]; [`Error::Bag`] when the file does not start as a `.mcap` does.
-pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Option<Warning>, Error> {
-    let mut file = File::open(path).map_err(|cause| unreadable(path, cause))?;
-    let options = LinearReaderOptions::default()
-        .with_validate_chunk_crcs(true)
-        .with_record_length_limit(MAX_RECORD_SIZE);
-    let mut reader = LinearReader::new_with_options(options);
+pub(super) fn scan(part: &Part, visitor: &mut dyn Visitor) -> Result<Vec<Warning>, Error> {
+    let mut records = Records::open(part)?;
     let mut channels = Channels::default();
-    let (mut messages, mut has_begun) = (0, false);
-    while let Some(event) = reader.next_event() {
-        let problem = match event {
-            Ok(LinearReadEvent::ReadRequest(least)) => {
-                let target = reader.insert(least.max(READ_SIZE));
-                let count =
-                    read_some(&mut file, target).map_err(|cause| unreadable(path, cause))?;
-                reader.notify_read(count);
-                continue;
+    let mut chunks = Chunks::default();
+    let mut progress = Progress::default();
+    let problem = loop {
+        let (opcode, data) = match records.next(is_wanted)? {
+            Next::Record(opcode, data) => (opcode, data),
+            Next::Cut(op::CHUNK, data) => {
+                if let Some(records) = chunks.cut(data) {
+                    show_all(records, &mut channels, visitor, &mut progress);
+                }
+                break Some(ENDS_EARLY.to_owned());
             }
-            Ok(LinearReadEvent::Record { opcode: op::MESSAGE, data }) => {
-                has_begun = true;
-                messages += u64::from(show(data, &channels, visitor));
-                continue;
+            Next::Cut(..) => break Some(ENDS_EARLY.to_owned()),
+            Next::TooLong(opcode, length) => {
+                break Some(format!(
+                    "a record of kind {opcode:#04x} and {length} bytes is damaged"
+                ));
             }
-            Ok(LinearReadEvent::Record { opcode, data }) => {
-                has_begun = true;
-                match channels.learn(opcode, data, visitor) {
-                    Ok(()) => continue,
-                    Err(error) => error,
+            Next::End => break None,
+        };
+        if opcode != op::CHUNK {
+            if let Err(problem) = take(opcode, data, &mut channels, visitor, &mut progress) {
+                break Some(problem);
+            }
+            continue;
+        }
+        match chunks.whole(data) {
+            Decompressed::Records(records) => {
+                if let Some(problem) = show_all(records, &mut channels, visitor, &mut progress) {
+                    chunks.dropped.note(problem);
                 }
             }
-            Err(error) => error,
-        };
-        let message = problem.to_string();
-        if !has_begun {
-            return Err(Error::Bag { path: path.to_owned(), message });
+            // What a dropped chunk says of its channels stands at the end of the file again.
+            Decompressed::Dropped { is_first: true } => learn_all(part, &mut channels, visitor)?,
+            Decompressed::Dropped { is_first: false } => {}
         }
-        return Ok(Some(Warning::Damaged { path: path.to_owned(), message, messages }));
+    };
+    let path = part.path().to_owned();
+    let mut warnings: Vec<Warning> = chunks.dropped.warning(&path).into_iter().collect();
+    if let (Some(message), true) = (&problem, channels.topics.is_empty()) {
+        return Err(Error::Bag { path, message: message.clone() });
     }
-    Ok(None)
+    warnings.extend(without_topic(&path, progress.unknown));
+    let messages = progress.messages;
+    warnings.extend(problem.map(|message| Warning::Damaged { path, message, messages }));
+    Ok(warnings)
 }
 
-/// As much as the file gives at once, and again where a signal came between.
-fn read_some(file: &mut File, target: &mut [u8]) -> std::io::Result<usize> {
-    loop {
-        match file.read(target) {
-            Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            other => return other,
-        }
+/// Kinds of records that are read; others are passed over.
+fn is_wanted(opcode: u8) -> bool {
+    matches!(opcode, op::SCHEMA | op::CHANNEL | op::MESSAGE | op::CHUNK)
+}
+
+/// The schemas and channels that stand outside the chunks of a file.
+fn learn_all(part: &Part, channels: &mut Channels, visitor: &mut dyn Visitor) -> Result<(), Error> {
+    let mut records = Records::open(part)?;
+    let is_wanted = |opcode| matches!(opcode, op::SCHEMA | op::CHANNEL);
+    while let Next::Record(opcode, data) = records.next(is_wanted)? {
+        // A damaged one is told where the records are read for their messages.
+        let _ = channels.learn(opcode, data, visitor);
     }
+    Ok(())
+}
+
+/// Shows the records of a chunk; what is wrong, where they end before the chunk does.
+fn show_all(
+    mut records: &[u8],
+    channels: &mut Channels,
+    visitor: &mut dyn Visitor,
+    progress: &mut Progress,
+) -> Option<String> {
+    while let Some((head, rest)) = records.split_first_chunk::<HEAD_SIZE>() {
+        let (opcode, length) = opcode_and_length(*head);
+        let Some((data, rest)) = rest.split_at_checked(usize::try_from(length).ok()?) else {
+            return Some("a record in it is longer than the chunk".to_owned());
+        };
+        if let Err(problem) = take(opcode, data, channels, visitor, progress) {
+            return Some(problem);
+        }
+        records = rest;
+    }
+    (!records.is_empty()).then(|| "it ends within a record".to_owned())
+}
+
+/// Takes a record that is no chunk.
+fn take(
+    opcode: u8,
+    data: &[u8],
+    channels: &mut Channels,
+    visitor: &mut dyn Visitor,
+    progress: &mut Progress,
+) -> Result<(), String> {
+    if opcode == op::MESSAGE {
+        match show(data, channels, visitor) {
+            true => progress.messages += 1,
+            false => progress.unknown += 1,
+        }
+        return Ok(());
+    }
+    channels.learn(opcode, data, visitor).map_err(|error| error.to_string())
 }
 
 /// Shows a message record, whose layout is: channel (2 bytes), sequence (4), log time (8),
@@ -121,4 +186,67 @@ impl Channels {
         }
         Ok(())
     }
+}
+
+/// The records of a file, one after the other.
+struct Records {
+    file: Stream,
+    content: Vec<u8>,
+    is_at_end: bool,
+}
+
+/// What follows in a file.
+enum Next<'a> {
+    /// Operation code and content.
+    Record(u8, &'a [u8]),
+    /// Operation code and what there is of the content of a record at which the file ends.
+    Cut(u8, &'a [u8]),
+    /// Operation code and length of a record that cannot be.
+    TooLong(u8, u64),
+    /// The end, as it should be.
+    End,
+}
+
+impl Records {
+    /// A file after its magic bytes.
+    fn open(part: &Part) -> Result<Self, Error> {
+        let mut file = Stream::open(part)?;
+        if file.bytes()?.is_none_or(|magic: [u8; mcap::MAGIC.len()]| magic != mcap::MAGIC) {
+            let message = "it does not start as a .mcap file does".to_owned();
+            return Err(Error::Bag { path: part.path().to_owned(), message });
+        }
+        Ok(Self { file, content: Vec::new(), is_at_end: false })
+    }
+
+    /// The next record of a kind that is wanted.
+    fn next(&mut self, is_wanted: impl Fn(u8) -> bool) -> Result<Next<'_>, Error> {
+        loop {
+            if self.is_at_end {
+                let size = mcap::MAGIC.len() as u64;
+                let is_whole =
+                    self.file.fill(&mut self.content, size)? && self.content == mcap::MAGIC;
+                return Ok(if is_whole { Next::End } else { Next::Cut(op::FOOTER, &[]) });
+            }
+            let Some(head) = self.file.bytes()? else { return Ok(Next::Cut(op::FOOTER, &[])) };
+            let (opcode, length) = opcode_and_length(head);
+            self.is_at_end = opcode == op::FOOTER;
+            if !is_wanted(opcode) {
+                if self.file.skip(length)? {
+                    continue;
+                }
+                return Ok(Next::Cut(opcode, &[]));
+            }
+            if length > MAX_SIZE {
+                return Ok(Next::TooLong(opcode, length));
+            }
+            let is_whole = self.file.fill(&mut self.content, length)?;
+            let next = if is_whole { Next::Record } else { Next::Cut };
+            return Ok(next(opcode, &self.content));
+        }
+    }
+}
+
+/// The parts of the head of a record.
+fn opcode_and_length([opcode, length @ ..]: [u8; HEAD_SIZE]) -> (u8, u64) {
+    (opcode, u64::from_le_bytes(length))
 }

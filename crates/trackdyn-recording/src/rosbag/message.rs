@@ -1,6 +1,6 @@
 //! The message types, from their definitions in `common_interfaces` and `geometry2`.
 
-use super::cdr::{Cdr, CdrError};
+use super::payload::{Encoding, Payload, PayloadError};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 /// Time stamp and frame of a message.
@@ -11,23 +11,27 @@ pub(super) struct Header<'a> {
     pub(super) frame: &'a str,
 }
 
-/// `std_msgs/Header`: `builtin_interfaces/Time stamp, string frame_id`.
-pub(super) fn header<'a>(cdr: &mut Cdr<'a>) -> Result<Header<'a>, CdrError> {
-    let (seconds, nanoseconds) = (cdr.i32()?, cdr.u32()?);
+/// `std_msgs/Header`: `builtin_interfaces/Time stamp, string frame_id`; that of ROS 1 has `uint32
+/// seq` before.
+pub(super) fn header<'a>(payload: &mut Payload<'a>) -> Result<Header<'a>, PayloadError> {
+    if payload.encoding() == Encoding::Ros1 {
+        payload.u32()?;
+    }
+    let (seconds, nanoseconds) = (payload.i32()?, payload.u32()?);
     let stamp = i64::from(seconds) * 1_000_000_000 + i64::from(nanoseconds);
-    Ok(Header { stamp_ns: (stamp != 0).then_some(stamp), frame: cdr.text()? })
+    Ok(Header { stamp_ns: (stamp != 0).then_some(stamp), frame: payload.text()? })
 }
 
 /// `geometry_msgs/Pose` or `Transform`: three coordinates and a quaternion (x, y, z, w), as
 /// (x, y, yaw).
-pub(super) fn planar_pose(cdr: &mut Cdr) -> Result<[f64; 3], CdrError> {
-    let [x, y, _, quaternion @ ..]: [f64; 7] = cdr.f64s()?;
+pub(super) fn planar_pose(payload: &mut Payload) -> Result<[f64; 3], PayloadError> {
+    let [x, y, _, quaternion @ ..]: [f64; 7] = payload.f64s()?;
     Ok([x, y, yaw_of_quaternion(quaternion)])
 }
 
 /// `geometry_msgs/Transform` in space; none where it is not finite or its quaternion is zero.
-pub(super) fn rigid(cdr: &mut Cdr) -> Result<Option<Isometry3<f64>>, CdrError> {
-    let values: [f64; 7] = cdr.f64s()?;
+pub(super) fn rigid(payload: &mut Payload) -> Result<Option<Isometry3<f64>>, PayloadError> {
+    let values: [f64; 7] = payload.f64s()?;
     let [x, y, z, i, j, k, w] = values;
     let rotation = UnitQuaternion::try_new(Quaternion::new(w, i, j, k), 1e-6);
     let is_finite = values.iter().all(|value| value.is_finite());
@@ -43,12 +47,12 @@ pub(super) fn planar(transform: &Isometry3<f64>) -> [f64; 3] {
 }
 
 /// `sensor_msgs/Imu` after its header: yaw rate, acceleration forward and to the left.
-pub(super) fn imu(cdr: &mut Cdr) -> Result<[f64; 3], CdrError> {
+pub(super) fn imu(payload: &mut Payload) -> Result<[f64; 3], PayloadError> {
     // orientation and its covariance
-    cdr.skip_f64s(4 + 9)?;
-    let [_, _, gyro_z]: [f64; 3] = cdr.f64s()?;
-    cdr.skip_f64s(9)?;
-    let [acc_x, acc_y]: [f64; 2] = cdr.f64s()?;
+    payload.skip_f64s(4 + 9)?;
+    let [_, _, gyro_z]: [f64; 3] = payload.f64s()?;
+    payload.skip_f64s(9)?;
+    let [acc_x, acc_y]: [f64; 2] = payload.f64s()?;
     Ok([gyro_z, acc_x, acc_y])
 }
 

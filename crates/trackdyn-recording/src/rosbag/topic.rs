@@ -1,5 +1,7 @@
 //! Topics and what they can be used for.
 
+use super::payload::{Encoding, Payload, PayloadError};
+
 /// A topic of a bag.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Topic {
@@ -7,7 +9,7 @@ pub(super) struct Topic {
     pub(super) name: String,
     /// Its type, such as `sensor_msgs/msg/Imu`.
     pub(super) kind: String,
-    /// How its messages are encoded; `cdr` is what can be read.
+    /// How its messages are encoded; `cdr` and `ros1` are what can be read.
     pub(super) encoding: String,
 }
 
@@ -32,7 +34,7 @@ pub(super) enum Layout {
     PoseOfChild,
     /// `geometry_msgs/PoseStamped`, `PoseWithCovarianceStamped`: header, pose.
     Pose,
-    /// `tf2_msgs/TFMessage`: a list of transforms.
+    /// `tf2_msgs/TFMessage`, `tf/tfMessage`: a list of transforms.
     Transforms,
     /// `sensor_msgs/Imu`.
     Imu,
@@ -47,18 +49,24 @@ impl Topic {
         self.layout() == Some(Layout::Transforms) && self.name.ends_with(STATIC)
     }
 
+    /// The start of one of its messages; one of CDR where its encoding is not known.
+    ///
+    /// # Errors
+    /// A payload whose beginning is not that of its encoding.
+    pub(super) fn payload<'a>(&self, bytes: &'a [u8]) -> Result<Payload<'a>, PayloadError> {
+        Payload::of(Encoding::of(&self.encoding).unwrap_or(Encoding::Cdr), bytes)
+    }
+
     /// The layout of its messages, where it is one of those known here.
     pub(super) fn layout(&self) -> Option<Layout> {
-        if self.encoding != "cdr" {
-            return None;
-        }
+        Encoding::of(&self.encoding)?;
         match self.kind.replace("/msg/", "/").as_str() {
             "sensor_msgs/JointState" => Some(Layout::JointState),
             "nav_msgs/Odometry" | "geometry_msgs/TransformStamped" => Some(Layout::PoseOfChild),
             "geometry_msgs/PoseStamped" | "geometry_msgs/PoseWithCovarianceStamped" => {
                 Some(Layout::Pose)
             }
-            "tf2_msgs/TFMessage" => Some(Layout::Transforms),
+            "tf2_msgs/TFMessage" | "tf/tfMessage" => Some(Layout::Transforms),
             "sensor_msgs/Imu" => Some(Layout::Imu),
             _ => None,
         }
@@ -79,9 +87,9 @@ impl Layout {
 /// Topics with their types, for messages.
 pub(super) fn list<'a>(topics: impl Iterator<Item = &'a Topic>) -> String {
     let mut names: Vec<String> = topics
-        .map(|topic| match topic.encoding.as_str() {
-            "cdr" => format!("{} ({})", topic.name, topic.kind),
-            other => format!("{} ({}, encoding {other})", topic.name, topic.kind),
+        .map(|topic| match Encoding::of(&topic.encoding) {
+            Some(_) => format!("{} ({})", topic.name, topic.kind),
+            None => format!("{} ({}, encoding {})", topic.name, topic.kind, topic.encoding),
         })
         .collect();
     names.sort();

@@ -1,0 +1,51 @@
+//! What contradicts a fit is said, and what does not is left alone.
+
+use crate::recovery::{GAUGE, drive};
+use rayon::prelude::*;
+use trackdyn_core::PerSide;
+use trackdyn_estimate::Contradiction;
+use trackdyn_estimate::genetic::GeneticOptions;
+use trackdyn_estimate::identification::{Identification, Options, identify};
+use trackdyn_estimate::synthetic::{ConstantIcr, Synthetic, random_steps};
+use trackdyn_recording::Recording;
+
+fn identified(recording: &Recording, gauge: f64) -> Identification {
+    let genetic = GeneticOptions { population: 20, generations: 20, ..GeneticOptions::default() };
+    let options = Options { gauge, tau: None, settle: None, nuisances: Vec::new(), genetic };
+    identify(recording, &options, &|_| ()).expect("long enough")
+}
+
+fn contradictions(recording: &Recording, gauge: f64) -> Vec<Contradiction> {
+    let [icrs, _] = identified(recording, gauge).fits;
+    icrs.contradictions
+}
+
+#[test]
+fn nothing_contradicts_a_drive_as_it_was() {
+    let found: Vec<_> =
+        (0..20).into_par_iter().flat_map_iter(|seed| contradictions(&drive(seed), GAUGE)).collect();
+    assert!(found.is_empty(), "{found:?}");
+}
+
+#[test]
+fn icrs_between_the_tracks_are_refused() {
+    let found = contradictions(&drive(1), 1.2);
+    assert!(matches!(found[..], [Contradiction::Efficiency { chi }] if chi > 1.3), "{found:?}");
+}
+
+/// Poses of an ideal drive, as a controller computes them; with slip they are those of a robot.
+#[test]
+fn wheel_odometry_is_told_from_poses() {
+    let computed = |half: f64, y: f64| {
+        let alpha = PerSide::new(1.0, 1.0);
+        let kinematics = ConstantIcr { x_left: -half, x_right: half, y, alpha };
+        let schedules = vec![random_steps(40, 2.0, 0.8, 5)];
+        let synthetic = Synthetic { kinematics, schedules, ..Synthetic::default() };
+        synthetic.recording().expect("long enough")
+    };
+    let found = contradictions(&computed(0.5 * GAUGE, 0.0), GAUGE);
+    assert!(matches!(found[..], [Contradiction::WheelOdometry { .. }]), "{found:?}");
+    let text = found[0].to_string();
+    assert!(text.contains("computed from the tracks"), "{text}");
+    assert!(contradictions(&computed(0.4, 0.05), GAUGE).is_empty());
+}

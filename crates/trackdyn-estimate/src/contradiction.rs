@@ -191,9 +191,9 @@ impl std::fmt::Display for Contradiction {
             ),
             Self::WheelOdometry { left } => write!(
                 f,
-                "the fit leaves {:.2} % of the turning, and the ICRs of an ideal drive: these poses \
-                 are wheel odometry, computed from the tracks, and show no slip. Poses have to come \
-                 from something else: lidar, GNSS, motion capture",
+                "the fit leaves {:.2} % of the turning, and the ICRs of an ideal drive: these \
+                 poses are wheel odometry, computed from the tracks, and show no slip. Poses have \
+                 to come from something else: lidar, GNSS, motion capture",
                 100.0 * left
             ),
         }

@@ -3,21 +3,14 @@
 //! A payload of CDR begins with a zero, a frame of zstd with another byte: what is compressed shows
 //! without the metadata of the bag, which a file alone may lack.
 
+use super::payload::is_zstd;
 use super::topic::Topic;
 use super::visitor::Visitor;
 use std::io::Read;
 use zstd::bulk::Decompressor;
 
-/// First bytes of a frame (RFC 8878, section 3.1.1).
-const ZSTD_MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
-
 /// Largest size of a message, bytes: a frame that announces more is damaged.
 const MAX_MESSAGE_SIZE: usize = 1 << 28;
-
-/// Whether bytes begin as a frame of zstd does.
-pub(super) fn is_zstd(bytes: &[u8]) -> bool {
-    bytes.starts_with(&ZSTD_MAGIC)
-}
 
 /// Shows messages to a visitor, decompressed.
 pub(super) struct Decompressing<'a> {

@@ -8,7 +8,13 @@
 //! (alignment: XCDR1 aligns to the size of the primitive, XCDR2 to at most 4); ROS wiki, `msg`,
 //! "Fields" (ROS 1).
 
-use super::compressed::is_zstd;
+/// First bytes of a frame (RFC 8878, section 3.1.1).
+const ZSTD_MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
+
+/// Whether bytes begin as a frame of zstd does.
+pub(super) fn is_zstd(bytes: &[u8]) -> bool {
+    bytes.starts_with(&ZSTD_MAGIC)
+}
 
 /// How a message is encoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

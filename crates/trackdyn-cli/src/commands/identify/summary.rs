@@ -74,8 +74,8 @@ pub fn turning(recording: &Recording, vehicle: &Vehicle, fit: &TurningFit) -> St
         vehicle.gauge()
     );
     clock(&mut text, &found.clock, false);
-    text += "  poses      their yaw alone is known: it tells the distance of the ICRs, and not where \
-             they are\n";
+    text += "  poses      their yaw alone is known: it tells the distance of the ICRs, and not \
+             where they are\n";
     for contradiction in fit.contradictions() {
         let _ = writeln!(text, "  contradicted, and not written unless forced: {contradiction}");
     }

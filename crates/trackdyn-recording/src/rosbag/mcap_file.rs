@@ -135,9 +135,10 @@ fn take(
     progress: &mut Progress,
 ) -> Result<(), String> {
     if opcode == op::MESSAGE {
-        match show(data, channels, visitor) {
-            true => progress.messages += 1,
-            false => progress.unknown += 1,
+        if show(data, channels, visitor) {
+            progress.messages += 1;
+        } else {
+            progress.unknown += 1;
         }
         return Ok(());
     }

@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use trackdyn_estimate::Free;
-use trackdyn_recording::{Recording, Source, TrackSample, Warning};
+use trackdyn_recording::{Recording, Run, Source, TrackSample, Warning};
 
 /// Largest share of the readings that are wrong.
 const MAX_BAD: f64 = 0.02;
@@ -55,7 +55,7 @@ fn corrupted(recording: &Recording, kinds: &[Fault], seed: u64) -> Recording {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
     let most = (MAX_BAD * trackdyn_core::real(readings)) as usize;
     let mut left = random.random_range(1..=most);
-    let mut runs: Vec<_> = recording.runs().iter().cloned().map(|run| run.into_rows()).collect();
+    let mut runs: Vec<_> = recording.runs().iter().cloned().map(Run::into_rows).collect();
     while left > 0 {
         let kind = kinds[random.random_range(0..kinds.len())];
         let length = kind.length().min(left);

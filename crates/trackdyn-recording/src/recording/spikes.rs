@@ -139,7 +139,7 @@ mod tests {
             .map(|k| {
                 let t = 0.02 * f64::from(k);
                 let noise = |by: u32| 0.005 * (f64::from((k * by) % 17) / 8.0 - 1.0);
-                let forward = match (t / 5.0) as u32 % 3 {
+                let forward = match k / 250 % 3 {
                     0 => 0.6,
                     1 => 0.0,
                     _ => -0.4,

@@ -305,7 +305,7 @@ mod tests {
     #[test]
     fn a_clock_that_is_set_in_the_middle_gives_way_to_the_log() {
         let (clock, all) = clock("tracks", 600, |t| if t < 20 * S { t + S } else { UNIX + t });
-        assert_eq!(decide(&[clock.clone()], Dating::Any).0, By::Log);
+        assert_eq!(decide(std::slice::from_ref(&clock), Dating::Any).0, By::Log);
         assert!(all.iter().all(|one| clock.date(By::Log, one) == Some(one.log_ns)));
     }
 

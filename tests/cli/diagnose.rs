@@ -63,7 +63,7 @@ fn centripetal_force_of_the_independent_ground_is_named_and_sized() {
 #[test]
 fn exact_twins_are_not_split() {
     let place = Workplace::new();
-    drive(&place, "--runs 4 --duration 15 --effect friction-split:split=0.05");
+    drive(&place, "--effect friction-split:split=0.05");
     let (run, file) = diagnosed(&place, "");
     let named = named(&file);
     assert_eq!(named.len(), 1, "{}", run.stdout);

@@ -47,9 +47,9 @@ const MAX_ROUNDS: usize = 30;
 /// The scatters have settled when none changes by more than this part.
 const SCATTER_SETTLED: f64 = 1e-6;
 
-/// Least scatter of a channel, m/s or rad/s: that of a table that a model explains to rounding. Some
-/// channels are exact at ICRs far from the others' (forward, at any ICRs with the robot in their
-/// middle), and weights further apart than 1e12 leave the normal equations no digits.
+/// Least scatter of a channel, m/s or rad/s: that of a table that a model explains to rounding.
+/// Some channels are exact at ICRs far from the others' (forward, at any ICRs with the robot in
+/// their middle), and weights further apart than 1e12 leave the normal equations no digits.
 const MIN_SCATTER: f64 = 1e-6;
 
 /// Changes of parameters are in m or 1.

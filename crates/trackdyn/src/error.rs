@@ -98,8 +98,9 @@ pub enum Error {
     },
     /// A file with the distance of the ICRs where all parameters are needed.
     #[error(
-        "{name}: holds the distance of the ICRs alone: x_l, x_r and y are open. Expected parameters \
-         from a recording whose poses have positions (only `export ros2` can work with the distance)"
+        "{name}: holds the distance of the ICRs alone: x_l, x_r and y are open. Expected \
+         parameters from a recording whose poses have positions (only `export ros2` can work with \
+         the distance)"
     )]
     SeparationAlone {
         /// The file.

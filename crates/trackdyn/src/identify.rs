@@ -205,8 +205,9 @@ impl Identification {
 
     /// Writes `kinematics.toml` and `kinematics_alpha.toml`, each where the recording determines
     /// it, and of a recording of motion `identification.toml`. Where all that it determines is the
-    /// distance of the ICRs, `kinematics.toml` holds that (schema `trackdyn.separation/1`). A file of an earlier fit goes where
-    /// this one determines none; that of a map stays.
+    /// distance of the ICRs, `kinematics.toml` holds that (schema
+    /// `trackdyn.separation/1`). A file of an earlier fit goes where this one determines none; that
+    /// of a map stays.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`].

@@ -96,8 +96,8 @@ impl Part {
         })
     }
 
-    /// Its content as a file. What is packed is unpacked into the folder for temporary files, and so
-    /// are files with what `beside` lists: endings of files that belong to it, which its reader
+    /// Its content as a file. What is packed is unpacked into the folder for temporary files, and
+    /// so are files with what `beside` lists: endings of files that belong to it, which its reader
     /// would change.
     ///
     /// # Errors

@@ -1,7 +1,8 @@
 //! `.bag` files of ROS 1, format 2.0, read as a stream of records.
 //!
 //! The index at the end is not needed: a bag whose recorder was stopped early is read as far as it
-//! goes. It tells whether the bag was closed. A chunk that does not decompress is left out as a whole.
+//! goes. It tells whether the bag was closed. A chunk that does not decompress is left out as a
+//! whole.
 
 use super::part::Part;
 use super::ros1_record::{Fields, decompress, nanoseconds, op, split_sized};

@@ -2,8 +2,8 @@
 //!
 //! Nothing is left beside the user's file. It is opened as one that does not change: `SQLite` then
 //! makes neither locks nor shared memory, which it could not in a folder without write permission.
-//! Where a recorder that was stopped early left a write-ahead log or a rollback journal, the file is
-//! read as a copy together with that, which `SQLite` merges into the copy.
+//! Where a recorder that was stopped early left a write-ahead log or a rollback journal, the file
+//! is read as a copy together with that, which `SQLite` merges into the copy.
 
 use super::part::{OnDisk, Part};
 use super::topic::Topic;

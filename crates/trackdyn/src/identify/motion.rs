@@ -47,8 +47,8 @@ impl MotionFit {
         &self.vehicle_fingerprint
     }
 
-    /// The kinematics files of the fits, where the recording determines them and nothing contradicts
-    /// them, or where the settings force them.
+    /// The kinematics files of the fits, where the recording determines them and nothing
+    /// contradicts them, or where the settings force them.
     pub(super) fn files(&self, provenance: &Provenance) -> [Option<KinematicsFile>; 2] {
         let source = self.sourced.source(provenance);
         self.found.fits.each_ref().map(|fit| {

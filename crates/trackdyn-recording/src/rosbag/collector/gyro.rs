@@ -2,8 +2,8 @@
 
 use super::Received;
 
-/// The yaw, from 0 on, that the yaw rates of an IMU add up to; positions are no numbers. `imu` holds
-/// the yaw rate, rad/s, and the specific forces.
+/// The yaw, from 0 on, that the yaw rates of an IMU add up to; positions are no numbers. `imu`
+/// holds the yaw rate, rad/s, and the specific forces.
 ///
 /// Δψ = ∫ ω dt by the trapezoidal rule
 ///

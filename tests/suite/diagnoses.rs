@@ -19,8 +19,9 @@ use trackdyn_model::kinematics::Source;
 use trackdyn_recording::Recording;
 use trackdyn_tests::concealed::{Drive, diagnosed, diagnosed_by, named, owned, sensors};
 
-/// Runs of a drive, one of them held out, and the time of each, s.
-const RUNS: usize = 4;
+/// Runs of a drive, and the time of each, s: short, and enough for two held-out runs. Half as many
+/// leave more open, and take longer.
+const RUNS: usize = 8;
 const RUN_TIME: f64 = 15.0;
 
 /// A drive by hand on which this (`id:key=value`) is concealed.

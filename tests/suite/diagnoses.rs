@@ -126,12 +126,6 @@ fn gains_of_the_encoders_are_an_instrument() {
     assert!(physics(&found).is_empty(), "{named:?}");
 }
 
-#[test]
-fn a_law_outside_the_catalogue_is_flagged() {
-    let found = diagnosis(&["washboard:depth=0.1,wavelength_m=1.7"]);
-    assert_eq!(found.answer.status, Status::Unexplained, "{:?}", named(&found));
-}
-
 /// A rule that nothing can keep refuses what is claimed by default, and the file says which number
 /// was another.
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::stderr::say;
 use std::path::Path;
-use trackdyn::{Change, Parameters};
+use trackdyn::Change;
 
 /// Names the files that were written.
 pub fn say_written(changes: &[Change]) {
@@ -35,13 +35,10 @@ fn removed(changes: &[Change]) -> impl Iterator<Item = &Path> {
     changes.iter().filter(|change| matches!(change, Change::Removed(_))).map(Change::path)
 }
 
-/// Names the parameters that other parts of the answer that they come from contradict.
-pub fn say_doubtful(parameters: &[Parameters]) {
-    for of in parameters.iter().filter(|of| of.is_doubtful()) {
-        let name = of.name();
-        say(format_args!(
-            "warning: {name} is doubtful: what it was identified from contradicts it, and it was \
-            written with --force"
-        ));
-    }
+/// Says that other parts of the answer that the parameters of a file come from contradict them.
+pub fn say_doubtful(name: &str) {
+    say(format_args!(
+        "warning: {name} is doubtful: what it was identified from contradicts it, and it was \
+        written with --force"
+    ));
 }

@@ -21,6 +21,22 @@ pub fn median(values: &mut [f64]) -> Option<f64> {
     Some(f64::midpoint(lower, upper))
 }
 
+/// The value below which a share of the values lies; `None` where there is nothing. Reorders the
+/// values.
+pub fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
+    let last = values.len().checked_sub(1)?;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
+    let place = (share * crate::real(last)).round() as usize;
+    Some(*values.select_nth_unstable_by(place.min(last), f64::total_cmp).1)
+}
+
+/// The median interval of some stamps, s; zero of fewer than two.
+pub fn usual_interval(stamps: impl Iterator<Item = f64> + Clone) -> f64 {
+    let later = stamps.clone().skip(1);
+    let mut intervals: Vec<f64> = stamps.zip(later).map(|(a, b)| b - a).collect();
+    median(&mut intervals).unwrap_or(0.0)
+}
+
 /// Standard deviation of zero-mean normal values, from the median of their sizes: outliers do
 /// not count. `None` where there is nothing. Reorders the values, and drops their signs.
 pub fn deviation_about_zero(values: &mut [f64]) -> Option<f64> {
@@ -39,6 +55,17 @@ mod tests {
         assert_eq!(median(&mut [3.0, 1.0, 2.0]), Some(2.0));
         assert_eq!(median(&mut [4.0, 1.0, 2.0, 3.0]), Some(2.5));
         assert_eq!(median(&mut []), None);
+    }
+
+    #[test]
+    fn quantiles_and_intervals_of_some_and_of_no_values() {
+        let mut values = [3.0, 1.0, 4.0, 1.5, 9.0];
+        assert_eq!(quantile(&mut values, 0.0), Some(1.0));
+        assert_eq!(quantile(&mut values, 0.7), Some(4.0));
+        assert_eq!(quantile(&mut values, 1.0), Some(9.0));
+        assert_eq!(quantile(&mut [], 0.5), None);
+        assert_eq!(usual_interval([0.0, 0.5, 1.0, 5.0].into_iter()), 0.5);
+        assert_eq!(usual_interval([7.0].into_iter()), 0.0);
     }
 
     #[test]

@@ -62,8 +62,8 @@ pub enum Error {
         largest: f64,
     },
     /// Clocks of poses and tracks that do not go together.
-    #[error("{0}")]
-    Clock(String),
+    #[error(transparent)]
+    Clock(trackdyn_estimate::Error),
     /// A vehicle model without a motion at the recorded speeds.
     #[error("the vehicle does not move as recorded: {0}")]
     NoMotion(String),

@@ -2,7 +2,7 @@
 //!
 //! Within them nobody knows what the tracks did: the last reading holds on, and is wrong.
 
-use trackdyn_core::robust::median;
+use trackdyn_core::robust::usual_interval;
 use trackdyn_recording::TrackSample;
 use trackdyn_recording::recording::MIN_GAP_RATIO;
 
@@ -33,13 +33,6 @@ impl Gaps {
         let next = self.gaps.partition_point(|[_, after]| *after <= from);
         self.gaps.get(next).is_some_and(|[before, _]| *before <= until)
     }
-}
-
-/// The median interval of some stamps, s; zero of fewer than two.
-pub fn usual_interval(stamps: impl Iterator<Item = f64> + Clone) -> f64 {
-    let later = stamps.clone().skip(1);
-    let mut intervals: Vec<f64> = stamps.zip(later).map(|(a, b)| b - a).collect();
-    median(&mut intervals).unwrap_or(0.0)
 }
 
 #[cfg(test)]

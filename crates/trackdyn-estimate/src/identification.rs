@@ -70,8 +70,8 @@ pub struct Identification {
     pub lever: f64,
     /// The spin test, or why not.
     pub spin_test: Result<SpinTest, Error>,
-    /// The distance of the ICRs from turning alone, or why not.
-    pub separation: Result<Separation, Error>,
+    /// The distance of the ICRs from turning alone, where no fit determines more.
+    pub separation: Option<Separation>,
     /// With the ICRs free, and with the ICRs and α free.
     pub fits: [Fit; 2],
 }
@@ -160,7 +160,8 @@ pub fn identify_unless_stopped(
     let fits = fit(Free::Icrs).and_then(|icrs| Some([icrs, fit(Free::IcrsAndAlphas)?]));
     let fits = fits.ok_or(Error::Cancelled)?;
     let segments = observations.len();
-    let separation = Separation::of_motions(&observations);
+    let is_open = fits.iter().all(|fit| fit.least_squares.is_err() || !fit.doubts.is_empty());
+    let separation = if is_open { Separation::of_motions(&observations).ok() } else { None };
     Ok(Identification {
         clock,
         noise,

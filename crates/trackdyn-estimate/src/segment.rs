@@ -5,8 +5,9 @@
 //! look longer than they are: by half a percent in runs of two seconds whose stamps are those of
 //! readings 0.05 s apart.
 
-use crate::gaps::{Gaps, usual_interval};
+use crate::gaps::Gaps;
 use std::ops::Range;
+use trackdyn_core::robust::usual_interval;
 use trackdyn_core::{Pose, real};
 use trackdyn_recording::hold::{holding, readings};
 use trackdyn_recording::recording::MIN_GAP_RATIO;

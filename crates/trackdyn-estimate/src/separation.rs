@@ -79,13 +79,7 @@ impl Turning {
 impl Separation {
     /// χ = L/(x_r − x_l), eq. (12), for a gauge, m.
     pub fn steering_efficiency(&self, gauge: f64) -> Interval {
-        let Interval { value, deviation, low, high } = self.gap;
-        Interval {
-            value: gauge / value,
-            deviation: gauge / value.powi(2) * deviation,
-            low: gauge / high,
-            high: gauge / low,
-        }
+        self.gap.dividing(gauge)
     }
 
     /// The distance by the segments of a drive.

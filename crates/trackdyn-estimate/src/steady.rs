@@ -236,14 +236,7 @@ impl SteadyEstimate {
 
     /// What contradicts the parameters on a vehicle with this gauge, m.
     pub fn contradictions(&self, gauge: f64) -> Vec<Contradiction> {
-        let gap = self.gap();
-        // χ falls as the distance grows: its low end is that of the largest distance
-        let efficiency = Interval {
-            value: gauge / gap.value,
-            deviation: gauge / gap.value.powi(2) * gap.deviation,
-            low: gauge / gap.high,
-            high: gauge / gap.low,
-        };
+        let efficiency = self.gap().dividing(gauge);
         Contradiction::of_parameters(&self.parameters, &efficiency)
     }
 

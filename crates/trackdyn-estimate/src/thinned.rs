@@ -6,9 +6,9 @@
 //!
 //! v̄ = Σ v_k h_k / Σ h_k,   h_k the time that reading k holds
 
-use crate::gaps::usual_interval;
 use std::borrow::Cow;
 use trackdyn_core::real;
+use trackdyn_core::robust::usual_interval;
 use trackdyn_recording::{Recording, Run, TrackSample, UncheckedRun};
 
 /// Part of an interval that is rounding.

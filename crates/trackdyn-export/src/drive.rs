@@ -32,6 +32,8 @@ pub struct EquivalentDrive {
     pub point: [f64; 2],
     /// Whether the distance of the ICRs alone is known: [`point`](Self::point) is the origin then.
     pub is_separation_alone: bool,
+    /// Whether other parts of the answer contradict these numbers.
+    pub is_doubtful: bool,
     /// Sectors of the map for which these constants stand; 0 where the map is not piecewise.
     pub sectors: usize,
 }
@@ -50,6 +52,7 @@ impl EquivalentDrive {
                 alpha: PerSide::new(1.0, 1.0),
                 point: [0.0, 0.0],
                 is_separation_alone: true,
+                is_doubtful: false,
                 sectors: 0,
             });
         }
@@ -64,6 +67,7 @@ impl EquivalentDrive {
             alpha: kinematics.alpha,
             point: ros_from_paper([f64::midpoint(x_left, x_right), y]),
             is_separation_alone: false,
+            is_doubtful: file.doubtful,
             sectors: file.sector.len(),
         })
     }

@@ -77,7 +77,7 @@ impl Recording {
                 return Err(Error::contradiction(&path, doubt));
             }
             without_yaw += run.poses.samples.iter().filter(|row| lacks_yaw(row)).count();
-            let run = Run::new(run, &mut cleanings);
+            let run = Run::new(run, &mut cleanings).mended(&mut cleanings);
             if run.is_usable() {
                 kept.push(run);
             } else {

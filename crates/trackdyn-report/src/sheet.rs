@@ -53,12 +53,8 @@ pub(crate) fn rows(count: usize) -> i32 {
     i32::try_from(count).unwrap_or(i32::MAX / 64)
 }
 
-/// The value below which a share of the values lies; none of no values.
+/// The finite value below which a share of the finite ones lies; none of no values.
 pub(crate) fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
-    let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
-    values.sort_by(f64::total_cmp);
-    let last = values.len().checked_sub(1)?;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
-    let place = (share * trackdyn_core::real(last)).round() as usize;
-    values.get(place.min(last)).copied()
+    let mut finite: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+    trackdyn_core::robust::quantile(&mut finite, share)
 }

@@ -184,16 +184,20 @@ impl Identification {
         }
     }
 
-    /// The distance of the ICRs alone, where the recording determines nothing else.
+    /// The distance of the ICRs alone, where the recording determines nothing else and nothing
+    /// contradicts it.
     pub fn separation(&self, provenance: &Provenance) -> Option<SeparationFile> {
-        if self.fits(provenance).iter().any(Option::is_some) {
+        let has_fit = self.fits(provenance).iter().any(Option::is_some);
+        let is_contradicted = self.contradictions().iter().any(|found| !found.is_empty());
+        if has_fit || is_contradicted {
             return None;
         }
-        match self {
-            Self::Motion(fit) => fit.separation(provenance),
-            Self::Points(fit) => fit.separation(provenance),
-            Self::Turning(fit) => fit.separation(provenance),
-        }
+        let (found, sourced) = match self {
+            Self::Motion(fit) => (fit.separation()?, &fit.sourced),
+            Self::Points(fit) => (fit.separation()?, &fit.sourced),
+            Self::Turning(fit) => (&fit.found.separation, &fit.sourced),
+        };
+        Some(sourced.separation(found, provenance))
     }
 
     /// Whether the recording determines the parameters, or the distance of the ICRs at least.

@@ -12,7 +12,7 @@ use trackdyn::crates::core::document::Document;
 use trackdyn::crates::export::ros2::Published;
 use trackdyn::crates::export::{Name, NodeName, Residuals, TextFile};
 use trackdyn::export::{FrameSettings, GzSettings, Ros2Settings, write};
-use trackdyn::{Error, Export, Parameters};
+use trackdyn::{Error, Export};
 
 /// Options of `trackdyn export`.
 #[derive(Args)]
@@ -164,8 +164,9 @@ pub fn run(options: &Options) -> Outcome {
             "warning: {name} holds the distance of the ICRs alone; the point midway between them \
             is taken for the origin of the base frame"
         ));
-    } else {
-        say_doubtful(&[Parameters::open(&files.kinematics)?]);
+    }
+    if export.drive().is_doubtful {
+        say_doubtful(&name.to_string());
     }
     let exported = exported(&options.target, &export)?;
     let sectors = export.drive().sectors;

@@ -34,7 +34,9 @@ pub fn run(options: &Options) -> Outcome {
     let vehicle = Vehicle::open(&options.vehicle)?;
     let parameters = options.kinematics.iter().map(Parameters::open);
     let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
-    say_doubtful(&parameters);
+    for doubtful in parameters.iter().filter(|of| of.is_doubtful()) {
+        say_doubtful(doubtful.name());
+    }
     let recording = options.driving.recording()?;
     let settings = OdometrySettings { part: options.driving.part(), tau: options.driving.tau };
     let found = odometry(&recording, &vehicle, &parameters, &settings)?;

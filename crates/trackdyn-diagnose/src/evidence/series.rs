@@ -35,7 +35,7 @@ impl Evidence {
         let by = &settings.evidence;
         check_places(recording, by.max_coordinate)?;
         let recording = with_readings_every(recording, by.min_reading_interval);
-        let clock = Clock::of(&recording, None).map_err(|cause| Error::Clock(cause.to_string()))?;
+        let clock = Clock::of(&recording, None).map_err(Error::Clock)?;
         let tau = clock.tau();
         let (recording, measured) = with_quieter_poses(&recording, tau);
         let observations = segments(&recording, tau, by)?;

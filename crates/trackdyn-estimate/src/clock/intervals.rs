@@ -1,8 +1,8 @@
 //! Pose intervals and what the encoders did in them.
 
 use super::regression::{Fit, Sums};
-use crate::gaps::{Gaps, usual_interval};
-use trackdyn_core::robust::median;
+use crate::gaps::Gaps;
+use trackdyn_core::robust::{median, usual_interval};
 use trackdyn_recording::hold::holding;
 use trackdyn_recording::recording::MIN_GAP_RATIO;
 use trackdyn_recording::{Recording, Run, TrackSample};

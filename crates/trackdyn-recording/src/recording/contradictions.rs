@@ -8,7 +8,7 @@ use super::stretches::{Stretch, path_extent, stretches};
 use super::{Run, UncheckedRun};
 use crate::doubt::Doubt;
 use std::f64::consts::TAU;
-use trackdyn_core::robust::median;
+use trackdyn_core::robust::{median, usual_interval};
 use trackdyn_core::{Side, real};
 
 /// Fewest stretches that a finding needs.
@@ -140,12 +140,12 @@ fn of_times(run: &Run) -> Option<Doubt> {
     let ratio = (covered[0] / covered[1]).max(covered[1] / covered[0]);
     let fraction = FRACTIONS.iter().find(|(unit, _)| (0.9..1.1).contains(&(ratio / unit)));
     let unit = fraction.filter(|_| overlap < 0.1 * covered[0].max(covered[1]))?.1;
-    let interval = usual_interval(run).unwrap_or_default();
+    let interval = pose_interval(run);
     Some(Doubt::Stamps { interval, unit: Some(unit) })
 }
 
-fn usual_interval(run: &Run) -> Option<f64> {
-    median(&mut run.poses().windows(2).map(|pair| pair[1].t - pair[0].t).collect::<Vec<_>>())
+fn pose_interval(run: &Run) -> f64 {
+    usual_interval(run.poses().iter().map(|sample| sample.t))
 }
 
 /// Yaw that stays the same to the last digits while one track runs more than the other.
@@ -179,7 +179,7 @@ fn travel(runs: &[Run], stretches: &[Stretch]) -> Option<Doubt> {
         return None;
     }
     let is_near = |unit: f64| (size / unit).max(unit / size) <= MAX_UNIT_ERROR;
-    let interval = runs.iter().find_map(usual_interval).unwrap_or_default();
+    let interval = runs.first().map_or(0.0, pose_interval);
     if ratio > 1.0 && interval >= MAX_INTERVAL {
         let unit = FRACTIONS.iter().find(|(unit, _)| is_near(*unit)).map(|(_, name)| *name);
         return Some(Doubt::Stamps { interval, unit });

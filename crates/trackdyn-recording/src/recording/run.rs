@@ -36,10 +36,15 @@ impl Run {
         clean(&mut rows.tracks, rows.id, cleanings);
         clean(&mut rows.poses, rows.id, cleanings);
         clean(&mut rows.imu, rows.id, cleanings);
-        mend(&mut rows.tracks.samples, rows.id, cleanings);
         held(&rows.poses.samples, &rows.tracks.samples, rows.id, cleanings);
         unwrap_yaw(&mut rows.poses.samples, rows.id, cleanings);
         Self { id: rows.id, tracks: rows.tracks, poses: rows.poses, imu: rows.imu, has_positions }
+    }
+
+    /// This run with its spikes mended: once, where it is read, for a part of it has another spread.
+    pub(crate) fn mended(mut self, cleanings: &mut Vec<Cleaning>) -> Self {
+        mend(&mut self.tracks.samples, self.id, cleanings);
+        self
     }
 
     /// This run with positions as well known as those of the run that it is a part of.

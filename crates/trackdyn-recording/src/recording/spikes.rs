@@ -21,7 +21,7 @@
 
 use super::warning::{Cleaning, Finding};
 use crate::sample::{Stream, TrackSample};
-use trackdyn_core::robust::{deviation_about_zero, median};
+use trackdyn_core::robust::{deviation_about_zero, quantile, usual_interval};
 use trackdyn_core::{PerSide, Side};
 
 /// Readings on either side of one whose median it is compared with.
@@ -57,8 +57,7 @@ pub(super) fn mend(tracks: &mut [TrackSample], run: i64, cleanings: &mut Vec<Cle
         return;
     }
     let times: Vec<f64> = tracks.iter().map(|sample| sample.t).collect();
-    let mut intervals: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let possible = MAX_ACCELERATION * median(&mut intervals).unwrap_or(0.0);
+    let possible = MAX_ACCELERATION * usual_interval(times.iter().copied());
     let (mut count, mut first, mut largest) = (0, f64::INFINITY, 0.0_f64);
     let mended = PerSide::from_fn(|side: Side| {
         let mut speeds: Vec<f64> = tracks.iter().map(|sample| sample.speeds()[side]).collect();
@@ -92,22 +91,16 @@ fn spikes(speeds: &[f64], possible: f64) -> Vec<usize> {
         (speeds[k] - sorted[sorted.len() / 2]).abs()
     };
     let distances: Vec<f64> = (0..speeds.len()).map(off).collect();
-    let spread = deviation_about_zero(&mut distances.clone()).unwrap_or(0.0);
-    let sizes = speeds.iter().map(|speed| speed.abs()).collect();
-    let least = (MIN_DEVIATIONS * spread)
-        .max(MIN_RATIO * quantile(distances.clone(), GOOD_SHARE))
-        .max(MIN_OF_SPEED * quantile(sizes, USUAL_SHARE))
-        .max(possible);
+    let mut sizes: Vec<f64> = speeds.iter().map(|speed| speed.abs()).collect();
+    let mut sorted = distances.clone();
+    let far = quantile(&mut sorted, GOOD_SHARE).unwrap_or(0.0);
+    let spread = deviation_about_zero(&mut sorted).unwrap_or(0.0);
+    let usual = quantile(&mut sizes, USUAL_SHARE).unwrap_or(0.0);
+    let least =
+        (MIN_DEVIATIONS * spread).max(MIN_RATIO * far).max(MIN_OF_SPEED * usual).max(possible);
     let is_at_end = |k: usize| k < HALF_WINDOW || k + HALF_WINDOW >= speeds.len();
     let limit = |k: usize| if is_at_end(k) { AT_END * least } else { least };
     (0..speeds.len()).filter(|&k| distances[k] > limit(k)).collect()
-}
-
-/// The value that this share of the values keeps below.
-fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of them")]
-    let place = (share * trackdyn_core::real(values.len() - 1)) as usize;
-    *values.select_nth_unstable_by(place, f64::total_cmp).1
 }
 
 /// Replaces values at these places by the line between their good neighbours in time.

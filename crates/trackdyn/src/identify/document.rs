@@ -166,13 +166,6 @@ fn of_spin_test(spin_test: &Result<SpinTest, Error>, gauge: f64) -> MethodTable 
 }
 
 fn of_spin(spin: &SpinTest, gauge: f64) -> Vec<EstimateTable> {
-    // χ falls as the distance grows.
-    let chi = |interval: &Interval| Interval {
-        value: gauge / interval.value,
-        deviation: gauge / interval.value.powi(2) * interval.deviation,
-        low: gauge / interval.high,
-        high: gauge / interval.low,
-    };
     let row = |name, unit, value, interval: Option<Interval>| match interval {
         Some(interval) => of_interval(name, unit, &interval),
         None => EstimateTable {
@@ -186,7 +179,7 @@ fn of_spin(spin: &SpinTest, gauge: f64) -> Vec<EstimateTable> {
     };
     vec![
         row("x_r - x_l", "m", spin.gap, spin.interval),
-        row("chi", "1", spin.steering_efficiency, spin.interval.as_ref().map(chi)),
+        row("chi", "1", spin.steering_efficiency, spin.interval.map(|gap| gap.dividing(gauge))),
     ]
 }
 

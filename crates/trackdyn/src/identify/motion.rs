@@ -1,10 +1,10 @@
 //! What a recording of motion says of the kinematic parameters.
 
 use super::document;
-use super::sourced::Sourced;
+use super::sourced::{Fitted, Sourced};
 use crate::{Provenance, Vehicle};
-use trackdyn_estimate::{Free, Identification, Interval};
-use trackdyn_model::kinematics::{KinematicsFile, SeparationFile};
+use trackdyn_estimate::{Identification, Separation};
+use trackdyn_model::kinematics::KinematicsFile;
 use trackdyn_recording::Recording as Motion;
 
 /// What a recording of motion says of the kinematic parameters.
@@ -50,34 +50,19 @@ impl MotionFit {
     /// The kinematics files of the fits, where the recording determines them and nothing
     /// contradicts them, or where the settings force them.
     pub(super) fn files(&self, provenance: &Provenance) -> [Option<KinematicsFile>; 2] {
-        let source = self.sourced.source(provenance);
         self.found.fits.each_ref().map(|fit| {
             let estimate = fit.least_squares.as_ref().ok().filter(|_| fit.doubts.is_empty())?;
-            let doubtful = !fit.contradictions.is_empty();
-            if doubtful && !self.sourced.force {
-                return None;
-            }
-            let rows = estimate.covariance_of_parameters();
-            let with_alphas = fit.free == Free::IcrsAndAlphas;
-            let kinematics = estimate.parameters.kinematics();
-            let of = source.clone();
-            let mut file =
-                KinematicsFile::of_fit(&kinematics, self.sourced.gauge, with_alphas, rows, of);
-            file.doubtful = doubtful;
-            Some(file)
+            let fitted = Fitted {
+                parameters: estimate.parameters,
+                free: fit.free,
+                covariance: estimate.covariance_of_parameters(),
+            };
+            self.sourced.file(&fitted, &fit.contradictions, provenance)
         })
     }
 
     /// The distance of the ICRs alone, where that is all that the recording determines.
-    pub(super) fn separation(&self, provenance: &Provenance) -> Option<SeparationFile> {
-        let is_contradicted = self.found.fits.iter().any(|fit| !fit.contradictions.is_empty());
-        let found = self.found.separation.as_ref().ok().filter(|_| !is_contradicted)?;
-        let Interval { value, low, high, .. } = found.gap;
-        Some(SeparationFile::new(
-            value,
-            [low, high],
-            self.sourced.gauge,
-            self.sourced.source(provenance),
-        ))
+    pub(super) fn separation(&self) -> Option<&Separation> {
+        self.found.separation.as_ref()
     }
 }

@@ -1,13 +1,13 @@
 //! What a table of steady operating points says of the kinematic parameters.
 
-use super::sourced::Sourced;
+use super::sourced::{Fitted, Sourced};
 use crate::Provenance;
 use crate::recording::PointsTable;
 use trackdyn_estimate::least_squares::Loss;
 use trackdyn_estimate::steady::{Lagging, SteadyEstimate, lagging};
-use trackdyn_estimate::{Error, Free, Interval, Parameters, Separation, fit_points};
+use trackdyn_estimate::{Error, Free, Parameters, Separation, fit_points};
 use trackdyn_model::Kinematics;
-use trackdyn_model::kinematics::{KinematicsFile, SeparationFile};
+use trackdyn_model::kinematics::KinematicsFile;
 
 /// What a table of steady operating points says of the kinematic parameters.
 #[derive(Clone, Debug)]
@@ -21,7 +21,7 @@ pub struct PointsFit {
     pub separation: Result<Separation, Error>,
     /// Points that turn less than others that are driven less: a track did not run at its speed.
     pub lagging: Vec<Lagging>,
-    sourced: Sourced,
+    pub(super) sourced: Sourced,
 }
 
 impl PointsFit {
@@ -41,38 +41,23 @@ impl PointsFit {
         self.sourced.gauge
     }
 
-    /// The distance of the ICRs alone, where that is all that the table determines.
-    pub(super) fn separation(&self, provenance: &Provenance) -> Option<SeparationFile> {
-        let contradictions = |fit: &SteadyEstimate| fit.contradictions(self.sourced.gauge);
-        let fits = self.fits.iter().filter_map(|(_, fit)| fit.as_ref().ok());
-        let is_contradicted = fits.flat_map(contradictions).next().is_some();
-        let found = self.separation.as_ref().ok().filter(|_| !is_contradicted)?;
-        let Interval { value, low, high, .. } = found.gap;
-        Some(SeparationFile::new(
-            value,
-            [low, high],
-            self.sourced.gauge,
-            self.sourced.source(provenance),
-        ))
+    /// The distance of the ICRs from the yaw rates, where they tell it.
+    pub(super) fn separation(&self) -> Option<&Separation> {
+        self.separation.as_ref().ok()
     }
 
     /// The kinematics files of the fits, where the table determines them and nothing contradicts
     /// them, or where the settings force them.
     pub(super) fn files(&self, provenance: &Provenance) -> [Option<KinematicsFile>; 2] {
+        let gauge = self.sourced.gauge;
         self.fits.each_ref().map(|(free, fit)| {
-            let fit = fit.as_ref().ok().filter(|fit| fit.doubts(self.sourced.gauge).is_empty())?;
-            let doubtful = !fit.contradictions(self.sourced.gauge).is_empty();
-            if doubtful && !self.sourced.force {
-                return None;
-            }
-            let source = self.sourced.source(provenance);
-            let rows = fit.covariance_of_parameters();
-            let kinematics = fit.parameters.kinematics();
-            let with_alphas = *free == Free::IcrsAndAlphas;
-            let mut file =
-                KinematicsFile::of_fit(&kinematics, self.sourced.gauge, with_alphas, rows, source);
-            file.doubtful = doubtful;
-            Some(file)
+            let fit = fit.as_ref().ok().filter(|fit| fit.doubts(gauge).is_empty())?;
+            let fitted = Fitted {
+                parameters: fit.parameters,
+                free: *free,
+                covariance: fit.covariance_of_parameters(),
+            };
+            self.sourced.file(&fitted, &fit.contradictions(gauge), provenance)
         })
     }
 }

@@ -1,8 +1,16 @@
 //! Where the numbers of an identification come from.
 
 use crate::{IdentifySettings, Provenance, Recording, Vehicle};
-use trackdyn_model::kinematics::Source;
+use trackdyn_estimate::{Contradiction, Free, Interval, Parameters, Separation};
+use trackdyn_model::kinematics::{KinematicsFile, SeparationFile, Source};
 use trackdyn_recording::Recording as Motion;
+
+/// Parameters that were fitted, with the rows of their covariance.
+pub(super) struct Fitted {
+    pub(super) parameters: Parameters,
+    pub(super) free: Free,
+    pub(super) covariance: Vec<Vec<f64>>,
+}
 
 /// Where the numbers of an identification come from, and what they are judged by.
 #[derive(Clone, Debug)]
@@ -33,6 +41,31 @@ impl Sourced {
     /// These numbers with random draws of this seed.
     pub(super) fn with_seed(self, seed: u64) -> Self {
         Self { source: Source { seed: Some(seed), ..self.source }, ..self }
+    }
+
+    /// The file of a fit; none of one that something contradicts, unless it is forced.
+    pub(super) fn file(
+        &self,
+        fit: &Fitted,
+        contradictions: &[Contradiction],
+        provenance: &Provenance,
+    ) -> Option<KinematicsFile> {
+        let doubtful = !contradictions.is_empty();
+        if doubtful && !self.force {
+            return None;
+        }
+        let Fitted { parameters, free, covariance } = fit;
+        let (kinematics, with_alphas) = (parameters.kinematics(), *free == Free::IcrsAndAlphas);
+        let (rows, source) = (covariance.clone(), self.source(provenance));
+        let mut file = KinematicsFile::of_fit(&kinematics, self.gauge, with_alphas, rows, source);
+        file.doubtful = doubtful;
+        Some(file)
+    }
+
+    /// The file of a distance of the ICRs.
+    pub(super) fn separation(&self, found: &Separation, provenance: &Provenance) -> SeparationFile {
+        let Interval { value, low, high, .. } = found.gap;
+        SeparationFile::new(value, [low, high], self.gauge, self.source(provenance))
     }
 
     /// The source, at the request of a command.

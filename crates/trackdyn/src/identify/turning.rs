@@ -1,9 +1,7 @@
 //! What a recording says whose poses have a yaw alone.
 
 use super::sourced::Sourced;
-use crate::Provenance;
-use trackdyn_estimate::{Contradiction, Interval, Turning};
-use trackdyn_model::kinematics::SeparationFile;
+use trackdyn_estimate::{Contradiction, Turning};
 
 /// What a recording says whose poses have a yaw alone, as those of a gyroscope: the distance of the
 /// ICRs.
@@ -19,15 +17,5 @@ impl TurningFit {
     pub fn contradictions(&self) -> Vec<Contradiction> {
         let efficiency = self.found.separation.steering_efficiency(self.sourced.gauge);
         Contradiction::of_efficiency(&efficiency).into_iter().collect()
-    }
-
-    /// The distance, unless something contradicts it.
-    pub(super) fn separation(&self, provenance: &Provenance) -> Option<SeparationFile> {
-        let Sourced { gauge, force, .. } = self.sourced;
-        if !self.contradictions().is_empty() && !force {
-            return None;
-        }
-        let Interval { value, low, high, .. } = self.found.separation.gap;
-        Some(SeparationFile::new(value, [low, high], gauge, self.sourced.source(provenance)))
     }
 }

@@ -1,5 +1,6 @@
 //! `trackdyn identify` on a table of steady operating points.
 
+use super::summary::contradicted;
 use std::fmt::Write;
 use trackdyn::crates::estimate::steady::{SteadyEstimate, lagging};
 use trackdyn::crates::estimate::{Doubt, Error, Free, Parameters};
@@ -58,13 +59,7 @@ fn fit(text: &mut String, free: Free, fit: &Result<SteadyEstimate, Error>, gauge
             return;
         }
     }
-    let contradictions = fit.contradictions(gauge);
-    if !contradictions.is_empty() {
-        text.push_str("    contradicted, and not written unless forced (--force):\n");
-        for contradiction in &contradictions {
-            let _ = writeln!(text, "    - {contradiction}");
-        }
-    }
+    contradicted(text, &fit.contradictions(gauge));
     let _ = writeln!(text, "    {:9}{:>9}{:>24}", "", "estimate", "95 % interval");
     let named = (0..free.count()).filter_map(|k| Some((Parameters::NAMES[k], fit.interval(k)?)));
     let known = named.filter(|(_, interval)| interval.deviation.is_finite());

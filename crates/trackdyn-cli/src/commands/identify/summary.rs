@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use trackdyn::crates::estimate::identification::Fit;
 use trackdyn::crates::estimate::{
-    Clock, Estimate, Free, Identification, Interval, Nuisance, Parameters,
+    Clock, Contradiction, Estimate, Free, Identification, Interval, Nuisance, Parameters,
 };
 use trackdyn::crates::model::kinematics::SeparationFile;
 use trackdyn::crates::recording::Run;
@@ -62,6 +62,17 @@ pub fn separation(found: &SeparationFile) -> String {
     )
 }
 
+/// What contradicts a fit.
+pub fn contradicted(text: &mut String, contradictions: &[Contradiction]) {
+    if contradictions.is_empty() {
+        return;
+    }
+    text.push_str("    contradicted, and not written unless forced (--force):\n");
+    for contradiction in contradictions {
+        let _ = writeln!(text, "    - {contradiction}");
+    }
+}
+
 /// One screen where poses have a yaw alone.
 pub fn turning(recording: &Recording, vehicle: &Vehicle, fit: &TurningFit) -> String {
     let found = &fit.found;
@@ -77,7 +88,7 @@ pub fn turning(recording: &Recording, vehicle: &Vehicle, fit: &TurningFit) -> St
     text += "  poses      their yaw alone is known: it tells the distance of the ICRs, and not \
              where they are\n";
     for contradiction in fit.contradictions() {
-        let _ = writeln!(text, "  contradicted, and not written unless forced: {contradiction}");
+        let _ = writeln!(text, "  contradicted, and not written: {contradiction}");
     }
     text
 }
@@ -131,12 +142,7 @@ fn fit(text: &mut String, fit: &Fit, gauge: f64, by_noise: bool) {
         }
         return;
     }
-    if !fit.contradictions.is_empty() {
-        text.push_str("    contradicted, and not written unless forced (--force):\n");
-        for contradiction in &fit.contradictions {
-            let _ = writeln!(text, "    - {contradiction}");
-        }
-    }
+    contradicted(text, &fit.contradictions);
     parameters(text, fit, estimate, gauge);
     for doubt in &fit.refused {
         let _ = writeln!(text, "    not fitted: {doubt}");

@@ -1,6 +1,7 @@
 //! Yaw from a gyroscope, where a bag has no poses.
 
 use super::Received;
+use crate::rosbag::date::seconds;
 
 /// The yaw, from 0 on, that the yaw rates of an IMU add up to; positions are no numbers. `imu`
 /// holds the yaw rate, rad/s, and the specific forces.
@@ -18,10 +19,8 @@ pub(super) fn headings(imu: &[Received<[f64; 3]>]) -> Vec<Received<[f64; 3]>> {
     let mut headings = Vec::with_capacity(readings.len());
     for reading in readings.into_iter().filter(|reading| reading.value[0].is_finite()) {
         if let Some(before) = before {
-            let nanoseconds = u64::try_from(at(reading) - at(before)).unwrap_or(0);
-            #[expect(clippy::cast_precision_loss, reason = "a fraction of a second")]
-            let seconds = nanoseconds as f64 * 1e-9;
-            yaw += seconds * f64::midpoint(before.value[0], reading.value[0]);
+            let interval = seconds(at(before), at(reading));
+            yaw += interval * f64::midpoint(before.value[0], reading.value[0]);
         }
         headings.push(Received { value: [f64::NAN, f64::NAN, yaw], ..*reading });
         before = Some(reading);

@@ -147,6 +147,17 @@ pub fn diagnosed(recording: &Recording, file: &VehicleFile) -> Result<Diagnosis,
     diagnosed_by(recording, file, &Settings::default())
 }
 
+/// The diagnosis of eight runs with a law that the owner does not know of.
+///
+/// # Panics
+/// For a law that nobody knows of, and where there is no diagnosis.
+pub fn diagnosed_law(law: &str, kind: ScheduleKind, seed: u64) -> Diagnosis {
+    let file = owned(&[]);
+    let drive = Drive::new(&file.vehicle, &[law], &runs(kind, 8, seed), seed).expect("it drives");
+    let recording = drive.recording(&sensors(Preset::Laboratory), seed);
+    diagnosed(&recording, &file).expect("enough to say something")
+}
+
 /// Its diagnosis by other settings.
 ///
 /// # Errors

@@ -1,5 +1,6 @@
 //! Models, vehicles and drives that several test suites share.
 
+pub mod cdr;
 pub mod concealed;
 
 use rand::RngExt;

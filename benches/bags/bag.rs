@@ -5,6 +5,7 @@ use std::error::Error;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
+use trackdyn_tests::cdr::Message;
 
 /// Writes a bag as robots make them: 2000 s of joints at 50 Hz and odometry at 20 Hz; at 5 Hz a
 /// lidar whose clouds have so many bytes, or none.
@@ -52,59 +53,27 @@ pub fn write(
     Ok(())
 }
 
-/// Little-endian CDR.
-struct Message(Vec<u8>);
-
-impl Message {
-    fn new(tick: u32, frame: &str) -> Self {
-        let mut message = Self(vec![0, 1, 0, 0]);
-        message.u32(1 + tick / 100);
-        message.u32(tick % 100 * 10_000_000);
-        message.text(frame);
-        message
-    }
-
-    fn align(&mut self, size: usize) {
-        while !(self.0.len() - 4).is_multiple_of(size) {
-            self.0.push(0);
-        }
-    }
-
-    fn u32(&mut self, value: u32) {
-        self.align(4);
-        self.0.extend(value.to_le_bytes());
-    }
-
-    fn text(&mut self, text: &str) {
-        self.u32(u32::try_from(text.len() + 1).unwrap_or(u32::MAX));
-        self.0.extend(text.as_bytes());
-        self.0.push(0);
-    }
-
-    fn numbers(&mut self, values: &[f64]) {
-        for value in values {
-            self.align(8);
-            self.0.extend(value.to_le_bytes());
-        }
-    }
+/// The header of the message of a tick, a hundredth of a second after the other.
+fn message(tick: u32, frame: &str) -> Message {
+    Message::new(1_000_000_000 + i64::from(tick) * 10_000_000, frame)
 }
 
 fn joint_state(tick: u32, speeds: [f64; 2]) -> Vec<u8> {
-    let mut message = Message::new(tick, "");
-    message.u32(2);
-    message.text("left_sprocket");
-    message.text("right_sprocket");
-    message.u32(0);
-    message.u32(2);
-    message.numbers(&speeds);
-    message.u32(0);
-    message.0
+    let mut cdr = message(tick, "");
+    cdr.count(2);
+    cdr.text("left_sprocket");
+    cdr.text("right_sprocket");
+    cdr.count(0);
+    cdr.count(2);
+    cdr.numbers(&speeds);
+    cdr.count(0);
+    cdr.0
 }
 
 fn odometry_message(tick: u32, [x, y, yaw]: [f64; 3]) -> Vec<u8> {
-    let mut message = Message::new(tick, "odom");
-    message.text("base_link");
-    message.numbers(&[x, y, 0.0, 0.0, 0.0, (yaw / 2.0).sin(), (yaw / 2.0).cos()]);
-    message.numbers(&[0.0; 36 + 6 + 36]);
-    message.0
+    let mut cdr = message(tick, "odom");
+    cdr.text("base_link");
+    cdr.numbers(&[x, y, 0.0, 0.0, 0.0, (yaw / 2.0).sin(), (yaw / 2.0).cos()]);
+    cdr.numbers(&[0.0; 36 + 6 + 36]);
+    cdr.0
 }

@@ -2,17 +2,12 @@
 
 use trackdyn_diagnose::{Diagnosis, DiagnosisFile, Status};
 use trackdyn_drive::ScheduleKind;
-use trackdyn_drive::sensors::Preset;
 use trackdyn_model::kinematics::Source;
-use trackdyn_tests::concealed::{Drive, diagnosed, owned, runs, sensors};
+use trackdyn_tests::concealed::diagnosed_law;
 
 /// The diagnosis of a drive by hand with this law, and its file.
 fn diagnosis(law: &str) -> (Diagnosis, toml::Table) {
-    let file = owned(&[]);
-    let runs = runs(ScheduleKind::Manual, 8, 1);
-    let drive = Drive::new(&file.vehicle, &[law], &runs, 1).expect("it drives");
-    let found = diagnosed(&drive.recording(&sensors(Preset::Laboratory), 1), &file);
-    let found = found.expect("enough to say something");
+    let found = diagnosed_law(law, ScheduleKind::Manual, 1);
     let text = DiagnosisFile::new(&found, &Source::default()).to_toml();
     (found, text.parse().expect("TOML"))
 }

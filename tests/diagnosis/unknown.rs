@@ -2,15 +2,11 @@
 
 use trackdyn_diagnose::{Diagnosis, Status};
 use trackdyn_drive::ScheduleKind;
-use trackdyn_drive::sensors::Preset;
 use trackdyn_model::effect::Symmetry;
-use trackdyn_tests::concealed::{Drive, diagnosed, owned, runs, sensors};
+use trackdyn_tests::concealed::diagnosed_law;
 
 fn diagnosis(law: &str, kind: ScheduleKind) -> Diagnosis {
-    let file = owned(&[]);
-    let drive = Drive::new(&file.vehicle, &[law], &runs(kind, 8, 5), 5).expect("it drives");
-    let diagnosis = diagnosed(&drive.recording(&sensors(Preset::Laboratory), 5), &file);
-    let diagnosis = diagnosis.expect("enough to say something");
+    let diagnosis = diagnosed_law(law, kind, 5);
     assert_eq!(diagnosis.answer.status, Status::Unexplained, "{law}");
     diagnosis
 }

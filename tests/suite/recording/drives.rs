@@ -6,6 +6,7 @@ use std::io::BufWriter;
 use std::path::PathBuf;
 use tempfile::TempDir;
 use trackdyn_core::{PerSide, Pose, Twist};
+use trackdyn_tests::cdr::Message;
 
 /// Radius of the wheels, m.
 pub const RADIUS: f64 = 0.165;
@@ -154,43 +155,5 @@ impl Bag {
         }
         writer.finish().expect("finished");
         (folder, path)
-    }
-}
-
-/// Little-endian CDR.
-struct Message(Vec<u8>);
-
-impl Message {
-    fn new(stamp: i64, frame: &str) -> Self {
-        let mut message = Self(vec![0, 1, 0, 0]);
-        let [seconds, nanoseconds] = [stamp / 1_000_000_000, stamp % 1_000_000_000];
-        message.0.extend(i32::try_from(seconds).expect("seconds").to_le_bytes());
-        message.0.extend(u32::try_from(nanoseconds).expect("a fraction").to_le_bytes());
-        message.text(frame);
-        message
-    }
-
-    fn align(&mut self, size: usize) {
-        while !(self.0.len() - 4).is_multiple_of(size) {
-            self.0.push(0);
-        }
-    }
-
-    fn count(&mut self, count: usize) {
-        self.align(4);
-        self.0.extend(u32::try_from(count).expect("few").to_le_bytes());
-    }
-
-    fn text(&mut self, text: &str) {
-        self.count(text.len() + 1);
-        self.0.extend(text.as_bytes());
-        self.0.push(0);
-    }
-
-    fn numbers(&mut self, values: &[f64]) {
-        for value in values {
-            self.align(8);
-            self.0.extend(value.to_le_bytes());
-        }
     }
 }

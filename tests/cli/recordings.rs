@@ -198,9 +198,15 @@ fn points_without_lateral_speeds_give_what_they_can() {
     // `export ros2` takes it, and what needs all parameters says what is open.
     let run = place.run("export ros2 out/kinematics.toml --wheel-radius 0.1 --out ros");
     assert!(run.status == 0 && run.stderr.contains("the distance of the ICRs alone"));
-    let run = place.run("kinematics --speeds 0.3,0.9 --kinematics out/kinematics.toml");
-    assert_eq!(run.status, 1);
-    assert!(run.stderr.contains("x_l, x_r and y are open"), "{}", run.stderr);
+    for command in [
+        "kinematics --speeds 0.3,0.9 --kinematics out/kinematics.toml",
+        "export gz out/kinematics.toml --out gz",
+        "export urdf-frames out/kinematics.toml --out urdf",
+    ] {
+        let run = place.run(command);
+        assert_eq!(run.status, 1, "{command}");
+        assert!(run.stderr.contains("x_l, x_r and y are open"), "{}", run.stderr);
+    }
 }
 
 #[test]

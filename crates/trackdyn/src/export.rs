@@ -176,18 +176,28 @@ impl Export {
     /// The `TrackedVehicle` plugin of Gazebo's gz-sim, SDF.
     ///
     /// # Errors
-    /// [`Error::Export`], with the setting that is not accepted.
+    /// [`Error::Export`], with the setting that is not accepted; [`Error::SeparationAlone`].
     pub fn gz(&self, settings: &GzSettings) -> Result<Vec<TextFile>, Error> {
+        self.expect_point()?;
         let GzSettings { left_tracks, right_tracks } = settings;
         let (drive, provenance) = (&self.drive, &self.provenance);
         Ok(vec![trackdyn_export::gz::plugin(drive, left_tracks, right_tracks, provenance)?])
     }
 
+    /// Refuses a distance of the ICRs where the point between them is what is asked for.
+    fn expect_point(&self) -> Result<(), Error> {
+        if self.drive.is_separation_alone {
+            return Err(Error::SeparationAlone { name: self.provenance.source.clone() });
+        }
+        Ok(())
+    }
+
     /// The frame at which the robot is an ideal differential drive, a fragment of URDF or xacro.
     ///
     /// # Errors
-    /// [`Error::Export`], with the setting that is not accepted.
+    /// [`Error::Export`], with the setting that is not accepted; [`Error::SeparationAlone`].
     pub fn urdf(&self, settings: &FrameSettings) -> Result<Vec<TextFile>, Error> {
+        self.expect_point()?;
         let frames = settings.frames()?;
         Ok(vec![trackdyn_export::urdf::fragment(&self.drive, &frames, &self.provenance)])
     }

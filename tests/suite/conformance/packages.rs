@@ -79,3 +79,34 @@ fn crates_for_others_embed_nothing_from_outside() {
         }
     }
 }
+
+/// The folders that a pattern of the workspace stands for: a folder, or a `*` at the end.
+fn members(pattern: &str) -> Vec<String> {
+    let Some(start) = pattern.strip_suffix('*') else { return vec![pattern.to_owned()] };
+    let (folder, prefix) = start.rsplit_once('/').expect("a folder before the star");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder);
+    let entries = fs::read_dir(root).expect("a folder").map(|entry| entry.expect("an entry"));
+    let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    names.filter(|name| name.starts_with(prefix)).map(|name| format!("{folder}/{name}")).collect()
+}
+
+/// `cargo run`, as the README has it, asks which one where there are several.
+#[test]
+fn the_workspace_has_one_program_to_run() {
+    let workspace: toml::Table = read("Cargo.toml").parse().expect("TOML");
+    let patterns = workspace["workspace"]["default-members"].as_array().expect("a list");
+    let mut programs = Vec::new();
+    for folder in patterns.iter().flat_map(|of| members(of.as_str().expect("a pattern"))) {
+        let manifest: toml::Table = read(format!("{folder}/Cargo.toml")).parse().expect("TOML");
+        let named = manifest.get("bin").and_then(toml::Value::as_array).into_iter().flatten();
+        let named: Vec<String> =
+            named.map(|bin| bin["name"].as_str().expect("a name").to_owned()).collect();
+        let main = format!("{folder}/src/main.rs");
+        let has_main = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(&main).exists();
+        if named.is_empty() && has_main {
+            programs.push(main);
+        }
+        programs.extend(named);
+    }
+    assert_eq!(programs, ["trackdyn"]);
+}

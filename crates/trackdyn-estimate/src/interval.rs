@@ -45,8 +45,8 @@ impl Interval {
         Self { value, deviation, low: value - half, high: value + half }
     }
 
-    /// This interval, of a number above 0, in the denominator: χ = L/(x_r − x_l) has its low end where
-    /// the distance has its high one.
+    /// This interval, of a number above 0, in the denominator: χ = L/(x_r − x_l) has its low end
+    /// where the distance has its high one.
     pub fn dividing(&self, numerator: f64) -> Self {
         let Self { value, deviation, low, high } = *self;
         Self {

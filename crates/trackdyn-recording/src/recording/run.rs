@@ -41,7 +41,8 @@ impl Run {
         Self { id: rows.id, tracks: rows.tracks, poses: rows.poses, imu: rows.imu, has_positions }
     }
 
-    /// This run with its spikes mended: once, where it is read, for a part of it has another spread.
+    /// This run with its spikes mended: once, where it is read, for a part of it has another
+    /// spread.
     pub(crate) fn mended(mut self, cleanings: &mut Vec<Cleaning>) -> Self {
         mend(&mut self.tracks.samples, self.id, cleanings);
         self

@@ -114,7 +114,7 @@ mod tests {
         let steps = robot.into_steps();
         assert_eq!(steps.len() + 1, path.moments().len());
         for (step, pair) in steps.iter().zip(path.moments().windows(2)) {
-            for Instant { belt_speed, twist, rate } in step.stages {
+            for Instant { belt_speed, twist, rate, .. } in step.stages {
                 let sum = forces.sum(belt_speed, &twist, &rate);
                 assert!(sum.norm() < 1e-6 * model.vehicle().weight(), "{sum}");
             }

@@ -24,8 +24,10 @@
 //! Alexander, SIAM Journal on Numerical Analysis 14(6), 1977.
 
 mod stage;
+mod tangent;
 
 pub(crate) use stage::gripping;
+pub use tangent::tangents;
 
 use crate::{Circumstance, Model, Motion};
 use stage::{Balanced, Inverse, Stage, Start};
@@ -58,6 +60,8 @@ pub struct Step {
 /// A motion in which all forces balance.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant {
+    /// Sprocket speeds, m/s.
+    pub driven: PerSide<f64>,
     /// Belt speeds, m/s.
     pub belt_speed: PerSide<f64>,
     /// Twist, paper's frame.
@@ -231,7 +235,8 @@ impl<'m> Transient<'m> {
             let Twist { v_x, v_y, w } = state.twist;
             let rate =
                 Twist { v_x: rate(v_x, base.v_x), v_y: rate(v_y, base.v_y), w: rate(w, base.w) };
-            Instant { belt_speed: state.belt_speed, twist: state.twist, rate }
+            let State { driven, belt_speed, twist, .. } = *state;
+            Instant { driven, belt_speed, twist, rate }
         };
         let stages = [instant(&first, &start.twist), instant(&second, &base)];
         Some((State { t: end, pose, ..second }, stages, error))

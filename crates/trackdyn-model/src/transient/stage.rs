@@ -10,11 +10,11 @@ const TOLERANCE: Tolerance = Tolerance { converged: 1e-11, rounding: 1e-9 };
 
 /// Number of unknowns without belt slip: departure of the twist from straight driving at the left
 /// belt's speed.
-const UNKNOWNS_WITHOUT_SLIP: usize = 3;
+pub const UNKNOWNS_WITHOUT_SLIP: usize = 3;
 
 /// Number of unknowns with belt slip on the sprockets: also the traction of both sides over their
 /// normal load.
-const UNKNOWNS_WITH_SLIP: usize = 5;
+pub const UNKNOWNS_WITH_SLIP: usize = 5;
 
 /// Fixed values of a stage.
 pub struct Stage<'a> {
@@ -139,10 +139,17 @@ impl Stage<'_> {
     }
 
     /// The motion at these unknowns.
-    fn motion<S: Scalar, const N: usize>(&self, z: &[S; N]) -> Motion<S> {
+    pub fn motion<S: Scalar, const N: usize>(&self, z: &[S; N]) -> Motion<S> {
+        let Twist { v_x, v_y, w } = self.base;
+        self.motion_from(z, &[v_x, v_y, w].map(S::from))
+    }
+
+    /// The motion at these unknowns, from a base twist u_b = (v_x, v_y, w).
+    #[inline]
+    fn motion_from<S: Scalar, const N: usize>(&self, z: &[S; N], base: &[S; 3]) -> Motion<S> {
         let [v_x, v_y, w] = std::array::from_fn(|k| z[k]);
         let belt_speed = self.model.drive().belt_speed(self.driven, traction(z));
-        let Twist { v_x: base_x, v_y: base_y, w: base_w } = self.base;
+        let [base_x, base_y, base_w] = *base;
         let per_second = self.per_second;
         // u̇ = (u − u_b)/(γ h)
         let acceleration = Twist {
@@ -157,8 +164,15 @@ impl Stage<'_> {
     /// Residual: force over weight and moment over weight times gauge. With belt slip, also
     /// friction minus traction of each side, over the weight.
     #[inline]
-    fn residual<S: Scalar, const N: usize>(&self, z: [S; N]) -> [S; N] {
-        let motion = self.motion(&z);
+    pub fn residual<S: Scalar, const N: usize>(&self, z: [S; N]) -> [S; N] {
+        let Twist { v_x, v_y, w } = self.base;
+        self.residual_from(z, &[v_x, v_y, w].map(S::from))
+    }
+
+    /// The residual, from a base twist u_b = (v_x, v_y, w).
+    #[inline]
+    pub fn residual_from<S: Scalar, const N: usize>(&self, z: [S; N], base: &[S; 3]) -> [S; N] {
+        let motion = self.motion_from(&z, base);
         let balance = gripping(self.model, self.ground, &motion, self.creep);
         let sum = balance.sum();
         let force = self.model.vehicle().weight().recip();

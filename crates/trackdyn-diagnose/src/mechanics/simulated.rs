@@ -1,0 +1,377 @@
+//! A simulated inertial departure: transient minus stationary motion of one robot.
+
+use super::belts::{lagging, smooth};
+use super::motion_over;
+use super::sheared::{self, Without};
+use crate::evidence::{Evidence, Sample};
+use crate::hypothesis::{Unknown, typical_size, value};
+use crate::settings;
+use crate::surface::Surface;
+use nalgebra::Vector3;
+use rayon::prelude::*;
+use std::sync::OnceLock;
+use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
+use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
+use trackdyn_model::contact::Resolution;
+use trackdyn_model::transient::{GAMMA, Step, tangents};
+use trackdyn_model::{ActiveEffect, Circumstance, Drive, EffectId, Effects, Model, Vehicle};
+use trackdyn_model::{Forces, Transient};
+use trackdyn_recording::TrackSample;
+use trackdyn_recording::hold::pieces;
+
+/// Step control of the transient simulation.
+#[derive(Clone, Copy)]
+struct Steps {
+    /// Longest step, s.
+    longest: f64,
+    /// Estimated error of the twist above which a step is halved, m/s.
+    tolerance: f64,
+}
+
+impl Steps {
+    /// Steps of the transient motion itself. With the defaults the departure agrees with that of 2
+    /// ms steps to one standard deviation of laboratory sensors over eight minutes of driving.
+    /// Belts jump at each reading and on dry friction a body follows in milliseconds: longer steps
+    /// would skip that, unseen by the error estimate.
+    fn fine(settings: &settings::Mechanics) -> Self {
+        Self { longest: settings.max_step, tolerance: settings.step_tolerance }
+    }
+
+    /// Steps for shear-stress laws. With the defaults they err by nine of these standard
+    /// deviations, but alike with and without a law, so that the errors cancel.
+    fn coarse(settings: &settings::Mechanics) -> Self {
+        Self { longest: settings.max_sheared_step, tolerance: settings.sheared_step_tolerance }
+    }
+}
+
+/// Difference of ln friction that counts as rounding.
+const LN_FRICTION_ROUNDING: f64 = 1e-12;
+
+/// Input of a transient simulation.
+pub struct Case<'a> {
+    /// The vehicle without effects.
+    pub vehicle: &'a Vehicle,
+    /// The vehicle with effects, inertia among them.
+    pub model: &'a Model,
+    /// Largest speed of a belt, m/s.
+    pub largest: f64,
+    pub drive: &'a Drive,
+    pub evidence: &'a Evidence,
+}
+
+impl Case<'_> {
+    pub fn settings(&self) -> &settings::Mechanics {
+        &self.evidence.settings().mechanics
+    }
+}
+
+/// Geometric mean of the friction coefficients.
+fn level(vehicle: &Vehicle) -> f64 {
+    (vehicle.friction.across * vehicle.friction.along).sqrt()
+}
+
+/// A simulated inertial departure.
+pub struct Inertia {
+    /// The effects of inertia.
+    pub inert: Vec<ActiveEffect>,
+    /// The vehicle without effects.
+    vehicle: Vehicle,
+    /// The vehicle with effects.
+    model: Model,
+    /// From its encoder speeds to its belt speeds.
+    drive: Drive,
+    /// Transient motion of each run, by the encoder clock.
+    paths: Vec<Trajectory>,
+    /// Its coarse steps, computed on demand.
+    steps: OnceLock<Vec<Vec<Step>>>,
+    /// Belt speeds, m/s.
+    belts: Vec<Vec<TrackSample>>,
+    /// Largest speed of a belt, m/s.
+    largest: f64,
+    /// Table of stationary motions.
+    pub surface: Surface,
+    /// Stationary twists at the belt speeds.
+    steady: Vec<Vec<Twist>>,
+    /// Sums of forces in these, nonzero by the error of the table, computed on demand.
+    left: OnceLock<Vec<Vec<Vector3<f64>>>>,
+    settings: settings::Mechanics,
+}
+
+impl Inertia {
+    /// Simulates a case; also returns the steps of each run. `inert` are the effects of inertia.
+    pub fn new(inert: Vec<ActiveEffect>, case: &Case) -> Result<(Self, Vec<Vec<Step>>), String> {
+        let Case { model, largest, drive, evidence, .. } = *case;
+        let settings = case.settings().clone();
+        let surface = Surface::new(model, largest, settings.speed_range, None);
+        let gained = |reading: &TrackSample| {
+            let PerSide { left, right } = drive.driven(reading.speeds());
+            TrackSample { t: reading.t, v_left: left, v_right: right }
+        };
+        let belts: Vec<Vec<TrackSample>> = lagging(evidence.tracks(), drive.time_constant)
+            .iter()
+            .map(|run| smooth(run).iter().map(gained).collect())
+            .collect();
+        let (paths, steps) = fine(model, &surface, &belts, &settings)?.into_iter().unzip();
+        let steady = belts.iter().map(|run| stationary(&surface, run)).collect();
+        let simulated = Self {
+            inert,
+            vehicle: case.vehicle.clone(),
+            model: model.clone(),
+            drive: *drive,
+            paths,
+            steps: OnceLock::new(),
+            belts,
+            largest,
+            surface,
+            steady,
+            left: OnceLock::new(),
+            settings,
+        };
+        Ok((simulated, steps))
+    }
+
+    /// The steps of each run, simulated again.
+    pub fn steps_again(&self) -> Result<Vec<Vec<Step>>, String> {
+        let runs = fine(&self.model, &self.surface, &self.belts, &self.settings)?;
+        Ok(runs.into_iter().map(|(_, steps)| steps).collect())
+    }
+
+    /// Whether it was simulated for exactly this case.
+    pub fn is_for(&self, inert: &[ActiveEffect], case: &Case) -> bool {
+        let Case { vehicle, model, drive, .. } = case;
+        self.inert == inert
+            && self.vehicle == **vehicle
+            && self.model.effects() == model.effects()
+            && self.drive == **drive
+    }
+
+    /// Additional belt lag of this drive, s: slow changes are delayed by the time constant.
+    pub fn later(&self, drive: &Drive) -> f64 {
+        drive.time_constant - self.drive.time_constant
+    }
+
+    /// Whether the vehicle, without effects, has about this friction ratio.
+    pub fn is_close(&self, vehicle: &Vehicle) -> bool {
+        let ratio = |vehicle: &Vehicle| vehicle.friction.across / vehicle.friction.along;
+        (ratio(&self.vehicle) / ratio(vehicle)).ln().abs() < self.settings.max_vehicle_change
+    }
+
+    /// Parameters that differ, with the difference from here to there.
+    pub fn changes(&self, vehicle: &Vehicle, effects: &Effects) -> Vec<(Unknown, f64)> {
+        let level = (level(vehicle) / level(&self.vehicle)).ln();
+        let level = if level.abs() < LN_FRICTION_ROUNDING { 0.0 } else { level };
+        let level = std::iter::once((Unknown::FrictionLevel, level));
+        let cog = [0, 1].map(|k| (Unknown::Cog(k), vehicle.cog[k] - self.vehicle.cog[k]));
+        let change = |effect: EffectId, place: usize| {
+            let [here, there] =
+                [self.model.effects(), effects].map(|effects| value(effects, effect, place));
+            (Unknown::Effect(effect, place), there - here)
+        };
+        let of_effects = EffectId::all().flat_map(|effect| {
+            (0..effect.card().parameters.len()).map(move |place| change(effect, place))
+        });
+        level.chain(cog).chain(of_effects).filter(|(_, change)| *change != 0.0).collect()
+    }
+
+    /// Whether slopes of one robot serve for the other.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        let settings = &self.settings;
+        let mut changes = self.changes(&other.vehicle, other.model.effects()).into_iter();
+        are_same(&self.inert, &other.inert)
+            && self.later(&other.drive).abs() <= settings.max_lag_change
+            && changes.all(|(by, change)| {
+                change.abs() <= settings.reach * size(by, &self.vehicle, settings)
+            })
+    }
+
+    /// Change of the transient motion by shear-stress laws, at each reading. Their change of the
+    /// stationary motion is the difference between the tables `with` and `without` them; other
+    /// differences from this robot are covered by the slopes.
+    pub fn sheared(
+        &self,
+        laws: &[ActiveEffect],
+        [with, without]: [&Surface; 2],
+    ) -> Vec<Vec<Twist>> {
+        let added = |belts: &[TrackSample]| -> Vec<Twist> {
+            let [with, without] = [with, without].map(|surface| stationary(surface, belts));
+            with.iter().zip(without).map(|(with, without)| *with - without).collect()
+        };
+        let mut effects = self.model.effects().clone();
+        for law in laws {
+            effects.insert(law.clone());
+        }
+        let with = Model::new(self.vehicle.clone(), effects).with_resolution(Resolution::Rough);
+        let level = Circumstance::default();
+        let grounds = [&with, &self.model].map(|model| model.ground(&level));
+        let creep = self.settings.stick_speed;
+        let with = Forces { model: &with, ground: &grounds[0], creep };
+        let without = Forces { model: &self.model, ground: &grounds[1], creep };
+        // Sequential: a job of the thread pool taken up in between would wait for this one.
+        let steps =
+            self.steps.get_or_init(|| self.belts.iter().map(|run| self.steps(run)).collect());
+        let left = self.left.get_or_init(|| {
+            let runs = self.belts.iter().zip(&self.steady);
+            let sum = |(belts, twist): (&TrackSample, &Twist)| {
+                without.sum(belts.speeds(), twist, &Twist::zero())
+            };
+            runs.map(|(belts, steady)| belts.iter().zip(steady).map(sum).collect()).collect()
+        });
+        let runs = steps.par_iter().zip(&self.belts).zip(&self.steady).zip(left);
+        runs.map(|(((steps, belts), steady), left)| {
+            let run = Without { steps, belts, steady, left };
+            sheared::departures([&with, &without], &run, &added(belts), &self.settings)
+        })
+        .collect()
+    }
+
+    /// Change of the departure by each of these other models, to first order: a mean twist for each
+    /// reading of each run. `steps` are those of this motion.
+    pub fn changes_by(&self, others: &[Model], steps: &[Vec<Step>]) -> Vec<Vec<Vec<Twist>>> {
+        let range = self.settings.speed_range;
+        let tables: Vec<Surface> = others
+            .par_iter()
+            .map(|other| Surface::new(other, self.largest, range, Some(&self.surface)))
+            .collect();
+        let runs = self.belts.par_iter().zip(&self.steady).zip(steps);
+        let of_runs: Vec<Vec<Vec<Twist>>> = runs
+            .map(|((belts, steady), steps)| {
+                let shifts: Vec<Vec<Twist>> = tables
+                    .iter()
+                    .map(|table| {
+                        let there = stationary(table, belts).into_iter().zip(steady);
+                        there.map(|(there, here)| there - *here).collect()
+                    })
+                    .collect();
+                let starts: Vec<Twist> =
+                    shifts.iter().filter_map(|shift| shift.first().copied()).collect();
+                let creep = self.settings.stick_speed;
+                let changes = tangents(&self.model, steps, others, &starts, creep);
+                let each = changes.iter().zip(&shifts);
+                each.map(|(changes, shifts)| held(belts, steps, changes, shifts)).collect()
+            })
+            .collect();
+        let of_other = |other: usize| of_runs.iter().map(|run| run[other].clone()).collect();
+        (0..others.len()).map(of_other).collect()
+    }
+
+    /// Mean over a sample of twists that hold with the readings of its run.
+    pub fn mean_over(&self, sample: &Sample, delay: f64, twists: &[Vec<Twist>]) -> Twist {
+        let until = sample.start + sample.duration;
+        let pieces = pieces(&self.belts[sample.run], sample.start, until, delay);
+        let sum = pieces.fold(Twist::zero(), |sum, (reading, duration)| {
+            sum + twists[sample.run][reading] * duration
+        });
+        sum * sample.duration.recip()
+    }
+
+    /// Steps of the transient motion over a run: coarse ones, or fine ones where the former fail.
+    fn steps(&self, run: &[TrackSample]) -> Vec<Step> {
+        let creep = self.settings.stick_speed;
+        let path = |steps| path_in_time(&self.model, &self.surface, run, steps, creep);
+        let steps = [Steps::coarse(&self.settings), Steps::fine(&self.settings)];
+        let found = steps.into_iter().map(path).find_map(Result::ok);
+        found.map(|(_, steps)| steps).unwrap_or_default()
+    }
+
+    /// Transient minus stationary motion, as a twist over a sample.
+    pub fn departure(&self, sample: &Sample, delay: f64) -> Twist {
+        let (from, until) = (sample.start, sample.start + sample.duration);
+        let path = &self.paths[sample.run];
+        let moved = path.pose_at(from - delay).relative(&path.pose_at(until - delay));
+        let steady = &self.steady[sample.run];
+        let steady = motion_over(&self.belts[sample.run], sample, delay, |reading| {
+            ros_twist_from_paper(&steady[reading])
+        });
+        let twist = |pose: &Pose| paper_twist_from_ros(&pose.log(sample.duration));
+        twist(&moved) - twist(&steady)
+    }
+}
+
+/// Mean of the `changes` in the stages of these steps while each reading holds, beyond the `shifts`
+/// of the stationary motion.
+fn held(
+    belts: &[TrackSample],
+    steps: &[Step],
+    changes: &[[Twist; 2]],
+    shifts: &[Twist],
+) -> Vec<Twist> {
+    let mut means = vec![Twist::zero(); belts.len()];
+    let mut steps = steps.iter().zip(changes).peekable();
+    for ((mean, pair), shift) in means.iter_mut().zip(belts.windows(2)).zip(shifts) {
+        let [from, until] = [pair[0].t, pair[1].t];
+        let mut sum = Twist::zero();
+        while let Some((step, [first, second])) = steps.next_if(|(step, _)| step.end <= until) {
+            sum += (*first * (1.0 - GAMMA) + *second * GAMMA - *shift) * step.duration;
+        }
+        if until > from {
+            *mean = sum * (until - from).recip();
+        }
+    }
+    means
+}
+
+/// Stationary twist at each reading of a run.
+fn stationary(surface: &Surface, belts: &[TrackSample]) -> Vec<Twist> {
+    belts.iter().map(|reading| surface.motion(reading.speeds()).twist(&[0.0; 3])).collect()
+}
+
+/// Transient motion over each run, and its steps.
+fn fine(
+    model: &Model,
+    surface: &Surface,
+    belts: &[Vec<TrackSample>],
+    settings: &settings::Mechanics,
+) -> Result<Vec<(Trajectory, Vec<Step>)>, String> {
+    let steps = Steps::fine(settings);
+    let path =
+        |run: &Vec<TrackSample>| path_in_time(model, surface, run, steps, settings.stick_speed);
+    belts.par_iter().map(path).collect()
+}
+
+/// Transient motion over a run, and its steps. A track sticks below a slip of `creep`, m/s.
+fn path_in_time(
+    model: &Model,
+    surface: &Surface,
+    belts: &[TrackSample],
+    steps: Steps,
+    creep: f64,
+) -> Result<(Trajectory, Vec<Step>), String> {
+    let mut path = Trajectory::default();
+    let Some(first) = belts.first() else { return Ok((path, Vec::new())) };
+    let start = surface.motion(first.speeds()).twist(&[0.0; 3]);
+    let mut robot = Transient::at_rest(model, first.t, Pose::default())
+        .with_step(steps.longest)
+        .with_tolerance(steps.tolerance)
+        .with_creep(creep)
+        .with_twist(start)
+        .with_pull()
+        .with_steps();
+    path.push(robot.moment());
+    for pair in belts.windows(2) {
+        robot
+            .drive(pair[0].speeds(), pair[1].t, &mut path)
+            .map_err(|stopped| stopped.to_string())?;
+    }
+    Ok((path, robot.into_steps()))
+}
+
+/// Typical size of a parameter, as a unit of distance; one for ln friction.
+pub fn size(by: Unknown, vehicle: &Vehicle, settings: &settings::Mechanics) -> f64 {
+    match by {
+        Unknown::Cog(_) => settings.cog_size * vehicle.gauge,
+        _ => typical(by),
+    }
+}
+
+/// Typical size of a parameter of an effect; one for ln friction.
+pub fn typical(by: Unknown) -> f64 {
+    by.parameter().map_or(1.0, typical_size)
+}
+
+/// Whether both lists hold the same effects, with any values.
+pub fn are_same(known: &[ActiveEffect], effects: &[ActiveEffect]) -> bool {
+    let ids = |effects: &[ActiveEffect]| -> Vec<&str> {
+        effects.iter().map(|effect| effect.card().id).collect()
+    };
+    ids(known) == ids(effects)
+}

@@ -47,6 +47,7 @@
 //! | solve the stationary motion over track speeds | [`icr_map()`] | [`MapSettings`] | [`IcrMap`] |
 //! | drive in time and record it | [`simulate()`] | [`SimulateSettings`] | [`Simulation`] |
 //! | read a log | [`Recording::open`] | [`ReadOptions`] | [`Recording`] |
+//! | judge a log before that | [`inspect()`] | [`InspectSettings`] | [`Inspection`] |
 //! | identify the kinematics | [`identify()`] | [`IdentifySettings`] | [`Identification`] |
 //! | replay a log by dead reckoning | [`odometry()`] | [`OdometrySettings`] | [`Odometry`] |
 //! | find the physics that a model lacks | [`diagnose()`] | [`DiagnoseSettings`] | [`Diagnosis`] |
@@ -69,6 +70,7 @@
 mod change;
 mod document;
 mod error;
+mod gauge;
 mod icr_map;
 mod kinematics;
 mod progress;
@@ -80,6 +82,7 @@ pub mod diagnose;
 pub mod drive;
 pub mod export;
 pub mod identify;
+pub mod inspect;
 pub mod odometry;
 pub mod plan;
 pub mod recording;
@@ -103,8 +106,10 @@ pub use diagnose::{Claim, DiagnoseSettings, Diagnosis, HeldOut, diagnose};
 pub use drive::{DriveSettings, Drives, drive};
 pub use error::Error;
 pub use export::Export;
+pub use gauge::Gauge;
 pub use icr_map::{IcrMap, MapSettings, icr_map};
 pub use identify::{Identification, IdentifySettings, identify};
+pub use inspect::{InspectSettings, Inspection, inspect};
 pub use kinematics::Parameters;
 pub use odometry::{Odometry, OdometrySettings, odometry};
 pub use plan::{OpenQuestions, Plan, PlanSettings, plan};
@@ -116,7 +121,7 @@ pub use vehicle::{Vehicle, refuse_repeated};
 
 pub use trackdyn_diagnose::{Resampling, Settings as MethodSettings, Status};
 pub use trackdyn_drive::{Path, Sensors};
-pub use trackdyn_model::effect::Card;
+pub use trackdyn_model::effect::{Card, Parameter, Symmetry, Term};
 pub use trackdyn_model::{ActiveEffect, Circumstance, Grid, Kinematics};
 pub use trackdyn_recording::RunList;
 pub use trackdyn_report::Figure;

@@ -6,6 +6,7 @@ mod diagnose;
 mod documents;
 mod export;
 mod identify;
+mod init;
 mod inspect;
 mod interrupted;
 mod map;

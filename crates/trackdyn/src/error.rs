@@ -271,6 +271,9 @@ pub enum Error {
         most: f64,
     },
 
+    /// A number that no vehicle has.
+    #[error("{0}")]
+    Vehicle(#[source] VehicleError),
     /// A gauge that no vehicle has.
     #[error(
         "gauge {metres}: expected the distance between the track centre-lines in m, up to {most}"

@@ -46,6 +46,7 @@
 //! |---|---|---|---|
 //! | solve the stationary motion over track speeds | [`icr_map()`] | [`MapSettings`] | [`IcrMap`] |
 //! | drive in time and record it | [`simulate()`] | [`SimulateSettings`] | [`Simulation`] |
+//! | write a vehicle file | [`VehicleSketch::write`] | [`VehicleSketch`] | a file |
 //! | read a log | [`Recording::open`] | [`ReadOptions`] | [`Recording`] |
 //! | judge a log before that | [`inspect()`] | [`InspectSettings`] | [`Inspection`] |
 //! | identify the kinematics | [`identify()`] | [`IdentifySettings`] | [`Identification`] |
@@ -75,6 +76,7 @@ mod icr_map;
 mod kinematics;
 mod progress;
 mod provenance;
+mod sketch;
 mod vehicle;
 
 pub mod check;
@@ -117,11 +119,13 @@ pub use progress::{Observer, Progress, unobserved};
 pub use provenance::Provenance;
 pub use recording::{Part, ReadOptions, Recording};
 pub use simulate::{SimulateSettings, Simulation, simulate};
+pub use sketch::VehicleSketch;
 pub use vehicle::{Vehicle, refuse_repeated};
 
 pub use trackdyn_diagnose::{Resampling, Settings as MethodSettings, Status};
 pub use trackdyn_drive::{Path, Sensors};
 pub use trackdyn_model::effect::{Card, Parameter, Symmetry, Term};
+pub use trackdyn_model::vehicle::RunningGear;
 pub use trackdyn_model::{ActiveEffect, Circumstance, Grid, Kinematics};
 pub use trackdyn_recording::RunList;
 pub use trackdyn_report::Figure;

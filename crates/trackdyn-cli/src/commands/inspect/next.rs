@@ -38,7 +38,7 @@ pub fn text(found: &Inspection, asked: &Asked) -> String {
             &wrapped("  METRES        ", "the wheel radius: belt travel per radian of the joints");
     }
     if has("VEHICLE.toml") {
-        let made = "a vehicle file: copy one of configs/vehicles and change its numbers";
+        let made = "a vehicle file: trackdyn init writes one from a few measured numbers";
         text += &wrapped("  VEHICLE.toml  ", made);
     }
     if has("TRACKS.csv") {

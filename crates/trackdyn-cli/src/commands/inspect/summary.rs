@@ -183,7 +183,7 @@ fn lacks(text: &mut String, lacks: &[Lack]) {
     if lacks.is_empty() {
         return;
     }
-    *text += "\nwhat it lacks\n";
+    *text += "\nwhat it lacks (docs/recording.md: how to record)\n";
     for lack in lacks {
         *text += &wrapped("  - ", &format!("{lack}: {}", lack.advice()));
     }

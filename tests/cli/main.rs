@@ -6,6 +6,8 @@ mod diagnose;
 mod documents;
 mod export;
 mod identify;
+mod init;
+mod inspect;
 mod interrupted;
 mod map;
 mod odometry;

@@ -46,14 +46,16 @@ fn recordings_are_inspected() {
     record(&place);
     let folder = place.run("inspect rec");
     assert_eq!(folder.status, 0, "{}", folder.stderr);
-    assert!(folder.stdout.contains("1 runs, 40 s"), "{}", folder.stdout);
+    assert!(folder.stdout.contains("1 run, 40 s"), "{}", folder.stdout);
     let bag = place.run(&format!("inspect {}", fixture("drive.mcap")));
     assert_eq!(bag.status, 0, "{}", bag.stderr);
     assert!(bag.stdout.contains("sensor_msgs/msg/JointState"), "{}", bag.stdout);
-    assert!(bag.stdout.contains("--tracks-topic"), "{}", bag.stdout);
+    assert!(bag.stdout.contains("the wheel radius"), "{}", bag.stdout);
     let chain = place.run(&format!("inspect {}", fixture("chain.db3")));
     let suggested = "--pose-topic /tf --parent-frame map --child-frame base_link";
-    assert!(chain.stdout.contains(suggested), "{}", chain.stdout);
+    let found = chain.stdout.replace("\\\n", " ");
+    let found: Vec<&str> = found.split_whitespace().collect();
+    assert!(found.join(" ").contains(suggested), "{}", chain.stdout);
 }
 
 #[test]
@@ -61,9 +63,13 @@ fn bags_are_read_with_the_options_that_inspection_prints() {
     let place = Workplace::new();
     let bag = fixture("chain.db3");
     let printed = place.run(&format!("inspect {bag}")).stdout;
-    let (_, suggested) = printed.split_once("suggested:").expect("a suggestion");
-    let suggested = suggested.trim().replace("METRES", "0.1");
-    let command = format!("odometry {bag} {suggested} --vehicle {} --tau 0", vehicle());
+    let printed = printed.replace("\\\n", " ");
+    let (_, printed) = printed.split_once("go on with").expect("commands");
+    let line = printed.lines().find(|line| line.contains("trackdyn ")).expect("a command");
+    let options = line.split_whitespace().skip(3).collect::<Vec<_>>().join(" ");
+    let (options, _) = options.split_once("--vehicle").expect("a vehicle");
+    let options = options.replace("METRES", "0.1");
+    let command = format!("odometry {bag} {options} --vehicle {} --tau 0", vehicle());
     let run = place.run(&command);
     assert_eq!(run.status, 0, "{command}: {}", run.stderr);
     assert!(run.stderr.contains("base_link in map by map -> odom"), "{}", run.stderr);
@@ -84,10 +90,11 @@ fn a_trajectory_with_its_track_speeds_is_as_good_as_a_folder() {
     record(&place);
     let alone = place.run("inspect walk.tum");
     assert_eq!(alone.status, 0, "{}", alone.stderr);
-    assert!(alone.stdout.contains("401 poses, t = 0.000 to 40.000 s"), "{}", alone.stdout);
-    assert!(alone.stdout.contains("suggested: --tracks"), "{}", alone.stdout);
+    let poses = "poses     401, one every 0.100 s, t = 0.000 to 40.000 s";
+    assert!(alone.stdout.contains(poses), "{}", alone.stdout);
+    assert!(alone.stdout.contains("--tracks TRACKS.csv"), "{}", alone.stdout);
     let inspected = place.run("inspect walk.tum --tracks tracks.csv");
-    assert!(inspected.stdout.contains("1 runs, 40 s"), "{}", inspected.stdout);
+    assert!(inspected.stdout.contains("1 run, 40 s"), "{}", inspected.stdout);
 
     let identify = |recording: &str, out: &str| {
         let arguments = format!("identify {recording} --vehicle {} --out {out}", vehicle());

@@ -4,6 +4,7 @@ mod clock;
 mod clocks_and_poses;
 mod drives;
 mod folder;
+mod inspections;
 mod joints;
 mod noise;
 mod parquet;

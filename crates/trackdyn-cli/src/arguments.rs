@@ -57,7 +57,9 @@ pub enum Command {
     Export(commands::export::Options),
     /// List the effects that a vehicle file or --effect can switch on
     Effects(commands::effects::Options),
-    /// List what a recording holds, and the options with which it is read
+    /// Write a vehicle file from a few measured numbers, asked for on a terminal or given
+    Init(commands::init::Options),
+    /// Judge a recording: what is there, what is missing, what looks wrong, and how to go on
     Inspect(commands::inspect::Options),
     /// Identify the kinematic parameters from a recording: spin test, genetic algorithm, least
     /// squares
@@ -87,6 +89,7 @@ impl Command {
             Self::Check(options) => commands::check::run(options),
             Self::Export(options) => commands::export::run(options),
             Self::Effects(options) => commands::effects::run(options),
+            Self::Init(options) => commands::init::run(options),
             Self::Inspect(options) => commands::inspect::run(options),
             Self::Identify(options) => commands::identify::run(options),
             Self::Diagnose(options) => commands::diagnose::run(options),

@@ -7,6 +7,7 @@ pub mod drive;
 pub mod effects;
 pub mod export;
 pub mod identify;
+pub mod init;
 pub mod inspect;
 pub mod kinematics;
 pub mod man;

@@ -12,9 +12,11 @@ mod interrupt;
 mod options;
 mod progress;
 mod provenance;
+mod shell;
 mod stderr;
 mod stdout;
 mod wording;
+mod wrapped;
 
 use arguments::Arguments;
 use exit::Exit;

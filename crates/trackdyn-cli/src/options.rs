@@ -7,11 +7,13 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use trackdyn::crates::core::Pose;
 use trackdyn::crates::model::Effects;
-use trackdyn::crates::model::effect::{Stage, Symmetry};
+use trackdyn::crates::model::effect::Stage;
 use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
 use trackdyn::recording::BagOptions;
 use trackdyn::refuse_repeated;
-use trackdyn::{ActiveEffect, Circumstance, Part, ReadOptions, Recording, RunList, Vehicle};
+use trackdyn::{
+    ActiveEffect, Circumstance, Part, ReadOptions, Recording, RunList, Symmetry, Vehicle,
+};
 
 /// The vehicle and its effects.
 #[derive(Args)]
@@ -198,7 +200,8 @@ impl RecordingOptions {
         self.options().given().into_iter().map(option).collect()
     }
 
-    fn options(&self) -> ReadOptions {
+    /// How it is read.
+    pub fn options(&self) -> ReadOptions {
         ReadOptions {
             tracks: self.tracks.clone(),
             bag: BagOptions {
@@ -266,6 +269,11 @@ impl DrivingOptions {
     /// Those of [`RecordingOptions::read`].
     pub fn recording(&self) -> Result<Recording, trackdyn::Error> {
         self.recording.read()
+    }
+
+    /// How it is read.
+    pub fn read_options(&self) -> ReadOptions {
+        self.recording.options()
     }
 
     /// The recording as given.

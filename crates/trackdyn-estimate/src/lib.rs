@@ -23,6 +23,7 @@
 //! - [`separation`]: the distance of the ICRs from turning alone.
 //! - [`steady`]: the parameters from a table of steady operating points.
 //! - [`identification`]: all of them on one recording; [`contradiction`]: where they do not agree.
+//! - [`yaw_rates`]: yaw rates over time, measured and predicted.
 //! - [`odometry`]: where the robot would be if its parameters were true, against where it was.
 //!
 //! Residual = observed − predicted, in the frame of the segment's first pose (REP-103).
@@ -52,6 +53,7 @@ pub mod steady;
 pub mod synthetic;
 pub mod thinned;
 pub mod weighting;
+pub mod yaw_rates;
 
 pub use blocks::{Blocks, Extent};
 pub use clock::Clock;
@@ -70,3 +72,4 @@ pub use separation::{Separation, Turning};
 pub use spin_test::{SpinTest, spin_test};
 pub use steady::{SteadyEstimate, fit_points};
 pub use weighting::Weighting;
+pub use yaw_rates::{Rate, RunRates, YawRates};

@@ -2,6 +2,7 @@
 
 use crate::doubt::Doubt;
 use std::path::{Path, PathBuf};
+use trackdyn_core::PerSide;
 use trackdyn_core::document::DocumentError;
 use trackdyn_core::output::OutputError;
 
@@ -110,6 +111,9 @@ pub enum Error {
         doubt: Doubt,
         /// What is expected, and which option helps.
         remedy: String,
+        /// Of a bag: the joints of both sides with which tracks and poses agree, where others are
+        /// to blame.
+        joints: Option<Box<PerSide<Vec<String>>>>,
     },
     /// A run that the recording does not have.
     #[error("run {run} is not in the recording: expected {expected}")]
@@ -138,7 +142,7 @@ impl Error {
     /// The error of a recording with this doubt, and what can be done about it.
     pub(crate) fn contradiction(path: &Path, doubt: Doubt) -> Self {
         let remedy = doubt.remedy();
-        Self::Contradiction { path: path.to_owned(), doubt, remedy }
+        Self::Contradiction { path: path.to_owned(), doubt, remedy, joints: None }
     }
 }
 

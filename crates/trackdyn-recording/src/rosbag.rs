@@ -70,33 +70,43 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
 }
 
 /// An error with the options that help, by the joints of each side as they were taken.
-fn with_options(error: Error, joints: &PerSide<Vec<String>>) -> Error {
-    let Error::Contradiction { path, doubt, remedy } = error else { return error };
-    let option = |side: Side, names: &[String], reversed: bool| {
-        let word = names::word(side);
-        let name = |name: &String| match (reversed, name.strip_prefix('-')) {
-            (true, Some(bare)) => format!("--{word}-joint {bare}"),
-            (true, None) => format!("--{word}-joint -{name}"),
-            (false, _) => format!("--{word}-joint {name}"),
+fn with_options(error: Error, taken: &PerSide<Vec<String>>) -> Error {
+    let Error::Contradiction { path, doubt, remedy, .. } = error else { return error };
+    let reversed = |names: &[String]| -> Vec<String> {
+        let of = |name: &String| match name.strip_prefix('-') {
+            Some(bare) => bare.to_owned(),
+            None => format!("-{name}"),
         };
-        names.iter().map(name).collect::<Vec<_>>().join(" ")
+        names.iter().map(of).collect()
     };
-    let [left, right] = Side::BOTH.map(|side| (side, joints[side].as_slice()));
-    let remedy = match doubt {
+    let option = |side: Side, names: &[String]| {
+        let word = names::word(side);
+        let options = names.iter().map(|name| format!("--{word}-joint {name}"));
+        options.collect::<Vec<_>>().join(" ")
+    };
+    let (joints, remedy) = match doubt {
         Doubt::Reversed(side) => {
-            format!("reverse it by {}", option(side, &joints[side], true))
+            let mut joints = taken.clone();
+            joints[side] = reversed(&taken[side]);
+            let remedy = format!("reverse it by {}", option(side, &joints[side]));
+            (Some(joints), remedy)
         }
-        Doubt::BothReversed => format!(
-            "reverse them by {} {}, or choose poses whose x axis points forward",
-            option(left.0, left.1, true),
-            option(right.0, right.1, true)
-        ),
-        Doubt::Swapped => format!(
-            "swap the sides by {} {}, or choose poses whose z axis points up",
-            option(left.0, right.1, false),
-            option(right.0, left.1, false)
-        ),
-        _ => remedy,
+        Doubt::BothReversed => {
+            let joints = PerSide::new(reversed(&taken.left), reversed(&taken.right));
+            let [left, right] = Side::BOTH.map(|side| option(side, &joints[side]));
+            let remedy = format!(
+                "reverse them by {left} {right}, or choose poses whose x axis points forward"
+            );
+            (Some(joints), remedy)
+        }
+        Doubt::Swapped => {
+            let joints = PerSide::new(taken.right.clone(), taken.left.clone());
+            let [left, right] = Side::BOTH.map(|side| option(side, &joints[side]));
+            let remedy =
+                format!("swap the sides by {left} {right}, or choose poses whose z axis points up");
+            (Some(joints), remedy)
+        }
+        _ => (None, remedy),
     };
-    Error::Contradiction { path, doubt, remedy }
+    Error::Contradiction { path, doubt, remedy, joints: joints.map(Box::new) }
 }

@@ -7,6 +7,7 @@
 //! - [`figure`]: what figures consist of.
 //! - [`text`], [`colour`], [`ticks`]: the embedded font, colours and colour maps, numbers of axes.
 //! - [`icr_map()`]: the figure of an ICR map.
+//! - [`inspection()`]: the figure of a recording over time.
 //! - [`odometry()`]: the figure of an odometry replay.
 //! - [`path_tracking()`]: the figure of drives along a path.
 //! - [`diagnosis_figures()`], [`diagnosis_html()`]: the figures and the report of a diagnosis.
@@ -18,6 +19,7 @@ mod draw;
 mod error;
 pub mod figure;
 mod icr_map;
+mod inspection;
 mod odometry;
 mod path_tracking;
 mod paths;
@@ -30,6 +32,7 @@ pub use diagnosis::{Subject, diagnosis_figures, diagnosis_html};
 pub use error::Error;
 pub use figure::Figure;
 pub use icr_map::icr_map;
+pub use inspection::{Inspected, inspection};
 pub use odometry::odometry;
 pub use path_tracking::{TrackedDrive, path_tracking};
 pub use scores::{Entrant, Matrix, Power, Share, Shares, confusion, power, shares};

@@ -271,6 +271,20 @@ pub enum Error {
         most: f64,
     },
 
+    /// A number that no vehicle has.
+    #[error("{0}")]
+    Vehicle(#[source] VehicleError),
+    /// A gauge that no vehicle has.
+    #[error(
+        "gauge {metres}: expected the distance between the track centre-lines in m, up to {most}"
+    )]
+    Gauge {
+        /// What was given, m.
+        metres: f64,
+        /// The largest that is accepted, m.
+        most: f64,
+    },
+
     /// A setting that an export cannot be made with.
     #[error("{0}")]
     Export(#[from] trackdyn_export::Error),
@@ -298,6 +312,7 @@ impl Error {
             Self::NoSensors { .. } => Some("sensors"),
             Self::NotSimulated { .. } => Some("out"),
             Self::TooFast { .. } => Some("speed"),
+            Self::Gauge { .. } => Some("gauge"),
             _ => None,
         }
     }

@@ -12,7 +12,7 @@ pub use turning::TurningFit;
 
 use crate::change::Folder;
 use crate::progress::Counter;
-use crate::{Change, Error, Observer, Parameters, Provenance, Recording, Vehicle, unobserved};
+use crate::{Change, Error, Gauge, Observer, Parameters, Provenance, Recording, unobserved};
 use sourced::Sourced;
 use std::path::Path;
 use trackdyn_estimate::genetic::GeneticOptions;
@@ -73,23 +73,23 @@ pub enum Identification {
     Turning(Box<TurningFit>),
 }
 
-/// Identifies the kinematic parameters of a robot.
+/// Identifies the kinematic parameters of a robot: of the vehicle, its gauge counts.
 ///
 /// # Errors
 /// Those of [`Prepared::new`] and [`Prepared::run`].
 pub fn identify(
     recording: &Recording,
-    vehicle: &Vehicle,
+    vehicle: impl Into<Gauge>,
     settings: &IdentifySettings,
 ) -> Result<Identification, Error> {
     Prepared::new(recording, vehicle, settings)?.run(&unobserved)
 }
 
 /// An identification whose inputs and settings go together.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Prepared<'a> {
     recording: &'a Recording,
-    vehicle: &'a Vehicle,
+    gauge: Gauge,
     settings: &'a IdentifySettings,
 }
 
@@ -100,13 +100,13 @@ impl<'a> Prepared<'a> {
     /// [`Error::MotionOnly`] for settings that a table of steady operating points has no use for.
     pub fn new(
         recording: &'a Recording,
-        vehicle: &'a Vehicle,
+        vehicle: impl Into<Gauge>,
         settings: &'a IdentifySettings,
     ) -> Result<Self, Error> {
         if let Some(points) = recording.points() {
             points.refuse(settings.of_motion())?;
         }
-        Ok(Self { recording, vehicle, settings })
+        Ok(Self { recording, gauge: vehicle.into(), settings })
     }
 
     /// Identifies, observed: a part is a generation of the genetic algorithm, which runs twice.
@@ -114,8 +114,8 @@ impl<'a> Prepared<'a> {
     /// # Errors
     /// [`Error::Identify`] for a recording with too little in it, [`Error::Cancelled`].
     pub fn run(&self, observer: &Observer) -> Result<Identification, Error> {
-        let Self { recording, vehicle, settings } = *self;
-        let sourced = Sourced::new(recording, vehicle, settings);
+        let Self { recording, gauge, settings } = self;
+        let sourced = Sourced::new(recording, gauge, settings);
         if let Some(points) = recording.points() {
             return Ok(Identification::Points(Box::new(PointsFit::new(points, sourced))));
         }
@@ -126,7 +126,7 @@ impl<'a> Prepared<'a> {
             return Ok(Identification::Turning(Box::new(TurningFit { found, sourced })));
         }
         let options = Options {
-            gauge: vehicle.gauge(),
+            gauge: gauge.metres(),
             tau: settings.tau,
             settle: settings.settle,
             nuisances: settings.nuisances(),
@@ -140,7 +140,7 @@ impl<'a> Prepared<'a> {
                 cause => refuse(cause),
             })?;
         let sourced = sourced.with_seed(settings.genetic.seed);
-        let fit = MotionFit::new(found, motion, vehicle, sourced);
+        let fit = MotionFit::new(found, motion, gauge, sourced);
         Ok(Identification::Motion(Box::new(fit)))
     }
 }
@@ -182,6 +182,30 @@ impl Identification {
             }),
             Self::Turning(fit) => [fit.contradictions(), Vec::new()],
         }
+    }
+
+    /// For each of the fits, the first reason why the recording does not determine it, or why it is
+    /// withheld.
+    pub(crate) fn reasons(&self) -> [Option<String>; 2] {
+        let doubts: [Option<String>; 2] = match self {
+            Self::Motion(fit) => fit.found.fits.each_ref().map(|fit| match &fit.least_squares {
+                Ok(_) => fit.doubts.first().map(ToString::to_string),
+                Err(reason) => Some(reason.to_string()),
+            }),
+            Self::Points(points) => points.fits.each_ref().map(|(_, fit)| match fit {
+                Ok(fit) => fit.doubts(points.gauge()).first().map(ToString::to_string),
+                Err(reason) => Some(reason.to_string()),
+            }),
+            Self::Turning(_) => {
+                let reason = || Some("poses have a yaw alone".to_owned());
+                [reason(), reason()]
+            }
+        };
+        let mut contradictions = self.contradictions().into_iter();
+        doubts.map(|doubt| {
+            let contradicted = contradictions.next().unwrap_or_default();
+            doubt.or_else(|| contradicted.first().map(ToString::to_string))
+        })
     }
 
     /// The distance of the ICRs alone, where the recording determines nothing else and nothing

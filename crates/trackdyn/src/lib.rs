@@ -46,7 +46,9 @@
 //! |---|---|---|---|
 //! | solve the stationary motion over track speeds | [`icr_map()`] | [`MapSettings`] | [`IcrMap`] |
 //! | drive in time and record it | [`simulate()`] | [`SimulateSettings`] | [`Simulation`] |
+//! | write a vehicle file | [`VehicleSketch::write`] | [`VehicleSketch`] | a file |
 //! | read a log | [`Recording::open`] | [`ReadOptions`] | [`Recording`] |
+//! | judge a log before that | [`inspect()`] | [`InspectSettings`] | [`Inspection`] |
 //! | identify the kinematics | [`identify()`] | [`IdentifySettings`] | [`Identification`] |
 //! | replay a log by dead reckoning | [`odometry()`] | [`OdometrySettings`] | [`Odometry`] |
 //! | find the physics that a model lacks | [`diagnose()`] | [`DiagnoseSettings`] | [`Diagnosis`] |
@@ -69,10 +71,12 @@
 mod change;
 mod document;
 mod error;
+mod gauge;
 mod icr_map;
 mod kinematics;
 mod progress;
 mod provenance;
+mod sketch;
 mod vehicle;
 
 pub mod check;
@@ -80,6 +84,7 @@ pub mod diagnose;
 pub mod drive;
 pub mod export;
 pub mod identify;
+pub mod inspect;
 pub mod odometry;
 pub mod plan;
 pub mod recording;
@@ -103,8 +108,10 @@ pub use diagnose::{Claim, DiagnoseSettings, Diagnosis, HeldOut, diagnose};
 pub use drive::{DriveSettings, Drives, drive};
 pub use error::Error;
 pub use export::Export;
+pub use gauge::Gauge;
 pub use icr_map::{IcrMap, MapSettings, icr_map};
 pub use identify::{Identification, IdentifySettings, identify};
+pub use inspect::{InspectSettings, Inspection, inspect};
 pub use kinematics::Parameters;
 pub use odometry::{Odometry, OdometrySettings, odometry};
 pub use plan::{OpenQuestions, Plan, PlanSettings, plan};
@@ -112,11 +119,13 @@ pub use progress::{Observer, Progress, unobserved};
 pub use provenance::Provenance;
 pub use recording::{Part, ReadOptions, Recording};
 pub use simulate::{SimulateSettings, Simulation, simulate};
+pub use sketch::VehicleSketch;
 pub use vehicle::{Vehicle, refuse_repeated};
 
 pub use trackdyn_diagnose::{Resampling, Settings as MethodSettings, Status};
 pub use trackdyn_drive::{Path, Sensors};
-pub use trackdyn_model::effect::Card;
+pub use trackdyn_model::effect::{Card, Parameter, Symmetry, Term};
+pub use trackdyn_model::vehicle::RunningGear;
 pub use trackdyn_model::{ActiveEffect, Circumstance, Grid, Kinematics};
 pub use trackdyn_recording::RunList;
 pub use trackdyn_report::Figure;

@@ -13,6 +13,9 @@ use std::path::{Path, PathBuf};
 use trackdyn_recording::rosbag::RosbagOptions;
 use trackdyn_recording::{Format, OperatingPoints, Recording as Motion, Run, Warning, tum};
 
+/// A topic of a bag, and what was seen of it.
+pub type Topic = trackdyn_recording::rosbag::TopicSummary;
+
 /// What to take from a bag.
 pub type BagOptions = RosbagOptions;
 

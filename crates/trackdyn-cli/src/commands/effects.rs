@@ -5,8 +5,7 @@ use crate::exit::Exit;
 use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
-use trackdyn::crates::model::effect::{Card, Parameter, Symmetry, Term};
-use trackdyn::crates::model::{ActiveEffect, CATALOGUE};
+use trackdyn::{ActiveEffect, Card, Parameter, Symmetry, Term, effects};
 
 /// Options of `trackdyn effects`.
 #[derive(Args)]
@@ -55,9 +54,9 @@ fn stages(card: &Card) -> String {
 }
 
 fn list() -> String {
-    let width = CATALOGUE.iter().map(|card| card.id.len()).max().unwrap_or(0);
+    let width = effects().iter().map(|card| card.id.len()).max().unwrap_or(0);
     let mut text = format!("{:width$}  breaks  what it is\n", "effect");
-    for card in CATALOGUE {
+    for card in effects() {
         let _ = writeln!(text, "{:width$}  {}   {}", card.id, letters(card.breaks), card.title);
     }
     text += "\n\
@@ -120,12 +119,12 @@ fn markdown() -> String {
         terms of one. Coefficients that are left out are none.\n\n"
         .to_owned();
     text += "| effect | what it is | breaks | acts at |\n|---|---|---|---|\n";
-    for card in CATALOGUE {
+    for card in effects() {
         let breaks: String = card.breaks.iter().map(|symmetry| symmetry.letter()).collect();
         let (id, title, stages) = (card.id, card.title, stages(card));
         let _ = writeln!(text, "| [{id}](#{id}) | {title} | {breaks} | {stages} |");
     }
-    for card in CATALOGUE {
+    for card in effects() {
         text += "\n";
         text += &markdown_card(card);
     }

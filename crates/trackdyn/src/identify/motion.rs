@@ -2,7 +2,7 @@
 
 use super::document;
 use super::sourced::{Fitted, Sourced};
-use crate::{Provenance, Vehicle};
+use crate::{Gauge, Provenance};
 use trackdyn_estimate::{Identification, Separation};
 use trackdyn_model::kinematics::KinematicsFile;
 use trackdyn_recording::Recording as Motion;
@@ -21,10 +21,11 @@ impl MotionFit {
     pub(super) fn new(
         found: Identification,
         motion: &Motion,
-        vehicle: &Vehicle,
+        gauge: &Gauge,
         sourced: Sourced,
     ) -> Self {
-        let (robot, vehicle_fingerprint) = (motion.robot().to_owned(), vehicle.fingerprint());
+        let (robot, vehicle_fingerprint) =
+            (motion.robot().to_owned(), gauge.fingerprint().to_owned());
         Self { found, robot, vehicle_fingerprint, sourced }
     }
 

@@ -1,6 +1,6 @@
 //! Where the numbers of an identification come from.
 
-use crate::{IdentifySettings, Provenance, Recording, Vehicle};
+use crate::{Gauge, IdentifySettings, Provenance, Recording};
 use trackdyn_estimate::{Contradiction, Free, Interval, Parameters, Separation};
 use trackdyn_model::kinematics::{KinematicsFile, SeparationFile, Source};
 use trackdyn_recording::Recording as Motion;
@@ -24,18 +24,14 @@ pub(super) struct Sourced {
 
 impl Sourced {
     /// The source of what is found in a recording.
-    pub(super) fn new(
-        recording: &Recording,
-        vehicle: &Vehicle,
-        settings: &IdentifySettings,
-    ) -> Self {
+    pub(super) fn new(recording: &Recording, gauge: &Gauge, settings: &IdentifySettings) -> Self {
         let source = Source {
-            vehicle: vehicle.name().to_owned(),
+            vehicle: gauge.vehicle().to_owned(),
             fingerprint: recording.fingerprint().to_owned(),
             recording: Some(recording.name().to_owned()),
             ..recording.motion().map_or_else(Source::default, |motion| of_motion(recording, motion))
         };
-        Self { source, gauge: vehicle.gauge(), force: settings.force }
+        Self { source, gauge: gauge.metres(), force: settings.force }
     }
 
     /// These numbers with random draws of this seed.

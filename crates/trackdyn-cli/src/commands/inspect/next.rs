@@ -1,0 +1,95 @@
+//! The commands to go on with.
+
+use crate::shell::{command, option, part, path, reading};
+use crate::wrapped::{WIDTH, wrapped};
+use std::fmt::Write;
+use std::path::Path;
+use trackdyn::Inspection;
+use trackdyn::Part;
+use trackdyn::inspect::{Content, Lack, Use};
+
+/// What a user asked for, which the commands repeat.
+pub struct Asked<'a> {
+    /// The recording.
+    pub path: &'a Path,
+    /// The vehicle file.
+    pub vehicle: Option<&'a Path>,
+    /// The part of the recording.
+    pub part: &'a Part,
+    /// The clock offset, s.
+    pub tau: Option<f64>,
+    /// The folder for what is written.
+    pub out: &'a Path,
+}
+
+/// The commands that this recording is good for, with the options that it needs.
+pub fn text(found: &Inspection, asked: &Asked) -> String {
+    let commands = commands(found, asked);
+    if commands.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from("\ngo on with\n");
+    for command in &commands {
+        let _ = writeln!(text, "  {}", command.replace('\n', "\n  "));
+    }
+    let has = |word: &str| commands.iter().any(|command| command.contains(word));
+    if has("METRES") {
+        text +=
+            &wrapped("  METRES        ", "the wheel radius: belt travel per radian of the joints");
+    }
+    if has("VEHICLE.toml") {
+        let made = "a vehicle file: trackdyn init writes one from a few measured numbers";
+        text += &wrapped("  VEHICLE.toml  ", made);
+    }
+    if has("TRACKS.csv") {
+        text += &wrapped("  TRACKS.csv    ", "the track speeds, t,v_left,v_right in s and m/s");
+    }
+    text
+}
+
+fn commands(found: &Inspection, asked: &Asked) -> Vec<String> {
+    let recording = path(asked.path);
+    if matches!(found.content, Content::Poses(_)) {
+        let words = ["trackdyn inspect".to_owned(), recording, option("tracks", "TRACKS.csv")];
+        return vec![command(&words, WIDTH)];
+    }
+    let needs_radius = found.lacks.iter().any(|lack| matches!(lack, Lack::WheelRadius { .. }));
+    let reading = reading(&found.options, needs_radius);
+    let tau = asked.tau.map(|tau| option("tau", &tau.to_string()));
+    let vehicle = asked.vehicle.map_or_else(|| "VEHICLE.toml".to_owned(), path);
+    let vehicle = format!("--vehicle {vehicle}");
+    let is_ready = |what: Use| found.readiness.iter().any(|of| of.what == what && of.is_ready());
+    let is_split = is_ready(Use::Identify) && is_ready(Use::Odometry);
+    let parts = found.parts.as_ref().filter(|_| is_split);
+    let of_part = |place: usize| part(parts.map_or(asked.part, |parts| &parts[place]));
+    let line = |what: Use, further: &[Vec<String>]| {
+        let mut words = vec![format!("trackdyn {}", what.command()), recording.clone()];
+        words.extend(reading.iter().cloned());
+        words.push(vehicle.clone());
+        words.extend(further.iter().flatten().cloned());
+        command(&words, WIDTH)
+    };
+    let given_tau: Vec<String> = tau.into_iter().collect();
+    let out = |is_default: bool, folder: &Path| {
+        if is_default { Vec::new() } else { vec![format!("--out {}", path(folder))] }
+    };
+    let is_default = asked.out == Path::new("out");
+    let mut commands = Vec::new();
+    let is_identified = is_ready(Use::Identify);
+    if is_identified {
+        let further = [of_part(0), given_tau.clone(), out(is_default, asked.out)];
+        commands.push(line(Use::Identify, &further));
+    }
+    if is_ready(Use::Odometry) {
+        let file = path(&asked.out.join("kinematics.toml"));
+        let kinematics =
+            if is_identified { vec![format!("--kinematics {file}")] } else { Vec::new() };
+        let further = [of_part(1), given_tau, kinematics, out(is_default, asked.out)];
+        commands.push(line(Use::Odometry, &further));
+    }
+    if is_ready(Use::Diagnose) {
+        let folder = asked.out.join("diagnosis");
+        commands.push(line(Use::Diagnose, &[out(is_default, &folder)]));
+    }
+    commands
+}

@@ -1,0 +1,84 @@
+//! The gauge of a vehicle, which is all that identification and replay need of it.
+
+use crate::{Error, Vehicle};
+use trackdyn_core::output::fingerprint;
+
+/// Largest gauge of a vehicle, m.
+const LARGEST: f64 = 100.0;
+
+/// Distance between the track centre-lines, and the vehicle that has it.
+///
+/// A vehicle gives its own: what takes `impl Into<Gauge>` takes `&Vehicle`.
+///
+/// ```
+/// let gauge = trackdyn::Gauge::new(0.555)?;
+/// assert_eq!((gauge.metres(), gauge.vehicle()), (0.555, "vehicle not given"));
+/// # Ok::<(), trackdyn::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gauge {
+    metres: f64,
+    vehicle: String,
+    fingerprint: String,
+}
+
+impl Gauge {
+    /// A gauge that was measured, m, of a vehicle of which nothing else is said.
+    ///
+    /// # Errors
+    /// [`Error::Gauge`] for what is no length of a vehicle.
+    pub fn new(metres: f64) -> Result<Self, Error> {
+        if !(metres > 0.0 && metres <= LARGEST) {
+            return Err(Error::Gauge { metres, most: LARGEST });
+        }
+        let fingerprint = fingerprint(format!("gauge_m = {metres:?}\n").as_bytes());
+        Ok(Self { metres, vehicle: "vehicle not given".to_owned(), fingerprint })
+    }
+
+    /// Its length, m.
+    pub fn metres(&self) -> f64 {
+        self.metres
+    }
+
+    /// Name of the vehicle; `vehicle not given` of a gauge alone.
+    pub fn vehicle(&self) -> &str {
+        &self.vehicle
+    }
+
+    /// Fingerprint of the vehicle file, or of the gauge alone.
+    pub fn fingerprint(&self) -> &str {
+        &self.fingerprint
+    }
+}
+
+impl From<&Vehicle> for Gauge {
+    fn from(vehicle: &Vehicle) -> Self {
+        Self {
+            metres: vehicle.gauge(),
+            vehicle: vehicle.name().to_owned(),
+            fingerprint: vehicle.fingerprint(),
+        }
+    }
+}
+
+impl From<&Gauge> for Gauge {
+    fn from(gauge: &Gauge) -> Self {
+        gauge.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gauge_is_a_length() {
+        for metres in [0.0, -0.5, f64::NAN, f64::INFINITY, 555.0] {
+            let error = Gauge::new(metres).expect_err("no gauge");
+            assert_eq!(error.setting(), Some("gauge"), "{metres}");
+            assert!(error.to_string().contains("in m"), "{error}");
+        }
+        let (one, other) = (Gauge::new(0.5).expect("a gauge"), Gauge::new(0.6).expect("a gauge"));
+        assert_ne!(one.fingerprint(), other.fingerprint());
+    }
+}

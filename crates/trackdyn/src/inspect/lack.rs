@@ -1,0 +1,133 @@
+//! What a recording lacks, and how to record it.
+
+use super::Driving;
+use crate::ReadOptions;
+use std::f64::consts::TAU;
+use std::fmt;
+use trackdyn_core::PerSide;
+use trackdyn_recording::Recording as Motion;
+use trackdyn_recording::rosbag::{Role, TopicSummary};
+
+/// Turning on the spot, each way, rad: the spin test needs half a turn in all.
+const MIN_SPUN: f64 = TAU;
+
+/// Turning of any kind, each way, rad.
+const MIN_TURNED: f64 = TAU;
+
+/// Straight driving, m.
+const MIN_STRAIGHT: f64 = 5.0;
+
+/// Time in all, s.
+const MIN_DURATION: f64 = 60.0;
+
+/// Something that a recording lacks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Lack {
+    /// Track speeds.
+    Tracks,
+    /// Poses that something else than the tracks measured.
+    Poses,
+    /// The belt travel per radian of the joints; `about` is what poses make of it, m.
+    WheelRadius {
+        /// Radius by the way of the poses, slip included, m.
+        about: Option<f64>,
+    },
+    /// Positions: poses have a yaw alone.
+    Positions,
+    /// Turning both ways.
+    Turning(PerSide<f64>),
+    /// Turning on the spot both ways.
+    Spins(PerSide<f64>),
+    /// Straight driving, m.
+    Straight(f64),
+    /// The noise of the poses, which shows at rest or in steady driving.
+    Noise,
+    /// Time, s.
+    Duration(f64),
+}
+
+impl Lack {
+    /// What to do about it.
+    pub fn advice(&self) -> &'static str {
+        match self {
+            Self::Tracks => {
+                "record the joint states of both sides, or give a table t,v_left,v_right with \
+                 --tracks"
+            }
+            Self::Poses => {
+                "record poses that do not come from the wheels: lidar, GNSS, motion capture; a \
+                 gyroscope tells the distance of the ICRs alone"
+            }
+            Self::WheelRadius { .. } => {
+                "measure it: belt travel in one turn of the joint, divided by 2 pi"
+            }
+            Self::Positions => "record poses with positions, to know where the ICRs are",
+            Self::Turning(_) => "drive curves of different radius, both ways",
+            Self::Spins(_) => "turn on the spot, two turns each way, slowly and fast",
+            Self::Straight(_) => "drive straight, forward and back, 10 m each",
+            Self::Noise => "stand still for ten seconds at the beginning and the end",
+            Self::Duration(_) => "record five minutes, or eight drives of half a minute",
+        }
+    }
+}
+
+impl fmt::Display for Lack {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let turns = |of: &PerSide<f64>| {
+            let of = of.map(|angle| (angle / TAU).max(0.0));
+            format!("{:.1} turns left and {:.1} right", of.left, of.right)
+        };
+        match self {
+            Self::Tracks => f.write_str("track speeds"),
+            Self::Poses => f.write_str("poses"),
+            Self::WheelRadius { about: None } => f.write_str("the wheel radius"),
+            Self::WheelRadius { about: Some(about) } => {
+                write!(f, "the wheel radius: poses say some {about:.3} m, slip included")
+            }
+            Self::Positions => f.write_str("positions: only yaw is known"),
+            Self::Turning(of) => write!(f, "turning both ways: {}", turns(of)),
+            Self::Spins(of) => write!(f, "turning on the spot both ways: {}", turns(of)),
+            Self::Straight(of) => write!(f, "straight driving: {of:.1} m"),
+            Self::Noise => f.write_str("the noise of the poses: they show none"),
+            Self::Duration(of) => write!(f, "time: {of:.0} s"),
+        }
+    }
+}
+
+/// What the driving lacks.
+pub(super) fn of_driving(motion: &Motion, driving: &Driving, speed_unit: f64) -> Vec<Lack> {
+    let is_known = (speed_unit - 1.0).abs() < f64::EPSILON;
+    let both = |of: &PerSide<f64>, least: f64| of.left >= least && of.right >= least;
+    let about = driving.travel_ratio.map(|ratio| ratio * speed_unit);
+    // Without a radius, ways are in units of an assumed one.
+    let straight = if is_known {
+        driving.straight
+    } else {
+        about.unwrap_or(0.0) / speed_unit * driving.straight
+    };
+    let lacks = [
+        (!is_known, Lack::WheelRadius { about }),
+        (!driving.has_positions, Lack::Positions),
+        (!both(&driving.turned, MIN_TURNED), Lack::Turning(driving.turned)),
+        (!both(&driving.spun, MIN_SPUN), Lack::Spins(driving.spun)),
+        (driving.has_positions && straight < MIN_STRAIGHT, Lack::Straight(straight)),
+        (motion.stated_noise().is_none() && !driving.has_noise, Lack::Noise),
+        (driving.duration < MIN_DURATION, Lack::Duration(driving.duration)),
+    ];
+    lacks.into_iter().filter_map(|(is_lacking, lack)| is_lacking.then_some(lack)).collect()
+}
+
+/// What a bag lacks by its topics.
+pub(super) fn of_topics(topics: &[TopicSummary], options: &ReadOptions) -> Vec<Lack> {
+    let has = |role: Role| topics.iter().any(|of| of.role == Some(role) && of.messages > 0);
+    let lacks = [
+        (!has(Role::Tracks), Lack::Tracks),
+        (!has(Role::Poses) && !has(Role::Imu), Lack::Poses),
+        (
+            has(Role::Tracks) && options.bag.wheel_radius.is_none(),
+            Lack::WheelRadius { about: None },
+        ),
+    ];
+    lacks.into_iter().filter_map(|(is_lacking, lack)| is_lacking.then_some(lack)).collect()
+}

@@ -10,5 +10,6 @@ mod parquet;
 mod real;
 mod rosbag;
 mod segments;
+mod sources;
 mod tables;
 mod turns_and_chains;

@@ -117,7 +117,7 @@ pub fn note_what_steady_icrs_leave_out(effects: &Effects) {
 /// A recording, and how it is read.
 #[derive(Args)]
 pub struct RecordingOptions {
-    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory
+    /// Folder with recording.toml, bag of ROS (.mcap, .db3, .bag or their folder), or trajectory
     /// of the TUM benchmark (.tum, .txt) with --tracks; for identify and diagnose also a table of
     /// steady operating points (.csv)
     pub recording: PathBuf,
@@ -149,6 +149,13 @@ pub struct RecordingOptions {
     /// Bag: frame whose poses they are
     #[arg(long, value_name = "FRAME")]
     child_frame: Option<String>,
+    /// Bag without joints: topic of the speeds of the body (Odometry, Twist, TwistStamped), of which
+    /// track speeds are computed; right only where its driver computes them from the encoders alone
+    #[arg(long, value_name = "TOPIC")]
+    twist_topic: Option<String>,
+    /// Bag without joints: separation in m that the driver of --twist-topic computes with
+    #[arg(long, value_name = "M", value_parser = positive)]
+    separation: Option<f64>,
     /// Bag: what dates its messages [default: their headers, or the log where clocks differ]
     #[arg(long, value_name = "CLOCK")]
     dated_by: Option<DatedBy>,
@@ -214,6 +221,8 @@ impl RecordingOptions {
                 pose_topic: self.pose_topic.clone(),
                 parent_frame: self.parent_frame.clone(),
                 child_frame: self.child_frame.clone(),
+                twist_topic: self.twist_topic.clone(),
+                separation: self.separation,
                 dated_by: match self.dated_by {
                     None => Dating::Any,
                     Some(DatedBy::Header) => Dating::Header,

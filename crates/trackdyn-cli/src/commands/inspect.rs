@@ -19,7 +19,7 @@ use trackdyn::{ReadOptions, Recording};
 /// Options of `trackdyn inspect`.
 #[derive(Args)]
 pub struct Options {
-    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory
+    /// Folder with recording.toml, bag of ROS (.mcap, .db3, .bag or their folder), or trajectory
     /// of the TUM benchmark (.tum, .txt), or table of steady operating points (.csv)
     recording: PathBuf,
     /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
@@ -134,7 +134,10 @@ fn suggestion(options: &RosbagOptions) -> String {
     if let Some(frame) = &options.child_frame {
         add("child-frame", frame);
     }
-    if options.wheel_radius.is_none() {
+    if let Some(topic) = &options.twist_topic {
+        add("twist-topic", topic);
+        add("separation", "METRES");
+    } else if options.wheel_radius.is_none() {
         add("wheel-radius", "METRES");
     }
     text

@@ -3,10 +3,12 @@
 use super::chain;
 use super::clock::{By, Clock, decide};
 use super::date::{Received, Stamped};
+use super::fixes::{Fix, Yaw};
 use super::frames::{Frames, same_frame};
 use super::joints::Joints;
-use super::message::{header, imu, planar_pose};
+use super::message::{header, imu, oriented_pose};
 use super::options::RosbagOptions;
+use super::path::Trajectory;
 use super::payload::{Payload, PayloadError};
 use super::topic::{Layout, Role, Topic};
 use super::visitor::Visitor;
@@ -23,6 +25,7 @@ mod choice;
 mod gyro;
 mod joint;
 mod merge;
+mod others;
 mod publishers;
 mod signal;
 mod speeds;
@@ -41,6 +44,12 @@ pub(super) struct Collector<'a> {
     /// How upright they are.
     attitudes: BTreeMap<PoseKey, Attitude>,
     imu: BTreeMap<String, Rows>,
+    /// Yaw of the orientations of IMUs, by topic.
+    yaws: BTreeMap<String, Vec<Yaw>>,
+    /// Fixes of satellite navigation, by topic.
+    fixes: BTreeMap<String, Vec<Fix>>,
+    /// What messages of `nav_msgs/Path` tell, by topic and frame.
+    paths: BTreeMap<PoseKey, Trajectory>,
     /// What the transforms of all topics link.
     frames: Frames,
     /// Per topic: messages that were skipped, and why the first was.
@@ -56,6 +65,12 @@ struct PoseKey {
     topic: String,
     parent: String,
     child: String,
+}
+
+impl PoseKey {
+    fn new(topic: &Topic, [parent, child]: [&str; 2]) -> Self {
+        Self { topic: topic.name.clone(), parent: parent.to_owned(), child: child.to_owned() }
+    }
 }
 
 /// Runs and how they came about.
@@ -79,14 +94,18 @@ impl<'a> Collector<'a> {
             poses: BTreeMap::new(),
             attitudes: BTreeMap::new(),
             imu: BTreeMap::new(),
+            yaws: BTreeMap::new(),
+            fixes: BTreeMap::new(),
+            paths: BTreeMap::new(),
             frames: Frames::default(),
             skipped: BTreeMap::new(),
         }
     }
 
     /// Chooses among the sources and makes the runs.
-    pub(super) fn finish(self, path: &Path) -> Result<Collected, Error> {
+    pub(super) fn finish(mut self, path: &Path) -> Result<Collected, Error> {
         let mut warnings = Vec::new();
+        self.add_other_poses(path, &mut warnings)?;
         for (topic, (count, reason)) in &self.skipped {
             let (topic, reason) = (topic.clone(), reason.clone());
             warnings.push(Warning::MessagesSkipped { topic, count: *count, reason });
@@ -137,6 +156,14 @@ impl<'a> Collector<'a> {
         speeds::runs(path, self.options, &clocks, by, streams, warnings)
     }
 
+    /// Whether poses in these frames are wanted.
+    fn fits(&self, [parent, child]: [&str; 2]) -> bool {
+        let fits = |wanted: &Option<String>, frame: &str| {
+            wanted.as_deref().is_none_or(|name| same_frame(name, frame))
+        };
+        fits(&self.options.parent_frame, parent) && fits(&self.options.child_frame, child)
+    }
+
     fn keep_pose(
         &mut self,
         topic: &Topic,
@@ -144,18 +171,10 @@ impl<'a> Collector<'a> {
         received: Received<[f64; 3]>,
         quaternion: [f64; 4],
     ) {
-        let fits = |wanted: &Option<String>, frame: &str| {
-            wanted.as_deref().is_none_or(|name| same_frame(name, frame))
-        };
-        let [parent, child] = frames;
-        if !fits(&self.options.parent_frame, parent) || !fits(&self.options.child_frame, child) {
+        if !self.fits(frames) {
             return;
         }
-        let key = PoseKey {
-            topic: topic.name.clone(),
-            parent: parent.to_owned(),
-            child: child.to_owned(),
-        };
+        let key = PoseKey::new(topic, frames);
         self.attitudes.entry(key.clone()).or_default().note(quaternion);
         self.poses.entry(key).or_default().push(received);
     }
@@ -169,6 +188,12 @@ impl<'a> Collector<'a> {
     ) -> Result<(), String> {
         let decode = |error: PayloadError| error.to_string();
         let mut payload = topic.payload(payload).map_err(decode)?;
+        if self.options.twist_topic.as_ref() == Some(&topic.name) {
+            self.take_twist(topic, layout, log_ns, payload.clone())?;
+            if self.options.pose_topic.as_ref() != Some(&topic.name) {
+                return Ok(());
+            }
+        }
         if layout == Layout::Transforms {
             let count = payload.length().map_err(decode)?;
             for _ in 0..count {
@@ -184,9 +209,17 @@ impl<'a> Collector<'a> {
             }
             Layout::Imu => {
                 let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
-                let value = imu(&mut payload).map_err(decode)?;
+                let (value, yaw) = imu(&mut payload).map_err(decode)?;
+                if let Some(value) = yaw {
+                    push(&mut self.yaws, &topic.name, Received { stamp_ns, log_ns, value });
+                }
                 push(&mut self.imu, &topic.name, Received { stamp_ns, log_ns, value });
             }
+            Layout::Path | Layout::PoseArray | Layout::BarePose | Layout::Fix => {
+                self.take_other_pose(topic, layout, log_ns, &mut payload)?;
+            }
+            // Of use only where it is the topic of the options.
+            Layout::Twist | Layout::TwistStamped => {}
             Layout::Pose | Layout::PoseOfChild | Layout::Transforms => {
                 let has_child = layout == Layout::PoseOfChild;
                 self.take_pose(topic, has_child, log_ns, &mut payload).map_err(decode)?;
@@ -204,8 +237,7 @@ impl<'a> Collector<'a> {
     ) -> Result<(), PayloadError> {
         let header = header(payload)?;
         let child = if has_child { payload.text()? } else { "" };
-        let [_, _, _, quaternion @ ..]: [f64; 7] = payload.clone().f64s()?;
-        let value = planar_pose(payload)?;
+        let (value, quaternion) = oriented_pose(payload)?;
         if topic.layout() == Some(Layout::Transforms) {
             self.frames.note(header.frame, child);
         }
@@ -230,12 +262,14 @@ fn push<T>(series: &mut BTreeMap<String, Vec<T>>, name: &str, value: T) {
 
 impl Visitor for Collector<'_> {
     fn wants(&mut self, topic: &Topic) -> bool {
+        let is_twist = self.options.twist_topic.as_ref() == Some(&topic.name);
         if !self.seen.contains(topic) {
             self.seen.push(topic.clone());
         }
         let Some(layout) = topic.layout() else { return false };
         let named = match layout.role() {
-            Role::Poses => return self.options.may_hold_poses(&topic.name),
+            Role::Poses => return is_twist || self.options.may_hold_poses(&topic.name),
+            Role::Twist => return is_twist,
             Role::Tracks => &self.options.tracks_topic,
             Role::Imu => &self.options.imu_topic,
         };

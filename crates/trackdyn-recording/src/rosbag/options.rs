@@ -26,6 +26,14 @@ pub struct RosbagOptions {
     pub child_frame: Option<String>,
     /// Topic of the `sensor_msgs/Imu`, whose axes must be those of the body.
     pub imu_topic: Option<String>,
+    /// Topic of the speeds of the body (`nav_msgs/Odometry`, `geometry_msgs/Twist`, `TwistStamped`
+    /// or `TwistWithCovarianceStamped`) that track speeds are made of, in place of joints:
+    /// `v_l` = v - ω b/2 and `v_r` = v + ω b/2. They are those of the tracks only where the driver
+    /// has computed them from the encoders alone, with the separation b. A wheel radius has no
+    /// meaning then.
+    pub twist_topic: Option<String>,
+    /// Separation b of the tracks that the driver of `twist_topic` reckons with, m; needed with it.
+    pub separation: Option<f64>,
     /// What dates the messages.
     pub dated_by: Dating,
 }
@@ -34,6 +42,17 @@ impl RosbagOptions {
     /// Parent and child frame of the poses, where both are named.
     pub(super) fn frames(&self) -> Option<[&str; 2]> {
         Some([self.parent_frame.as_deref()?, self.child_frame.as_deref()?])
+    }
+
+    /// The option of the command line that chooses joints, where there is one.
+    pub(super) fn of_joints(&self) -> Option<&'static str> {
+        let given = [
+            ("--tracks-topic", self.tracks_topic.is_some()),
+            ("--left-joint", !self.left_joints.is_empty()),
+            ("--right-joint", !self.right_joints.is_empty()),
+            ("--joint-signal", self.joint_signal != JointSignal::Any),
+        ];
+        given.into_iter().find_map(|(name, given)| given.then_some(name))
     }
 
     /// Whether anything is said of the poses.

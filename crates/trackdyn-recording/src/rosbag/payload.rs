@@ -128,6 +128,17 @@ impl<'a> Payload<'a> {
         Ok(if self.little { u32::from_le_bytes(bytes) } else { u32::from_be_bytes(bytes) })
     }
 
+    /// A signed integer of 1 byte.
+    pub(super) fn i8(&mut self) -> Result<i8, PayloadError> {
+        Ok(self.bytes(1)?[0].cast_signed())
+    }
+
+    /// Passes over an integer of 2 bytes.
+    pub(super) fn skip_u16(&mut self) -> Result<(), PayloadError> {
+        self.align(2);
+        self.bytes(2).map(drop)
+    }
+
     /// A signed integer of 4 bytes.
     pub(super) fn i32(&mut self) -> Result<i32, PayloadError> {
         self.u32().map(u32::cast_signed)

@@ -6,7 +6,7 @@
 //! `tf2_msgs/TFMessage`, readings of the IMU from `sensor_msgs/Imu`. Where there are no such poses,
 //! they come from `nav_msgs/Path`, `geometry_msgs/PoseArray`, `Pose` or `sensor_msgs/NavSatFix`;
 //! track speeds may be made of a twist. The layouts of these types are known here: the message
-//! definitions in the bag do not matter. All of a bag is one run, but for clocks that begin anew,
+//! definitions in the bag matter only to numbers that are named by the path of their field. All of a bag is one run, but for clocks that begin anew,
 //! as in a simulation: each time begins a run.
 //!
 //! Positions of joints that wrap after a turn are unwrapped. Where both frames are named and no
@@ -24,6 +24,7 @@ mod clock;
 mod collector;
 mod compressed;
 mod date;
+mod definition;
 mod fixes;
 mod frames;
 mod inspection;
@@ -38,6 +39,7 @@ mod path;
 mod payload;
 mod ros1_file;
 mod ros1_record;
+mod signals;
 mod sqlite_file;
 mod storage;
 mod stream;
@@ -48,7 +50,7 @@ mod words;
 
 pub use inspection::{Inspection, TopicSummary, inspect};
 pub(crate) use message::yaw_of_quaternion;
-pub use options::{Dating, JointSignal, RosbagOptions};
+pub use options::{Dating, JointSignal, RosbagOptions, SignalUnit};
 pub(crate) use storage::is_bag;
 pub use topic::Role;
 
@@ -60,8 +62,10 @@ pub use topic::Role;
 /// # Errors
 /// [`Error::Topic`] when nothing or several things fit, [`Error::Bag`], [`Error::Unreadable`].
 pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
-    let options = &*twist::effective(path, options)?;
-    let mut collector = collector::Collector::new(options);
+    let options = twist::effective(path, options)?;
+    let options = &*signals::effective(path, options)?;
+    let signals = signals::Signals::new(path, options)?;
+    let mut collector = collector::Collector::new(options, signals);
     let mut warnings = storage::scan(path, &mut collector)?;
     let collected = collector.finish(path)?;
     warnings.extend(collected.warnings);
@@ -74,19 +78,20 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     };
     let joints = collected.joints;
     let are_joints = options.twist_topic.is_none();
+    let kind = if options.left_signals.is_empty() { "joint" } else { "signal" };
     Recording::new(name, "unknown", collected.runs, source, warnings)
-        .map_err(|error| if are_joints { with_options(error, &joints) } else { error })
+        .map_err(|error| if are_joints { with_options(error, &joints, kind) } else { error })
 }
 
 /// An error with the options that help, by the joints of each side as they were taken.
-fn with_options(error: Error, joints: &PerSide<Vec<String>>) -> Error {
+fn with_options(error: Error, joints: &PerSide<Vec<String>>, kind: &str) -> Error {
     let Error::Contradiction { path, doubt, remedy } = error else { return error };
     let option = |side: Side, names: &[String], reversed: bool| {
         let word = names::word(side);
         let name = |name: &String| match (reversed, name.strip_prefix('-')) {
-            (true, Some(bare)) => format!("--{word}-joint {bare}"),
-            (true, None) => format!("--{word}-joint -{name}"),
-            (false, _) => format!("--{word}-joint {name}"),
+            (true, Some(bare)) => format!("--{word}-{kind} {bare}"),
+            (true, None) => format!("--{word}-{kind} -{name}"),
+            (false, _) => format!("--{word}-{kind} {name}"),
         };
         names.iter().map(name).collect::<Vec<_>>().join(" ")
     };

@@ -4,14 +4,12 @@ use super::chain;
 use super::clock::{By, Clock, decide};
 use super::date::{Received, Stamped};
 use super::fixes::{Fix, Yaw};
-use super::frames::{Frames, same_frame};
+use super::frames::Frames;
 use super::joints::Joints;
-use super::message::{header, imu, oriented_pose};
 use super::options::RosbagOptions;
 use super::path::Trajectory;
-use super::payload::{Payload, PayloadError};
-use super::topic::{Layout, Role, Topic};
-use super::visitor::Visitor;
+use super::signals::Signals;
+use super::topic::{Topic, list};
 use crate::Error;
 use crate::attitude::Attitude;
 use crate::doubt::Doubt;
@@ -26,11 +24,13 @@ mod gyro;
 mod joint;
 mod merge;
 mod others;
+mod poses;
 mod publishers;
 mod signal;
 mod speeds;
 mod tracks;
 mod turns;
+mod visit;
 
 use choice::Sources;
 use speeds::Streams;
@@ -39,6 +39,7 @@ use speeds::Streams;
 pub(super) struct Collector<'a> {
     options: &'a RosbagOptions,
     joints: Joints,
+    signals: Signals,
     seen: Vec<Topic>,
     poses: BTreeMap<PoseKey, Rows>,
     /// How upright they are.
@@ -86,10 +87,11 @@ pub(super) struct Collected {
 }
 
 impl<'a> Collector<'a> {
-    pub(super) fn new(options: &'a RosbagOptions) -> Self {
+    pub(super) fn new(options: &'a RosbagOptions, signals: Signals) -> Self {
         Self {
             options,
             joints: Joints::new(options),
+            signals,
             seen: Vec::new(),
             poses: BTreeMap::new(),
             attitudes: BTreeMap::new(),
@@ -105,6 +107,10 @@ impl<'a> Collector<'a> {
     /// Chooses among the sources and makes the runs.
     pub(super) fn finish(mut self, path: &Path) -> Result<Collected, Error> {
         let mut warnings = Vec::new();
+        if let Some(problem) = self.signals.problem(&self.seen) {
+            let (what, available) = ("track speeds", list(self.seen.iter()));
+            return Err(Error::Topic { path: path.to_owned(), what, problem, available });
+        }
         self.add_other_poses(path, &mut warnings)?;
         for (topic, (count, reason)) in &self.skipped {
             let (topic, reason) = (topic.clone(), reason.clone());
@@ -155,100 +161,6 @@ impl<'a> Collector<'a> {
         let streams = Streams { chosen, poses, pose_topic, chained, imu, imu_topic };
         speeds::runs(path, self.options, &clocks, by, streams, warnings)
     }
-
-    /// Whether poses in these frames are wanted.
-    fn fits(&self, [parent, child]: [&str; 2]) -> bool {
-        let fits = |wanted: &Option<String>, frame: &str| {
-            wanted.as_deref().is_none_or(|name| same_frame(name, frame))
-        };
-        fits(&self.options.parent_frame, parent) && fits(&self.options.child_frame, child)
-    }
-
-    fn keep_pose(
-        &mut self,
-        topic: &Topic,
-        frames: [&str; 2],
-        received: Received<[f64; 3]>,
-        quaternion: [f64; 4],
-    ) {
-        if !self.fits(frames) {
-            return;
-        }
-        let key = PoseKey::new(topic, frames);
-        self.attitudes.entry(key.clone()).or_default().note(quaternion);
-        self.poses.entry(key).or_default().push(received);
-    }
-
-    fn take(
-        &mut self,
-        topic: &Topic,
-        layout: Layout,
-        log_ns: i64,
-        payload: &[u8],
-    ) -> Result<(), String> {
-        let decode = |error: PayloadError| error.to_string();
-        let mut payload = topic.payload(payload).map_err(decode)?;
-        if self.options.twist_topic.as_ref() == Some(&topic.name) {
-            self.take_twist(topic, layout, log_ns, payload.clone())?;
-            if self.options.pose_topic.as_ref() != Some(&topic.name) {
-                return Ok(());
-            }
-        }
-        if layout == Layout::Transforms {
-            let count = payload.length().map_err(decode)?;
-            for _ in 0..count {
-                self.take_pose(topic, true, log_ns, &mut payload).map_err(decode)?;
-            }
-            return Ok(());
-        }
-        match layout {
-            Layout::JointState => {
-                let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
-                let received = Received { stamp_ns, log_ns, value: () };
-                self.joints.take(&topic.name, received, &mut payload).map_err(decode)?;
-            }
-            Layout::Imu => {
-                let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
-                let (value, yaw) = imu(&mut payload).map_err(decode)?;
-                if let Some(value) = yaw {
-                    push(&mut self.yaws, &topic.name, Received { stamp_ns, log_ns, value });
-                }
-                push(&mut self.imu, &topic.name, Received { stamp_ns, log_ns, value });
-            }
-            Layout::Path | Layout::PoseArray | Layout::BarePose | Layout::Fix => {
-                self.take_other_pose(topic, layout, log_ns, &mut payload)?;
-            }
-            // Of use only where it is the topic of the options.
-            Layout::Twist | Layout::TwistStamped => {}
-            Layout::Pose | Layout::PoseOfChild | Layout::Transforms => {
-                let has_child = layout == Layout::PoseOfChild;
-                self.take_pose(topic, has_child, log_ns, &mut payload).map_err(decode)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn take_pose(
-        &mut self,
-        topic: &Topic,
-        has_child: bool,
-        log_ns: i64,
-        payload: &mut Payload,
-    ) -> Result<(), PayloadError> {
-        let header = header(payload)?;
-        let child = if has_child { payload.text()? } else { "" };
-        let (value, quaternion) = oriented_pose(payload)?;
-        if topic.layout() == Some(Layout::Transforms) {
-            self.frames.note(header.frame, child);
-        }
-        if topic.is_static() {
-            // It holds at all times, and shows no motion.
-            return Ok(());
-        }
-        let received = Received { stamp_ns: header.stamp_ns, log_ns, value };
-        self.keep_pose(topic, [header.frame, child], received, quaternion);
-        Ok(())
-    }
 }
 
 /// Appends without making a new key where there is one.
@@ -257,29 +169,5 @@ fn push<T>(series: &mut BTreeMap<String, Vec<T>>, name: &str, value: T) {
         values.push(value);
     } else {
         series.insert(name.to_owned(), vec![value]);
-    }
-}
-
-impl Visitor for Collector<'_> {
-    fn wants(&mut self, topic: &Topic) -> bool {
-        let is_twist = self.options.twist_topic.as_ref() == Some(&topic.name);
-        if !self.seen.contains(topic) {
-            self.seen.push(topic.clone());
-        }
-        let Some(layout) = topic.layout() else { return false };
-        let named = match layout.role() {
-            Role::Poses => return is_twist || self.options.may_hold_poses(&topic.name),
-            Role::Twist => return is_twist,
-            Role::Tracks => &self.options.tracks_topic,
-            Role::Imu => &self.options.imu_topic,
-        };
-        named.as_ref().is_none_or(|name| *name == topic.name)
-    }
-
-    fn message(&mut self, topic: &Topic, log_ns: i64, payload: &[u8]) {
-        let Some(layout) = topic.layout() else { return };
-        if let Err(reason) = self.take(topic, layout, log_ns, payload) {
-            self.skipped.entry(topic.name.clone()).or_insert((0, reason)).0 += 1;
-        }
     }
 }

@@ -85,8 +85,8 @@ pub(super) fn changes(yaws: &[Yaw]) -> bool {
     yaws.iter().any(|yaw| wrapped(yaw.value - first).abs() > MIN_YAW_CHANGE)
 }
 
-/// Poses (east, north, yaw) at the fixes that a yaw is known at, and the number of others. Fixes and
-/// yaws with their times, ns, in the order of these.
+/// Poses (east, north, yaw) at the fixes that a yaw is known at, and the number of others. Fixes
+/// and yaws with their times, ns, in the order of these.
 ///
 /// # Errors
 /// A yaw that is not that of the course.

@@ -1,6 +1,6 @@
 //! The message types, from their definitions in `common_interfaces` and `geometry2`.
 
-use super::payload::{Encoding, Payload, PayloadError};
+use super::payload::{Encoding, Number, Payload, PayloadError};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 /// Time stamp and frame of a message.
@@ -62,13 +62,13 @@ pub(super) fn imu(payload: &mut Payload) -> Result<([f64; 3], Option<f64>), Payl
 /// `sensor_msgs/NavSatFix` after its header: latitude and longitude in degrees, altitude in metres;
 /// none where the receiver has no fix.
 pub(super) fn fix(payload: &mut Payload) -> Result<Option<[f64; 3]>, PayloadError> {
-    let status = payload.i8()?;
+    let status = payload.number(Number::I8)?;
     // the satellite systems
-    payload.skip_u16()?;
+    payload.skip(2, 1)?;
     let fix: [f64; 3] = payload.f64s()?;
     let [latitude, longitude, _] = fix;
     let is_place = latitude.abs() <= 90.0 && longitude.abs() <= 180.0;
-    Ok((status >= 0 && is_place).then_some(fix))
+    Ok((status >= 0.0 && is_place).then_some(fix))
 }
 
 /// Yaw of a rotation that need not be normalised; NaN for the zero quaternion.

@@ -1,6 +1,8 @@
 //! What to take from a bag.
 
 use super::topic::STATIC;
+use std::f64::consts::TAU;
+use std::path::PathBuf;
 
 /// Topics, joints and frames; what is left open is taken where the bag leaves no choice.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,6 +36,17 @@ pub struct RosbagOptions {
     pub twist_topic: Option<String>,
     /// Separation b of the tracks that the driver of `twist_topic` reckons with, m; needed with it.
     pub separation: Option<f64>,
+    /// Numbers in messages that are speeds of the left side, in place of joints, each as
+    /// `TOPIC:FIELD`, such as `/status:motors[0].rpm`; their mean counts, and a `-` before one
+    /// reverses its sign. Where they are in the messages is told by their definitions, which a bag
+    /// has, or `msg_dir`.
+    pub left_signals: Vec<String>,
+    /// Numbers of the right side, in the same way.
+    pub right_signals: Vec<String>,
+    /// Unit of these numbers; none: rad/s.
+    pub signal_unit: Option<SignalUnit>,
+    /// Folder of definitions of messages (`PACKAGE/msg/TYPE.msg`), for bags that have none.
+    pub msg_dir: Option<PathBuf>,
     /// What dates the messages.
     pub dated_by: Dating,
 }
@@ -79,6 +92,31 @@ pub enum Dating {
     Header,
     /// The times at which they were logged.
     Log,
+}
+
+/// Unit of numbers that are speeds of the sides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SignalUnit {
+    /// m/s, of the tracks themselves.
+    MetresPerSecond,
+    /// rad/s, of the wheels.
+    #[default]
+    RadiansPerSecond,
+    /// Turns per minute, of the wheels.
+    TurnsPerMinute,
+    /// Degrees per second, of the wheels.
+    DegreesPerSecond,
+}
+
+impl SignalUnit {
+    /// rad/s, or m/s where they are speeds of the tracks, per unit.
+    pub(super) fn factor(self) -> f64 {
+        match self {
+            Self::MetresPerSecond | Self::RadiansPerSecond => 1.0,
+            Self::TurnsPerMinute => TAU / 60.0,
+            Self::DegreesPerSecond => TAU / 360.0,
+        }
+    }
 }
 
 /// Signal of a joint.

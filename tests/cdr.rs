@@ -9,12 +9,31 @@ impl Message {
     /// # Panics
     /// For stamps that a header cannot hold.
     pub fn new(stamp: i64, frame: &str) -> Self {
-        let mut message = Self(vec![0, 1, 0, 0]);
-        let [seconds, nanoseconds] = [stamp / 1_000_000_000, stamp % 1_000_000_000];
-        message.0.extend(i32::try_from(seconds).expect("seconds").to_le_bytes());
-        message.0.extend(u32::try_from(nanoseconds).expect("a fraction").to_le_bytes());
-        message.text(frame);
+        let mut message = Self::bare();
+        message.header(stamp, frame);
         message
+    }
+
+    /// A message without a header.
+    pub fn bare() -> Self {
+        Self(vec![0, 1, 0, 0])
+    }
+
+    /// Appends a header: stamp, Unix time in nanoseconds, and frame.
+    ///
+    /// # Panics
+    /// For stamps that a header cannot hold.
+    pub fn header(&mut self, stamp: i64, frame: &str) {
+        let [seconds, nanoseconds] = [stamp / 1_000_000_000, stamp % 1_000_000_000];
+        self.bytes(4, &i32::try_from(seconds).expect("seconds").to_le_bytes());
+        self.bytes(4, &u32::try_from(nanoseconds).expect("a fraction").to_le_bytes());
+        self.text(frame);
+    }
+
+    /// Appends bytes at a multiple of `size`.
+    pub fn bytes(&mut self, size: usize, bytes: &[u8]) {
+        self.align(size);
+        self.0.extend(bytes);
     }
 
     fn align(&mut self, size: usize) {

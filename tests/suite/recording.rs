@@ -11,5 +11,7 @@ mod parquet;
 mod real;
 mod rosbag;
 mod segments;
+mod signals;
+mod sources;
 mod tables;
 mod turns_and_chains;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use trackdyn::crates::core::Pose;
 use trackdyn::crates::model::Effects;
 use trackdyn::crates::model::effect::Stage;
-use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
+use trackdyn::crates::recording::rosbag::{Dating, JointSignal, SignalUnit};
 use trackdyn::recording::BagOptions;
 use trackdyn::refuse_repeated;
 use trackdyn::{
@@ -119,7 +119,7 @@ pub fn note_what_steady_icrs_leave_out(effects: &Effects) {
 /// A recording, and how it is read.
 #[derive(Args)]
 pub struct RecordingOptions {
-    /// Folder with recording.toml, rosbag2 (.mcap, .db3 or the folder around them), or trajectory
+    /// Folder with recording.toml, bag of ROS (.mcap, .db3, .bag or their folder), or trajectory
     /// of the TUM benchmark (.tum, .txt) with --tracks; for identify and diagnose also a table of
     /// steady operating points (.csv)
     pub recording: PathBuf,
@@ -151,9 +151,46 @@ pub struct RecordingOptions {
     /// Bag: frame whose poses they are
     #[arg(long, value_name = "FRAME")]
     child_frame: Option<String>,
+    /// Bag without joints: topic of a twist (Odometry, Twist, TwistStamped) that track speeds are
+    /// computed from; right only where its driver computes it from the encoders alone
+    #[arg(long, value_name = "TOPIC")]
+    twist_topic: Option<String>,
+    /// Bag without joints: separation in m that the driver of --twist-topic computes with
+    #[arg(long, value_name = "M", value_parser = positive)]
+    separation: Option<f64>,
+    /// Bag without joints: number that is a speed of the left side, such as
+    /// /status:motors[0].rpm, with `-` before it where it runs backwards; repeatable
+    #[arg(long, value_name = "TOPIC:FIELD", allow_hyphen_values = true)]
+    left_signal: Vec<String>,
+    /// Bag without joints: number of the right side, in the same way
+    #[arg(long, value_name = "TOPIC:FIELD", allow_hyphen_values = true)]
+    right_signal: Vec<String>,
+    /// Unit of --left-signal and --right-signal; all but m/s need --wheel-radius [default: rad/s]
+    #[arg(long, value_name = "UNIT")]
+    signal_unit: Option<Unit>,
+    /// Folder of definitions (PACKAGE/msg/TYPE.msg) for signals of a bag that has none
+    #[arg(long, value_name = "DIR")]
+    msg_dir: Option<PathBuf>,
     /// Bag: what dates its messages [default: their headers, or the log where clocks differ]
     #[arg(long, value_name = "CLOCK")]
     dated_by: Option<DatedBy>,
+}
+
+/// Units of numbers that are speeds of the sides.
+#[derive(Clone, Copy, ValueEnum)]
+enum Unit {
+    /// Speed of the track
+    #[value(name = "m/s")]
+    MetresPerSecond,
+    /// Speed of the wheel
+    #[value(name = "rad/s")]
+    RadiansPerSecond,
+    /// Turns of the wheel per minute
+    #[value(name = "rpm")]
+    TurnsPerMinute,
+    /// Degrees of the wheel per second
+    #[value(name = "deg/s")]
+    DegreesPerSecond,
 }
 
 /// What dates the messages of a bag.
@@ -217,6 +254,17 @@ impl RecordingOptions {
                 pose_topic: self.pose_topic.clone(),
                 parent_frame: self.parent_frame.clone(),
                 child_frame: self.child_frame.clone(),
+                twist_topic: self.twist_topic.clone(),
+                separation: self.separation,
+                left_signals: self.left_signal.clone(),
+                right_signals: self.right_signal.clone(),
+                signal_unit: self.signal_unit.map(|unit| match unit {
+                    Unit::MetresPerSecond => SignalUnit::MetresPerSecond,
+                    Unit::RadiansPerSecond => SignalUnit::RadiansPerSecond,
+                    Unit::TurnsPerMinute => SignalUnit::TurnsPerMinute,
+                    Unit::DegreesPerSecond => SignalUnit::DegreesPerSecond,
+                }),
+                msg_dir: self.msg_dir.clone(),
                 dated_by: match self.dated_by {
                     None => Dating::Any,
                     Some(DatedBy::Header) => Dating::Header,

@@ -1,6 +1,6 @@
 //! Command lines for a user to copy.
 
-use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
+use trackdyn::crates::recording::rosbag::{Dating, JointSignal, SignalUnit};
 use trackdyn::{Part, ReadOptions};
 
 /// A word as a POSIX shell takes it for one: quoted where it has to be.
@@ -48,6 +48,27 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
             JointSignal::Position => Some("position"),
         },
     );
+    for signal in &bag.left_signals {
+        add("left-signal", Some(signal));
+    }
+    for signal in &bag.right_signals {
+        add("right-signal", Some(signal));
+    }
+    add(
+        "signal-unit",
+        bag.signal_unit.map(|unit| match unit {
+            SignalUnit::MetresPerSecond => "m/s",
+            SignalUnit::RadiansPerSecond => "rad/s",
+            SignalUnit::TurnsPerMinute => "rpm",
+            SignalUnit::DegreesPerSecond => "deg/s",
+        }),
+    );
+    let messages = bag.msg_dir.as_ref().map(|path| path.display().to_string());
+    add("msg-dir", messages.as_deref());
+    add("twist-topic", bag.twist_topic.as_deref());
+    let separation = bag.separation.map(|separation| separation.to_string());
+    let needs_separation = bag.twist_topic.is_some().then_some("METRES");
+    add("separation", separation.as_deref().or(needs_separation));
     let radius = bag.wheel_radius.map(|radius| radius.to_string());
     add("wheel-radius", radius.as_deref().or(needs_radius.then_some("METRES")));
     add("pose-topic", bag.pose_topic.as_deref());

@@ -37,6 +37,8 @@ pub fn option(setting: &str) -> String {
     let name = match setting {
         "left_joints" => "left-joint",
         "right_joints" => "right-joint",
+        "left_signals" => "left-signal",
+        "right_signals" => "right-signal",
         "nuisances" => "fit",
         other => return format!("--{}", other.replace('_', "-")),
     };

@@ -102,6 +102,14 @@ pub enum Error {
         /// Topics with their types.
         available: String,
     },
+    /// Options that do not go together.
+    #[error("{}: {problem}", path.display())]
+    Options {
+        /// The recording that they are for.
+        path: PathBuf,
+        /// Which options, and what was expected.
+        problem: String,
+    },
     /// Tracks and poses that contradict each other.
     #[error("{}: {doubt}: {remedy}", path.display())]
     Contradiction {

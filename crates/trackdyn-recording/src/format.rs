@@ -25,17 +25,17 @@ impl Format {
         if place.is_dir() {
             return Err(Error::NotARecording {
                 path: path.to_owned(),
-                found: "neither recording.toml nor .mcap or .db3 files".to_owned(),
-                expected: "a folder with recording.toml, tracks.csv and poses.csv, or a rosbag2; \
-                           a table of steady operating points is not a recording",
+                found: "neither recording.toml nor .mcap, .db3 or .bag files".to_owned(),
+                expected: "a folder with recording.toml, tracks.csv and poses.csv, or a bag of \
+                           ROS; a table of steady operating points is not a recording",
             });
         }
         Err(Error::NotARecording {
             path: path.to_owned(),
             found: "a file of another kind".to_owned(),
-            expected: "a recording folder, a .mcap or .db3 file, or a .tum or .txt trajectory with \
-                       a table of its track speeds; to identify and diagnose, a .csv table of \
-                       steady operating points too",
+            expected: "a recording folder, a .mcap, .db3 or .bag file, or a .tum or .txt \
+                       trajectory with a table of its track speeds; to identify and diagnose, a \
+                       .csv table of steady operating points too",
         })
     }
 }

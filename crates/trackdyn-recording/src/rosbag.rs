@@ -1,10 +1,13 @@
-//! Bags of ROS 2: `.mcap` and `.db3` files, alone or in the folder that `ros2 bag record` makes.
+//! Bags of ROS 2 (`.mcap`, `.db3`) and ROS 1 (`.bag`): files, packed by zstd or not, alone or in
+//! the folder that `ros2 bag record` makes.
 //!
 //! Track speeds come from `sensor_msgs/JointState`, poses from `nav_msgs/Odometry`,
 //! `geometry_msgs/PoseStamped`, `PoseWithCovarianceStamped`, `TransformStamped` or
-//! `tf2_msgs/TFMessage`, readings of the IMU from `sensor_msgs/Imu`. The layouts of these types are
-//! known here: the message definitions in the bag do not matter. All of a bag is one run, but for
-//! clocks that begin anew, as in a simulation: each time begins a run.
+//! `tf2_msgs/TFMessage`, readings of the IMU from `sensor_msgs/Imu`. Where there are no such poses,
+//! they come from `nav_msgs/Path`, `geometry_msgs/PoseArray`, `Pose` or `sensor_msgs/NavSatFix`;
+//! track speeds may be made of a twist. The layouts of these types are known here: the message
+//! definitions in the bag matter only to numbers that are named by the path of their field. All of
+//! a bag is one run, but for clocks that begin anew, as in a simulation: each time begins a run.
 //!
 //! Positions of joints that wrap after a turn are unwrapped. Where both frames are named and no
 //! topic has their poses, these are composed along a chain of transforms, such as map → odom →
@@ -21,6 +24,8 @@ mod clock;
 mod collector;
 mod compressed;
 mod date;
+mod definition;
+mod fixes;
 mod frames;
 mod inspection;
 mod joints;
@@ -30,19 +35,22 @@ mod message;
 mod names;
 mod options;
 mod part;
+mod path;
 mod payload;
 mod ros1_file;
 mod ros1_record;
+mod signals;
 mod sqlite_file;
 mod storage;
 mod stream;
 mod topic;
+mod twist;
 mod visitor;
 mod words;
 
 pub use inspection::{Inspection, TopicSummary, inspect};
 pub(crate) use message::yaw_of_quaternion;
-pub use options::{Dating, JointSignal, RosbagOptions};
+pub use options::{Dating, JointSignal, RosbagOptions, SignalUnit};
 pub(crate) use storage::is_bag;
 pub use topic::Role;
 
@@ -54,10 +62,14 @@ pub use topic::Role;
 /// # Errors
 /// [`Error::Topic`] when nothing or several things fit, [`Error::Bag`], [`Error::Unreadable`].
 pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
-    let mut collector = collector::Collector::new(options);
+    let options = twist::effective(path, options)?;
+    let options = &*signals::effective(path, options)?;
+    let signals = signals::Signals::new(path, options)?;
+    let mut collector = collector::Collector::new(options, signals);
     let mut warnings = storage::scan(path, &mut collector)?;
     let collected = collector.finish(path)?;
     warnings.extend(collected.warnings);
+    warnings.extend(twist::warning(options));
     let name = storage::name(path);
     let source = Source {
         format: Format::Rosbag,
@@ -65,12 +77,14 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
         epoch_ns: Some(collected.epoch_ns),
     };
     let joints = collected.joints;
+    let are_joints = options.twist_topic.is_none();
+    let kind = if options.left_signals.is_empty() { "joint" } else { "signal" };
     Recording::new(name, "unknown", collected.runs, source, warnings)
-        .map_err(|error| with_options(error, &joints))
+        .map_err(|error| if are_joints { with_options(error, &joints, kind) } else { error })
 }
 
 /// An error with the options that help, by the joints of each side as they were taken.
-fn with_options(error: Error, taken: &PerSide<Vec<String>>) -> Error {
+fn with_options(error: Error, taken: &PerSide<Vec<String>>, kind: &str) -> Error {
     let Error::Contradiction { path, doubt, remedy, .. } = error else { return error };
     let reversed = |names: &[String]| -> Vec<String> {
         let of = |name: &String| match name.strip_prefix('-') {
@@ -81,7 +95,7 @@ fn with_options(error: Error, taken: &PerSide<Vec<String>>) -> Error {
     };
     let option = |side: Side, names: &[String]| {
         let word = names::word(side);
-        let options = names.iter().map(|name| format!("--{word}-joint {name}"));
+        let options = names.iter().map(|name| format!("--{word}-{kind} {name}"));
         options.collect::<Vec<_>>().join(" ")
     };
     let (joints, remedy) = match doubt {

@@ -44,7 +44,7 @@ pub enum Error {
     #[error(transparent)]
     Recording(#[from] trackdyn_recording::Error),
     /// An option of bags for what is no bag.
-    #[error("{setting}: {} is no bag: expected with rosbag2 only", path.display())]
+    #[error("{setting}: {} is no bag: expected with bags of ROS only", path.display())]
     NotABag {
         /// The option.
         setting: &'static str,

@@ -15,7 +15,7 @@
 //! # let my_robot = folder.path().join("my-robot.toml");
 //! # Vehicle::auriga_alpha().with_inertia(true).write(&my_robot)?;
 //!
-//! // Open a log: a folder of CSV, a rosbag2 (.mcap, .db3), a trajectory, or a table of points.
+//! // Open a log: a folder of CSV, a bag (.mcap, .db3, .bag), a trajectory, or a table of points.
 //! let recording = Recording::open(&log, &ReadOptions::default())?;
 //! let vehicle = Vehicle::open(&my_robot)?;
 //!

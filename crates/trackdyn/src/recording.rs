@@ -38,8 +38,8 @@ enum Seen {
 }
 
 impl Recording {
-    /// Reads a recording: a folder with `recording.toml`, a rosbag2 (`.mcap`, `.db3`, or the folder
-    /// around them), a trajectory (`.tum`, `.txt`) with [a table of track
+    /// Reads a recording: a folder with `recording.toml`, a bag of ROS (`.mcap`, `.db3`, `.bag`, or
+    /// their folder), a trajectory (`.tum`, `.txt`) with [a table of track
     /// speeds](ReadOptions::tracks), or a table of steady operating points (`.csv`, or
     /// `operating_points.csv` in a folder).
     ///

@@ -216,9 +216,11 @@ fn formats_are_told_by_what_is_there() {
     let options = trackdyn_recording::rosbag::RosbagOptions::default();
     let read =
         |path: &Path| trackdyn_recording::read(path, &options).expect_err("refused").to_string();
-    assert!(read(empty.path()).contains("neither recording.toml nor .mcap or .db3 files"));
+    assert!(read(empty.path()).contains("neither recording.toml nor .mcap, .db3 or .bag files"));
     let table = empty.path().join("operating_points.csv");
     std::fs::write(&table, "v_left\n").expect("written");
-    assert!(read(&table).contains("expected a recording folder, a .mcap or .db3 file, or a .tum"));
+    assert!(
+        read(&table).contains("expected a recording folder, a .mcap, .db3 or .bag file, or a .tum")
+    );
     assert!(read(&empty.path().join("nowhere")).contains("nowhere: cannot be read"));
 }

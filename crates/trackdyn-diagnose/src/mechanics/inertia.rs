@@ -76,12 +76,12 @@ impl InertiaNear {
         if let Some(near) = known.and_then(|known| known.moved(&inert, case, within)) {
             return Ok(near);
         }
-        let (at, steps) = match before.filter(|before| before.at.is_for(&inert, case)) {
-            Some(before) => (Arc::clone(&before.at), None),
-            None => {
-                let (at, steps) = Inertia::new(inert, case)?;
-                (Arc::new(at), Some(steps))
-            }
+        let known = before.filter(|before| before.at.is_for(&inert, case));
+        let (at, steps) = if let Some(known) = known {
+            (Arc::clone(&known.at), None)
+        } else {
+            let (at, steps) = Inertia::new(inert, case)?;
+            (Arc::new(at), Some(steps))
         };
         // Slopes of a clearly different robot mislead: moments of inertia are quadratic in a
         // radius.

@@ -197,9 +197,9 @@ mod tests {
             )[0];
             let (mut off, mut largest) = (0.0_f64, 0.0_f64);
             for ((before, after), change) in before.iter().zip(&after).zip(changes) {
-                for k in 0..2 {
+                for (k, change) in change.iter().enumerate() {
                     let difference = vector(&(after.stages[k].twist - before.stages[k].twist));
-                    off = off.max((difference - vector(&change[k])).norm());
+                    off = off.max((difference - vector(change)).norm());
                     largest = largest.max(difference.norm());
                 }
             }

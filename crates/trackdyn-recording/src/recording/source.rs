@@ -8,7 +8,7 @@ use std::path::PathBuf;
 pub enum Format {
     /// A folder with `recording.toml` and CSV files.
     Folder,
-    /// A rosbag2: a `.mcap` or `.db3` file, or the folder around them.
+    /// A bag of ROS: a `.mcap`, `.db3` or `.bag` file, or the folder around them.
     Rosbag,
     /// A trajectory of the TUM benchmark and a CSV of track speeds.
     Tum,

@@ -117,6 +117,20 @@ pub enum Warning {
         /// Stamp of the first, s.
         t: f64,
     },
+    /// Track speeds that are made of the speeds of the body.
+    FromTwist {
+        /// The topic of these.
+        topic: String,
+        /// Separation of the tracks that they are made with, m.
+        separation: f64,
+    },
+    /// Poses that are made of fixes of satellite navigation and the yaw of an IMU.
+    FromFixes {
+        /// The topic of the fixes.
+        topic: String,
+        /// The topic of the IMU.
+        imu: String,
+    },
     /// A choice that the reader made.
     Chosen {
         /// What it was for.
@@ -320,6 +334,18 @@ impl fmt::Display for Warning {
                 f,
                 "{joint}: {count} jumps of its position by more than half a turn that are no \
                  wraps, left as they are (the first at t = {t} s)"
+            ),
+            Self::FromTwist { topic, separation } => write!(
+                f,
+                "{topic}: track speeds are computed from its twist with a separation of \
+                 {separation} m: they are right only if its driver computed the twist from the \
+                 encoders alone, with this separation; a driver may have put in a gyroscope, a \
+                 filter or a slip correction of its own, and a command is no measurement"
+            ),
+            Self::FromFixes { topic, imu } => write!(
+                f,
+                "{topic}: positions of its antenna in metres east and north of the first fix, \
+                 with the yaw of {imu}, which has to count from east (REP-103)"
             ),
             Self::Chosen { what, taken } => write!(f, "{what}: took {taken}"),
         }

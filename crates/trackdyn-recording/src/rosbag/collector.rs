@@ -3,13 +3,13 @@
 use super::chain;
 use super::clock::{By, Clock, decide};
 use super::date::{Received, Stamped};
-use super::frames::{Frames, same_frame};
+use super::fixes::{Fix, Yaw};
+use super::frames::Frames;
 use super::joints::Joints;
-use super::message::{header, imu, planar_pose};
 use super::options::RosbagOptions;
-use super::payload::{Payload, PayloadError};
-use super::topic::{Layout, Role, Topic};
-use super::visitor::Visitor;
+use super::path::Trajectory;
+use super::signals::Signals;
+use super::topic::{Topic, list};
 use crate::Error;
 use crate::attitude::Attitude;
 use crate::doubt::Doubt;
@@ -23,11 +23,14 @@ mod choice;
 mod gyro;
 mod joint;
 mod merge;
+mod others;
+mod poses;
 mod publishers;
 mod signal;
 mod speeds;
 mod tracks;
 mod turns;
+mod visit;
 
 use choice::Sources;
 use speeds::Streams;
@@ -36,11 +39,18 @@ use speeds::Streams;
 pub(super) struct Collector<'a> {
     options: &'a RosbagOptions,
     joints: Joints,
+    signals: Signals,
     seen: Vec<Topic>,
     poses: BTreeMap<PoseKey, Rows>,
     /// How upright they are.
     attitudes: BTreeMap<PoseKey, Attitude>,
     imu: BTreeMap<String, Rows>,
+    /// Yaw of the orientations of IMUs, by topic.
+    yaws: BTreeMap<String, Vec<Yaw>>,
+    /// Fixes of satellite navigation, by topic.
+    fixes: BTreeMap<String, Vec<Fix>>,
+    /// What messages of `nav_msgs/Path` tell, by topic and frame.
+    paths: BTreeMap<PoseKey, Trajectory>,
     /// What the transforms of all topics link.
     frames: Frames,
     /// Per topic: messages that were skipped, and why the first was.
@@ -58,6 +68,12 @@ struct PoseKey {
     child: String,
 }
 
+impl PoseKey {
+    fn new(topic: &Topic, [parent, child]: [&str; 2]) -> Self {
+        Self { topic: topic.name.clone(), parent: parent.to_owned(), child: child.to_owned() }
+    }
+}
+
 /// Runs and how they came about.
 pub(super) struct Collected {
     /// The rows; t = 0 at `epoch_ns`.
@@ -71,22 +87,31 @@ pub(super) struct Collected {
 }
 
 impl<'a> Collector<'a> {
-    pub(super) fn new(options: &'a RosbagOptions) -> Self {
+    pub(super) fn new(options: &'a RosbagOptions, signals: Signals) -> Self {
         Self {
             options,
             joints: Joints::new(options),
+            signals,
             seen: Vec::new(),
             poses: BTreeMap::new(),
             attitudes: BTreeMap::new(),
             imu: BTreeMap::new(),
+            yaws: BTreeMap::new(),
+            fixes: BTreeMap::new(),
+            paths: BTreeMap::new(),
             frames: Frames::default(),
             skipped: BTreeMap::new(),
         }
     }
 
     /// Chooses among the sources and makes the runs.
-    pub(super) fn finish(self, path: &Path) -> Result<Collected, Error> {
+    pub(super) fn finish(mut self, path: &Path) -> Result<Collected, Error> {
         let mut warnings = Vec::new();
+        if let Some(problem) = self.signals.problem(&self.seen) {
+            let (what, available) = ("track speeds", list(self.seen.iter()));
+            return Err(Error::Topic { path: path.to_owned(), what, problem, available });
+        }
+        self.add_other_poses(path, &mut warnings)?;
         for (topic, (count, reason)) in &self.skipped {
             let (topic, reason) = (topic.clone(), reason.clone());
             warnings.push(Warning::MessagesSkipped { topic, count: *count, reason });
@@ -136,87 +161,6 @@ impl<'a> Collector<'a> {
         let streams = Streams { chosen, poses, pose_topic, chained, imu, imu_topic };
         speeds::runs(path, self.options, &clocks, by, streams, warnings)
     }
-
-    fn keep_pose(
-        &mut self,
-        topic: &Topic,
-        frames: [&str; 2],
-        received: Received<[f64; 3]>,
-        quaternion: [f64; 4],
-    ) {
-        let fits = |wanted: &Option<String>, frame: &str| {
-            wanted.as_deref().is_none_or(|name| same_frame(name, frame))
-        };
-        let [parent, child] = frames;
-        if !fits(&self.options.parent_frame, parent) || !fits(&self.options.child_frame, child) {
-            return;
-        }
-        let key = PoseKey {
-            topic: topic.name.clone(),
-            parent: parent.to_owned(),
-            child: child.to_owned(),
-        };
-        self.attitudes.entry(key.clone()).or_default().note(quaternion);
-        self.poses.entry(key).or_default().push(received);
-    }
-
-    fn take(
-        &mut self,
-        topic: &Topic,
-        layout: Layout,
-        log_ns: i64,
-        payload: &[u8],
-    ) -> Result<(), String> {
-        let decode = |error: PayloadError| error.to_string();
-        let mut payload = topic.payload(payload).map_err(decode)?;
-        if layout == Layout::Transforms {
-            let count = payload.length().map_err(decode)?;
-            for _ in 0..count {
-                self.take_pose(topic, true, log_ns, &mut payload).map_err(decode)?;
-            }
-            return Ok(());
-        }
-        match layout {
-            Layout::JointState => {
-                let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
-                let received = Received { stamp_ns, log_ns, value: () };
-                self.joints.take(&topic.name, received, &mut payload).map_err(decode)?;
-            }
-            Layout::Imu => {
-                let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
-                let value = imu(&mut payload).map_err(decode)?;
-                push(&mut self.imu, &topic.name, Received { stamp_ns, log_ns, value });
-            }
-            Layout::Pose | Layout::PoseOfChild | Layout::Transforms => {
-                let has_child = layout == Layout::PoseOfChild;
-                self.take_pose(topic, has_child, log_ns, &mut payload).map_err(decode)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn take_pose(
-        &mut self,
-        topic: &Topic,
-        has_child: bool,
-        log_ns: i64,
-        payload: &mut Payload,
-    ) -> Result<(), PayloadError> {
-        let header = header(payload)?;
-        let child = if has_child { payload.text()? } else { "" };
-        let [_, _, _, quaternion @ ..]: [f64; 7] = payload.clone().f64s()?;
-        let value = planar_pose(payload)?;
-        if topic.layout() == Some(Layout::Transforms) {
-            self.frames.note(header.frame, child);
-        }
-        if topic.is_static() {
-            // It holds at all times, and shows no motion.
-            return Ok(());
-        }
-        let received = Received { stamp_ns: header.stamp_ns, log_ns, value };
-        self.keep_pose(topic, [header.frame, child], received, quaternion);
-        Ok(())
-    }
 }
 
 /// Appends without making a new key where there is one.
@@ -225,27 +169,5 @@ fn push<T>(series: &mut BTreeMap<String, Vec<T>>, name: &str, value: T) {
         values.push(value);
     } else {
         series.insert(name.to_owned(), vec![value]);
-    }
-}
-
-impl Visitor for Collector<'_> {
-    fn wants(&mut self, topic: &Topic) -> bool {
-        if !self.seen.contains(topic) {
-            self.seen.push(topic.clone());
-        }
-        let Some(layout) = topic.layout() else { return false };
-        let named = match layout.role() {
-            Role::Poses => return self.options.may_hold_poses(&topic.name),
-            Role::Tracks => &self.options.tracks_topic,
-            Role::Imu => &self.options.imu_topic,
-        };
-        named.as_ref().is_none_or(|name| *name == topic.name)
-    }
-
-    fn message(&mut self, topic: &Topic, log_ns: i64, payload: &[u8]) {
-        let Some(layout) = topic.layout() else { return };
-        if let Err(reason) = self.take(topic, layout, log_ns, payload) {
-            self.skipped.entry(topic.name.clone()).or_insert((0, reason)).0 += 1;
-        }
     }
 }

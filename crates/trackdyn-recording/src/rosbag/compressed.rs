@@ -48,6 +48,10 @@ impl<'a> Decompressing<'a> {
 }
 
 impl Visitor for Decompressing<'_> {
+    fn defines(&mut self, kind: &str, text: &str) {
+        self.visitor.defines(kind, text);
+    }
+
     fn wants(&mut self, topic: &Topic) -> bool {
         self.visitor.wants(topic)
     }

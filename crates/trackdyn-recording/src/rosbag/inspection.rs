@@ -7,6 +7,7 @@ use super::options::RosbagOptions;
 use super::payload::{Payload, PayloadError};
 use super::storage;
 use super::topic::{Layout, Role, STATIC, Topic};
+use super::twist;
 use super::visitor::Visitor;
 use crate::Error;
 use crate::recording::Warning;
@@ -107,7 +108,7 @@ impl Seen {
                 self.signals =
                     signals.into_iter().filter_map(|(has, name)| has.then_some(name)).collect();
             }
-            Layout::Pose => {
+            Layout::Pose | Layout::Path | Layout::PoseArray | Layout::Fix => {
                 let frame = header(&mut payload)?.frame;
                 self.note_frames(frame, "");
             }
@@ -123,7 +124,11 @@ impl Seen {
                     payload.skip_f64s(7)?;
                 }
             }
-            Layout::JointState | Layout::Imu => {}
+            Layout::JointState
+            | Layout::Imu
+            | Layout::BarePose
+            | Layout::Twist
+            | Layout::TwistStamped => {}
         }
         Ok(())
     }
@@ -153,6 +158,10 @@ impl Seen {
 /// The topic of the poses and their frames: the only Odometry or stamped pose, else the only topic
 /// of transforms, whose chain from the root to the body of the robot is taken.
 fn suggest_poses(topics: Vec<&TopicSummary>) -> (Option<String>, Option<(String, String)>) {
+    let is_second =
+        |topic: &&TopicSummary| Layout::of_kind(&topic.kind).is_some_and(Layout::is_second_choice);
+    let (second, first): (Vec<_>, Vec<_>) = topics.into_iter().partition(is_second);
+    let topics = if first.is_empty() { second } else { first };
     let is_tf = |topic: &&TopicSummary| is_transforms(&topic.kind);
     let (transforms, direct): (Vec<_>, Vec<_>) = topics.into_iter().partition(is_tf);
     let (stays, moves): (Vec<_>, Vec<_>) =
@@ -175,6 +184,11 @@ fn suggest_poses(topics: Vec<&TopicSummary>) -> (Option<String>, Option<(String,
     (Some(topic.name.clone()), ends)
 }
 
+/// Whether track speeds can be made of the speeds of the body in it.
+fn has_twist(topic: &TopicSummary) -> bool {
+    twist::is_offered(&topic.name, &topic.kind)
+}
+
 /// Names what the bag has one of; among several poses, an Odometry or stamped pose before tf.
 fn suggest(topics: &[TopicSummary]) -> RosbagOptions {
     let of = |role| topics.iter().filter(move |t| t.role == Some(role) && t.messages > 0);
@@ -188,10 +202,18 @@ fn suggest(topics: &[TopicSummary]) -> RosbagOptions {
         named.map(|topic| joints::of_side(&topic.joints, side)).unwrap_or_default()
     };
     let (pose, frames) = suggest_poses(of(Role::Poses).collect());
+    // Where there are no joints: the only speeds of the body that are no commands.
+    let mut twists = topics.iter().filter(|topic| topic.messages > 0 && has_twist(topic));
+    let twist = match (tracks.is_none(), twists.next(), twists.next()) {
+        (true, Some(topic), None) => Some(topic.name.clone()),
+        _ => None,
+    };
+    let pose = pose.filter(|pose| Some(pose) != twist.as_ref());
     RosbagOptions {
         left_joints: side(Side::Left),
         right_joints: side(Side::Right),
         tracks_topic: tracks,
+        twist_topic: twist,
         parent_frame: frames.as_ref().map(|(parent, _)| parent.clone()),
         child_frame: frames.map(|(_, child)| child).filter(|child| !child.is_empty()),
         pose_topic: pose,

@@ -7,6 +7,7 @@ use super::date::Received;
 use super::names::{self, Part};
 use super::options::RosbagOptions;
 use super::payload::{Payload, PayloadError};
+use std::convert::Infallible;
 use trackdyn_core::{PerSide, Side};
 
 /// Messages of one topic with these joints and signals.
@@ -84,11 +85,38 @@ impl Joints {
         }
         let signals = [cdr.f64_sequence()?, cdr.f64_sequence()?];
         let has = [0, 1].map(|signal| count > 0 && signals[signal].1 == count);
+        let mut places = signals.map(|(place, _)| place);
+        self.enter(topic, received, &names, has, |signal| places[signal].f64())
+    }
+
+    /// Takes joints with velocities, rad/s.
+    pub(super) fn take_velocities(
+        &mut self,
+        topic: &str,
+        received: Received<()>,
+        names: &[&str],
+        velocities: &[f64],
+    ) {
+        let mut velocities = velocities.iter();
+        let next = |_| Ok::<_, Infallible>(velocities.next().copied().unwrap_or(f64::NAN));
+        let Ok(()) = self.enter(topic, received, names, [false, true], next);
+    }
+
+    /// Takes the signals of joints that `has` says to be there: all positions, then all velocities,
+    /// in the order of the names.
+    fn enter<E>(
+        &mut self,
+        topic: &str,
+        received: Received<()>,
+        names: &[&str],
+        has: [bool; 2],
+        mut next: impl FnMut(usize) -> Result<f64, E>,
+    ) -> Result<(), E> {
         let is_it =
             |source: &Source| source.has == has && source.topic == topic && source.names == names;
         if !self.sources.get(self.last).is_some_and(is_it) {
             self.last = self.sources.iter().position(is_it).unwrap_or_else(|| {
-                let source = Source::new(&self.named, topic, &names, has);
+                let source = Source::new(&self.named, topic, names, has);
                 self.sources.push(source);
                 self.sources.len() - 1
             });
@@ -98,10 +126,10 @@ impl Joints {
         if source.columns.is_empty() || has == [false; 2] {
             return Ok(());
         }
-        for (signal, (mut values, _)) in signals.into_iter().enumerate() {
+        for signal in [0, 1].into_iter().filter(|&signal| has[signal]) {
             let mut columns = source.columns.iter_mut().peekable();
-            for place in 0..if has[signal] { count } else { 0 } {
-                let value = values.f64()?;
+            for place in 0..names.len() {
+                let value = next(signal)?;
                 while let Some(column) = columns.next_if(|column| column.place == place) {
                     let all =
                         if signal == 0 { &mut column.positions } else { &mut column.velocities };

@@ -171,7 +171,10 @@ impl Channels {
             return Ok(());
         }
         match mcap::parse_record(opcode, data)? {
-            Record::Schema { header, .. } => {
+            Record::Schema { header, data } => {
+                if ["ros2msg", "ros1msg"].contains(&header.encoding.as_str()) {
+                    visitor.defines(&header.name, &String::from_utf8_lossy(&data));
+                }
                 self.kinds.insert(header.id, header.name);
             }
             Record::Channel(channel) if !self.topics.contains_key(&channel.id) => {

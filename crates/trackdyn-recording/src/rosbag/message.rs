@@ -1,6 +1,6 @@
 //! The message types, from their definitions in `common_interfaces` and `geometry2`.
 
-use super::payload::{Encoding, Payload, PayloadError};
+use super::payload::{Encoding, Number, Payload, PayloadError};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 /// Time stamp and frame of a message.
@@ -22,11 +22,11 @@ pub(super) fn header<'a>(payload: &mut Payload<'a>) -> Result<Header<'a>, Payloa
     Ok(Header { stamp_ns: (stamp != 0).then_some(stamp), frame: payload.text()? })
 }
 
-/// `geometry_msgs/Pose` or `Transform`: three coordinates and a quaternion (x, y, z, w), as
-/// (x, y, yaw).
-pub(super) fn planar_pose(payload: &mut Payload) -> Result<[f64; 3], PayloadError> {
+/// `geometry_msgs/Pose` or `Transform`: three coordinates and a quaternion, as (x, y, yaw) and this
+/// quaternion (x, y, z, w).
+pub(super) fn oriented_pose(payload: &mut Payload) -> Result<([f64; 3], [f64; 4]), PayloadError> {
     let [x, y, _, quaternion @ ..]: [f64; 7] = payload.f64s()?;
-    Ok([x, y, yaw_of_quaternion(quaternion)])
+    Ok(([x, y, yaw_of_quaternion(quaternion)], quaternion))
 }
 
 /// `geometry_msgs/Transform` in space; none where it is not finite or its quaternion is zero.
@@ -46,14 +46,30 @@ pub(super) fn planar(transform: &Isometry3<f64>) -> [f64; 3] {
     [x, y, yaw_of_quaternion(transform.rotation.coords.into())]
 }
 
-/// `sensor_msgs/Imu` after its header: yaw rate, acceleration forward and to the left.
-pub(super) fn imu(payload: &mut Payload) -> Result<[f64; 3], PayloadError> {
-    // orientation and its covariance
-    payload.skip_f64s(4 + 9)?;
+/// `sensor_msgs/Imu` after its header: yaw rate, acceleration forward and to the left; and the yaw
+/// of its orientation, where it has one.
+pub(super) fn imu(payload: &mut Payload) -> Result<([f64; 3], Option<f64>), PayloadError> {
+    let orientation: [f64; 4] = payload.f64s()?;
+    // The first element of the covariance is -1 where there is no orientation.
+    let [unknown]: [f64; 1] = payload.f64s()?;
+    payload.skip_f64s(8)?;
     let [_, _, gyro_z]: [f64; 3] = payload.f64s()?;
     payload.skip_f64s(9)?;
     let [acc_x, acc_y]: [f64; 2] = payload.f64s()?;
-    Ok([gyro_z, acc_x, acc_y])
+    let yaw = yaw_of_quaternion(orientation);
+    Ok(([gyro_z, acc_x, acc_y], Some(yaw).filter(|yaw| unknown != -1.0 && yaw.is_finite())))
+}
+
+/// `sensor_msgs/NavSatFix` after its header: latitude and longitude in degrees, altitude in metres;
+/// none where the receiver has no fix.
+pub(super) fn fix(payload: &mut Payload) -> Result<Option<[f64; 3]>, PayloadError> {
+    let status = payload.number(Number::I8)?;
+    // the satellite systems
+    payload.skip(2, 1)?;
+    let fix: [f64; 3] = payload.f64s()?;
+    let [latitude, longitude, _] = fix;
+    let is_place = latitude.abs() <= 90.0 && longitude.abs() <= 180.0;
+    Ok((status >= 0.0 && is_place).then_some(fix))
 }
 
 /// Yaw of a rotation that need not be normalised; NaN for the zero quaternion.

@@ -1,6 +1,8 @@
 //! What to take from a bag.
 
 use super::topic::STATIC;
+use std::f64::consts::TAU;
+use std::path::PathBuf;
 
 /// Topics, joints and frames; what is left open is taken where the bag leaves no choice.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,14 +28,49 @@ pub struct RosbagOptions {
     pub child_frame: Option<String>,
     /// Topic of the `sensor_msgs/Imu`, whose axes must be those of the body.
     pub imu_topic: Option<String>,
+    /// Topic of the speeds of the body (`nav_msgs/Odometry`, `geometry_msgs/Twist`, `TwistStamped`
+    /// or `TwistWithCovarianceStamped`) that track speeds are made of, in place of joints:
+    /// `v_l` = v - ω b/2 and `v_r` = v + ω b/2. They are those of the tracks only where the driver
+    /// has computed them from the encoders alone, with the separation b. A wheel radius has no
+    /// meaning then.
+    pub twist_topic: Option<String>,
+    /// Separation b of the tracks that the driver of `twist_topic` reckons with, m; needed with it.
+    pub separation: Option<f64>,
+    /// Numbers in messages that are speeds of the left side, in place of joints, each as
+    /// `TOPIC:FIELD`, such as `/status:motors[0].rpm`; their mean counts, and a `-` before one
+    /// reverses its sign. Where they are in the messages is told by their definitions, which a bag
+    /// has, or `msg_dir`.
+    pub left_signals: Vec<String>,
+    /// Numbers of the right side, in the same way.
+    pub right_signals: Vec<String>,
+    /// Unit of these numbers; none: rad/s.
+    pub signal_unit: Option<SignalUnit>,
+    /// Folder of definitions of messages (`PACKAGE/msg/TYPE.msg`), for bags that have none.
+    pub msg_dir: Option<PathBuf>,
     /// What dates the messages.
     pub dated_by: Dating,
 }
 
 impl RosbagOptions {
+    /// Whether speeds come from wheels, whose radius makes them speeds of the tracks.
+    pub fn counts_wheels(&self) -> bool {
+        self.twist_topic.is_none() && self.signal_unit != Some(SignalUnit::MetresPerSecond)
+    }
+
     /// Parent and child frame of the poses, where both are named.
     pub(super) fn frames(&self) -> Option<[&str; 2]> {
         Some([self.parent_frame.as_deref()?, self.child_frame.as_deref()?])
+    }
+
+    /// The option of the command line that chooses joints, where there is one.
+    pub(super) fn of_joints(&self) -> Option<&'static str> {
+        let given = [
+            ("--tracks-topic", self.tracks_topic.is_some()),
+            ("--left-joint", !self.left_joints.is_empty()),
+            ("--right-joint", !self.right_joints.is_empty()),
+            ("--joint-signal", self.joint_signal != JointSignal::Any),
+        ];
+        given.into_iter().find_map(|(name, given)| given.then_some(name))
     }
 
     /// Whether anything is said of the poses.
@@ -60,6 +97,31 @@ pub enum Dating {
     Header,
     /// The times at which they were logged.
     Log,
+}
+
+/// Unit of numbers that are speeds of the sides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SignalUnit {
+    /// m/s, of the tracks themselves.
+    MetresPerSecond,
+    /// rad/s, of the wheels.
+    #[default]
+    RadiansPerSecond,
+    /// Turns per minute, of the wheels.
+    TurnsPerMinute,
+    /// Degrees per second, of the wheels.
+    DegreesPerSecond,
+}
+
+impl SignalUnit {
+    /// rad/s, or m/s where they are speeds of the tracks, per unit.
+    pub(super) fn factor(self) -> f64 {
+        match self {
+            Self::MetresPerSecond | Self::RadiansPerSecond => 1.0,
+            Self::TurnsPerMinute => TAU / 60.0,
+            Self::DegreesPerSecond => TAU / 360.0,
+        }
+    }
 }
 
 /// Signal of a joint.

@@ -36,6 +36,33 @@ impl Encoding {
     }
 }
 
+/// Numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Number {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    I64,
+    U64,
+    F32,
+    F64,
+}
+
+impl Number {
+    /// Its size in bytes.
+    pub(super) fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::I64 | Self::U64 | Self::F64 => 8,
+        }
+    }
+}
+
 /// Why a payload cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum PayloadError {
@@ -122,10 +149,54 @@ impl<'a> Payload<'a> {
 
     /// An unsigned integer of 4 bytes.
     pub(super) fn u32(&mut self) -> Result<u32, PayloadError> {
-        self.align(4);
-        let mut bytes = [0; 4];
-        bytes.copy_from_slice(self.bytes(4)?);
-        Ok(if self.little { u32::from_le_bytes(bytes) } else { u32::from_be_bytes(bytes) })
+        Ok(u32::from_le_bytes(self.low_first()?))
+    }
+
+    /// The bytes of a number, the low one first.
+    fn low_first<const N: usize>(&mut self) -> Result<[u8; N], PayloadError> {
+        self.align(N);
+        let mut bytes = [0; N];
+        bytes.copy_from_slice(self.bytes(N)?);
+        if !self.little {
+            bytes.reverse();
+        }
+        Ok(bytes)
+    }
+
+    /// A number.
+    #[expect(clippy::cast_precision_loss, reason = "counts and speeds are below 2⁵³")]
+    pub(super) fn number(&mut self, number: Number) -> Result<f64, PayloadError> {
+        Ok(match number {
+            Number::I8 => f64::from(i8::from_le_bytes(self.low_first()?)),
+            Number::U8 => f64::from(u8::from_le_bytes(self.low_first()?)),
+            Number::I16 => f64::from(i16::from_le_bytes(self.low_first()?)),
+            Number::U16 => f64::from(u16::from_le_bytes(self.low_first()?)),
+            Number::I32 => f64::from(i32::from_le_bytes(self.low_first()?)),
+            Number::U32 => f64::from(u32::from_le_bytes(self.low_first()?)),
+            Number::I64 => i64::from_le_bytes(self.low_first()?) as f64,
+            Number::U64 => u64::from_le_bytes(self.low_first()?) as f64,
+            Number::F32 => f64::from(f32::from_le_bytes(self.low_first()?)),
+            Number::F64 => f64::from_le_bytes(self.low_first()?),
+        })
+    }
+
+    /// Where it stands, in bytes from the beginning.
+    pub(super) fn place(&self) -> usize {
+        self.at
+    }
+
+    /// Whether a length in bytes stands before arrays of other than numbers, as in XCDR2.
+    pub(super) fn delimits_arrays(&self) -> bool {
+        self.encoding == Encoding::Cdr && self.widest < 8
+    }
+
+    /// Passes over `count` numbers of `size` bytes.
+    pub(super) fn skip(&mut self, size: usize, count: usize) -> Result<(), PayloadError> {
+        if count == 0 {
+            return Ok(());
+        }
+        self.align(size);
+        self.bytes(size.saturating_mul(count)).map(drop)
     }
 
     /// A signed integer of 4 bytes.
@@ -135,10 +206,7 @@ impl<'a> Payload<'a> {
 
     /// A real number of 8 bytes.
     pub(super) fn f64(&mut self) -> Result<f64, PayloadError> {
-        self.align(8);
-        let mut bytes = [0; 8];
-        bytes.copy_from_slice(self.bytes(8)?);
-        Ok(if self.little { f64::from_le_bytes(bytes) } else { f64::from_be_bytes(bytes) })
+        Ok(f64::from_le_bytes(self.low_first()?))
     }
 
     /// Real numbers that follow one another.
@@ -152,8 +220,7 @@ impl<'a> Payload<'a> {
 
     /// Passes over `count` real numbers.
     pub(super) fn skip_f64s(&mut self, count: usize) -> Result<(), PayloadError> {
-        self.align(8);
-        self.bytes(count.saturating_mul(8)).map(drop)
+        self.skip(8, count)
     }
 
     /// A text; the closing zero that CDR writes is not part of it.

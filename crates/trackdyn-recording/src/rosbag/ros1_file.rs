@@ -131,6 +131,9 @@ impl Reader<'_> {
             if let (Some(name), Some(kind)) = (head.text("topic"), Fields(data).text("type")) {
                 let topic = Topic { name, kind, encoding: "ros1".to_owned() };
                 self.topics.entry(connection).or_insert_with(|| {
+                    if let Some(text) = Fields(data).text("message_definition") {
+                        self.visitor.defines(&topic.kind, &text);
+                    }
                     let wanted = self.visitor.wants(&topic);
                     (topic, wanted)
                 });

@@ -30,6 +30,10 @@ pub(super) fn scan(part: &Part, visitor: &mut dyn Visitor) -> Result<Option<Warn
     let file = part.on_disk(&COMPANIONS)?;
     let connection = connect(&file).map_err(refused)?;
     let topics = topics(&connection).map_err(refused)?;
+    // Bags before ROS 2 Jazzy have no such table.
+    for (kind, text) in definitions(&connection).unwrap_or_default() {
+        visitor.defines(&kind, &text);
+    }
     let wanted: HashMap<i64, Topic> =
         topics.into_iter().filter(|(_, topic)| visitor.wants(topic)).collect();
     let mut messages = 0;
@@ -76,6 +80,16 @@ fn topics(connection: &Connection) -> rusqlite::Result<Vec<(i64, Topic)>> {
     let rows = statement.query_map([], |row| {
         Ok((row.get(0)?, Topic { name: row.get(1)?, kind: row.get(2)?, encoding: row.get(3)? }))
     })?;
+    rows.collect()
+}
+
+/// Types and their definitions.
+fn definitions(connection: &Connection) -> rusqlite::Result<Vec<(String, String)>> {
+    let mut statement = connection.prepare(
+        "SELECT topic_type, encoded_message_definition FROM message_definitions \
+         WHERE encoding = 'ros2msg'",
+    )?;
+    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
     rows.collect()
 }
 

@@ -23,6 +23,9 @@ pub enum Role {
     Poses,
     /// Readings of the IMU.
     Imu,
+    /// Speeds of the body, of which track speeds can be made
+    /// ([`RosbagOptions::twist_topic`](super::RosbagOptions::twist_topic)).
+    Twist,
 }
 
 /// Layouts that can be read.
@@ -38,6 +41,18 @@ pub(super) enum Layout {
     Transforms,
     /// `sensor_msgs/Imu`.
     Imu,
+    /// `nav_msgs/Path`: header, a list of `PoseStamped`.
+    Path,
+    /// `geometry_msgs/PoseArray`: header, a list of poses.
+    PoseArray,
+    /// `geometry_msgs/Pose`: without a header.
+    BarePose,
+    /// `sensor_msgs/NavSatFix`.
+    Fix,
+    /// `geometry_msgs/Twist`: without a header.
+    Twist,
+    /// `geometry_msgs/TwistStamped`, `TwistWithCovarianceStamped`: header, twist.
+    TwistStamped,
 }
 
 /// What ends the names of topics whose transforms hold at all times, such as `/tf_static`.
@@ -60,26 +75,49 @@ impl Topic {
     /// The layout of its messages, where it is one of those known here.
     pub(super) fn layout(&self) -> Option<Layout> {
         Encoding::of(&self.encoding)?;
-        match self.kind.replace("/msg/", "/").as_str() {
-            "sensor_msgs/JointState" => Some(Layout::JointState),
-            "nav_msgs/Odometry" | "geometry_msgs/TransformStamped" => Some(Layout::PoseOfChild),
-            "geometry_msgs/PoseStamped" | "geometry_msgs/PoseWithCovarianceStamped" => {
-                Some(Layout::Pose)
-            }
-            "tf2_msgs/TFMessage" | "tf/tfMessage" => Some(Layout::Transforms),
-            "sensor_msgs/Imu" => Some(Layout::Imu),
-            _ => None,
-        }
+        Layout::of_kind(&self.kind)
     }
 }
 
 impl Layout {
+    /// The layout of messages of a type, in the spelling of ROS 1 or ROS 2.
+    pub(super) fn of_kind(kind: &str) -> Option<Self> {
+        let (package, name) = kind.split_once('/')?;
+        Some(match (package, name.strip_prefix("msg/").unwrap_or(name)) {
+            ("sensor_msgs", "JointState") => Self::JointState,
+            ("nav_msgs", "Odometry") | ("geometry_msgs", "TransformStamped") => Self::PoseOfChild,
+            ("geometry_msgs", "PoseStamped" | "PoseWithCovarianceStamped") => Self::Pose,
+            ("tf2_msgs", "TFMessage") | ("tf", "tfMessage") => Self::Transforms,
+            ("sensor_msgs", "Imu") => Self::Imu,
+            ("nav_msgs", "Path") => Self::Path,
+            ("geometry_msgs", "PoseArray") => Self::PoseArray,
+            ("geometry_msgs", "Pose") => Self::BarePose,
+            ("sensor_msgs", "NavSatFix") => Self::Fix,
+            ("geometry_msgs", "Twist") => Self::Twist,
+            ("geometry_msgs", "TwistStamped" | "TwistWithCovarianceStamped") => Self::TwistStamped,
+            _ => return None,
+        })
+    }
+
+    /// Whether poses of this layout are taken only where no others are: these are plans and goals
+    /// more often than where a robot was.
+    pub(super) fn is_second_choice(self) -> bool {
+        matches!(self, Self::Path | Self::PoseArray | Self::BarePose | Self::Fix)
+    }
+
     /// What messages of this layout can be used for.
     pub(super) fn role(self) -> Role {
         match self {
             Self::JointState => Role::Tracks,
-            Self::PoseOfChild | Self::Pose | Self::Transforms => Role::Poses,
+            Self::PoseOfChild
+            | Self::Pose
+            | Self::Transforms
+            | Self::Path
+            | Self::PoseArray
+            | Self::BarePose
+            | Self::Fix => Role::Poses,
             Self::Imu => Role::Imu,
+            Self::Twist | Self::TwistStamped => Role::Twist,
         }
     }
 }

@@ -4,6 +4,9 @@ use super::topic::Topic;
 
 /// Who looks at the messages of a bag.
 pub(super) trait Visitor {
+    /// The definition of a type, with those of the types that it needs; before its topics turn up.
+    fn defines(&mut self, _kind: &str, _text: &str) {}
+
     /// A topic turns up; whether its messages are wanted.
     fn wants(&mut self, topic: &Topic) -> bool;
 

@@ -3,6 +3,7 @@
 use super::{Driving, Finding};
 use crate::{ReadOptions, Recording};
 use std::path::Path;
+use trackdyn_core::PerSide;
 use trackdyn_recording::rosbag::RosbagOptions;
 use trackdyn_recording::{Doubt, Error};
 
@@ -35,12 +36,14 @@ pub(super) fn read(
     suggested: &RosbagOptions,
 ) -> Result<Read, (ReadOptions, String)> {
     let (mut options, mut radius) = (given.clone(), ASSUMED_RADIUS);
-    let is_open = given.bag.wheel_radius.is_none();
+    let is_open = given.bag.wheel_radius.is_none() && given.bag.counts_wheels();
     let mut findings = Vec::new();
     let (mut reason, mut is_measured) = (String::new(), false);
     for _ in 0..MAX_READINGS {
         let mut tried = options.clone();
-        tried.bag.wheel_radius.get_or_insert(radius);
+        if is_open {
+            tried.bag.wheel_radius = Some(radius);
+        }
         let error = match Recording::open(path, &tried) {
             Ok(recording) => {
                 let found = if is_open { by_travel(&recording) } else { None };
@@ -70,9 +73,12 @@ pub(super) fn read(
             }
             Error::Contradiction { joints: Some(joints), .. } if findings.is_empty() => {
                 findings.push(Finding::Mended(reason.clone()));
-                let joints = *joints;
-                options.bag.left_joints = joints.left;
-                options.bag.right_joints = joints.right;
+                let (bag, PerSide { left, right }) = (&mut options.bag, *joints);
+                if bag.left_signals.is_empty() {
+                    (bag.left_joints, bag.right_joints) = (left, right);
+                } else {
+                    (bag.left_signals, bag.right_signals) = (left, right);
+                }
             }
             _ => break,
         }
@@ -110,6 +116,10 @@ fn fill(options: &mut RosbagOptions, suggested: &RosbagOptions) {
         take(&mut options.parent_frame, &suggested.parent_frame);
         take(&mut options.child_frame, &suggested.child_frame);
     }
+    if !options.left_signals.is_empty() || options.twist_topic.is_some() {
+        return;
+    }
+    take(&mut options.twist_topic, &suggested.twist_topic);
     take(&mut options.tracks_topic, &suggested.tracks_topic);
     let sides = [
         (&mut options.left_joints, &suggested.left_joints),

@@ -125,7 +125,7 @@ pub(super) fn of_topics(topics: &[TopicSummary], options: &ReadOptions) -> Vec<L
         (!has(Role::Tracks), Lack::Tracks),
         (!has(Role::Poses) && !has(Role::Imu), Lack::Poses),
         (
-            has(Role::Tracks) && options.bag.wheel_radius.is_none(),
+            has(Role::Tracks) && options.bag.wheel_radius.is_none() && options.bag.counts_wheels(),
             Lack::WheelRadius { about: None },
         ),
     ];

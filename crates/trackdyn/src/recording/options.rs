@@ -34,6 +34,12 @@ impl ReadOptions {
             ("parent_frame", bag.parent_frame.is_some()),
             ("child_frame", bag.child_frame.is_some()),
             ("imu_topic", bag.imu_topic.is_some()),
+            ("twist_topic", bag.twist_topic.is_some()),
+            ("separation", bag.separation.is_some()),
+            ("left_signals", !bag.left_signals.is_empty()),
+            ("right_signals", !bag.right_signals.is_empty()),
+            ("signal_unit", bag.signal_unit.is_some()),
+            ("msg_dir", bag.msg_dir.is_some()),
             ("dated_by", bag.dated_by != Dating::Any),
         ];
         options.into_iter().filter_map(|(name, given)| given.then_some(name)).collect()

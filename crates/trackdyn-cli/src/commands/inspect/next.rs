@@ -33,7 +33,9 @@ pub fn text(found: &Inspection, asked: &Asked) -> String {
         let _ = writeln!(text, "  {}", command.replace('\n', "\n  "));
     }
     let has = |word: &str| commands.iter().any(|command| command.contains(word));
-    if has("METRES") {
+    if has("--separation METRES") {
+        text += &wrapped("  METRES        ", "the separation that the driver of the twist uses");
+    } else if has("METRES") {
         text +=
             &wrapped("  METRES        ", "the wheel radius: belt travel per radian of the joints");
     }

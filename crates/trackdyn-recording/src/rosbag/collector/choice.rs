@@ -7,6 +7,7 @@ use crate::recording::Warning;
 use crate::rosbag::frames::may_be_odometry;
 use crate::rosbag::joints::Source;
 use crate::rosbag::topic::{Topic, list};
+use crate::rosbag::twist;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -41,8 +42,13 @@ impl Sources<'_> {
             kinds.extend(skipped.iter().map(|(topic, (count, reason))| {
                 format!("{topic}: {count} messages skipped, because {reason}")
             }));
+            kinds.extend(twist::offer(self.seen));
             let named = self.options.tracks_topic.as_deref();
-            return Err(self.none(what, &kinds.join("; "), named, "--tracks-topic"));
+            let option = match self.options.twist_topic {
+                Some(_) => "--twist-topic",
+                None => "--tracks-topic",
+            };
+            return Err(self.none(what, &kinds.join("; "), named, option));
         }
         tracks::choose(joints, self.options, warnings).map_err(|problem| self.refuse(what, problem))
     }
@@ -55,7 +61,7 @@ impl Sources<'_> {
         let wanted = Wanted {
             what: "poses",
             kind: "no Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or \
-                   TFMessage of these frames",
+                   TFMessage of these frames, and no Path, PoseArray, Pose or NavSatFix instead",
             named: self.options.pose_topic.as_deref(),
             options: "--pose-topic, --parent-frame or --child-frame",
         };

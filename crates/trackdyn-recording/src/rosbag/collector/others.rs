@@ -1,0 +1,211 @@
+//! Poses of second choice, and track speeds from those of the body.
+
+use super::{Collector, PoseKey, push};
+use crate::Error;
+use crate::attitude::Attitude;
+use crate::recording::Warning;
+use crate::rosbag::clock::{Clock, decide};
+use crate::rosbag::date::Received;
+use crate::rosbag::fixes::{self, Fix, Yaw};
+use crate::rosbag::message::{fix, header, oriented_pose};
+use crate::rosbag::options::Dating;
+use crate::rosbag::payload::{Payload, PayloadError};
+use crate::rosbag::topic::{Layout, Topic, list};
+use crate::rosbag::{path, twist};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Fewest changes of a pose of second choice that is no goal: fewer make no recording.
+const MIN_CHANGES: usize = 10;
+
+/// The frame of positions from fixes.
+const TANGENT_PLANE: &str = "east and north of the first fix";
+
+impl Collector<'_> {
+    /// Takes a pose of second choice.
+    pub(super) fn take_other_pose(
+        &mut self,
+        topic: &Topic,
+        layout: Layout,
+        log_ns: i64,
+        payload: &mut Payload,
+    ) -> Result<(), String> {
+        let decode = |error: PayloadError| error.to_string();
+        if layout == Layout::Path {
+            let mut attitude = Attitude::default();
+            let (frame, poses) = path::read(payload, &mut attitude)?;
+            if self.fits([frame, ""]) {
+                let key = PoseKey::new(topic, [frame, ""]);
+                // The last message tells all of a path that grows.
+                self.attitudes.insert(key.clone(), attitude);
+                self.paths.entry(key).or_default().add(poses, log_ns);
+            }
+            return Ok(());
+        }
+        if layout == Layout::BarePose {
+            let (value, quaternion) = oriented_pose(payload).map_err(decode)?;
+            let received = Received { stamp_ns: None, log_ns, value };
+            self.keep_pose(topic, ["", ""], received, quaternion);
+            return Ok(());
+        }
+        let header = header(payload).map_err(decode)?;
+        let stamp_ns = header.stamp_ns;
+        if layout == Layout::PoseArray {
+            let count = payload.length().map_err(decode)?;
+            if count != 1 {
+                return Err(format!("it has {count} poses instead of one"));
+            }
+            let (value, quaternion) = oriented_pose(payload).map_err(decode)?;
+            let received = Received { stamp_ns, log_ns, value };
+            self.keep_pose(topic, [header.frame, ""], received, quaternion);
+            return Ok(());
+        }
+        let value = fix(payload).map_err(decode)?;
+        let value = value.ok_or("the receiver has no fix in it (its status is below zero)")?;
+        push(&mut self.fixes, &topic.name, Received { stamp_ns, log_ns, value });
+        Ok(())
+    }
+
+    /// Takes the speeds of the body as those of two joints.
+    pub(super) fn take_twist(
+        &mut self,
+        topic: &Topic,
+        layout: Layout,
+        log_ns: i64,
+        mut payload: Payload,
+    ) -> Result<(), String> {
+        let decode = |error: PayloadError| error.to_string();
+        let stamp_ns = match layout {
+            Layout::Twist => None,
+            Layout::TwistStamped | Layout::PoseOfChild => {
+                header(&mut payload).map_err(decode)?.stamp_ns
+            }
+            _ => return Err("its type has no speeds of the body".to_owned()),
+        };
+        let body = twist::body_speeds(layout, &mut payload).map_err(decode)?;
+        let tracks = twist::track_speeds(body, self.options.separation.unwrap_or(f64::NAN));
+        let received = Received { stamp_ns, log_ns, value: () };
+        self.joints.take_velocities(&topic.name, received, &twist::JOINTS, &tracks);
+        Ok(())
+    }
+
+    /// Adds poses that messages do not hold as they are; poses of second choice stay only where
+    /// there are no others, or where their topic is named.
+    ///
+    /// # Errors
+    /// Fixes without a yaw, where nothing else has poses.
+    pub(super) fn add_other_poses(
+        &mut self,
+        path: &Path,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<(), Error> {
+        for (key, trajectory) in std::mem::take(&mut self.paths) {
+            let poses = trajectory.into_poses();
+            if !poses.is_empty() {
+                self.poses.insert(key, poses);
+            }
+        }
+        if self.options.pose_topic.is_none() {
+            self.drop_goals(warnings);
+            let seen = &self.seen;
+            let is_second = |key: &PoseKey| {
+                let mut kinds = seen.iter().filter(|topic| topic.name == key.topic);
+                kinds.any(|topic| topic.layout().is_some_and(Layout::is_second_choice))
+            };
+            if self.poses.keys().any(|key| !is_second(key)) {
+                self.poses.retain(|key, _| !is_second(key));
+            }
+        }
+        let is_named = |name: &str| self.options.pose_topic.as_deref() == Some(name);
+        let frames_are_named =
+            self.options.parent_frame.is_some() || self.options.child_frame.is_some();
+        for (name, fixes) in std::mem::take(&mut self.fixes) {
+            if !is_named(&name) && (!self.poses.is_empty() || frames_are_named) {
+                continue;
+            }
+            match located(&name, &fixes, &self.yaws, self.options.dated_by, warnings) {
+                Ok(poses) => {
+                    let (parent, child) = (TANGENT_PLANE.to_owned(), String::new());
+                    self.poses.insert(PoseKey { topic: name, parent, child }, poses);
+                }
+                Err(problem) if self.imu.is_empty() || is_named(&name) => {
+                    return Err(Error::Topic {
+                        path: path.to_owned(),
+                        what: "poses",
+                        problem,
+                        available: list(self.seen.iter()),
+                    });
+                }
+                Err(reason) => {
+                    let count = fixes.len() as u64;
+                    warnings.push(Warning::MessagesSkipped { topic: name, count, reason });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Leaves out poses of second choice that hardly ever change.
+    fn drop_goals(&mut self, warnings: &mut Vec<Warning>) {
+        let seen = &self.seen;
+        self.poses.retain(|key, poses| {
+            let mut kinds = seen.iter().filter(|topic| topic.name == key.topic);
+            let is_second = kinds.any(|topic| topic.layout().is_some_and(Layout::is_second_choice));
+            let changes = poses.windows(2).filter(|pair| pair[0].value != pair[1].value).count();
+            let stays = !is_second || changes >= MIN_CHANGES;
+            if !stays {
+                let (topic, count) = (key.topic.clone(), poses.len() as u64);
+                let reason = format!("its pose changes {changes} times in all, as that of a goal");
+                warnings.push(Warning::MessagesSkipped { topic, count, reason });
+            }
+            stays
+        });
+    }
+}
+
+/// Poses at the fixes of a topic, with the yaw of the only IMU whose orientation changes.
+fn located(
+    topic: &str,
+    fixes: &[Fix],
+    yaws: &BTreeMap<String, Vec<Yaw>>,
+    dating: Dating,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Received<[f64; 3]>>, String> {
+    let changing: Vec<(&String, &Vec<Yaw>)> =
+        yaws.iter().filter(|(_, yaws)| fixes::changes(yaws)).collect();
+    let positions = format!("{topic} (NavSatFix) has positions without yaw");
+    let (imu, yaws) = match changing.as_slice() {
+        [(imu, yaws)] => (*imu, *yaws),
+        [] => {
+            return Err(format!(
+                "{positions}: expected a sensor_msgs/Imu whose orientation changes, counted from \
+                 east (REP-103), or another topic with poses"
+            ));
+        }
+        several => {
+            let names: Vec<&str> = several.iter().map(|(name, _)| name.as_str()).collect();
+            let names = names.join(", ");
+            return Err(format!("{positions}, and several IMUs have one: {names}; name the topic"));
+        }
+    };
+    let clocks = [Clock::of(topic, fixes), Clock::of(imu, yaws)];
+    let (by, told) = decide(&clocks, dating);
+    warnings.extend(told);
+    let mut known: Vec<(i64, f64)> =
+        yaws.iter().filter_map(|yaw| Some((clocks[1].date(by, yaw)?, yaw.value))).collect();
+    known.sort_by_key(|(time, _)| *time);
+    let mut dated: Vec<(i64, Fix)> =
+        fixes.iter().filter_map(|fix| Some((clocks[0].date(by, fix)?, *fix))).collect();
+    dated.sort_by_key(|(time, _)| *time);
+    let (poses, left_out) =
+        fixes::poses(&dated, &known).map_err(|problem| format!("{positions}; {imu}: {problem}"))?;
+    if left_out > 0 {
+        let (topic, reason) = (topic.to_owned(), format!("{imu} has no yaw at its time"));
+        warnings.push(Warning::MessagesSkipped { topic, count: left_out, reason });
+    }
+    if poses.is_empty() {
+        return Err(format!("{positions}, and none has a yaw of {imu} at its time"));
+    }
+    warnings.push(Warning::FromFixes { topic: topic.to_owned(), imu: imu.clone() });
+    Ok(poses)
+}

@@ -1,0 +1,251 @@
+//! Poses from fixes of satellite navigation and the yaw of an IMU.
+//!
+//! Positions are metres east (x) and north (y) of the first fix, in the plane that touches the
+//! WGS84 ellipsoid there. Yaw is that of the orientation of an IMU, which counts counter-clockwise
+//! from east (REP-103); where the robot drives straight, it is compared with the course.
+//!
+//! # Sources
+//! NIMA TR8350.2, WGS84 (ellipsoid).
+
+use super::date::Received;
+use std::f64::consts::{PI, TAU};
+
+/// Semi-major axis of the ellipsoid, m.
+const SEMI_MAJOR_AXIS: f64 = 6_378_137.0;
+
+/// Flattening of the ellipsoid.
+const FLATTENING: f64 = 1.0 / 298.257_223_563;
+
+/// Smallest distance from the first yaw at which an orientation counts as one that changes, rad:
+/// above the drift of an IMU at rest.
+const MIN_YAW_CHANGE: f64 = 0.2;
+
+/// Longest time between two yaws that are interpolated, ns: a robot that turns by 3 rad/s makes
+/// less than half a turn.
+const MAX_YAW_INTERVAL: i64 = 1_000_000_000;
+
+/// Length of the pieces whose course is compared with the yaw, m: above the noise of a receiver
+/// within some seconds.
+const COURSE_LENGTH: f64 = 3.0;
+
+/// Largest change of yaw in a straight piece, rad.
+const MAX_STRAIGHT_TURN: f64 = 0.2;
+
+/// Fewest straight pieces for a comparison.
+const MIN_STRAIGHT_PIECES: u32 = 5;
+
+/// Largest mean angle between yaw and course, rad: 20 degrees, above that of sensors mounted by eye
+/// and of robots that slide on a slope.
+const MAX_COURSE_OFFSET: f64 = 0.35;
+
+/// Smallest mean resultant length of doubled angles between yaw and course: below, the yaw does not
+/// follow the course, as that of a compass, which counts clockwise.
+const MIN_COURSE_AGREEMENT: f64 = 0.5;
+
+/// A fix: latitude and longitude in degrees, altitude in metres.
+pub(super) type Fix = Received<[f64; 3]>;
+
+/// Poses: metres east and north, yaw in rad.
+pub(super) type Poses = Vec<Received<[f64; 3]>>;
+
+/// The yaw of an IMU, rad.
+pub(super) type Yaw = Received<f64>;
+
+/// Position on the ellipsoid's axes (ECEF), m.
+fn ecef([latitude, longitude, altitude]: [f64; 3]) -> [f64; 3] {
+    let (sin_lat, cos_lat) = latitude.to_radians().sin_cos();
+    let (sin_lon, cos_lon) = longitude.to_radians().sin_cos();
+    // e² = f (2 - f), N = a / sqrt(1 - e² sin² φ)
+    let e2 = FLATTENING * (2.0 - FLATTENING);
+    let n = SEMI_MAJOR_AXIS / (1.0 - e2 * sin_lat * sin_lat).sqrt();
+    let to_axis = (n + altitude) * cos_lat;
+    [to_axis * cos_lon, to_axis * sin_lon, (n * (1.0 - e2) + altitude) * sin_lat]
+}
+
+/// Metres east and north of an origin, in the plane that touches the ellipsoid there.
+fn east_north(origin: [f64; 3], fix: [f64; 3]) -> [f64; 2] {
+    let (start, end) = (ecef(origin), ecef(fix));
+    let [dx, dy, dz] = [end[0] - start[0], end[1] - start[1], end[2] - start[2]];
+    let (sin_lat, cos_lat) = origin[0].to_radians().sin_cos();
+    let (sin_lon, cos_lon) = origin[1].to_radians().sin_cos();
+    // e = -sin λ dx + cos λ dy;  n = -sin φ (cos λ dx + sin λ dy) + cos φ dz
+    let east = -sin_lon * dx + cos_lon * dy;
+    let north = -sin_lat * (cos_lon * dx + sin_lon * dy) + cos_lat * dz;
+    [east, north]
+}
+
+/// An angle in [-π, π).
+fn wrapped(angle: f64) -> f64 {
+    (angle + PI).rem_euclid(TAU) - PI
+}
+
+/// Whether the yaw of an IMU changes.
+pub(super) fn changes(yaws: &[Yaw]) -> bool {
+    let first = yaws.first().map_or(0.0, |yaw| yaw.value);
+    yaws.iter().any(|yaw| wrapped(yaw.value - first).abs() > MIN_YAW_CHANGE)
+}
+
+/// Poses (east, north, yaw) at the fixes that a yaw is known at, and the number of others. Fixes
+/// and yaws with their times, ns, in the order of these.
+///
+/// # Errors
+/// A yaw that is not that of the course.
+pub(super) fn poses(fixes: &[(i64, Fix)], yaws: &[(i64, f64)]) -> Result<(Poses, u64), String> {
+    let Some(origin) = fixes.first().map(|(_, fix)| fix.value) else { return Ok((Vec::new(), 0)) };
+    let mut left_out = 0;
+    let mut found = Vec::new();
+    for (time, fix) in fixes {
+        let Some(yaw) = yaw_at(yaws, *time) else {
+            left_out += 1;
+            continue;
+        };
+        let [latitude, longitude, altitude] = fix.value;
+        let altitude = if altitude.is_finite() { altitude } else { 0.0 };
+        let origin = [origin[0], origin[1], if origin[2].is_finite() { origin[2] } else { 0.0 }];
+        let [x, y] = east_north(origin, [latitude, longitude, altitude]);
+        found.push(Received { stamp_ns: fix.stamp_ns, log_ns: fix.log_ns, value: [x, y, yaw] });
+    }
+    check_course(&found)?;
+    Ok((found, left_out))
+}
+
+/// The yaw between the two nearest ones, along the shorter way.
+fn yaw_at(yaws: &[(i64, f64)], time: i64) -> Option<f64> {
+    let after = yaws.partition_point(|(known, _)| *known < time);
+    let (end, last) = *yaws.get(after)?;
+    if end == time {
+        return Some(last);
+    }
+    let (start, first) = *yaws.get(after.checked_sub(1)?)?;
+    let interval = end.saturating_sub(start);
+    #[expect(clippy::cast_precision_loss, reason = "at most a second")]
+    let portion = |part: i64| part as f64 / interval as f64;
+    (interval <= MAX_YAW_INTERVAL)
+        .then(|| first + wrapped(last - first) * portion(time.saturating_sub(start)))
+}
+
+/// Compares yaw and course where the robot drives straight, forward or backward.
+fn check_course(poses: &[Received<[f64; 3]>]) -> Result<(), String> {
+    let (mut cos, mut sin, mut count) = (0.0, 0.0, 0_u32);
+    let mut start: Option<[f64; 3]> = None;
+    for pose in poses {
+        let [x, y, yaw] = pose.value;
+        let Some([x0, y0, yaw0]) = start else {
+            start = Some(pose.value);
+            continue;
+        };
+        if wrapped(yaw - yaw0).abs() > MAX_STRAIGHT_TURN {
+            start = Some(pose.value);
+        } else if (x - x0).hypot(y - y0) >= COURSE_LENGTH {
+            // The doubled angle is that of driving forward and of driving backward.
+            let offset = (y - y0).atan2(x - x0) - (yaw0 + wrapped(yaw - yaw0) / 2.0);
+            cos += (2.0 * offset).cos();
+            sin += (2.0 * offset).sin();
+            count += 1;
+            start = Some(pose.value);
+        }
+    }
+    if count < MIN_STRAIGHT_PIECES {
+        return Ok(());
+    }
+    let (agreement, offset) = (cos.hypot(sin) / f64::from(count), sin.atan2(cos) / 2.0);
+    let expected = "expected yaw that counts counter-clockwise from east, as REP-103 has it";
+    if agreement < MIN_COURSE_AGREEMENT {
+        return Err(format!("its yaw does not follow the course of the fixes: {expected}"));
+    }
+    if offset.abs() > MAX_COURSE_OFFSET {
+        let degrees = -offset.to_degrees();
+        return Err(format!(
+            "its yaw is off the course of the fixes by {degrees:.0} degrees: {expected}"
+        ));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lengths of a degree at 45 degrees north (NGA): 111 131.75 m of latitude, 78 846.81 m of
+    /// longitude, known to a centimetre.
+    #[test]
+    fn a_ten_thousandth_of_a_degree_has_its_length() {
+        let origin = [45.0, 8.0, 0.0];
+        let [east, north] = east_north(origin, [45.000_1, 8.0, 0.0]);
+        assert!(east.abs() < 1e-6 && (north - 11.113_175).abs() < 1e-4, "{east} {north}");
+        let [east, north] = east_north(origin, [45.0, 8.000_1, 0.0]);
+        assert!((east - 7.884_681).abs() < 1e-4 && north.abs() < 1e-4, "{east} {north}");
+        let [east, north] = east_north(origin, [45.0, 8.0, 30.0]);
+        assert!(east.hypot(north) < 1e-6);
+    }
+
+    /// Fixes, yaws of the IMU, and the pose at each fix.
+    type Driven = (Vec<(i64, Fix)>, Vec<(i64, f64)>, Vec<[f64; 3]>);
+
+    /// A drive with turns: a fix each 0.2 s, a yaw each 0.1 s; `reported` makes the yaw of the IMU.
+    fn drive(reported: impl Fn(f64) -> f64) -> Driven {
+        let (mut x, mut y, mut yaw) = (0.0, 0.0, 0.3_f64);
+        let (mut fixes, mut yaws, mut truth) = (Vec::new(), Vec::new(), Vec::new());
+        for step in 0..2000_i64 {
+            let time = step * 100_000_000;
+            if step % 2 == 0 {
+                // metres per degree at 45 degrees north
+                let value = [45.0 + y / 111_131.75, 8.0 + x / 78_846.81, 100.0];
+                fixes.push((time, Received { stamp_ns: Some(time + 1), log_ns: 0, value }));
+                truth.push([x, y, yaw]);
+            }
+            yaws.push((time, reported(yaw)));
+            yaw += if step % 100 < 80 { 0.0 } else { 0.05 };
+            (x, y) = (x + 0.1 * yaw.cos(), y + 0.1 * yaw.sin());
+        }
+        (fixes, yaws, truth)
+    }
+
+    #[test]
+    fn poses_are_those_of_the_drive() {
+        let (fixes, yaws, truth) = drive(wrapped);
+        let (poses, left_out) = poses(&fixes, &yaws).expect("poses");
+        assert_eq!((poses.len(), left_out), (truth.len(), 0));
+        for (pose, [x, y, yaw]) in poses.iter().zip(truth) {
+            // the plane bends away by less than a millimetre over these 100 m
+            assert!(
+                (pose.value[0] - x).hypot(pose.value[1] - y) < 0.01,
+                "{:?} {x} {y}",
+                pose.value
+            );
+            assert!(wrapped(pose.value[2] - yaw).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_compass_and_an_arbitrary_zero_are_refused() {
+        let refused = |reported: fn(f64) -> f64| {
+            let (fixes, yaws, _) = drive(reported);
+            poses(&fixes, &yaws).expect_err("refused")
+        };
+        assert!(refused(|yaw| PI / 2.0 - yaw).contains("does not follow"));
+        let text = refused(|yaw| yaw - 1.0);
+        assert!(text.contains("off the course of the fixes by -5"), "{text}");
+        // backward all the time
+        let (fixes, yaws, _) = drive(|yaw| yaw + PI);
+        assert!(poses(&fixes, &yaws).is_ok());
+    }
+
+    #[test]
+    fn fixes_without_a_yaw_nearby_are_left_out() {
+        let (fixes, mut yaws, _) = drive(|yaw| yaw);
+        yaws.retain(|(time, _)| !(100..150).contains(&(time / 100_000_000)));
+        let (poses, left_out) = poses(&fixes, &yaws).expect("poses");
+        assert_eq!((poses.len(), left_out), (fixes.len() - 25, 25));
+    }
+
+    #[test]
+    fn an_orientation_that_drifts_by_little_does_not_change() {
+        let of = |values: [f64; 3]| {
+            changes(&values.map(|value| Received { stamp_ns: None, log_ns: 0, value }))
+        };
+        assert!(!of([1.0, 1.1, 0.9]));
+        assert!(!of([3.1, -3.1, 3.0]));
+        assert!(of([1.0, 1.1, 0.5]));
+    }
+}

@@ -192,7 +192,6 @@ impl Mechanics {
     /// the step.
     ///
     /// Its change by shear-stress laws stays too, unless such a law is what differs.
-    /// differs.
     pub fn varied(&self, hypothesis: &Hypothesis, evidence: &Evidence) -> Self {
         let inertia = |inert: Vec<ActiveEffect>, case: &Case| {
             let moved = match &self.in_time {

@@ -11,6 +11,7 @@ use crate::evidence::{Evidence, Origin};
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
 use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument};
 use crate::prior::area;
+use crate::progress::Cancelled;
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -259,13 +260,27 @@ impl<'a> Beside<'a> {
     /// Signatures of variants, in parallel, without those that cannot act. An effect already
     /// present has one variant only: its shape, direction and place are given.
     pub fn signatures(&self, variants: &[Variant]) -> Vec<(Variant, Vec<Signature>)> {
+        self.signatures_while(variants, || Ok(())).unwrap_or_default()
+    }
+
+    /// [`Self::signatures`], as long as `go_on` lets it.
+    ///
+    /// # Errors
+    /// [`Cancelled`], by `go_on`.
+    pub fn signatures_while(
+        &self,
+        variants: &[Variant],
+        go_on: impl Fn() -> Result<(), Cancelled> + Sync,
+    ) -> Result<Vec<(Variant, Vec<Signature>)>, Cancelled> {
         let mut known = BTreeSet::new();
         let is_own = |variant: &&Variant| !self.knows(variant) || known.insert(variant.effect);
         let tried: Vec<&Variant> = variants.iter().filter(is_own).collect();
-        tried
-            .into_par_iter()
-            .filter_map(|variant| Some((variant.clone(), variant.signatures(self)?)))
-            .collect()
+        let entry = |variant: &Variant| Some((variant.clone(), variant.signatures(self)?));
+        let entries = tried.into_par_iter().map(|variant| {
+            go_on()?;
+            Ok(entry(variant))
+        });
+        entries.filter_map(Result::transpose).collect()
     }
 }
 

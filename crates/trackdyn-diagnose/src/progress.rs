@@ -67,8 +67,8 @@ pub struct Progress {
     pub total: usize,
 }
 
-/// Callback at the start and end of each stage and before each refit, which says whether to
-/// continue. [`ControlFlow::Break`] ends the diagnosis at once, as cancelled.
+/// Callback at the start and end of each stage, before each signature and each refit, which says
+/// whether to continue. [`ControlFlow::Break`] ends the diagnosis at once, as cancelled.
 pub type Observer<'a> = dyn Fn(Progress) -> ControlFlow<()> + Sync + 'a;
 
 /// An observer that never cancels.
@@ -135,6 +135,17 @@ impl<'a> Watch<'a> {
     }
 }
 
+impl<'a> Watch<'a> {
+    /// [`Self::go_on`] for the tasks of a parallel stage.
+    pub fn of_tasks(&self) -> impl Fn() -> Result<(), Cancelled> + Sync + use<'a> {
+        let (observer, at) = (self.observer, self.at.get());
+        move || match observer(at) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Cancelled),
+        }
+    }
+}
+
 impl Watch<'static> {
     /// A watch without an observer.
     pub fn none() -> Self {
@@ -171,5 +182,6 @@ mod tests {
             (Stage::Search, 2),
         ];
         assert_eq!(*seen.lock().expect("one thread"), expected);
+        assert_eq!(watch.of_tasks()(), Err(Cancelled), "tasks are told as well");
     }
 }

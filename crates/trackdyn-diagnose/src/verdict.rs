@@ -45,21 +45,27 @@ pub struct Verdict {
     pub refused: Option<Refusal>,
 }
 
+/// What all verdicts on a search rest on.
+#[derive(Clone, Copy)]
+pub struct Basis<'a> {
+    /// Evidence, base and catalogue of candidates.
+    pub search: &'a Search,
+    /// Effects that act as constant ICRs.
+    pub constants: &'a Constants,
+    /// The vehicle file.
+    pub file: &'a VehicleFile,
+    /// Draws and seed of the resampling.
+    pub resampling: Resampling,
+    /// The watch, asked before each refit.
+    pub watch: &'a Watch<'a>,
+}
+
 /// Judges effects that the best hypothesis adds.
-///
-/// `file` is the vehicle file.
 ///
 /// # Errors
 /// [`Cancelled`], by the observer of the watch.
-pub fn judge(
-    search: &Search,
-    best: &Found,
-    effects: &[EffectId],
-    constants: &Constants,
-    file: &VehicleFile,
-    resampling: Resampling,
-    watch: &Watch,
-) -> Result<Vec<Verdict>, Cancelled> {
+pub fn judge(basis: &Basis, best: &Found, effects: &[EffectId]) -> Result<Vec<Verdict>, Cancelled> {
+    let Basis { search, constants, file, resampling, watch } = *basis;
     let departure = (search.base.fit.objective - best.fit.objective).max(0.0).sqrt();
     // The form error of what may act as constant ICRs is a share of all that moved them. It cannot
     // mimic a law outside their class, which breaks symmetries that constants keep.

@@ -8,7 +8,7 @@ use crate::resampling::Resampling;
 use crate::search::{Found, Screened, Search};
 use crate::uncertainty::{Interval, Level, Uncertainty};
 use crate::verdict::{
-    Constants, Verdict, judge, judge_constants, judge_instruments, unless_unsure,
+    Basis, Constants, Verdict, judge, judge_constants, judge_instruments, unless_unsure,
 };
 use crate::weighted::Weighted;
 use trackdyn_model::{EffectId, VehicleFile};
@@ -42,11 +42,11 @@ impl Judged {
     ) -> Result<Self, Cancelled> {
         let Searched { search, screened, found } = searched;
         let constants = Constants::of(&search);
-        let Physics { best, verdicts, intervals, mut refused } =
-            Physics::of(&search, found, &constants, file, resampling, watch)?;
-        let instruments = judge_instruments(&search, &best, resampling, watch)?;
+        let basis = Basis { search: &search, constants: &constants, file, resampling, watch };
+        let Physics { best, verdicts, intervals, mut refused } = Physics::of(&basis, found)?;
+        let instruments = judge_instruments(&basis, &best)?;
         let own = claimed(&verdicts);
-        let wrong = judge_constants(&search, &best, &constants, file, &own, resampling, watch)?;
+        let wrong = judge_constants(&basis, &best, &own)?;
         let uncertainty = Uncertainty::of(&search, &best);
         let of_instruments = uncertainty.intervals(&claimed(&instruments));
         let friction_level = uncertainty.friction_level();
@@ -116,14 +116,8 @@ struct Physics {
 impl Physics {
     /// Backward elimination: while any claim is refused, the weakest refused effect is left out and
     /// the others are judged again.
-    fn of(
-        search: &Search,
-        found: Found,
-        constants: &Constants,
-        file: &VehicleFile,
-        resampling: Resampling,
-        watch: &Watch,
-    ) -> Result<Self, Cancelled> {
+    fn of(basis: &Basis, found: Found) -> Result<Self, Cancelled> {
+        let Basis { search, constants, watch, .. } = *basis;
         // Effects that mostly act as constant ICRs are free in every hypothesis: they stay, even
         // refused.
         let stays = |one: &Verdict| constants.mostly.contains(&one.effect);
@@ -132,7 +126,7 @@ impl Physics {
         loop {
             let mut asked = best.effects.clone();
             asked.retain(|effect| !refused.iter().any(|other| other.effect == *effect));
-            let verdicts = judge(search, &best, &asked, constants, file, resampling, watch)?;
+            let verdicts = judge(basis, &best, &asked)?;
             let all_stand = verdicts.iter().all(|one| one.refused.is_none() || stays(one));
             let intervals = if all_stand {
                 Uncertainty::of(search, &best).intervals(&claimed(&verdicts))

@@ -25,7 +25,7 @@ pub(super) struct Searched {
 impl Searched {
     /// Searches the evidence once.
     fn of(seen: &Weighted, base: Base, watch: &Watch) -> Result<Self, Cancelled> {
-        let search = watch.stage(Stage::Signatures, || with_signatures(seen, base))?;
+        let search = watch.try_stage(Stage::Signatures, || with_signatures(seen, base, watch))?;
         watch.try_stage(Stage::Search, || {
             let screened = search.screen(&search.nothing());
             let found = search.best(watch)?;
@@ -50,12 +50,12 @@ impl Searched {
 
 /// A search with the signatures of all candidates, and of refined variants between them that gain
 /// more.
-fn with_signatures(seen: &Weighted, base: Base) -> Search {
+fn with_signatures(seen: &Weighted, base: Base, watch: &Watch) -> Result<Search, Cancelled> {
     let base = Arc::new(base);
     let tried = candidates(&base.instruments, seen);
     let beside = Beside::new(&base.fit.hypothesis, seen);
-    let catalogue = Catalogue { entries: beside.signatures(&tried) };
+    let catalogue = Catalogue { entries: beside.signatures_while(&tried, watch.of_tasks())? };
     let search = Search::new(seen.clone(), Arc::clone(&base), catalogue);
     let between = search.between(&beside);
-    search.with_more(between)
+    Ok(search.with_more(between))
 }

@@ -1,13 +1,12 @@
 //! Verdict on constant ICRs that differ from those of the vehicle file: a wrong number, or a class
 //! of effects that act alike.
 
-use super::{Refusal, Support, Verdict, refusal};
+use super::{Basis, Refusal, Support, Verdict, refusal};
 use crate::base::OFFSETS;
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, unknowns_of, with_friction};
 use crate::prior::measured;
-use crate::progress::{Cancelled, Watch};
-use crate::resampling::Resampling;
+use crate::progress::Cancelled;
 use crate::search::{Found, Search};
 use crate::settings;
 use std::collections::BTreeMap;
@@ -119,14 +118,11 @@ fn as_good_as_filed(free: &Fit, needed: f64) -> Option<Refusal> {
 /// # Errors
 /// [`Cancelled`], by the observer of the watch.
 pub fn judge_constants(
-    search: &Search,
+    basis: &Basis,
     best: &Found,
-    constants: &Constants,
-    file: &VehicleFile,
     claimed: &[EffectId],
-    resampling: Resampling,
-    watch: &Watch,
 ) -> Result<Option<Verdict>, Cancelled> {
+    let Basis { search, constants, file, resampling, watch } = *basis;
     watch.go_on()?;
     let (filed, fixed) = as_filed(search, best, constants, file, claimed);
     let evidence = &search.evidence;

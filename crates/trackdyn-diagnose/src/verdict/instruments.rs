@@ -1,12 +1,11 @@
 //! Verdicts on encoders and pose sensor that differ from the vehicle file.
 
 use super::rivals::is_rival;
-use super::{Support, Verdict, refusal};
+use super::{Basis, Support, Verdict, refusal};
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, typical};
 use crate::mechanics::is_instrument;
-use crate::progress::{Cancelled, Watch};
-use crate::resampling::Resampling;
+use crate::progress::Cancelled;
 use crate::search::{Found, Search};
 use crate::settings::Settings;
 use std::cell::LazyCell;
@@ -16,12 +15,8 @@ use trackdyn_model::EffectId;
 ///
 /// # Errors
 /// [`Cancelled`], by the observer of the watch.
-pub fn judge_instruments(
-    search: &Search,
-    best: &Found,
-    resampling: Resampling,
-    watch: &Watch,
-) -> Result<Vec<Verdict>, Cancelled> {
+pub fn judge_instruments(basis: &Basis, best: &Found) -> Result<Vec<Verdict>, Cancelled> {
+    let Basis { search, resampling, watch, .. } = *basis;
     let filed = &search.base.as_filed.hypothesis;
     let Settings { verdict: rules, answer, .. } = search.settings();
     let mut verdicts = Vec::new();

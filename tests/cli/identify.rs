@@ -1,31 +1,19 @@
 //! `trackdyn inspect` and `trackdyn identify`.
 
-use crate::{Workplace, project_file};
+use crate::{Workplace, auriga_alpha, vehicle};
 use trackdyn_core::PerSide;
 use trackdyn_estimate::synthetic::{Stretch, Synthetic, random_steps};
 use trackdyn_recording::folder;
 
 /// Writes a recording of Auriga-alpha's size into the folder `rec`.
 fn record(place: &Workplace, schedules: Vec<Vec<Stretch>>) {
-    let synthetic = Synthetic {
-        schedules,
-        encoder_noise: 0.01,
-        position_noise: 0.002,
-        yaw_noise: 0.002,
-        tau: 0.1,
-        ..Synthetic::default()
-    };
-    write(place, "rec", &synthetic);
+    write(place, "rec", &auriga_alpha(schedules));
 }
 
 /// Writes a recording into a folder of this name.
 fn write(place: &Workplace, name: &str, synthetic: &Synthetic) {
     let recording = synthetic.recording().expect("long enough");
     folder::write(&recording, &place.path().join(name)).expect("written");
-}
-
-fn vehicle() -> String {
-    project_file("configs/vehicles/auriga-alpha.toml").display().to_string()
 }
 
 /// Speeds as they were told, and the poses of a simulator: nothing of their noise can be measured,

@@ -1,27 +1,15 @@
 //! `trackdyn inspect`: judgement, picture, and commands that do.
 
-use crate::{Workplace, project_file};
+use crate::{Workplace, auriga_alpha, vehicle};
 use std::fmt::Write;
-use trackdyn_estimate::synthetic::{Stretch, Synthetic, random_steps};
+use trackdyn_estimate::synthetic::{Stretch, random_steps};
 use trackdyn_recording::{Recording, Source, UncheckedRun, folder};
 
 const WIDTH: usize = 120;
 
-fn vehicle() -> String {
-    project_file("configs/vehicles/auriga-alpha.toml").display().to_string()
-}
-
 /// A recording of Auriga-alpha's size.
 fn recording(schedules: Vec<Vec<Stretch>>) -> Recording {
-    let synthetic = Synthetic {
-        schedules,
-        encoder_noise: 0.01,
-        position_noise: 0.002,
-        yaw_noise: 0.002,
-        tau: 0.1,
-        ..Synthetic::default()
-    };
-    synthetic.recording().expect("long enough")
+    auriga_alpha(schedules).recording().expect("long enough")
 }
 
 /// The recording with its rows changed, as a folder.

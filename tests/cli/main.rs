@@ -22,6 +22,7 @@ mod trial;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
+use trackdyn_estimate::synthetic::{Stretch, Synthetic};
 
 /// What a run left behind.
 struct Run {
@@ -97,6 +98,23 @@ impl Workplace {
 /// A file of the project.
 fn project_file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name)
+}
+
+/// The vehicle file of Auriga-alpha.
+fn vehicle() -> String {
+    project_file("configs/vehicles/auriga-alpha.toml").display().to_string()
+}
+
+/// A drive of Auriga-alpha's size, with the noise of a laboratory and poses that come late.
+fn auriga_alpha(schedules: Vec<Vec<Stretch>>) -> Synthetic {
+    Synthetic {
+        schedules,
+        encoder_noise: 0.01,
+        position_noise: 0.002,
+        yaw_noise: 0.002,
+        tau: 0.1,
+        ..Synthetic::default()
+    }
 }
 
 /// The text of a file of the project.

@@ -1,19 +1,14 @@
 //! The formats of recordings, as the commands take them.
 
-use crate::{Workplace, project_file};
+use crate::{Workplace, auriga_alpha, project_file, vehicle};
 use std::fmt::Write;
 use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_recording::folder;
 
 /// A recording folder `rec`, and the same as the trajectory `walk.tum` and the table `tracks.csv`.
 fn record(place: &Workplace) {
-    let synthetic = Synthetic {
-        schedules: vec![random_steps(20, 2.0, 0.8, 1)],
-        encoder_noise: 0.01,
-        position_noise: 0.002,
-        yaw_noise: 0.002,
-        ..Synthetic::default()
-    };
+    let on_time = Synthetic::default().tau;
+    let synthetic = Synthetic { tau: on_time, ..auriga_alpha(vec![random_steps(20, 2.0, 0.8, 1)]) };
     let recording = synthetic.recording().expect("long enough");
     let run = &recording.runs()[0];
     let mut walk = String::from("# t x y z qx qy qz qw\n");
@@ -29,10 +24,6 @@ fn record(place: &Workplace) {
     }
     place.write("tracks.csv", &tracks);
     folder::write(&recording, &place.path().join("rec")).expect("written");
-}
-
-fn vehicle() -> String {
-    project_file("configs/vehicles/auriga-alpha.toml").display().to_string()
 }
 
 fn fixture(name: &str) -> String {

@@ -1,7 +1,7 @@
 //! Velocity of the body in the plane.
 
 use crate::Scalar;
-use std::ops::{Add, AddAssign, Mul, Sub};
+use std::ops::{Add, AddAssign, Div, Mul, Sub};
 
 /// Planar twist of the body, at the frame's origin and in the frame's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,18 @@ impl<S: Scalar> Twist<S> {
     pub fn zero() -> Self {
         let zero = S::from(0.0);
         Self { v_x: zero, v_y: zero, w: zero }
+    }
+
+    /// From (v_x, v_y, w).
+    #[inline]
+    pub fn from_array([v_x, v_y, w]: [S; 3]) -> Self {
+        Self { v_x, v_y, w }
+    }
+
+    /// (v_x, v_y, w).
+    #[inline]
+    pub fn to_array(self) -> [S; 3] {
+        [self.v_x, self.v_y, self.w]
     }
 
     /// Velocity of the body point (x, y), m/s.
@@ -60,6 +72,15 @@ impl<S: Scalar> Sub for Twist<S> {
     #[inline]
     fn sub(self, other: Self) -> Self {
         Self { v_x: self.v_x - other.v_x, v_y: self.v_y - other.v_y, w: self.w - other.w }
+    }
+}
+
+impl Div<f64> for Twist {
+    type Output = Self;
+
+    #[inline]
+    fn div(self, divisor: f64) -> Self {
+        Self::from_array(self.to_array().map(|part| part / divisor))
     }
 }
 

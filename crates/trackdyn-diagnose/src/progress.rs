@@ -128,14 +128,9 @@ impl<'a> Watch<'a> {
     /// # Errors
     /// [`Cancelled`].
     pub fn go_on(&self) -> Result<(), Cancelled> {
-        match (self.observer)(self.at.get()) {
-            ControlFlow::Continue(()) => Ok(()),
-            ControlFlow::Break(()) => Err(Cancelled),
-        }
+        self.of_tasks()()
     }
-}
 
-impl<'a> Watch<'a> {
     /// [`Self::go_on`] for the tasks of a parallel stage.
     pub fn of_tasks(&self) -> impl Fn() -> Result<(), Cancelled> + Sync + use<'a> {
         let (observer, at) = (self.observer, self.at.get());

@@ -46,6 +46,21 @@ const MAX_REFINEMENTS: u32 = 2;
 /// Largest number of halvings of a step for convergence.
 const MAX_HALVINGS: u32 = 10;
 
+/// Base of the acceleration in the second stage of a step, from the twists at its start and in its
+/// first stage.
+#[inline]
+pub fn base_of_second(start: Twist, first: Twist) -> Twist {
+    // u_b = u_n + (1 − γ)/γ (u₁ − u_n)
+    start + (first - start) * ((1.0 - GAMMA) / GAMMA)
+}
+
+/// Twist by which the body moves over a step, from those in its stages.
+#[inline]
+pub fn mean_of_stages([first, second]: [Twist; 2]) -> Twist {
+    // (1 − γ) u₁ + γ u₂
+    first * (1.0 - GAMMA) + second * GAMMA
+}
+
 /// A step of the simulation.
 #[derive(Clone, Copy, Debug)]
 pub struct Step {
@@ -53,7 +68,7 @@ pub struct Step {
     pub end: f64,
     /// Duration h, s.
     pub duration: f64,
-    /// Its stages; the second one is its end. The body moves by the twist (1 − γ) u₁ + γ u₂.
+    /// Its stages; the second one is its end. The body moves by their [`mean_of_stages`].
     pub stages: [Instant; 2],
 }
 
@@ -209,20 +224,9 @@ impl<'m> Transient<'m> {
         let h = end - start.t;
         // Stage 1 at t + γ h from u, stage 2 at t + h from u + (1 − γ) h u̇₁.
         let first = self.stage(&start, shown, GAMMA * h, GAMMA * h, start.twist, start.twist)?;
-        let rate = |a: f64, b: f64| a + (1.0 - GAMMA) / GAMMA * (b - a);
-        let base = Twist {
-            v_x: rate(start.twist.v_x, first.twist.v_x),
-            v_y: rate(start.twist.v_y, first.twist.v_y),
-            w: rate(start.twist.w, first.twist.w),
-        };
+        let base = base_of_second(start.twist, first.twist);
         let second = self.stage(&first, shown, h, GAMMA * h, base, first.twist)?;
-        // The pose moves by the weighted mean of the stages' twists.
-        let mean = |a: f64, b: f64| (1.0 - GAMMA) * a + GAMMA * b;
-        let twist = Twist {
-            v_x: mean(first.twist.v_x, second.twist.v_x),
-            v_y: mean(first.twist.v_y, second.twist.v_y),
-            w: mean(first.twist.w, second.twist.w),
-        };
+        let twist = mean_of_stages([first.twist, second.twist]);
         let pose = start.pose.compose(&Pose::exp(&ros_twist_from_paper(&twist), h));
         // Error estimate: difference from the method of order 1, u + h u̇₁.
         let off = |a: f64, b: f64, c: f64| c - (a + (b - a) / GAMMA);

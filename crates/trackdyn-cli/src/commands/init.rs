@@ -63,15 +63,16 @@ pub fn run(options: &Options) -> Outcome {
         )
         .into());
     }
-    let sketch = if options.missing().is_empty() {
-        options.sketch()
+    let missing = options.missing();
+    let numbers = if missing.is_empty() {
+        options.numbers()
     } else if stdin().is_terminal() {
-        options.asked(&mut Questions::of_terminal())?.sketch()
+        options.asked(&mut Questions::of_terminal())?
     } else {
-        let missing = options.missing().join(", ");
+        let missing = missing.join(", ");
         return Err(format!("expected {missing}, or a terminal to ask for it on").into());
     };
-    let Some(sketch) = sketch else { unreachable!("nothing is missing") };
+    let Some(sketch) = numbers.sketch() else { unreachable!("nothing is missing") };
     sketch.write(file)?;
     say(format_args!("wrote {}", file.display()));
     let file = path(file);
@@ -107,7 +108,7 @@ impl Numbers {
 impl Options {
     /// Options without which there is no vehicle.
     fn missing(&self) -> Vec<&'static str> {
-        let is_wheeled = self.wheels.is_some() || !self.axles.is_empty();
+        let is_wheeled = self.is_wheeled();
         let options = [
             ("--gauge", self.gauge.is_none()),
             ("--track or --wheels", self.track.is_none() && !is_wheeled),
@@ -118,8 +119,8 @@ impl Options {
         options.into_iter().filter_map(|(name, is_missing)| is_missing.then_some(name)).collect()
     }
 
-    fn sketch(&self) -> Option<VehicleSketch> {
-        self.numbers().sketch()
+    fn is_wheeled(&self) -> bool {
+        self.wheels.is_some() || !self.axles.is_empty()
     }
 
     fn numbers(&self) -> Numbers {
@@ -153,8 +154,7 @@ impl Options {
             numbers.gauge = Some(ask.until(question, positive)?);
         }
         if numbers.running_gear.is_none() {
-            let is_wheeled = self.wheels.is_some() || !self.axles.is_empty();
-            numbers.running_gear = Some(if is_wheeled || ask.choice("tracks", "wheels")? {
+            numbers.running_gear = Some(if self.is_wheeled() || ask.choice("tracks", "wheels")? {
                 let question = "contact length and width of a tyre in m, such as 0.1,0.12";
                 let [contact_length, width] = ask.unless(self.wheels, question, pair)?;
                 let question = "axles in m forward of the middle, such as 0.256,-0.256";

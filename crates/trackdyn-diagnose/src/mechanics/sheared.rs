@@ -27,7 +27,7 @@ use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Twist, real};
 use trackdyn_model::Forces;
 use trackdyn_model::newton::{self, Convergence, Tolerance};
-use trackdyn_model::transient::{GAMMA, Instant, Step};
+use trackdyn_model::transient::{GAMMA, Instant, Step, base_of_second};
 use trackdyn_recording::TrackSample;
 
 /// A run simulated without the laws.
@@ -51,27 +51,26 @@ struct Known {
     leaves: f64,
 }
 
-/// Mean change of the twist (paper's frame) by the laws while each reading of a run holds. `forces`
+/// Change of the twist (paper's frame) by the laws in both stages of each step of a run. `forces`
 /// are those with and without the laws, `shifts` their change of the stationary twist at each
 /// reading.
-pub fn departures(
+pub fn changes(
     [with, without]: [&Forces; 2],
     run: &Without,
     shifts: &[Twist],
     settings: &settings::Mechanics,
-) -> Vec<Twist> {
+) -> Vec<[Twist; 2]> {
     let still = Twist::zero();
-    let mut departures = vec![still; run.belts.len()];
-    let mut ended = Vector3::zeros();
+    let mut changes = Vec::with_capacity(run.steps.len());
+    let mut ended = still;
     let mut known = None;
     let mut steps = run.steps.iter().peekable();
     for (reading, pair) in run.belts.windows(2).enumerate() {
-        let [from, until] = [pair[0].t, pair[1].t];
-        let speeds = pair[0].speeds();
-        let (here, shift) = (run.steady[reading] + shifts[reading], vector(&shifts[reading]));
+        let until = pair[1].t;
+        let shift = shifts[reading];
         // What tables and quadrature leave unbalanced in the stationary motion counts as balance.
-        let rest = with.sum(speeds, &here, &still) - run.left[reading];
-        let mut sum = Vector3::zeros();
+        let rest =
+            with.sum(pair[0].speeds(), &(run.steady[reading] + shift), &still) - run.left[reading];
         while let Some(step) = steps.next_if(|step| step.end <= until) {
             let per_second = (GAMMA * step.duration).recip();
             let [first, second] = step.stages.map(|instant| Stage {
@@ -82,18 +81,13 @@ pub fn departures(
                 rest,
                 settings,
             });
-            let one = first.solve(&shift, &mut known, &ended);
-            let base = ended + (one - ended) * ((1.0 - GAMMA) / GAMMA);
-            let two = second.solve(&one, &mut known, &base);
-            sum += (one * (1.0 - GAMMA) + two * GAMMA - shift) * step.duration;
+            let one = first.solve(shift, &mut known, ended);
+            let two = second.solve(one, &mut known, base_of_second(ended, one));
+            changes.push([one, two]);
             ended = two;
         }
-        let held = until - from;
-        if held > 0.0 {
-            departures[reading] = twist_of(&(sum / held));
-        }
     }
-    departures
+    changes
 }
 
 /// A stage whose change D by the laws is sought.
@@ -111,13 +105,14 @@ struct Stage<'a> {
 
 impl Stage<'_> {
     /// Twist and acceleration with a change `added` of the twist; `base` is D_b.
-    fn moved(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> (Twist, Twist) {
+    fn moved(&self, added: &Vector3<f64>, base: Twist) -> (Twist, Twist) {
+        let added = Twist::from_array((*added).into());
         let faster = (added - base) * self.per_second;
-        (self.instant.twist + twist_of(added), self.instant.rate + twist_of(&faster))
+        (self.instant.twist + added, self.instant.rate + faster)
     }
 
     /// Unbalanced forces over the weight, and moment over weight times gauge.
-    fn residual(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> Vector3<f64> {
+    fn residual(&self, added: &Vector3<f64>, base: Twist) -> Vector3<f64> {
         let (twist, rate) = self.moved(added, base);
         let off = self.with.sum(self.instant.belt_speed, &twist, &rate) - self.rest;
         off.component_div(&self.scale())
@@ -130,7 +125,7 @@ impl Stage<'_> {
     }
 
     /// Inverse Jacobian of the residual; none where it is singular.
-    fn inverse(&self, added: &Vector3<f64>, base: &Vector3<f64>) -> Option<Matrix3<f64>> {
+    fn inverse(&self, added: &Vector3<f64>, base: Twist) -> Option<Matrix3<f64>> {
         let (twist, rate) = self.moved(added, base);
         let belts = self.instant.belt_speed;
         let by_rate = self.without.by_rate(belts, &twist, &rate) * self.per_second;
@@ -141,12 +136,12 @@ impl Stage<'_> {
 
     /// Solves for the change, starting at `start`. `known` is the inverse Jacobian of the previous
     /// stage, and is replaced by that of this one.
-    fn solve(
-        &self,
-        start: &Vector3<f64>,
-        known: &mut Option<Known>,
-        base: &Vector3<f64>,
-    ) -> Vector3<f64> {
+    fn solve(&self, start: Twist, known: &mut Option<Known>, base: Twist) -> Twist {
+        let start = Vector3::from(start.to_array());
+        Twist::from_array(self.solved(&start, known, base).into())
+    }
+
+    fn solved(&self, start: &Vector3<f64>, known: &mut Option<Known>, base: Twist) -> Vector3<f64> {
         let residual = |added| self.residual(&added, base);
         let off = residual(*start);
         let converged = self.settings.balance_tolerance;
@@ -181,12 +176,4 @@ fn leaves(off: &Vector3<f64>, found: &Convergence<3>) -> f64 {
         return 1.0;
     }
     (found.residual / off.norm()).powf(real(found.iterations).recip())
-}
-
-fn vector(twist: &Twist) -> Vector3<f64> {
-    Vector3::new(twist.v_x, twist.v_y, twist.w)
-}
-
-fn twist_of(vector: &Vector3<f64>) -> Twist {
-    Twist { v_x: vector[0], v_y: vector[1], w: vector[2] }
 }

@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
 use trackdyn_model::contact::Resolution;
-use trackdyn_model::transient::{GAMMA, Step, tangents};
+use trackdyn_model::transient::{Step, mean_of_stages, tangents};
 use trackdyn_model::{ActiveEffect, Circumstance, Drive, EffectId, Effects, Model, Vehicle};
 use trackdyn_model::{Forces, Transient};
 use trackdyn_recording::TrackSample;
@@ -219,7 +219,9 @@ impl Inertia {
         let runs = steps.par_iter().zip(&self.belts).zip(&self.steady).zip(left);
         runs.map(|(((steps, belts), steady), left)| {
             let run = Without { steps, belts, steady, left };
-            sheared::departures([&with, &without], &run, &added(belts), &self.settings)
+            let shifts = added(belts);
+            let changes = sheared::changes([&with, &without], &run, &shifts, &self.settings);
+            held(belts, steps, &changes, &shifts)
         })
         .collect()
     }
@@ -300,11 +302,11 @@ fn held(
     for ((mean, pair), shift) in means.iter_mut().zip(belts.windows(2)).zip(shifts) {
         let [from, until] = [pair[0].t, pair[1].t];
         let mut sum = Twist::zero();
-        while let Some((step, [first, second])) = steps.next_if(|(step, _)| step.end <= until) {
-            sum += (*first * (1.0 - GAMMA) + *second * GAMMA - *shift) * step.duration;
+        while let Some((step, stages)) = steps.next_if(|(step, _)| step.end <= until) {
+            sum += (mean_of_stages(*stages) - *shift) * step.duration;
         }
         if until > from {
-            *mean = sum * (until - from).recip();
+            *mean = sum / (until - from);
         }
     }
     means

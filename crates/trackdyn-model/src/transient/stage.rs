@@ -140,8 +140,7 @@ impl Stage<'_> {
 
     /// The motion at these unknowns.
     pub fn motion<S: Scalar, const N: usize>(&self, z: &[S; N]) -> Motion<S> {
-        let Twist { v_x, v_y, w } = self.base;
-        self.motion_from(z, &[v_x, v_y, w].map(S::from))
+        self.motion_from(z, &self.base.to_array().map(S::from))
     }
 
     /// The motion at these unknowns, from a base twist u_b = (v_x, v_y, w).
@@ -165,8 +164,7 @@ impl Stage<'_> {
     /// friction minus traction of each side, over the weight.
     #[inline]
     pub fn residual<S: Scalar, const N: usize>(&self, z: [S; N]) -> [S; N] {
-        let Twist { v_x, v_y, w } = self.base;
-        self.residual_from(z, &[v_x, v_y, w].map(S::from))
+        self.residual_from(z, &self.base.to_array().map(S::from))
     }
 
     /// The residual, from a base twist u_b = (v_x, v_y, w).

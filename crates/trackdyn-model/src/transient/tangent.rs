@@ -16,7 +16,7 @@
 //! Forces that do not depend on place, heading or time; equal gains and lags of the drive.
 
 use super::stage::{Stage, UNKNOWNS_WITH_SLIP, UNKNOWNS_WITHOUT_SLIP, gripping};
-use super::{GAMMA, Instant, Step, Transient};
+use super::{GAMMA, Instant, Step, Transient, base_of_second};
 use crate::{Circumstance, Ground, Model, Motion};
 use nalgebra::{SMatrix, SVector, Vector3};
 use trackdyn_core::{Dual, PerSide, Twist};
@@ -73,18 +73,16 @@ impl<'a> Along<'a> {
     }
 
     fn changes<const N: usize>(&self, steps: &[Step], starts: &[Twist]) -> Vec<Vec<[Twist; 2]>> {
-        let mut ended: Vec<Vector3<f64>> = starts.iter().map(vector).collect();
+        let mut ended = starts.to_vec();
         let mut changes = vec![Vec::with_capacity(steps.len()); self.others.len()];
         for step in steps {
             let [first, second] =
                 step.stages.each_ref().map(|instant| self.linear::<N>(instant, step.duration));
             let others = self.others.iter().zip(&mut ended).zip(&mut changes);
             for ((other, ended), changes) in others {
-                let one = first.change(other, ended);
-                // u_b = u_n + (1 − γ)/γ (u₁ − u_n)
-                let base = *ended + (one - *ended) * ((1.0 - GAMMA) / GAMMA);
-                let two = second.change(other, &base);
-                changes.push([one, two].map(|change| twist_of(&change)));
+                let one = first.change(other, *ended);
+                let two = second.change(other, base_of_second(*ended, one));
+                changes.push([one, two]);
                 *ended = two;
             }
         }
@@ -100,12 +98,17 @@ impl<'a> Along<'a> {
         let Self { model, ref ground, creep, .. } = *self;
         let stage = Stage { model, ground, driven, base, per_second, creep };
         let departure = Twist { v_y: twist.v_y - belt_speed.left, ..twist };
-        let traction = self.traction(belt_speed, departure, rate);
+        // Tractions are unknowns only where belts slip on their sprockets.
+        let traction = if N == UNKNOWNS_WITH_SLIP {
+            self.traction(belt_speed, departure, rate)
+        } else {
+            PerSide::default()
+        };
         let unknowns = [departure.v_x, departure.v_y, departure.w, traction.left, traction.right];
         let at: [f64; N] = std::array::from_fn(|row| unknowns[row]);
         let rows = stage.residual(Dual::<N>::variables(at));
         let by_base =
-            stage.residual_from(at.map(Dual::<3>::from), &Dual::variables(components(&base)));
+            stage.residual_from(at.map(Dual::<3>::from), &Dual::variables(base.to_array()));
         let jacobian: SMatrix<f64, N, N> =
             SMatrix::from_fn(|row, column| rows[row].gradient[column]);
         Linear {
@@ -127,29 +130,17 @@ impl<'a> Along<'a> {
 
 impl<const N: usize> Linear<'_, N> {
     /// Change of the twist by the forces of another model, for a change `base` of u_b.
-    fn change(&self, (model, ground): &(&Model, Ground), base: &Vector3<f64>) -> Vector3<f64> {
-        let Some(inverse) = self.inverse else { return *base };
+    fn change(&self, (model, ground): &(&Model, Ground), base: Twist) -> Twist {
+        let Some(inverse) = self.inverse else { return base };
         let other = Stage { model, ground, ..self.stage };
         let by_forces = SVector::from(other.residual(self.at)) - self.residual;
         // δz = −J⁻¹ (δr + B δu_b)
-        let change = inverse * -(by_forces + self.by_base * base);
+        let change = inverse * -(by_forces + self.by_base * Vector3::from(base.to_array()));
         let there = (SVector::from(self.at) + change).into();
         let [there, here] =
             [other.motion::<f64, N>(&there), self.stage.motion(&self.at)].map(|at| at.twist);
-        vector(&(there - here))
+        there - here
     }
-}
-
-fn components(twist: &Twist) -> [f64; 3] {
-    [twist.v_x, twist.v_y, twist.w]
-}
-
-fn vector(twist: &Twist) -> Vector3<f64> {
-    Vector3::from(components(twist))
-}
-
-fn twist_of(vector: &Vector3<f64>) -> Twist {
-    Twist { v_x: vector[0], v_y: vector[1], w: vector[2] }
 }
 
 #[cfg(test)]
@@ -164,6 +155,7 @@ mod tests {
     fn they_are_differences_of_two_simulations() {
         const STEP: f64 = 0.01;
         let drive = [(0.2, 0.8), (0.3, 0.5), (0.5, -0.5), (0.0, 0.0), (-0.4, -0.1), (0.4, 0.4)];
+        let norm = |twist: Twist| Vector3::from(twist.to_array()).norm();
         let simulated = |model: &Model| -> Vec<Step> {
             let mut path = Trajectory::default();
             let mut robot =
@@ -198,9 +190,9 @@ mod tests {
             let (mut off, mut largest) = (0.0_f64, 0.0_f64);
             for ((before, after), change) in before.iter().zip(&after).zip(changes) {
                 for (k, change) in change.iter().enumerate() {
-                    let difference = vector(&(after.stages[k].twist - before.stages[k].twist));
-                    off = off.max((difference - vector(change)).norm());
-                    largest = largest.max(difference.norm());
+                    let difference = after.stages[k].twist - before.stages[k].twist;
+                    off = off.max(norm(difference - *change));
+                    largest = largest.max(norm(difference));
                 }
             }
             assert!(largest > 1e-6 && off < 1e-3 * largest, "{off:.1e} of {largest:.1e}");

@@ -15,6 +15,7 @@ use trackdyn_diagnose::{
 };
 use trackdyn_drive::sensors::Preset;
 use trackdyn_drive::{ScheduleKind, ScheduleOptions};
+use trackdyn_estimate::noise::noise;
 use trackdyn_model::kinematics::Source;
 use trackdyn_recording::Recording;
 use trackdyn_tests::concealed::{Drive, diagnosed, diagnosed_by, named, owned, sensors};
@@ -36,6 +37,33 @@ fn recording(concealed: &[&str]) -> Recording {
     let file = owned(concealed);
     let drive = Drive::new(&file.vehicle, concealed, &runs, 3).expect("it drives");
     drive.recording(&sensors(Preset::Laboratory), 3)
+}
+
+/// A hundred poses, at 4 Hz, of one drive that neither rests nor runs steadily for long.
+#[test]
+fn half_a_minute_without_rest_is_diagnosed() {
+    let concealed = ["load-transfer:cog_height_m=0.2"];
+    let options = ScheduleOptions {
+        runs: Some(1),
+        seed: 3,
+        duration: Some(25.0),
+        ..ScheduleOptions::default()
+    };
+    let runs = ScheduleKind::Manual.generate(&options).expect("a schedule");
+    let file = owned(&concealed);
+    let drive = Drive::new(&file.vehicle, &concealed, &runs, 3).expect("it drives");
+    let mut sensors = sensors(Preset::Laboratory);
+    sensors.pose.interval = 0.25;
+    let recording = drive.recording(&sensors, 3);
+    let measured = noise(&recording, sensors.clock_offset());
+    assert!(measured.standing.is_none() && measured.moving.is_none(), "{measured:?}");
+    let found = diagnosed(&recording, &file).expect("an answer");
+    assert_eq!(physics(&found), [BTreeSet::from(["load-transfer"])]);
+    // Errors of poses are 3 mm and 0.1 degrees; a hundred numbers show them to a tenth.
+    let seen = found.evidence.seen.noise().expect("of a drive");
+    for (found, truth) in seen.pose.into_iter().zip([3e-3, 3e-3, 0.1_f64.to_radians()]) {
+        assert!((found.sqrt() / truth).ln().abs() < 0.5, "{seen:?}");
+    }
 }
 
 /// The diagnosis of a drive by hand on which this is concealed.

@@ -9,10 +9,10 @@ use trackdyn_core::real;
 pub enum Error {
     /// Too few segments.
     #[error(
-        "{found} segments to learn from: expected at least {needed}, that is, some {:.0} s of \
-         driving with poses and track speeds by the same clock, in seconds, in runs that are not \
-         held out",
-        .each * real(*.needed)
+        "{found} segments to learn from: expected at least {needed}, that is, some {:.0} s more of \
+         driving with turns both ways and changes of speed, with poses and track speeds by the \
+         same clock, in seconds, in runs that are not held out",
+        .each * real(.needed.saturating_sub(*.found))
     )]
     TooFewSegments {
         /// Segments of the runs that are not held out.

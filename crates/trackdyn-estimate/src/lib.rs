@@ -17,6 +17,7 @@
 //! - [`parameters`]: the numbers; [`doubt`]: why a recording does not determine them.
 //! - [`prediction`]: what a kinematic model makes of the same track speeds, with its derivatives.
 //! - [`sensor`]: clock and mount of the pose sensor, which can be fitted beside.
+//! - [`mod@residual_noise`]: the noise, where only the residuals of a model show it.
 //! - [`weighting`]: how much a residual counts: the cost (17), or the noise that was measured.
 //! - [`gauss_newton`]: robust least squares, whatever the residuals are of.
 //! - [`mod@spin_test`], [`mod@genetic`], [`mod@least_squares`]: three ways to the parameters.
@@ -45,6 +46,7 @@ pub mod odometry;
 pub mod parameters;
 pub mod prediction;
 pub mod regular;
+pub mod residual_noise;
 pub mod segment;
 pub mod sensor;
 pub mod separation;
@@ -66,6 +68,7 @@ pub use interval::Interval;
 pub use least_squares::{Estimate, Unknowns, least_squares};
 pub use observations::Observations;
 pub use parameters::{Free, Parameters};
+pub use residual_noise::residual_noise;
 pub use segment::{Segment, SegmentOptions, segments};
 pub use sensor::{Nuisance, Sensor};
 pub use separation::{Separation, Turning};

@@ -11,6 +11,7 @@ use trackdyn_estimate::blocks::Blocks;
 use trackdyn_estimate::noise::{Noise, noise};
 use trackdyn_estimate::observations::{Observation, Observations, Piece};
 use trackdyn_estimate::regular::with_regular_poses;
+use trackdyn_estimate::residual_noise;
 use trackdyn_estimate::spin_test;
 use trackdyn_estimate::thinned::with_readings_every;
 use trackdyn_estimate::weighting::{MIN_POSE_NOISE, SegmentNoise};
@@ -41,7 +42,7 @@ impl Evidence {
         let observations = segments(&recording, tau, by)?;
         let gap =
             spin_test(&observations, gauge).map_or(by.gap_without_spins * gauge, |spin| spin.gap);
-        let noise = noise_of_segments(&recording, &measured, gap)?;
+        let noise = noise_of_segments(&recording, &measured, &observations, gap, gauge)?;
         let blocks = observations.blocks();
         let begin = begin(&recording);
         let samples = samples(&recording, &observations, &blocks, begin);
@@ -73,18 +74,23 @@ fn check_places(recording: &Recording, largest: f64) -> Result<(), Error> {
 }
 
 /// Segments at a clock offset of `tau` (s), cut such that readings cover every offset from zero to
-/// beyond `tau`.
+/// beyond `tau`. Where segments of the usual length are too few, each is as short as its poses and
+/// readings allow.
 fn segments(
     recording: &Recording,
     tau: f64,
     settings: &settings::Evidence,
 ) -> Result<Observations, Error> {
-    let options = SegmentOptions {
+    let usual = SegmentOptions {
         tau: tau / 2.0,
         tau_margin: tau.abs() / 2.0 + settings.clock_margin,
         ..SegmentOptions::default()
     };
-    let observations = Observations::new(recording, &options).at(tau);
+    let mut observations = Observations::new(recording, &usual).at(tau);
+    if observations.len() < settings.min_segments {
+        let shortest = SegmentOptions { minimum_duration: 0.0, ..usual };
+        observations = Observations::new(recording, &shortest).at(tau);
+    }
     if observations.len() < settings.min_segments {
         let durations = observations.segments().iter().map(|segment| segment.duration);
         return Err(Error::too_few_segments(durations, settings.min_segments));
@@ -92,15 +98,18 @@ fn segments(
     Ok(observations)
 }
 
-/// Noise of the segments: measured, or else as stated in the recording. `gap` is the distance of
-/// the ICRs, m.
+/// Noise of the segments: measured, or else as stated in the recording, or else what constant ICRs
+/// leave. `gap` is the distance of the ICRs, m.
 fn noise_of_segments(
     recording: &Recording,
     measured: &Noise,
+    observations: &Observations,
     gap: f64,
+    gauge: f64,
 ) -> Result<SegmentNoise, Error> {
-    let stated = recording.stated_noise().map(SegmentNoise::stated);
-    SegmentNoise::measured(measured, gap).or(stated).ok_or(Error::NoNoise)
+    let stated = || recording.stated_noise().map(SegmentNoise::stated);
+    let remaining = || residual_noise(observations, gauge);
+    SegmentNoise::measured(measured, gap).or_else(stated).or_else(remaining).ok_or(Error::NoNoise)
 }
 
 /// Start of the recording in whole seconds of its clock. Sample times count from it, so that laws

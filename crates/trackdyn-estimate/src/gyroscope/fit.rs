@@ -1,0 +1,195 @@
+//! Scale, bias and lag of a gyroscope against poses.
+
+use super::level::Level;
+use super::turned::Turned;
+use super::{MIN_ROW, Unfit};
+use crate::gauss_newton::Loss;
+use nalgebra::{Matrix2, Vector2};
+use std::ops::Range;
+use trackdyn_core::real;
+use trackdyn_core::robust::deviation_about_zero;
+use trackdyn_recording::Recording;
+
+/// Lags that are tried from a start on, either way, s.
+const MAX_LAG: f64 = 1.0;
+
+/// Step between them, s: a robot hardly changes its turning within it.
+const LAG_STEP: f64 = 0.1;
+
+/// Standard deviation of a scale before it is measured, 1: the tilt of a mount, and its error.
+const SCALE_PRIOR: f64 = 0.05;
+
+/// Standard deviation of a lag about its start, s: without turns, the start stands.
+const LAG_PRIOR: f64 = 0.2;
+
+/// Steps of the fit; it has settled before.
+const ITERATIONS: usize = 20;
+
+/// A recording and the integrals of its gyroscope, run by run.
+pub(super) struct Drive<'a> {
+    pub(super) recording: &'a Recording,
+    pub(super) turned: &'a [Vec<Turned>],
+}
+
+/// Poses of a run during which a gyroscope measures without a gap.
+pub(super) struct Row<'a> {
+    /// Index of the run.
+    pub(super) run: usize,
+    /// Indices of the poses.
+    pub(super) poses: Range<usize>,
+    /// Their stamps, s.
+    pub(super) times: Vec<f64>,
+    yaws: Vec<f64>,
+    turned: &'a Turned,
+}
+
+impl Drive<'_> {
+    /// The rows of poses that the gyroscope covers at a lag, s.
+    pub(super) fn rows(&self, lag: f64) -> Vec<Row<'_>> {
+        let mut rows = Vec::new();
+        for (run, (of, turned)) in self.recording.runs().iter().zip(self.turned).enumerate() {
+            for turned in turned {
+                let [start, end] = turned.span();
+                let index = |after: f64| of.poses().partition_point(|pose| pose.t - lag < after);
+                let poses = index(start)..index(end);
+                if poses.len() >= MIN_ROW {
+                    let samples = &of.poses()[poses.clone()];
+                    let (times, yaws) =
+                        samples.iter().map(|sample| (sample.t, sample.pose.yaw)).unzip();
+                    rows.push(Row { run, poses, times, yaws, turned });
+                }
+            }
+        }
+        rows
+    }
+}
+
+/// Rows made white: residual, and derivatives by scale and by lag, without the bias of each row.
+#[derive(Default)]
+struct Whitened {
+    residual: Vec<f64>,
+    by: [Vec<f64>; 2],
+}
+
+/// What fits.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fit {
+    pub(super) scale: f64,
+    pub(super) lag: f64,
+    pub(super) level: Level,
+}
+
+impl Fit {
+    /// The best fit near no lag, and near a clock offset, s.
+    pub(super) fn new(drive: &Drive, tau: f64) -> Result<Self, Unfit> {
+        #[expect(clippy::cast_possible_truncation, reason = "a small count")]
+        let steps = (MAX_LAG / LAG_STEP).round() as i32;
+        let starts = [0.0, tau].into_iter();
+        let lags = starts.flat_map(|at| {
+            (-steps..=steps).map(move |step| at + LAG_STEP * f64::from(step))
+        });
+        let start = |lag: f64| Self { scale: 1.0, lag, level: Level::DIFFERENCES };
+        let misfit = |lag: f64| Some((start(lag).with_best_scale(drive)?, lag));
+        let best = lags.filter_map(misfit).min_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, lag)) = best else { return Err(Unfit::TooFewPoses { found: 0 }) };
+        let mut fit = start(lag);
+        for _ in 0..ITERATIONS {
+            let rows = drive.rows(fit.lag);
+            let step = fit.step(&fit.whitened(&rows), lag);
+            fit.scale += step.x;
+            fit.lag += step.y.clamp(-LAG_STEP, LAG_STEP);
+            let rows = drive.rows(fit.lag);
+            let residuals = rows.iter().map(|row| (&row.times[..], fit.residual(row)));
+            let Some(level) = Level::of(&residuals.collect::<Vec<_>>()) else {
+                let found = rows.iter().map(|row| row.poses.len()).sum();
+                return Err(Unfit::TooFewPoses { found });
+            };
+            fit.level = level;
+            if step.x.abs() < 1e-7 && step.y.abs() < 1e-6 {
+                break;
+            }
+        }
+        Ok(fit)
+    }
+
+    /// Spread of the differences that the best scale leaves at this lag.
+    fn with_best_scale(&self, drive: &Drive) -> Option<f64> {
+        let Whitened { residual, by: [by_scale, _] } = self.whitened(&drive.rows(self.lag));
+        let square: f64 = by_scale.iter().map(|by| by * by).sum();
+        let product: f64 = by_scale.iter().zip(&residual).map(|(by, r)| by * r).sum();
+        let change = if square > 0.0 { product / square } else { 0.0 };
+        let left = residual.iter().zip(&by_scale).map(|(r, by)| r - change * by);
+        deviation_about_zero(&mut left.collect::<Vec<_>>())
+    }
+
+    /// Residual r = ψ − s G(t − τ) − b t of a row, with the bias that fits it.
+    pub(super) fn residual(&self, row: &Row) -> Vec<f64> {
+        let [residual, ..] = self.columns(row);
+        let white = self.level.whitened(&row.times, &residual);
+        let times = self.level.whitened(&row.times, &row.times);
+        let bias = slope(&times, &white, &weights(&white));
+        residual.iter().zip(&row.times).map(|(r, t)| r - bias * (t - row.times[0])).collect()
+    }
+
+    /// ψ − s G(t − τ), and its derivatives: −∂/∂s = G, −∂/∂τ = −s ω.
+    fn columns(&self, row: &Row) -> [Vec<f64>; 3] {
+        let measured: Vec<(f64, f64)> =
+            row.times.iter().map(|t| row.turned.at(t - self.lag)).collect();
+        [
+            row.yaws.iter().zip(&measured).map(|(yaw, (angle, _))| yaw - self.scale * angle).collect(),
+            measured.iter().map(|(angle, _)| *angle).collect(),
+            measured.iter().map(|(_, rate)| -self.scale * rate).collect(),
+        ]
+    }
+
+    fn whitened(&self, rows: &[Row]) -> Whitened {
+        let mut all = Whitened::default();
+        for row in rows {
+            let white = |column: &[f64]| self.level.whitened(&row.times, column);
+            let [residual, by_scale, by_lag] = self.columns(row).map(|column| white(&column));
+            let times = white(&row.times);
+            let weights = weights(&residual);
+            let without = |column: Vec<f64>| -> Vec<f64> {
+                let bias = slope(&times, &column, &weights);
+                column.iter().zip(&times).map(|(value, time)| value - bias * time).collect()
+            };
+            all.residual.extend(without(residual));
+            all.by[0].extend(without(by_scale));
+            all.by[1].extend(without(by_lag));
+        }
+        all
+    }
+
+    /// Step of scale and lag by Gauss and Newton; `start` is where the lag began, s.
+    fn step(&self, rows: &Whitened, start: f64) -> Vector2<f64> {
+        let spread = deviation_about_zero(&mut rows.residual.clone()).unwrap_or(1.0);
+        let spread = spread.max(f64::MIN_POSITIVE);
+        let priors = Vector2::new(SCALE_PRIOR, LAG_PRIOR).map(|deviation| deviation.powi(-2));
+        let from = Vector2::new(1.0 - self.scale, start - self.lag);
+        let mut matrix = Matrix2::from_diagonal(&priors);
+        let mut right = priors.component_mul(&from);
+        for (k, residual) in rows.residual.iter().enumerate() {
+            let by = Vector2::new(rows.by[0][k], rows.by[1][k]) / spread;
+            let residual = residual / spread;
+            let weight = Loss::Huber.weight(residual);
+            matrix += weight * by * by.transpose();
+            right += weight * residual * by;
+        }
+        matrix.try_inverse().map_or(Vector2::zeros(), |inverse| inverse * right)
+    }
+}
+
+/// Huber's weights of values about their median size.
+fn weights(values: &[f64]) -> Vec<f64> {
+    let least = f64::EPSILON * values.iter().map(|value| value.abs()).sum::<f64>();
+    let spread = deviation_about_zero(&mut values.to_vec()).unwrap_or(0.0);
+    let spread = spread.max(least / real(values.len().max(1))).max(f64::MIN_POSITIVE);
+    values.iter().map(|value| Loss::Huber.weight(value / spread)).collect()
+}
+
+/// Slope of values against others, through zero.
+fn slope(by: &[f64], values: &[f64], weights: &[f64]) -> f64 {
+    let sum = |of: &dyn Fn(usize) -> f64| -> f64 { (0..by.len()).map(|k| weights[k] * of(k)).sum() };
+    let square = sum(&|k| by[k] * by[k]);
+    if square > 0.0 { sum(&|k| by[k] * values[k]) / square } else { 0.0 }
+}

@@ -24,8 +24,9 @@ mod turned;
 
 use fit::{Drive, Fit};
 use level::Level;
+use std::ops::Range;
 use trackdyn_core::real;
-use trackdyn_recording::{Recording, UncheckedRun};
+use trackdyn_recording::{Recording, Run, UncheckedRun};
 use turned::Turned;
 
 /// Fewest poses beside readings of the gyroscope.
@@ -106,7 +107,7 @@ fn corrected(drive: &Drive, fit: &Fit) -> Result<(Recording, Gyroscope), Unfit> 
     }
     let (mut variance, mut count) = (0.0, 0);
     let runs = drive.recording.runs().iter().cloned();
-    let mut runs: Vec<UncheckedRun> = runs.map(trackdyn_recording::Run::into_rows).collect();
+    let mut runs: Vec<UncheckedRun> = runs.map(Run::into_rows).collect();
     for row in &rows {
         let residual = fit.residual(row);
         for part in without_jumps(&row.times, &residual, &fit.level) {
@@ -127,15 +128,12 @@ fn corrected(drive: &Drive, fit: &Fit) -> Result<(Recording, Gyroscope), Unfit> 
         yaw_with_it: (variance / real(count.max(1))).sqrt(),
         poses: count,
     };
-    Ok((drive.recording.with_rows(runs), gyroscope))
+    let runs = runs.into_iter().map(|rows| Run::new(rows, &mut Vec::new()));
+    Ok((drive.recording.with_runs(runs.collect()), gyroscope))
 }
 
 /// Parts of a row between the jumps of its residual, as long as can be smoothed.
-fn without_jumps(
-    times: &[f64],
-    residual: &[f64],
-    level: &Level,
-) -> Vec<std::ops::Range<usize>> {
+fn without_jumps(times: &[f64], residual: &[f64], level: &Level) -> Vec<Range<usize>> {
     let is_jump = |k: usize| {
         let change = residual[k] - residual[k - 1];
         change.powi(2) > MIN_JUMP.powi(2) * level.of_change(times[k] - times[k - 1])

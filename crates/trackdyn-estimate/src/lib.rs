@@ -5,6 +5,7 @@
 //! - [`segment`]: pieces between two poses; [`gaps`]: times without readings.
 //! - [`clock`]: how late the poses are against the encoders.
 //! - [`noise`]: how noisy poses, encoders and tables of operating points are.
+//! - [`gyroscope`]: a gyroscope as evidence of the yaw of poses.
 //! - [`regular`]: the times at which samples were due, of stamps that jitter.
 //! - [`thinned`]: fewer readings, of encoders that report very often.
 //! - [`blocks`]: parts that count as independent.
@@ -37,6 +38,7 @@ pub mod error;
 pub mod gaps;
 pub mod gauss_newton;
 pub mod genetic;
+pub mod gyroscope;
 pub mod identification;
 pub mod interval;
 pub mod least_squares;
@@ -63,6 +65,7 @@ pub use contradiction::Contradiction;
 pub use doubt::Doubt;
 pub use error::Error;
 pub use genetic::{GeneticOptions, genetic, genetic_unless_stopped};
+pub use gyroscope::{Gyroscope, with_gyroscope};
 pub use identification::{Identification, identify, identify_unless_stopped};
 pub use interval::Interval;
 pub use least_squares::{Estimate, Unknowns, least_squares};

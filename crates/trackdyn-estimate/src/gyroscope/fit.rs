@@ -85,9 +85,8 @@ impl Fit {
         #[expect(clippy::cast_possible_truncation, reason = "a small count")]
         let steps = (MAX_LAG / LAG_STEP).round() as i32;
         let starts = [0.0, tau].into_iter();
-        let lags = starts.flat_map(|at| {
-            (-steps..=steps).map(move |step| at + LAG_STEP * f64::from(step))
-        });
+        let lags =
+            starts.flat_map(|at| (-steps..=steps).map(move |step| at + LAG_STEP * f64::from(step)));
         let start = |lag: f64| Self { scale: 1.0, lag, level: Level::DIFFERENCES };
         let misfit = |lag: f64| Some((start(lag).with_best_scale(drive)?, lag));
         let best = lags.filter_map(misfit).min_by(|a, b| a.0.total_cmp(&b.0));
@@ -136,7 +135,11 @@ impl Fit {
         let measured: Vec<(f64, f64)> =
             row.times.iter().map(|t| row.turned.at(t - self.lag)).collect();
         [
-            row.yaws.iter().zip(&measured).map(|(yaw, (angle, _))| yaw - self.scale * angle).collect(),
+            row.yaws
+                .iter()
+                .zip(&measured)
+                .map(|(yaw, (angle, _))| yaw - self.scale * angle)
+                .collect(),
             measured.iter().map(|(angle, _)| *angle).collect(),
             measured.iter().map(|(_, rate)| -self.scale * rate).collect(),
         ]
@@ -189,7 +192,8 @@ fn weights(values: &[f64]) -> Vec<f64> {
 
 /// Slope of values against others, through zero.
 fn slope(by: &[f64], values: &[f64], weights: &[f64]) -> f64 {
-    let sum = |of: &dyn Fn(usize) -> f64| -> f64 { (0..by.len()).map(|k| weights[k] * of(k)).sum() };
+    let sum =
+        |of: &dyn Fn(usize) -> f64| -> f64 { (0..by.len()).map(|k| weights[k] * of(k)).sum() };
     let square = sum(&|k| by[k] * by[k]);
     if square > 0.0 { sum(&|k| by[k] * values[k]) / square } else { 0.0 }
 }

@@ -178,7 +178,9 @@ mod tests {
         let mut normal = DMatrix::identity(count, count) / LEVEL.white;
         for k in 1..count {
             let weight = 1.0 / (LEVEL.walk * (times[k] - times[k - 1]));
-            for (a, b, sign) in [(k, k, 1.0), (k - 1, k - 1, 1.0), (k, k - 1, -1.0), (k - 1, k, -1.0)] {
+            for (a, b, sign) in
+                [(k, k, 1.0), (k - 1, k - 1, 1.0), (k, k - 1, -1.0), (k - 1, k, -1.0)]
+            {
                 normal[(a, b)] += sign * weight;
             }
         }
@@ -198,7 +200,10 @@ mod tests {
         let count = f64::from(u32::try_from(white.len()).expect("small"));
         let variance = white.iter().map(|z| z * z).sum::<f64>() / count;
         let correlation = white.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>() / count;
-        assert!((variance - 1.0).abs() < 0.1 && correlation.abs() < 0.06, "{variance} {correlation}");
+        assert!(
+            (variance - 1.0).abs() < 0.1 && correlation.abs() < 0.06,
+            "{variance} {correlation}"
+        );
         let found = Level::of(&[(&times, values)]).expect("enough");
         assert!((found.white / LEVEL.white).ln().abs() < 0.15, "{found:?}");
         assert!((found.walk / LEVEL.walk).ln().abs() < 0.5, "{found:?}");

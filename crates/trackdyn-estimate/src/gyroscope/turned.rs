@@ -49,7 +49,8 @@ impl Turned {
     pub(super) fn at(&self, t: f64) -> (f64, f64) {
         let after = self.times.partition_point(|time| *time <= t).clamp(1, self.times.len() - 1);
         let (start, since) = (after - 1, t - self.times[after - 1]);
-        let slope = (self.rates[after] - self.rates[start]) / (self.times[after] - self.times[start]);
+        let slope =
+            (self.rates[after] - self.rates[start]) / (self.times[after] - self.times[start]);
         let rate = self.rates[start] + slope * since;
         // G(t) = G₀ + (ω₀ + ω(t))/2 (t − t₀)
         (self.angles[start] + f64::midpoint(self.rates[start], rate) * since, rate)

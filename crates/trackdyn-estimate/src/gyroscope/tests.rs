@@ -1,0 +1,158 @@
+//! A gyroscope beside poses that are made with known errors.
+
+use super::*;
+use crate::identification::{Options, identify};
+use crate::synthetic::{Synthetic, random_steps};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use trackdyn_recording::ImuSample;
+
+const YAW_NOISE: f64 = 0.01;
+const BIAS: f64 = 0.02;
+const SCALE: f64 = 1.03;
+const LATE: f64 = 0.04;
+
+/// Two drives of a minute with poses of this noise.
+fn synthetic(yaw_noise: f64, seed: u64) -> Synthetic {
+    Synthetic {
+        schedules: vec![random_steps(30, 2.0, 0.8, seed), random_steps(30, 2.0, 0.8, seed + 100)],
+        position_noise: yaw_noise / 5.0,
+        yaw_noise,
+        encoder_noise: if yaw_noise > 0.0 { 0.002 } else { 0.0 },
+        seed,
+        ..Synthetic::default()
+    }
+}
+
+/// What a gyroscope at 100 Hz measures, with this noise (rad/s), beside poses late by [`LATE`].
+fn with_readings(synthetic: &Synthetic, noise: f64, unit: f64) -> Recording {
+    let recording = synthetic.recording().expect("long enough");
+    let exact =
+        Synthetic { encoder_noise: 0.0, position_noise: 0.0, yaw_noise: 0.0, ..synthetic.clone() };
+    let exact = exact.recording().expect("long enough");
+    let mut random = ChaCha8Rng::seed_from_u64(synthetic.seed + 7);
+    let runs = recording.runs().iter().zip(exact.runs()).map(|(run, exact)| {
+        let tracks = exact.tracks();
+        let mut rows = run.clone().into_rows();
+        for pose in &mut rows.poses.samples {
+            pose.t += LATE;
+        }
+        let count = (tracks.len() - 1) * 5;
+        let reading = |k: usize| {
+            let t = tracks[0].t + 0.01 * real(k);
+            // A reading holds from its stamp on.
+            let at = tracks.partition_point(|reading| reading.t <= t) - 1;
+            let rate = synthetic.kinematics.twist(tracks[at].speeds()).w;
+            let error: f64 = StandardNormal.sample(&mut random);
+            let gyro_z = unit * (rate / SCALE + BIAS + noise * error);
+            ImuSample { t, gyro_z, ..ImuSample::default() }
+        };
+        rows.imu = (0..count).map(reading).collect::<Vec<_>>().into();
+        Run::new(rows, &mut Vec::new())
+    });
+    recording.with_runs(runs.collect())
+}
+
+/// Root mean square error of the yaw of all poses, from their own mean in each run, rad.
+fn error(recording: &Recording, synthetic: &Synthetic) -> f64 {
+    let exact =
+        Synthetic { encoder_noise: 0.0, position_noise: 0.0, yaw_noise: 0.0, ..synthetic.clone() };
+    let exact = exact.recording().expect("long enough");
+    let (mut squares, mut count) = (0.0, 0.0);
+    for (run, exact) in recording.runs().iter().zip(exact.runs()) {
+        let pairs = run.poses().iter().zip(exact.poses());
+        let off: Vec<f64> = pairs.map(|(a, b)| a.pose.yaw - b.pose.yaw).collect();
+        let mean = off.iter().sum::<f64>() / real(off.len());
+        squares += off.iter().map(|off| (off - mean).powi(2)).sum::<f64>();
+        count += real(off.len());
+    }
+    (squares / count).sqrt()
+}
+
+#[test]
+fn yaw_is_better_with_a_gyroscope_whose_errors_are_found() {
+    let synthetic = synthetic(YAW_NOISE, 1);
+    let raw = with_readings(&synthetic, 0.002, 1.0);
+    let (fused, found) = with_gyroscope(&raw, 0.0).expect("a gyroscope").expect("it serves");
+    assert!((found.scale / SCALE - 1.0).abs() < 0.003, "{found:?}");
+    // Between two readings the rate is taken as linear: a step in it seems 5 ms early.
+    assert!((found.lag - LATE - 0.005).abs() < 0.002, "{found:?}");
+    assert!((found.yaw_of_poses / YAW_NOISE).ln().abs() < 0.15, "{found:?}");
+    let [before, after] = [&raw, &fused].map(|recording| error(recording, &synthetic));
+    assert!(after < before / 5.0, "{before} {after}");
+    // What it says of itself is true.
+    assert!((found.yaw_with_it / after).ln().abs() < 0.7, "{found:?} {after}");
+    assert!(found.poses > 1100, "{found:?}");
+}
+
+/// Noise of 1 rad/s: a second of it is off by 0.1 rad.
+#[test]
+fn a_gyroscope_that_is_worse_than_the_poses_changes_little() {
+    let synthetic = synthetic(0.002, 2);
+    let raw = with_readings(&synthetic, 1.0, 1.0);
+    let (fused, found) = with_gyroscope(&raw, 0.0).expect("a gyroscope").expect("it serves");
+    let [before, after] = [&raw, &fused].map(|recording| error(recording, &synthetic));
+    assert!(after < 1.1 * before, "{before} {after} {found:?}");
+}
+
+#[test]
+fn a_gyroscope_in_degrees_and_one_upside_down_are_refused() {
+    let synthetic = synthetic(YAW_NOISE, 3);
+    for unit in [57.3, -1.0] {
+        let raw = with_readings(&synthetic, 0.002, unit);
+        let refused = with_gyroscope(&raw, 0.0).expect("a gyroscope");
+        let Err(Unfit::Scale { scale }) = refused else { panic!("{unit}: {refused:?}") };
+        assert!((scale * unit / SCALE - 1.0).abs() < 0.1, "{unit}: {scale}");
+    }
+    assert!(with_gyroscope(&synthetic.recording().expect("long enough"), 0.0).is_none());
+}
+
+/// A loop is closed in the middle of each run: the map turns by six degrees.
+#[test]
+fn a_jump_of_the_poses_stays_where_it_is() {
+    const JUMP: f64 = 0.1;
+    let synthetic = synthetic(0.002, 4);
+    let raw = with_readings(&synthetic, 0.002, 1.0);
+    let runs = raw.runs().iter().map(|run| {
+        let mut rows = run.clone().into_rows();
+        let middle = rows.poses.samples.len() / 2;
+        for pose in &mut rows.poses.samples[middle..] {
+            pose.pose.yaw += JUMP;
+        }
+        Run::new(rows, &mut Vec::new())
+    });
+    let jumped = raw.with_runs(runs.collect());
+    let (fused, _) = with_gyroscope(&jumped, 0.0).expect("a gyroscope").expect("it serves");
+    for (run, jumped) in fused.runs().iter().zip(jumped.runs()) {
+        let middle = run.poses().len() / 2;
+        for k in middle - 20..middle + 20 {
+            let moved = run.poses()[k].pose.yaw - jumped.poses()[k].pose.yaw;
+            assert!(moved.abs() < 4.0 * 0.002, "{k}: {moved}");
+        }
+    }
+}
+
+#[test]
+fn the_distance_of_the_icrs_is_better_known() {
+    let options = Options {
+        gauge: 0.42,
+        tau: None,
+        settle: None,
+        nuisances: Vec::new(),
+        genetic: crate::GeneticOptions { generations: 1, ..crate::GeneticOptions::default() },
+    };
+    let (mut within, mut ratio) = (0, 0.0);
+    for seed in 0..8 {
+        let raw = with_readings(&synthetic(YAW_NOISE, 10 + seed), 0.002, 1.0);
+        let (fused, _) = with_gyroscope(&raw, 0.0).expect("a gyroscope").expect("it serves");
+        let [before, after] = [&raw, &fused].map(|recording| {
+            let found = identify(recording, &options, &|_| ()).expect("enough");
+            found.fits[0].least_squares.as_ref().expect("turns").gap()
+        });
+        ratio += after.deviation / before.deviation / 8.0;
+        within += usize::from(after.low < 0.832 && 0.832 < after.high);
+    }
+    assert!(ratio < 0.6, "standard errors with and without it: {ratio}");
+    assert!(within >= 6, "{within} of 8 intervals");
+}

@@ -233,3 +233,21 @@ fn contradicted_parameters_are_written_only_by_force() {
         assert!(run.stderr.contains("kinematics.toml is doubtful"), "{}", run.stderr);
     }
 }
+
+/// What a gyroscope does to the yaw of the poses is said, and stands in the file.
+#[test]
+fn a_gyroscope_corrects_poses_where_it_is_asked() {
+    let place = Workplace::new();
+    let made = place.run("simulate --runs 2 --duration 30 --seed 4 --out drive");
+    assert_eq!(made.status, 0, "{}", made.stderr);
+    let vehicle = "--vehicle drive/vehicle.toml --generations 5";
+    let with = place.run(&format!("identify drive {vehicle} --gyroscope --out with"));
+    assert_eq!(with.status, 0, "{}", with.stderr);
+    assert!(with.stdout.contains("  gyroscope  a turn within 1 s is known to "), "{}", with.stdout);
+    assert!(with.stdout.contains("standard error of x_r - x_l "), "{}", with.stdout);
+    let text = std::fs::read_to_string(place.path().join("with/identification.toml"));
+    let text = text.expect("written");
+    assert!(text.contains("[gyroscope]\nused = true\n"), "{text}");
+    let without = place.run(&format!("identify drive {vehicle} --out without"));
+    assert!(!without.stdout.contains("gyroscope"), "{}", without.stdout);
+}

@@ -8,6 +8,7 @@ mod arguments;
 mod changes;
 mod commands;
 mod exit;
+mod gyroscope;
 mod interrupt;
 mod options;
 mod progress;

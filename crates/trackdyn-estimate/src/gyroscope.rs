@@ -1,31 +1,34 @@
 //! A gyroscope as evidence of the yaw of poses.
 //!
 //! # Law
-//! A pose at time t has the yaw ψ = ψ₀ + s G(t − τ) + b t + x(t) + e. G is the integral of the
-//! measured yaw rate, s the gyroscope's scale, τ how late poses are against it, b its bias in the
-//! run, x a random walk (its noise, its drift and that of the poses) and e the white noise of the
-//! pose. s, τ and b follow from generalised least squares with Huber's loss; the variances of x and
-//! e from the median squares of differences over 1, 2, 4, ... poses. A Kalman smoother then gives
-//! x, and with it a yaw without most of e.
+//! A pose at time t has the yaw ψ = ψ₀ + s G(t − τ) + b t + x(t) + o(t) + e. G is the integral of
+//! the measured yaw rate, s the gyroscope's scale, τ how late poses are against it, b its bias in
+//! the run, x a random walk of both, o an error that wanders about zero and e the white noise of the pose.
+//! s, τ and b follow from generalised least squares with Huber's loss; the variances of x, o and e
+//! from the median squares of differences over 1, 2, 4, ... poses. A Kalman smoother then gives x,
+//! and with it a yaw without most of o and e.
 //!
 //! A gyroscope that is worse than the poses changes nothing: x then follows the poses. Where the
 //! yaw of the poses jumps, as at the closure of a loop, smoothing begins anew.
 //!
 //! # Assumes
-//! The gyroscope turns with the body, about the vertical. Accelerometers are not used: a tilt of a
-//! degree shows as 0.17 m/s², more than most of what tracks do to a robot.
+//! The noise of the gyroscope is white: the random walk of its integral follows from the scatter of
+//! its readings, at stand-still where the robot stands. What else grows with time is of the poses,
+//! and so is what stays bounded: their stamps, their filter, their map. The gyroscope turns with the body, about the vertical. Accelerometers are not
+//! used: a tilt of a degree shows as 0.17 m/s², more than most of what tracks do to a robot.
 //!
 //! # Sources
 //! Rauch, Tung, Striebel, AIAA Journal 3(8), 1965 (smoother); IEEE Std 952 (errors of gyroscopes).
 
 mod fit;
 mod level;
+mod quiet;
 mod turned;
 
 use fit::{Drive, Fit};
-use level::Level;
-use std::ops::Range;
+use std::fmt;
 use trackdyn_core::real;
+use trackdyn_core::robust::median;
 use trackdyn_recording::{Recording, Run, UncheckedRun};
 use turned::Turned;
 
@@ -39,6 +42,9 @@ const MIN_ROW: usize = 8;
 /// the poses.
 const MIN_JUMP: f64 = 6.0;
 
+/// Largest error that is left of that of the poses for a gyroscope to serve.
+const MAX_ERROR_RATIO: f64 = 0.8;
+
 /// Scales that a gyroscope about the vertical may have, with its tilt.
 const SCALES: [f64; 2] = [0.8, 1.25];
 
@@ -47,14 +53,28 @@ const SCALES: [f64; 2] = [0.8, 1.25];
 pub struct Gyroscope {
     /// True yaw rate per measured one, s.
     pub scale: f64,
+    /// Its standard deviation: an error that all yaw of the recording shares.
+    pub scale_deviation: f64,
     /// Time by which poses are late against it, τ, s.
     pub lag: f64,
-    /// Standard deviation of the yaw of a pose by itself, rad.
-    pub yaw_of_poses: f64,
-    /// Standard deviation of the yaw that is left with the gyroscope, rad.
-    pub yaw_with_it: f64,
+    /// Standard deviation of what poses turn within a second, rad.
+    pub error_of_poses: f64,
+    /// Standard deviation of what the corrected poses turn within a second, rad.
+    pub error_with_it: f64,
     /// Poses whose yaw it corrects.
     pub poses: usize,
+}
+
+impl fmt::Display for Gyroscope {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [before, after] = [self.error_of_poses, self.error_with_it].map(f64::to_degrees);
+        write!(
+            f,
+            "a turn within 1 s is known to {after:.2} deg, {before:.2} without it; scale {:.4}; \
+             poses {:.3} s late against it",
+            self.scale, self.lag
+        )
+    }
 }
 
 /// Why a gyroscope does not serve.
@@ -66,6 +86,18 @@ pub enum Unfit {
     TooFewPoses {
         /// Those that have.
         found: usize,
+    },
+    /// It is no better than the poses.
+    #[error(
+        "it is no better than the poses: a turn within 1 s is known to {:.2} deg with it, {:.2} \
+         without",
+        .with_it.to_degrees(), .without.to_degrees()
+    )]
+    NoBetter {
+        /// Standard deviation of a turn within a second with it, rad.
+        with_it: f64,
+        /// The poses' own, rad.
+        without: f64,
     },
     /// It does not turn as the poses do.
     #[error(
@@ -91,8 +123,14 @@ pub fn with_gyroscope(
     if turned.iter().all(Vec::is_empty) {
         return None;
     }
-    let drive = Drive { recording, turned: &turned };
-    Some(Fit::new(&drive, tau).and_then(|fit| corrected(&drive, &fit)))
+    let jumps = vec![Vec::new(); turned.len()];
+    let drive = Drive { recording, turned: &turned, jumps };
+    let fit = Fit::new(&drive, tau).and_then(|fit| {
+        // A jump hides in a fit across it.
+        let drive = Drive { jumps: jumps_of(&drive, &fit), ..drive };
+        corrected(&drive, &Fit::new(&drive, tau)?)
+    });
+    Some(fit)
 }
 
 /// The recording with the yaw that a fit gives.
@@ -105,43 +143,60 @@ fn corrected(drive: &Drive, fit: &Fit) -> Result<(Recording, Gyroscope), Unfit> 
     if fit.scale < SCALES[0] || fit.scale > SCALES[1] {
         return Err(Unfit::Scale { scale: fit.scale });
     }
-    let (mut variance, mut count) = (0.0, 0);
+    let noise = quiet::walk(drive);
+    // Of a walk that is the sum of two, each takes its share of the variance.
+    let share = (noise / fit.level.walk).min(1.0);
+    let mut count = 0;
     let runs = drive.recording.runs().iter().cloned();
     let mut runs: Vec<UncheckedRun> = runs.map(Run::into_rows).collect();
-    for row in &rows {
-        let residual = fit.residual(row);
-        for part in without_jumps(&row.times, &residual, &fit.level) {
-            let smooth = fit.level.smoothed(&row.times[part.clone()], &residual[part.clone()]);
-            for (k, (level, known)) in part.zip(smooth) {
-                // ψ̂ = ψ − r + x̂
-                let pose = &mut runs[row.run].poses.samples[row.poses.start + k].pose;
-                pose.yaw += level - residual[k];
-                variance += known;
-                count += 1;
-            }
+    for (row, residual) in rows.iter().zip(fit.residuals(&rows)) {
+        let smooth = fit.level.smoothed(&row.times, &residual);
+        // The poses say where the yaw begins.
+        let mean = smooth.iter().sum::<f64>() / real(smooth.len());
+        let poses = &mut runs[row.run].poses.samples[row.poses.clone()];
+        for ((sample, level), residual) in poses.iter_mut().zip(smooth).zip(residual) {
+            // ψ̂ = ψ − r + x̄ + share (x̂ − x̄)
+            sample.pose.yaw += mean + share * (level - mean) - residual;
+            count += 1;
         }
+    }
+    let of_poses = fit.level.of_change(1.0) - share * fit.level.walk;
+    let (without, with_it) =
+        (of_poses.sqrt(), (noise * (1.0 - share)).max(noise.min(of_poses) * share).sqrt());
+    if with_it > MAX_ERROR_RATIO * without {
+        return Err(Unfit::NoBetter { with_it, without });
     }
     let gyroscope = Gyroscope {
         scale: fit.scale,
+        scale_deviation: fit.scale_deviation,
         lag: fit.lag,
-        yaw_of_poses: fit.level.white.sqrt(),
-        yaw_with_it: (variance / real(count.max(1))).sqrt(),
+        error_of_poses: without,
+        error_with_it: with_it,
         poses: count,
     };
     let runs = runs.into_iter().map(|rows| Run::new(rows, &mut Vec::new()));
     Ok((drive.recording.with_runs(runs.collect()), gyroscope))
 }
 
-/// Parts of a row between the jumps of its residual, as long as can be smoothed.
-fn without_jumps(times: &[f64], residual: &[f64], level: &Level) -> Vec<Range<usize>> {
-    let is_jump = |k: usize| {
-        let change = residual[k] - residual[k - 1];
-        change.powi(2) > MIN_JUMP.powi(2) * level.of_change(times[k] - times[k - 1])
-    };
-    let ends = (1..residual.len()).filter(|&k| is_jump(k)).chain([residual.len()]);
-    let mut start = 0;
-    let parts = ends.map(|end| std::mem::replace(&mut start, end)..end);
-    parts.filter(|part| part.len() >= MIN_ROW).collect()
+/// Indices of the poses of each run at which what a fit leaves jumps, and stays where it went: an
+/// outlier comes back.
+fn jumps_of(drive: &Drive, fit: &Fit) -> Vec<Vec<usize>> {
+    let middle = |of: &[f64]| median(&mut of.to_vec()).unwrap_or(0.0);
+    let mut jumps = vec![Vec::new(); drive.turned.len()];
+    let rows = drive.rows(fit.lag);
+    for (row, residual) in rows.iter().zip(fit.residuals(&rows)) {
+        for k in 1..residual.len() {
+            let change = residual[k] - residual[k - 1];
+            let expected = fit.level.of_change(row.times[k] - row.times[k - 1]);
+            let before = &residual[k.saturating_sub(MIN_ROW)..k];
+            let after = &residual[k..residual.len().min(k + MIN_ROW)];
+            let is_long = change.powi(2) > MIN_JUMP.powi(2) * expected;
+            if is_long && (middle(after) - middle(before)).abs() > change.abs() / 2.0 {
+                jumps[row.run].push(row.poses.start + k);
+            }
+        }
+    }
+    jumps
 }
 
 #[cfg(test)]

@@ -32,6 +32,9 @@ pub struct Options {
     pub settle: Option<f64>,
     /// Properties of the pose sensor to fit beside the kinematic parameters.
     pub nuisances: Vec<Nuisance>,
+    /// Relative error that all yaw of the recording shares, 1: the standard deviation of the scale
+    /// of a gyroscope that corrects it.
+    pub yaw_scale: f64,
     /// The genetic algorithm.
     pub genetic: GeneticOptions,
 }
@@ -108,44 +111,21 @@ pub fn identify_unless_stopped(
     options: &Options,
     progress: &dyn Fn(usize) -> ControlFlow<()>,
 ) -> Result<Identification, Error> {
-    let clock = Clock::of(recording, options.tau)?;
-    let tau = clock.tau();
-    let tau_margin =
-        if options.nuisances.contains(&Nuisance::TimeOffset) { TAU_MARGIN } else { 0.0 };
-    let segments = SegmentOptions { tau, tau_margin, ..SegmentOptions::default() };
-    let observations = cut(recording, &segments, options);
-    let needed = 4 * Free::IcrsAndAlphas.count();
-    if observations.len() < needed {
-        let parameters = Free::IcrsAndAlphas.count();
-        return Err(Error::TooFewSegments { found: observations.len(), needed, parameters });
-    }
-    let noise = noise(recording, tau);
+    let seen = Seen::of(recording, options)?;
+    let Seen { observations, spin_test, .. } = &seen;
     let lever = options.gauge / 2.0;
-    let spin_test = spin_test(&observations, options.gauge);
-    // Only the weights of the encoders' noise depend on it, and roughly: its size is enough.
-    let gap = spin_test.as_ref().map_or(1.5 * options.gauge, |spin| spin.gap);
-    let stated = recording.stated_noise().map(SegmentNoise::stated);
-    let known = SegmentNoise::measured(&noise, gap).or(stated);
-    let weighted_by_noise = known.is_some();
-    let weighting = known.map_or(Weighting::Distance { lever }, Weighting::Noise);
-
     let fit = |free: Free| -> Option<Fit> {
         let (gauge, genetic) = (options.gauge, &options.genetic);
-        let genetic = genetic_unless_stopped(&observations, gauge, lever, free, genetic, progress)?;
+        let genetic = genetic_unless_stopped(observations, gauge, lever, free, genetic, progress)?;
         let by_distance = Weighting::Distance { lever };
         let genetic_estimate =
-            estimate_at(&observations, &genetic.parameters, free, &by_distance, Loss::Squares);
-        let cut = |tau: f64| cut(recording, &SegmentOptions { tau, ..segments }, options);
-        let (least_squares, refused) = if let Some(doubt) = lacks(&observations, &noise, free) {
-            (Err(Error::NotDetermined(doubt)), Vec::new())
-        } else {
-            fit_with_sensor(&observations, &cut, &noise, free, &weighting, options)
-        };
+            estimate_at(observations, &genetic.parameters, free, &by_distance, Loss::Squares);
+        let (least_squares, refused) = seen.least_squares(free);
         let doubts =
             least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
         let contradictions = least_squares.as_ref().map_or(Vec::new(), |estimate| {
             let spin = spin_test.as_ref().ok();
-            Contradiction::of_motions(estimate, &genetic_estimate, spin, &observations, gauge)
+            Contradiction::of_motions(estimate, &genetic_estimate, spin, observations, gauge)
         });
         Some(Fit {
             free,
@@ -159,19 +139,87 @@ pub fn identify_unless_stopped(
     };
     let fits = fit(Free::Icrs).and_then(|icrs| Some([icrs, fit(Free::IcrsAndAlphas)?]));
     let fits = fits.ok_or(Error::Cancelled)?;
-    let segments = observations.len();
     let is_open = fits.iter().all(|fit| fit.least_squares.is_err() || !fit.doubts.is_empty());
-    let separation = if is_open { Separation::of_motions(&observations).ok() } else { None };
+    let separation = if is_open { Separation::of_motions(observations).ok() } else { None };
     Ok(Identification {
-        clock,
-        noise,
-        weighted_by_noise,
-        segments,
+        segments: observations.len(),
         lever,
-        spin_test,
         separation,
         fits,
+        clock: seen.clock,
+        noise: seen.noise,
+        weighted_by_noise: seen.weighted_by_noise,
+        spin_test: seen.spin_test,
     })
+}
+
+/// The ICRs by least squares alone, without the other methods.
+///
+/// # Errors
+/// Those of [`identify`], and of [`least_squares`].
+pub fn icrs_alone(recording: &Recording, options: &Options) -> Result<Estimate, Error> {
+    Seen::of(recording, options)?.least_squares(Free::Icrs).0
+}
+
+/// What a recording shows before anything is fitted to it.
+struct Seen<'a> {
+    recording: &'a Recording,
+    options: &'a Options,
+    segments: SegmentOptions,
+    clock: Clock,
+    observations: Observations,
+    noise: Noise,
+    spin_test: Result<SpinTest, Error>,
+    weighting: Weighting,
+    weighted_by_noise: bool,
+}
+
+impl<'a> Seen<'a> {
+    fn of(recording: &'a Recording, options: &'a Options) -> Result<Self, Error> {
+        let clock = Clock::of(recording, options.tau)?;
+        let tau = clock.tau();
+        let tau_margin =
+            if options.nuisances.contains(&Nuisance::TimeOffset) { TAU_MARGIN } else { 0.0 };
+        let segments = SegmentOptions { tau, tau_margin, ..SegmentOptions::default() };
+        let observations = cut(recording, &segments, options);
+        let needed = 4 * Free::IcrsAndAlphas.count();
+        if observations.len() < needed {
+            let parameters = Free::IcrsAndAlphas.count();
+            return Err(Error::TooFewSegments { found: observations.len(), needed, parameters });
+        }
+        let noise = noise(recording, tau);
+        let spin_test = spin_test(&observations, options.gauge);
+        // Only the weights of the encoders' noise depend on it, and roughly: its size is enough.
+        let gap = spin_test.as_ref().map_or(1.5 * options.gauge, |spin| spin.gap);
+        let stated = recording.stated_noise().map(SegmentNoise::stated);
+        let known = SegmentNoise::measured(&noise, gap).or(stated);
+        let weighted_by_noise = known.is_some();
+        let lever = options.gauge / 2.0;
+        let weighting = known.map_or(Weighting::Distance { lever }, Weighting::Noise);
+        Ok(Self {
+            recording,
+            options,
+            segments,
+            clock,
+            observations,
+            noise,
+            spin_test,
+            weighting,
+            weighted_by_noise,
+        })
+    }
+
+    /// Least squares, and why properties of the sensor that were asked for are not fitted.
+    fn least_squares(&self, free: Free) -> (Result<Estimate, Error>, Vec<Doubt>) {
+        let Self { recording, options, segments, observations, noise, weighting, .. } = self;
+        if let Some(doubt) = lacks(observations, noise, free) {
+            return (Err(Error::NotDetermined(doubt)), Vec::new());
+        }
+        let cut = |tau: f64| cut(recording, &SegmentOptions { tau, ..*segments }, options);
+        let (estimate, refused) =
+            fit_with_sensor(observations, &cut, noise, free, weighting, options);
+        (estimate.map(|estimate| estimate.with_yaw_scale(options.yaw_scale)), refused)
+    }
 }
 
 /// The segments at the clock offset of the segment options.

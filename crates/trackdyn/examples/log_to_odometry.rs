@@ -30,7 +30,7 @@ pub(crate) fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     let found = identify(&fitted, &vehicle, &IdentifySettings::default())?;
     let parameters = found.parameters().ok_or("two runs do not determine the ICRs")?;
 
-    let settings = OdometrySettings { part: runs("2")?, tau: None };
+    let settings = OdometrySettings { part: runs("2")?, ..OdometrySettings::default() };
     let replay = odometry(&recording, &vehicle, std::slice::from_ref(&parameters), &settings)?;
     for (index, set) in replay.comparison.sets.iter().enumerate() {
         let [place, yaw] = replay.error_at_end(index);

@@ -3,7 +3,8 @@
 use crate::{Provenance, Vehicle};
 use serde::{Serialize, Serializer};
 use trackdyn_core::rounding::Digits;
-use trackdyn_estimate::Clock;
+use trackdyn_estimate::gyroscope::Unfit;
+use trackdyn_estimate::{Clock, Gyroscope};
 
 /// Digits that documents keep.
 const DIGITS: Digits = Digits::Decimals(9);
@@ -76,5 +77,47 @@ impl<'a> ClockTable<'a> {
             origin: clock.origin(),
             note: clock.reason(),
         }
+    }
+}
+
+/// A gyroscope, and what it adds.
+#[derive(Default, Serialize)]
+pub(crate) struct GyroscopeTable {
+    used: bool,
+    /// Why it is not used.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scale: Option<Rounded>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    poses_late_s: Option<Rounded>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    turn_error_of_poses_rad: Option<Rounded>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    turn_error_with_it_rad: Option<Rounded>,
+    /// Standard error of x_r - x_l by the ICRs alone without it, where they are fitted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gap_standard_error_without_it_m: Option<Rounded>,
+}
+
+impl GyroscopeTable {
+    /// The table of a gyroscope.
+    pub(crate) fn of(found: &Result<Gyroscope, Unfit>) -> Self {
+        match found {
+            Ok(found) => Self {
+                used: true,
+                scale: Some(Rounded(found.scale)),
+                poses_late_s: Some(Rounded(found.lag)),
+                turn_error_of_poses_rad: Some(Rounded(found.error_of_poses)),
+                turn_error_with_it_rad: Some(Rounded(found.error_with_it)),
+                ..Self::default()
+            },
+            Err(reason) => Self { reason: Some(reason.to_string()), ..Self::default() },
+        }
+    }
+
+    /// The table with the standard error of x_r − x_l (m) without the gyroscope.
+    pub(crate) fn with_error_without_it(self, deviation: Option<f64>) -> Self {
+        Self { gap_standard_error_without_it_m: deviation.map(Rounded), ..self }
     }
 }

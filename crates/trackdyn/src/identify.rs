@@ -1,11 +1,13 @@
 //! Kinematic parameters from a recording.
 
 mod document;
+mod gyroscope;
 mod motion;
 mod points;
 mod sourced;
 mod turning;
 
+pub use gyroscope::GyroscopeUse;
 pub use motion::MotionFit;
 pub use points::PointsFit;
 pub use turning::TurningFit;
@@ -37,6 +39,8 @@ pub struct IdentifySettings {
     pub nuisances: Vec<Nuisance>,
     /// The genetic algorithm.
     pub genetic: GeneticOptions,
+    /// Correct the yaw of the poses by the recording's gyroscope. Default: poses as they are.
+    pub gyroscope: bool,
     /// Give and write parameters that other parts of the answer contradict as well, marked as
     /// doubtful. Default: they are withheld.
     pub force: bool,
@@ -49,6 +53,7 @@ impl IdentifySettings {
             ("tau", self.tau.is_some()),
             ("settle", self.settle.is_some()),
             ("nuisances", !self.nuisances.is_empty()),
+            ("gyroscope", self.gyroscope),
         ];
         given.into_iter().filter_map(|(name, given)| given.then_some(name)).collect()
     }
@@ -119,7 +124,13 @@ impl<'a> Prepared<'a> {
         if let Some(points) = recording.points() {
             return Ok(Identification::Points(Box::new(PointsFit::new(points, sourced))));
         }
-        let motion: &Motion = recording.expect_motion()?;
+        let raw: &Motion = recording.expect_motion()?;
+        let corrected = if settings.gyroscope {
+            recording.with_gyroscope(settings.tau)
+        } else {
+            (*recording).clone()
+        };
+        let motion = corrected.expect_motion()?;
         let refuse = |cause| Error::Identify { recording: recording.place(), cause };
         if !motion.has_positions() {
             let found = Turning::of(motion, settings.tau).map_err(refuse)?;
@@ -130,6 +141,7 @@ impl<'a> Prepared<'a> {
             tau: settings.tau,
             settle: settings.settle,
             nuisances: settings.nuisances(),
+            yaw_scale: corrected.yaw_scale(),
             genetic: settings.genetic,
         };
         let counter = Counter::new(observer, 2 * options.genetic.generations);
@@ -140,7 +152,11 @@ impl<'a> Prepared<'a> {
                 cause => refuse(cause),
             })?;
         let sourced = sourced.with_seed(settings.genetic.seed);
-        let fit = MotionFit::new(found, motion, gauge, sourced);
+        let gyroscope = corrected.gyroscope().cloned().map(|of| {
+            let options = Options { yaw_scale: 0.0, ..options.clone() };
+            GyroscopeUse::new(of, raw, &options)
+        });
+        let fit = MotionFit::new(found, gyroscope, motion, gauge, sourced);
         Ok(Identification::Motion(Box::new(fit)))
     }
 }

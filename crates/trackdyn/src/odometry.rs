@@ -26,6 +26,8 @@ pub struct OdometrySettings {
     pub part: Part,
     /// Time by which poses lag behind the track speeds, s. Default: estimated.
     pub tau: Option<f64>,
+    /// Correct the yaw of the poses by the recording's gyroscope. Default: poses as they are.
+    pub gyroscope: bool,
 }
 
 /// Where the robot would be if parameters were true, against where it was: for the ideal
@@ -61,14 +63,17 @@ pub fn odometry(
     parameters: &[Parameters],
     settings: &OdometrySettings,
 ) -> Result<Odometry, Error> {
-    let motion = recording.expect_positions()?;
+    recording.expect_positions()?;
+    let corrected =
+        if settings.gyroscope { recording.with_gyroscope(settings.tau) } else { recording.clone() };
+    let motion = corrected.expect_positions()?;
     let names = names::names(parameters.iter().map(|one| Path::new(one.name())));
     let replayed: Vec<Replayed> = parameters
         .iter()
         .zip(names)
         .map(|(parameters, name)| Replayed::new(parameters, name))
         .collect::<Result<_, _>>()?;
-    let part = recording.part(&settings.part)?;
+    let part = corrected.part(&settings.part)?;
     // All of the recording tells most of its clocks.
     let clock = Clock::of(motion, settings.tau)
         .map_err(|cause| Error::Identify { recording: recording.place(), cause })?;
@@ -82,14 +87,14 @@ pub fn odometry(
         comparison,
         clock,
         replayed,
-        recording: recording.clone(),
+        recording: corrected.clone(),
         vehicle: vehicle.clone(),
         time: part.time(),
     })
 }
 
 impl Odometry {
-    /// The recording, all of it.
+    /// The recording, all of it, with poses that its gyroscope corrects.
     pub fn recording(&self) -> &Recording {
         &self.recording
     }

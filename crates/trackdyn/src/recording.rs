@@ -1,5 +1,6 @@
 //! What was seen of a robot.
 
+mod gyroscope;
 mod options;
 mod part;
 mod points;
@@ -10,6 +11,8 @@ pub use points::PointsTable;
 
 use crate::Error;
 use std::path::{Path, PathBuf};
+use trackdyn_estimate::Gyroscope;
+use trackdyn_estimate::gyroscope::Unfit;
 use trackdyn_recording::rosbag::RosbagOptions;
 use trackdyn_recording::{Format, OperatingPoints, Recording as Motion, Run, Warning, tum};
 
@@ -28,6 +31,8 @@ pub struct Recording {
     path: Option<PathBuf>,
     /// The time of each run that is left of it, s; none: all of it.
     time: Option<[f64; 2]>,
+    /// What its gyroscope tells of the yaw of its poses, where it was asked.
+    gyroscope: Option<Result<Gyroscope, Unfit>>,
 }
 
 /// The two kinds of recordings.
@@ -55,7 +60,7 @@ impl Recording {
         } else {
             Seen::Motion(motion(path, options)?)
         };
-        Ok(Self { seen, path: Some(path.to_owned()), time: None })
+        Ok(Self { seen, path: Some(path.to_owned()), time: None, gyroscope: None })
     }
 
     /// The table of steady operating points that a path stands for; none where it stands for a
@@ -134,7 +139,7 @@ impl Recording {
             None => runs,
         };
         let time = part.time.or(self.time);
-        Ok(Self { seen: Seen::Motion(runs), path: self.path.clone(), time })
+        Ok(Self { seen: Seen::Motion(runs), time, ..self.clone() })
     }
 
     /// The time of each run that is left of it, s from its first reading; none: all of it.
@@ -163,7 +168,7 @@ impl Recording {
 
 impl From<Motion> for Recording {
     fn from(motion: Motion) -> Self {
-        Self { seen: Seen::Motion(motion), path: None, time: None }
+        Self { seen: Seen::Motion(motion), path: None, time: None, gyroscope: None }
     }
 }
 
@@ -204,7 +209,7 @@ pub(crate) fn joined(recordings: &[Recording]) -> Result<Recording, Error> {
             let all: Vec<Motion> =
                 recordings.iter().filter_map(Recording::motion).cloned().collect();
             let seen = Seen::Motion(Motion::joined(&all)?);
-            Ok(Recording { seen, path: first.path.clone(), time: None })
+            Ok(Recording { seen, path: first.path.clone(), time: None, gyroscope: None })
         }
     }
 }

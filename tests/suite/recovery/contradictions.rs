@@ -11,7 +11,8 @@ use trackdyn_recording::Recording;
 
 fn identified(recording: &Recording, gauge: f64) -> Identification {
     let genetic = GeneticOptions { population: 20, generations: 20, ..GeneticOptions::default() };
-    let options = Options { gauge, tau: None, settle: None, nuisances: Vec::new(), genetic };
+    let options =
+        Options { gauge, tau: None, settle: None, nuisances: Vec::new(), yaw_scale: 0.0, genetic };
     identify(recording, &options, &|_| ()).expect("long enough")
 }
 

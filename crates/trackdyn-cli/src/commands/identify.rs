@@ -34,6 +34,9 @@ pub struct Options {
     /// (lever-arm only says why no recording shows it)
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     fit: Vec<Nuisance>,
+    /// Correct the yaw of the poses by the recording's gyroscope
+    #[arg(long)]
+    gyroscope: bool,
     /// Individuals of the genetic algorithm
     #[arg(long, value_name = "N", default_value_t = 100,
           value_parser = clap::value_parser!(u32).range(4..=100_000))]
@@ -59,6 +62,7 @@ impl Options {
             tau: self.driving.tau,
             settle: self.settle,
             nuisances: self.fit.clone(),
+            gyroscope: self.gyroscope,
             force: self.force,
             genetic: GeneticOptions {
                 population: self.population as usize,
@@ -72,7 +76,11 @@ impl Options {
     /// The options given that steady points have nothing to say to.
     fn of_motion(&self) -> Vec<String> {
         let mut given = self.driving.given();
-        let own = [("--settle", self.settle.is_some()), ("--fit", !self.fit.is_empty())];
+        let own = [
+            ("--settle", self.settle.is_some()),
+            ("--fit", !self.fit.is_empty()),
+            ("--gyroscope", self.gyroscope),
+        ];
         given.extend(own.into_iter().filter(|(_, given)| *given).map(|(name, _)| name.to_owned()));
         given
     }
@@ -97,7 +105,7 @@ pub fn run(options: &Options) -> Outcome {
         ));
     }
     show(&match &found {
-        Identification::Motion(fit) => summary::text(&recording, &vehicle, &fit.found),
+        Identification::Motion(fit) => summary::text(&recording, &vehicle, fit),
         Identification::Points(fit) => points::text(&recording, &vehicle, fit),
         Identification::Turning(fit) => summary::turning(&recording, &vehicle, fit),
     })?;

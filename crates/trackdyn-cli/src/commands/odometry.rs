@@ -5,6 +5,7 @@ mod summary;
 use crate::changes::{say_doubtful, say_removed, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::gyroscope::say_gyroscopes;
 use crate::options::DrivingOptions;
 use crate::provenance::provenance;
 use crate::stderr::say;
@@ -24,6 +25,9 @@ pub struct Options {
     /// Vehicle file (schema trackdyn.vehicle/1), whose gauge is that of the ideal drive
     #[arg(long, value_name = "FILE")]
     vehicle: PathBuf,
+    /// Correct the yaw of the poses by the recording's gyroscope
+    #[arg(long)]
+    gyroscope: bool,
     /// Folder for odometry.toml, runs.csv, odometry.png and trajectories
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
@@ -38,12 +42,17 @@ pub fn run(options: &Options) -> Outcome {
         say_doubtful(doubtful.name());
     }
     let recording = options.driving.recording()?;
-    let settings = OdometrySettings { part: options.driving.part(), tau: options.driving.tau };
+    let settings = OdometrySettings {
+        part: options.driving.part(),
+        tau: options.driving.tau,
+        gyroscope: options.gyroscope,
+    };
     let found = odometry(&recording, &vehicle, &parameters, &settings)?;
     prepare_folder(&options.out)?;
     if let Some(reason) = found.clock.reason() {
         say(format_args!("note: {reason}; the clock offset is taken as 0 (set it with --tau)"));
     }
+    say_gyroscopes(found.recording().gyroscope());
     for fitted in found.fitted_to_it() {
         say(format_args!(
             "note: {} was fitted to some of these runs, which makes its errors look smaller \

@@ -29,6 +29,8 @@ const ITERATIONS: usize = 20;
 pub(super) struct Drive<'a> {
     pub(super) recording: &'a Recording,
     pub(super) turned: &'a [Vec<Turned>],
+    /// Indices of the poses of each run at which their yaw jumps.
+    pub(super) jumps: Vec<Vec<usize>>,
 }
 
 /// Poses of a run during which a gyroscope measures without a gap.
@@ -51,12 +53,16 @@ impl Drive<'_> {
             for turned in turned {
                 let [start, end] = turned.span();
                 let index = |after: f64| of.poses().partition_point(|pose| pose.t - lag < after);
-                let poses = index(start)..index(end);
-                if poses.len() >= MIN_ROW {
-                    let samples = &of.poses()[poses.clone()];
-                    let (times, yaws) =
-                        samples.iter().map(|sample| (sample.t, sample.pose.yaw)).unzip();
-                    rows.push(Row { run, poses, times, yaws, turned });
+                let (mut first, last) = (index(start), index(end));
+                let within = self.jumps[run].iter().filter(|jump| (first..last).contains(*jump));
+                for end in within.copied().chain([last]).collect::<Vec<_>>() {
+                    let poses = std::mem::replace(&mut first, end)..end;
+                    if poses.len() >= MIN_ROW {
+                        let samples = of.poses()[poses.clone()].iter();
+                        let (times, yaws) =
+                            samples.map(|sample| (sample.t, sample.pose.yaw)).unzip();
+                        rows.push(Row { run, poses, times, yaws, turned });
+                    }
                 }
             }
         }
@@ -75,6 +81,8 @@ struct Whitened {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
     pub(super) scale: f64,
+    /// Standard deviation of the scale.
+    pub(super) scale_deviation: f64,
     pub(super) lag: f64,
     pub(super) level: Level,
 }
@@ -87,18 +95,24 @@ impl Fit {
         let starts = [0.0, tau].into_iter();
         let lags =
             starts.flat_map(|at| (-steps..=steps).map(move |step| at + LAG_STEP * f64::from(step)));
-        let start = |lag: f64| Self { scale: 1.0, lag, level: Level::DIFFERENCES };
+        let start = |lag: f64| Self {
+            scale: 1.0,
+            scale_deviation: SCALE_PRIOR,
+            lag,
+            level: Level::DIFFERENCES,
+        };
         let misfit = |lag: f64| Some((start(lag).with_best_scale(drive)?, lag));
         let best = lags.filter_map(misfit).min_by(|a, b| a.0.total_cmp(&b.0));
         let Some((_, lag)) = best else { return Err(Unfit::TooFewPoses { found: 0 }) };
         let mut fit = start(lag);
         for _ in 0..ITERATIONS {
             let rows = drive.rows(fit.lag);
-            let step = fit.step(&fit.whitened(&rows), lag);
+            let (step, variance) = fit.step(&fit.whitened(&rows), lag);
+            fit.scale_deviation = variance.sqrt();
             fit.scale += step.x;
             fit.lag += step.y.clamp(-LAG_STEP, LAG_STEP);
             let rows = drive.rows(fit.lag);
-            let residuals = rows.iter().map(|row| (&row.times[..], fit.residual(row)));
+            let residuals = rows.iter().map(|row| &row.times[..]).zip(fit.residuals(&rows));
             let Some(level) = Level::of(&residuals.collect::<Vec<_>>()) else {
                 let found = rows.iter().map(|row| row.poses.len()).sum();
                 return Err(Unfit::TooFewPoses { found });
@@ -121,13 +135,32 @@ impl Fit {
         deviation_about_zero(&mut left.collect::<Vec<_>>())
     }
 
-    /// Residual r = ψ − s G(t − τ) − b t of a row, with the bias that fits it.
-    pub(super) fn residual(&self, row: &Row) -> Vec<f64> {
-        let [residual, ..] = self.columns(row);
-        let white = self.level.whitened(&row.times, &residual);
-        let times = self.level.whitened(&row.times, &row.times);
-        let bias = slope(&times, &white, &weights(&white));
-        residual.iter().zip(&row.times).map(|(r, t)| r - bias * (t - row.times[0])).collect()
+    /// Residuals r = ψ − s G(t − τ) − b t of some rows, with the bias that fits each run.
+    pub(super) fn residuals(&self, rows: &[Row]) -> Vec<Vec<f64>> {
+        let of_run = |rows: &[Row]| -> Vec<Vec<f64>> {
+            let residuals: Vec<Vec<f64>> = rows
+                .iter()
+                .map(|row| {
+                    let [residual, ..] = self.columns(row);
+                    residual
+                })
+                .collect();
+            let white = self.white(rows, &residuals);
+            let times: Vec<Vec<f64>> = rows.iter().map(|row| row.times.clone()).collect();
+            let bias = slope(&self.white(rows, &times), &white, &weights(&white));
+            let without = residuals.iter().zip(rows).map(|(residual, row)| {
+                let times = row.times.iter().map(|t| t - rows[0].times[0]);
+                residual.iter().zip(times).map(|(r, t)| r - bias * t).collect()
+            });
+            without.collect()
+        };
+        rows.chunk_by(|a, b| a.run == b.run).flat_map(of_run).collect()
+    }
+
+    /// A column of some rows, whitened row by row.
+    fn white(&self, rows: &[Row], columns: &[Vec<f64>]) -> Vec<f64> {
+        let pairs = rows.iter().zip(columns);
+        pairs.flat_map(|(row, column)| self.level.whitened(&row.times, column)).collect()
     }
 
     /// ψ − s G(t − τ), and its derivatives: −∂/∂s = G, −∂/∂τ = −s ω.
@@ -147,24 +180,32 @@ impl Fit {
 
     fn whitened(&self, rows: &[Row]) -> Whitened {
         let mut all = Whitened::default();
-        for row in rows {
-            let white = |column: &[f64]| self.level.whitened(&row.times, column);
-            let [residual, by_scale, by_lag] = self.columns(row).map(|column| white(&column));
-            let times = white(&row.times);
+        for rows in rows.chunk_by(|a, b| a.run == b.run) {
+            let [mut residual, mut by_scale, mut by_lag]: [Vec<Vec<f64>>; 3] = Default::default();
+            for row in rows {
+                let [r, scale, lag] = self.columns(row);
+                residual.push(r);
+                by_scale.push(scale);
+                by_lag.push(lag);
+            }
+            let times: Vec<Vec<f64>> = rows.iter().map(|row| row.times.clone()).collect();
+            let times = self.white(rows, &times);
+            let residual = self.white(rows, &residual);
             let weights = weights(&residual);
             let without = |column: Vec<f64>| -> Vec<f64> {
                 let bias = slope(&times, &column, &weights);
                 column.iter().zip(&times).map(|(value, time)| value - bias * time).collect()
             };
+            all.by[0].extend(without(self.white(rows, &by_scale)));
+            all.by[1].extend(without(self.white(rows, &by_lag)));
             all.residual.extend(without(residual));
-            all.by[0].extend(without(by_scale));
-            all.by[1].extend(without(by_lag));
         }
         all
     }
 
-    /// Step of scale and lag by Gauss and Newton; `start` is where the lag began, s.
-    fn step(&self, rows: &Whitened, start: f64) -> Vector2<f64> {
+    /// Step of scale and lag by Gauss and Newton, and the variance of the scale; `start` is where
+    /// the lag began, s.
+    fn step(&self, rows: &Whitened, start: f64) -> (Vector2<f64>, f64) {
         let spread = deviation_about_zero(&mut rows.residual.clone()).unwrap_or(1.0);
         let spread = spread.max(f64::MIN_POSITIVE);
         let priors = Vector2::new(SCALE_PRIOR, LAG_PRIOR).map(|deviation| deviation.powi(-2));
@@ -178,7 +219,8 @@ impl Fit {
             matrix += weight * by * by.transpose();
             right += weight * residual * by;
         }
-        matrix.try_inverse().map_or(Vector2::zeros(), |inverse| inverse * right)
+        let inverse = matrix.try_inverse().unwrap_or(Matrix2::zeros());
+        (inverse * right, inverse[(0, 0)])
     }
 }
 

@@ -39,6 +39,20 @@ impl Turned {
         Self { times, rates, angles }
     }
 
+    /// Second differences of the yaw rate by √6, rad/s: each is as large as the noise of a reading.
+    /// Those while `is_still` holds at all three times, or all of them.
+    pub(super) fn scatter(&self, is_still: &dyn Fn(f64) -> bool) -> [Vec<f64>; 2] {
+        let mut all: [Vec<f64>; 2] = Default::default();
+        for (times, rates) in self.times.windows(3).zip(self.rates.windows(3)) {
+            let change = (rates[0] - 2.0 * rates[1] + rates[2]) / 6.0_f64.sqrt();
+            if times.iter().all(|t| is_still(*t)) {
+                all[0].push(change);
+            }
+            all[1].push(change);
+        }
+        all
+    }
+
     /// First and last time, s.
     pub(super) fn span(&self) -> [f64; 2] {
         [self.times[0], self.times[self.times.len() - 1]]

@@ -36,6 +36,22 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// The estimate where all yaw of the recording shares a relative error of this standard
+    /// deviation, which neither noise nor scatter shows.
+    ///
+    /// A yaw that is 1 + δ times as large has ICRs at x_l/(1 + δ), x_r/(1 + δ) and y/(1 + δ):
+    /// ∂θ/∂δ = −θ
+    #[must_use]
+    pub fn with_yaw_scale(mut self, deviation: f64) -> Self {
+        let icrs = DVector::from_fn(self.unknowns.count(), |k, _| {
+            if k < 3 { deviation * self.parameters.0[k] } else { 0.0 }
+        });
+        let shared = &icrs * icrs.transpose();
+        self.covariance += &shared;
+        self.covariance_of_noise += shared;
+        self
+    }
+
     /// The 95 % interval of a free parameter; none of one that is fixed.
     pub fn interval(&self, parameter: usize) -> Option<Interval> {
         let is_free = parameter < self.unknowns.free.count();

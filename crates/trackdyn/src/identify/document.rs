@@ -1,7 +1,7 @@
 //! The result of an identification as a file, schema `trackdyn.identification/1`.
 
 use super::{FILES, MotionFit};
-use crate::document::{ClockTable, Rounded, to_toml};
+use crate::document::{ClockTable, GyroscopeTable, Rounded, to_toml};
 use serde::Serialize;
 use trackdyn_estimate::Interval;
 use trackdyn_estimate::identification::Fit;
@@ -19,6 +19,8 @@ struct File<'a> {
     source: SourceTable<'a>,
     clock: ClockTable<'a>,
     noise: NoiseTable,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gyroscope: Option<GyroscopeTable>,
     method: Vec<MethodTable>,
 }
 
@@ -116,6 +118,10 @@ pub(super) fn text(identified: &MotionFit, source: &Source) -> String {
         },
         clock: ClockTable::of(&found.clock),
         noise: of_noise(found),
+        gyroscope: identified.gyroscope.as_ref().map(|of| {
+            let without = of.gap_without_it.map(|gap| gap.deviation);
+            GyroscopeTable::of(&of.found).with_error_without_it(without)
+        }),
         method,
     })
 }

@@ -1,6 +1,7 @@
 //! What a recording of motion says of the kinematic parameters.
 
 use super::document;
+use super::gyroscope::GyroscopeUse;
 use super::sourced::{Fitted, Sourced};
 use crate::{Gauge, Provenance};
 use trackdyn_estimate::{Identification, Separation};
@@ -12,6 +13,8 @@ use trackdyn_recording::Recording as Motion;
 pub struct MotionFit {
     /// What was found, method by method.
     pub found: Identification,
+    /// What the recording's gyroscope adds; none where there is none, or where it is left out.
+    pub gyroscope: Option<GyroscopeUse>,
     robot: String,
     vehicle_fingerprint: String,
     pub(super) sourced: Sourced,
@@ -20,13 +23,14 @@ pub struct MotionFit {
 impl MotionFit {
     pub(super) fn new(
         found: Identification,
+        gyroscope: Option<GyroscopeUse>,
         motion: &Motion,
         gauge: &Gauge,
         sourced: Sourced,
     ) -> Self {
         let (robot, vehicle_fingerprint) =
             (motion.robot().to_owned(), gauge.fingerprint().to_owned());
-        Self { found, robot, vehicle_fingerprint, sourced }
+        Self { found, gyroscope, robot, vehicle_fingerprint, sourced }
     }
 
     /// Gauge of the vehicle, m.

@@ -2,7 +2,7 @@
 
 use super::Odometry;
 use crate::Provenance;
-use crate::document::{ClockTable, Rounded, to_toml};
+use crate::document::{ClockTable, GyroscopeTable, Rounded, to_toml};
 use serde::Serialize;
 use trackdyn_estimate::odometry::comparison::{Component, SpanErrors};
 use trackdyn_estimate::odometry::{Comparison, Estimate, ParameterSet, Span};
@@ -18,6 +18,8 @@ struct File<'a> {
     confidence: String,
     source: Source<'a>,
     clock: ClockTable<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gyroscope: Option<GyroscopeTable>,
     set: Vec<SetTable>,
     span: Vec<SpanTable<'a>>,
 }
@@ -115,6 +117,7 @@ pub(super) fn text(odometry: &Odometry, provenance: &Provenance) -> String {
             vehicle_fingerprint: vehicle.fingerprint(),
         },
         clock: ClockTable::of(clock),
+        gyroscope: recording.gyroscope().map(GyroscopeTable::of),
         set: result
             .sets
             .iter()

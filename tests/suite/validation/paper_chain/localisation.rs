@@ -54,7 +54,14 @@ fn identified(drives: &[Drive], localised: &[Vec<LocalisedPose>]) -> (Recording,
         .expect("long enough");
     // Least squares does not hang on the genetic algorithm.
     let genetic = GeneticOptions { generations: 1, ..GeneticOptions::default() };
-    let options = Options { gauge: GAUGE, tau: None, settle: None, nuisances: Vec::new(), genetic };
+    let options = Options {
+        gauge: GAUGE,
+        tau: None,
+        settle: None,
+        nuisances: Vec::new(),
+        yaw_scale: 0.0,
+        genetic,
+    };
     let found = identify(&recording, &options, &|_| ()).expect("enough segments");
     (recording, found)
 }

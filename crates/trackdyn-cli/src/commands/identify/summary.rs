@@ -7,11 +7,12 @@ use trackdyn::crates::estimate::{
 };
 use trackdyn::crates::model::kinematics::SeparationFile;
 use trackdyn::crates::recording::Run;
-use trackdyn::identify::TurningFit;
+use trackdyn::identify::{GyroscopeUse, MotionFit, TurningFit};
 use trackdyn::{Recording, Vehicle};
 
 /// One screen: the recording, its clock and noise, the methods side by side.
-pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) -> String {
+pub fn text(recording: &Recording, vehicle: &Vehicle, fit: &MotionFit) -> String {
+    let found = &fit.found;
     let mut text = String::new();
     let runs = recording.runs();
     let seconds: f64 = runs.iter().map(Run::duration).sum();
@@ -28,6 +29,9 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) ->
     let mut fitted = fits.flat_map(|estimate| &estimate.unknowns.nuisances);
     clock(&mut text, &found.clock, fitted.any(|one| *one == Nuisance::TimeOffset));
     noise(&mut text, found);
+    if let Some(of) = &fit.gyroscope {
+        gyroscope(&mut text, of, found);
+    }
     match &found.spin_test {
         Ok(spin) => {
             let deviation = spin.interval.map_or_else(String::new, |interval| {
@@ -104,6 +108,26 @@ fn clock(text: &mut String, clock: &Clock, is_fitted: bool) {
         ),
         Clock::Unknown(reason) => writeln!(text, "  clock      taken as equal: {reason}"),
     };
+}
+
+/// What a gyroscope tells, and how much better the distance of the ICRs is known by it.
+fn gyroscope(text: &mut String, of: &GyroscopeUse, found: &Identification) {
+    let gyroscope = match &of.found {
+        Ok(gyroscope) => gyroscope,
+        Err(reason) => {
+            let _ = writeln!(text, "  gyroscope  left out: {reason}");
+            return;
+        }
+    };
+    let _ = writeln!(text, "  gyroscope  {gyroscope}");
+    let [icrs, _] = &found.fits;
+    if let (Ok(with), Some(without)) = (&icrs.least_squares, &of.gap_without_it) {
+        let [with, without] = [with.gap().deviation, without.deviation];
+        let _ = writeln!(
+            text,
+            "             standard error of x_r - x_l {with:.4} m, {without:.4} m without it"
+        );
+    }
 }
 
 fn noise(text: &mut String, found: &Identification) {

@@ -1,0 +1,37 @@
+//! A recording whose gyroscope corrects the yaw of its poses.
+
+use super::{Recording, Seen};
+use trackdyn_estimate::gyroscope::Unfit;
+use trackdyn_estimate::{Clock, Gyroscope, with_gyroscope};
+
+impl Recording {
+    /// This recording with the yaw of its poses corrected by its gyroscope, where it has one that
+    /// serves; `tau` is the time by which poses lag behind the track speeds, s, where it is known.
+    /// Its fingerprint stays.
+    pub fn with_gyroscope(&self, tau: Option<f64>) -> Self {
+        let usable = self.motion().filter(|motion| motion.has_positions());
+        let (Some(motion), None) = (usable, &self.gyroscope) else { return self.clone() };
+        let Ok(clock) = Clock::of(motion, tau) else { return self.clone() };
+        match with_gyroscope(motion, clock.tau()) {
+            Some(Ok((corrected, found))) => {
+                let (seen, gyroscope) = (Seen::Motion(corrected), Some(Ok(found)));
+                Self { seen, gyroscope, path: self.path.clone(), time: self.time }
+            }
+            Some(Err(unfit)) => Self { gyroscope: Some(Err(unfit)), ..self.clone() },
+            None => self.clone(),
+        }
+    }
+
+    /// Relative error that all yaw of its poses shares, 1: the standard deviation of the scale of
+    /// the gyroscope that corrects them.
+    pub(crate) fn yaw_scale(&self) -> f64 {
+        let served = self.gyroscope().and_then(|found| found.as_ref().ok());
+        served.map_or(0.0, |found| found.scale_deviation)
+    }
+
+    /// What its gyroscope tells of the yaw of its poses, or why it does not serve; none where there
+    /// is none, or where it was not asked ([`Recording::with_gyroscope`]).
+    pub fn gyroscope(&self) -> Option<&Result<Gyroscope, Unfit>> {
+        self.gyroscope.as_ref()
+    }
+}

@@ -6,6 +6,7 @@ mod images;
 mod inertia;
 mod intervals;
 mod measured;
+mod nested;
 mod nulls;
 mod one_sided;
 mod proposal;

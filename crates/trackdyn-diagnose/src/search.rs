@@ -245,20 +245,31 @@ impl Search {
         // promised gain, a start at smaller sizes is tried too: either may lie beyond a crest of
         // the objective.
         let promised = more.iter().map(|one| one.gain).fold(0.0, f64::max);
+        // More effects at no size are the hypothesis without them: no fit need end worse.
+        let no_worse = |found: Found| {
+            let is_worse = |found: &Found| {
+                found.fit.objective > beside.fit.objective + settings.max_rise_of_nested
+            };
+            if !is_worse(&found) || std::env::var("NEUTRAL").is_err() {
+                return found;
+            }
+            let none = fitted(start(0.0));
+            if none.fit.objective < found.fit.objective { none } else { found }
+        };
         let kept = |found: &Found| found.ln_evidence - beside.ln_evidence;
         let mut far = Some(start(1.0));
         let is_less = |far: &mut Point| far.objective < beside.fit.objective;
         let found = fitted(far.take_if(is_less).unwrap_or_else(|| start(settings.near_start)));
         let is_kept = kept(&found) > settings.min_kept_share * promised;
         if promised < settings.min_ln_evidence || is_kept {
-            return found;
+            return no_worse(found);
         }
         let second = far.unwrap_or_else(|| start(settings.near_start));
         if second.objective.is_infinite() {
-            return found;
+            return no_worse(found);
         }
         let other = fitted(second);
-        if kept(&other) > kept(&found) { other } else { found }
+        no_worse(if kept(&other) > kept(&found) { other } else { found })
     }
 
     /// The hypothesis with more effects, at a share of the screened sizes.

@@ -57,6 +57,10 @@ group! {
         near_start: f64 = 0.3, "", [0.01, 1.0],
             "Before most crests.",
             "Higher: it starts beyond them.";
+        /// Rise of twice the objective by more effects, from which on a fit starts anew at none.
+        max_rise_of_nested: f64 = 0.1, "", [0.0, 100.0],
+            "Rounding, and the end of a descent.",
+            "Higher: effects are lost in worse minima.";
         /// Offset of an ICR that the vehicle need not take over.
         max_offset: f64 = 5e-3, "gauge", [1e-6, 1.0],
             "It is hardly noticed.",

@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use trackdyn::crates::core::Pose;
 use trackdyn::crates::model::Effects;
 use trackdyn::crates::model::effect::Stage;
-use trackdyn::crates::recording::rosbag::{Dating, JointSignal, SignalUnit};
+use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
+use trackdyn::crates::recording::{DoubtKind, SpeedUnit};
 use trackdyn::recording::BagOptions;
 use trackdyn::refuse_repeated;
 use trackdyn::{
@@ -138,7 +139,7 @@ pub struct RecordingOptions {
     /// Bag: signal of the joints [default: velocity where there is one]
     #[arg(long, value_name = "SIGNAL")]
     joint_signal: Option<Signal>,
-    /// Bag: belt travel in m per radian of the joints
+    /// Belt travel in m per radian of the joints of a bag, or of wheels (--speed-unit)
     #[arg(long, value_name = "M", value_parser = positive)]
     wheel_radius: Option<f64>,
     /// Bag: topic of the poses
@@ -165,32 +166,23 @@ pub struct RecordingOptions {
     /// Bag without joints: number of the right side, in the same way
     #[arg(long, value_name = "TOPIC:FIELD", allow_hyphen_values = true)]
     right_signal: Vec<String>,
-    /// Unit of --left-signal and --right-signal; all but m/s need --wheel-radius [default: rad/s]
-    #[arg(long, value_name = "UNIT")]
-    signal_unit: Option<Unit>,
+    /// Unit of the track speeds: m/s, mm/s, cm/s, km/h, mph, ft/s, or of wheels, with
+    /// --wheel-radius, rad/s, rpm, turns/s, deg/s [default: of a bag rad/s, of a table m/s]
+    #[arg(long, value_name = "UNIT", alias = "signal-unit")]
+    speed_unit: Option<SpeedUnit>,
     /// Folder of definitions (PACKAGE/msg/TYPE.msg) for signals of a bag that has none
     #[arg(long, value_name = "DIR")]
     msg_dir: Option<PathBuf>,
     /// Bag: what dates its messages [default: their headers, or the log where clocks differ]
     #[arg(long, value_name = "CLOCK")]
     dated_by: Option<DatedBy>,
-}
-
-/// Units of numbers that are speeds of the sides.
-#[derive(Clone, Copy, ValueEnum)]
-enum Unit {
-    /// Speed of the track
-    #[value(name = "m/s")]
-    MetresPerSecond,
-    /// Speed of the wheel
-    #[value(name = "rad/s")]
-    RadiansPerSecond,
-    /// Turns of the wheel per minute
-    #[value(name = "rpm")]
-    TurnsPerMinute,
-    /// Degrees of the wheel per second
-    #[value(name = "deg/s")]
-    DegreesPerSecond,
+    /// Yaw in degrees of the pose sensor on the robot: 180 where it faces backwards
+    #[arg(long, value_name = "DEG", value_parser = finite, allow_hyphen_values = true)]
+    sensor_yaw: Option<f64>,
+    /// Read a recording in spite of a doubt, where you know better; repeatable: travel, stamps,
+    /// yaw-unit, orientation, out-of-plane, signs, dead-encoder, stuck-poses
+    #[arg(long, value_name = "DOUBT")]
+    accept: Vec<DoubtKind>,
 }
 
 /// What dates the messages of a bag.
@@ -258,18 +250,15 @@ impl RecordingOptions {
                 separation: self.separation,
                 left_signals: self.left_signal.clone(),
                 right_signals: self.right_signal.clone(),
-                signal_unit: self.signal_unit.map(|unit| match unit {
-                    Unit::MetresPerSecond => SignalUnit::MetresPerSecond,
-                    Unit::RadiansPerSecond => SignalUnit::RadiansPerSecond,
-                    Unit::TurnsPerMinute => SignalUnit::TurnsPerMinute,
-                    Unit::DegreesPerSecond => SignalUnit::DegreesPerSecond,
-                }),
+                speed_unit: self.speed_unit,
                 msg_dir: self.msg_dir.clone(),
                 dated_by: match self.dated_by {
                     None => Dating::Any,
                     Some(DatedBy::Header) => Dating::Header,
                     Some(DatedBy::Log) => Dating::Log,
                 },
+                sensor_yaw: self.sensor_yaw.map(f64::to_radians),
+                accepted: self.accept.clone(),
                 ..BagOptions::default()
             },
         }

@@ -1,6 +1,7 @@
 //! Command lines for a user to copy.
 
-use trackdyn::crates::recording::rosbag::{Dating, JointSignal, SignalUnit};
+use trackdyn::crates::recording::SpeedUnit;
+use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
 use trackdyn::{Part, ReadOptions};
 
 /// A word as a POSIX shell takes it for one: quoted where it has to be.
@@ -54,15 +55,7 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
     for signal in &bag.right_signals {
         add("right-signal", Some(signal));
     }
-    add(
-        "signal-unit",
-        bag.signal_unit.map(|unit| match unit {
-            SignalUnit::MetresPerSecond => "m/s",
-            SignalUnit::RadiansPerSecond => "rad/s",
-            SignalUnit::TurnsPerMinute => "rpm",
-            SignalUnit::DegreesPerSecond => "deg/s",
-        }),
-    );
+    add("speed-unit", bag.speed_unit.map(SpeedUnit::name));
     let messages = bag.msg_dir.as_ref().map(|path| path.display().to_string());
     add("msg-dir", messages.as_deref());
     add("twist-topic", bag.twist_topic.as_deref());
@@ -82,6 +75,11 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
             Dating::Log => Some("log"),
         },
     );
+    let yaw = bag.sensor_yaw.map(|yaw| yaw.to_degrees().to_string());
+    add("sensor-yaw", yaw.as_deref());
+    for doubt in &bag.accepted {
+        add("accept", Some(doubt.name()));
+    }
     words
 }
 

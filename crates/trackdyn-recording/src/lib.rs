@@ -6,6 +6,7 @@
 //! - [`selection`]: some of its runs, or a time of them.
 //! - [`doubt`]: what tracks and poses of one recording may contradict each other in.
 //! - [`hold`]: track speeds between two readings.
+//! - [`unit`]: units of track speeds.
 //! - [`table`]: CSV tables, for other readers of columns of numbers.
 //!
 //! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
@@ -24,11 +25,13 @@ pub mod sample;
 pub mod selection;
 pub mod table;
 pub mod tum;
+pub mod unit;
 
-pub use doubt::Doubt;
+pub use doubt::{Doubt, DoubtKind};
 pub use error::Error;
-pub use format::read;
+pub use format::{TableOptions, read};
 pub use operating_points::{OperatingPoint, OperatingPoints};
 pub use recording::{Format, Recording, Run, Source, StatedNoise, UncheckedRun, Warning};
 pub use sample::{ImuSample, PoseSample, Series, TrackSample};
 pub use selection::RunList;
+pub use unit::SpeedUnit;

@@ -14,7 +14,7 @@
 //! base_link.
 
 use crate::doubt::Doubt;
-use crate::recording::{Recording, Source};
+use crate::recording::{Recording, Source, turn_sensor};
 use crate::{Error, Format};
 use std::path::Path;
 use trackdyn_core::{PerSide, Side};
@@ -50,7 +50,7 @@ mod words;
 
 pub use inspection::{Inspection, TopicSummary, inspect};
 pub(crate) use message::yaw_of_quaternion;
-pub use options::{Dating, JointSignal, RosbagOptions, SignalUnit};
+pub use options::{Dating, JointSignal, RosbagOptions};
 pub(crate) use storage::is_bag;
 pub use topic::Role;
 
@@ -67,7 +67,8 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     let signals = signals::Signals::new(path, options)?;
     let mut collector = collector::Collector::new(options, signals);
     let mut warnings = storage::scan(path, &mut collector)?;
-    let collected = collector.finish(path)?;
+    let mut collected = collector.finish(path)?;
+    turn_sensor(&mut collected.runs, options.sensor_yaw);
     warnings.extend(collected.warnings);
     warnings.extend(twist::warning(options));
     let name = storage::name(path);
@@ -79,7 +80,7 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     let joints = collected.joints;
     let are_joints = options.twist_topic.is_none();
     let kind = if options.left_signals.is_empty() { "joint" } else { "signal" };
-    Recording::new(name, "unknown", collected.runs, source, warnings)
+    Recording::accepting(name, "unknown", collected.runs, source, warnings, &options.accepted)
         .map_err(|error| if are_joints { with_options(error, &joints, kind) } else { error })
 }
 
@@ -119,6 +120,15 @@ fn with_options(error: Error, taken: &PerSide<Vec<String>>, kind: &str) -> Error
             let remedy =
                 format!("swap the sides by {left} {right}, or choose poses whose z axis points up");
             (Some(joints), remedy)
+        }
+        Doubt::Backwards => {
+            let joints = PerSide::new(reversed(&taken.right), reversed(&taken.left));
+            let [left, right] = Side::BOTH.map(|side| option(side, &joints[side]));
+            let remedy = format!(
+                "turn the sensor by --sensor-yaw 180, or where the sides are wrong, swap and \
+                 reverse them by {left} {right}"
+            );
+            (None, remedy)
         }
         _ => (None, remedy),
     };

@@ -177,7 +177,9 @@ fn motion(path: &Path, options: &ReadOptions) -> Result<Motion, Error> {
     }
     match (format, &options.tracks) {
         (Format::Tum, None) => Err(Error::NoTracks { path: path.to_owned() }),
-        (Format::Tum, Some(tracks)) => Ok(tum::read(path, tracks, "unknown")?),
+        (Format::Tum, Some(tracks)) => {
+            Ok(tum::read_by(path, tracks, "unknown", &options.bag.of_tables())?)
+        }
         (_, None) => Ok(trackdyn_recording::read(path, &options.bag)?),
         (_, Some(_)) => Err(Error::TracksNotNeeded { path: path.to_owned() }),
     }

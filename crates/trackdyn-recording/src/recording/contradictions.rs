@@ -5,8 +5,10 @@
 //! slip nor single wrong readings decide. What slip can explain is left alone.
 
 use super::stretches::{Stretch, path_extent, stretches};
-use super::{Run, UncheckedRun};
+use super::{Run, UncheckedRun, idle};
 use crate::doubt::Doubt;
+use crate::sample::TrackSample;
+use crate::unit;
 use std::f64::consts::TAU;
 use trackdyn_core::robust::{median, usual_interval};
 use trackdyn_core::{Side, real};
@@ -20,9 +22,6 @@ const MIN_CONTRADICTION: f64 = 5.0;
 /// Largest ratio of the upper to the lower quartile of this ratio: units change all stretches
 /// alike, tracks that spin on the spot do not.
 const MAX_QUARTILE_RATIO: f64 = 2.0;
-
-/// Largest factor between a ratio and that of two units; slip and a rough radius are in between.
-const MAX_UNIT_ERROR: f64 = 1.3;
 
 /// Correlation from which on two motions are one.
 const MIN_CORRELATION: f64 = 0.7;
@@ -40,16 +39,14 @@ const MIN_TURNING: f64 = 1.0;
 /// apart; in radians, of ICRs 0.25 m apart.
 const MIN_DEGREES: f64 = 4.0;
 
-/// Ratios of units that are mixed up.
-const UNITS: [(f64, &str); 7] = [
-    (360.0 / TAU, "degrees in place of radians"),
-    (1000.0, "millimetres in place of metres"),
-    (100.0, "centimetres in place of metres"),
-    (39.37, "inches in place of metres"),
-    (25.4, "millimetres in place of inches"),
-    (60.0 / TAU, "turns per minute in place of rad/s"),
-    (TAU, "turns in place of radians"),
-];
+/// Least ratio of ways that differ by that of two units, where all stretches agree.
+const MIN_UNIT_RATIO: f64 = 3.0;
+
+/// Largest factor between such a ratio and that of the units.
+const MAX_UNIT_ERROR: f64 = 1.15;
+
+/// Largest ratio of its quartiles.
+const MAX_UNIT_QUARTILE_RATIO: f64 = 1.3;
 
 /// What contradicts the rows of a run before they are cleaned.
 pub(super) fn of_rows(rows: &UncheckedRun) -> Option<Doubt> {
@@ -102,30 +99,67 @@ fn turned_per_difference(run: &UncheckedRun) -> f64 {
     turned / differences.filter(finite).sum::<f64>()
 }
 
-/// What contradicts what in cleaned runs.
-pub(super) fn of_runs(runs: &[Run]) -> Option<Doubt> {
-    if let Some(doubt) = runs.iter().find_map(of_times) {
-        return Some(doubt);
-    }
-    if let Some(doubt) = orientation(runs) {
-        return Some(doubt);
-    }
+/// What contradicts what in cleaned runs, the gravest first.
+pub(super) fn of_runs(runs: &[Run]) -> Vec<Doubt> {
     let late =
         |tau: f64| -> Vec<Stretch> { runs.iter().flat_map(|run| stretches(run, tau)).collect() };
     let stretches = late(0.0);
-    travel(runs, &stretches).or_else(|| {
-        // A clock that is off must not look like a sign: the delay that explains most decides.
-        let senses = Senses::of(&stretches);
-        let doubt = senses.doubt()?;
-        let lags = LAGS.into_iter().flat_map(|tau| [tau, -tau]);
-        let others = lags.map(|tau| Senses::of(&late(tau)));
-        let best = others.max_by(|a, b| a.explained().total_cmp(&b.explained()));
-        match best.filter(|best| best.explained() > senses.explained() + MIN_LAG_GAIN) {
-            Some(best) => best.doubt(),
-            None => Some(doubt),
-        }
-    })
+    let stuck = stuck_poses(runs, &stretches);
+    let orientation = if stuck.is_none() { orientation(runs) } else { None };
+    let mut doubts: Vec<Doubt> = runs.iter().find_map(of_times).into_iter().collect();
+    doubts.extend(stuck.or(orientation));
+    doubts.extend(idle::dead_encoder(runs, &late));
+    doubts.extend(travel(runs, &stretches));
+    doubts.extend(signs(&stretches, &late));
+    doubts
 }
+
+/// Sides that count backwards or are swapped.
+fn signs(stretches: &[Stretch], late: &dyn Fn(f64) -> Vec<Stretch>) -> Option<Doubt> {
+    // A clock that is off must not look like a sign: the delay that explains most decides.
+    let senses = Senses::of(stretches);
+    let doubt = senses.doubt()?;
+    let lags = LAGS.into_iter().flat_map(|tau| [tau, -tau]);
+    let others = lags.map(|tau| Senses::of(&late(tau)));
+    let best = others.max_by(|a, b| a.explained().total_cmp(&b.explained()));
+    match best.filter(|best| best.explained() > senses.explained() + MIN_LAG_GAIN) {
+        Some(best) => best.doubt(),
+        None => Some(doubt),
+    }
+}
+
+/// Poses that do not move while the tracks do. Poses of another unit are as small and follow.
+fn stuck_poses(runs: &[Run], stretches: &[Stretch]) -> Option<Doubt> {
+    let extent = |run: &Run| path_extent(run.poses()).unwrap_or(0.0);
+    let extent = runs.iter().map(extent).fold(0.0, f64::max);
+    let turns = |run: &Run| {
+        let yaws = || run.poses().iter().map(|sample| sample.pose.yaw);
+        yaws().fold(f64::NEG_INFINITY, f64::max) - yaws().fold(f64::INFINITY, f64::min)
+    };
+    let is_turned = runs.iter().map(turns).any(|turn| turn > MAX_STUCK_TURN);
+    let steps = || runs.iter().flat_map(|run| run.tracks().windows(2));
+    let sum = |of: fn(&TrackSample) -> f64| -> f64 {
+        steps().map(|pair| of(&pair[0]).abs() * (pair[1].t - pair[0].t)).sum()
+    };
+    let travelled = sum(|sample| f64::midpoint(sample.v_left, sample.v_right));
+    let turning = sum(|sample| sample.v_right - sample.v_left);
+    let is_stuck = travelled >= MIN_TURNING
+        && turning >= MIN_TURNING
+        && extent <= (MAX_STUCK_SHARE * travelled).min(MAX_STUCK_EXTENT)
+        && !is_turned
+        && runs.iter().all(Run::has_positions)
+        && Senses::of(stretches).explained() < MIN_CORRELATION;
+    is_stuck.then_some(Doubt::StuckPoses { travelled, extent })
+}
+
+/// Largest turn of poses that are stuck, rad.
+const MAX_STUCK_TURN: f64 = 0.1;
+
+/// Largest extent of poses that are stuck, per way of the tracks.
+const MAX_STUCK_SHARE: f64 = 0.02;
+
+/// Largest extent of poses that are stuck, m.
+const MAX_STUCK_EXTENT: f64 = 0.2;
 
 /// Fractions of a second in which stamps are written.
 const FRACTIONS: [(f64, &str); 3] =
@@ -175,19 +209,21 @@ fn travel(runs: &[Run], stretches: &[Stretch]) -> Option<Doubt> {
     }
     let [lower, ratio, upper] = [count / 4, count / 2, count * 3 / 4].map(|at| ratios[at]);
     let size = ratio.max(1.0 / ratio);
-    if !(lower > 0.0 && upper <= MAX_QUARTILE_RATIO * lower && size >= MIN_CONTRADICTION) {
+    let spread = if lower > 0.0 { upper / lower } else { f64::INFINITY };
+    let is_of_units = size >= MIN_UNIT_RATIO
+        && spread <= MAX_UNIT_QUARTILE_RATIO
+        && unit::error(ratio).is_some_and(|error| error <= MAX_UNIT_ERROR);
+    let is_off = spread <= MAX_QUARTILE_RATIO && size >= MIN_CONTRADICTION;
+    if !(is_of_units || is_off) {
         return None;
     }
-    let is_near = |unit: f64| (size / unit).max(unit / size) <= MAX_UNIT_ERROR;
     let interval = runs.first().map_or(0.0, pose_interval);
     if ratio > 1.0 && interval >= MAX_INTERVAL {
+        let is_near = |unit: f64| (size / unit).max(unit / size) <= MAX_QUARTILE_RATIO;
         let unit = FRACTIONS.iter().find(|(unit, _)| is_near(*unit)).map(|(_, name)| *name);
         return Some(Doubt::Stamps { interval, unit });
     }
-    let nearest = UNITS.iter().filter(|(unit, _)| is_near(*unit));
-    let nearest =
-        nearest.min_by(|(a, _), (b, _)| (size / a).ln().abs().total_cmp(&(size / b).ln().abs()));
-    Some(Doubt::Travel { ratio, units: nearest.map(|(_, name)| *name) })
+    Some(Doubt::Travel { ratio, units: unit::mixed_up(ratio) })
 }
 
 /// Delays of the poses that are tried before a sign is doubted, s.
@@ -245,9 +281,9 @@ impl Senses {
         let is_against = right.map(|correlation| correlation <= -MIN_CORRELATION);
         match is_against {
             [true, true] => Some(Doubt::BothReversed),
-            // A sensor that looks backwards turns as the robot does.
-            [_, false] => None,
             [false, true] => Some(Doubt::Swapped),
+            [true, false] => (right[1] >= MIN_CORRELATION).then_some(Doubt::Backwards),
+            [false, false] => None,
         }
     }
 }

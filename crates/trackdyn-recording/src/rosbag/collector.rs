@@ -12,7 +12,7 @@ use super::signals::Signals;
 use super::topic::{Topic, list};
 use crate::Error;
 use crate::attitude::Attitude;
-use crate::doubt::Doubt;
+use crate::doubt::{Doubt, DoubtKind};
 use crate::recording::{UncheckedRun, Warning};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -133,8 +133,14 @@ impl<'a> Collector<'a> {
             }
             _ => {
                 let (key, poses) = sources.poses(self.poses, &mut warnings)?;
-                if let Some(count) = self.attitudes.get(&key).and_then(Attitude::tilted) {
-                    return Err(Error::contradiction(path, Doubt::OutOfPlane { count }));
+                let tilted = self.attitudes.get(&key).and_then(Attitude::tilted);
+                let is_accepted = self.options.accepted.contains(&DoubtKind::OutOfPlane);
+                if let Some(count) = tilted {
+                    if is_accepted {
+                        warnings.push(Warning::Accepted(Doubt::OutOfPlane { count }));
+                    } else {
+                        return Err(Error::contradiction(path, Doubt::OutOfPlane { count }));
+                    }
                 }
                 (poses, key.topic, None)
             }

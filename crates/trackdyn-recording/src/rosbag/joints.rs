@@ -7,6 +7,7 @@ use super::date::Received;
 use super::names::{self, Part};
 use super::options::RosbagOptions;
 use super::payload::{Payload, PayloadError};
+use crate::unit::SpeedUnit;
 use std::convert::Infallible;
 use trackdyn_core::{PerSide, Side};
 
@@ -54,6 +55,8 @@ impl Column {
 #[derive(Clone, Debug)]
 pub(super) struct Joints {
     named: PerSide<Vec<String>>,
+    /// rad or rad/s, or m/s where they are speeds of the tracks, per unit of the numbers.
+    factor: f64,
     sources: Vec<Source>,
     /// Where the last message belonged.
     last: usize,
@@ -62,7 +65,8 @@ pub(super) struct Joints {
 impl Joints {
     pub(super) fn new(options: &RosbagOptions) -> Self {
         let named = PerSide::new(options.left_joints.clone(), options.right_joints.clone());
-        Self { named, sources: Vec::new(), last: 0 }
+        let factor = options.speed_unit.map_or(1.0, SpeedUnit::factor);
+        Self { named, factor, sources: Vec::new(), last: 0 }
     }
 
     /// What all messages told.
@@ -129,7 +133,7 @@ impl Joints {
         for signal in [0, 1].into_iter().filter(|&signal| has[signal]) {
             let mut columns = source.columns.iter_mut().peekable();
             for place in 0..names.len() {
-                let value = next(signal)?;
+                let value = self.factor * next(signal)?;
                 while let Some(column) = columns.next_if(|column| column.place == place) {
                     let all =
                         if signal == 0 { &mut column.positions } else { &mut column.velocities };

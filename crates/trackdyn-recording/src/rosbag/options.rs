@@ -1,7 +1,9 @@
 //! What to take from a bag.
 
 use super::topic::STATIC;
-use std::f64::consts::TAU;
+use crate::doubt::DoubtKind;
+use crate::format::TableOptions;
+use crate::unit::SpeedUnit;
 use std::path::PathBuf;
 
 /// Topics, joints and frames; what is left open is taken where the bag leaves no choice.
@@ -43,18 +45,32 @@ pub struct RosbagOptions {
     pub left_signals: Vec<String>,
     /// Numbers of the right side, in the same way.
     pub right_signals: Vec<String>,
-    /// Unit of these numbers; none: rad/s.
-    pub signal_unit: Option<SignalUnit>,
+    /// Unit of the speeds of joints or of these numbers, whose angles it is of as well; none: rad/s.
+    pub speed_unit: Option<SpeedUnit>,
     /// Folder of definitions of messages (`PACKAGE/msg/TYPE.msg`), for bags that have none.
     pub msg_dir: Option<PathBuf>,
     /// What dates the messages.
     pub dated_by: Dating,
+    /// Yaw of the x axis of the pose sensor on the robot, rad: π where it faces backwards.
+    pub sensor_yaw: Option<f64>,
+    /// Doubts that do not stop the reader, because the user knows better.
+    pub accepted: Vec<DoubtKind>,
 }
 
 impl RosbagOptions {
     /// Whether speeds come from wheels, whose radius makes them speeds of the tracks.
     pub fn counts_wheels(&self) -> bool {
-        self.twist_topic.is_none() && self.signal_unit != Some(SignalUnit::MetresPerSecond)
+        self.twist_topic.is_none() && self.speed_unit.is_none_or(SpeedUnit::is_of_wheels)
+    }
+
+    /// What counts for tables as well.
+    pub fn of_tables(&self) -> TableOptions {
+        TableOptions {
+            speed_unit: self.speed_unit,
+            wheel_radius: self.wheel_radius,
+            sensor_yaw: self.sensor_yaw,
+            accepted: self.accepted.clone(),
+        }
     }
 
     /// Parent and child frame of the poses, where both are named.
@@ -97,31 +113,6 @@ pub enum Dating {
     Header,
     /// The times at which they were logged.
     Log,
-}
-
-/// Unit of numbers that are speeds of the sides.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SignalUnit {
-    /// m/s, of the tracks themselves.
-    MetresPerSecond,
-    /// rad/s, of the wheels.
-    #[default]
-    RadiansPerSecond,
-    /// Turns per minute, of the wheels.
-    TurnsPerMinute,
-    /// Degrees per second, of the wheels.
-    DegreesPerSecond,
-}
-
-impl SignalUnit {
-    /// rad/s, or m/s where they are speeds of the tracks, per unit.
-    pub(super) fn factor(self) -> f64 {
-        match self {
-            Self::MetresPerSecond | Self::RadiansPerSecond => 1.0,
-            Self::TurnsPerMinute => TAU / 60.0,
-            Self::DegreesPerSecond => TAU / 360.0,
-        }
-    }
 }
 
 /// Signal of a joint.

@@ -10,15 +10,23 @@ use trackdyn_recording::rosbag::{Dating, JointSignal};
 pub struct ReadOptions {
     /// Trajectory: the table of its track speeds, by the same clock (CSV with t, v_left, v_right).
     pub tracks: Option<PathBuf>,
-    /// Bag: topics, joints and frames.
+    /// Bag: topics, joints and frames; of recordings of all kinds, unit and sensor.
     pub bag: BagOptions,
 }
 
 impl ReadOptions {
     /// Names of the options that are set, all of which are about recordings of motion.
     pub fn given(&self) -> Vec<&'static str> {
-        let tracks = self.tracks.as_ref().map(|_| "tracks");
-        tracks.into_iter().chain(self.of_bags()).collect()
+        let bag = &self.bag;
+        let options = [
+            ("tracks", self.tracks.is_some()),
+            ("speed_unit", bag.speed_unit.is_some()),
+            ("wheel_radius", bag.wheel_radius.is_some()),
+            ("sensor_yaw", bag.sensor_yaw.is_some()),
+            ("accepted", !bag.accepted.is_empty()),
+        ];
+        let given = options.into_iter().filter_map(|(name, given)| given.then_some(name));
+        given.chain(self.of_bags()).collect()
     }
 
     /// Names of the options that are set and count for bags only.
@@ -29,7 +37,6 @@ impl ReadOptions {
             ("left_joints", !bag.left_joints.is_empty()),
             ("right_joints", !bag.right_joints.is_empty()),
             ("joint_signal", bag.joint_signal != JointSignal::Any),
-            ("wheel_radius", bag.wheel_radius.is_some()),
             ("pose_topic", bag.pose_topic.is_some()),
             ("parent_frame", bag.parent_frame.is_some()),
             ("child_frame", bag.child_frame.is_some()),
@@ -38,7 +45,6 @@ impl ReadOptions {
             ("separation", bag.separation.is_some()),
             ("left_signals", !bag.left_signals.is_empty()),
             ("right_signals", !bag.right_signals.is_empty()),
-            ("signal_unit", bag.signal_unit.is_some()),
             ("msg_dir", bag.msg_dir.is_some()),
             ("dated_by", bag.dated_by != Dating::Any),
         ];

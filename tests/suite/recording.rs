@@ -1,5 +1,6 @@
 //! Readers, segments, clock offset and noise, on files and on synthetic recordings.
 
+mod arrays_and_interfaces;
 mod causes;
 mod clock;
 mod clocks_and_poses;

@@ -9,7 +9,7 @@ use trackdyn::crates::core::Pose;
 use trackdyn::crates::model::Effects;
 use trackdyn::crates::model::effect::Stage;
 use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
-use trackdyn::crates::recording::{DoubtKind, SpeedUnit};
+use trackdyn::crates::recording::{Columns, DoubtKind, SpeedUnit};
 use trackdyn::recording::BagOptions;
 use trackdyn::refuse_repeated;
 use trackdyn::{
@@ -121,12 +121,19 @@ pub fn note_what_steady_icrs_leave_out(effects: &Effects) {
 #[derive(Args)]
 pub struct RecordingOptions {
     /// Folder with recording.toml, bag of ROS (.mcap, .db3, .bag or their folder), or trajectory
-    /// of the TUM benchmark (.tum, .txt) with --tracks; for identify and diagnose also a table of
-    /// steady operating points (.csv)
+    /// of the TUM benchmark (.tum, .txt) with --tracks, or one table of both (.csv) with --columns;
+    /// for identify and diagnose also a table of steady operating points (.csv)
     pub recording: PathBuf,
     /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
     #[arg(long, value_name = "FILE")]
     tracks: Option<PathBuf>,
+    /// One table of track speeds and poses (.csv): its columns by key, with a unit after a colon
+    /// and a `-` before a sign that is wrong, such as
+    /// t=Time:ms,v_l=left:rpm,v_r=-right:rpm,x=px:mm,y=py:mm,yaw=heading:deg. Units: s, ms, us, ns,
+    /// min; those of --speed-unit; m, cm, mm, km, ft; rad, deg, compass (clockwise from north, x
+    /// east). qx, qy, qz, qw may stand for yaw; run parts the table into runs
+    #[arg(long, value_name = "KEY=COLUMN,...")]
+    columns: Option<Columns>,
     /// Bag: topic of the joint states
     #[arg(long, value_name = "TOPIC")]
     tracks_topic: Option<String>,
@@ -145,6 +152,9 @@ pub struct RecordingOptions {
     /// Bag: topic of the poses
     #[arg(long, value_name = "TOPIC")]
     pose_topic: Option<String>,
+    /// Bag: which pose of a PoseArray is that of the robot, from 0
+    #[arg(long, value_name = "N", value_parser = count)]
+    pose_index: Option<usize>,
     /// Bag: frame that the poses are expressed in; with --child-frame, transforms are chained where
     /// no topic has these poses
     #[arg(long, value_name = "FRAME")]
@@ -233,6 +243,7 @@ impl RecordingOptions {
     pub fn options(&self) -> ReadOptions {
         ReadOptions {
             tracks: self.tracks.clone(),
+            columns: self.columns.clone(),
             bag: BagOptions {
                 tracks_topic: self.tracks_topic.clone(),
                 left_joints: self.left_joint.clone(),
@@ -244,6 +255,7 @@ impl RecordingOptions {
                 },
                 wheel_radius: self.wheel_radius,
                 pose_topic: self.pose_topic.clone(),
+                pose_index: self.pose_index,
                 parent_frame: self.parent_frame.clone(),
                 child_frame: self.child_frame.clone(),
                 twist_topic: self.twist_topic.clone(),
@@ -272,7 +284,7 @@ impl RecordingOptions {
 /// The options given, where there are any and the recording is a table.
 pub fn refuse_for_points(given: &[String], recording: &Path) -> Result<(), String> {
     match Recording::points_file(recording) {
-        Some(table) if !given.is_empty() => {
+        Some(table) if !given.is_empty() && !given.iter().any(|name| name == "--columns") => {
             let (given, name) = (given.join(", "), table.display());
             Err(format!(
                 "{given}: {name} holds steady points: expected with recordings of motion only"

@@ -34,6 +34,8 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
     };
     let tracks = options.tracks.as_ref().map(|path| path.display().to_string());
     add("tracks", tracks.as_deref());
+    let columns = options.columns.as_ref().map(ToString::to_string);
+    add("columns", columns.as_deref());
     add("tracks-topic", bag.tracks_topic.as_deref());
     for joint in &bag.left_joints {
         add("left-joint", Some(joint));
@@ -65,6 +67,8 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
     let radius = bag.wheel_radius.map(|radius| radius.to_string());
     add("wheel-radius", radius.as_deref().or(needs_radius.then_some("METRES")));
     add("pose-topic", bag.pose_topic.as_deref());
+    let index = bag.pose_index.map(|index| index.to_string());
+    add("pose-index", index.as_deref());
     add("parent-frame", bag.parent_frame.as_deref());
     add("child-frame", bag.child_frame.as_deref());
     add(

@@ -214,8 +214,10 @@ impl Doubt {
     pub(crate) fn remedy(&self) -> String {
         match self {
             Self::Travel { ratio, .. } => return unit::remedy(*ratio),
-            Self::Stamps { .. } => "expected seconds in both tables",
-            Self::YawInDegrees => "expected yaw in rad",
+            Self::Stamps { .. } => {
+                "expected seconds; of one table with both, --columns t=COLUMN:ms (or us, ns) reads others"
+            },
+            Self::YawInDegrees => "expected yaw in rad; of one table, --columns yaw=COLUMN:deg reads degrees",
             Self::ConstantOrientation { .. } => {
                 "expected poses with a yaw; of a bag, --pose-topic chooses others"
             }

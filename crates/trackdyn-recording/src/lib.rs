@@ -1,7 +1,7 @@
 //! What was seen: recordings of tracked robots, and their readers.
 //!
 //! - [`recording`]: the one in-memory type, cleaned on the way in, of [`sample`]s.
-//! - [`folder`], [`rosbag`], [`tum`]: one reader per format; [`read`] picks by path.
+//! - [`folder`], [`rosbag`], [`tum`], [`columns`]: one reader per format; [`read`] picks by path.
 //! - [`operating_points`]: tables of steady motion, a measured map of ICRs.
 //! - [`selection`]: some of its runs, or a time of them.
 //! - [`doubt`]: what tracks and poses of one recording may contradict each other in.
@@ -12,6 +12,7 @@
 //! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
 
 mod attitude;
+pub mod columns;
 pub mod doubt;
 pub mod error;
 mod far;
@@ -27,6 +28,7 @@ pub mod table;
 pub mod tum;
 pub mod unit;
 
+pub use columns::Columns;
 pub use doubt::{Doubt, DoubtKind};
 pub use error::Error;
 pub use format::{TableOptions, read};

@@ -16,6 +16,7 @@ mod run;
 mod source;
 mod spikes;
 mod stretches;
+mod stuck;
 mod warning;
 
 pub use cleaning::MIN_GAP_RATIO;

@@ -1,10 +1,10 @@
 //! Bags of ROS 2 (`.mcap`, `.db3`) and ROS 1 (`.bag`): files, packed by zstd or not, alone or in
 //! the folder that `ros2 bag record` makes.
 //!
-//! Track speeds come from `sensor_msgs/JointState`, poses from `nav_msgs/Odometry`,
-//! `geometry_msgs/PoseStamped`, `PoseWithCovarianceStamped`, `TransformStamped` or
-//! `tf2_msgs/TFMessage`, readings of the IMU from `sensor_msgs/Imu`. Where there are no such poses,
-//! they come from `nav_msgs/Path`, `geometry_msgs/PoseArray`, `Pose` or `sensor_msgs/NavSatFix`;
+//! Track speeds come from `sensor_msgs/JointState`, else from `control_msgs/DynamicJointState`;
+//! poses from `nav_msgs/Odometry`, `geometry_msgs/PoseStamped`, `PoseWithCovarianceStamped`,
+//! `TransformStamped` or `tf2_msgs/TFMessage`; readings of the IMU from `sensor_msgs/Imu`. Where
+//! there are no such poses, they come from `nav_msgs/Path`, `geometry_msgs/PoseArray`, `Pose` or `sensor_msgs/NavSatFix`;
 //! track speeds may be made of a twist. The layouts of these types are known here: the message
 //! definitions in the bag matter only to numbers that are named by the path of their field. All of
 //! a bag is one run, but for clocks that begin anew, as in a simulation: each time begins a run.
@@ -25,6 +25,7 @@ mod collector;
 mod compressed;
 mod date;
 mod definition;
+mod dynamic_joints;
 mod fixes;
 mod frames;
 mod inspection;
@@ -48,7 +49,7 @@ mod twist;
 mod visitor;
 mod words;
 
-pub use inspection::{Inspection, TopicSummary, inspect};
+pub use inspection::{Inspection, TopicSummary, inspect, inspect_for};
 pub(crate) use message::yaw_of_quaternion;
 pub use options::{Dating, JointSignal, RosbagOptions};
 pub(crate) use storage::is_bag;

@@ -11,7 +11,9 @@ pub use points::PointsTable;
 use crate::Error;
 use std::path::{Path, PathBuf};
 use trackdyn_recording::rosbag::RosbagOptions;
-use trackdyn_recording::{Format, OperatingPoints, Recording as Motion, Run, Warning, tum};
+use trackdyn_recording::{
+    Format, OperatingPoints, Recording as Motion, Run, Warning, columns, tum,
+};
 
 /// A topic of a bag, and what was seen of it.
 pub type Topic = trackdyn_recording::rosbag::TopicSummary;
@@ -40,7 +42,8 @@ enum Seen {
 impl Recording {
     /// Reads a recording: a folder with `recording.toml`, a bag of ROS (`.mcap`, `.db3`, `.bag`, or
     /// their folder), a trajectory (`.tum`, `.txt`) with [a table of track
-    /// speeds](ReadOptions::tracks), or a table of steady operating points (`.csv`, or
+    /// speeds](ReadOptions::tracks), a table of both whose [columns are
+    /// named](ReadOptions::columns), or a table of steady operating points (`.csv`, or
     /// `operating_points.csv` in a folder).
     ///
     /// # Errors
@@ -49,7 +52,10 @@ impl Recording {
     /// for options that do not go with the format.
     pub fn open(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, Error> {
         let path = path.as_ref();
-        let seen = if let Some(table) = Self::points_file(path) {
+        let seen = if let Some(columns) = &options.columns {
+            options.refuse_for_table(path)?;
+            Seen::Motion(columns::read(path, columns, &options.bag.of_tables())?)
+        } else if let Some(table) = Self::points_file(path) {
             options.refuse_for_points(&table)?;
             Seen::Points(PointsTable::read(&table)?)
         } else {

@@ -5,9 +5,8 @@
 //! slip nor single wrong readings decide. What slip can explain is left alone.
 
 use super::stretches::{Stretch, path_extent, stretches};
-use super::{Run, UncheckedRun, idle};
+use super::{Run, UncheckedRun, idle, stuck};
 use crate::doubt::Doubt;
-use crate::sample::TrackSample;
 use crate::unit;
 use std::f64::consts::TAU;
 use trackdyn_core::robust::{median, usual_interval};
@@ -30,7 +29,7 @@ const MIN_CORRELATION: f64 = 0.7;
 const MIN_CONTRAST: f64 = 0.3;
 
 /// Longest usual interval of poses, s.
-const MAX_INTERVAL: f64 = 10.0;
+const MAX_INTERVAL: f64 = 2.0;
 
 /// Least way that one track runs more than the other, m, before yaw has to have changed.
 const MIN_TURNING: f64 = 1.0;
@@ -104,7 +103,8 @@ pub(super) fn of_runs(runs: &[Run]) -> Vec<Doubt> {
     let late =
         |tau: f64| -> Vec<Stretch> { runs.iter().flat_map(|run| stretches(run, tau)).collect() };
     let stretches = late(0.0);
-    let stuck = stuck_poses(runs, &stretches);
+    let explained = Senses::of(&stretches).explained();
+    let stuck = stuck::stuck_poses(runs, explained);
     let orientation = if stuck.is_none() { orientation(runs) } else { None };
     let mut doubts: Vec<Doubt> = runs.iter().find_map(of_times).into_iter().collect();
     doubts.extend(stuck.or(orientation));
@@ -127,39 +127,6 @@ fn signs(stretches: &[Stretch], late: &dyn Fn(f64) -> Vec<Stretch>) -> Option<Do
         None => Some(doubt),
     }
 }
-
-/// Poses that do not move while the tracks do. Poses of another unit are as small and follow.
-fn stuck_poses(runs: &[Run], stretches: &[Stretch]) -> Option<Doubt> {
-    let extent = |run: &Run| path_extent(run.poses()).unwrap_or(0.0);
-    let extent = runs.iter().map(extent).fold(0.0, f64::max);
-    let turns = |run: &Run| {
-        let yaws = || run.poses().iter().map(|sample| sample.pose.yaw);
-        yaws().fold(f64::NEG_INFINITY, f64::max) - yaws().fold(f64::INFINITY, f64::min)
-    };
-    let is_turned = runs.iter().map(turns).any(|turn| turn > MAX_STUCK_TURN);
-    let steps = || runs.iter().flat_map(|run| run.tracks().windows(2));
-    let sum = |of: fn(&TrackSample) -> f64| -> f64 {
-        steps().map(|pair| of(&pair[0]).abs() * (pair[1].t - pair[0].t)).sum()
-    };
-    let travelled = sum(|sample| f64::midpoint(sample.v_left, sample.v_right));
-    let turning = sum(|sample| sample.v_right - sample.v_left);
-    let is_stuck = travelled >= MIN_TURNING
-        && turning >= MIN_TURNING
-        && extent <= (MAX_STUCK_SHARE * travelled).min(MAX_STUCK_EXTENT)
-        && !is_turned
-        && runs.iter().all(Run::has_positions)
-        && Senses::of(stretches).explained() < MIN_CORRELATION;
-    is_stuck.then_some(Doubt::StuckPoses { travelled, extent })
-}
-
-/// Largest turn of poses that are stuck, rad.
-const MAX_STUCK_TURN: f64 = 0.1;
-
-/// Largest extent of poses that are stuck, per way of the tracks.
-const MAX_STUCK_SHARE: f64 = 0.02;
-
-/// Largest extent of poses that are stuck, m.
-const MAX_STUCK_EXTENT: f64 = 0.2;
 
 /// Fractions of a second in which stamps are written.
 const FRACTIONS: [(f64, &str); 3] =

@@ -39,6 +39,8 @@ use speeds::Streams;
 pub(super) struct Collector<'a> {
     options: &'a RosbagOptions,
     joints: Joints,
+    /// Of `control_msgs/DynamicJointState`, which often tell joints of other messages again.
+    dynamic_joints: Joints,
     signals: Signals,
     seen: Vec<Topic>,
     poses: BTreeMap<PoseKey, Rows>,
@@ -91,6 +93,7 @@ impl<'a> Collector<'a> {
         Self {
             options,
             joints: Joints::new(options),
+            dynamic_joints: Joints::new(options),
             signals,
             seen: Vec::new(),
             poses: BTreeMap::new(),
@@ -117,7 +120,9 @@ impl<'a> Collector<'a> {
             warnings.push(Warning::MessagesSkipped { topic, count: *count, reason });
         }
         let sources = Sources { path, options: self.options, seen: &self.seen };
-        let chosen = sources.tracks(self.joints.into_sources(), &self.skipped, &mut warnings)?;
+        let is_dynamic = !self.joints.has_any() && self.dynamic_joints.has_any();
+        let joints = if is_dynamic { self.dynamic_joints } else { self.joints };
+        let chosen = sources.tracks(joints.into_sources(), &self.skipped, &mut warnings)?;
         let (imu_topic, imu) = sources.imu(self.imu, &mut warnings)?;
         let is_free = !self.options.names_poses();
         let (poses, pose_topic, chained) = match (self.options.frames(), self.poses.is_empty()) {
@@ -132,7 +137,7 @@ impl<'a> Collector<'a> {
                 (gyro::headings(&imu), imu_topic.clone(), None)
             }
             _ => {
-                let (key, poses) = sources.poses(self.poses, &mut warnings)?;
+                let (key, poses) = sources.poses(self.poses, &self.skipped, &mut warnings)?;
                 let tilted = self.attitudes.get(&key).and_then(Attitude::tilted);
                 let is_accepted = self.options.accepted.contains(&DoubtKind::OutOfPlane);
                 if let Some(count) = tilted {

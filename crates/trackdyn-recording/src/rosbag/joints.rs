@@ -69,6 +69,12 @@ impl Joints {
         Self { named, factor, sources: Vec::new(), last: 0 }
     }
 
+    /// Whether a joint may turn a track by its name, or by the options.
+    pub(super) fn has_any(&self) -> bool {
+        let mut columns = self.sources.iter().flat_map(|source| &source.columns);
+        columns.any(|column| column.part != Part::Other)
+    }
+
     /// What all messages told.
     pub(super) fn into_sources(self) -> Vec<Source> {
         self.sources
@@ -93,17 +99,19 @@ impl Joints {
         self.enter(topic, received, &names, has, |signal| places[signal].f64())
     }
 
-    /// Takes joints with velocities, rad/s.
-    pub(super) fn take_velocities(
+    /// Takes joints with positions and velocities; a signal that none of them has is empty.
+    pub(super) fn take_signals(
         &mut self,
         topic: &str,
         received: Received<()>,
         names: &[&str],
-        velocities: &[f64],
+        signals: [&[f64]; 2],
     ) {
-        let mut velocities = velocities.iter();
-        let next = |_| Ok::<_, Infallible>(velocities.next().copied().unwrap_or(f64::NAN));
-        let Ok(()) = self.enter(topic, received, names, [false, true], next);
+        let has = signals.map(|values| !values.is_empty());
+        let mut rest = signals.map(<[f64]>::iter);
+        let next =
+            |signal: usize| Ok::<_, Infallible>(rest[signal].next().copied().unwrap_or(f64::NAN));
+        let Ok(()) = self.enter(topic, received, names, has, next);
     }
 
     /// Takes the signals of joints that `has` says to be there: all positions, then all velocities,

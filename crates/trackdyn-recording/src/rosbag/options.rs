@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// Topics, joints and frames; what is left open is taken where the bag leaves no choice.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RosbagOptions {
-    /// Topic of the `sensor_msgs/JointState`.
+    /// Topic of the `sensor_msgs/JointState` or `control_msgs/DynamicJointState`.
     pub tracks_topic: Option<String>,
     /// Joints of the left side; their mean counts, and a `-` before a name reverses its sign.
     /// Empty: those whose name has a word of the side, such as `left`, `l` or `fl`, without parts
@@ -23,6 +23,9 @@ pub struct RosbagOptions {
     pub wheel_radius: Option<f64>,
     /// Topic of the poses.
     pub pose_topic: Option<String>,
+    /// Which pose of a `geometry_msgs/PoseArray` is that of the robot, from 0; needed where its
+    /// messages have several.
+    pub pose_index: Option<usize>,
     /// Frame that the poses are expressed in. Where both frames are named and no topic has their
     /// poses, they are composed along a chain of transforms.
     pub parent_frame: Option<String>,
@@ -33,8 +36,8 @@ pub struct RosbagOptions {
     /// Topic of the speeds of the body (`nav_msgs/Odometry`, `geometry_msgs/Twist`, `TwistStamped`
     /// or `TwistWithCovarianceStamped`) that track speeds are made of, in place of joints:
     /// `v_l` = v - ω b/2 and `v_r` = v + ω b/2. They are those of the tracks only where the driver
-    /// has computed them from the encoders alone, with the separation b. A wheel radius has no
-    /// meaning then.
+    /// has computed them from the encoders alone, with the separation b. A wheel radius is refused
+    /// then.
     pub twist_topic: Option<String>,
     /// Separation b of the tracks that the driver of `twist_topic` reckons with, m; needed with it.
     pub separation: Option<f64>,
@@ -87,6 +90,17 @@ impl RosbagOptions {
             ("--joint-signal", self.joint_signal != JointSignal::Any),
         ];
         given.into_iter().find_map(|(name, given)| given.then_some(name))
+    }
+
+    /// Whether poses of a topic are those of a driver whose speeds are taken: they come from the
+    /// tracks themselves.
+    pub(super) fn takes_speeds_of(&self, topic: &str) -> bool {
+        let signals = self.left_signals.iter().chain(&self.right_signals);
+        let mut topics = signals.filter_map(|text| {
+            let (topic, _) = text.strip_prefix('-').unwrap_or(text).split_once(':')?;
+            Some(topic)
+        });
+        topics.any(|name| name == topic) || self.twist_topic.as_deref() == Some(topic)
     }
 
     /// Whether anything is said of the poses.

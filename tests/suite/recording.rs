@@ -4,6 +4,8 @@ mod arrays_and_interfaces;
 mod causes;
 mod clock;
 mod clocks_and_poses;
+mod clocks_of_chains;
+mod columns;
 mod drives;
 mod folder;
 mod inspections;

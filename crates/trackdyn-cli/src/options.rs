@@ -189,10 +189,24 @@ pub struct RecordingOptions {
     /// Yaw in degrees of the pose sensor on the robot: 180 where it faces backwards
     #[arg(long, value_name = "DEG", value_parser = finite, allow_hyphen_values = true)]
     sensor_yaw: Option<f64>,
+    /// Unit of the yaw rates of the IMU [default: rad/s]
+    #[arg(long, value_name = "UNIT")]
+    gyro_unit: Option<GyroUnit>,
     /// Read a recording in spite of a doubt, where you know better; repeatable: travel, stamps,
     /// yaw-unit, orientation, out-of-plane, signs, dead-encoder, stuck-poses
     #[arg(long, value_name = "DOUBT")]
     accept: Vec<DoubtKind>,
+}
+
+/// Units of the yaw rates of an IMU.
+#[derive(Clone, Copy, ValueEnum)]
+enum GyroUnit {
+    /// Radians per second
+    #[value(name = "rad/s")]
+    Radians,
+    /// Degrees per second
+    #[value(name = "deg/s")]
+    Degrees,
 }
 
 /// What dates the messages of a bag.
@@ -270,6 +284,7 @@ impl RecordingOptions {
                     Some(DatedBy::Log) => Dating::Log,
                 },
                 sensor_yaw: self.sensor_yaw.map(f64::to_radians),
+                gyro_in_degrees: matches!(self.gyro_unit, Some(GyroUnit::Degrees)),
                 accepted: self.accept.clone(),
                 ..BagOptions::default()
             },

@@ -81,6 +81,7 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
     );
     let yaw = bag.sensor_yaw.map(|yaw| yaw.to_degrees().to_string());
     add("sensor-yaw", yaw.as_deref());
+    add("gyro-unit", bag.gyro_in_degrees.then_some("deg/s"));
     for doubt in &bag.accepted {
         add("accept", Some(doubt.name()));
     }

@@ -13,7 +13,7 @@ pub enum DoubtKind {
     Travel,
     /// [`Doubt::Stamps`].
     Stamps,
-    /// [`Doubt::YawInDegrees`].
+    /// [`Doubt::YawInDegrees`], [`Doubt::TurnInDegrees`].
     YawUnit,
     /// [`Doubt::ConstantOrientation`].
     Orientation,
@@ -66,6 +66,15 @@ impl FromStr for DoubtKind {
     }
 }
 
+/// Axes that are not those of a robot (x forward, z up).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axes {
+    /// Those of a camera: z forward, y down.
+    Camera,
+    /// A z axis that points down.
+    Down,
+}
+
 /// What contradicts what in a recording.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -91,10 +100,18 @@ pub enum Doubt {
         /// Way that one track ran more than the other, m.
         turning: f64,
     },
-    /// Poses that are tilted by more than a robot can be.
+    /// Poses that are tilted by more than a robot can be, or turn about another axis than z.
     OutOfPlane {
         /// How many.
         count: u64,
+        /// Which axes explain them.
+        axes: Axes,
+    },
+    /// Yaw that turns too much for radians, where it is all that poses have.
+    TurnInDegrees {
+        /// Turn of the poses per way that one track ran more than the other, in what should be
+        /// rad/m.
+        per_metre: f64,
     },
     /// The joints or the speed of a side count backwards.
     Reversed(Side),
@@ -150,10 +167,20 @@ impl fmt::Display for Doubt {
                 "the orientation never changes, while one track runs {turning:.1} m more than the \
                  other: poses of a GNSS receiver or a filter without a heading"
             ),
-            Self::OutOfPlane { count } => write!(
+            Self::OutOfPlane { count, axes: Axes::Camera } => write!(
                 f,
-                "{count} poses are tilted by more than 60°: axes of a camera, or a z axis that \
-                 points down"
+                "{count} poses are tilted by more than 60°, or turn about their y axis: the robot \
+                 drives out of the x-y plane, as in an optical frame of a camera (z forward, y \
+                 down)"
+            ),
+            Self::OutOfPlane { count, axes: Axes::Down } => write!(
+                f,
+                "{count} poses are upside down: the z axis of the body or of the world points down"
+            ),
+            Self::TurnInDegrees { per_metre } => write!(
+                f,
+                "yaw turns by {per_metre:.1} for each metre that one track runs more than the \
+                 other, more than radians can: degrees, or a gyroscope in degrees per second"
             ),
             Self::Reversed(side) => {
                 let side = if *side == Side::Left { "left" } else { "right" };
@@ -199,7 +226,7 @@ impl Doubt {
         match self {
             Self::Travel { .. } => DoubtKind::Travel,
             Self::Stamps { .. } => DoubtKind::Stamps,
-            Self::YawInDegrees => DoubtKind::YawUnit,
+            Self::YawInDegrees | Self::TurnInDegrees { .. } => DoubtKind::YawUnit,
             Self::ConstantOrientation { .. } => DoubtKind::Orientation,
             Self::OutOfPlane { .. } => DoubtKind::OutOfPlane,
             Self::Reversed(_) | Self::BothReversed | Self::Swapped | Self::Backwards => {
@@ -218,6 +245,9 @@ impl Doubt {
                 "expected seconds; of one table with both, --columns t=COLUMN:ms (or us, ns) reads others"
             },
             Self::YawInDegrees => "expected yaw in rad; of one table, --columns yaw=COLUMN:deg reads degrees",
+            Self::TurnInDegrees { .. } => {
+                "expected yaw in rad; --gyro-unit deg/s reads a gyroscope in degrees per second"
+            }
             Self::ConstantOrientation { .. } => {
                 "expected poses with a yaw; of a bag, --pose-topic chooses others"
             }

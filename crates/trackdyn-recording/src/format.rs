@@ -51,6 +51,8 @@ pub struct TableOptions {
     pub wheel_radius: Option<f64>,
     /// Yaw of the x axis of the pose sensor on the robot, rad: π where it faces backwards.
     pub sensor_yaw: Option<f64>,
+    /// Whether the yaw rates of the IMU are in degrees per second.
+    pub gyro_in_degrees: bool,
     /// Doubts that do not stop the reader, because the user knows better.
     pub accepted: Vec<DoubtKind>,
 }
@@ -65,6 +67,11 @@ impl TableOptions {
         for reading in runs.iter_mut().flat_map(|run| &mut run.tracks.samples) {
             reading.v_left *= scale;
             reading.v_right *= scale;
+        }
+        for reading in runs.iter_mut().flat_map(|run| &mut run.imu.samples) {
+            if self.gyro_in_degrees {
+                reading.gyro_z = reading.gyro_z.to_radians();
+            }
         }
         turn_sensor(runs, self.sensor_yaw);
         Ok(())

@@ -29,7 +29,7 @@ pub mod tum;
 pub mod unit;
 
 pub use columns::Columns;
-pub use doubt::{Doubt, DoubtKind};
+pub use doubt::{Axes, Doubt, DoubtKind};
 pub use error::Error;
 pub use format::{TableOptions, read};
 pub use operating_points::{OperatingPoint, OperatingPoints};

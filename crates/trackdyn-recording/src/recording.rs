@@ -9,6 +9,7 @@ mod content;
 mod contradictions;
 mod dead;
 mod frozen;
+mod gyro_unit;
 mod idle;
 mod motion;
 mod positions;
@@ -114,6 +115,7 @@ impl Recording {
             doubts.extend(contradictions::of_runs(&kept));
             refuse(&path, &mut doubts, accepted, &mut warnings)?;
             frozen::leave_out(&mut kept, &mut cleanings);
+            warnings.extend(gyro_unit::leave_out(&mut kept));
         }
         dead::leave_out(&mut kept, &mut cleanings);
         leave_out(&mut kept, &mut warnings);

@@ -5,7 +5,7 @@
 //! and the yaw of the quaternion count, the rest is dropped; poses of a camera are refused.
 
 use crate::attitude::Attitude;
-use crate::doubt::{Doubt, DoubtKind};
+use crate::doubt::{Axes, Doubt, DoubtKind};
 use crate::recording::{Recording, Source, UncheckedRun, Warning};
 use crate::rosbag::yaw_of_quaternion;
 use crate::sample::{PoseSample, Series};
@@ -37,7 +37,7 @@ pub fn read_by(
     options: &TableOptions,
 ) -> Result<Recording, Error> {
     let (poses, tilted) = poses(trajectory)?;
-    let tilted = tilted.map(|count| Doubt::OutOfPlane { count });
+    let tilted = tilted.map(|(count, axes)| Doubt::OutOfPlane { count, axes });
     let is_accepted = options.accepted.contains(&DoubtKind::OutOfPlane);
     if let Some(doubt) = tilted.clone().filter(|_| !is_accepted) {
         return Err(Error::contradiction(trajectory, doubt));
@@ -58,12 +58,14 @@ pub fn read_by(
 pub fn read_poses(path: &Path) -> Result<Series<PoseSample>, Error> {
     match poses(path)? {
         (poses, None) => Ok(poses),
-        (_, Some(count)) => Err(Error::contradiction(path, Doubt::OutOfPlane { count })),
+        (_, Some((count, axes))) => {
+            Err(Error::contradiction(path, Doubt::OutOfPlane { count, axes }))
+        }
     }
 }
 
-/// The poses of a file, and how many of them are tilted where these are too many.
-fn poses(path: &Path) -> Result<(Series<PoseSample>, Option<u64>), Error> {
+/// The poses of a file, and how many of them no robot has, where these are too many.
+fn poses(path: &Path) -> Result<(Series<PoseSample>, Option<(u64, Axes)>), Error> {
     let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
     let mut reader = BufReader::with_capacity(1 << 18, file);
     let mut poses = Vec::new();
@@ -86,7 +88,7 @@ fn poses(path: &Path) -> Result<(Series<PoseSample>, Option<u64>), Error> {
         let message = "no poses: expected lines t x y z qx qy qz qw".to_owned();
         return Err(Error::Empty { path: path.to_owned(), message });
     }
-    Ok((poses.into(), attitude.tilted()))
+    Ok((poses.into(), attitude.out_of_plane()))
 }
 
 fn parse_row(

@@ -7,7 +7,8 @@ use trackdyn_core::PerSide;
 use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_recording::recording::Finding;
 use trackdyn_recording::{
-    Doubt, DoubtKind, Error, Format, Recording, Run, Source, UncheckedRun, Warning,
+    Doubt, DoubtKind, Error, Format, ImuSample, Recording, Run, Source, SpeedUnit, TableOptions,
+    UncheckedRun, Warning, folder,
 };
 
 /// Drives of half a minute, with the noise of encoders and poses.
@@ -228,4 +229,108 @@ fn a_sensor_that_faces_backwards_is_named() {
     let (doubt, text) = refused(backwards());
     assert_eq!(doubt, Doubt::Backwards);
     assert!(text.contains("faces backwards") && text.contains("--sensor-yaw 180"), "{text}");
+}
+
+#[test]
+fn a_sensor_that_is_turned_by_the_option_is_right() {
+    let backwards = change(rows(), |run| {
+        for sample in &mut run.poses.samples {
+            sample.pose.yaw += PI;
+        }
+    });
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let source = Source::computed();
+    let recording = Recording::new("log", "robot", backwards, source, Vec::new()).expect("usable");
+    folder::write(&recording, place.path()).expect("written");
+    assert!(folder::read(place.path()).is_err());
+    let options = TableOptions { sensor_yaw: Some(PI), ..TableOptions::default() };
+    let turned = folder::read_by(place.path(), &options).expect("right");
+    let truth = read(rows()).expect("right");
+    let (found, expected) = (turned.runs()[1].poses(), truth.runs()[1].poses());
+    for (found, expected) in found.iter().zip(expected) {
+        let off = trackdyn_core::pose::wrap_angle(found.pose.yaw - expected.pose.yaw);
+        assert!(off.abs() < 1e-9, "{off}");
+    }
+}
+
+/// A folder with speeds in rpm of wheels of 0.2 m.
+#[test]
+fn a_folder_is_read_in_the_unit_of_the_option() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let scale = 0.2 * 2.0 * PI / 60.0;
+    let runs = change(rows(), |run| {
+        for reading in &mut run.tracks.samples {
+            (reading.v_left, reading.v_right) = (reading.v_left / scale, reading.v_right / scale);
+        }
+    });
+    let recording = Recording::new("rpm", "robot", runs, Source::computed(), Vec::new());
+    folder::write(&recording.expect("usable"), place.path()).expect("written");
+    let options = TableOptions {
+        speed_unit: Some(SpeedUnit::TurnsPerMinute),
+        wheel_radius: Some(0.2),
+        ..TableOptions::default()
+    };
+    let found = folder::read_by(place.path(), &options).expect("right");
+    let truth = read(rows()).expect("right");
+    for (found, expected) in found.runs()[0].tracks().iter().zip(truth.runs()[0].tracks()) {
+        assert!((found.v_left - expected.v_left).abs() < 1e-9, "{found:?} {expected:?}");
+    }
+    let alone = TableOptions { wheel_radius: None, ..options };
+    let text = folder::read_by(place.path(), &alone).expect_err("no radius").to_string();
+    assert!(text.contains("expected --wheel-radius METRES"), "{text}");
+}
+
+/// Yaw rates of the poses as an IMU at 50 Hz tells them.
+fn with_gyro(factor: f64) -> Vec<UncheckedRun> {
+    change(rows(), |run| {
+        let poses = run.poses.samples.clone();
+        let rate = |k: usize| {
+            let (first, last) = (&poses[k / 5], &poses[k / 5 + 1]);
+            (last.pose.yaw - first.pose.yaw) / (last.t - first.t)
+        };
+        let reading = |k: usize| ImuSample {
+            t: 0.02 * trackdyn_core::real(k),
+            gyro_z: factor * rate(k),
+            acc_x: 0.0,
+            acc_y: 0.0,
+        };
+        run.imu = (0..5 * (poses.len() - 1)).map(reading).collect::<Vec<_>>().into();
+    })
+}
+
+#[test]
+fn a_gyroscope_in_degrees_is_left_out_and_told() {
+    let recording = read(with_gyro(180.0 / PI)).expect("right without it");
+    assert!(recording.runs().iter().all(|run| run.imu().is_empty()));
+    let text = recording.warnings().iter().map(ToString::to_string).collect::<String>();
+    assert!(text.contains("--gyro-unit deg/s"), "{text}");
+    let recording = read(with_gyro(1.0)).expect("right");
+    assert!(recording.runs().iter().all(|run| !run.imu().is_empty()));
+}
+
+#[test]
+fn headings_in_degrees_are_refused() {
+    let runs = change(rows(), |run| {
+        for sample in &mut run.poses.samples {
+            sample.pose = trackdyn_core::Pose::new(f64::NAN, f64::NAN, 3.0 * sample.pose.yaw);
+        }
+    });
+    assert!(read(runs.clone()).is_ok(), "three times the yaw: ICRs close to each other");
+    let runs = change(runs, |run| {
+        let degrees = 180.0 / PI / 3.0;
+        // poses come often enough that no step is half a turn in radians
+        let dense = run.poses.samples.windows(2).flat_map(|pair| {
+            (0..10).map(move |k| {
+                let part = f64::from(k) / 10.0;
+                let t = pair[0].t + part * (pair[1].t - pair[0].t);
+                let yaw = pair[0].pose.yaw + part * (pair[1].pose.yaw - pair[0].pose.yaw);
+                let pose = trackdyn_core::Pose::new(f64::NAN, f64::NAN, degrees * yaw);
+                trackdyn_recording::PoseSample { t, pose }
+            })
+        });
+        run.poses = dense.collect::<Vec<_>>().into();
+    });
+    let (doubt, text) = refused(runs);
+    assert!(matches!(doubt, Doubt::TurnInDegrees { .. }), "{text}");
+    assert!(text.contains("--gyro-unit deg/s"), "{text}");
 }

@@ -4,6 +4,7 @@
 //! Every finding is a ratio or a correlation over many stretches of a recording, so that neither
 //! slip nor single wrong readings decide. What slip can explain is left alone.
 
+use super::motion::Following;
 use super::stretches::{Stretch, path_extent, stretches};
 use super::{Run, UncheckedRun, idle, stuck};
 use crate::doubt::Doubt;
@@ -108,10 +109,20 @@ pub(super) fn of_runs(runs: &[Run]) -> Vec<Doubt> {
     let orientation = if stuck.is_none() { orientation(runs) } else { None };
     let mut doubts: Vec<Doubt> = runs.iter().find_map(of_times).into_iter().collect();
     doubts.extend(stuck.or(orientation));
+    doubts.extend(turn_in_degrees(runs));
     doubts.extend(idle::dead_encoder(runs, &late));
     doubts.extend(travel(runs, &stretches));
     doubts.extend(signs(&stretches, &late));
     doubts
+}
+
+/// Yaw in degrees, where it is all that is known.
+fn turn_in_degrees(runs: &[Run]) -> Option<Doubt> {
+    if runs.iter().any(Run::has_positions) {
+        return None;
+    }
+    let per_metre = Following::of(runs, &|_, _, _| false)?.turn;
+    (per_metre > MIN_DEGREES).then_some(Doubt::TurnInDegrees { per_metre })
 }
 
 /// Sides that count backwards or are swapped.

@@ -36,7 +36,7 @@ pub(super) struct Piece {
     /// Stamp of the last, s.
     pub(super) end: f64,
     /// Turn, rad.
-    turn: f64,
+    pub(super) turn: f64,
     /// Way along the mean heading, m.
     forward: f64,
 }
@@ -73,7 +73,7 @@ pub(super) struct Following {
     /// Delay of the poses, s.
     pub(super) delay: f64,
     /// k, rad/m.
-    turn: f64,
+    pub(super) turn: f64,
     /// a, 1; none where the way forward does not follow, or is not known.
     forward: Option<f64>,
 }
@@ -122,14 +122,14 @@ impl Following {
 
 /// Sums of a fit through zero.
 #[derive(Clone, Copy, Debug, Default)]
-struct Line {
+pub(super) struct Line {
     xx: f64,
     xy: f64,
     yy: f64,
 }
 
 impl Line {
-    fn add(&mut self, x: f64, y: f64) {
+    pub(super) fn add(&mut self, x: f64, y: f64) {
         self.xx += x * x;
         self.xy += x * y;
         self.yy += y * y;
@@ -140,7 +140,8 @@ impl Line {
         if scale > 0.0 { self.xy / scale } else { 0.0 }
     }
 
-    fn slope_where_correlated(&self) -> Option<f64> {
+    /// y per x, where they are correlated.
+    pub(super) fn slope_where_correlated(&self) -> Option<f64> {
         (self.correlation() >= MIN_CORRELATION).then(|| self.xy / self.xx)
     }
 }

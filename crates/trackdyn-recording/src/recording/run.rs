@@ -68,6 +68,11 @@ impl Run {
         self.poses = self.poses.part(rows);
     }
 
+    /// Leaves out the readings of the IMU.
+    pub(super) fn drop_imu(&mut self) {
+        self.imu = Series::default();
+    }
+
     /// The readings of the tracks, to mend single ones.
     pub(super) fn readings_mut(&mut self) -> &mut [TrackSample] {
         &mut self.tracks.samples

@@ -132,6 +132,11 @@ pub enum Warning {
         /// The topic of the IMU.
         imu: String,
     },
+    /// Readings of an IMU that are left out, because its yaw rates are in degrees per second.
+    GyroInDegrees {
+        /// Turn of the gyroscope per turn of the poses.
+        ratio: f64,
+    },
     /// A doubt that the user accepted.
     Accepted(Doubt),
     /// A choice that the reader made.
@@ -380,6 +385,11 @@ impl fmt::Display for Warning {
                 f,
                 "{topic}: positions of its antenna in metres east and north of the first fix, \
                  with the yaw of {imu}, which has to count from east (REP-103)"
+            ),
+            Self::GyroInDegrees { ratio } => write!(
+                f,
+                "imu: its yaw rates are {ratio:.1} times what the poses show, degrees per second \
+                 in place of rad/s: left out (--gyro-unit deg/s reads them)"
             ),
             Self::Accepted(doubt) => {
                 write!(f, "{doubt}; read all the same (--accept {})", doubt.kind().name())

@@ -27,6 +27,7 @@ impl ReadOptions {
             ("speed_unit", bag.speed_unit.is_some()),
             ("wheel_radius", bag.wheel_radius.is_some()),
             ("sensor_yaw", bag.sensor_yaw.is_some()),
+            ("gyro_unit", bag.gyro_in_degrees),
             ("accepted", !bag.accepted.is_empty()),
         ];
         let given = options.into_iter().filter_map(|(name, given)| given.then_some(name));

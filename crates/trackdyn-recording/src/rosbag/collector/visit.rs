@@ -70,7 +70,10 @@ impl Collector<'_> {
             }
             Layout::Imu => {
                 let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
-                let (value, yaw) = imu(&mut payload).map_err(decode)?;
+                let (mut value, yaw) = imu(&mut payload).map_err(decode)?;
+                if self.options.gyro_in_degrees {
+                    value[0] = value[0].to_radians();
+                }
                 if let Some(value) = yaw {
                     push(&mut self.yaws, &topic.name, Received { stamp_ns, log_ns, value });
                 }

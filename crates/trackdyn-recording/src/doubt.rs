@@ -169,9 +169,9 @@ impl fmt::Display for Doubt {
             ),
             Self::OutOfPlane { count, axes: Axes::Camera } => write!(
                 f,
-                "{count} poses are tilted by more than 60°, or turn about their y axis: the robot \
-                 drives out of the x-y plane, as in an optical frame of a camera (z forward, y \
-                 down)"
+                "{count} poses are tilted by more than 60°, or turn about their y axis: axes of a \
+                 camera (its optical frame: z forward, y down), by which a robot drives out of the \
+                 x-y plane"
             ),
             Self::OutOfPlane { count, axes: Axes::Down } => write!(
                 f,

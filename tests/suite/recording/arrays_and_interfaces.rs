@@ -1,6 +1,7 @@
 //! Joints with named interfaces, arrays of poses, and transforms of several models.
 
 use super::sources::{COUNT, JOINTS, Message, RADIUS, Topic, assert_poses, bag, options, truth};
+use trackdyn::inspect::{Content, InspectSettings, Lack, inspect};
 use trackdyn_recording::Warning;
 use trackdyn_recording::rosbag::{self, JointSignal, Role, RosbagOptions};
 
@@ -167,4 +168,30 @@ fn poses_of_the_driver_whose_speeds_are_taken_come_second() {
     assert_eq!(assert_poses(&recording, 1e-9), COUNT as usize);
     let is_told = |warning: &Warning| matches!(warning, Warning::FromTwist { .. });
     assert!(recording.warnings().iter().any(is_told));
+}
+
+/// A log with nothing but speeds of the body, and one that says so.
+#[test]
+fn an_inspection_goes_on_with_a_twist_and_without_a_radius() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let twist = |step: usize, t: f64| Some(Message::stamped(t, "base").twist(truth()[step].2));
+    let wheels: Topic = ("/wheels", "geometry_msgs/msg/TwistStamped", &twist);
+    let path = bag(folder.path(), &[wheels, SLAM]);
+    let read = trackdyn::ReadOptions { bag: options(), ..trackdyn::ReadOptions::default() };
+    let settings = InspectSettings { read, ..InspectSettings::default() };
+    let found = inspect(&path, &settings).expect("a bag");
+    let bag = &found.options.bag;
+    assert_eq!((bag.twist_topic.as_deref(), bag.wheel_radius), (Some("/wheels"), None));
+    assert!(!found.lacks.contains(&Lack::Tracks), "{:?}", found.lacks);
+    assert!(matches!(found.content, Content::Unread(_)));
+
+    let mut settings = settings;
+    settings.read.bag = RosbagOptions {
+        twist_topic: Some("/wheels".to_owned()),
+        separation: Some(0.8),
+        ..RosbagOptions::default()
+    };
+    let found = inspect(&path, &settings).expect("a bag");
+    assert!(matches!(found.content, Content::Motion(_)), "{:?}", found.findings);
+    assert!(!found.lacks.iter().any(|lack| matches!(lack, Lack::WheelRadius { .. })));
 }

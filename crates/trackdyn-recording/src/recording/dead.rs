@@ -54,12 +54,10 @@ pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
     if questioned.is_empty() {
         return;
     }
+    let times: Vec<Vec<[f64; 2]>> = (0..runs.len()).map(|run| times(&questioned, run)).collect();
     let meets = |run: usize, piece: &Piece, delay: f64| {
-        let is_met = |zeros: &Zeros| {
-            let [from, until] = zeros.time;
-            zeros.run == run && piece.start - delay < until && piece.end - delay > from
-        };
-        questioned.iter().any(is_met)
+        let next = times[run].partition_point(|[_, until]| *until <= piece.start - delay);
+        times[run].get(next).is_some_and(|[from, _]| *from < piece.end - delay)
     };
     let Some(following) = Following::of(runs, &meets) else { return };
     let is_dead = |zeros: &Zeros| moved(&runs[zeros.run], zeros, &following, usual[zeros.side]);
@@ -79,6 +77,21 @@ pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
         });
         mend(run, &of_run);
     }
+}
+
+/// The times of a run that are in question, apart from each other and in order, s.
+fn times(questioned: &[Zeros], run: usize) -> Vec<[f64; 2]> {
+    let of_run = questioned.iter().filter(|zeros| zeros.run == run);
+    let mut all: Vec<[f64; 2]> = of_run.map(|zeros| zeros.time).collect();
+    all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut apart: Vec<[f64; 2]> = Vec::with_capacity(all.len());
+    for [from, until] in all {
+        match apart.last_mut().filter(|last| last[1] >= from) {
+            Some(last) => last[1] = last[1].max(until),
+            None => apart.push([from, until]),
+        }
+    }
+    apart
 }
 
 /// Median of the speeds of a side that are not zero, m/s; infinite where there are none.

@@ -180,7 +180,11 @@ fn bad_input_is_refused_and_leaves_nothing() {
         ),
         (format!("diagnose points.csv --held-out 1 --vehicle {VEHICLE}"), "--held-out 1: a table"),
         (format!("diagnose drive drive --vehicle {VEHICLE}"), "each recording once"),
-        (format!("diagnose drive --wheel-radius 0.1 --vehicle {VEHICLE}"), "drive is no bag"),
+        (
+            format!("diagnose drive --wheel-radius 0.1 --vehicle {VEHICLE}"),
+            "speeds in m/s are those of the tracks already",
+        ),
+        (format!("diagnose drive --pose-topic /slam --vehicle {VEHICLE}"), "drive is no bag"),
         (format!("diagnose brief --held-out 1 --vehicle {VEHICLE}"), "hold no segment of driving"),
         (format!("diagnose far --vehicle {VEHICLE}"), "expected at most 1000 m"),
     ] {

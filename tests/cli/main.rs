@@ -17,6 +17,7 @@ mod recordings;
 mod sealed_trial;
 mod simulate;
 mod stdout;
+mod tables;
 mod trial;
 
 use std::path::{Path, PathBuf};

@@ -1,7 +1,11 @@
 //! Readers, segments, clock offset and noise, on files and on synthetic recordings.
 
+mod arrays_and_interfaces;
+mod causes;
 mod clock;
 mod clocks_and_poses;
+mod clocks_of_chains;
+mod columns;
 mod drives;
 mod folder;
 mod inspections;

@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use trackdyn::crates::core::Pose;
 use trackdyn::crates::model::Effects;
 use trackdyn::crates::model::effect::Stage;
-use trackdyn::crates::recording::rosbag::{Dating, JointSignal, SignalUnit};
+use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
+use trackdyn::crates::recording::{Columns, DoubtKind, SpeedUnit};
 use trackdyn::recording::BagOptions;
 use trackdyn::refuse_repeated;
 use trackdyn::{
@@ -120,12 +121,19 @@ pub fn note_what_steady_icrs_leave_out(effects: &Effects) {
 #[derive(Args)]
 pub struct RecordingOptions {
     /// Folder with recording.toml, bag of ROS (.mcap, .db3, .bag or their folder), or trajectory
-    /// of the TUM benchmark (.tum, .txt) with --tracks; for identify and diagnose also a table of
-    /// steady operating points (.csv)
+    /// of the TUM benchmark (.tum, .txt) with --tracks, or one table of both (.csv) with --columns;
+    /// for identify and diagnose also a table of steady operating points (.csv)
     pub recording: PathBuf,
     /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
     #[arg(long, value_name = "FILE")]
     tracks: Option<PathBuf>,
+    /// One table of track speeds and poses (.csv): its columns by key, with a unit after a colon
+    /// and a `-` before a sign that is wrong, such as
+    /// t=Time:ms,v_l=left:rpm,v_r=-right:rpm,x=px:mm,y=py:mm,yaw=heading:deg. Units: s, ms, us, ns,
+    /// min; those of --speed-unit; m, cm, mm, km, ft; rad, deg, compass (clockwise from north, x
+    /// east). qx, qy, qz, qw may stand for yaw; run parts the table into runs
+    #[arg(long, value_name = "KEY=COLUMN,...")]
+    columns: Option<Columns>,
     /// Bag: topic of the joint states
     #[arg(long, value_name = "TOPIC")]
     tracks_topic: Option<String>,
@@ -138,12 +146,15 @@ pub struct RecordingOptions {
     /// Bag: signal of the joints [default: velocity where there is one]
     #[arg(long, value_name = "SIGNAL")]
     joint_signal: Option<Signal>,
-    /// Bag: belt travel in m per radian of the joints
+    /// Belt travel in m per radian of the joints of a bag, or of wheels (--speed-unit)
     #[arg(long, value_name = "M", value_parser = positive)]
     wheel_radius: Option<f64>,
     /// Bag: topic of the poses
     #[arg(long, value_name = "TOPIC")]
     pose_topic: Option<String>,
+    /// Bag: which pose of a PoseArray is that of the robot, from 0
+    #[arg(long, value_name = "N", value_parser = count)]
+    pose_index: Option<usize>,
     /// Bag: frame that the poses are expressed in; with --child-frame, transforms are chained where
     /// no topic has these poses
     #[arg(long, value_name = "FRAME")]
@@ -165,32 +176,37 @@ pub struct RecordingOptions {
     /// Bag without joints: number of the right side, in the same way
     #[arg(long, value_name = "TOPIC:FIELD", allow_hyphen_values = true)]
     right_signal: Vec<String>,
-    /// Unit of --left-signal and --right-signal; all but m/s need --wheel-radius [default: rad/s]
-    #[arg(long, value_name = "UNIT")]
-    signal_unit: Option<Unit>,
+    /// Unit of the track speeds: m/s, mm/s, cm/s, km/h, mph, ft/s, or of wheels, with
+    /// --wheel-radius, rad/s, rpm, turns/s, deg/s [default: of a bag rad/s, of a table m/s]
+    #[arg(long, value_name = "UNIT", alias = "signal-unit")]
+    speed_unit: Option<SpeedUnit>,
     /// Folder of definitions (PACKAGE/msg/TYPE.msg) for signals of a bag that has none
     #[arg(long, value_name = "DIR")]
     msg_dir: Option<PathBuf>,
     /// Bag: what dates its messages [default: their headers, or the log where clocks differ]
     #[arg(long, value_name = "CLOCK")]
     dated_by: Option<DatedBy>,
+    /// Yaw in degrees of the pose sensor on the robot: 180 where it faces backwards
+    #[arg(long, value_name = "DEG", value_parser = finite, allow_hyphen_values = true)]
+    sensor_yaw: Option<f64>,
+    /// Unit of the yaw rates of the IMU [default: rad/s]
+    #[arg(long, value_name = "UNIT")]
+    gyro_unit: Option<GyroUnit>,
+    /// Read a recording in spite of a doubt, where you know better; repeatable: travel, stamps,
+    /// yaw-unit, orientation, out-of-plane, signs, dead-encoder, stuck-poses
+    #[arg(long, value_name = "DOUBT")]
+    accept: Vec<DoubtKind>,
 }
 
-/// Units of numbers that are speeds of the sides.
+/// Units of the yaw rates of an IMU.
 #[derive(Clone, Copy, ValueEnum)]
-enum Unit {
-    /// Speed of the track
-    #[value(name = "m/s")]
-    MetresPerSecond,
-    /// Speed of the wheel
+enum GyroUnit {
+    /// Radians per second
     #[value(name = "rad/s")]
-    RadiansPerSecond,
-    /// Turns of the wheel per minute
-    #[value(name = "rpm")]
-    TurnsPerMinute,
-    /// Degrees of the wheel per second
+    Radians,
+    /// Degrees per second
     #[value(name = "deg/s")]
-    DegreesPerSecond,
+    Degrees,
 }
 
 /// What dates the messages of a bag.
@@ -241,6 +257,7 @@ impl RecordingOptions {
     pub fn options(&self) -> ReadOptions {
         ReadOptions {
             tracks: self.tracks.clone(),
+            columns: self.columns.clone(),
             bag: BagOptions {
                 tracks_topic: self.tracks_topic.clone(),
                 left_joints: self.left_joint.clone(),
@@ -252,24 +269,23 @@ impl RecordingOptions {
                 },
                 wheel_radius: self.wheel_radius,
                 pose_topic: self.pose_topic.clone(),
+                pose_index: self.pose_index,
                 parent_frame: self.parent_frame.clone(),
                 child_frame: self.child_frame.clone(),
                 twist_topic: self.twist_topic.clone(),
                 separation: self.separation,
                 left_signals: self.left_signal.clone(),
                 right_signals: self.right_signal.clone(),
-                signal_unit: self.signal_unit.map(|unit| match unit {
-                    Unit::MetresPerSecond => SignalUnit::MetresPerSecond,
-                    Unit::RadiansPerSecond => SignalUnit::RadiansPerSecond,
-                    Unit::TurnsPerMinute => SignalUnit::TurnsPerMinute,
-                    Unit::DegreesPerSecond => SignalUnit::DegreesPerSecond,
-                }),
+                speed_unit: self.speed_unit,
                 msg_dir: self.msg_dir.clone(),
                 dated_by: match self.dated_by {
                     None => Dating::Any,
                     Some(DatedBy::Header) => Dating::Header,
                     Some(DatedBy::Log) => Dating::Log,
                 },
+                sensor_yaw: self.sensor_yaw.map(f64::to_radians),
+                gyro_in_degrees: matches!(self.gyro_unit, Some(GyroUnit::Degrees)),
+                accepted: self.accept.clone(),
                 ..BagOptions::default()
             },
         }
@@ -283,7 +299,7 @@ impl RecordingOptions {
 /// The options given, where there are any and the recording is a table.
 pub fn refuse_for_points(given: &[String], recording: &Path) -> Result<(), String> {
     match Recording::points_file(recording) {
-        Some(table) if !given.is_empty() => {
+        Some(table) if !given.is_empty() && !given.iter().any(|name| name == "--columns") => {
             let (given, name) = (given.join(", "), table.display());
             Err(format!(
                 "{given}: {name} holds steady points: expected with recordings of motion only"

@@ -1,6 +1,7 @@
 //! Command lines for a user to copy.
 
-use trackdyn::crates::recording::rosbag::{Dating, JointSignal, SignalUnit};
+use trackdyn::crates::recording::SpeedUnit;
+use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
 use trackdyn::{Part, ReadOptions};
 
 /// A word as a POSIX shell takes it for one: quoted where it has to be.
@@ -33,6 +34,8 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
     };
     let tracks = options.tracks.as_ref().map(|path| path.display().to_string());
     add("tracks", tracks.as_deref());
+    let columns = options.columns.as_ref().map(ToString::to_string);
+    add("columns", columns.as_deref());
     add("tracks-topic", bag.tracks_topic.as_deref());
     for joint in &bag.left_joints {
         add("left-joint", Some(joint));
@@ -54,15 +57,7 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
     for signal in &bag.right_signals {
         add("right-signal", Some(signal));
     }
-    add(
-        "signal-unit",
-        bag.signal_unit.map(|unit| match unit {
-            SignalUnit::MetresPerSecond => "m/s",
-            SignalUnit::RadiansPerSecond => "rad/s",
-            SignalUnit::TurnsPerMinute => "rpm",
-            SignalUnit::DegreesPerSecond => "deg/s",
-        }),
-    );
+    add("speed-unit", bag.speed_unit.map(SpeedUnit::name));
     let messages = bag.msg_dir.as_ref().map(|path| path.display().to_string());
     add("msg-dir", messages.as_deref());
     add("twist-topic", bag.twist_topic.as_deref());
@@ -72,6 +67,8 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
     let radius = bag.wheel_radius.map(|radius| radius.to_string());
     add("wheel-radius", radius.as_deref().or(needs_radius.then_some("METRES")));
     add("pose-topic", bag.pose_topic.as_deref());
+    let index = bag.pose_index.map(|index| index.to_string());
+    add("pose-index", index.as_deref());
     add("parent-frame", bag.parent_frame.as_deref());
     add("child-frame", bag.child_frame.as_deref());
     add(
@@ -82,6 +79,12 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
             Dating::Log => Some("log"),
         },
     );
+    let yaw = bag.sensor_yaw.map(|yaw| yaw.to_degrees().to_string());
+    add("sensor-yaw", yaw.as_deref());
+    add("gyro-unit", bag.gyro_in_degrees.then_some("deg/s"));
+    for doubt in &bag.accepted {
+        add("accept", Some(doubt.name()));
+    }
     words
 }
 

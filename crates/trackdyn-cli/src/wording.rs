@@ -35,6 +35,7 @@ fn of_library(error: &Error) -> String {
 /// The option of a setting.
 pub fn option(setting: &str) -> String {
     let name = match setting {
+        "accepted" => "accept",
         "left_joints" => "left-joint",
         "right_joints" => "right-joint",
         "left_signals" => "left-signal",

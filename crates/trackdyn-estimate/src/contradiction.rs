@@ -7,6 +7,7 @@ use crate::parameters::Parameters;
 use crate::spin_test::SpinTest;
 use trackdyn_core::robust::median;
 use trackdyn_core::{PerSide, Side};
+use trackdyn_recording::unit;
 
 /// Standard errors by which two methods may differ.
 const MAX_ERRORS: f64 = 5.0;
@@ -25,6 +26,9 @@ const MAX_EFFICIENCY: f64 = 1.05;
 
 /// α of encoders and wheel radii that are what their file says, and of tracks that hold.
 const ALPHAS: [f64; 2] = [0.8, 1.25];
+
+/// Largest logarithm of the ratio of both α where a unit may be wrong, which is one of both sides.
+const MAX_LN_UNLIKE: f64 = 0.1;
 
 /// Part of the turning that a fit leaves where it describes the drive.
 const MAX_TURNING_LEFT: f64 = 0.5;
@@ -57,6 +61,8 @@ pub enum Contradiction {
         side: Side,
         /// Its factor.
         alpha: f64,
+        /// Track speeds per speed of the poses, where both tracks say one.
+        ratio: Option<f64>,
     },
     /// The fit explains hardly any turning.
     Turning {
@@ -117,13 +123,20 @@ impl Contradiction {
         (efficiency.low > MAX_EFFICIENCY).then_some(Self::Efficiency { chi })
     }
 
+    /// Whether it shows a unit of the track speeds, which is wrong whatever else is fitted.
+    pub fn is_of_units(&self) -> bool {
+        matches!(self, Self::Alpha { ratio: Some(ratio), .. } if unit::mixed_up(*ratio).is_some())
+    }
+
     /// What contradicts parameters whatever they were fitted to.
     pub fn of_parameters(parameters: &Parameters, efficiency: &Interval) -> Vec<Self> {
         let [.., left, right] = parameters.0;
         let alphas = PerSide { left, right };
+        let are_alike = left > 0.0 && right > 0.0 && (left / right).ln().abs() < MAX_LN_UNLIKE;
+        let ratio = are_alike.then(|| 2.0 / (left + right));
         let far = Side::BOTH.into_iter().filter_map(|side| {
             let (alpha, [low, high]) = (alphas[side], ALPHAS);
-            (!(low..=high).contains(&alpha)).then_some(Self::Alpha { side, alpha })
+            (!(low..=high).contains(&alpha)).then_some(Self::Alpha { side, alpha, ratio })
         });
         Self::of_efficiency(efficiency).into_iter().chain(far).collect()
     }
@@ -173,16 +186,27 @@ impl std::fmt::Display for Contradiction {
                 "chi = {chi:.2}: the ICRs lie closer to each other than the tracks, which friction \
                  cannot do: check the gauge, the wheel radius, and which joints were taken"
             ),
-            Self::Alpha { side, alpha } => write!(
-                f,
-                "alpha_{} = {alpha:.2}: a track hardly moves that much {} than its encoder says: \
-                 check the wheel radius and the joints, or drive more straight stretches",
-                match side {
-                    Side::Left => "l",
-                    Side::Right => "r",
-                },
-                if alpha < 1.0 { "less" } else { "more" }
-            ),
+            Self::Alpha { side, alpha, ratio } => {
+                let side = if side == Side::Left { "l" } else { "r" };
+                let more = if alpha < 1.0 { "less" } else { "more" };
+                write!(
+                    f,
+                    "alpha_{side} = {alpha:.2}: a track hardly moves that much {more} than its \
+                     encoder says: "
+                )?;
+                match ratio.and_then(|ratio| Some((ratio, unit::mixed_up(ratio)?))) {
+                    Some((ratio, units)) => write!(
+                        f,
+                        "the track speeds are {ratio:.3} times what the poses show, as {units} \
+                         would be: {}",
+                        unit::remedy(ratio)
+                    ),
+                    None => f.write_str(
+                        "check the wheel radius, the unit (--speed-unit) and the joints, or drive \
+                         more straight stretches",
+                    ),
+                }
+            }
             Self::Turning { left } => write!(
                 f,
                 "the fit leaves {:.0} % of the turning: tracks and poses do not tell of one drive: \

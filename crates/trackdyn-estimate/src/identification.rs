@@ -138,7 +138,12 @@ pub fn identify_unless_stopped(
         })
     };
     let fits = fit(Free::Icrs).and_then(|icrs| Some([icrs, fit(Free::IcrsAndAlphas)?]));
-    let fits = fits.ok_or(Error::Cancelled)?;
+    let mut fits = fits.ok_or(Error::Cancelled)?;
+    let [icrs, with_alphas] = &mut fits;
+    if with_alphas.doubts.is_empty() {
+        let of_units = with_alphas.contradictions.iter().filter(|found| found.is_of_units());
+        icrs.contradictions.extend(of_units.copied());
+    }
     let is_open = fits.iter().all(|fit| fit.least_squares.is_err() || !fit.doubts.is_empty());
     let separation = if is_open { Separation::of_motions(observations).ok() } else { None };
     Ok(Identification {

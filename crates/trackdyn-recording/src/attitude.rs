@@ -1,4 +1,6 @@
-//! Whether poses belong to a robot that stands on its wheels.
+//! Whether poses belong to a robot that stands on its wheels and turns about its vertical axis.
+
+use crate::doubt::Axes;
 
 /// Largest tilt of a robot that drives, as its cosine: 60°.
 const MIN_UPRIGHT: f64 = 0.5;
@@ -6,29 +8,64 @@ const MIN_UPRIGHT: f64 = 0.5;
 /// One in so many poses may be tilted by more.
 const MAX_PORTION: u64 = 20;
 
-/// Counts poses that are tilted by more than a robot can be.
+/// Least turn about the y axis, as the sine of its half: 30°, more than that of ramps.
+const MIN_PITCH: f64 = 0.25;
+
+/// Least ratio of the turn about the y axis to those about the others.
+const MIN_PITCH_RATIO: f64 = 3.0;
+
+/// Counts poses that no robot has.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Attitude {
     all: u64,
+    /// Those that are tilted by more than a robot can be, and those of them upside down.
     tilted: u64,
+    inverted: u64,
+    /// Those that are turned about the y axis against the first.
+    pitched: u64,
+    first: Option<[f64; 4]>,
 }
 
 impl Attitude {
     /// Notes the quaternion (x, y, z, w) of a pose.
-    pub(crate) fn note(&mut self, [x, y, z, w]: [f64; 4]) {
+    pub(crate) fn note(&mut self, quaternion: [f64; 4]) {
+        let [x, y, z, w] = quaternion;
         let square = x * x + y * y + z * z + w * w;
         // Cosine of the angle between the z axes of body and world: 1 − 2 (x² + y²)
         let upright = 1.0 - 2.0 * (x * x + y * y) / square;
-        if upright.is_finite() {
-            self.all += 1;
-            self.tilted += u64::from(upright < MIN_UPRIGHT);
+        if !upright.is_finite() {
+            return;
         }
+        self.all += 1;
+        self.tilted += u64::from(upright < MIN_UPRIGHT);
+        self.inverted += u64::from(upright < -MIN_UPRIGHT);
+        let turned = turned(*self.first.get_or_insert(quaternion), quaternion);
+        let [roll, pitch, yaw] = turned.map(f64::abs);
+        let others = roll.max(yaw);
+        self.pitched += u64::from(pitch > MIN_PITCH && pitch > MIN_PITCH_RATIO * others);
     }
 
-    /// Poses that are tilted by more than 60°, where these are too many for single wrong ones.
-    pub(crate) fn tilted(&self) -> Option<u64> {
-        (MAX_PORTION * self.tilted > self.all).then_some(self.tilted)
+    /// How many poses are no robot's, where these are too many for single wrong ones, and which
+    /// axes explain them.
+    pub(crate) fn out_of_plane(&self) -> Option<(u64, Axes)> {
+        let are_many = |count: u64| MAX_PORTION * count > self.all;
+        if are_many(self.tilted) {
+            let is_inverted = 2 * self.inverted > self.tilted;
+            return Some((self.tilted, if is_inverted { Axes::Down } else { Axes::Camera }));
+        }
+        are_many(self.pitched).then_some((self.pitched, Axes::Camera))
     }
+}
+
+/// Sines of half the turn from one orientation to another, times its axis in the first.
+fn turned([ax, ay, az, aw]: [f64; 4], [x, y, z, w]: [f64; 4]) -> [f64; 3] {
+    let scale = ((ax * ax + ay * ay + az * az + aw * aw) * (x * x + y * y + z * z + w * w)).sqrt();
+    // vector part of conj(a) b
+    [
+        (aw * x - ax * w - ay * z + az * y) / scale,
+        (aw * y - ay * w - az * x + ax * z) / scale,
+        (aw * z - az * w - ax * y + ay * x) / scale,
+    ]
 }
 
 #[cfg(test)]
@@ -42,10 +79,10 @@ mod tests {
             for _ in 0..100 {
                 attitude.note(quaternion);
             }
-            attitude.tilted()
+            attitude.out_of_plane()
         };
         // z forward, x to the right: turned by -90° about z, then by -90° about x
-        assert_eq!(tilted([-0.5, 0.5, -0.5, 0.5]), Some(100));
+        assert_eq!(tilted([-0.5, 0.5, -0.5, 0.5]), Some((100, Axes::Camera)));
         assert_eq!(tilted([0.0, 0.0, 0.7, 0.7]), None);
         let (sin, cos) = 0.3_f64.sin_cos();
         assert_eq!(tilted([0.0, 2.0 * sin, 0.0, 2.0 * cos]), None, "a ramp of 34°");
@@ -54,6 +91,25 @@ mod tests {
         for step in 0..100 {
             once.note([f64::from(u8::from(step == 3)), 0.0, 0.0, 1.0]);
         }
-        assert_eq!(once.tilted(), None);
+        assert_eq!(once.out_of_plane(), None);
+    }
+
+    #[test]
+    fn a_world_of_a_camera_turns_about_y_and_a_z_axis_may_point_down() {
+        let driven = |of: fn(f64) -> [f64; 4]| {
+            let mut attitude = Attitude::default();
+            for step in 0..100 {
+                attitude.note(of(0.5 * (0.1 * f64::from(step)).sin()));
+            }
+            attitude.out_of_plane()
+        };
+        // both frames are those of a camera
+        let found = driven(|half| [0.0, half.sin(), 0.0, half.cos()]);
+        assert!(matches!(found, Some((count, Axes::Camera)) if count > 50), "{found:?}");
+        // yaw, as of a robot
+        assert_eq!(driven(|half| [0.0, 0.0, half.sin(), half.cos()]), None);
+        // turned by half a turn about x
+        let found = driven(|half| [half.cos(), -half.sin(), 0.0, 0.0]);
+        assert_eq!(found, Some((100, Axes::Down)));
     }
 }

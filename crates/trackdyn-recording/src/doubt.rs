@@ -1,7 +1,79 @@
 //! What can contradict what in a recording.
 
+use crate::unit;
 use std::fmt;
+use std::str::FromStr;
 use trackdyn_core::Side;
+
+/// A kind of doubt, by the name with which a user who knows better accepts it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum DoubtKind {
+    /// [`Doubt::Travel`].
+    Travel,
+    /// [`Doubt::Stamps`].
+    Stamps,
+    /// [`Doubt::YawInDegrees`], [`Doubt::TurnInDegrees`].
+    YawUnit,
+    /// [`Doubt::ConstantOrientation`].
+    Orientation,
+    /// [`Doubt::OutOfPlane`].
+    OutOfPlane,
+    /// [`Doubt::Reversed`], [`Doubt::BothReversed`], [`Doubt::Swapped`], [`Doubt::Backwards`].
+    Signs,
+    /// [`Doubt::DeadEncoder`].
+    DeadEncoder,
+    /// [`Doubt::StuckPoses`].
+    StuckPoses,
+}
+
+impl DoubtKind {
+    /// All kinds.
+    pub const ALL: [Self; 8] = [
+        Self::Travel,
+        Self::Stamps,
+        Self::YawUnit,
+        Self::Orientation,
+        Self::OutOfPlane,
+        Self::Signs,
+        Self::DeadEncoder,
+        Self::StuckPoses,
+    ];
+
+    /// Its name, as the option takes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Travel => "travel",
+            Self::Stamps => "stamps",
+            Self::YawUnit => "yaw-unit",
+            Self::Orientation => "orientation",
+            Self::OutOfPlane => "out-of-plane",
+            Self::Signs => "signs",
+            Self::DeadEncoder => "dead-encoder",
+            Self::StuckPoses => "stuck-poses",
+        }
+    }
+}
+
+impl FromStr for DoubtKind {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL.into_iter().find(|kind| kind.name() == text).ok_or_else(|| {
+            let names = Self::ALL.map(Self::name);
+            format!("expected one of {}", names.join(", "))
+        })
+    }
+}
+
+/// Axes that are not those of a robot (x forward, z up).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axes {
+    /// Those of a camera: z forward, y down.
+    Camera,
+    /// A z axis that points down.
+    Down,
+}
 
 /// What contradicts what in a recording.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,10 +100,18 @@ pub enum Doubt {
         /// Way that one track ran more than the other, m.
         turning: f64,
     },
-    /// Poses that are tilted by more than a robot can be.
+    /// Poses that are tilted by more than a robot can be, or turn about another axis than z.
     OutOfPlane {
         /// How many.
         count: u64,
+        /// Which axes explain them.
+        axes: Axes,
+    },
+    /// Yaw that turns too much for radians, where it is all that poses have.
+    TurnInDegrees {
+        /// Turn of the poses per way that one track ran more than the other, in what should be
+        /// rad/m.
+        per_metre: f64,
     },
     /// The joints or the speed of a side count backwards.
     Reversed(Side),
@@ -39,6 +119,23 @@ pub enum Doubt {
     BothReversed,
     /// Tracks and poses turn in opposite senses: sides are swapped, or the z axis points down.
     Swapped,
+    /// Tracks and poses turn alike and drive in opposite senses: a sensor that faces backwards, or
+    /// sides that are swapped and count backwards.
+    Backwards,
+    /// The speed of a side never changes while the poses move as if it did.
+    DeadEncoder {
+        /// The side; none for both.
+        side: Option<Side>,
+        /// The speed that it shows, m/s.
+        speed: f64,
+    },
+    /// Poses that stay where they are while the tracks drive.
+    StuckPoses {
+        /// Way of the tracks, the mean of both sides, m.
+        travelled: f64,
+        /// Size of the box around all positions, m.
+        extent: f64,
+    },
 }
 
 impl fmt::Display for Doubt {
@@ -70,10 +167,20 @@ impl fmt::Display for Doubt {
                 "the orientation never changes, while one track runs {turning:.1} m more than the \
                  other: poses of a GNSS receiver or a filter without a heading"
             ),
-            Self::OutOfPlane { count } => write!(
+            Self::OutOfPlane { count, axes: Axes::Camera } => write!(
                 f,
-                "{count} poses are tilted by more than 60°: axes of a camera, or a z axis that \
-                 points down"
+                "{count} poses are tilted by more than 60°, or turn about their y axis: axes of a \
+                 camera (its optical frame: z forward, y down), by which a robot drives out of the \
+                 x-y plane"
+            ),
+            Self::OutOfPlane { count, axes: Axes::Down } => write!(
+                f,
+                "{count} poses are upside down: the z axis of the body or of the world points down"
+            ),
+            Self::TurnInDegrees { per_metre } => write!(
+                f,
+                "yaw turns by {per_metre:.1} for each metre that one track runs more than the \
+                 other, more than radians can: degrees, or a gyroscope in degrees per second"
             ),
             Self::Reversed(side) => {
                 let side = if *side == Side::Left { "left" } else { "right" };
@@ -87,20 +194,60 @@ impl fmt::Display for Doubt {
                 "tracks and poses turn in opposite senses: left and right are swapped, or the z \
                  axis of the poses points down"
             ),
+            Self::Backwards => write!(
+                f,
+                "tracks and poses turn alike and drive in opposite senses: the sensor faces \
+                 backwards, or the sides are swapped and count backwards"
+            ),
+            Self::DeadEncoder { side, speed } => {
+                let which = match side {
+                    Some(Side::Left) => "the left side never changes",
+                    Some(Side::Right) => "the right side never changes",
+                    None => "both sides never changes",
+                };
+                write!(
+                    f,
+                    "the speed of {which} ({speed:.3} m/s all the time), while the poses move as \
+                     if it did: a dead encoder, or a number that is no measured speed"
+                )
+            }
+            Self::StuckPoses { travelled, extent } => write!(
+                f,
+                "the poses stay within {extent:.3} m and do not turn, while the tracks run \
+                 {travelled:.1} m: a tracker that is stuck, or poses of another thing"
+            ),
         }
     }
 }
 
 impl Doubt {
+    /// Its kind.
+    pub fn kind(&self) -> DoubtKind {
+        match self {
+            Self::Travel { .. } => DoubtKind::Travel,
+            Self::Stamps { .. } => DoubtKind::Stamps,
+            Self::YawInDegrees | Self::TurnInDegrees { .. } => DoubtKind::YawUnit,
+            Self::ConstantOrientation { .. } => DoubtKind::Orientation,
+            Self::OutOfPlane { .. } => DoubtKind::OutOfPlane,
+            Self::Reversed(_) | Self::BothReversed | Self::Swapped | Self::Backwards => {
+                DoubtKind::Signs
+            }
+            Self::DeadEncoder { .. } => DoubtKind::DeadEncoder,
+            Self::StuckPoses { .. } => DoubtKind::StuckPoses,
+        }
+    }
+
     /// What a user can do, where the reader does not know more.
     pub(crate) fn remedy(&self) -> String {
         match self {
-            Self::Travel { .. } => {
-                "expected m, s and rad; for joints, --wheel-radius in m per radian with any gear, \
-                 so for joints in degrees, metres per degree"
+            Self::Travel { ratio, .. } => return unit::remedy(*ratio),
+            Self::Stamps { .. } => {
+                "expected seconds; of one table with both, --columns t=COLUMN:ms (or us, ns) reads others"
+            },
+            Self::YawInDegrees => "expected yaw in rad; of one table, --columns yaw=COLUMN:deg reads degrees",
+            Self::TurnInDegrees { .. } => {
+                "expected yaw in rad; --gyro-unit deg/s reads a gyroscope in degrees per second"
             }
-            Self::Stamps { .. } => "expected seconds in both tables",
-            Self::YawInDegrees => "expected yaw in rad",
             Self::ConstantOrientation { .. } => {
                 "expected poses with a yaw; of a bag, --pose-topic chooses others"
             }
@@ -115,6 +262,18 @@ impl Doubt {
             Self::BothReversed => "expected speeds that are positive where the robot moves forward",
             Self::Swapped => {
                 "expected x forward, y left, yaw counter-clockwise, and v_right > v_left there"
+            }
+            Self::Backwards => {
+                "expected poses whose x axis points forward (--sensor-yaw 180 turns those of a \
+                 sensor that faces backwards), and speeds of each side, positive forward"
+            }
+            Self::DeadEncoder { .. } => {
+                "expected measured speeds of both sides; of a bag, --left-joint, --right-joint and \
+                 --joint-signal choose others"
+            }
+            Self::StuckPoses { .. } => {
+                "expected poses of the robot while it drives; of a bag, --pose-topic or \
+                 --child-frame choose others"
             }
         }
         .to_owned()

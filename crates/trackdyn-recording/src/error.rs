@@ -111,7 +111,8 @@ pub enum Error {
         problem: String,
     },
     /// Tracks and poses that contradict each other.
-    #[error("{}: {doubt}: {remedy}", path.display())]
+    #[error("{}: {doubt}: {remedy}; --accept {} reads it all the same, where you know better",
+        path.display(), doubt.kind().name())]
     Contradiction {
         /// The file or folder.
         path: PathBuf,

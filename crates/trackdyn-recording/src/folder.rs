@@ -7,7 +7,7 @@
 
 use crate::recording::{Recording, Source, UncheckedRun};
 use crate::sample::{Sample, Series, TrackSample};
-use crate::{Error, Format};
+use crate::{Error, Format, TableOptions};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -24,11 +24,19 @@ pub use writer::write;
 /// Name of the file that makes a folder a recording.
 pub const MANIFEST: &str = "recording.toml";
 
-/// Reads a recording folder.
+/// Reads a recording folder, speeds in m/s.
 ///
 /// # Errors
 /// [`Error::NotARecording`] without `recording.toml`, and errors that name file, line and column.
 pub fn read(folder: &Path) -> Result<Recording, Error> {
+    read_by(folder, &TableOptions::default())
+}
+
+/// Reads a recording folder.
+///
+/// # Errors
+/// Those of [`read`]; [`Error::Options`] for options that do not go together.
+pub fn read_by(folder: &Path, options: &TableOptions) -> Result<Recording, Error> {
     let path = folder.join(MANIFEST);
     if !path.is_file() {
         return Err(Error::NotARecording {
@@ -48,9 +56,11 @@ pub fn read(folder: &Path) -> Result<Recording, Error> {
         fill(&imu, &mut runs, &mut split, |run| &mut run.imu)?;
     }
     let source = Source { format: Format::Folder, path: Some(folder.to_owned()), epoch_ns: None };
-    let runs = runs.into_values().collect();
-    Recording::new(manifest.name, manifest.robot, runs, source, Vec::new())
-        .map(|recording| recording.with_stated_noise(manifest.noise))
+    let mut runs: Vec<UncheckedRun> = runs.into_values().collect();
+    options.apply(folder, &mut runs)?;
+    let Manifest { name, robot, noise } = manifest;
+    Recording::accepting(name, robot, runs, source, Vec::new(), &options.accepted)
+        .map(|recording| recording.with_stated_noise(noise))
 }
 
 /// The CSV file of a table, or the Parquet file where only that is there.

@@ -1,16 +1,18 @@
 //! What was seen: recordings of tracked robots, and their readers.
 //!
 //! - [`recording`]: the one in-memory type, cleaned on the way in, of [`sample`]s.
-//! - [`folder`], [`rosbag`], [`tum`]: one reader per format; [`read`] picks by path.
+//! - [`folder`], [`rosbag`], [`tum`], [`columns`]: one reader per format; [`read`] picks by path.
 //! - [`operating_points`]: tables of steady motion, a measured map of ICRs.
 //! - [`selection`]: some of its runs, or a time of them.
 //! - [`doubt`]: what tracks and poses of one recording may contradict each other in.
 //! - [`hold`]: track speeds between two readings.
+//! - [`unit`]: units of track speeds.
 //! - [`table`]: CSV tables, for other readers of columns of numbers.
 //!
 //! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
 
 mod attitude;
+pub mod columns;
 pub mod doubt;
 pub mod error;
 mod far;
@@ -24,11 +26,14 @@ pub mod sample;
 pub mod selection;
 pub mod table;
 pub mod tum;
+pub mod unit;
 
-pub use doubt::Doubt;
+pub use columns::Columns;
+pub use doubt::{Axes, Doubt, DoubtKind};
 pub use error::Error;
-pub use format::read;
+pub use format::{TableOptions, read};
 pub use operating_points::{OperatingPoint, OperatingPoints};
 pub use recording::{Format, Recording, Run, Source, StatedNoise, UncheckedRun, Warning};
 pub use sample::{ImuSample, PoseSample, Series, TrackSample};
 pub use selection::RunList;
+pub use unit::SpeedUnit;

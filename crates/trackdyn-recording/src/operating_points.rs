@@ -48,7 +48,16 @@ impl OperatingPoints {
     /// [`Error::Header`], [`Error::Cell`] with line and column (also for NaN, an infinity, or an
     /// empty track speed), [`Error::Empty`] without rows.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let mut table = Table::open(path, &COLUMNS)?;
+        let mut table = Table::open(path, &COLUMNS).map_err(|error| match error {
+            Error::Header { path, line, found, expected } => {
+                let expected = format!(
+                    "{expected}, of steady points; a log of motion in one table is read by \
+                     --columns t=COLUMN,v_l=COLUMN,v_r=COLUMN,x=COLUMN,y=COLUMN,yaw=COLUMN"
+                );
+                Error::Header { path, line, found, expected }
+            }
+            other => other,
+        })?;
         let places = COLUMNS.map(|name| table.column(name).unwrap_or_default());
         let mut points = Vec::new();
         while table.advance()? {

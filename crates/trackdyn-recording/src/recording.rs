@@ -1,20 +1,28 @@
 //! The one in-memory type that everything else in the tool sees.
 
 use crate::Error;
+use crate::doubt::{Doubt, DoubtKind};
 use std::path::PathBuf;
 
 mod cleaning;
 mod content;
 mod contradictions;
+mod dead;
+mod frozen;
+mod gyro_unit;
+mod idle;
+mod motion;
 mod positions;
 mod run;
 mod source;
 mod spikes;
 mod stretches;
+mod stuck;
 mod warning;
 
 pub use cleaning::MIN_GAP_RATIO;
 pub(crate) use cleaning::clean;
+pub(crate) use run::turn_sensor;
 pub use run::{Run, UncheckedRun};
 pub use source::{Format, Source};
 pub use warning::{Cleaning, Finding, Warning};
@@ -63,7 +71,22 @@ impl Recording {
         robot: impl Into<String>,
         runs: Vec<UncheckedRun>,
         source: Source,
+        warnings: Vec<Warning>,
+    ) -> Result<Self, Error> {
+        Self::accepting(name, robot, runs, source, warnings, &[])
+    }
+
+    /// As [`Recording::new`], but doubts of these kinds are warnings: the user knows better.
+    ///
+    /// # Errors
+    /// Those of [`Recording::new`].
+    pub fn accepting(
+        name: impl Into<String>,
+        robot: impl Into<String>,
+        runs: Vec<UncheckedRun>,
+        source: Source,
         mut warnings: Vec<Warning>,
+        accepted: &[DoubtKind],
     ) -> Result<Self, Error> {
         let name = name.into();
         let mut cleanings = Vec::new();
@@ -71,23 +94,31 @@ impl Recording {
         let path = source.path.clone().unwrap_or_else(|| PathBuf::from(&name));
         // What is computed is meant as it is.
         let is_read = source.format != Format::Memory;
+        let mut doubts: Vec<Doubt> = Vec::new();
         let mut without_yaw = 0;
         for run in runs {
-            if let Some(doubt) = contradictions::of_rows(&run).filter(|_| is_read) {
-                return Err(Error::contradiction(&path, doubt));
-            }
+            doubts.extend(contradictions::of_rows(&run).filter(|_| is_read));
             without_yaw += run.poses.samples.iter().filter(|row| lacks_yaw(row)).count();
-            let run = Run::new(run, &mut cleanings).mended(&mut cleanings);
-            if run.is_usable() {
-                kept.push(run);
-            } else {
-                warnings.push(Warning::RunLeftOut {
-                    run: run.id(),
-                    readings: run.tracks().len(),
-                    poses: run.poses().len(),
-                });
-            }
+            kept.push(Run::new(run, &mut cleanings).mended(&mut cleanings));
         }
+        let leave_out = |kept: &mut Vec<Run>, warnings: &mut Vec<Warning>| {
+            let useless = kept.extract_if(.., |run| !run.is_usable());
+            warnings.extend(useless.map(|run| Warning::RunLeftOut {
+                run: run.id(),
+                readings: run.tracks().len(),
+                poses: run.poses().len(),
+            }));
+        };
+        leave_out(&mut kept, &mut warnings);
+        if is_read {
+            refuse(&path, &mut doubts, accepted, &mut warnings)?;
+            doubts.extend(contradictions::of_runs(&kept));
+            refuse(&path, &mut doubts, accepted, &mut warnings)?;
+            frozen::leave_out(&mut kept, &mut cleanings);
+            warnings.extend(gyro_unit::leave_out(&mut kept));
+        }
+        dead::leave_out(&mut kept, &mut cleanings);
+        leave_out(&mut kept, &mut warnings);
         if kept.is_empty() {
             let found = warning::gather(cleanings).into_iter().map(|one| format!("; {one}"));
             let found: String = found.collect();
@@ -102,9 +133,6 @@ impl Recording {
             let message =
                 format!("no run with track speeds and at least two poses{orientation}{found}");
             return Err(Error::Empty { path, message });
-        }
-        if let Some(doubt) = contradictions::of_runs(&kept).filter(|_| is_read) {
-            return Err(Error::contradiction(&path, doubt));
         }
         kept.sort_by_key(Run::id);
         warnings.extend(kept.iter().filter_map(|run| {
@@ -195,6 +223,24 @@ impl Recording {
     pub fn duration(&self) -> f64 {
         self.runs.iter().map(Run::duration).sum()
     }
+}
+
+/// Makes warnings of doubts that were accepted.
+///
+/// # Errors
+/// [`Error::Contradiction`] with the first that was not.
+fn refuse(
+    path: &std::path::Path,
+    doubts: &mut Vec<Doubt>,
+    accepted: &[DoubtKind],
+    warnings: &mut Vec<Warning>,
+) -> Result<(), Error> {
+    let is_accepted = |doubt: &Doubt| accepted.contains(&doubt.kind());
+    if let Some(doubt) = doubts.iter().find(|doubt| !is_accepted(doubt)) {
+        return Err(Error::contradiction(path, doubt.clone()));
+    }
+    warnings.extend(doubts.drain(..).map(Warning::Accepted));
+    Ok(())
 }
 
 /// Whether a pose has a position and no orientation.

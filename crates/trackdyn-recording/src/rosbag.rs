@@ -1,10 +1,10 @@
 //! Bags of ROS 2 (`.mcap`, `.db3`) and ROS 1 (`.bag`): files, packed by zstd or not, alone or in
 //! the folder that `ros2 bag record` makes.
 //!
-//! Track speeds come from `sensor_msgs/JointState`, poses from `nav_msgs/Odometry`,
-//! `geometry_msgs/PoseStamped`, `PoseWithCovarianceStamped`, `TransformStamped` or
-//! `tf2_msgs/TFMessage`, readings of the IMU from `sensor_msgs/Imu`. Where there are no such poses,
-//! they come from `nav_msgs/Path`, `geometry_msgs/PoseArray`, `Pose` or `sensor_msgs/NavSatFix`;
+//! Track speeds come from `sensor_msgs/JointState`, else from `control_msgs/DynamicJointState`;
+//! poses from `nav_msgs/Odometry`, `geometry_msgs/PoseStamped`, `PoseWithCovarianceStamped`,
+//! `TransformStamped` or `tf2_msgs/TFMessage`; readings of the IMU from `sensor_msgs/Imu`. Where
+//! there are no such poses, they come from `nav_msgs/Path`, `geometry_msgs/PoseArray`, `Pose` or `sensor_msgs/NavSatFix`;
 //! track speeds may be made of a twist. The layouts of these types are known here: the message
 //! definitions in the bag matter only to numbers that are named by the path of their field. All of
 //! a bag is one run, but for clocks that begin anew, as in a simulation: each time begins a run.
@@ -14,7 +14,7 @@
 //! base_link.
 
 use crate::doubt::Doubt;
-use crate::recording::{Recording, Source};
+use crate::recording::{Recording, Source, turn_sensor};
 use crate::{Error, Format};
 use std::path::Path;
 use trackdyn_core::{PerSide, Side};
@@ -25,6 +25,7 @@ mod collector;
 mod compressed;
 mod date;
 mod definition;
+mod dynamic_joints;
 mod fixes;
 mod frames;
 mod inspection;
@@ -48,9 +49,9 @@ mod twist;
 mod visitor;
 mod words;
 
-pub use inspection::{Inspection, TopicSummary, inspect};
+pub use inspection::{Inspection, TopicSummary, inspect, inspect_for};
 pub(crate) use message::yaw_of_quaternion;
-pub use options::{Dating, JointSignal, RosbagOptions, SignalUnit};
+pub use options::{Dating, JointSignal, RosbagOptions};
 pub(crate) use storage::is_bag;
 pub use topic::Role;
 
@@ -67,7 +68,8 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     let signals = signals::Signals::new(path, options)?;
     let mut collector = collector::Collector::new(options, signals);
     let mut warnings = storage::scan(path, &mut collector)?;
-    let collected = collector.finish(path)?;
+    let mut collected = collector.finish(path)?;
+    turn_sensor(&mut collected.runs, options.sensor_yaw);
     warnings.extend(collected.warnings);
     warnings.extend(twist::warning(options));
     let name = storage::name(path);
@@ -79,7 +81,7 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     let joints = collected.joints;
     let are_joints = options.twist_topic.is_none();
     let kind = if options.left_signals.is_empty() { "joint" } else { "signal" };
-    Recording::new(name, "unknown", collected.runs, source, warnings)
+    Recording::accepting(name, "unknown", collected.runs, source, warnings, &options.accepted)
         .map_err(|error| if are_joints { with_options(error, &joints, kind) } else { error })
 }
 
@@ -119,6 +121,15 @@ fn with_options(error: Error, taken: &PerSide<Vec<String>>, kind: &str) -> Error
             let remedy =
                 format!("swap the sides by {left} {right}, or choose poses whose z axis points up");
             (Some(joints), remedy)
+        }
+        Doubt::Backwards => {
+            let joints = PerSide::new(reversed(&taken.right), reversed(&taken.left));
+            let [left, right] = Side::BOTH.map(|side| option(side, &joints[side]));
+            let remedy = format!(
+                "turn the sensor by --sensor-yaw 180, or where the sides are wrong, swap and \
+                 reverse them by {left} {right}"
+            );
+            (None, remedy)
         }
         _ => (None, remedy),
     };

@@ -3,8 +3,11 @@
 use crate::Error;
 use csv::{ByteRecord, ErrorKind, Reader, ReaderBuilder};
 use std::fs::File;
-use std::io::{Read, Seek, SeekFrom};
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+
+/// Longest first line that is looked at, bytes.
+const MAX_HEADER: u64 = 1 << 16;
 
 /// A table that is being read, one row at a time.
 pub struct Table {
@@ -12,6 +15,8 @@ pub struct Table {
     reader: Reader<File>,
     header: Vec<String>,
     row: ByteRecord,
+    /// Whether numbers are written with a decimal comma.
+    has_commas: bool,
 }
 
 impl Table {
@@ -20,8 +25,28 @@ impl Table {
     /// # Errors
     /// [`Error::Unreadable`]; [`Error::Header`] when a name stands there twice or `required` lacks.
     pub fn open(path: &Path, required: &[&str]) -> Result<Self, Error> {
+        Self::open_with(path, required, b',')
+    }
+
+    /// Opens a file whose cells stand between commas, tabs, or semicolons: the first line has one
+    /// of them more often than the others. Beside semicolons, numbers may have a decimal comma.
+    ///
+    /// # Errors
+    /// Those of [`Table::open`].
+    pub fn open_any(path: &Path, required: &[&str]) -> Result<Self, Error> {
+        let mut line = Vec::new();
         let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
-        let mut reader = ReaderBuilder::new().buffer_capacity(1 << 18).from_reader(file);
+        let mut start = BufReader::new(file).take(MAX_HEADER);
+        start.read_until(b'\n', &mut line).map_err(|cause| unreadable(path, cause))?;
+        let count = |delimiter: u8| line.iter().filter(|byte| **byte == delimiter).count();
+        let delimiter = [b';', b'\t', b','].into_iter().max_by_key(|&delimiter| count(delimiter));
+        Self::open_with(path, required, delimiter.unwrap_or(b','))
+    }
+
+    fn open_with(path: &Path, required: &[&str], delimiter: u8) -> Result<Self, Error> {
+        let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
+        let mut builder = ReaderBuilder::new();
+        let mut reader = builder.buffer_capacity(1 << 18).delimiter(delimiter).from_reader(file);
         let header = reader.byte_headers().map_err(|error| csv_error(path, error))?;
         let line = header.position().map_or(1, csv::Position::line);
         let header: Vec<String> =
@@ -34,7 +59,8 @@ impl Table {
             let found = if found.is_empty() { "(none)".to_owned() } else { found };
             return Err(Error::Header { path: path.to_owned(), line, found, expected });
         }
-        Ok(Self { path: path.to_owned(), reader, header, row: ByteRecord::new() })
+        let (path, row, has_commas) = (path.to_owned(), ByteRecord::new(), delimiter == b';');
+        Ok(Self { path, reader, header, row, has_commas })
     }
 
     /// Names of the columns.
@@ -65,7 +91,14 @@ impl Table {
     /// # Errors
     /// [`Error::Cell`].
     pub fn number(&self, column: usize) -> Result<f64, Error> {
-        number(self.cell(column)).ok_or_else(|| self.cell_error(column, "a number"))
+        let cell = self.cell(column);
+        let value = if self.has_commas && cell.contains(&b',') {
+            let point = |byte: &u8| if *byte == b',' { b'.' } else { *byte };
+            number(&cell.iter().map(point).collect::<Vec<_>>())
+        } else {
+            number(cell)
+        };
+        value.ok_or_else(|| self.cell_error(column, "a number"))
     }
 
     /// The cell as a finite number.

@@ -5,12 +5,12 @@
 //! and the yaw of the quaternion count, the rest is dropped; poses of a camera are refused.
 
 use crate::attitude::Attitude;
-use crate::doubt::Doubt;
-use crate::recording::{Recording, Source, UncheckedRun};
+use crate::doubt::{Axes, Doubt, DoubtKind};
+use crate::recording::{Recording, Source, UncheckedRun, Warning};
 use crate::rosbag::yaw_of_quaternion;
 use crate::sample::{PoseSample, Series};
 use crate::table::{number, unreadable};
-use crate::{Error, Format, folder};
+use crate::{Error, Format, TableOptions, folder};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -23,15 +23,32 @@ const COLUMNS: [&str; 8] = ["t", "x", "y", "z", "qx", "qy", "qz", "qw"];
 /// # Errors
 /// Errors that name file, line and column.
 pub fn read(trajectory: &Path, tracks: &Path, robot: &str) -> Result<Recording, Error> {
-    let run = UncheckedRun {
-        id: 0,
-        tracks: folder::read_single_tracks(tracks)?,
-        poses: read_poses(trajectory)?,
-        imu: Series::default(),
-    };
+    read_by(trajectory, tracks, robot, &TableOptions::default())
+}
+
+/// Reads a trajectory and the track speeds (`t,v_left,v_right`) of the same clock by options.
+///
+/// # Errors
+/// Those of [`read`]; [`Error::Options`] for options that do not go together.
+pub fn read_by(
+    trajectory: &Path,
+    tracks: &Path,
+    robot: &str,
+    options: &TableOptions,
+) -> Result<Recording, Error> {
+    let (poses, tilted) = poses(trajectory)?;
+    let tilted = tilted.map(|(count, axes)| Doubt::OutOfPlane { count, axes });
+    let is_accepted = options.accepted.contains(&DoubtKind::OutOfPlane);
+    if let Some(doubt) = tilted.clone().filter(|_| !is_accepted) {
+        return Err(Error::contradiction(trajectory, doubt));
+    }
+    let (tracks, imu) = (folder::read_single_tracks(tracks)?, Series::default());
+    let mut runs = vec![UncheckedRun { id: 0, tracks, poses, imu }];
+    options.apply(trajectory, &mut runs)?;
     let name = trajectory.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let source = Source { format: Format::Tum, path: Some(trajectory.to_owned()), epoch_ns: None };
-    Recording::new(name, robot, vec![run], source, Vec::new())
+    let warnings = tilted.into_iter().map(Warning::Accepted).collect();
+    Recording::accepting(name, robot, runs, source, warnings, &options.accepted)
 }
 
 /// Reads a trajectory alone, as it stands in the file.
@@ -39,6 +56,16 @@ pub fn read(trajectory: &Path, tracks: &Path, robot: &str) -> Result<Recording, 
 /// # Errors
 /// As [`read`].
 pub fn read_poses(path: &Path) -> Result<Series<PoseSample>, Error> {
+    match poses(path)? {
+        (poses, None) => Ok(poses),
+        (_, Some((count, axes))) => {
+            Err(Error::contradiction(path, Doubt::OutOfPlane { count, axes }))
+        }
+    }
+}
+
+/// The poses of a file, and how many of them no robot has, where these are too many.
+fn poses(path: &Path) -> Result<(Series<PoseSample>, Option<(u64, Axes)>), Error> {
     let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
     let mut reader = BufReader::with_capacity(1 << 18, file);
     let mut poses = Vec::new();
@@ -61,10 +88,7 @@ pub fn read_poses(path: &Path) -> Result<Series<PoseSample>, Error> {
         let message = "no poses: expected lines t x y z qx qy qz qw".to_owned();
         return Err(Error::Empty { path: path.to_owned(), message });
     }
-    if let Some(count) = attitude.tilted() {
-        return Err(Error::contradiction(path, Doubt::OutOfPlane { count }));
-    }
-    Ok(poses.into())
+    Ok((poses.into(), attitude.out_of_plane()))
 }
 
 fn parse_row(

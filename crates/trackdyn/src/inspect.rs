@@ -89,6 +89,10 @@ pub struct Inspection {
 /// be read. A bag that has topics and cannot be used is judged ([`Content::Unread`]).
 pub fn inspect(path: impl AsRef<Path>, settings: &InspectSettings) -> Result<Inspection, Error> {
     let path = path.as_ref();
+    if settings.read.columns.is_some() {
+        let recording = Recording::open(path, &settings.read)?.part(&settings.part)?;
+        return Ok(Inspection::of_motion(&recording, 1.0, settings));
+    }
     if Recording::points_file(path).is_some() {
         let recording = Recording::open(path, &settings.read)?;
         return Ok(Inspection::of_points(&recording, settings));
@@ -142,7 +146,7 @@ impl Inspection {
     }
 
     fn of_bag(path: &Path, settings: &InspectSettings) -> Result<Self, Error> {
-        let seen = rosbag::inspect(path)?;
+        let seen = rosbag::inspect_for(path, &settings.read.bag)?;
         let mut of = match bag::read(path, &settings.read, &seen.suggested) {
             Ok(read) => {
                 let part = read.recording.part(&settings.part)?;

@@ -14,7 +14,9 @@ use std::path::{Path, PathBuf};
 use trackdyn_estimate::Gyroscope;
 use trackdyn_estimate::gyroscope::Unfit;
 use trackdyn_recording::rosbag::RosbagOptions;
-use trackdyn_recording::{Format, OperatingPoints, Recording as Motion, Run, Warning, tum};
+use trackdyn_recording::{
+    Format, OperatingPoints, Recording as Motion, Run, Warning, columns, tum,
+};
 
 /// A topic of a bag, and what was seen of it.
 pub type Topic = trackdyn_recording::rosbag::TopicSummary;
@@ -45,7 +47,8 @@ enum Seen {
 impl Recording {
     /// Reads a recording: a folder with `recording.toml`, a bag of ROS (`.mcap`, `.db3`, `.bag`, or
     /// their folder), a trajectory (`.tum`, `.txt`) with [a table of track
-    /// speeds](ReadOptions::tracks), or a table of steady operating points (`.csv`, or
+    /// speeds](ReadOptions::tracks), a table of both whose [columns are
+    /// named](ReadOptions::columns), or a table of steady operating points (`.csv`, or
     /// `operating_points.csv` in a folder).
     ///
     /// # Errors
@@ -54,7 +57,10 @@ impl Recording {
     /// for options that do not go with the format.
     pub fn open(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, Error> {
         let path = path.as_ref();
-        let seen = if let Some(table) = Self::points_file(path) {
+        let seen = if let Some(columns) = &options.columns {
+            options.refuse_for_table(path)?;
+            Seen::Motion(columns::read(path, columns, &options.bag.of_tables())?)
+        } else if let Some(table) = Self::points_file(path) {
             options.refuse_for_points(&table)?;
             Seen::Points(PointsTable::read(&table)?)
         } else {
@@ -182,7 +188,9 @@ fn motion(path: &Path, options: &ReadOptions) -> Result<Motion, Error> {
     }
     match (format, &options.tracks) {
         (Format::Tum, None) => Err(Error::NoTracks { path: path.to_owned() }),
-        (Format::Tum, Some(tracks)) => Ok(tum::read(path, tracks, "unknown")?),
+        (Format::Tum, Some(tracks)) => {
+            Ok(tum::read_by(path, tracks, "unknown", &options.bag.of_tables())?)
+        }
         (_, None) => Ok(trackdyn_recording::read(path, &options.bag)?),
         (_, Some(_)) => Err(Error::TracksNotNeeded { path: path.to_owned() }),
     }

@@ -4,7 +4,7 @@
 use super::drives::{Bag, RADIUS, angles, at, ns, poses, quaternion, speeds, times};
 use trackdyn_core::PerSide;
 use trackdyn_recording::rosbag::{self, JointSignal, RosbagOptions};
-use trackdyn_recording::{Doubt, Error, Recording};
+use trackdyn_recording::{Doubt, Error, Recording, SpeedUnit};
 
 const TOPIC: &str = "/joint_states";
 
@@ -273,4 +273,35 @@ fn units_that_no_slip_explains_are_named() {
     }
     assert_eq!(ns(1.0), 1_000_000_000);
     assert_speeds(&read_by(bag, &options()).expect("slip"), 3000, 0.0, 1e-12);
+}
+
+#[test]
+fn a_counter_that_does_not_move_is_named() {
+    let names = ["left_wheel", "right_wheel"];
+    let text = refused(of_joints(50, &names, |t| [vec![0.7, angles(t).right], vec![]]));
+    assert!(text.contains("left side never changes (0.000 m/s all the time)"), "{text}");
+    assert!(text.contains("a dead encoder"), "{text}");
+}
+
+#[test]
+fn joints_in_other_units_are_read_with_the_option() {
+    let names = ["left_wheel", "right_wheel"];
+    let degrees = |of: PerSide<f64>| vec![of.left.to_degrees(), of.right.to_degrees()];
+    let by_degrees = RosbagOptions { speed_unit: Some(SpeedUnit::DegreesPerSecond), ..options() };
+    let bag = of_joints(50, &names, |t| [degrees(angles(t)), degrees(speeds(t))]).with_poses();
+    assert_speeds(&read_by(bag, &by_degrees).expect("velocities"), 3000, 0.0, 1e-9);
+    let bag = of_joints(50, &names, |t| [degrees(angles(t)), vec![]]).with_poses();
+    assert_speeds(&read_by(bag, &by_degrees).expect("angles"), 3000, 0.01, 1e-3);
+    // a driver that reports the speeds of the tracks as those of joints, in km/h
+    let kilometres = |t: f64| {
+        let PerSide { left, right } = speeds(t).map(|speed| 3.6 * RADIUS * speed);
+        [vec![], vec![left, right]]
+    };
+    let of_tracks = RosbagOptions {
+        speed_unit: Some(SpeedUnit::KilometresPerHour),
+        wheel_radius: None,
+        ..RosbagOptions::default()
+    };
+    let bag = of_joints(50, &names, kilometres).with_poses();
+    assert_speeds(&read_by(bag, &of_tracks).expect("readable"), 3000, 0.0, 1e-9);
 }

@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 use trackdyn_core::PerSide;
-use trackdyn_recording::Recording;
-use trackdyn_recording::rosbag::{self, RosbagOptions, SignalUnit};
+use trackdyn_recording::rosbag::{self, RosbagOptions};
+use trackdyn_recording::{Recording, SpeedUnit};
 use trackdyn_tests::cdr::Message;
 
 /// A message with all that a definition can have before the numbers.
@@ -141,9 +141,9 @@ fn options(left: &str, right: &str) -> RosbagOptions {
 
 /// Options for the turns per minute of the drive.
 fn of_turns() -> RosbagOptions {
-    let unit = Some(SignalUnit::TurnsPerMinute);
+    let unit = Some(SpeedUnit::TurnsPerMinute);
     let named = options("/status:actuators[0].rpm", "-/status:actuators[1].rpm");
-    RosbagOptions { signal_unit: unit, ..named }
+    RosbagOptions { speed_unit: unit, ..named }
 }
 
 /// Speeds are those of the drive within `near` m/s.
@@ -172,7 +172,7 @@ fn numbers_by_their_path_are_the_speeds_of_the_tracks() {
     }
     let path = folder.path().join("drive.mcap");
     let metres = RosbagOptions {
-        signal_unit: Some(SignalUnit::MetresPerSecond),
+        speed_unit: Some(SpeedUnit::MetresPerSecond),
         wheel_radius: None,
         ..options("/status:actuators[0].speed", "-/status:actuators[1].speed")
     };
@@ -222,11 +222,16 @@ fn a_wrong_path_or_unit_says_what_is_expected() {
     }
     let alone = RosbagOptions { right_signals: Vec::new(), ..of_turns() };
     assert!(refused(&alone).contains("--right-signal TOPIC:FIELD is missing"));
-    let unit = Some(SignalUnit::MetresPerSecond);
-    let text = refused(&RosbagOptions { signal_unit: unit, ..of_turns() });
-    assert!(text.contains("speeds of the tracks already"), "{text}");
-    let text = refused(&RosbagOptions { signal_unit: unit, ..RosbagOptions::default() });
-    assert!(text.contains("--signal-unit: expected with --left-signal"), "{text}");
+    let unit = Some(SpeedUnit::MetresPerSecond);
+    let text = refused(&RosbagOptions { speed_unit: unit, ..of_turns() });
+    assert!(text.contains("those of the tracks already"), "{text}");
+    let of_twist = RosbagOptions {
+        twist_topic: Some("/twist".to_owned()),
+        separation: Some(0.8),
+        speed_unit: unit,
+        ..RosbagOptions::default()
+    };
+    assert!(refused(&of_twist).contains("expected without --twist-topic"));
     let text = refused(&RosbagOptions { wheel_radius: None, ..of_turns() });
     assert!(text.contains("--wheel-radius METRES"), "{text}");
     let both = RosbagOptions { left_joints: vec!["left".to_owned()], ..of_turns() };

@@ -7,13 +7,13 @@ use trackdyn_recording::rosbag::{self, RosbagOptions};
 use trackdyn_recording::{Recording, Warning};
 use trackdyn_tests::cdr;
 
-const COUNT: u32 = 400;
-const RADIUS: f64 = 0.1;
+pub(super) const COUNT: u32 = 400;
+pub(super) const RADIUS: f64 = 0.1;
 /// Metres of a degree of latitude and of longitude at 45 degrees north (NGA).
 const DEGREE: [f64; 2] = [111_131.75, 78_846.81];
 
 /// Time in s, pose (x, y, yaw), speed and yaw rate at a step of 0.1 s: straights and arcs.
-fn truth() -> Vec<(f64, [f64; 3], [f64; 2])> {
+pub(super) fn truth() -> Vec<(f64, [f64; 3], [f64; 2])> {
     let (mut x, mut y, mut yaw) = (0.0, 0.0, 0.4_f64);
     let step = |k: u32| {
         let yaw_rate = if k % 100 < 70 { 0.0 } else { 0.5 };
@@ -26,67 +26,67 @@ fn truth() -> Vec<(f64, [f64; 3], [f64; 2])> {
 }
 
 /// A message that is built in a chain.
-struct Message(cdr::Message);
+pub(super) struct Message(cdr::Message);
 
 impl Message {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self(cdr::Message::bare())
     }
 
-    fn stamped(t: f64, frame: &str) -> Self {
+    pub(super) fn stamped(t: f64, frame: &str) -> Self {
         Self::new().header(t, frame)
     }
 
-    fn header(mut self, t: f64, frame: &str) -> Self {
+    pub(super) fn header(mut self, t: f64, frame: &str) -> Self {
         self.0.header(1_000_000_000_000 + ns(t), frame);
         self
     }
 
-    fn count(mut self, count: usize) -> Self {
+    pub(super) fn count(mut self, count: usize) -> Self {
         self.0.count(count);
         self
     }
 
-    fn text(mut self, text: &str) -> Self {
+    pub(super) fn text(mut self, text: &str) -> Self {
         self.0.text(text);
         self
     }
 
-    fn numbers(mut self, values: &[f64]) -> Self {
+    pub(super) fn numbers(mut self, values: &[f64]) -> Self {
         self.0.numbers(values);
         self
     }
 
-    fn pose(self, [x, y, yaw]: [f64; 3]) -> Self {
+    pub(super) fn pose(self, [x, y, yaw]: [f64; 3]) -> Self {
         self.numbers(&[x, y, 0.3]).numbers(&quaternion(yaw))
     }
 
-    fn twist(self, [forward, yaw_rate]: [f64; 2]) -> Self {
+    pub(super) fn twist(self, [forward, yaw_rate]: [f64; 2]) -> Self {
         self.numbers(&[forward, 0.0, 0.0, 0.0, 0.0, yaw_rate])
     }
 
-    fn fix(mut self, status: i8, [x, y]: [f64; 2]) -> Self {
+    pub(super) fn fix(mut self, status: i8, [x, y]: [f64; 2]) -> Self {
         self.0.bytes(1, &status.to_le_bytes());
         self.0.bytes(2, &[1, 0]);
         let place = [45.0 + y / DEGREE[0], 8.0 + x / DEGREE[1], 200.0];
         self.numbers(&place).numbers(&[0.0; 9])
     }
 
-    fn imu(self, yaw: f64, covariance: f64) -> Self {
+    pub(super) fn imu(self, yaw: f64, covariance: f64) -> Self {
         self.numbers(&quaternion(yaw)).numbers(&[covariance]).numbers(&[0.0; 8 + 3 + 9 + 3 + 9])
     }
 
-    fn joints(t: f64, speeds: [f64; 2]) -> Self {
+    pub(super) fn joints(t: f64, speeds: [f64; 2]) -> Self {
         let names = Self::stamped(t, "").count(2).text("left").text("right");
         names.count(0).count(2).numbers(&speeds).count(0)
     }
 }
 
 /// Topic, type, and the message of each step, where it has one.
-type Topic<'a> = (&'a str, &'a str, &'a dyn Fn(usize, f64) -> Option<Message>);
+pub(super) type Topic<'a> = (&'a str, &'a str, &'a dyn Fn(usize, f64) -> Option<Message>);
 
 /// Writes a bag; each message is logged at the time of its step.
-fn bag(folder: &Path, topics: &[Topic]) -> PathBuf {
+pub(super) fn bag(folder: &Path, topics: &[Topic]) -> PathBuf {
     let path = folder.join("drive.mcap");
     let file = std::io::BufWriter::new(std::fs::File::create(&path).expect("a file"));
     let mut writer = mcap::Writer::new(file).expect("a writer");
@@ -112,21 +112,21 @@ fn bag(folder: &Path, topics: &[Topic]) -> PathBuf {
     path
 }
 
-fn options() -> RosbagOptions {
+pub(super) fn options() -> RosbagOptions {
     RosbagOptions { wheel_radius: Some(RADIUS), ..RosbagOptions::default() }
 }
 
 /// Speeds of a drive with tracks 0.8 m apart, in rad/s.
-fn joints(step: usize, t: f64) -> Option<Message> {
+pub(super) fn joints(step: usize, t: f64) -> Option<Message> {
     let [v, w] = truth()[step].2;
     Some(Message::joints(t, [(v - 0.4 * w) / RADIUS, (v + 0.4 * w) / RADIUS]))
 }
 
-const JOINTS: Topic = ("/joints", "sensor_msgs/msg/JointState", &joints);
+pub(super) const JOINTS: Topic = ("/joints", "sensor_msgs/msg/JointState", &joints);
 
 /// Poses are those of the truth within `near` metres and radians; how many there are.
 #[track_caller]
-fn assert_poses(recording: &Recording, near: f64) -> usize {
+pub(super) fn assert_poses(recording: &Recording, near: f64) -> usize {
     let truth = truth();
     let poses = recording.runs()[0].poses();
     for row in poses {
@@ -263,7 +263,12 @@ fn speeds_of_the_body_are_tracks_with_an_option_and_an_offer_without() {
         let text = rosbag::read(&path, &wanted).map(drop).expect_err("no joints").to_string();
         assert!(text.contains("--twist-topic /wheels --separation METRES"), "{text}");
         wanted.twist_topic = Some("/wheels".into());
+        let text = rosbag::read(&path, &wanted).map(drop).expect_err("no radius").to_string();
+        assert!(text.contains("needs the separation"), "{text}");
         wanted.separation = Some(0.8);
+        let text = rosbag::read(&path, &wanted).map(drop).expect_err("a radius").to_string();
+        assert!(text.contains("--wheel-radius") && text.contains("expected no radius"), "{text}");
+        wanted.wheel_radius = None;
         wanted.pose_topic = None;
         let recording = rosbag::read(&path, &wanted).expect("readable");
         let tracks = recording.runs()[0].tracks();
@@ -308,6 +313,7 @@ fn a_twist_needs_its_separation_and_takes_the_place_of_joints() {
 
     let suggested = rosbag::inspect(&path).expect("readable").suggested;
     assert_eq!(suggested.twist_topic.as_deref(), Some("/wheels"));
+    assert_eq!(suggested.pose_topic.as_deref(), Some("/slam"));
 }
 
 #[test]

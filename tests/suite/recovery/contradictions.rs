@@ -7,7 +7,7 @@ use trackdyn_estimate::Contradiction;
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::identification::{Identification, Options, identify};
 use trackdyn_estimate::synthetic::{ConstantIcr, Synthetic, random_steps};
-use trackdyn_recording::Recording;
+use trackdyn_recording::{Recording, Run, Source};
 
 fn identified(recording: &Recording, gauge: f64) -> Identification {
     let genetic = GeneticOptions { population: 20, generations: 20, ..GeneticOptions::default() };
@@ -32,6 +32,22 @@ fn nothing_contradicts_a_drive_as_it_was() {
 fn icrs_between_the_tracks_are_refused() {
     let found = contradictions(&drive(1), 1.2);
     assert!(matches!(found[..], [Contradiction::Efficiency { chi }] if chi > 1.3), "{found:?}");
+}
+
+/// Miles per hour in place of m/s: less than what makes a reader doubt, and no slip.
+#[test]
+fn a_unit_that_a_reader_lets_pass_contradicts_both_fits() {
+    let mut runs: Vec<_> = drive(2).runs().iter().cloned().map(Run::into_rows).collect();
+    for reading in runs.iter_mut().flat_map(|run| &mut run.tracks.samples) {
+        reading.v_left *= 2.237;
+        reading.v_right *= 2.237;
+    }
+    let recording = Recording::new("mph", "robot", runs, Source::computed(), Vec::new());
+    let [icrs, with_alphas] = identified(&recording.expect("long enough"), GAUGE).fits;
+    for fit in [icrs, with_alphas] {
+        let text = fit.contradictions.iter().map(ToString::to_string).collect::<String>();
+        assert!(text.contains("--speed-unit mph"), "{text}");
+    }
 }
 
 /// Poses of an ideal drive, as a controller computes them; with slip they are those of a robot.

@@ -4,9 +4,11 @@
 //! Every finding is a ratio or a correlation over many stretches of a recording, so that neither
 //! slip nor single wrong readings decide. What slip can explain is left alone.
 
+use super::motion::Following;
 use super::stretches::{Stretch, path_extent, stretches};
-use super::{Run, UncheckedRun};
+use super::{Run, UncheckedRun, idle, stuck};
 use crate::doubt::Doubt;
+use crate::unit;
 use std::f64::consts::TAU;
 use trackdyn_core::robust::{median, usual_interval};
 use trackdyn_core::{Side, real};
@@ -21,9 +23,6 @@ const MIN_CONTRADICTION: f64 = 5.0;
 /// alike, tracks that spin on the spot do not.
 const MAX_QUARTILE_RATIO: f64 = 2.0;
 
-/// Largest factor between a ratio and that of two units; slip and a rough radius are in between.
-const MAX_UNIT_ERROR: f64 = 1.3;
-
 /// Correlation from which on two motions are one.
 const MIN_CORRELATION: f64 = 0.7;
 
@@ -31,7 +30,7 @@ const MIN_CORRELATION: f64 = 0.7;
 const MIN_CONTRAST: f64 = 0.3;
 
 /// Longest usual interval of poses, s.
-const MAX_INTERVAL: f64 = 10.0;
+const MAX_INTERVAL: f64 = 2.0;
 
 /// Least way that one track runs more than the other, m, before yaw has to have changed.
 const MIN_TURNING: f64 = 1.0;
@@ -40,16 +39,14 @@ const MIN_TURNING: f64 = 1.0;
 /// apart; in radians, of ICRs 0.25 m apart.
 const MIN_DEGREES: f64 = 4.0;
 
-/// Ratios of units that are mixed up.
-const UNITS: [(f64, &str); 7] = [
-    (360.0 / TAU, "degrees in place of radians"),
-    (1000.0, "millimetres in place of metres"),
-    (100.0, "centimetres in place of metres"),
-    (39.37, "inches in place of metres"),
-    (25.4, "millimetres in place of inches"),
-    (60.0 / TAU, "turns per minute in place of rad/s"),
-    (TAU, "turns in place of radians"),
-];
+/// Least ratio of ways that differ by that of two units, where all stretches agree.
+const MIN_UNIT_RATIO: f64 = 3.0;
+
+/// Largest factor between such a ratio and that of the units.
+const MAX_UNIT_ERROR: f64 = 1.15;
+
+/// Largest ratio of its quartiles.
+const MAX_UNIT_QUARTILE_RATIO: f64 = 1.3;
 
 /// What contradicts the rows of a run before they are cleaned.
 pub(super) fn of_rows(rows: &UncheckedRun) -> Option<Doubt> {
@@ -102,29 +99,44 @@ fn turned_per_difference(run: &UncheckedRun) -> f64 {
     turned / differences.filter(finite).sum::<f64>()
 }
 
-/// What contradicts what in cleaned runs.
-pub(super) fn of_runs(runs: &[Run]) -> Option<Doubt> {
-    if let Some(doubt) = runs.iter().find_map(of_times) {
-        return Some(doubt);
-    }
-    if let Some(doubt) = orientation(runs) {
-        return Some(doubt);
-    }
+/// What contradicts what in cleaned runs, the gravest first.
+pub(super) fn of_runs(runs: &[Run]) -> Vec<Doubt> {
     let late =
         |tau: f64| -> Vec<Stretch> { runs.iter().flat_map(|run| stretches(run, tau)).collect() };
     let stretches = late(0.0);
-    travel(runs, &stretches).or_else(|| {
-        // A clock that is off must not look like a sign: the delay that explains most decides.
-        let senses = Senses::of(&stretches);
-        let doubt = senses.doubt()?;
-        let lags = LAGS.into_iter().flat_map(|tau| [tau, -tau]);
-        let others = lags.map(|tau| Senses::of(&late(tau)));
-        let best = others.max_by(|a, b| a.explained().total_cmp(&b.explained()));
-        match best.filter(|best| best.explained() > senses.explained() + MIN_LAG_GAIN) {
-            Some(best) => best.doubt(),
-            None => Some(doubt),
-        }
-    })
+    let explained = Senses::of(&stretches).explained();
+    let stuck = stuck::stuck_poses(runs, explained);
+    let orientation = if stuck.is_none() { orientation(runs) } else { None };
+    let mut doubts: Vec<Doubt> = runs.iter().find_map(of_times).into_iter().collect();
+    doubts.extend(stuck.or(orientation));
+    doubts.extend(turn_in_degrees(runs));
+    doubts.extend(idle::dead_encoder(runs, &late));
+    doubts.extend(travel(runs, &stretches));
+    doubts.extend(signs(&stretches, &late));
+    doubts
+}
+
+/// Yaw in degrees, where it is all that is known.
+fn turn_in_degrees(runs: &[Run]) -> Option<Doubt> {
+    if runs.iter().any(Run::has_positions) {
+        return None;
+    }
+    let per_metre = Following::of(runs, &|_, _, _| false)?.turn;
+    (per_metre > MIN_DEGREES).then_some(Doubt::TurnInDegrees { per_metre })
+}
+
+/// Sides that count backwards or are swapped.
+fn signs(stretches: &[Stretch], late: &dyn Fn(f64) -> Vec<Stretch>) -> Option<Doubt> {
+    // A clock that is off must not look like a sign: the delay that explains most decides.
+    let senses = Senses::of(stretches);
+    let doubt = senses.doubt()?;
+    let lags = LAGS.into_iter().flat_map(|tau| [tau, -tau]);
+    let others = lags.map(|tau| Senses::of(&late(tau)));
+    let best = others.max_by(|a, b| a.explained().total_cmp(&b.explained()));
+    match best.filter(|best| best.explained() > senses.explained() + MIN_LAG_GAIN) {
+        Some(best) => best.doubt(),
+        None => Some(doubt),
+    }
 }
 
 /// Fractions of a second in which stamps are written.
@@ -175,19 +187,21 @@ fn travel(runs: &[Run], stretches: &[Stretch]) -> Option<Doubt> {
     }
     let [lower, ratio, upper] = [count / 4, count / 2, count * 3 / 4].map(|at| ratios[at]);
     let size = ratio.max(1.0 / ratio);
-    if !(lower > 0.0 && upper <= MAX_QUARTILE_RATIO * lower && size >= MIN_CONTRADICTION) {
+    let spread = if lower > 0.0 { upper / lower } else { f64::INFINITY };
+    let is_of_units = size >= MIN_UNIT_RATIO
+        && spread <= MAX_UNIT_QUARTILE_RATIO
+        && unit::error(ratio).is_some_and(|error| error <= MAX_UNIT_ERROR);
+    let is_off = spread <= MAX_QUARTILE_RATIO && size >= MIN_CONTRADICTION;
+    if !(is_of_units || is_off) {
         return None;
     }
-    let is_near = |unit: f64| (size / unit).max(unit / size) <= MAX_UNIT_ERROR;
     let interval = runs.first().map_or(0.0, pose_interval);
     if ratio > 1.0 && interval >= MAX_INTERVAL {
+        let is_near = |unit: f64| (size / unit).max(unit / size) <= MAX_QUARTILE_RATIO;
         let unit = FRACTIONS.iter().find(|(unit, _)| is_near(*unit)).map(|(_, name)| *name);
         return Some(Doubt::Stamps { interval, unit });
     }
-    let nearest = UNITS.iter().filter(|(unit, _)| is_near(*unit));
-    let nearest =
-        nearest.min_by(|(a, _), (b, _)| (size / a).ln().abs().total_cmp(&(size / b).ln().abs()));
-    Some(Doubt::Travel { ratio, units: nearest.map(|(_, name)| *name) })
+    Some(Doubt::Travel { ratio, units: unit::mixed_up(ratio) })
 }
 
 /// Delays of the poses that are tried before a sign is doubted, s.
@@ -245,9 +259,9 @@ impl Senses {
         let is_against = right.map(|correlation| correlation <= -MIN_CORRELATION);
         match is_against {
             [true, true] => Some(Doubt::BothReversed),
-            // A sensor that looks backwards turns as the robot does.
-            [_, false] => None,
             [false, true] => Some(Doubt::Swapped),
+            [true, false] => (right[1] >= MIN_CORRELATION).then_some(Doubt::Backwards),
+            [false, false] => None,
         }
     }
 }

@@ -19,6 +19,16 @@ pub struct UncheckedRun {
     pub imu: Series<ImuSample>,
 }
 
+/// Turns poses from the axes of the sensor to those of the robot, on which it is mounted at a yaw,
+/// rad. Where it is mounted is another matter.
+pub(crate) fn turn_sensor(runs: &mut [UncheckedRun], yaw: Option<f64>) {
+    let Some(yaw) = yaw else { return };
+    for sample in runs.iter_mut().flat_map(|run| &mut run.poses.samples) {
+        // world_from_body = world_from_sensor · sensor_from_body
+        sample.pose.yaw -= yaw;
+    }
+}
+
 /// A continuous stretch of driving with its own pose frame, cleaned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
@@ -46,6 +56,26 @@ impl Run {
     pub(crate) fn mended(mut self, cleanings: &mut Vec<Cleaning>) -> Self {
         mend(&mut self.tracks.samples, self.id, cleanings);
         self
+    }
+
+    /// Replaces the readings of the tracks by some of them, with the columns beside them.
+    pub(super) fn keep_readings(&mut self, rows: &[usize]) {
+        self.tracks = self.tracks.part(rows);
+    }
+
+    /// Replaces the poses by some of them, with the columns beside them.
+    pub(super) fn keep_poses(&mut self, rows: &[usize]) {
+        self.poses = self.poses.part(rows);
+    }
+
+    /// Leaves out the readings of the IMU.
+    pub(super) fn drop_imu(&mut self) {
+        self.imu = Series::default();
+    }
+
+    /// The readings of the tracks, to mend single ones.
+    pub(super) fn readings_mut(&mut self) -> &mut [TrackSample] {
+        &mut self.tracks.samples
     }
 
     /// This run with positions as well known as those of the run that it is a part of.

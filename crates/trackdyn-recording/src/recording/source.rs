@@ -12,6 +12,8 @@ pub enum Format {
     Rosbag,
     /// A trajectory of the TUM benchmark and a CSV of track speeds.
     Tum,
+    /// One table with columns that the user names.
+    Table,
     /// Computed.
     Memory,
 }

@@ -104,7 +104,7 @@ fn spikes(speeds: &[f64], possible: f64) -> Vec<usize> {
 }
 
 /// Replaces values at these places by the line between their good neighbours in time.
-fn bridge(times: &[f64], values: &mut [f64], places: &[usize]) {
+pub(super) fn bridge(times: &[f64], values: &mut [f64], places: &[usize]) {
     for group in places.chunk_by(|a, b| a + 1 == *b) {
         let (first, last) = (group[0], group[group.len() - 1]);
         let before = first.checked_sub(1);

@@ -14,6 +14,8 @@ const MAX_TURN: f64 = 0.5;
 /// What tracks and poses did between two poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stretch {
+    /// Its time, s.
+    pub(super) duration: f64,
     /// Way of each track, m.
     pub(super) tracks: PerSide<f64>,
     /// Distance of both poses, m.
@@ -67,6 +69,7 @@ pub(super) fn stretches(run: &Run, tau: f64) -> Vec<Stretch> {
         }
         let (sin, cos) = (start.pose.yaw + 0.5 * turn).sin_cos();
         stretches.push(Stretch {
+            duration: end.t - start.t,
             tracks: travelled(run.tracks(), start.t, end.t, tau),
             distance,
             forward: cos * x + sin * y,

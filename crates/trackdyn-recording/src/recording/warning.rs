@@ -1,5 +1,6 @@
 //! What was done to a recording on its way in.
 
+use crate::doubt::Doubt;
 use crate::sample::Stream;
 use std::fmt;
 use std::path::PathBuf;
@@ -131,6 +132,13 @@ pub enum Warning {
         /// The topic of the IMU.
         imu: String,
     },
+    /// Readings of an IMU that are left out, because its yaw rates are in degrees per second.
+    GyroInDegrees {
+        /// Turn of the gyroscope per turn of the poses.
+        ratio: f64,
+    },
+    /// A doubt that the user accepted.
+    Accepted(Doubt),
     /// A choice that the reader made.
     Chosen {
         /// What it was for.
@@ -186,12 +194,31 @@ pub enum Finding {
         /// Size of the largest, m/s.
         largest: f64,
     },
+    /// Readings of a side at zero while the poses show that its track moves: a few in a row are
+    /// replaced by the line between their neighbours, more are dropped.
+    Dead {
+        /// The longest time, s.
+        longest: f64,
+    },
+    /// Poses that repeat the one before for long while the tracks move: they are dropped.
+    Frozen {
+        /// The longest time, s.
+        longest: f64,
+    },
 }
 
 impl Finding {
     /// Whether rows were dropped or moved because of it.
     pub(crate) fn changes_rows(self) -> bool {
-        matches!(self, Self::NotFinite | Self::Unsorted | Self::Far | Self::Repeated)
+        matches!(
+            self,
+            Self::NotFinite
+                | Self::Unsorted
+                | Self::Far
+                | Self::Repeated
+                | Self::Dead { .. }
+                | Self::Frozen { .. }
+        )
     }
 }
 
@@ -211,6 +238,8 @@ pub(super) fn gather(cleanings: Vec<Cleaning>) -> Vec<Cleaning> {
         sum.runs += next.runs;
         match (&mut sum.finding, next.finding) {
             (Finding::Gap { longest: most }, Finding::Gap { longest: other })
+            | (Finding::Dead { longest: most }, Finding::Dead { longest: other })
+            | (Finding::Frozen { longest: most }, Finding::Frozen { longest: other })
             | (Finding::Spike { largest: most }, Finding::Spike { largest: other }) => {
                 *most = most.max(other);
             }
@@ -245,6 +274,16 @@ impl fmt::Display for Cleaning {
                 f,
                 "speeds that jump away from their neighbours and back, up to {largest:.1} m/s \
                  (glitch, restart or wrap of an encoder), replaced by the line between them"
+            )?,
+            Finding::Dead { longest } => write!(
+                f,
+                "readings of a side at zero, for up to {longest:.3} s, while the poses show that \
+                 its track moves (a dead encoder), bridged where short and else left out"
+            )?,
+            Finding::Frozen { longest } => write!(
+                f,
+                "rows repeat the one before, for up to {longest:.3} s, while the tracks drive (a \
+                 tracker that is stuck), left out"
             )?,
         }
         write!(f, " ({runs} runs, first at t = {t} s of run {run})")
@@ -347,6 +386,14 @@ impl fmt::Display for Warning {
                 "{topic}: positions of its antenna in metres east and north of the first fix, \
                  with the yaw of {imu}, which has to count from east (REP-103)"
             ),
+            Self::GyroInDegrees { ratio } => write!(
+                f,
+                "imu: its yaw rates are {ratio:.1} times what the poses show, degrees per second \
+                 in place of rad/s: left out (--gyro-unit deg/s reads them)"
+            ),
+            Self::Accepted(doubt) => {
+                write!(f, "{doubt}; read all the same (--accept {})", doubt.kind().name())
+            }
             Self::Chosen { what, taken } => write!(f, "{what}: took {taken}"),
         }
     }

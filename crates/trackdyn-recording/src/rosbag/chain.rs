@@ -5,6 +5,7 @@
 //! rotation about one axis), and never beyond them: poses there are left out. Links of a topic that
 //! ends in `_static` hold at all times.
 
+use super::clock::{By, Clock, decide};
 use super::date::{Received, Stamped, dated};
 use super::frames::{Frames, Hop, is_of_odometry};
 use super::message::{header, planar, rigid};
@@ -14,6 +15,7 @@ use super::storage;
 use super::topic::{Layout, Topic};
 use super::visitor::Visitor;
 use crate::Error;
+use crate::attitude::Attitude;
 use crate::recording::Warning;
 use nalgebra::Isometry3;
 use std::fmt::Write;
@@ -23,10 +25,15 @@ use std::path::Path;
 pub(super) struct Chain {
     /// x, y, yaw.
     pub(super) poses: Vec<Stamped<[f64; 3]>>,
+    /// How upright they are.
+    pub(super) attitude: Attitude,
+    /// What dates them, and all other messages.
+    pub(super) by: By,
     pub(super) warnings: Vec<Warning>,
 }
 
-/// Reads the transforms on the way from `parent` to `child` and composes them.
+/// Reads the transforms on the way from `parent` to `child` and composes them. Their clocks are
+/// compared with those of the tracks.
 ///
 /// # Errors
 /// Frames that no transforms link, or whose transforms share no time.
@@ -35,6 +42,7 @@ pub(super) fn read(
     options: &RosbagOptions,
     frames: &Frames,
     [parent, child]: [&str; 2],
+    tracks: &[Clock],
 ) -> Result<Chain, Error> {
     let refuse = |problem: String| Error::Topic {
         path: path.to_owned(),
@@ -50,8 +58,8 @@ pub(super) fn read(
     let mut collector = Collector { options, links };
     // The damage of the files was told when their frames were read.
     storage::scan(path, &mut collector)?;
-    let mut warnings = Vec::new();
-    let series = collector.links.into_iter().map(|link| Series::of(link, &mut warnings));
+    let (by, mut warnings) = dating(&collector.links, tracks, options);
+    let series = collector.links.into_iter().map(|link| Series::of(link, by, &mut warnings));
     let series: Vec<Series> = series.collect();
     let moving = || series.iter().filter(|link| !link.is_static);
     let Some(leading) = moving().max_by_key(|link| link.changes()) else {
@@ -59,13 +67,17 @@ pub(super) fn read(
     };
     let mut left_out = 0_usize;
     let mut poses = Vec::new();
+    let mut attitude = Attitude::default();
     for &(stamp, _) in &leading.moments {
         let composed = series.iter().try_fold(Isometry3::identity(), |before, link| {
             let transform = link.at(stamp)?;
             Some(before * if link.hop.inverse { transform.inverse() } else { transform })
         });
         match composed {
-            Some(transform) => poses.push((stamp, planar(&transform))),
+            Some(transform) => {
+                attitude.note(transform.rotation.coords.into());
+                poses.push((stamp, planar(&transform)));
+            }
             None => left_out += 1,
         }
     }
@@ -81,7 +93,23 @@ pub(super) fn read(
     warnings.push(Warning::Chosen { what: "poses", taken });
     let odometry = moving().find(|link| is_of_odometry(&link.hop.link.parent));
     warnings.extend(odometry.map(|link| Warning::OwnOdometry { poses: link.name() }));
-    Ok(Chain { poses, warnings })
+    Ok(Chain { poses, attitude, by, warnings })
+}
+
+/// What dates all messages, by the clocks of the tracks and of the links. The link that changes
+/// most counts as a topic of poses does; corrections, such as map → odom, are often stamped ahead,
+/// and count only where no delay explains their stamps.
+fn dating(links: &[Link], tracks: &[Clock], options: &RosbagOptions) -> (By, Vec<Warning>) {
+    let moving = || links.iter().filter(|link| !link.is_static);
+    let Some(leading) = moving().max_by_key(|link| link.changes()) else {
+        return (By::Header, Vec::new());
+    };
+    let mut clocks = tracks.to_vec();
+    clocks.push(leading.clock());
+    let others = moving().filter(|link| link.hop != leading.hop).map(Link::clock);
+    let first = clocks[0].clone();
+    clocks.extend(others.filter(|clock| clock.is_apart_from(&first)));
+    decide(&clocks, options.dated_by)
 }
 
 /// The transforms of a link as they were received.
@@ -97,6 +125,16 @@ impl Link {
     fn new(hop: Hop) -> Self {
         Self { hop, is_static: false, topic: String::new(), received: Vec::new() }
     }
+
+    /// How often it is reported to have changed, in the order of the bag.
+    fn changes(&self) -> usize {
+        self.received.windows(2).filter(|pair| pair[0].value != pair[1].value).count()
+    }
+
+    fn clock(&self) -> Clock {
+        let name = format!("{} ({} -> {})", self.topic, self.hop.link.parent, self.hop.link.child);
+        Clock::of(&name, &self.received)
+    }
 }
 
 /// The transforms of a link in the order of time.
@@ -108,9 +146,12 @@ struct Series {
 
 impl Series {
     /// In the order of time, the first of each stamp.
-    fn of(link: Link, warnings: &mut Vec<Warning>) -> Self {
+    fn of(link: Link, by: By, warnings: &mut Vec<Warning>) -> Self {
         let Link { hop, is_static, topic, received } = link;
-        let (mut moments, warning) = dated(&topic, received);
+        let (mut moments, warning) = match by {
+            By::Header => dated(&topic, received),
+            By::Log => (received.into_iter().map(|one| (one.log_ns, one.value)).collect(), None),
+        };
         // What holds at all times needs no stamp.
         warnings.extend(warning.filter(|_| !is_static));
         moments.sort_by_key(|(stamp, _)| *stamp);

@@ -145,6 +145,11 @@ impl Clock {
         !self.is_stamped() || (1.0 / MAX_SPEED_RATIO..=MAX_SPEED_RATIO).contains(&ratio)
     }
 
+    /// Whether the stamps of two topics differ by more than a delay explains.
+    pub(super) fn is_apart_from(&self, other: &Self) -> bool {
+        self.broken || (self.ahead - other.ahead).abs() > MAX_LATENESS
+    }
+
     /// Whether two topics were logged over one time, at least half of the shorter one.
     fn was_logged_with(&self, other: &Self) -> bool {
         let length = |of: &Self| seconds(of.logged[0], of.logged[1]);

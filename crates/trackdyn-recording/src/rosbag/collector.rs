@@ -1,7 +1,7 @@
 //! From messages to a run.
 
 use super::chain;
-use super::clock::{By, Clock, decide};
+use super::clock::{Clock, decide};
 use super::date::{Received, Stamped};
 use super::fixes::{Fix, Yaw};
 use super::frames::Frames;
@@ -12,7 +12,7 @@ use super::signals::Signals;
 use super::topic::{Topic, list};
 use crate::Error;
 use crate::attitude::Attitude;
-use crate::doubt::Doubt;
+use crate::doubt::{Doubt, DoubtKind};
 use crate::recording::{UncheckedRun, Warning};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -39,6 +39,8 @@ use speeds::Streams;
 pub(super) struct Collector<'a> {
     options: &'a RosbagOptions,
     joints: Joints,
+    /// Of `control_msgs/DynamicJointState`, which often tell joints of other messages again.
+    dynamic_joints: Joints,
     signals: Signals,
     seen: Vec<Topic>,
     poses: BTreeMap<PoseKey, Rows>,
@@ -91,6 +93,7 @@ impl<'a> Collector<'a> {
         Self {
             options,
             joints: Joints::new(options),
+            dynamic_joints: Joints::new(options),
             signals,
             seen: Vec::new(),
             poses: BTreeMap::new(),
@@ -117,28 +120,11 @@ impl<'a> Collector<'a> {
             warnings.push(Warning::MessagesSkipped { topic, count: *count, reason });
         }
         let sources = Sources { path, options: self.options, seen: &self.seen };
-        let chosen = sources.tracks(self.joints.into_sources(), &self.skipped, &mut warnings)?;
+        let is_dynamic = !self.joints.has_any() && self.dynamic_joints.has_any();
+        let joints = if is_dynamic { self.dynamic_joints } else { self.joints };
+        let chosen = sources.tracks(joints.into_sources(), &self.skipped, &mut warnings)?;
         let (imu_topic, imu) = sources.imu(self.imu, &mut warnings)?;
         let is_free = !self.options.names_poses();
-        let (poses, pose_topic, chained) = match (self.options.frames(), self.poses.is_empty()) {
-            (Some(ends), true) if !self.frames.is_empty() => {
-                let chain = chain::read(path, self.options, &self.frames, ends)?;
-                warnings.extend(chain.warnings);
-                (Vec::new(), String::new(), Some(chain.poses))
-            }
-            _ if self.poses.is_empty() && is_free && !imu.is_empty() => {
-                let taken = format!("the yaw of the gyroscope {imu_topic}, without positions");
-                warnings.push(Warning::Chosen { what: "poses", taken });
-                (gyro::headings(&imu), imu_topic.clone(), None)
-            }
-            _ => {
-                let (key, poses) = sources.poses(self.poses, &mut warnings)?;
-                if let Some(count) = self.attitudes.get(&key).and_then(Attitude::tilted) {
-                    return Err(Error::contradiction(path, Doubt::OutOfPlane { count }));
-                }
-                (poses, key.topic, None)
-            }
-        };
         // Clocks of the tracks come first: others are compared with them.
         let mut clocks: Vec<Clock> = Vec::new();
         for joint in &chosen.joints {
@@ -148,13 +134,39 @@ impl<'a> Collector<'a> {
                 clocks.extend(most.map(|all| Clock::of(&joint.topic, all)));
             }
         }
+        let mut attitude = None;
+        let mut chain_by = None;
+        let (poses, pose_topic, chained) = match (self.options.frames(), self.poses.is_empty()) {
+            (Some(ends), true) if !self.frames.is_empty() => {
+                let chain = chain::read(path, self.options, &self.frames, ends, &clocks)?;
+                warnings.extend(chain.warnings);
+                (attitude, chain_by) = (Some(chain.attitude), Some(chain.by));
+                (Vec::new(), String::new(), Some(chain.poses))
+            }
+            _ if self.poses.is_empty() && is_free && !imu.is_empty() => {
+                let taken = format!("the yaw of the gyroscope {imu_topic}, without positions");
+                warnings.push(Warning::Chosen { what: "poses", taken });
+                (gyro::headings(&imu), imu_topic.clone(), None)
+            }
+            _ => {
+                let (key, poses) = sources.poses(self.poses, &self.skipped, &mut warnings)?;
+                attitude = self.attitudes.get(&key).copied();
+                (poses, key.topic, None)
+            }
+        };
+        if let Some((count, axes)) = attitude.as_ref().and_then(Attitude::out_of_plane) {
+            let doubt = Doubt::OutOfPlane { count, axes };
+            if !self.options.accepted.contains(&DoubtKind::OutOfPlane) {
+                return Err(Error::contradiction(path, doubt));
+            }
+            warnings.push(Warning::Accepted(doubt));
+        }
         clocks.push(Clock::of(&pose_topic, &poses));
         clocks.push(Clock::of(&imu_topic, &imu));
-        let (by, told) = if chained.is_some() {
-            // Poses of a chain stand at the stamps of its links.
-            (By::Header, Vec::new())
-        } else {
-            decide(&clocks, self.options.dated_by)
+        // Poses of a chain are dated already, by the clocks of its links.
+        let (by, told) = match chain_by {
+            Some(by) => (by, Vec::new()),
+            None => decide(&clocks, self.options.dated_by),
         };
         warnings.extend(told);
         warnings.extend(clocks.iter().flat_map(|clock| clock.warnings(by)));

@@ -1,5 +1,6 @@
 //! What a bag holds, and which options would read it.
 
+use super::dynamic_joints;
 use super::frames::{Frames, is_transforms, may_be_odometry};
 use super::joints;
 use super::message::header;
@@ -52,11 +53,20 @@ pub struct TopicSummary {
 /// # Errors
 /// [`Error::NotARecording`], [`Error::Bag`], [`Error::Unreadable`].
 pub fn inspect(path: &Path) -> Result<Inspection, Error> {
+    inspect_for(path, &RosbagOptions::default())
+}
+
+/// As [`inspect`], for a user who has given some options already: poses of a driver whose speeds
+/// are taken are suggested only where there are no others.
+///
+/// # Errors
+/// Those of [`inspect`].
+pub fn inspect_for(path: &Path, given: &RosbagOptions) -> Result<Inspection, Error> {
     let mut observer = Observer::default();
     let mut warnings = storage::scan(path, &mut observer)?;
     let topics: Vec<TopicSummary> =
         observer.topics.into_iter().map(|(topic, seen)| seen.summary(topic)).collect();
-    let suggested = suggest(&topics);
+    let suggested = suggest(&topics, given);
     let chosen = topics.iter().filter(|topic| Some(&topic.name) == suggested.pose_topic.as_ref());
     let odometry = chosen.filter(|topic| {
         may_be_odometry(&topic.kind, topic.frames.iter().map(|(parent, _)| &**parent))
@@ -108,6 +118,14 @@ impl Seen {
                 self.signals =
                     signals.into_iter().filter_map(|(has, name)| has.then_some(name)).collect();
             }
+            Layout::DynamicJointState if self.joints.is_empty() => {
+                header(&mut payload)?;
+                let joints = dynamic_joints::read(&mut payload)?;
+                self.joints = joints.names.into_iter().map(str::to_owned).collect();
+                let signals = joints.signals.iter().zip(["position", "velocity"]);
+                self.signals =
+                    signals.filter_map(|(all, name)| (!all.is_empty()).then_some(name)).collect();
+            }
             Layout::Pose | Layout::Path | Layout::PoseArray | Layout::Fix => {
                 let frame = header(&mut payload)?.frame;
                 self.note_frames(frame, "");
@@ -125,6 +143,7 @@ impl Seen {
                 }
             }
             Layout::JointState
+            | Layout::DynamicJointState
             | Layout::Imu
             | Layout::BarePose
             | Layout::Twist
@@ -155,13 +174,18 @@ impl Seen {
     }
 }
 
-/// The topic of the poses and their frames: the only Odometry or stamped pose, else the only topic
-/// of transforms, whose chain from the root to the body of the robot is taken.
-fn suggest_poses(topics: Vec<&TopicSummary>) -> (Option<String>, Option<(String, String)>) {
+/// The topics that are no second choice, where there are any.
+fn first_choice(topics: Vec<&TopicSummary>) -> Vec<&TopicSummary> {
     let is_second =
         |topic: &&TopicSummary| Layout::of_kind(&topic.kind).is_some_and(Layout::is_second_choice);
     let (second, first): (Vec<_>, Vec<_>) = topics.into_iter().partition(is_second);
-    let topics = if first.is_empty() { second } else { first };
+    if first.is_empty() { second } else { first }
+}
+
+/// The topic of the poses and their frames: the only Odometry or stamped pose, else the only topic
+/// of transforms, whose chain from the root to the body of the robot is taken.
+fn suggest_poses(topics: Vec<&TopicSummary>) -> (Option<String>, Option<(String, String)>) {
+    let topics = first_choice(topics);
     let is_tf = |topic: &&TopicSummary| is_transforms(&topic.kind);
     let (transforms, direct): (Vec<_>, Vec<_>) = topics.into_iter().partition(is_tf);
     let (stays, moves): (Vec<_>, Vec<_>) =
@@ -190,24 +214,28 @@ fn has_twist(topic: &TopicSummary) -> bool {
 }
 
 /// Names what the bag has one of; among several poses, an Odometry or stamped pose before tf.
-fn suggest(topics: &[TopicSummary]) -> RosbagOptions {
+fn suggest(topics: &[TopicSummary], given: &RosbagOptions) -> RosbagOptions {
     let of = |role| topics.iter().filter(move |t| t.role == Some(role) && t.messages > 0);
     let only = |candidates: Vec<&TopicSummary>| match candidates.as_slice() {
         [topic] => Some(topic.name.clone()),
         _ => None,
     };
-    let tracks = only(of(Role::Tracks).collect());
+    let tracks = only(first_choice(of(Role::Tracks).collect()));
     let side = |side: Side| {
         let named = topics.iter().find(|topic| Some(&topic.name) == tracks.as_ref());
         named.map(|topic| joints::of_side(&topic.joints, side)).unwrap_or_default()
     };
-    let (pose, frames) = suggest_poses(of(Role::Poses).collect());
     // Where there are no joints: the only speeds of the body that are no commands.
     let mut twists = topics.iter().filter(|topic| topic.messages > 0 && has_twist(topic));
     let twist = match (tracks.is_none(), twists.next(), twists.next()) {
         (true, Some(topic), None) => Some(topic.name.clone()),
         _ => None,
     };
+    let is_of_speeds = |topic: &&TopicSummary| {
+        given.takes_speeds_of(&topic.name) || Some(&topic.name) == twist.as_ref()
+    };
+    let (of_speeds, others): (Vec<_>, Vec<_>) = of(Role::Poses).partition(is_of_speeds);
+    let (pose, frames) = suggest_poses(if others.is_empty() { of_speeds } else { others });
     let pose = pose.filter(|pose| Some(pose) != twist.as_ref());
     RosbagOptions {
         left_joints: side(Side::Left),

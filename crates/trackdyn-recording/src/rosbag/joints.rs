@@ -7,6 +7,7 @@ use super::date::Received;
 use super::names::{self, Part};
 use super::options::RosbagOptions;
 use super::payload::{Payload, PayloadError};
+use crate::unit::SpeedUnit;
 use std::convert::Infallible;
 use trackdyn_core::{PerSide, Side};
 
@@ -54,6 +55,8 @@ impl Column {
 #[derive(Clone, Debug)]
 pub(super) struct Joints {
     named: PerSide<Vec<String>>,
+    /// rad or rad/s, or m/s where they are speeds of the tracks, per unit of the numbers.
+    factor: f64,
     sources: Vec<Source>,
     /// Where the last message belonged.
     last: usize,
@@ -62,7 +65,14 @@ pub(super) struct Joints {
 impl Joints {
     pub(super) fn new(options: &RosbagOptions) -> Self {
         let named = PerSide::new(options.left_joints.clone(), options.right_joints.clone());
-        Self { named, sources: Vec::new(), last: 0 }
+        let factor = options.speed_unit.map_or(1.0, SpeedUnit::factor);
+        Self { named, factor, sources: Vec::new(), last: 0 }
+    }
+
+    /// Whether a joint may turn a track by its name, or by the options.
+    pub(super) fn has_any(&self) -> bool {
+        let mut columns = self.sources.iter().flat_map(|source| &source.columns);
+        columns.any(|column| column.part != Part::Other)
     }
 
     /// What all messages told.
@@ -89,17 +99,19 @@ impl Joints {
         self.enter(topic, received, &names, has, |signal| places[signal].f64())
     }
 
-    /// Takes joints with velocities, rad/s.
-    pub(super) fn take_velocities(
+    /// Takes joints with positions and velocities; a signal that none of them has is empty.
+    pub(super) fn take_signals(
         &mut self,
         topic: &str,
         received: Received<()>,
         names: &[&str],
-        velocities: &[f64],
+        signals: [&[f64]; 2],
     ) {
-        let mut velocities = velocities.iter();
-        let next = |_| Ok::<_, Infallible>(velocities.next().copied().unwrap_or(f64::NAN));
-        let Ok(()) = self.enter(topic, received, names, [false, true], next);
+        let has = signals.map(|values| !values.is_empty());
+        let mut rest = signals.map(<[f64]>::iter);
+        let next =
+            |signal: usize| Ok::<_, Infallible>(rest[signal].next().copied().unwrap_or(f64::NAN));
+        let Ok(()) = self.enter(topic, received, names, has, next);
     }
 
     /// Takes the signals of joints that `has` says to be there: all positions, then all velocities,
@@ -129,7 +141,7 @@ impl Joints {
         for signal in [0, 1].into_iter().filter(|&signal| has[signal]) {
             let mut columns = source.columns.iter_mut().peekable();
             for place in 0..names.len() {
-                let value = next(signal)?;
+                let value = self.factor * next(signal)?;
                 while let Some(column) = columns.next_if(|column| column.place == place) {
                     let all =
                         if signal == 0 { &mut column.positions } else { &mut column.velocities };

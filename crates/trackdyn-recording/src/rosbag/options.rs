@@ -1,13 +1,15 @@
 //! What to take from a bag.
 
 use super::topic::STATIC;
-use std::f64::consts::TAU;
+use crate::doubt::DoubtKind;
+use crate::format::TableOptions;
+use crate::unit::SpeedUnit;
 use std::path::PathBuf;
 
 /// Topics, joints and frames; what is left open is taken where the bag leaves no choice.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RosbagOptions {
-    /// Topic of the `sensor_msgs/JointState`.
+    /// Topic of the `sensor_msgs/JointState` or `control_msgs/DynamicJointState`.
     pub tracks_topic: Option<String>,
     /// Joints of the left side; their mean counts, and a `-` before a name reverses its sign.
     /// Empty: those whose name has a word of the side, such as `left`, `l` or `fl`, without parts
@@ -21,6 +23,9 @@ pub struct RosbagOptions {
     pub wheel_radius: Option<f64>,
     /// Topic of the poses.
     pub pose_topic: Option<String>,
+    /// Which pose of a `geometry_msgs/PoseArray` is that of the robot, from 0; needed where its
+    /// messages have several.
+    pub pose_index: Option<usize>,
     /// Frame that the poses are expressed in. Where both frames are named and no topic has their
     /// poses, they are composed along a chain of transforms.
     pub parent_frame: Option<String>,
@@ -31,8 +36,8 @@ pub struct RosbagOptions {
     /// Topic of the speeds of the body (`nav_msgs/Odometry`, `geometry_msgs/Twist`, `TwistStamped`
     /// or `TwistWithCovarianceStamped`) that track speeds are made of, in place of joints:
     /// `v_l` = v - ω b/2 and `v_r` = v + ω b/2. They are those of the tracks only where the driver
-    /// has computed them from the encoders alone, with the separation b. A wheel radius has no
-    /// meaning then.
+    /// has computed them from the encoders alone, with the separation b. A wheel radius is refused
+    /// then.
     pub twist_topic: Option<String>,
     /// Separation b of the tracks that the driver of `twist_topic` reckons with, m; needed with it.
     pub separation: Option<f64>,
@@ -43,18 +48,35 @@ pub struct RosbagOptions {
     pub left_signals: Vec<String>,
     /// Numbers of the right side, in the same way.
     pub right_signals: Vec<String>,
-    /// Unit of these numbers; none: rad/s.
-    pub signal_unit: Option<SignalUnit>,
+    /// Unit of the speeds of joints or of these numbers, whose angles it is of as well; none: rad/s.
+    pub speed_unit: Option<SpeedUnit>,
     /// Folder of definitions of messages (`PACKAGE/msg/TYPE.msg`), for bags that have none.
     pub msg_dir: Option<PathBuf>,
     /// What dates the messages.
     pub dated_by: Dating,
+    /// Yaw of the x axis of the pose sensor on the robot, rad: π where it faces backwards.
+    pub sensor_yaw: Option<f64>,
+    /// Whether the yaw rates of the IMU are in degrees per second.
+    pub gyro_in_degrees: bool,
+    /// Doubts that do not stop the reader, because the user knows better.
+    pub accepted: Vec<DoubtKind>,
 }
 
 impl RosbagOptions {
     /// Whether speeds come from wheels, whose radius makes them speeds of the tracks.
     pub fn counts_wheels(&self) -> bool {
-        self.twist_topic.is_none() && self.signal_unit != Some(SignalUnit::MetresPerSecond)
+        self.twist_topic.is_none() && self.speed_unit.is_none_or(SpeedUnit::is_of_wheels)
+    }
+
+    /// What counts for tables as well.
+    pub fn of_tables(&self) -> TableOptions {
+        TableOptions {
+            speed_unit: self.speed_unit,
+            wheel_radius: self.wheel_radius,
+            sensor_yaw: self.sensor_yaw,
+            gyro_in_degrees: self.gyro_in_degrees,
+            accepted: self.accepted.clone(),
+        }
     }
 
     /// Parent and child frame of the poses, where both are named.
@@ -71,6 +93,17 @@ impl RosbagOptions {
             ("--joint-signal", self.joint_signal != JointSignal::Any),
         ];
         given.into_iter().find_map(|(name, given)| given.then_some(name))
+    }
+
+    /// Whether poses of a topic are those of a driver whose speeds are taken: they come from the
+    /// tracks themselves.
+    pub(super) fn takes_speeds_of(&self, topic: &str) -> bool {
+        let signals = self.left_signals.iter().chain(&self.right_signals);
+        let mut topics = signals.filter_map(|text| {
+            let (topic, _) = text.strip_prefix('-').unwrap_or(text).split_once(':')?;
+            Some(topic)
+        });
+        topics.any(|name| name == topic) || self.twist_topic.as_deref() == Some(topic)
     }
 
     /// Whether anything is said of the poses.
@@ -97,31 +130,6 @@ pub enum Dating {
     Header,
     /// The times at which they were logged.
     Log,
-}
-
-/// Unit of numbers that are speeds of the sides.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SignalUnit {
-    /// m/s, of the tracks themselves.
-    MetresPerSecond,
-    /// rad/s, of the wheels.
-    #[default]
-    RadiansPerSecond,
-    /// Turns per minute, of the wheels.
-    TurnsPerMinute,
-    /// Degrees per second, of the wheels.
-    DegreesPerSecond,
-}
-
-impl SignalUnit {
-    /// rad/s, or m/s where they are speeds of the tracks, per unit.
-    pub(super) fn factor(self) -> f64 {
-        match self {
-            Self::MetresPerSecond | Self::RadiansPerSecond => 1.0,
-            Self::TurnsPerMinute => TAU / 60.0,
-            Self::DegreesPerSecond => TAU / 360.0,
-        }
-    }
 }
 
 /// Signal of a joint.

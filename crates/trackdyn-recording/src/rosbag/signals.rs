@@ -3,7 +3,7 @@
 //! They are read as the velocities of joints, one for each path.
 
 use super::definition::{Definition, Field, Route, Texts};
-use super::options::{RosbagOptions, SignalUnit};
+use super::options::RosbagOptions;
 use super::payload::Encoding;
 use super::topic::Topic;
 use crate::Error;
@@ -16,8 +16,6 @@ use trackdyn_core::{PerSide, Side};
 #[derive(Default)]
 pub(super) struct Signals {
     wanted: Vec<Wanted>,
-    /// rad/s, or m/s where they are speeds of the tracks, per unit of the numbers.
-    factor: f64,
     texts: Texts,
     /// How messages are read, by topic.
     decoders: BTreeMap<String, Decoder>,
@@ -48,7 +46,7 @@ struct Decoder {
 pub(super) struct Read<'a> {
     pub(super) stamp_ns: Option<i64>,
     pub(super) names: Vec<&'a str>,
-    /// rad/s, or m/s where they are speeds of the tracks.
+    /// In the unit of the options.
     pub(super) speeds: Vec<f64>,
 }
 
@@ -75,13 +73,12 @@ pub(super) fn effective<'a>(
 ) -> Result<Cow<'a, RosbagOptions>, Error> {
     let refuse = |problem: String| Err(Error::Options { path: path.to_owned(), problem });
     let given = given(&options);
-    if given.left.is_empty() && given.right.is_empty() {
-        let needs = match (options.signal_unit, &options.msg_dir) {
-            (Some(_), _) => "--signal-unit",
-            (None, Some(_)) => "--msg-dir",
-            (None, None) => return Ok(options),
-        };
-        return refuse(format!("{needs}: expected with --left-signal and --right-signal"));
+    let [left, right] = Side::BOTH.map(|side| given[side].clone());
+    if left.is_empty() && right.is_empty() {
+        if options.msg_dir.is_some() {
+            return refuse("--msg-dir: expected with --left-signal and --right-signal".to_owned());
+        }
+        return of_unit(path, options);
     }
     if let Some(side) = Side::BOTH.into_iter().find(|side| given[*side].is_empty()) {
         return refuse(format!(
@@ -96,21 +93,33 @@ pub(super) fn effective<'a>(
              one of them"
         ));
     }
-    let are_speeds = options.signal_unit == Some(SignalUnit::MetresPerSecond);
-    if are_speeds && options.wheel_radius.is_some() {
+    let options = of_unit(path, options)?;
+    Ok(Cow::Owned(RosbagOptions { left_joints: left, right_joints: right, ..options.into_owned() }))
+}
+
+/// The options with a radius of 1 m for speeds of the tracks themselves.
+fn of_unit<'a>(
+    path: &Path,
+    options: Cow<'a, RosbagOptions>,
+) -> Result<Cow<'a, RosbagOptions>, Error> {
+    let Some(unit) = options.speed_unit else { return Ok(options) };
+    let refuse = |problem: String| Err(Error::Options { path: path.to_owned(), problem });
+    if options.twist_topic.is_some() {
         return refuse(
-            "--wheel-radius: numbers in m/s (--signal-unit) are speeds of the tracks already: \
-             expected no radius, or rad/s, rpm or deg/s"
-                .to_owned(),
+            "--speed-unit: a twist is in m/s and rad/s: expected without --twist-topic".to_owned(),
         );
     }
-    let [left, right] = Side::BOTH.map(|side| given[side].clone());
-    Ok(Cow::Owned(RosbagOptions {
-        left_joints: left,
-        right_joints: right,
-        wheel_radius: if are_speeds { Some(1.0) } else { options.wheel_radius },
-        ..options.into_owned()
-    }))
+    match options.wheel_radius {
+        _ if unit.is_of_wheels() => Ok(options),
+        Some(_) => refuse(format!(
+            "--wheel-radius: speeds in {unit} (--speed-unit) are those of the tracks already: \
+             expected no radius, or rad/s, rpm, turns/s or deg/s"
+        )),
+        None => {
+            let wheel_radius = Some(1.0);
+            Ok(Cow::Owned(RosbagOptions { wheel_radius, ..options.into_owned() }))
+        }
+    }
 }
 
 impl Signals {
@@ -141,8 +150,7 @@ impl Signals {
             Some(folder) => Texts::of_folder(folder)?,
             None => Texts::default(),
         };
-        let factor = options.signal_unit.unwrap_or_default().factor();
-        Ok(Self { wanted, factor, texts, ..Self::default() })
+        Ok(Self { wanted, texts, ..Self::default() })
     }
 
     /// Whether numbers are named.
@@ -212,7 +220,7 @@ impl Signals {
     ) -> Result<Option<Read<'_>>, String> {
         let Some(decoder) = self.decoders.get_mut(&topic.name) else { return Ok(None) };
         decoder.counts[0] += 1;
-        match decoder.read(topic, payload, self.factor) {
+        match decoder.read(topic, payload) {
             Ok((stamp_ns, speeds)) => {
                 let names = decoder.names.iter().map(String::as_str).collect();
                 Ok(Some(Read { stamp_ns, names, speeds }))
@@ -245,14 +253,9 @@ impl Signals {
 }
 
 impl Decoder {
-    fn read(
-        &self,
-        topic: &Topic,
-        payload: &[u8],
-        factor: f64,
-    ) -> Result<(Option<i64>, Vec<f64>), String> {
+    fn read(&self, topic: &Topic, payload: &[u8]) -> Result<(Option<i64>, Vec<f64>), String> {
         let payload = topic.payload(payload).map_err(|error| error.to_string())?;
-        let number = |route: &Route| Ok(factor * self.definition.number(route, &payload)?);
+        let number = |route: &Route| self.definition.number(route, &payload);
         let speeds = self.routes.iter().map(number).collect::<Result<Vec<f64>, String>>()?;
         Ok((self.definition.stamp(&payload)?, speeds))
     }

@@ -33,6 +33,8 @@ pub enum Role {
 pub(super) enum Layout {
     /// `sensor_msgs/JointState`.
     JointState,
+    /// `control_msgs/DynamicJointState`: header, joints with named interfaces.
+    DynamicJointState,
     /// `nav_msgs/Odometry`, `geometry_msgs/TransformStamped`: header, child frame, pose.
     PoseOfChild,
     /// `geometry_msgs/PoseStamped`, `PoseWithCovarianceStamped`: header, pose.
@@ -85,6 +87,7 @@ impl Layout {
         let (package, name) = kind.split_once('/')?;
         Some(match (package, name.strip_prefix("msg/").unwrap_or(name)) {
             ("sensor_msgs", "JointState") => Self::JointState,
+            ("control_msgs", "DynamicJointState") => Self::DynamicJointState,
             ("nav_msgs", "Odometry") | ("geometry_msgs", "TransformStamped") => Self::PoseOfChild,
             ("geometry_msgs", "PoseStamped" | "PoseWithCovarianceStamped") => Self::Pose,
             ("tf2_msgs", "TFMessage") | ("tf", "tfMessage") => Self::Transforms,
@@ -99,16 +102,19 @@ impl Layout {
         })
     }
 
-    /// Whether poses of this layout are taken only where no others are: these are plans and goals
-    /// more often than where a robot was.
+    /// Whether this layout is taken only where no other of its role is: such poses are plans and
+    /// goals more often than where a robot was, and such joints are those of a `JointState` again.
     pub(super) fn is_second_choice(self) -> bool {
-        matches!(self, Self::Path | Self::PoseArray | Self::BarePose | Self::Fix)
+        matches!(
+            self,
+            Self::Path | Self::PoseArray | Self::BarePose | Self::Fix | Self::DynamicJointState
+        )
     }
 
     /// What messages of this layout can be used for.
     pub(super) fn role(self) -> Role {
         match self {
-            Self::JointState => Role::Tracks,
+            Self::JointState | Self::DynamicJointState => Role::Tracks,
             Self::PoseOfChild
             | Self::Pose
             | Self::Transforms

@@ -41,6 +41,12 @@ pub(super) fn effective<'a>(
              with: expected --separation METRES, a number above zero"
         )));
     }
+    if options.wheel_radius.is_some() {
+        return Err(refuse(format!(
+            "--wheel-radius: the speeds of --twist-topic {topic} are those of the body in m/s and \
+             rad/s, and no wheel counts: expected no radius"
+        )));
+    }
     if let Some(option) = options.of_joints() {
         return Err(refuse(format!(
             "{option} chooses joints, and --twist-topic {topic} takes their place: expected one of \

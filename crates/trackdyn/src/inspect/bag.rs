@@ -36,10 +36,10 @@ pub(super) fn read(
     suggested: &RosbagOptions,
 ) -> Result<Read, (ReadOptions, String)> {
     let (mut options, mut radius) = (given.clone(), ASSUMED_RADIUS);
-    let is_open = given.bag.wheel_radius.is_none() && given.bag.counts_wheels();
     let mut findings = Vec::new();
     let (mut reason, mut is_measured) = (String::new(), false);
     for _ in 0..MAX_READINGS {
+        let is_open = options.bag.wheel_radius.is_none() && options.bag.counts_wheels();
         let mut tried = options.clone();
         if is_open {
             tried.bag.wheel_radius = Some(radius);
@@ -120,6 +120,10 @@ fn fill(options: &mut RosbagOptions, suggested: &RosbagOptions) {
         return;
     }
     take(&mut options.twist_topic, &suggested.twist_topic);
+    if options.twist_topic.is_some() {
+        // No wheel counts.
+        options.wheel_radius = None;
+    }
     take(&mut options.tracks_topic, &suggested.tracks_topic);
     let sides = [
         (&mut options.left_joints, &suggested.left_joints),

@@ -121,11 +121,13 @@ pub(super) fn of_driving(motion: &Motion, driving: &Driving, speed_unit: f64) ->
 /// What a bag lacks by its topics.
 pub(super) fn of_topics(topics: &[TopicSummary], options: &ReadOptions) -> Vec<Lack> {
     let has = |role: Role| topics.iter().any(|of| of.role == Some(role) && of.messages > 0);
+    let bag = &options.bag;
+    let is_named = bag.twist_topic.is_some() || !bag.left_signals.is_empty();
     let lacks = [
-        (!has(Role::Tracks), Lack::Tracks),
+        (!has(Role::Tracks) && !is_named, Lack::Tracks),
         (!has(Role::Poses) && !has(Role::Imu), Lack::Poses),
         (
-            has(Role::Tracks) && options.bag.wheel_radius.is_none() && options.bag.counts_wheels(),
+            (has(Role::Tracks) || is_named) && bag.wheel_radius.is_none() && bag.counts_wheels(),
             Lack::WheelRadius { about: None },
         ),
     ];

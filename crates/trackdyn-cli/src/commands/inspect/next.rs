@@ -57,6 +57,15 @@ fn commands(found: &Inspection, asked: &Asked) -> Vec<String> {
     }
     let needs_radius = found.lacks.iter().any(|lack| matches!(lack, Lack::WheelRadius { .. }));
     let reading = reading(&found.options, needs_radius);
+    let bag = &found.options.bag;
+    if matches!(found.content, Content::Unread(_))
+        && bag.twist_topic.is_some()
+        && bag.separation.is_none()
+        && !found.lacks.contains(&Lack::Poses)
+    {
+        let words = ["trackdyn inspect".to_owned(), recording];
+        return vec![command(&words.into_iter().chain(reading).collect::<Vec<_>>(), WIDTH)];
+    }
     let tau = asked.tau.map(|tau| option("tau", &tau.to_string()));
     let vehicle = asked.vehicle.map_or_else(|| "VEHICLE.toml".to_owned(), path);
     let vehicle = format!("--vehicle {vehicle}");

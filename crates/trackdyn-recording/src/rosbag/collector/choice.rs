@@ -6,7 +6,7 @@ use crate::Error;
 use crate::recording::Warning;
 use crate::rosbag::frames::may_be_odometry;
 use crate::rosbag::joints::Source;
-use crate::rosbag::topic::{Topic, list};
+use crate::rosbag::topic::{Layout, Role, Topic, list};
 use crate::rosbag::twist;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -38,7 +38,8 @@ impl Sources<'_> {
     ) -> Result<Chosen, Error> {
         let what = "track speeds";
         if joints.iter().all(|source| source.names.is_empty()) {
-            let mut kinds = vec!["no sensor_msgs/JointState with both sides".to_owned()];
+            let none = "no sensor_msgs/JointState or DynamicJointState with both sides";
+            let mut kinds = vec![none.to_owned()];
             kinds.extend(skipped.iter().map(|(topic, (count, reason))| {
                 format!("{topic}: {count} messages skipped, because {reason}")
             }));
@@ -56,12 +57,25 @@ impl Sources<'_> {
     pub(super) fn poses(
         &self,
         poses: BTreeMap<PoseKey, Rows>,
+        skipped: &BTreeMap<String, (u64, String)>,
         warnings: &mut Vec<Warning>,
     ) -> Result<(PoseKey, Rows), Error> {
+        let mut kinds = vec![
+            "no Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or TFMessage of \
+             these frames, and no Path, PoseArray, Pose or NavSatFix instead"
+                .to_owned(),
+        ];
+        let of_poses = skipped.iter().filter(|(name, _)| {
+            let mut topics = self.seen.iter().filter(|topic| topic.name == **name);
+            topics.any(|topic| topic.layout().is_some_and(|of| of.role() == Role::Poses))
+        });
+        kinds.extend(of_poses.map(|(topic, (count, reason))| {
+            format!("{topic}: {count} messages skipped, because {reason}")
+        }));
+        let kind = kinds.join("; ");
         let wanted = Wanted {
             what: "poses",
-            kind: "no Odometry, PoseStamped, PoseWithCovarianceStamped, TransformStamped or \
-                   TFMessage of these frames, and no Path, PoseArray, Pose or NavSatFix instead",
+            kind: &kind,
             named: self.options.pose_topic.as_deref(),
             options: "--pose-topic, --parent-frame or --child-frame",
         };
@@ -71,8 +85,19 @@ impl Sources<'_> {
         };
         let odometry = poses.keys().find(|key| self.may_be_odometry(key)).map(name);
         let chosen = self.only(&wanted, poses, warnings, name)?;
+        self.check_index(&chosen.0.topic)?;
         warnings.extend(odometry.map(|poses| Warning::OwnOdometry { poses }));
         Ok(chosen)
+    }
+
+    /// Refuses a number of a pose for messages that have one pose each.
+    fn check_index(&self, topic: &str) -> Result<(), Error> {
+        let is_array = |of: &&Topic| of.name == topic && of.layout() == Some(Layout::PoseArray);
+        if self.options.pose_index.is_none() || self.seen.iter().any(|of| is_array(&of)) {
+            return Ok(());
+        }
+        let problem = format!("--pose-index: {topic} is no PoseArray: expected without");
+        Err(Error::Options { path: self.path.to_owned(), problem })
     }
 
     /// Whether poses may come from the tracks themselves.

@@ -52,8 +52,9 @@ impl Collector<'_> {
         let stamp_ns = header.stamp_ns;
         if layout == Layout::PoseArray {
             let count = payload.length().map_err(decode)?;
-            if count != 1 {
-                return Err(format!("it has {count} poses instead of one"));
+            let index = self.index_of(count)?;
+            for _ in 0..index {
+                oriented_pose(payload).map_err(decode)?;
             }
             let (value, quaternion) = oriented_pose(payload).map_err(decode)?;
             let received = Received { stamp_ns, log_ns, value };
@@ -64,6 +65,23 @@ impl Collector<'_> {
         let value = value.ok_or("the receiver has no fix in it (its status is below zero)")?;
         push(&mut self.fixes, &topic.name, Received { stamp_ns, log_ns, value });
         Ok(())
+    }
+
+    /// Which of the poses of an array is that of the robot.
+    fn index_of(&self, count: usize) -> Result<usize, String> {
+        match (self.options.pose_index, count) {
+            (_, 0) => Err("it has no poses".to_owned()),
+            (None, 1) => Ok(0),
+            (None, count) => Err(format!(
+                "it has {count} poses: say which is that of the robot by --pose-index 0 to {}",
+                count - 1
+            )),
+            (Some(index), count) if index < count => Ok(index),
+            (Some(index), count) => Err(format!(
+                "it has {count} poses, and none of --pose-index {index}: expected 0 to {}",
+                count - 1
+            )),
+        }
     }
 
     /// Takes the speeds of the body as those of two joints.
@@ -85,7 +103,7 @@ impl Collector<'_> {
         let body = twist::body_speeds(layout, &mut payload).map_err(decode)?;
         let tracks = twist::track_speeds(body, self.options.separation.unwrap_or(f64::NAN));
         let received = Received { stamp_ns, log_ns, value: () };
-        self.joints.take_velocities(&topic.name, received, &twist::JOINTS, &tracks);
+        self.joints.take_signals(&topic.name, received, &twist::JOINTS, [&[], &tracks]);
         Ok(())
     }
 
@@ -114,6 +132,10 @@ impl Collector<'_> {
             };
             if self.poses.keys().any(|key| !is_second(key)) {
                 self.poses.retain(|key, _| !is_second(key));
+            }
+            let options = self.options;
+            if self.poses.keys().any(|key| !options.takes_speeds_of(&key.topic)) {
+                self.poses.retain(|key, _| !options.takes_speeds_of(&key.topic));
             }
         }
         let is_named = |name: &str| self.options.pose_topic.as_deref() == Some(name);

@@ -112,7 +112,7 @@ fn absent(sources: &[Source], options: &RosbagOptions, topics: &[String]) -> Opt
         (!all).then(|| format!("not all of the {word} joints ({}) are in it", named.join(", ")))
     };
     let reason = Side::BOTH.into_iter().find_map(lacks)?;
-    let mut problem = "no sensor_msgs/JointState with both sides".to_owned();
+    let mut problem = "no sensor_msgs/JointState or DynamicJointState with both sides".to_owned();
     let mut told: Vec<&Source> = Vec::new();
     for source in sources {
         let is_it = |other: &&Source| other.topic == source.topic && other.names == source.names;

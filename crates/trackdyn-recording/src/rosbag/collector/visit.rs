@@ -2,6 +2,7 @@
 
 use super::{Collector, push};
 use crate::rosbag::date::Received;
+use crate::rosbag::dynamic_joints::{self, DynamicJoints};
 use crate::rosbag::message::{header, imu};
 use crate::rosbag::payload::PayloadError;
 use crate::rosbag::signals::Read;
@@ -26,7 +27,7 @@ impl Collector<'_> {
     fn take_signals(&mut self, topic: &Topic, log_ns: i64, payload: &[u8]) -> Result<(), String> {
         if let Some(Read { stamp_ns, names, speeds }) = self.signals.read(topic, payload)? {
             let received = Received { stamp_ns, log_ns, value: () };
-            self.joints.take_velocities(&topic.name, received, &names, &speeds);
+            self.joints.take_signals(&topic.name, received, &names, [&[], &speeds]);
         }
         Ok(())
     }
@@ -59,9 +60,20 @@ impl Collector<'_> {
                 let received = Received { stamp_ns, log_ns, value: () };
                 self.joints.take(&topic.name, received, &mut payload).map_err(decode)?;
             }
+            Layout::DynamicJointState => {
+                let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
+                let received = Received { stamp_ns, log_ns, value: () };
+                let DynamicJoints { names, signals } =
+                    dynamic_joints::read(&mut payload).map_err(decode)?;
+                let signals = signals.each_ref().map(Vec::as_slice);
+                self.dynamic_joints.take_signals(&topic.name, received, &names, signals);
+            }
             Layout::Imu => {
                 let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
-                let (value, yaw) = imu(&mut payload).map_err(decode)?;
+                let (mut value, yaw) = imu(&mut payload).map_err(decode)?;
+                if self.options.gyro_in_degrees {
+                    value[0] = value[0].to_radians();
+                }
                 if let Some(value) = yaw {
                     push(&mut self.yaws, &topic.name, Received { stamp_ns, log_ns, value });
                 }

@@ -1,0 +1,130 @@
+//! The rows of a table whose columns are named.
+
+use super::{Columns, Key, Unit};
+use crate::recording::{Recording, Source, UncheckedRun, Warning, turn_sensor};
+use crate::rosbag::yaw_of_quaternion;
+use crate::sample::{PoseSample, TrackSample};
+use crate::table::Table;
+use crate::unit::scale_of_table;
+use crate::{Error, Format, TableOptions};
+use std::collections::BTreeMap;
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::path::Path;
+use trackdyn_core::Pose;
+
+/// Reads a table of these columns.
+///
+/// # Errors
+/// [`Error::Header`] for a column that is not there, [`Error::Cell`] with line and column,
+/// [`Error::Options`] for units and a radius that do not go together, those of [`Recording::new`].
+pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Recording, Error> {
+    let scales = [Key::Left, Key::Right].map(|key| -> Result<f64, Error> {
+        let column = &columns.columns[&key];
+        let unit = match column.unit {
+            Unit::Speed(unit) => Some(unit),
+            _ => options.speed_unit,
+        };
+        Ok(column.sign * scale_of_table(path, unit, options.wheel_radius)?)
+    });
+    let [left, right] = scales;
+    let mut runs = rows(path, columns, [left?, right?])?;
+    turn_sensor(&mut runs, options.sensor_yaw);
+    let mut warnings = Vec::new();
+    for run in &mut runs {
+        warnings.extend(thin_out(&mut run.poses.samples));
+    }
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let source = Source { format: Format::Table, path: Some(path.to_owned()), epoch_ns: None };
+    Recording::accepting(name, "unknown", runs, source, warnings, &options.accepted)
+}
+
+/// The rows of all runs.
+fn rows(path: &Path, columns: &Columns, scales: [f64; 2]) -> Result<Vec<UncheckedRun>, Error> {
+    let names: Vec<&str> = columns.columns.values().map(|column| column.name.as_str()).collect();
+    let mut table = Table::open_any(path, &names)?;
+    let at = |key: Key| {
+        let column = columns.columns.get(&key)?;
+        Some((table.column(&column.name)?, column))
+    };
+    let [t, x, y] = [Key::Time, Key::X, Key::Y].map(at);
+    let [left, right, yaw] = [Key::Left, Key::Right, Key::Yaw].map(at);
+    let quaternion = [Key::Qx, Key::Qy, Key::Qz, Key::Qw].map(at);
+    let run = at(Key::Run).map(|(place, _)| place);
+    let places = [t, x, y, left, right, yaw].map(|of| of.map(|(place, _)| place));
+    let factors = [t, x, y].map(|of| of.map_or(1.0, |(_, column)| column.factor()));
+    let yaw = yaw.map(|(place, column)| (place, column.unit, column.factor()));
+    let quaternion = quaternion.map(|of| of.map(|(place, column)| (place, column.sign)));
+    let mut runs: BTreeMap<i64, UncheckedRun> = BTreeMap::new();
+    while table.advance()? {
+        let number = |place: Option<usize>| place.map_or(Ok(f64::NAN), |at| table.number(at));
+        let id = run.map_or(Ok(0), |at| table.integer(at))?;
+        let of_run = runs.entry(id).or_insert_with(|| UncheckedRun { id, ..Default::default() });
+        let stamp = factors[0] * number(places[0])?;
+        let [v_left, v_right] = [number(places[3])?, number(places[4])?];
+        if !(v_left.is_nan() && v_right.is_nan()) {
+            let (v_left, v_right) = (scales[0] * v_left, scales[1] * v_right);
+            of_run.tracks.samples.push(TrackSample { t: stamp, v_left, v_right });
+        }
+        let [x, y] = [factors[1] * number(places[1])?, factors[2] * number(places[2])?];
+        let yaw = match yaw {
+            Some((place, Unit::Compass, sign)) => {
+                FRAC_PI_2 - sign * table.number(place)? * TAU / 360.0
+            }
+            Some((place, _, factor)) => factor * table.number(place)?,
+            None => {
+                let mut parts = [0.0; 4];
+                for (part, of) in parts.iter_mut().zip(quaternion) {
+                    if let Some((place, sign)) = of {
+                        *part = sign * table.number(place)?;
+                    }
+                }
+                yaw_of_quaternion(parts)
+            }
+        };
+        if !(x.is_nan() && y.is_nan() && yaw.is_nan()) {
+            of_run.poses.samples.push(PoseSample { t: stamp, pose: Pose::new(x, y, yaw) });
+        }
+    }
+    if runs.is_empty() {
+        let message = "no rows below the header".to_owned();
+        return Err(Error::Empty { path: path.to_owned(), message });
+    }
+    Ok(runs.into_values().collect())
+}
+
+/// Leaves out poses that a table repeats because its rows come more often than poses: of every
+/// usual number of equal rows, the first stays.
+fn thin_out(poses: &mut Vec<PoseSample>) -> Option<Warning> {
+    let groups = || poses.chunk_by(|a, b| a.pose == b.pose).map(<[PoseSample]>::len);
+    let mut lengths: Vec<usize> = groups().collect();
+    lengths.sort_unstable();
+    let usual = lengths.get(lengths.len() / 2).copied().filter(|usual| *usual > 1)?;
+    let kept: Vec<PoseSample> = poses
+        .chunk_by(|a, b| a.pose == b.pose)
+        .flat_map(|equal| equal.iter().step_by(usual))
+        .copied()
+        .collect();
+    let (of, all) = (kept.len(), poses.len());
+    *poses = kept;
+    let taken = format!("{of} of {all} rows: the others repeat the one before");
+    Some(Warning::Chosen { what: "poses", taken })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_that_repeat_a_pose_are_left_out_and_rests_stay() {
+        let pose = |t: f64, x: f64| PoseSample { t, pose: Pose::new(x, 0.0, 0.0) };
+        let held: Vec<PoseSample> =
+            (0..30).map(|k| pose(f64::from(k), f64::from(k / 3).min(6.0))).collect();
+        let mut poses = held.clone();
+        let warning = thin_out(&mut poses).expect("told").to_string();
+        assert_eq!(poses, held.iter().step_by(3).copied().collect::<Vec<_>>());
+        assert!(warning.contains("10 of 30 rows"), "{warning}");
+        let mut changing: Vec<PoseSample> =
+            (0..30).map(|k| pose(f64::from(k), f64::from(k).min(20.0))).collect();
+        assert!(thin_out(&mut changing).is_none() && changing.len() == 30);
+    }
+}

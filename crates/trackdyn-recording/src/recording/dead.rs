@@ -1,0 +1,190 @@
+//! Readings of a side at exactly zero while its track moves: an encoder that is dead for a while.
+//!
+//! # Law
+//! Three or more zeros of a side in a row are in question where the speed before or after them is
+//! more than a third of the usual one. What the track ran then is told twice by the other side: by
+//! the turn of the poses, and by their way forward. The encoder was dead where both agree on a way
+//! of more than a third of the usual speed. A robot that stops stands by its poses as well.
+//!
+//! A few zeros are replaced by the line between the readings beside them; more are dropped, which
+//! leaves a gap: nobody knows what the track did within.
+
+use super::Run;
+use super::cleaning::MIN_GAP_RATIO;
+use super::motion::{Following, Piece, agreement};
+use super::spikes::bridge;
+use super::warning::{Cleaning, Finding};
+use crate::sample::{PoseSample, Stream};
+use std::ops::Range;
+use trackdyn_core::robust::{median, usual_interval};
+use trackdyn_core::{PerSide, Side};
+
+/// Fewest zeros in a row; fewer are spikes.
+const MIN_ZEROS: usize = 3;
+
+/// Share of the usual speed that a track has to have had.
+const MIN_SHARE: f64 = 1.0 / 3.0;
+
+/// Agreement of both ways from which on they are those of one track.
+const MIN_AGREEMENT: f64 = 0.5;
+
+/// Longest time between the poses around the zeros, in times of the zeros.
+const MAX_WIDENING: f64 = 2.0;
+
+/// Least time of the pieces that a long time of zeros is cut into, s.
+const MIN_PIECE: f64 = 0.25;
+
+/// Zeros in a row of a side.
+#[derive(Clone, Debug)]
+struct Zeros {
+    run: usize,
+    side: Side,
+    rows: Range<usize>,
+    /// Stamps of the first zero and of the reading after the last, s.
+    time: [f64; 2],
+}
+
+/// Bridges or drops the readings of dead encoders; `cleanings` takes what was found.
+pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
+    let usual = PerSide::from_fn(|side: Side| usual_speed(runs, side));
+    let questioned: Vec<Zeros> = (0..runs.len())
+        .flat_map(|run| Side::BOTH.map(|side| zeros(run, &runs[run], side, usual[side])))
+        .flatten()
+        .collect();
+    if questioned.is_empty() {
+        return;
+    }
+    let times: Vec<Vec<[f64; 2]>> = (0..runs.len()).map(|run| times(&questioned, run)).collect();
+    let meets = |run: usize, piece: &Piece, delay: f64| {
+        let next = times[run].partition_point(|[_, until]| *until <= piece.start - delay);
+        times[run].get(next).is_some_and(|[from, _]| *from < piece.end - delay)
+    };
+    let Some(following) = Following::of(runs, &meets) else { return };
+    let is_dead = |zeros: &Zeros| moved(&runs[zeros.run], zeros, &following, usual[zeros.side]);
+    let dead: Vec<Zeros> = questioned.iter().filter(|zeros| is_dead(zeros)).cloned().collect();
+    for (index, run) in runs.iter_mut().enumerate() {
+        let of_run: Vec<&Zeros> = dead.iter().filter(|zeros| zeros.run == index).collect();
+        let Some(first) = of_run.first() else { continue };
+        cleanings.push(Cleaning {
+            stream: Stream::Tracks,
+            finding: Finding::Dead {
+                longest: of_run.iter().map(|of| of.time[1] - of.time[0]).fold(0.0, f64::max),
+            },
+            count: of_run.iter().map(|of| of.rows.len()).sum(),
+            runs: 1,
+            run: run.id(),
+            t: of_run.iter().map(|of| of.time[0]).fold(first.time[0], f64::min),
+        });
+        mend(run, &of_run);
+    }
+}
+
+/// The times of a run that are in question, apart from each other and in order, s.
+fn times(questioned: &[Zeros], run: usize) -> Vec<[f64; 2]> {
+    let of_run = questioned.iter().filter(|zeros| zeros.run == run);
+    let mut all: Vec<[f64; 2]> = of_run.map(|zeros| zeros.time).collect();
+    all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut apart: Vec<[f64; 2]> = Vec::with_capacity(all.len());
+    for [from, until] in all {
+        match apart.last_mut().filter(|last| last[1] >= from) {
+            Some(last) => last[1] = last[1].max(until),
+            None => apart.push([from, until]),
+        }
+    }
+    apart
+}
+
+/// Median of the speeds of a side that are not zero, m/s; infinite where there are none.
+fn usual_speed(runs: &[Run], side: Side) -> f64 {
+    let speeds = runs.iter().flat_map(Run::tracks).map(|reading| reading.speeds()[side].abs());
+    median(&mut speeds.filter(|speed| *speed > 0.0).collect::<Vec<_>>()).unwrap_or(f64::INFINITY)
+}
+
+/// The zeros of a side that are in question.
+fn zeros(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Zeros> {
+    let tracks = run.tracks();
+    let speed = |row: usize| tracks[row].speeds()[side];
+    let mut found = Vec::new();
+    let mut row = 0;
+    while row < tracks.len() {
+        let start = row;
+        while row < tracks.len() && speed(row) == 0.0 {
+            row += 1;
+        }
+        let rows = start..row;
+        row += 1;
+        if rows.len() < MIN_ZEROS {
+            continue;
+        }
+        let beside = [rows.start.checked_sub(1), Some(rows.end).filter(|end| *end < tracks.len())];
+        let is_fast = |beside: &usize| speed(*beside).abs() > MIN_SHARE * usual;
+        let is_alone = beside.iter().all(Option::is_none);
+        if is_alone || beside.iter().flatten().any(is_fast) {
+            let after = rows.end.min(tracks.len() - 1);
+            let time = [tracks[rows.start].t, tracks[after].t];
+            found.push(Zeros { run: index, side, rows, time });
+        }
+    }
+    found
+}
+
+/// Whether the track moved in these zeros by what the poses say.
+fn moved(run: &Run, zeros: &Zeros, following: &Following, usual: f64) -> bool {
+    let [from, until] = zeros.time.map(|t| t + following.delay);
+    let poses = run.poses();
+    let first = poses.partition_point(|pose| pose.t <= from).saturating_sub(1);
+    let last = poses.partition_point(|pose| pose.t < until).min(poses.len().saturating_sub(1));
+    let Some(poses) = poses.get(first..=last).filter(|poses| poses.len() > 1) else { return false };
+    let length = until - from;
+    if poses[poses.len() - 1].t - poses[0].t > MAX_WIDENING * length {
+        return false;
+    }
+    let mut ways: Vec<[f64; 2]> = Vec::new();
+    for piece in cut(poses) {
+        let read = following.ways(run, &piece);
+        let [by_turn, by_way] = following.way(zeros.side, &piece, read);
+        let by_turn = by_turn.unwrap_or(0.0) - read[zeros.side];
+        let by_way = by_way.map_or(by_turn, |way| way - read[zeros.side]);
+        ways.push([by_turn, by_way]);
+    }
+    let missing: f64 = ways.iter().map(|[a, b]| f64::midpoint(*a, *b).abs()).sum();
+    missing > MIN_SHARE * usual * length && agreement(&ways) > MIN_AGREEMENT
+}
+
+/// The pieces between poses, of a least length but for the last.
+fn cut(poses: &[PoseSample]) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    let mut start = &poses[0];
+    for (place, end) in poses.iter().enumerate().skip(1) {
+        if end.t - start.t >= MIN_PIECE || place + 1 == poses.len() {
+            pieces.push(Piece::between(start, end));
+            start = end;
+        }
+    }
+    pieces
+}
+
+/// Bridges short zeros and drops the readings of long ones.
+fn mend(run: &mut Run, dead: &[&Zeros]) {
+    let times: Vec<f64> = run.tracks().iter().map(|reading| reading.t).collect();
+    let longest = MIN_GAP_RATIO * usual_interval(times.iter().copied());
+    let is_short = |zeros: &Zeros| zeros.time[1] - zeros.time[0] < longest;
+    for zeros in dead.iter().filter(|zeros| is_short(zeros)) {
+        let mut speeds: Vec<f64> =
+            run.tracks().iter().map(|reading| reading.speeds()[zeros.side]).collect();
+        bridge(&times, &mut speeds, &zeros.rows.clone().collect::<Vec<_>>());
+        for row in zeros.rows.clone() {
+            let reading = &mut run.readings_mut()[row];
+            match zeros.side {
+                Side::Left => reading.v_left = speeds[row],
+                Side::Right => reading.v_right = speeds[row],
+            }
+        }
+    }
+    let is_dropped =
+        |row: &usize| dead.iter().any(|zeros| !is_short(zeros) && zeros.rows.contains(row));
+    let kept: Vec<usize> = (0..times.len()).filter(|row| !is_dropped(row)).collect();
+    if kept.len() < times.len() {
+        run.keep_readings(&kept);
+    }
+}

@@ -1,0 +1,229 @@
+//! Units of track speeds, and which of them were mixed up.
+
+use crate::Error;
+use std::f64::consts::TAU;
+use std::fmt;
+use std::path::Path;
+use std::str::FromStr;
+
+/// Unit of the numbers that are speeds of the tracks or of their wheels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpeedUnit {
+    /// m/s, of the tracks themselves.
+    MetresPerSecond,
+    /// mm/s, of the tracks themselves.
+    MillimetresPerSecond,
+    /// cm/s, of the tracks themselves.
+    CentimetresPerSecond,
+    /// km/h, of the tracks themselves.
+    KilometresPerHour,
+    /// Miles per hour, of the tracks themselves.
+    MilesPerHour,
+    /// Feet per second, of the tracks themselves.
+    FeetPerSecond,
+    /// rad/s, of the wheels.
+    RadiansPerSecond,
+    /// Turns per minute, of the wheels.
+    TurnsPerMinute,
+    /// Turns per second, of the wheels.
+    TurnsPerSecond,
+    /// Degrees per second, of the wheels.
+    DegreesPerSecond,
+}
+
+impl SpeedUnit {
+    /// All units.
+    pub const ALL: [Self; 10] = [
+        Self::MetresPerSecond,
+        Self::MillimetresPerSecond,
+        Self::CentimetresPerSecond,
+        Self::KilometresPerHour,
+        Self::MilesPerHour,
+        Self::FeetPerSecond,
+        Self::RadiansPerSecond,
+        Self::TurnsPerMinute,
+        Self::TurnsPerSecond,
+        Self::DegreesPerSecond,
+    ];
+
+    /// Its name, as the option takes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MetresPerSecond => "m/s",
+            Self::MillimetresPerSecond => "mm/s",
+            Self::CentimetresPerSecond => "cm/s",
+            Self::KilometresPerHour => "km/h",
+            Self::MilesPerHour => "mph",
+            Self::FeetPerSecond => "ft/s",
+            Self::RadiansPerSecond => "rad/s",
+            Self::TurnsPerMinute => "rpm",
+            Self::TurnsPerSecond => "turns/s",
+            Self::DegreesPerSecond => "deg/s",
+        }
+    }
+
+    /// Whether it is of wheels, whose radius makes speeds of the tracks of them.
+    pub fn is_of_wheels(self) -> bool {
+        matches!(
+            self,
+            Self::RadiansPerSecond
+                | Self::TurnsPerMinute
+                | Self::TurnsPerSecond
+                | Self::DegreesPerSecond
+        )
+    }
+
+    /// rad/s, or m/s where it is of the tracks themselves, per unit.
+    pub fn factor(self) -> f64 {
+        match self {
+            Self::MetresPerSecond | Self::RadiansPerSecond => 1.0,
+            Self::MillimetresPerSecond => 1e-3,
+            Self::CentimetresPerSecond => 1e-2,
+            Self::KilometresPerHour => 1.0 / 3.6,
+            Self::MilesPerHour => 1609.344 / 3600.0,
+            Self::FeetPerSecond => 0.3048,
+            Self::TurnsPerMinute => TAU / 60.0,
+            Self::TurnsPerSecond => TAU,
+            Self::DegreesPerSecond => TAU / 360.0,
+        }
+    }
+}
+
+impl fmt::Display for SpeedUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for SpeedUnit {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::ALL.into_iter().find(|unit| unit.name() == text).ok_or_else(|| {
+            let names = Self::ALL.map(Self::name);
+            format!("expected one of {}", names.join(", "))
+        })
+    }
+}
+
+/// m/s per number in a table of track speeds: of the unit given, or m/s.
+///
+/// # Errors
+/// [`Error::Options`] for a unit of wheels without their radius, and for a radius without one.
+pub(crate) fn scale_of_table(
+    path: &Path,
+    unit: Option<SpeedUnit>,
+    wheel_radius: Option<f64>,
+) -> Result<f64, Error> {
+    let refuse = |problem: String| Err(Error::Options { path: path.to_owned(), problem });
+    match (unit.unwrap_or(SpeedUnit::MetresPerSecond), wheel_radius) {
+        (unit, Some(radius)) if unit.is_of_wheels() => Ok(radius * unit.factor()),
+        (unit, None) if unit.is_of_wheels() => refuse(format!(
+            "--speed-unit {unit} is of wheels: expected --wheel-radius METRES beside it"
+        )),
+        (unit, Some(_)) => refuse(format!(
+            "--wheel-radius: speeds in {unit} are those of the tracks already: expected no radius, \
+             or --speed-unit rad/s, rpm, turns/s or deg/s"
+        )),
+        (unit, None) => Ok(unit.factor()),
+    }
+}
+
+/// Largest factor between a ratio and that of two units; slip and a rough radius are in between.
+const MAX_ERROR: f64 = 1.3;
+
+/// Radii of wheels and sprockets, m.
+const RADII: [f64; 2] = [0.03, 0.6];
+
+/// A ratio of units that are mixed up: what stands in place of what, and the unit that mends it
+/// where the larger numbers are those of the tracks.
+const MIXED: [(f64, &str, Option<SpeedUnit>); 10] = [
+    (360.0 / TAU, "degrees in place of radians", Some(SpeedUnit::DegreesPerSecond)),
+    (1000.0, "millimetres in place of metres", Some(SpeedUnit::MillimetresPerSecond)),
+    (100.0, "centimetres in place of metres", Some(SpeedUnit::CentimetresPerSecond)),
+    (39.37, "inches in place of metres", None),
+    (25.4, "millimetres in place of inches", None),
+    (60.0 / TAU, "turns per minute in place of rad/s", Some(SpeedUnit::TurnsPerMinute)),
+    (TAU, "turns in place of radians", None),
+    (3.6, "km/h in place of m/s", Some(SpeedUnit::KilometresPerHour)),
+    (3.281, "feet in place of metres", Some(SpeedUnit::FeetPerSecond)),
+    (2.237, "miles per hour in place of m/s", Some(SpeedUnit::MilesPerHour)),
+];
+
+/// The units whose ratio is nearest to one of two ways, either of which may be the longer one; none
+/// where no usual ones are near.
+pub fn mixed_up(ratio: f64) -> Option<&'static str> {
+    nearest(ratio.max(1.0 / ratio)).map(|(_, name, _)| name)
+}
+
+/// How far the nearest ratio of units is from a ratio, as a factor of at least 1.
+pub(crate) fn error(ratio: f64) -> Option<f64> {
+    let size = ratio.max(1.0 / ratio);
+    nearest(size).map(|(unit, ..)| (size / unit).max(unit / size))
+}
+
+/// The options by which track speeds that are so many times those of the poses are read.
+pub fn remedy(ratio: f64) -> String {
+    let unit = if ratio > 1.0 {
+        nearest(ratio).and_then(|(.., unit)| unit)
+    } else {
+        Some(SpeedUnit::TurnsPerSecond).filter(|_| mixed_up(ratio) == Some(MIXED[6].1))
+    };
+    let mut text = match unit {
+        Some(unit) => format!("read them with --speed-unit {unit}"),
+        None => "expected m/s of tracks or rad/s of joints; --speed-unit takes others".to_owned(),
+    };
+    let wheels = [SpeedUnit::RadiansPerSecond, SpeedUnit::TurnsPerMinute];
+    for wheel in wheels {
+        let radius = 1.0 / (ratio * wheel.factor());
+        if (RADII[0]..=RADII[1]).contains(&radius) {
+            text += &format!(
+                "; a table of speeds of wheels in {wheel} has this ratio where their radius is \
+                 some {radius:.3} m (--speed-unit {wheel} --wheel-radius METRES)"
+            );
+        }
+    }
+    text + "; for joints, --wheel-radius is in m per radian, with any gear"
+}
+
+fn nearest(size: f64) -> Option<(f64, &'static str, Option<SpeedUnit>)> {
+    let off = |unit: f64| (size / unit).max(unit / size);
+    let near = MIXED.into_iter().filter(|(unit, ..)| off(*unit) <= MAX_ERROR);
+    near.min_by(|(a, ..), (b, ..)| off(*a).total_cmp(&off(*b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_read_by_their_names() {
+        for unit in SpeedUnit::ALL {
+            assert_eq!(unit.name().parse(), Ok(unit));
+        }
+        assert!("furlongs".parse::<SpeedUnit>().is_err_and(|text| text.contains("km/h")));
+    }
+
+    #[test]
+    fn a_ratio_names_the_units_and_the_option() {
+        assert_eq!(mixed_up(3.5), Some("km/h in place of m/s"));
+        assert!(remedy(3.5).contains("--speed-unit km/h"));
+        assert!(remedy(9.3).contains("--speed-unit rpm"));
+        assert!(remedy(6.06).contains("some 0.165 m (--speed-unit rad/s --wheel-radius METRES)"));
+        assert!(remedy(1.0 / 6.2).contains("--speed-unit turns/s"));
+        assert_eq!(mixed_up(1.2), None);
+    }
+
+    #[test]
+    fn a_table_of_wheels_needs_their_radius() {
+        let scale = |unit, radius| scale_of_table(Path::new("t"), unit, radius);
+        let rpm = Some(SpeedUnit::TurnsPerMinute);
+        let of_rpm = scale(rpm, Some(0.3)).expect("a scale");
+        assert!((of_rpm - 0.3 * TAU / 60.0).abs() < 1e-15);
+        assert_eq!(scale(None, None).expect("a scale"), 1.0);
+        let text = scale(rpm, None).expect_err("no radius").to_string();
+        assert!(text.contains("--wheel-radius METRES"), "{text}");
+        let text = scale(None, Some(0.3)).expect_err("m/s").to_string();
+        assert!(text.contains("--speed-unit rad/s"), "{text}");
+    }
+}

@@ -1,0 +1,336 @@
+//! Logs that are refused, or mended, by the cause of what is wrong with them.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use std::f64::consts::PI;
+use trackdyn_core::PerSide;
+use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
+use trackdyn_recording::recording::Finding;
+use trackdyn_recording::{
+    Doubt, DoubtKind, Error, Format, ImuSample, Recording, Run, Source, SpeedUnit, TableOptions,
+    UncheckedRun, Warning, folder,
+};
+
+/// Drives of half a minute, with the noise of encoders and poses.
+fn rows() -> Vec<UncheckedRun> {
+    let schedules = (0..4).map(|run| random_steps(15, 2.0, 0.8, run)).collect();
+    driven(schedules)
+}
+
+fn driven(schedules: Vec<Vec<Stretch>>) -> Vec<UncheckedRun> {
+    let alpha = PerSide::new(1.0, 1.0);
+    let synthetic = Synthetic {
+        kinematics: ConstantIcr { x_left: -0.4, x_right: 0.42, y: 0.03, alpha },
+        schedules,
+        encoder_noise: 0.01,
+        position_noise: 0.005,
+        yaw_noise: 0.005,
+        tau: 0.1,
+        seed: 4,
+        ..Synthetic::default()
+    };
+    let recording = synthetic.recording().expect("long enough");
+    recording.runs().iter().cloned().map(Run::into_rows).collect()
+}
+
+fn read(runs: Vec<UncheckedRun>) -> Result<Recording, Error> {
+    accepting(runs, &[])
+}
+
+fn accepting(runs: Vec<UncheckedRun>, accepted: &[DoubtKind]) -> Result<Recording, Error> {
+    let source = Source { format: Format::Folder, path: Some("log".into()), epoch_ns: None };
+    Recording::accepting("log", "robot", runs, source, Vec::new(), accepted)
+}
+
+/// The doubt that stops a reader, and its message.
+fn refused(runs: Vec<UncheckedRun>) -> (Doubt, String) {
+    let error = read(runs).expect_err("refused");
+    let text = error.to_string();
+    let Error::Contradiction { doubt, .. } = error else { panic!("{text}") };
+    (doubt, text)
+}
+
+fn change(mut runs: Vec<UncheckedRun>, of: impl Fn(&mut UncheckedRun)) -> Vec<UncheckedRun> {
+    runs.iter_mut().for_each(of);
+    runs
+}
+
+/// What was found in the rows.
+fn findings(recording: &Recording) -> Vec<(Finding, usize)> {
+    let found = recording.warnings().iter().filter_map(|warning| match warning {
+        Warning::Cleaned(cleaning) => Some((cleaning.finding, cleaning.count)),
+        _ => None,
+    });
+    found.collect()
+}
+
+#[test]
+fn a_drive_as_it_was_is_read_without_a_word() {
+    let recording = read(rows()).expect("right");
+    assert!(recording.warnings().is_empty(), "{:?}", recording.warnings());
+}
+
+#[test]
+fn a_dead_encoder_is_named() {
+    for (dead, name) in [(0.0, "left"), (0.37, "left")] {
+        let runs = change(rows(), |run| {
+            for reading in &mut run.tracks.samples {
+                reading.v_left = dead;
+            }
+        });
+        let (doubt, text) = refused(runs.clone());
+        assert!(matches!(doubt, Doubt::DeadEncoder { side: Some(_), .. }), "{text}");
+        assert!(text.contains(&format!("the {name} side never changes")), "{text}");
+        assert!(text.contains("--accept dead-encoder"), "{text}");
+        let recording = accepting(runs, &[DoubtKind::DeadEncoder]).expect("accepted");
+        let is_told = |warning: &Warning| matches!(warning, Warning::Accepted(_));
+        assert!(recording.warnings().iter().any(is_told));
+    }
+    let runs = change(rows(), |run| {
+        for reading in &mut run.tracks.samples {
+            (reading.v_left, reading.v_right) = (0.0, 0.0);
+        }
+    });
+    let (doubt, text) = refused(runs);
+    assert!(matches!(doubt, Doubt::DeadEncoder { side: None, .. }), "{text}");
+}
+
+#[test]
+fn a_track_that_stands_is_no_dead_encoder() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    for left in [0.0, 0.4] {
+        let mut stretch = || {
+            let speeds = PerSide::new(left, random.random_range(-0.8..0.8));
+            Stretch { duration: 2.0, speeds }
+        };
+        let schedule: Vec<Stretch> = (0..40).map(|_| stretch()).collect();
+        let runs = change(driven(vec![schedule]), |run| {
+            for reading in &mut run.tracks.samples {
+                reading.v_left = left;
+            }
+        });
+        let recording = read(runs).expect("a pivot");
+        assert!(recording.warnings().is_empty(), "{:?}", recording.warnings());
+    }
+}
+
+#[test]
+fn an_encoder_that_dies_on_the_way_is_left_out_from_there_on() {
+    let mut runs = rows();
+    let readings = &mut runs[2].tracks.samples;
+    let from = readings.len() / 2;
+    for reading in &mut readings[from..] {
+        reading.v_right = 0.0;
+    }
+    let dead = readings.len() - from;
+    for reading in &mut runs[0].tracks.samples[100..103] {
+        reading.v_left = 0.0;
+    }
+    let good = runs[0].tracks.samples[97];
+    let recording = read(runs).expect("usable");
+    let [(Finding::Dead { longest }, count)] = findings(&recording)[..] else {
+        panic!("{:?}", recording.warnings())
+    };
+    assert_eq!(count, dead + 3);
+    assert!((longest - 15.0).abs() < 0.1, "{longest}");
+    assert_eq!(recording.runs()[2].tracks().len(), from);
+    // three zeros are bridged; the commanded speed does not change there
+    let bridged = recording.runs()[0].tracks()[101];
+    assert!((bridged.v_left - good.v_left).abs() < 0.05, "{bridged:?} {good:?}");
+}
+
+#[test]
+fn a_robot_that_stops_at_once_has_no_dead_encoder() {
+    let stops = |seed: u64| {
+        let mut schedule = random_steps(30, 1.0, 0.8, seed);
+        for (index, stretch) in schedule.iter_mut().enumerate() {
+            match index % 4 {
+                1 => stretch.speeds.left = 0.0,
+                3 => stretch.speeds = PerSide::new(0.0, 0.0),
+                _ => {}
+            }
+        }
+        schedule
+    };
+    let recording = read(driven((0..4).map(stops).collect())).expect("right");
+    assert!(findings(&recording).is_empty(), "{:?}", recording.warnings());
+}
+
+#[test]
+fn a_stuck_tracker_is_named() {
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    for noise in [0.0, 0.003] {
+        let mut runs = rows();
+        for sample in runs.iter_mut().flat_map(|run| &mut run.poses.samples) {
+            sample.pose.x = 1.0 + noise * random.random_range(-1.0..1.0);
+            sample.pose.y = 2.0 + noise * random.random_range(-1.0..1.0);
+            sample.pose.yaw = 0.5 + noise * random.random_range(-1.0..1.0);
+        }
+        let (doubt, text) = refused(runs);
+        assert!(matches!(doubt, Doubt::StuckPoses { .. }), "{text}");
+        assert!(text.contains("a tracker that is stuck"), "{text}");
+    }
+}
+
+#[test]
+fn poses_that_freeze_for_a_while_are_left_out() {
+    let mut runs = rows();
+    let poses = &mut runs[1].poses.samples;
+    let (from, until) = (100, 180);
+    let held = poses[from].pose;
+    for sample in &mut poses[from..until] {
+        sample.pose = held;
+    }
+    let recording = read(runs).expect("usable");
+    let is_it = |(finding, count): &(Finding, usize)| {
+        matches!(finding, Finding::Frozen { longest } if (longest - 7.9).abs() < 1e-9)
+            && *count == until - from - 1
+    };
+    assert!(findings(&recording).iter().any(is_it), "{:?}", recording.warnings());
+}
+
+#[test]
+fn speeds_in_kilometres_per_hour_and_of_wheels_are_named() {
+    for (factor, option) in [
+        (3.6, "--speed-unit km/h"),
+        (1000.0, "--speed-unit mm/s"),
+        (1.0 / 0.165, "--speed-unit rad/s --wheel-radius METRES"),
+        (60.0 / (2.0 * PI * 0.165), "some 0.16"),
+    ] {
+        let runs = change(rows(), |run| {
+            for reading in &mut run.tracks.samples {
+                reading.v_left *= factor;
+                reading.v_right *= factor;
+            }
+        });
+        let (doubt, text) = refused(runs);
+        assert!(matches!(doubt, Doubt::Travel { .. }), "{text}");
+        assert!(text.contains(option), "{factor}: {text}");
+    }
+    // tracks that slip by two thirds of their way
+    let runs = change(rows(), |run| {
+        for reading in &mut run.tracks.samples {
+            reading.v_left *= 2.8;
+            reading.v_right *= 2.8;
+        }
+    });
+    assert!(read(runs).is_ok());
+}
+
+#[test]
+fn a_sensor_that_faces_backwards_is_named() {
+    let backwards = || {
+        change(rows(), |run| {
+            for sample in &mut run.poses.samples {
+                sample.pose.yaw += PI;
+            }
+        })
+    };
+    let (doubt, text) = refused(backwards());
+    assert_eq!(doubt, Doubt::Backwards);
+    assert!(text.contains("faces backwards") && text.contains("--sensor-yaw 180"), "{text}");
+}
+
+#[test]
+fn a_sensor_that_is_turned_by_the_option_is_right() {
+    let backwards = change(rows(), |run| {
+        for sample in &mut run.poses.samples {
+            sample.pose.yaw += PI;
+        }
+    });
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let source = Source::computed();
+    let recording = Recording::new("log", "robot", backwards, source, Vec::new()).expect("usable");
+    folder::write(&recording, place.path()).expect("written");
+    assert!(folder::read(place.path()).is_err());
+    let options = TableOptions { sensor_yaw: Some(PI), ..TableOptions::default() };
+    let turned = folder::read_by(place.path(), &options).expect("right");
+    let truth = read(rows()).expect("right");
+    let (found, expected) = (turned.runs()[1].poses(), truth.runs()[1].poses());
+    for (found, expected) in found.iter().zip(expected) {
+        let off = trackdyn_core::pose::wrap_angle(found.pose.yaw - expected.pose.yaw);
+        assert!(off.abs() < 1e-9, "{off}");
+    }
+}
+
+/// A folder with speeds in rpm of wheels of 0.2 m.
+#[test]
+fn a_folder_is_read_in_the_unit_of_the_option() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let scale = 0.2 * 2.0 * PI / 60.0;
+    let runs = change(rows(), |run| {
+        for reading in &mut run.tracks.samples {
+            (reading.v_left, reading.v_right) = (reading.v_left / scale, reading.v_right / scale);
+        }
+    });
+    let recording = Recording::new("rpm", "robot", runs, Source::computed(), Vec::new());
+    folder::write(&recording.expect("usable"), place.path()).expect("written");
+    let options = TableOptions {
+        speed_unit: Some(SpeedUnit::TurnsPerMinute),
+        wheel_radius: Some(0.2),
+        ..TableOptions::default()
+    };
+    let found = folder::read_by(place.path(), &options).expect("right");
+    let truth = read(rows()).expect("right");
+    for (found, expected) in found.runs()[0].tracks().iter().zip(truth.runs()[0].tracks()) {
+        assert!((found.v_left - expected.v_left).abs() < 1e-9, "{found:?} {expected:?}");
+    }
+    let alone = TableOptions { wheel_radius: None, ..options };
+    let text = folder::read_by(place.path(), &alone).expect_err("no radius").to_string();
+    assert!(text.contains("expected --wheel-radius METRES"), "{text}");
+}
+
+/// Yaw rates of the poses as an IMU at 50 Hz tells them.
+fn with_gyro(factor: f64) -> Vec<UncheckedRun> {
+    change(rows(), |run| {
+        let poses = run.poses.samples.clone();
+        let rate = |k: usize| {
+            let (first, last) = (&poses[k / 5], &poses[k / 5 + 1]);
+            (last.pose.yaw - first.pose.yaw) / (last.t - first.t)
+        };
+        let reading = |k: usize| ImuSample {
+            t: 0.02 * trackdyn_core::real(k),
+            gyro_z: factor * rate(k),
+            acc_x: 0.0,
+            acc_y: 0.0,
+        };
+        run.imu = (0..5 * (poses.len() - 1)).map(reading).collect::<Vec<_>>().into();
+    })
+}
+
+#[test]
+fn a_gyroscope_in_degrees_is_left_out_and_told() {
+    let recording = read(with_gyro(180.0 / PI)).expect("right without it");
+    assert!(recording.runs().iter().all(|run| run.imu().is_empty()));
+    let text = recording.warnings().iter().map(ToString::to_string).collect::<String>();
+    assert!(text.contains("--gyro-unit deg/s"), "{text}");
+    let recording = read(with_gyro(1.0)).expect("right");
+    assert!(recording.runs().iter().all(|run| !run.imu().is_empty()));
+}
+
+#[test]
+fn headings_in_degrees_are_refused() {
+    let runs = change(rows(), |run| {
+        for sample in &mut run.poses.samples {
+            sample.pose = trackdyn_core::Pose::new(f64::NAN, f64::NAN, 3.0 * sample.pose.yaw);
+        }
+    });
+    assert!(read(runs.clone()).is_ok(), "three times the yaw: ICRs close to each other");
+    let runs = change(runs, |run| {
+        let degrees = 180.0 / PI / 3.0;
+        // poses come often enough that no step is half a turn in radians
+        let dense = run.poses.samples.windows(2).flat_map(|pair| {
+            (0..10).map(move |k| {
+                let part = f64::from(k) / 10.0;
+                let t = pair[0].t + part * (pair[1].t - pair[0].t);
+                let yaw = pair[0].pose.yaw + part * (pair[1].pose.yaw - pair[0].pose.yaw);
+                let pose = trackdyn_core::Pose::new(f64::NAN, f64::NAN, degrees * yaw);
+                trackdyn_recording::PoseSample { t, pose }
+            })
+        });
+        run.poses = dense.collect::<Vec<_>>().into();
+    });
+    let (doubt, text) = refused(runs);
+    assert!(matches!(doubt, Doubt::TurnInDegrees { .. }), "{text}");
+    assert!(text.contains("--gyro-unit deg/s"), "{text}");
+}

@@ -1,0 +1,124 @@
+//! Tables whose columns the user names.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+use tempfile::TempDir;
+use trackdyn_estimate::synthetic::{Synthetic, random_steps};
+use trackdyn_recording::{Columns, Doubt, Error, Recording, TableOptions, columns};
+
+const RADIUS: f64 = 0.15;
+
+/// Readings every 0.05 s, poses every 0.1 s: one minute.
+fn truth() -> Recording {
+    let synthetic =
+        Synthetic { schedules: vec![random_steps(30, 2.0, 0.8, 7)], ..Default::default() };
+    synthetic.recording().expect("long enough")
+}
+
+/// The drive as a row of each reading, with the last pose before it, written by `row` from the
+/// time, the speeds of the tracks, and x, y and yaw.
+fn table(header: &str, row: impl Fn([f64; 6], bool) -> String) -> (TempDir, PathBuf) {
+    let truth = truth();
+    let run = &truth.runs()[0];
+    let mut text = format!("{header}\n");
+    for reading in run.tracks() {
+        let last = run.poses().partition_point(|pose| pose.t <= reading.t + 1e-9) - 1;
+        let pose = &run.poses()[last];
+        let is_new = (pose.t - reading.t).abs() < 1e-9;
+        let values =
+            [reading.t, reading.v_left, reading.v_right, pose.pose.x, pose.pose.y, pose.pose.yaw];
+        let _ = writeln!(text, "{}", row(values, is_new));
+    }
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let path = place.path().join("drive.csv");
+    std::fs::write(&path, text).expect("written");
+    (place, path)
+}
+
+fn read(path: &PathBuf, text: &str, options: &TableOptions) -> Result<Recording, Error> {
+    columns::read(path, &text.parse::<Columns>().expect("columns"), options)
+}
+
+#[track_caller]
+fn assert_is_truth(found: &Recording) {
+    let truth = truth();
+    let (found, truth) = (&found.runs()[0], &truth.runs()[0]);
+    assert_eq!(
+        (found.tracks().len(), found.poses().len()),
+        (truth.tracks().len(), truth.poses().len())
+    );
+    for (found, truth) in found.tracks().iter().zip(truth.tracks()) {
+        let off = [found.t - truth.t, found.v_left - truth.v_left, found.v_right - truth.v_right];
+        assert!(off.iter().all(|off| off.abs() < 1e-9), "{found:?} {truth:?}");
+    }
+    for (found, truth) in found.poses().iter().zip(truth.poses()) {
+        let yaw = trackdyn_core::pose::wrap_angle(found.pose.yaw - truth.pose.yaw);
+        let off =
+            [found.t - truth.t, found.pose.x - truth.pose.x, found.pose.y - truth.pose.y, yaw];
+        assert!(off.iter().all(|off| off.abs() < 1e-9), "{found:?} {truth:?}");
+    }
+}
+
+#[test]
+fn names_units_signs_and_empty_cells_are_those_of_the_user() {
+    let rpm = 60.0 / (std::f64::consts::TAU * RADIUS);
+    let (_place, path) = table("Time,left rpm,right rpm,px,py,heading,note", |row, is_new| {
+        let [t, l, r, x, y, yaw] = row;
+        let pose = match is_new {
+            true => format!("{},{},{}", 1000.0 * x, 1000.0 * y, yaw.to_degrees()),
+            false => ",,".to_owned(),
+        };
+        format!("{},{},{},{pose},go", 1000.0 * t, rpm * l, -rpm * r)
+    });
+    let text = "t=Time:ms,v_l=left rpm:rpm,v_r=-right rpm:rpm,x=px:mm,y=py:mm,yaw=heading:deg";
+    let options = TableOptions { wheel_radius: Some(RADIUS), ..TableOptions::default() };
+    assert_is_truth(&read(&path, text, &options).expect("readable"));
+    let without = read(&path, text, &TableOptions::default()).expect_err("no radius").to_string();
+    assert!(without.contains("expected --wheel-radius METRES"), "{without}");
+    let text = text.replace("px:mm", "gps_x");
+    let missing = read(&path, &text, &options).expect_err("no such column").to_string();
+    assert!(
+        missing.contains("drive.csv:1: columns Time,left rpm") && missing.contains("gps_x"),
+        "{missing}"
+    );
+}
+
+/// As a spreadsheet of Europe writes it, with a compass and poses that are held between updates.
+#[test]
+fn semicolons_decimal_commas_compasses_and_held_poses_are_read() {
+    let (_place, path) = table("t;l;r;east;north;compass", |[t, l, r, x, y, yaw], _| {
+        let compass = 90.0 - yaw.to_degrees();
+        format!("{t};{l};{r};{x};{y};{compass}").replace('.', ",")
+    });
+    let text = "t=t,v_l=l,v_r=r,x=east,y=north,yaw=compass:compass";
+    let found = read(&path, text, &TableOptions::default()).expect("readable");
+    assert_is_truth(&found);
+    let told = found.warnings().iter().map(ToString::to_string).collect::<String>();
+    assert!(told.contains("rows: the others repeat the one before"), "{told}");
+}
+
+#[test]
+fn quaternions_stand_for_yaw() {
+    let (_place, path) = table("t\tl\tr\tx\ty\tqz\tqw", |[t, l, r, x, y, yaw], is_new| {
+        let (sin, cos) = (0.5 * yaw).sin_cos();
+        match is_new {
+            true => format!("{t}\t{l}\t{r}\t{x}\t{y}\t{sin}\t{cos}"),
+            false => format!("{t}\t{l}\t{r}\t\t\t\t"),
+        }
+    });
+    let text = "t=t,v_l=l,v_r=r,x=x,y=y,qz=qz,qw=qw";
+    assert_is_truth(&read(&path, text, &TableOptions::default()).expect("readable"));
+}
+
+#[test]
+fn times_in_another_unit_are_doubted_with_the_option_that_helps() {
+    let (_place, path) = table("t,l,r,x,y,yaw", |[t, l, r, x, y, yaw], _| {
+        format!("{},{l},{r},{x},{y},{yaw}", 1000.0 * t)
+    });
+    let text = "t=t,v_l=l,v_r=r,x=x,y=y,yaw=yaw";
+    let error = read(&path, text, &TableOptions::default()).expect_err("refused");
+    let text = error.to_string();
+    let is_stamps = matches!(&error, Error::Contradiction { doubt: Doubt::Stamps { .. }, .. });
+    assert!(is_stamps && text.contains("milliseconds"), "{text}");
+    assert!(text.contains("--columns t=COLUMN:ms"), "{text}");
+}

@@ -16,12 +16,8 @@ const MAX_RISE: f64 = 0.1;
 
 /// A search in a short drive on which this (`id:key=value`) is concealed.
 fn search(concealed: &[&str], seed: u64) -> Search {
-    let options = ScheduleOptions {
-        runs: Some(6),
-        seed,
-        duration: Some(10.0),
-        ..ScheduleOptions::default()
-    };
+    let options =
+        ScheduleOptions { runs: Some(6), seed, duration: Some(10.0), ..ScheduleOptions::default() };
     let runs = ScheduleKind::Manual.generate(&options).expect("a schedule");
     let file = owned(concealed);
     let drive = Drive::new(&file.vehicle, concealed, &runs, seed).expect("it drives");

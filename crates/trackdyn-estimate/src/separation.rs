@@ -24,6 +24,10 @@ const MIN_TURNS: usize = 3;
 /// Least turning of a drive in all, rad: half a turn.
 const MIN_YAW: f64 = std::f64::consts::PI;
 
+/// Widest half of an interval, as share of the distance: a separation that is known less well makes
+/// odometry no better than a guess does.
+const MAX_HALF_WIDTH: f64 = 0.25;
+
 /// Reweighting has settled long before.
 const ITERATIONS: usize = 50;
 
@@ -133,9 +137,15 @@ impl Separation {
             .map(|group| 1.0 / slope(turns.iter().filter(|turn| turn.group != *group)))
             .collect();
         match Interval::of_jackknife(gap, &without) {
-            Some(gap) if gap.low > 0.0 && gap.high.is_finite() => {
+            Some(gap) if gap.low > 0.0 && gap.half_width() <= MAX_HALF_WIDTH * gap.value => {
                 Ok(Self { gap, turns: turns.len(), groups: groups.len() })
             }
+            Some(gap) if gap.low > 0.0 && gap.high.is_finite() => Err(refused(format!(
+                "yaw follows the tracks too loosely: {:.2} m, and 95 % from {:.2} to {:.2} m, where \
+                 a quarter of it is needed: drive more turns, both ways, or look at the gyroscope's \
+                 axes and at slipping wheels",
+                gap.value, gap.low, gap.high
+            ))),
             _ => Err(refused(format!(
                 "yaw does not follow the tracks: {gap:.3} m, with an interval that holds no \
                  distance of any robot"
@@ -200,6 +210,9 @@ mod tests {
         let found = Separation::of_points(&spins.map(point)).expect("enough spins");
         assert!(found.gap.low < 1.02 && 1.02 < found.gap.high, "{found:?}");
         assert!(found.gap.half_width() < 0.03, "{found:?}");
+        let loose = [(0.29, 0.574), (-0.29, -0.263), (0.2, 0.39), (-0.2, -0.196), (0.4, 0.48)];
+        let loose = Separation::of_points(&loose.map(point)).expect_err("any distance");
+        assert!(loose.to_string().contains("too loosely"), "{loose}");
         let few = Separation::of_points(&[point(spins[0]), point(spins[1])]);
         assert!(matches!(few, Err(Error::NotEstimable { .. })));
     }

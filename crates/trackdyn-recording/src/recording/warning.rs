@@ -132,6 +132,13 @@ pub enum Warning {
         /// The topic of the IMU.
         imu: String,
     },
+    /// An IMU that is not mounted upright, whose yaw rates are those about the vertical.
+    TurnedUpright {
+        /// Its topic.
+        topic: String,
+        /// What points up, along its axes.
+        up: [f64; 3],
+    },
     /// Readings of an IMU that are left out, because its yaw rates are in degrees per second.
     GyroInDegrees {
         /// Turn of the gyroscope per turn of the poses.
@@ -385,6 +392,11 @@ impl fmt::Display for Warning {
                 f,
                 "{topic}: positions of its antenna in metres east and north of the first fix, \
                  with the yaw of {imu}, which has to count from east (REP-103)"
+            ),
+            Self::TurnedUpright { topic, up: [x, y, z] } => write!(
+                f,
+                "{topic}: gravity points up along ({x:.2}, {y:.2}, {z:.2}) of its axes: yaw rates \
+                 are those about that direction"
             ),
             Self::GyroInDegrees { ratio } => write!(
                 f,

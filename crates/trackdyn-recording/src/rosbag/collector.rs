@@ -30,10 +30,12 @@ mod signal;
 mod speeds;
 mod tracks;
 mod turns;
+mod upright;
 mod visit;
 
 use choice::Sources;
 use speeds::Streams;
+use upright::{Inertial, upright};
 
 /// What the messages of a bag say, kept by source until it is clear which one to use.
 pub(super) struct Collector<'a> {
@@ -46,7 +48,7 @@ pub(super) struct Collector<'a> {
     poses: BTreeMap<PoseKey, Rows>,
     /// How upright they are.
     attitudes: BTreeMap<PoseKey, Attitude>,
-    imu: BTreeMap<String, Rows>,
+    imu: BTreeMap<String, Vec<Received<Inertial>>>,
     /// Yaw of the orientations of IMUs, by topic.
     yaws: BTreeMap<String, Vec<Yaw>>,
     /// Fixes of satellite navigation, by topic.
@@ -124,6 +126,7 @@ impl<'a> Collector<'a> {
         let joints = if is_dynamic { self.dynamic_joints } else { self.joints };
         let chosen = sources.tracks(joints.into_sources(), &self.skipped, &mut warnings)?;
         let (imu_topic, imu) = sources.imu(self.imu, &mut warnings)?;
+        let imu = upright(&imu_topic, imu, &mut warnings);
         let is_free = !self.options.names_poses();
         // Clocks of the tracks come first: others are compared with them.
         let mut clocks: Vec<Clock> = Vec::new();

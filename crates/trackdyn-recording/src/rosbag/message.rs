@@ -46,18 +46,18 @@ pub(super) fn planar(transform: &Isometry3<f64>) -> [f64; 3] {
     [x, y, yaw_of_quaternion(transform.rotation.coords.into())]
 }
 
-/// `sensor_msgs/Imu` after its header: yaw rate, acceleration forward and to the left; and the yaw
-/// of its orientation, where it has one.
-pub(super) fn imu(payload: &mut Payload) -> Result<([f64; 3], Option<f64>), PayloadError> {
+/// `sensor_msgs/Imu` after its header: angular velocity and linear acceleration along its axes; and
+/// the yaw of its orientation, where it has one.
+pub(super) fn imu(payload: &mut Payload) -> Result<([[f64; 3]; 2], Option<f64>), PayloadError> {
     let orientation: [f64; 4] = payload.f64s()?;
     // The first element of the covariance is -1 where there is no orientation.
     let [unknown]: [f64; 1] = payload.f64s()?;
     payload.skip_f64s(8)?;
-    let [_, _, gyro_z]: [f64; 3] = payload.f64s()?;
+    let rate: [f64; 3] = payload.f64s()?;
     payload.skip_f64s(9)?;
-    let [acc_x, acc_y]: [f64; 2] = payload.f64s()?;
+    let force: [f64; 3] = payload.f64s()?;
     let yaw = yaw_of_quaternion(orientation);
-    Ok(([gyro_z, acc_x, acc_y], Some(yaw).filter(|yaw| unknown != -1.0 && yaw.is_finite())))
+    Ok(([rate, force], Some(yaw).filter(|yaw| unknown != -1.0 && yaw.is_finite())))
 }
 
 /// `sensor_msgs/NavSatFix` after its header: latitude and longitude in degrees, altitude in metres;

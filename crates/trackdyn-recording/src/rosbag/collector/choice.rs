@@ -1,9 +1,11 @@
 //! Which of several sources to use.
 
 use super::tracks::{self, Chosen};
+use super::upright::Inertial;
 use super::{PoseKey, RosbagOptions, Rows};
 use crate::Error;
 use crate::recording::Warning;
+use crate::rosbag::date::Received;
 use crate::rosbag::frames::may_be_odometry;
 use crate::rosbag::joints::Source;
 use crate::rosbag::topic::{Layout, Role, Topic, list};
@@ -109,9 +111,9 @@ impl Sources<'_> {
     /// An IMU is welcome and not needed: where several could be it, none is taken.
     pub(super) fn imu(
         &self,
-        imu: BTreeMap<String, Rows>,
+        imu: BTreeMap<String, Vec<Received<Inertial>>>,
         warnings: &mut Vec<Warning>,
-    ) -> Result<(String, Rows), Error> {
+    ) -> Result<(String, Vec<Received<Inertial>>), Error> {
         match (&self.options.imu_topic, imu.len()) {
             (None, 0) => Ok((String::new(), Vec::new())),
             (None, 2..) => {

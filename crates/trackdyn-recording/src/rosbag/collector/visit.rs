@@ -1,5 +1,6 @@
 //! What is taken from each message.
 
+use super::upright::Inertial;
 use super::{Collector, push};
 use crate::rosbag::date::Received;
 use crate::rosbag::dynamic_joints::{self, DynamicJoints};
@@ -70,13 +71,14 @@ impl Collector<'_> {
             }
             Layout::Imu => {
                 let stamp_ns = header(&mut payload).map_err(decode)?.stamp_ns;
-                let (mut value, yaw) = imu(&mut payload).map_err(decode)?;
+                let ([mut rate, force], yaw) = imu(&mut payload).map_err(decode)?;
                 if self.options.gyro_in_degrees {
-                    value[0] = value[0].to_radians();
+                    rate = rate.map(f64::to_radians);
                 }
                 if let Some(value) = yaw {
                     push(&mut self.yaws, &topic.name, Received { stamp_ns, log_ns, value });
                 }
+                let value = Inertial { rate, force };
                 push(&mut self.imu, &topic.name, Received { stamp_ns, log_ns, value });
             }
             Layout::Path | Layout::PoseArray | Layout::BarePose | Layout::Fix => {

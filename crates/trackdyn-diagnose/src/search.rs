@@ -250,7 +250,7 @@ impl Search {
             let is_worse = |found: &Found| {
                 found.fit.objective > beside.fit.objective + settings.max_rise_of_nested
             };
-            if !is_worse(&found) || std::env::var("NEUTRAL").is_err() {
+            if !is_worse(&found) {
                 return found;
             }
             let none = fitted(start(0.0));

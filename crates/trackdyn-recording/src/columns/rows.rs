@@ -5,7 +5,7 @@ use crate::recording::{Recording, Source, UncheckedRun, Warning, turn_sensor};
 use crate::rosbag::yaw_of_quaternion;
 use crate::sample::{PoseSample, TrackSample};
 use crate::table::Table;
-use crate::unit::scale_of_table;
+use crate::table_options::scale_of_table;
 use crate::{Error, Format, TableOptions};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};

@@ -2,7 +2,7 @@
 
 use super::topic::STATIC;
 use crate::doubt::DoubtKind;
-use crate::format::TableOptions;
+use crate::table_options::TableOptions;
 use crate::unit::SpeedUnit;
 use std::path::PathBuf;
 

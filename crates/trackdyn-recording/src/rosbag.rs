@@ -4,10 +4,11 @@
 //! Track speeds come from `sensor_msgs/JointState`, else from `control_msgs/DynamicJointState`;
 //! poses from `nav_msgs/Odometry`, `geometry_msgs/PoseStamped`, `PoseWithCovarianceStamped`,
 //! `TransformStamped` or `tf2_msgs/TFMessage`; readings of the IMU from `sensor_msgs/Imu`. Where
-//! there are no such poses, they come from `nav_msgs/Path`, `geometry_msgs/PoseArray`, `Pose` or `sensor_msgs/NavSatFix`;
-//! track speeds may be made of a twist. The layouts of these types are known here: the message
-//! definitions in the bag matter only to numbers that are named by the path of their field. All of
-//! a bag is one run, but for clocks that begin anew, as in a simulation: each time begins a run.
+//! there are no such poses, they come from `nav_msgs/Path`, `geometry_msgs/PoseArray`, `Pose` or
+//! `sensor_msgs/NavSatFix`; track speeds may be made of a twist. The layouts of these types are
+//! known here: the message definitions in the bag matter only to numbers that are named by the path
+//! of their field. All of a bag is one run, but for clocks that begin anew, as in a simulation: each
+//! time begins a run.
 //!
 //! Positions of joints that wrap after a turn are unwrapped. Where both frames are named and no
 //! topic has their poses, these are composed along a chain of transforms, such as map → odom →

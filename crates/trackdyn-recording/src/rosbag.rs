@@ -7,8 +7,8 @@
 //! there are no such poses, they come from `nav_msgs/Path`, `geometry_msgs/PoseArray`, `Pose` or
 //! `sensor_msgs/NavSatFix`; track speeds may be made of a twist. The layouts of these types are
 //! known here: the message definitions in the bag matter only to numbers that are named by the path
-//! of their field. All of a bag is one run, but for clocks that begin anew, as in a simulation: each
-//! time begins a run.
+//! of their field. All of a bag is one run, but for clocks that begin anew, as in a simulation:
+//! each time begins a run.
 //!
 //! Positions of joints that wrap after a turn are unwrapped. Where both frames are named and no
 //! topic has their poses, these are composed along a chain of transforms, such as map → odom →

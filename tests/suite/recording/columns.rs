@@ -86,9 +86,9 @@ fn names_units_signs_and_empty_cells_are_those_of_the_user() {
 /// As a spreadsheet of Europe writes it, with a compass and poses that are held between updates.
 #[test]
 fn semicolons_decimal_commas_compasses_and_held_poses_are_read() {
-    let (_place, path) = table("t;l;r;east;north;compass", |[t, l, r, x, y, yaw], _| {
+    let (_place, path) = table("t;l;r;east;north;compass;;", |[t, l, r, x, y, yaw], _| {
         let compass = 90.0 - yaw.to_degrees();
-        format!("{t};{l};{r};{x};{y};{compass}").replace('.', ",")
+        format!("{t};{l};{r};{x};{y};{compass};;").replace('.', ",")
     });
     let text = "t=t,v_l=l,v_r=r,x=east,y=north,yaw=compass:compass";
     let found = read(&path, text, &TableOptions::default()).expect("readable");

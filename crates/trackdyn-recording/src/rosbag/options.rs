@@ -48,7 +48,7 @@ pub struct RosbagOptions {
     pub left_signals: Vec<String>,
     /// Numbers of the right side, in the same way.
     pub right_signals: Vec<String>,
-    /// Unit of the speeds of joints or of these numbers, whose angles it is of as well; none: rad/s.
+    /// Unit of the speeds of joints or of these numbers, and of the angles of joints; none: rad/s.
     pub speed_unit: Option<SpeedUnit>,
     /// Folder of definitions of messages (`PACKAGE/msg/TYPE.msg`), for bags that have none.
     pub msg_dir: Option<PathBuf>,

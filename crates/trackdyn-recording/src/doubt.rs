@@ -267,7 +267,7 @@ impl Doubt {
                 "expected x forward, y left, yaw counter-clockwise, and v_right > v_left there"
             }
             Self::Backwards => {
-                "expected poses whose x axis points forward (--sensor-yaw 180 turns those of a \
+                "expected poses whose x axis points forward (--mount-yaw 180 turns those of a \
                  sensor that faces backwards), and speeds of each side, positive forward"
             }
             Self::DeadEncoder { .. } => {

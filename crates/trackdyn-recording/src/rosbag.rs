@@ -70,7 +70,7 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     let mut collector = collector::Collector::new(options, signals);
     let mut warnings = storage::scan(path, &mut collector)?;
     let mut collected = collector.finish(path)?;
-    turn_sensor(&mut collected.runs, options.sensor_yaw);
+    turn_sensor(&mut collected.runs, options.mount_yaw);
     warnings.extend(collected.warnings);
     warnings.extend(twist::warning(options));
     let name = storage::name(path);
@@ -127,7 +127,7 @@ fn with_options(error: Error, taken: &PerSide<Vec<String>>, kind: &str) -> Error
             let joints = PerSide::new(reversed(&taken.right), reversed(&taken.left));
             let [left, right] = Side::BOTH.map(|side| option(side, &joints[side]));
             let remedy = format!(
-                "turn the sensor by --sensor-yaw 180, or where the sides are wrong, swap and \
+                "turn the sensor by --mount-yaw 180, or where the sides are wrong, swap and \
                  reverse them by {left} {right}"
             );
             (None, remedy)

@@ -14,7 +14,7 @@ pub struct TableOptions {
     /// Belt travel per radian, m, where these are speeds of wheels.
     pub wheel_radius: Option<f64>,
     /// Yaw of the x axis of the pose sensor on the robot, rad: π where it faces backwards.
-    pub sensor_yaw: Option<f64>,
+    pub mount_yaw: Option<f64>,
     /// Whether the yaw rates of the IMU are in degrees per second.
     pub gyro_in_degrees: bool,
     /// Doubts that do not stop the reader, because the user knows better.
@@ -37,7 +37,7 @@ impl TableOptions {
                 reading.gyro_z = reading.gyro_z.to_radians();
             }
         }
-        turn_sensor(runs, self.sensor_yaw);
+        turn_sensor(runs, self.mount_yaw);
         Ok(())
     }
 }

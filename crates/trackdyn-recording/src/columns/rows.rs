@@ -28,7 +28,7 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
     });
     let [left, right] = scales;
     let mut runs = rows(path, columns, [left?, right?])?;
-    turn_sensor(&mut runs, options.sensor_yaw);
+    turn_sensor(&mut runs, options.mount_yaw);
     let mut warnings = Vec::new();
     for run in &mut runs {
         warnings.extend(thin_out(&mut run.poses.samples));

@@ -55,7 +55,7 @@ pub struct RosbagOptions {
     /// What dates the messages.
     pub dated_by: Dating,
     /// Yaw of the x axis of the pose sensor on the robot, rad: π where it faces backwards.
-    pub sensor_yaw: Option<f64>,
+    pub mount_yaw: Option<f64>,
     /// Whether the yaw rates of the IMU are in degrees per second.
     pub gyro_in_degrees: bool,
     /// Doubts that do not stop the reader, because the user knows better.
@@ -73,7 +73,7 @@ impl RosbagOptions {
         TableOptions {
             speed_unit: self.speed_unit,
             wheel_radius: self.wheel_radius,
-            sensor_yaw: self.sensor_yaw,
+            mount_yaw: self.mount_yaw,
             gyro_in_degrees: self.gyro_in_degrees,
             accepted: self.accepted.clone(),
         }

@@ -38,7 +38,7 @@ impl Table {
         let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
         let mut start = BufReader::new(file).take(MAX_HEADER);
         start.read_until(b'\n', &mut line).map_err(|cause| unreadable(path, cause))?;
-        let count = |delimiter: u8| line.iter().filter(|byte| **byte == delimiter).count();
+        let count = |delimiter: u8| line.split(|byte| *byte == delimiter).count();
         let delimiter = [b';', b'\t', b','].into_iter().max_by_key(|&delimiter| count(delimiter));
         Self::open_with(path, required, delimiter.unwrap_or(b','), true)
     }

@@ -1,7 +1,7 @@
 //! Units of track speeds, and which of them were mixed up.
 
 use std::f64::consts::TAU;
-use std::fmt;
+use std::fmt::{self, Write};
 use std::str::FromStr;
 
 /// Unit of the numbers that are speeds of the tracks or of their wheels.
@@ -158,7 +158,8 @@ pub fn remedy(ratio: f64) -> String {
     for wheel in wheels {
         let radius = 1.0 / (ratio * wheel.factor());
         if (RADII[0]..=RADII[1]).contains(&radius) {
-            text += &format!(
+            let _ = write!(
+                text,
                 "; a table of speeds of wheels in {wheel} has this ratio where their radius is \
                  some {radius:.3} m (--speed-unit {wheel} --wheel-radius METRES)"
             );

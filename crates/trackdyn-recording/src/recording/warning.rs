@@ -180,12 +180,7 @@ impl fmt::Display for Warning {
                  s after the first reading of the tracks, by another clock (--tau, and for a bag \
                  --dated-by log)"
             ),
-            Self::PositionsUnknown { runs, of } => write!(
-                f,
-                "poses: in {runs} runs x and y are empty, or never change while the tracks travel: \
-                 positions are not known, {}",
-                if runs == of { "only yaw counts" } else { "and these runs are left out" }
-            ),
+            Self::PositionsUnknown { runs, of } => positions_unknown(f, *runs, *of),
             Self::MessagesSkipped { topic, count, reason } => {
                 write!(f, "{topic}: {count} messages skipped, the first because {reason}")
             }
@@ -255,4 +250,13 @@ impl fmt::Display for Warning {
             Self::Chosen { what, taken } => write!(f, "{what}: took {taken}"),
         }
     }
+}
+
+fn positions_unknown(f: &mut fmt::Formatter<'_>, runs: usize, of: usize) -> fmt::Result {
+    write!(
+        f,
+        "poses: in {runs} runs x and y are empty, or never change while the tracks travel: \
+                 positions are not known, {}",
+        if runs == of { "only yaw counts" } else { "and these runs are left out" }
+    )
 }

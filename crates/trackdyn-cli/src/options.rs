@@ -188,7 +188,7 @@ pub struct RecordingOptions {
     dated_by: Option<DatedBy>,
     /// Yaw in degrees of the pose sensor on the robot: 180 where it faces backwards
     #[arg(long, value_name = "DEG", value_parser = finite, allow_hyphen_values = true)]
-    sensor_yaw: Option<f64>,
+    mount_yaw: Option<f64>,
     /// Unit of the yaw rates of the IMU [default: rad/s]
     #[arg(long, value_name = "UNIT")]
     gyro_unit: Option<GyroUnit>,
@@ -283,7 +283,7 @@ impl RecordingOptions {
                     Some(DatedBy::Header) => Dating::Header,
                     Some(DatedBy::Log) => Dating::Log,
                 },
-                sensor_yaw: self.sensor_yaw.map(f64::to_radians),
+                mount_yaw: self.mount_yaw.map(f64::to_radians),
                 gyro_in_degrees: matches!(self.gyro_unit, Some(GyroUnit::Degrees)),
                 accepted: self.accept.clone(),
                 ..BagOptions::default()

@@ -79,8 +79,8 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
             Dating::Log => Some("log"),
         },
     );
-    let yaw = bag.sensor_yaw.map(|yaw| yaw.to_degrees().to_string());
-    add("sensor-yaw", yaw.as_deref());
+    let yaw = bag.mount_yaw.map(|yaw| yaw.to_degrees().to_string());
+    add("mount-yaw", yaw.as_deref());
     add("gyro-unit", bag.gyro_in_degrees.then_some("deg/s"));
     for doubt in &bag.accepted {
         add("accept", Some(doubt.name()));

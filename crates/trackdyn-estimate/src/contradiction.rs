@@ -5,7 +5,7 @@ use crate::least_squares::Estimate;
 use crate::observations::Observations;
 use crate::parameters::Parameters;
 use crate::spin_test::SpinTest;
-use trackdyn_core::robust::median;
+use trackdyn_core::robust::{median, quantile};
 use trackdyn_core::{PerSide, Side};
 use trackdyn_recording::unit;
 
@@ -29,6 +29,10 @@ const ALPHAS: [f64; 2] = [0.8, 1.25];
 
 /// Largest logarithm of the ratio of both α where a unit may be wrong, which is one of both sides.
 const MAX_LN_UNLIKE: f64 = 0.1;
+
+/// Largest ratio of the upper to the lower quartile of ways of tracks per way of poses where a unit
+/// may be wrong: slip, as on ice, varies by more.
+const MAX_SPREAD_OF_UNITS: f64 = 1.3;
 
 /// Part of the turning that a fit leaves where it describes the drive.
 const MAX_TURNING_LEFT: f64 = 0.5;
@@ -61,7 +65,8 @@ pub enum Contradiction {
         side: Side,
         /// Its factor.
         alpha: f64,
-        /// Track speeds per speed of the poses, where both tracks say one.
+        /// Track speeds per speed of the poses, where both tracks and all of the drive say one, as
+        /// a wrong unit does and slip does not.
         ratio: Option<f64>,
     },
     /// The fit explains hardly any turning.
@@ -90,6 +95,16 @@ impl Contradiction {
             return vec![Self::WheelOdometry { left }];
         }
         let mut found = Self::of_parameters(&fit.parameters, &fit.steering_efficiency(gauge));
+        let [.., alpha_l, alpha_r] = fit.parameters.0;
+        let are_alike = alpha_l > 0.0
+            && alpha_r > 0.0
+            && (alpha_l / alpha_r).ln().abs() < MAX_LN_UNLIKE
+            && spread_of_ways(observations) < MAX_SPREAD_OF_UNITS;
+        for contradiction in &mut found {
+            if let Self::Alpha { ratio, .. } = contradiction {
+                *ratio = are_alike.then(|| 2.0 / (alpha_l + alpha_r));
+            }
+        }
         let gap = fit.gap();
         let by_method = |method, of: Interval, largest: f64| {
             let error = of.deviation.hypot(gap.deviation);
@@ -132,14 +147,32 @@ impl Contradiction {
     pub fn of_parameters(parameters: &Parameters, efficiency: &Interval) -> Vec<Self> {
         let [.., left, right] = parameters.0;
         let alphas = PerSide { left, right };
-        let are_alike = left > 0.0 && right > 0.0 && (left / right).ln().abs() < MAX_LN_UNLIKE;
-        let ratio = are_alike.then(|| 2.0 / (left + right));
+        let ratio = None;
         let far = Side::BOTH.into_iter().filter_map(|side| {
             let (alpha, [low, high]) = (alphas[side], ALPHAS);
             (!(low..=high).contains(&alpha)).then_some(Self::Alpha { side, alpha, ratio })
         });
         Self::of_efficiency(efficiency).into_iter().chain(far).collect()
     }
+}
+
+/// Ratio of the upper to the lower quartile of the way of the tracks per way of the poses, over the
+/// half of the segments in which the tracks run furthest.
+fn spread_of_ways(observations: &Observations) -> f64 {
+    let mut ways: Vec<[f64; 2]> = observations
+        .segments()
+        .iter()
+        .map(|segment| {
+            let travelled = observations.travelled(segment);
+            let [x, y, _] = segment.motion;
+            [f64::midpoint(travelled.left, travelled.right).abs(), x.hypot(y)]
+        })
+        .collect();
+    ways.sort_by(|a, b| b[0].total_cmp(&a[0]));
+    ways.truncate(ways.len().div_ceil(2));
+    let mut ratios: Vec<f64> = ways.iter().map(|[tracks, poses]| tracks / poses).collect();
+    let [lower, upper] = [0.25, 0.75].map(|share| quantile(&mut ratios, share));
+    lower.zip(upper).map_or(f64::INFINITY, |(lower, upper)| upper / lower)
 }
 
 /// Part of the turning that parameters leave unexplained: medians over the half of the segments

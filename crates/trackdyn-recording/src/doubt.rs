@@ -242,9 +242,12 @@ impl Doubt {
         match self {
             Self::Travel { ratio, .. } => return unit::remedy(*ratio),
             Self::Stamps { .. } => {
-                "expected seconds; of one table with both, --columns t=COLUMN:ms (or us, ns) reads others"
-            },
-            Self::YawInDegrees => "expected yaw in rad; of one table, --columns yaw=COLUMN:deg reads degrees",
+                "expected seconds; of one table with both, --columns t=COLUMN:ms (or us, ns) reads \
+                 others"
+            }
+            Self::YawInDegrees => {
+                "expected yaw in rad; of one table, --columns yaw=COLUMN:deg reads degrees"
+            }
             Self::TurnInDegrees { .. } => {
                 "expected yaw in rad; --gyro-unit deg/s reads a gyroscope in degrees per second"
             }
@@ -264,7 +267,7 @@ impl Doubt {
                 "expected x forward, y left, yaw counter-clockwise, and v_right > v_left there"
             }
             Self::Backwards => {
-                "expected poses whose x axis points forward (--sensor-yaw 180 turns those of a \
+                "expected poses whose x axis points forward (--mount-yaw 180 turns those of a \
                  sensor that faces backwards), and speeds of each side, positive forward"
             }
             Self::DeadEncoder { .. } => {

@@ -1,9 +1,7 @@
 //! Which format a path holds, and its reader.
 
-use crate::doubt::DoubtKind;
-use crate::recording::{Format, Recording, UncheckedRun, turn_sensor};
+use crate::recording::{Format, Recording};
 use crate::rosbag::{self, RosbagOptions};
-use crate::unit::{SpeedUnit, scale_of_table};
 use crate::{Error, folder};
 use std::path::Path;
 
@@ -39,42 +37,6 @@ impl Format {
                        trajectory with a table of its track speeds; to identify and diagnose, a \
                        .csv table of steady operating points too",
         })
-    }
-}
-
-/// How tables of track speeds and poses are read.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct TableOptions {
-    /// Unit of the track speeds; none: m/s.
-    pub speed_unit: Option<SpeedUnit>,
-    /// Belt travel per radian, m, where these are speeds of wheels.
-    pub wheel_radius: Option<f64>,
-    /// Yaw of the x axis of the pose sensor on the robot, rad: π where it faces backwards.
-    pub sensor_yaw: Option<f64>,
-    /// Whether the yaw rates of the IMU are in degrees per second.
-    pub gyro_in_degrees: bool,
-    /// Doubts that do not stop the reader, because the user knows better.
-    pub accepted: Vec<DoubtKind>,
-}
-
-impl TableOptions {
-    /// Reads the rows of a table by these options.
-    ///
-    /// # Errors
-    /// [`Error::Options`] for a unit of wheels without their radius, and the reverse.
-    pub(crate) fn apply(&self, path: &Path, runs: &mut [UncheckedRun]) -> Result<(), Error> {
-        let scale = scale_of_table(path, self.speed_unit, self.wheel_radius)?;
-        for reading in runs.iter_mut().flat_map(|run| &mut run.tracks.samples) {
-            reading.v_left *= scale;
-            reading.v_right *= scale;
-        }
-        for reading in runs.iter_mut().flat_map(|run| &mut run.imu.samples) {
-            if self.gyro_in_degrees {
-                reading.gyro_z = reading.gyro_z.to_radians();
-            }
-        }
-        turn_sensor(runs, self.sensor_yaw);
-        Ok(())
     }
 }
 

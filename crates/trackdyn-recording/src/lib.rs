@@ -25,15 +25,17 @@ pub mod rosbag;
 pub mod sample;
 pub mod selection;
 pub mod table;
+mod table_options;
 pub mod tum;
 pub mod unit;
 
 pub use columns::Columns;
 pub use doubt::{Axes, Doubt, DoubtKind};
 pub use error::Error;
-pub use format::{TableOptions, read};
+pub use format::read;
 pub use operating_points::{OperatingPoint, OperatingPoints};
 pub use recording::{Format, Recording, Run, Source, StatedNoise, UncheckedRun, Warning};
 pub use sample::{ImuSample, PoseSample, Series, TrackSample};
 pub use selection::RunList;
+pub use table_options::TableOptions;
 pub use unit::SpeedUnit;

@@ -8,6 +8,7 @@ mod cleaning;
 mod content;
 mod contradictions;
 mod dead;
+mod finding;
 mod frozen;
 mod gyro_unit;
 mod idle;
@@ -22,10 +23,11 @@ mod warning;
 
 pub use cleaning::MIN_GAP_RATIO;
 pub(crate) use cleaning::clean;
+pub use finding::{Cleaning, Finding};
 pub(crate) use run::turn_sensor;
 pub use run::{Run, UncheckedRun};
 pub use source::{Format, Source};
-pub use warning::{Cleaning, Finding, Warning};
+pub use warning::Warning;
 
 /// Track speeds, poses and, where there are any, readings of an IMU.
 ///
@@ -120,7 +122,7 @@ impl Recording {
         dead::leave_out(&mut kept, &mut cleanings);
         leave_out(&mut kept, &mut warnings);
         if kept.is_empty() {
-            let found = warning::gather(cleanings).into_iter().map(|one| format!("; {one}"));
+            let found = finding::gather(cleanings).into_iter().map(|one| format!("; {one}"));
             let found: String = found.collect();
             let orientation = match without_yaw {
                 0 => String::new(),
@@ -146,7 +148,7 @@ impl Recording {
         if runs < kept.len() {
             kept.retain(Run::has_positions);
         }
-        warnings.extend(warning::gather(cleanings).into_iter().map(Warning::Cleaned));
+        warnings.extend(finding::gather(cleanings).into_iter().map(Warning::Cleaned));
         let fingerprint = content::fingerprint(&kept);
         let pose_fingerprint = content::pose_fingerprint(&kept);
         Ok(Self {

@@ -4,10 +4,11 @@
 //! Track speeds come from `sensor_msgs/JointState`, else from `control_msgs/DynamicJointState`;
 //! poses from `nav_msgs/Odometry`, `geometry_msgs/PoseStamped`, `PoseWithCovarianceStamped`,
 //! `TransformStamped` or `tf2_msgs/TFMessage`; readings of the IMU from `sensor_msgs/Imu`. Where
-//! there are no such poses, they come from `nav_msgs/Path`, `geometry_msgs/PoseArray`, `Pose` or `sensor_msgs/NavSatFix`;
-//! track speeds may be made of a twist. The layouts of these types are known here: the message
-//! definitions in the bag matter only to numbers that are named by the path of their field. All of
-//! a bag is one run, but for clocks that begin anew, as in a simulation: each time begins a run.
+//! there are no such poses, they come from `nav_msgs/Path`, `geometry_msgs/PoseArray`, `Pose` or
+//! `sensor_msgs/NavSatFix`; track speeds may be made of a twist. The layouts of these types are
+//! known here: the message definitions in the bag matter only to numbers that are named by the path
+//! of their field. All of a bag is one run, but for clocks that begin anew, as in a simulation:
+//! each time begins a run.
 //!
 //! Positions of joints that wrap after a turn are unwrapped. Where both frames are named and no
 //! topic has their poses, these are composed along a chain of transforms, such as map → odom →
@@ -69,7 +70,7 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
     let mut collector = collector::Collector::new(options, signals);
     let mut warnings = storage::scan(path, &mut collector)?;
     let mut collected = collector.finish(path)?;
-    turn_sensor(&mut collected.runs, options.sensor_yaw);
+    turn_sensor(&mut collected.runs, options.mount_yaw);
     warnings.extend(collected.warnings);
     warnings.extend(twist::warning(options));
     let name = storage::name(path);
@@ -126,7 +127,7 @@ fn with_options(error: Error, taken: &PerSide<Vec<String>>, kind: &str) -> Error
             let joints = PerSide::new(reversed(&taken.right), reversed(&taken.left));
             let [left, right] = Side::BOTH.map(|side| option(side, &joints[side]));
             let remedy = format!(
-                "turn the sensor by --sensor-yaw 180, or where the sides are wrong, swap and \
+                "turn the sensor by --mount-yaw 180, or where the sides are wrong, swap and \
                  reverse them by {left} {right}"
             );
             (None, remedy)

@@ -25,7 +25,7 @@ impl Table {
     /// # Errors
     /// [`Error::Unreadable`]; [`Error::Header`] when a name stands there twice or `required` lacks.
     pub fn open(path: &Path, required: &[&str]) -> Result<Self, Error> {
-        Self::open_with(path, required, b',')
+        Self::open_with(path, required, b',', false)
     }
 
     /// Opens a file whose cells stand between commas, tabs, or semicolons: the first line has one
@@ -38,12 +38,17 @@ impl Table {
         let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
         let mut start = BufReader::new(file).take(MAX_HEADER);
         start.read_until(b'\n', &mut line).map_err(|cause| unreadable(path, cause))?;
-        let count = |delimiter: u8| line.iter().filter(|byte| **byte == delimiter).count();
+        let count = |delimiter: u8| line.split(|byte| *byte == delimiter).count();
         let delimiter = [b';', b'\t', b','].into_iter().max_by_key(|&delimiter| count(delimiter));
-        Self::open_with(path, required, delimiter.unwrap_or(b','))
+        Self::open_with(path, required, delimiter.unwrap_or(b','), true)
     }
 
-    fn open_with(path: &Path, required: &[&str], delimiter: u8) -> Result<Self, Error> {
+    fn open_with(
+        path: &Path,
+        required: &[&str],
+        delimiter: u8,
+        is_any: bool,
+    ) -> Result<Self, Error> {
         let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
         let mut builder = ReaderBuilder::new();
         let mut reader = builder.buffer_capacity(1 << 18).delimiter(delimiter).from_reader(file);
@@ -51,7 +56,10 @@ impl Table {
         let line = header.position().map_or(1, csv::Position::line);
         let header: Vec<String> =
             header.iter().map(|name| String::from_utf8_lossy(name.trim_ascii()).into()).collect();
-        let twice = header.iter().enumerate().any(|(at, name)| header[..at].contains(name));
+        // Tables of other programs may have any columns beside those that are named.
+        let counts = |name: &String| !is_any || required.contains(&name.as_str());
+        let mut twice = header.iter().enumerate().filter(|(_, name)| counts(name));
+        let twice = twice.any(|(at, name)| header[..at].contains(name));
         let lacks = required.iter().any(|name| !header.iter().any(|column| column == name));
         if twice || lacks {
             let expected = format!("{}, each name once", required.join(","));

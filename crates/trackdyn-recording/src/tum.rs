@@ -64,8 +64,11 @@ pub fn read_poses(path: &Path) -> Result<Series<PoseSample>, Error> {
     }
 }
 
+/// Poses, and how many of them no robot has.
+type Read = (Series<PoseSample>, Option<(u64, Axes)>);
+
 /// The poses of a file, and how many of them no robot has, where these are too many.
-fn poses(path: &Path) -> Result<(Series<PoseSample>, Option<(u64, Axes)>), Error> {
+fn poses(path: &Path) -> Result<Read, Error> {
     let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
     let mut reader = BufReader::with_capacity(1 << 18, file);
     let mut poses = Vec::new();

@@ -1,9 +1,7 @@
 //! Units of track speeds, and which of them were mixed up.
 
-use crate::Error;
 use std::f64::consts::TAU;
-use std::fmt;
-use std::path::Path;
+use std::fmt::{self, Write};
 use std::str::FromStr;
 
 /// Unit of the numbers that are speeds of the tracks or of their wheels.
@@ -106,31 +104,14 @@ impl FromStr for SpeedUnit {
     }
 }
 
-/// m/s per number in a table of track speeds: of the unit given, or m/s.
-///
-/// # Errors
-/// [`Error::Options`] for a unit of wheels without their radius, and for a radius without one.
-pub(crate) fn scale_of_table(
-    path: &Path,
-    unit: Option<SpeedUnit>,
-    wheel_radius: Option<f64>,
-) -> Result<f64, Error> {
-    let refuse = |problem: String| Err(Error::Options { path: path.to_owned(), problem });
-    match (unit.unwrap_or(SpeedUnit::MetresPerSecond), wheel_radius) {
-        (unit, Some(radius)) if unit.is_of_wheels() => Ok(radius * unit.factor()),
-        (unit, None) if unit.is_of_wheels() => refuse(format!(
-            "--speed-unit {unit} is of wheels: expected --wheel-radius METRES beside it"
-        )),
-        (unit, Some(_)) => refuse(format!(
-            "--wheel-radius: speeds in {unit} are those of the tracks already: expected no radius, \
-             or --speed-unit rad/s, rpm, turns/s or deg/s"
-        )),
-        (unit, None) => Ok(unit.factor()),
-    }
-}
-
 /// Largest factor between a ratio and that of two units; slip and a rough radius are in between.
 const MAX_ERROR: f64 = 1.3;
+
+/// This factor where slip alone may explain the ratio.
+const MAX_ERROR_OF_SMALL: f64 = 1.1;
+
+/// Ratio that no slip explains.
+const MAX_SLIP: f64 = 5.0;
 
 /// Radii of wheels and sprockets, m.
 const RADII: [f64; 2] = [0.03, 0.6];
@@ -177,7 +158,8 @@ pub fn remedy(ratio: f64) -> String {
     for wheel in wheels {
         let radius = 1.0 / (ratio * wheel.factor());
         if (RADII[0]..=RADII[1]).contains(&radius) {
-            text += &format!(
+            let _ = write!(
+                text,
                 "; a table of speeds of wheels in {wheel} has this ratio where their radius is \
                  some {radius:.3} m (--speed-unit {wheel} --wheel-radius METRES)"
             );
@@ -188,7 +170,8 @@ pub fn remedy(ratio: f64) -> String {
 
 fn nearest(size: f64) -> Option<(f64, &'static str, Option<SpeedUnit>)> {
     let off = |unit: f64| (size / unit).max(unit / size);
-    let near = MIXED.into_iter().filter(|(unit, ..)| off(*unit) <= MAX_ERROR);
+    let allowed = |unit: f64| if unit < MAX_SLIP { MAX_ERROR_OF_SMALL } else { MAX_ERROR };
+    let near = MIXED.into_iter().filter(|(unit, ..)| off(*unit) <= allowed(*unit));
     near.min_by(|(a, ..), (b, ..)| off(*a).total_cmp(&off(*b)))
 }
 
@@ -212,18 +195,5 @@ mod tests {
         assert!(remedy(6.06).contains("some 0.165 m (--speed-unit rad/s --wheel-radius METRES)"));
         assert!(remedy(1.0 / 6.2).contains("--speed-unit turns/s"));
         assert_eq!(mixed_up(1.2), None);
-    }
-
-    #[test]
-    fn a_table_of_wheels_needs_their_radius() {
-        let scale = |unit, radius| scale_of_table(Path::new("t"), unit, radius);
-        let rpm = Some(SpeedUnit::TurnsPerMinute);
-        let of_rpm = scale(rpm, Some(0.3)).expect("a scale");
-        assert!((of_rpm - 0.3 * TAU / 60.0).abs() < 1e-15);
-        assert_eq!(scale(None, None).expect("a scale"), 1.0);
-        let text = scale(rpm, None).expect_err("no radius").to_string();
-        assert!(text.contains("--wheel-radius METRES"), "{text}");
-        let text = scale(None, Some(0.3)).expect_err("m/s").to_string();
-        assert!(text.contains("--speed-unit rad/s"), "{text}");
     }
 }

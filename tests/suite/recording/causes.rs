@@ -228,7 +228,7 @@ fn a_sensor_that_faces_backwards_is_named() {
     };
     let (doubt, text) = refused(backwards());
     assert_eq!(doubt, Doubt::Backwards);
-    assert!(text.contains("faces backwards") && text.contains("--sensor-yaw 180"), "{text}");
+    assert!(text.contains("faces backwards") && text.contains("--mount-yaw 180"), "{text}");
 }
 
 #[test]
@@ -243,7 +243,7 @@ fn a_sensor_that_is_turned_by_the_option_is_right() {
     let recording = Recording::new("log", "robot", backwards, source, Vec::new()).expect("usable");
     folder::write(&recording, place.path()).expect("written");
     assert!(folder::read(place.path()).is_err());
-    let options = TableOptions { sensor_yaw: Some(PI), ..TableOptions::default() };
+    let options = TableOptions { mount_yaw: Some(PI), ..TableOptions::default() };
     let turned = folder::read_by(place.path(), &options).expect("right");
     let truth = read(rows()).expect("right");
     let (found, expected) = (turned.runs()[1].poses(), truth.runs()[1].poses());

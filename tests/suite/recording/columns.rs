@@ -1,7 +1,7 @@
 //! Tables whose columns the user names.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_recording::{Columns, Doubt, Error, Recording, TableOptions, columns};
@@ -35,7 +35,7 @@ fn table(header: &str, row: impl Fn([f64; 6], bool) -> String) -> (TempDir, Path
     (place, path)
 }
 
-fn read(path: &PathBuf, text: &str, options: &TableOptions) -> Result<Recording, Error> {
+fn read(path: &Path, text: &str, options: &TableOptions) -> Result<Recording, Error> {
     columns::read(path, &text.parse::<Columns>().expect("columns"), options)
 }
 
@@ -64,9 +64,10 @@ fn names_units_signs_and_empty_cells_are_those_of_the_user() {
     let rpm = 60.0 / (std::f64::consts::TAU * RADIUS);
     let (_place, path) = table("Time,left rpm,right rpm,px,py,heading,note", |row, is_new| {
         let [t, l, r, x, y, yaw] = row;
-        let pose = match is_new {
-            true => format!("{},{},{}", 1000.0 * x, 1000.0 * y, yaw.to_degrees()),
-            false => ",,".to_owned(),
+        let pose = if is_new {
+            format!("{},{},{}", 1000.0 * x, 1000.0 * y, yaw.to_degrees())
+        } else {
+            ",,".to_owned()
         };
         format!("{},{},{},{pose},go", 1000.0 * t, rpm * l, -rpm * r)
     });
@@ -86,9 +87,9 @@ fn names_units_signs_and_empty_cells_are_those_of_the_user() {
 /// As a spreadsheet of Europe writes it, with a compass and poses that are held between updates.
 #[test]
 fn semicolons_decimal_commas_compasses_and_held_poses_are_read() {
-    let (_place, path) = table("t;l;r;east;north;compass", |[t, l, r, x, y, yaw], _| {
+    let (_place, path) = table("t;l;r;east;north;compass;;", |[t, l, r, x, y, yaw], _| {
         let compass = 90.0 - yaw.to_degrees();
-        format!("{t};{l};{r};{x};{y};{compass}").replace('.', ",")
+        format!("{t};{l};{r};{x};{y};{compass};;").replace('.', ",")
     });
     let text = "t=t,v_l=l,v_r=r,x=east,y=north,yaw=compass:compass";
     let found = read(&path, text, &TableOptions::default()).expect("readable");
@@ -101,9 +102,10 @@ fn semicolons_decimal_commas_compasses_and_held_poses_are_read() {
 fn quaternions_stand_for_yaw() {
     let (_place, path) = table("t\tl\tr\tx\ty\tqz\tqw", |[t, l, r, x, y, yaw], is_new| {
         let (sin, cos) = (0.5 * yaw).sin_cos();
-        match is_new {
-            true => format!("{t}\t{l}\t{r}\t{x}\t{y}\t{sin}\t{cos}"),
-            false => format!("{t}\t{l}\t{r}\t\t\t\t"),
+        if is_new {
+            format!("{t}\t{l}\t{r}\t{x}\t{y}\t{sin}\t{cos}")
+        } else {
+            format!("{t}\t{l}\t{r}\t\t\t\t")
         }
     });
     let text = "t=t,v_l=l,v_r=r,x=x,y=y,qz=qz,qw=qw";

@@ -5,7 +5,7 @@ use crate::recording::{Recording, Source, UncheckedRun, Warning, turn_sensor};
 use crate::rosbag::yaw_of_quaternion;
 use crate::sample::{PoseSample, TrackSample};
 use crate::table::Table;
-use crate::unit::scale_of_table;
+use crate::table_options::scale_of_table;
 use crate::{Error, Format, TableOptions};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -28,7 +28,7 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
     });
     let [left, right] = scales;
     let mut runs = rows(path, columns, [left?, right?])?;
-    turn_sensor(&mut runs, options.sensor_yaw);
+    turn_sensor(&mut runs, options.mount_yaw);
     let mut warnings = Vec::new();
     for run in &mut runs {
         warnings.extend(thin_out(&mut run.poses.samples));

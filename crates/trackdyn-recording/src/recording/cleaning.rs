@@ -1,6 +1,6 @@
 //! Rows that cannot be used as they are.
 
-use super::warning::{Cleaning, Finding};
+use super::finding::{Cleaning, Finding};
 use crate::far::{self, Parts};
 use crate::hold::travelled;
 use crate::sample::{PoseSample, Sample, Series, Stream, TrackSample};

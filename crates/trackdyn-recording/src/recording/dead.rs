@@ -1,19 +1,21 @@
 //! Readings of a side at exactly zero while its track moves: an encoder that is dead for a while.
 //!
 //! # Law
-//! Three or more zeros of a side in a row are in question where the speed before or after them is
-//! more than a third of the usual one. What the track ran then is told twice by the other side: by
-//! the turn of the poses, and by their way forward. The encoder was dead where both agree on a way
-//! of more than a third of the usual speed. A robot that stops stands by its poses as well.
+//! Three or more zeros of a side in a row are in question where the speed falls to them at once
+//! and comes back to as much in the same direction, more than a third of the usual one; where they
+//! last for long, one of both is enough. What the track ran then is told twice by the other side:
+//! by the turn of the poses, and by their way forward. The encoder was dead where both agree on a
+//! way of more than a third of the usual speed. A robot that stops stands by its poses as well; on
+//! ice it slides on for a while, which is why a speed has to come back.
 //!
 //! A few zeros are replaced by the line between the readings beside them; more are dropped, which
 //! leaves a gap: nobody knows what the track did within.
 
 use super::Run;
 use super::cleaning::MIN_GAP_RATIO;
+use super::finding::{Cleaning, Finding};
 use super::motion::{Following, Piece, agreement};
 use super::spikes::bridge;
-use super::warning::{Cleaning, Finding};
 use crate::sample::{PoseSample, Stream};
 use std::ops::Range;
 use trackdyn_core::robust::{median, usual_interval};
@@ -24,6 +26,9 @@ const MIN_ZEROS: usize = 3;
 
 /// Share of the usual speed that a track has to have had.
 const MIN_SHARE: f64 = 1.0 / 3.0;
+
+/// Time of zeros that no slide lasts, s.
+const MIN_LONG: f64 = 3.0;
 
 /// Agreement of both ways from which on they are those of one track.
 const MIN_AGREEMENT: f64 = 0.5;
@@ -118,10 +123,16 @@ fn zeros(index: usize, run: &Run, side: Side, usual: f64) -> Vec<Zeros> {
         }
         let beside = [rows.start.checked_sub(1), Some(rows.end).filter(|end| *end < tracks.len())];
         let is_fast = |beside: &usize| speed(*beside).abs() > MIN_SHARE * usual;
-        let is_alone = beside.iter().all(Option::is_none);
-        if is_alone || beside.iter().flatten().any(is_fast) {
-            let after = rows.end.min(tracks.len() - 1);
-            let time = [tracks[rows.start].t, tracks[after].t];
+        let after = rows.end.min(tracks.len() - 1);
+        let time = [tracks[rows.start].t, tracks[after].t];
+        let is_questioned = match beside {
+            _ if time[1] - time[0] >= MIN_LONG => {
+                beside.iter().all(Option::is_none) || beside.iter().flatten().any(is_fast)
+            }
+            [Some(a), Some(b)] => is_fast(&a) && is_fast(&b) && speed(a) * speed(b) > 0.0,
+            _ => false,
+        };
+        if is_questioned {
             found.push(Zeros { run: index, side, rows, time });
         }
     }

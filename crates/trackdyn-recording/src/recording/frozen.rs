@@ -6,7 +6,7 @@
 //! first are dropped, which leaves a gap. Poses with a yaw alone stay the same in straight driving.
 
 use super::Run;
-use super::warning::{Cleaning, Finding};
+use super::finding::{Cleaning, Finding};
 use crate::hold::travelled;
 use crate::sample::Stream;
 use trackdyn_core::PerSide;

@@ -1,9 +1,9 @@
 //! A continuous part of a recording.
 
 use super::cleaning::{clean, held, unwrap_yaw};
+use super::finding::Cleaning;
 use super::positions::settle;
 use super::spikes::mend;
-use super::warning::Cleaning;
 use crate::sample::{ImuSample, PoseSample, Series, TrackSample};
 
 /// The rows of a run as a reader found them.

@@ -19,7 +19,7 @@
 //! # Sources
 //! The filter is Hampel's: Pearson, IEEE Transactions on Control Systems Technology 10(1), 2002.
 
-use super::warning::{Cleaning, Finding};
+use super::finding::{Cleaning, Finding};
 use crate::sample::{Stream, TrackSample};
 use trackdyn_core::robust::{deviation_about_zero, quantile, usual_interval};
 use trackdyn_core::{PerSide, Side};

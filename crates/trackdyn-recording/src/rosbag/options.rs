@@ -2,7 +2,7 @@
 
 use super::topic::STATIC;
 use crate::doubt::DoubtKind;
-use crate::format::TableOptions;
+use crate::table_options::TableOptions;
 use crate::unit::SpeedUnit;
 use std::path::PathBuf;
 
@@ -48,14 +48,14 @@ pub struct RosbagOptions {
     pub left_signals: Vec<String>,
     /// Numbers of the right side, in the same way.
     pub right_signals: Vec<String>,
-    /// Unit of the speeds of joints or of these numbers, whose angles it is of as well; none: rad/s.
+    /// Unit of the speeds of joints or of these numbers, and of the angles of joints; none: rad/s.
     pub speed_unit: Option<SpeedUnit>,
     /// Folder of definitions of messages (`PACKAGE/msg/TYPE.msg`), for bags that have none.
     pub msg_dir: Option<PathBuf>,
     /// What dates the messages.
     pub dated_by: Dating,
     /// Yaw of the x axis of the pose sensor on the robot, rad: π where it faces backwards.
-    pub sensor_yaw: Option<f64>,
+    pub mount_yaw: Option<f64>,
     /// Whether the yaw rates of the IMU are in degrees per second.
     pub gyro_in_degrees: bool,
     /// Doubts that do not stop the reader, because the user knows better.
@@ -73,7 +73,7 @@ impl RosbagOptions {
         TableOptions {
             speed_unit: self.speed_unit,
             wheel_radius: self.wheel_radius,
-            sensor_yaw: self.sensor_yaw,
+            mount_yaw: self.mount_yaw,
             gyro_in_degrees: self.gyro_in_degrees,
             accepted: self.accepted.clone(),
         }

@@ -26,7 +26,7 @@ impl ReadOptions {
             ("columns", self.columns.is_some()),
             ("speed_unit", bag.speed_unit.is_some()),
             ("wheel_radius", bag.wheel_radius.is_some()),
-            ("sensor_yaw", bag.sensor_yaw.is_some()),
+            ("mount_yaw", bag.mount_yaw.is_some()),
             ("gyro_unit", bag.gyro_in_degrees),
             ("accepted", !bag.accepted.is_empty()),
         ];

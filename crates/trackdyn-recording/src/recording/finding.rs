@@ -1,0 +1,146 @@
+//! What was found in the rows of a recording.
+
+use crate::sample::Stream;
+use std::fmt;
+
+/// One kind of finding in one series, gathered over the runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cleaning {
+    /// The series.
+    pub stream: Stream,
+    /// What was found.
+    pub finding: Finding,
+    /// Rows or intervals it was found in.
+    pub count: usize,
+    /// Runs it was found in.
+    pub runs: usize,
+    /// The first of these runs.
+    pub run: i64,
+    /// Stamp of the first place in that run, s.
+    pub t: f64,
+}
+
+/// What can be wrong with rows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Finding {
+    /// An empty cell, NaN or an infinity: the row is dropped.
+    NotFinite,
+    /// A stamp before the one above it: the rows are sorted.
+    Unsorted,
+    /// A stamp that is far from all others, as before a clock was set: the row is dropped.
+    Far,
+    /// A stamp that stands there already: the first row is kept.
+    Repeated,
+    /// A pose that is the one before to the last digit while a track moves: it stays.
+    Held,
+    /// Stamps closer than a tenth of the median interval: both stay, but one of them is likely
+    /// wrong.
+    Crowded,
+    /// An interval of more than five times the median one.
+    Gap {
+        /// The longest, s.
+        longest: f64,
+    },
+    /// A jump of yaw by more than half a turn: whole turns are added from there on.
+    YawUnwrapped,
+    /// A speed that jumps away from its neighbours and back: the line between them replaces it.
+    Spike {
+        /// Size of the largest, m/s.
+        largest: f64,
+    },
+    /// Readings of a side at zero while the poses show that its track moves: a few in a row are
+    /// replaced by the line between their neighbours, more are dropped.
+    Dead {
+        /// The longest time, s.
+        longest: f64,
+    },
+    /// Poses that repeat the one before for long while the tracks move: they are dropped.
+    Frozen {
+        /// The longest time, s.
+        longest: f64,
+    },
+}
+
+impl Finding {
+    /// Whether rows were dropped or moved because of it.
+    pub(crate) fn changes_rows(self) -> bool {
+        matches!(
+            self,
+            Self::NotFinite
+                | Self::Unsorted
+                | Self::Far
+                | Self::Repeated
+                | Self::Dead { .. }
+                | Self::Frozen { .. }
+        )
+    }
+}
+
+/// Gathers findings of the same kind in the same series; the first place stands for all.
+pub(super) fn gather(cleanings: Vec<Cleaning>) -> Vec<Cleaning> {
+    let mut gathered: Vec<Cleaning> = Vec::new();
+    for next in cleanings {
+        let same = gathered.iter_mut().find(|sum| {
+            sum.stream == next.stream
+                && std::mem::discriminant(&sum.finding) == std::mem::discriminant(&next.finding)
+        });
+        let Some(sum) = same else {
+            gathered.push(next);
+            continue;
+        };
+        sum.count += next.count;
+        sum.runs += next.runs;
+        match (&mut sum.finding, next.finding) {
+            (Finding::Gap { longest: most }, Finding::Gap { longest: other })
+            | (Finding::Dead { longest: most }, Finding::Dead { longest: other })
+            | (Finding::Frozen { longest: most }, Finding::Frozen { longest: other })
+            | (Finding::Spike { largest: most }, Finding::Spike { largest: other }) => {
+                *most = most.max(other);
+            }
+            _ => {}
+        }
+    }
+    gathered.sort_by_key(|cleaning| cleaning.stream);
+    gathered
+}
+
+impl fmt::Display for Cleaning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { count, runs, run, t, .. } = self;
+        write!(f, "{}: {count} ", self.stream.name())?;
+        match self.finding {
+            Finding::NotFinite => write!(f, "rows with an empty cell, NaN or infinity dropped")?,
+            Finding::Unsorted => write!(f, "steps back in time, rows sorted")?,
+            Finding::Far => write!(f, "rows whose stamp is far from all others dropped")?,
+            Finding::Repeated => write!(f, "rows with a repeated stamp dropped, the first kept")?,
+            Finding::Held => {
+                write!(
+                    f,
+                    "rows repeat the one before while the tracks move: sent again, not measured?"
+                )?;
+            }
+            Finding::Crowded => {
+                write!(f, "intervals below a tenth of the median: stamps may be wrong")?;
+            }
+            Finding::Gap { longest } => write!(f, "gaps, the longest {longest:.3} s")?,
+            Finding::YawUnwrapped => write!(f, "jumps of yaw unwrapped")?,
+            Finding::Spike { largest } => write!(
+                f,
+                "speeds that jump away from their neighbours and back, up to {largest:.1} m/s \
+                 (glitch, restart or wrap of an encoder), replaced by the line between them"
+            )?,
+            Finding::Dead { longest } => write!(
+                f,
+                "readings of a side at zero, for up to {longest:.3} s, while the poses show that \
+                 its track moves (a dead encoder), bridged where short and else left out"
+            )?,
+            Finding::Frozen { longest } => write!(
+                f,
+                "rows repeat the one before, for up to {longest:.3} s, while the tracks drive (a \
+                 tracker that is stuck), left out"
+            )?,
+        }
+        write!(f, " ({runs} runs, first at t = {t} s of run {run})")
+    }
+}

@@ -18,6 +18,7 @@ mod sealed_trial;
 mod simulate;
 mod stdout;
 mod trial;
+mod vehicles;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

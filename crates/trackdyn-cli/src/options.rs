@@ -1,59 +1,19 @@
 //! Options that several commands share.
 
+mod vehicle;
+
+pub use vehicle::{GaugeOptions, ModelOptions};
+
 use crate::stderr::say;
 use crate::wording::option;
 use clap::{Args, ValueEnum};
-use std::error::Error;
 use std::path::{Path, PathBuf};
 use trackdyn::crates::core::Pose;
 use trackdyn::crates::model::Effects;
 use trackdyn::crates::model::effect::Stage;
 use trackdyn::crates::recording::rosbag::{Dating, JointSignal, SignalUnit};
 use trackdyn::recording::BagOptions;
-use trackdyn::refuse_repeated;
-use trackdyn::{
-    ActiveEffect, Circumstance, Part, ReadOptions, Recording, RunList, Symmetry, Vehicle,
-};
-
-/// The vehicle and its effects.
-#[derive(Args)]
-pub struct ModelOptions {
-    /// Vehicle file (schema trackdyn.vehicle/1) [default: Auriga-alpha, embedded]
-    #[arg(long, value_name = "FILE")]
-    pub vehicle: Option<PathBuf>,
-    /// Centre of gravity in m from the centre of the contact area: right, forward
-    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
-    pub cog: Option<[f64; 2]>,
-    /// Switch an effect on, with its typical size or this one; repeatable (see `trackdyn effects`)
-    #[arg(long = "effect", value_name = "ID[:PARAMETER=VALUE,...]")]
-    pub effects: Vec<ActiveEffect>,
-}
-
-impl ModelOptions {
-    /// The vehicle with the changes of the command line.
-    ///
-    /// # Errors
-    /// A message that names the file, line and key, or the option.
-    pub fn vehicle(&self) -> Result<Vehicle, Box<dyn Error>> {
-        let mut vehicle = match &self.vehicle {
-            Some(path) => Vehicle::open(path)?,
-            None => Vehicle::auriga_alpha(),
-        };
-        if let Some(cog) = self.cog {
-            vehicle = vehicle.with_cog(cog)?;
-        }
-        refuse_repeated(&self.effects)?;
-        for effect in &self.effects {
-            if vehicle.effects().get(effect.card().id).is_some() {
-                say(format_args!(
-                    "note: --effect {effect} replaces the vehicle file's, all its parameters"
-                ));
-            }
-            vehicle = vehicle.with_active(effect.clone());
-        }
-        Ok(vehicle)
-    }
-}
+use trackdyn::{ActiveEffect, Circumstance, Part, ReadOptions, Recording, RunList, Symmetry};
 
 /// Where the robot stands.
 #[derive(Args)]

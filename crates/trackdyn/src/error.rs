@@ -1,5 +1,6 @@
 //! What a use case cannot do.
 
+use crate::preset;
 use std::path::PathBuf;
 use trackdyn_core::document::DocumentError;
 use trackdyn_core::output::OutputError;
@@ -271,6 +272,15 @@ pub enum Error {
         most: f64,
     },
 
+    /// A vehicle that is neither a name nor a file.
+    #[error(
+        "vehicle {choice}: expected a file that exists, or one of {}",
+        preset::names().collect::<Vec<_>>().join(", ")
+    )]
+    NoVehicle {
+        /// What was asked for.
+        choice: String,
+    },
     /// A number that no vehicle has.
     #[error("{0}")]
     Vehicle(#[source] VehicleError),
@@ -313,6 +323,7 @@ impl Error {
             Self::NotSimulated { .. } => Some("out"),
             Self::TooFast { .. } => Some("speed"),
             Self::Gauge { .. } => Some("gauge"),
+            Self::NoVehicle { .. } => Some("vehicle"),
             _ => None,
         }
     }

@@ -5,7 +5,7 @@ mod names;
 mod runs_table;
 
 use crate::change::Folder;
-use crate::{Change, Error, Figure, Parameters, Part, Provenance, Recording, Vehicle};
+use crate::{Change, Error, Figure, Gauge, Parameters, Part, Provenance, Recording};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use trackdyn_estimate::Clock;
@@ -38,7 +38,7 @@ pub struct Odometry {
     pub clock: Clock,
     replayed: Vec<Replayed>,
     recording: Recording,
-    vehicle: Vehicle,
+    gauge: Gauge,
     time: Option<[f64; 2]>,
 }
 
@@ -49,7 +49,7 @@ struct Replayed {
     set: ParameterSet,
 }
 
-/// Replays a recording with the ideal drive of the vehicle's gauge, and with each of these
+/// Replays a recording with the ideal drive of the gauge (that of a `&Vehicle`, or alone), and with each of these
 /// parameters, as they are and without their factors on the track speeds.
 ///
 /// # Errors
@@ -57,10 +57,11 @@ struct Replayed {
 /// that no robot has, [`Error::Runs`], [`Error::Time`], [`Error::Odometry`].
 pub fn odometry(
     recording: &Recording,
-    vehicle: &Vehicle,
+    gauge: impl Into<Gauge>,
     parameters: &[Parameters],
     settings: &OdometrySettings,
 ) -> Result<Odometry, Error> {
+    let gauge = gauge.into();
     let motion = recording.expect_positions()?;
     let names = names::names(parameters.iter().map(|one| Path::new(one.name())));
     let replayed: Vec<Replayed> = parameters
@@ -74,7 +75,7 @@ pub fn odometry(
         .map_err(|cause| Error::Identify { recording: recording.place(), cause })?;
     let of_file = |one: &Replayed| [Some(one.set.clone()), one.set.without_alpha()];
     let sets = replayed.iter().flat_map(of_file).flatten();
-    let sets = std::iter::once(ParameterSet::ideal(vehicle.gauge())).chain(sets).collect();
+    let sets = std::iter::once(ParameterSet::ideal(gauge.metres())).chain(sets).collect();
     let comparison = Comparison::new(part.expect_motion()?, sets, clock.tau());
     let comparison =
         comparison.map_err(|cause| Error::Odometry { recording: recording.place(), cause })?;
@@ -83,7 +84,7 @@ pub fn odometry(
         clock,
         replayed,
         recording: recording.clone(),
-        vehicle: vehicle.clone(),
+        gauge,
         time: part.time(),
     })
 }
@@ -94,9 +95,9 @@ impl Odometry {
         &self.recording
     }
 
-    /// The vehicle whose gauge is that of the ideal drive.
-    pub fn vehicle(&self) -> &Vehicle {
-        &self.vehicle
+    /// The gauge of the ideal drive, and the vehicle that has it.
+    pub fn gauge(&self) -> &Gauge {
+        &self.gauge
     }
 
     /// Parameters that were fitted to some of the driving that is replayed here, which makes their
@@ -130,10 +131,11 @@ impl Odometry {
     /// The replay as a figure.
     pub fn figure(&self, provenance: &Provenance) -> Figure {
         let caption = format!(
-            "trackdyn {}, recording {}, vehicle {}",
+            "trackdyn {}, recording {}, vehicle {} {}",
             provenance.version,
             self.recording.fingerprint(),
-            self.vehicle.fingerprint()
+            self.gauge.vehicle(),
+            self.gauge.fingerprint()
         );
         trackdyn_report::odometry(&self.comparison, self.recording.name(), &caption)
     }

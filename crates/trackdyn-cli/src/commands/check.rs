@@ -26,7 +26,7 @@ pub struct Options {
 /// Recomputes every case, prints a table, and fails where a number leaves its tolerance.
 pub fn run(options: &Options) -> Outcome {
     let reference = Reference::open(&options.reference)?;
-    let vehicle = options.vehicle.as_deref().map(Vehicle::open).transpose()?;
+    let vehicle = options.vehicle.as_deref().map(Vehicle::choose).transpose()?;
 
     let mut text = String::new();
     let mut misses = 0;

@@ -52,7 +52,7 @@ pub struct Options {
 
 /// Diagnoses, prints the answer in one screen and writes it.
 pub fn run(options: &Options) -> Outcome {
-    let vehicle = Vehicle::open(&options.vehicle)?;
+    let vehicle = Vehicle::choose(&options.vehicle)?;
     refuse_for_points(&options.recording.given(), &options.recording.recording)?;
     let recordings = recordings(options)?;
     let settings = DiagnoseSettings {

@@ -8,25 +8,25 @@ pub use points::lagging_points;
 use crate::changes::{say_undetermined, say_written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{DrivingOptions, not_negative, refuse_for_points};
+use crate::options::{DrivingOptions, GaugeOptions, not_negative, refuse_for_points};
 use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stderr::say;
 use crate::stdout::show;
-use clap::Args;
+use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 use trackdyn::crates::estimate::{GeneticOptions, Nuisance};
 use trackdyn::identify::Prepared;
-use trackdyn::{Change, Identification, IdentifySettings, Vehicle, prepare_folder};
+use trackdyn::{Change, Identification, IdentifySettings, prepare_folder};
 
 /// Options of `trackdyn identify`.
 #[derive(Args)]
+#[command(group(ArgGroup::new("known").required(true).args(["vehicle", "gauge"])))]
 pub struct Options {
     #[command(flatten)]
     driving: DrivingOptions,
-    /// Vehicle file (schema trackdyn.vehicle/1), for its gauge
-    #[arg(long, value_name = "FILE")]
-    vehicle: PathBuf,
+    #[command(flatten)]
+    gauge: GaugeOptions,
     /// Use only segments before which the tracks ran steadily for this many seconds
     #[arg(long, value_name = "SECONDS", value_parser = not_negative)]
     settle: Option<f64>,
@@ -80,12 +80,12 @@ impl Options {
 
 /// Identifies the parameters, prints them side by side and writes what the recording determines.
 pub fn run(options: &Options) -> Outcome {
-    let vehicle = Vehicle::open(&options.vehicle)?;
+    let gauge = options.gauge.expect_gauge()?;
     refuse_for_points(&options.of_motion(), options.driving.path())?;
     let recording = options.driving.recording()?.part(&options.driving.part())?;
     prepare_folder(&options.out)?;
     let settings = options.settings();
-    let prepared = Prepared::new(&recording, &vehicle, &settings)?;
+    let prepared = Prepared::new(&recording, &gauge, &settings)?;
     let found = Progress::over(|observer| prepared.run(observer))?;
     let changes = found.write(&options.out, &provenance())?;
     say_changes(&changes);
@@ -97,9 +97,9 @@ pub fn run(options: &Options) -> Outcome {
         ));
     }
     show(&match &found {
-        Identification::Motion(fit) => summary::text(&recording, &vehicle, &fit.found),
-        Identification::Points(fit) => points::text(&recording, &vehicle, fit),
-        Identification::Turning(fit) => summary::turning(&recording, &vehicle, fit),
+        Identification::Motion(fit) => summary::text(&recording, &gauge, &fit.found),
+        Identification::Points(fit) => points::text(&recording, &gauge, fit),
+        Identification::Turning(fit) => summary::turning(&recording, &gauge, fit),
     })?;
     if let Some(separation) = found.separation(&provenance()) {
         show(&summary::separation(&separation))?;

@@ -5,25 +5,25 @@ mod summary;
 use crate::changes::{say_doubtful, say_removed, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::DrivingOptions;
+use crate::options::{DrivingOptions, GaugeOptions};
 use crate::provenance::provenance;
 use crate::stderr::say;
 use crate::stdout::show;
-use clap::Args;
+use clap::{ArgGroup, Args};
 use std::path::PathBuf;
-use trackdyn::{OdometrySettings, Parameters, Vehicle, odometry, prepare_folder};
+use trackdyn::{OdometrySettings, Parameters, odometry, prepare_folder};
 
 /// Options of `trackdyn odometry`.
 #[derive(Args)]
+#[command(group(ArgGroup::new("known").required(true).args(["vehicle", "gauge"])))]
 pub struct Options {
     #[command(flatten)]
     driving: DrivingOptions,
     /// Parameters to replay with (schema trackdyn.kinematics/1); repeatable
     #[arg(long, value_name = "FILE")]
     kinematics: Vec<PathBuf>,
-    /// Vehicle file (schema trackdyn.vehicle/1), whose gauge is that of the ideal drive
-    #[arg(long, value_name = "FILE")]
-    vehicle: PathBuf,
+    #[command(flatten)]
+    gauge: GaugeOptions,
     /// Folder for odometry.toml, runs.csv, odometry.png and trajectories
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
@@ -31,7 +31,7 @@ pub struct Options {
 
 /// Replays, prints the table of errors and writes the files.
 pub fn run(options: &Options) -> Outcome {
-    let vehicle = Vehicle::open(&options.vehicle)?;
+    let gauge = options.gauge.expect_gauge()?;
     let parameters = options.kinematics.iter().map(Parameters::open);
     let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
     for doubtful in parameters.iter().filter(|of| of.is_doubtful()) {
@@ -39,7 +39,7 @@ pub fn run(options: &Options) -> Outcome {
     }
     let recording = options.driving.recording()?;
     let settings = OdometrySettings { part: options.driving.part(), tau: options.driving.tau };
-    let found = odometry(&recording, &vehicle, &parameters, &settings)?;
+    let found = odometry(&recording, &gauge, &parameters, &settings)?;
     prepare_folder(&options.out)?;
     if let Some(reason) = found.clock.reason() {
         say(format_args!("note: {reason}; the clock offset is taken as 0 (set it with --tau)"));

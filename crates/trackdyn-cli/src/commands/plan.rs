@@ -81,7 +81,7 @@ pub fn run(options: &Options) -> Outcome {
 
 fn vehicle(options: &Options) -> Result<Vehicle, Box<dyn std::error::Error>> {
     match &options.vehicle {
-        Some(path) => Ok(Vehicle::open(path)?),
+        Some(path) => Ok(Vehicle::choose(path)?),
         None => Vehicle::open(corrected_beside(&options.diagnosis)).map_err(|error| {
             format!("{error}\nexpected beside the diagnosis, or --vehicle").into()
         }),

@@ -32,7 +32,8 @@ struct Source<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     time_s: Option<[f64; 2]>,
     vehicle: &'a str,
-    vehicle_fingerprint: String,
+    vehicle_fingerprint: &'a str,
+    gauge_m: f64,
 }
 
 #[derive(Serialize)]
@@ -96,7 +97,7 @@ struct EstimateTable {
 
 /// The text of `odometry.toml`.
 pub(super) fn text(odometry: &Odometry, provenance: &Provenance) -> String {
-    let Odometry { comparison: result, clock, recording, vehicle, .. } = odometry;
+    let Odometry { comparison: result, clock, recording, gauge, .. } = odometry;
     to_toml(&File {
         schema: "trackdyn.odometry/1",
         runs: result.paths.iter().map(|path| path.run).collect(),
@@ -111,8 +112,9 @@ pub(super) fn text(odometry: &Odometry, provenance: &Provenance) -> String {
             robot: recording.motion().map_or("unknown", |motion| motion.robot()),
             fingerprint: recording.fingerprint(),
             time_s: odometry.time,
-            vehicle: vehicle.name(),
-            vehicle_fingerprint: vehicle.fingerprint(),
+            vehicle: gauge.vehicle(),
+            vehicle_fingerprint: gauge.fingerprint(),
+            gauge_m: gauge.metres(),
         },
         clock: ClockTable::of(clock),
         set: result

@@ -7,20 +7,19 @@ use trackdyn::crates::estimate::{Doubt, Error, Free, Parameters};
 use trackdyn::crates::recording::OperatingPoint;
 use trackdyn::identify::PointsFit;
 use trackdyn::recording::PointsTable;
-use trackdyn::{Recording, Vehicle};
+use trackdyn::{Gauge, Recording};
 
 /// Points with the largest residuals that are shown.
 const WORST: usize = 5;
 
 /// One screen: the table, and both fits.
-pub fn text(recording: &Recording, vehicle: &Vehicle, found: &PointsFit) -> String {
+pub fn text(recording: &Recording, gauge: &Gauge, found: &PointsFit) -> String {
     let points = recording.points().map_or(&[][..], PointsTable::points);
-    let gauge = vehicle.gauge();
+    let (vehicle, gauge) = (gauge.vehicle(), gauge.metres());
     let mut text = format!(
-        "{}: {} steady points; {}, gauge {gauge} m\n",
+        "{}: {} steady points; {vehicle}, gauge {gauge} m\n",
         recording.name(),
-        points.len(),
-        vehicle.name()
+        points.len()
     );
     for (free, fit) in &found.fits {
         self::fit(&mut text, *free, fit, gauge);

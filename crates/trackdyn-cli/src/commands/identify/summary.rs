@@ -8,10 +8,10 @@ use trackdyn::crates::estimate::{
 use trackdyn::crates::model::kinematics::SeparationFile;
 use trackdyn::crates::recording::Run;
 use trackdyn::identify::TurningFit;
-use trackdyn::{Recording, Vehicle};
+use trackdyn::{Gauge, Recording};
 
 /// One screen: the recording, its clock and noise, the methods side by side.
-pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) -> String {
+pub fn text(recording: &Recording, gauge: &Gauge, found: &Identification) -> String {
     let mut text = String::new();
     let runs = recording.runs();
     let seconds: f64 = runs.iter().map(Run::duration).sum();
@@ -21,8 +21,8 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) ->
         recording.name(),
         runs.len(),
         found.segments,
-        vehicle.name(),
-        vehicle.gauge()
+        gauge.vehicle(),
+        gauge.metres()
     );
     let fits = found.fits.iter().filter_map(|fit| fit.least_squares.as_ref().ok());
     let mut fitted = fits.flat_map(|estimate| &estimate.unknowns.nuisances);
@@ -44,7 +44,7 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, found: &Identification) ->
         }
     }
     for fit in &found.fits {
-        self::fit(&mut text, fit, vehicle.gauge(), found.weighted_by_noise);
+        self::fit(&mut text, fit, gauge.metres(), found.weighted_by_noise);
     }
     text
 }
@@ -74,15 +74,15 @@ pub fn contradicted(text: &mut String, contradictions: &[Contradiction]) {
 }
 
 /// One screen where poses have a yaw alone.
-pub fn turning(recording: &Recording, vehicle: &Vehicle, fit: &TurningFit) -> String {
+pub fn turning(recording: &Recording, gauge: &Gauge, fit: &TurningFit) -> String {
     let found = &fit.found;
     let mut text = format!(
         "{}: {} runs, {} segments; {}, gauge {} m\n\n",
         recording.name(),
         recording.runs().len(),
         found.segments,
-        vehicle.name(),
-        vehicle.gauge()
+        gauge.vehicle(),
+        gauge.metres()
     );
     clock(&mut text, &found.clock, false);
     text += "  poses      their yaw alone is known: it tells the distance of the ICRs, and not \

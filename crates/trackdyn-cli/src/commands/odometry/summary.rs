@@ -9,7 +9,7 @@ use trackdyn::crates::estimate::odometry::{Comparison, Estimate, Span};
 pub fn text(odometry: &Odometry) -> String {
     let mut text = String::new();
     let (result, clock) = (&odometry.comparison, &odometry.clock);
-    let (recording, vehicle) = (odometry.recording(), odometry.vehicle());
+    let (recording, gauge) = (odometry.recording(), odometry.gauge());
     let _ = writeln!(
         text,
         "{}, {} of {} runs, {:.0} s, {:.1} m",
@@ -24,7 +24,7 @@ pub fn text(odometry: &Odometry) -> String {
         Some(error) => write!(text, " (estimated, standard error {error:.3} s)"),
         None => write!(text, " ({})", clock.origin()),
     };
-    let (gauge, name) = (vehicle.gauge(), vehicle.name());
+    let (gauge, name) = (gauge.metres(), gauge.vehicle());
     let _ = writeln!(text, "; ideal drive: gauge {gauge} m ({name})");
     let _ = writeln!(text, "± 95 % confidence, {}", result.blocks.description());
     let width = result.sets.iter().map(|set| set.name().len()).max().unwrap_or(0).clamp(10, 26) + 6;

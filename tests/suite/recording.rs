@@ -2,7 +2,7 @@
 
 mod clock;
 mod clocks_and_poses;
-mod drives;
+pub mod drives;
 mod folder;
 mod inspections;
 mod joints;

@@ -47,7 +47,8 @@ pub fn read(folder: &Path) -> Result<Recording, Error> {
     if imu.exists() {
         fill(&imu, &mut runs, &mut split, |run| &mut run.imu)?;
     }
-    let source = Source { format: Format::Folder, path: Some(folder.to_owned()), epoch_ns: None };
+    let source =
+        Source { format: Format::Folder, path: Some(folder.to_owned()), ..Source::computed() };
     let runs = runs.into_values().collect();
     Recording::new(manifest.name, manifest.robot, runs, source, Vec::new())
         .map(|recording| recording.with_stated_noise(manifest.noise))

@@ -29,6 +29,6 @@ pub use doubt::Doubt;
 pub use error::Error;
 pub use format::read;
 pub use operating_points::{OperatingPoint, OperatingPoints};
-pub use recording::{Format, Recording, Run, Source, StatedNoise, UncheckedRun, Warning};
+pub use recording::{BagNames, Format, Recording, Run, Source, StatedNoise, UncheckedRun, Warning};
 pub use sample::{ImuSample, PoseSample, Series, TrackSample};
 pub use selection::RunList;

@@ -16,7 +16,7 @@ mod warning;
 pub use cleaning::MIN_GAP_RATIO;
 pub(crate) use cleaning::clean;
 pub use run::{Run, UncheckedRun};
-pub use source::{Format, Source};
+pub use source::{BagNames, Format, Source};
 pub use warning::{Cleaning, Finding, Warning};
 
 /// Track speeds, poses and, where there are any, readings of an IMU.

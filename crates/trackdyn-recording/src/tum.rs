@@ -30,7 +30,8 @@ pub fn read(trajectory: &Path, tracks: &Path, robot: &str) -> Result<Recording, 
         imu: Series::default(),
     };
     let name = trajectory.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let source = Source { format: Format::Tum, path: Some(trajectory.to_owned()), epoch_ns: None };
+    let source =
+        Source { format: Format::Tum, path: Some(trajectory.to_owned()), ..Source::computed() };
     Recording::new(name, robot, vec![run], source, Vec::new())
 }
 

@@ -1,8 +1,11 @@
 //! Dead reckoning of a recording with several sets of parameters.
 
+mod advice;
 mod document;
 mod names;
 mod runs_table;
+
+pub use advice::{Advice, Compared};
 
 use crate::change::Folder;
 use crate::{Change, Error, Figure, Gauge, Parameters, Part, Provenance, Recording};
@@ -49,8 +52,8 @@ struct Replayed {
     set: ParameterSet,
 }
 
-/// Replays a recording with the ideal drive of the gauge (that of a `&Vehicle`, or alone), and with each of these
-/// parameters, as they are and without their factors on the track speeds.
+/// Replays a recording with the ideal drive of the gauge, be it that of a `&Vehicle` or alone, and
+/// with each of these parameters, as they are and without their factors on the track speeds.
 ///
 /// # Errors
 /// [`Error::NoMotion`] for a table of steady operating points, [`Error::TooLarge`] for parameters
@@ -106,6 +109,11 @@ impl Odometry {
         self.replayed.iter().filter(|one| !self.is_held_out(one)).map(|one| &one.parameters)
     }
 
+    /// Which of the parameters to take.
+    pub fn advice(&self) -> Advice {
+        advice::of(self)
+    }
+
     /// Root mean square over runs of the errors of place, m, and yaw, rad, at the end, of a set.
     pub fn error_at_end(&self, set: usize) -> [f64; 2] {
         let paths = self.comparison.paths.iter();
@@ -131,11 +139,10 @@ impl Odometry {
     /// The replay as a figure.
     pub fn figure(&self, provenance: &Provenance) -> Figure {
         let caption = format!(
-            "trackdyn {}, recording {}, vehicle {} {}",
+            "trackdyn {}, {}, recording {}",
             provenance.version,
-            self.recording.fingerprint(),
-            self.gauge.vehicle(),
-            self.gauge.fingerprint()
+            self.gauge.caption(),
+            self.recording.fingerprint()
         );
         trackdyn_report::odometry(&self.comparison, self.recording.name(), &caption)
     }

@@ -2,8 +2,8 @@
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::note_what_steady_icrs_leave_out;
-use crate::stderr::say;
+use crate::options::{note_what_steady_icrs_leave_out, say_default};
+use crate::stderr::note;
 use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
@@ -19,7 +19,7 @@ pub struct Options {
     reference: PathBuf,
     /// Check this vehicle instead of those that the cases name; a case's cog_m and effects still
     /// replace its own
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE|NAME")]
     vehicle: Option<PathBuf>,
 }
 
@@ -32,6 +32,9 @@ pub fn run(options: &Options) -> Outcome {
     let mut misses = 0;
     let mut checked = 0;
     for case in &reference.cases {
+        if vehicle.is_none() && case.vehicle.is_none() {
+            say_default();
+        }
         let case = check(&reference, case, vehicle.as_ref())?;
         note_what_steady_icrs_leave_out(case.vehicle.effects());
         note_gaps(&case);
@@ -66,14 +69,14 @@ fn note_gaps(case: &CheckedCase) {
     let counts = map.counts();
     let gaps = counts[Status::Lifts.index()] + counts[Status::NotConverged.index()];
     if gaps > 0 {
-        say(format_args!(
-            "note: case \"{name}\": at {gaps} of {} pairs of speeds part of the contact lifts or \
+        note(format_args!(
+            "case \"{name}\": at {gaps} of {} pairs of speeds part of the contact lifts or \
             no forces balance: \
              they enter no mean (expect turning_pairs to watch how many do)",
             map.solutions.len()
         ));
     }
     if case.map.statistics().is_none() {
-        say(format_args!("note: case \"{name}\": no motion turns, so there are no ICRs"));
+        note(format_args!("case \"{name}\": no motion turns, so there are no ICRs"));
     }
 }

@@ -11,22 +11,21 @@ use crate::exit::Exit;
 use crate::options::{DrivingOptions, GaugeOptions, not_negative, refuse_for_points};
 use crate::progress::Progress;
 use crate::provenance::provenance;
-use crate::stderr::say;
+use crate::stderr::note;
 use crate::stdout::show;
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 use trackdyn::crates::estimate::{GeneticOptions, Nuisance};
-use trackdyn::identify::Prepared;
-use trackdyn::{Change, Identification, IdentifySettings, prepare_folder};
+use trackdyn::identify::{Prepared, refuse_other};
+use trackdyn::{Identification, IdentifySettings, prepare_folder};
+
+/// Heading of options in the help.
+const GENETIC: &str = "Genetic algorithm";
 
 /// Options of `trackdyn identify`.
 #[derive(Args)]
 #[command(group(ArgGroup::new("known").required(true).args(["vehicle", "gauge"])))]
 pub struct Options {
-    #[command(flatten)]
-    driving: DrivingOptions,
-    #[command(flatten)]
-    gauge: GaugeOptions,
     /// Use only segments before which the tracks ran steadily for this many seconds
     #[arg(long, value_name = "SECONDS", value_parser = not_negative)]
     settle: Option<f64>,
@@ -35,15 +34,15 @@ pub struct Options {
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     fit: Vec<Nuisance>,
     /// Individuals of the genetic algorithm
-    #[arg(long, value_name = "N", default_value_t = 100,
+    #[arg(long, help_heading = GENETIC, value_name = "N", default_value_t = 100,
           value_parser = clap::value_parser!(u32).range(4..=100_000))]
     population: u32,
     /// Generations of the genetic algorithm
-    #[arg(long, value_name = "N", default_value_t = 200,
+    #[arg(long, help_heading = GENETIC, value_name = "N", default_value_t = 200,
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
     generations: u32,
     /// Seed of the genetic algorithm
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, help_heading = GENETIC, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Write parameters that other parts of the answer contradict as well, marked as doubtful
     #[arg(long)]
@@ -51,6 +50,10 @@ pub struct Options {
     /// Folder for identification.toml, kinematics.toml and kinematics_alpha.toml
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+    #[command(flatten)]
+    driving: DrivingOptions,
+    #[command(flatten)]
+    gauge: GaugeOptions,
 }
 
 impl Options {
@@ -83,15 +86,17 @@ pub fn run(options: &Options) -> Outcome {
     let gauge = options.gauge.expect_gauge()?;
     refuse_for_points(&options.of_motion(), options.driving.path())?;
     let recording = options.driving.recording()?.part(&options.driving.part())?;
+    refuse_other(&options.out)?;
     prepare_folder(&options.out)?;
     let settings = options.settings();
     let prepared = Prepared::new(&recording, &gauge, &settings)?;
     let found = Progress::over(|observer| prepared.run(observer))?;
     let changes = found.write(&options.out, &provenance())?;
-    say_changes(&changes);
+    say_written(&changes);
+    say_undetermined(&changes);
     if settings.nuisances.contains(&Nuisance::SensorYaw) {
-        say(format_args!(
-            "note: no kinematics file holds the yaw of the sensor's mount: before odometry and \
+        note(format_args!(
+            "no kinematics file holds the yaw of the sensor's mount: before odometry and \
             export with these \
              parameters, turn the sensor by it, or the frame of the poses"
         ));
@@ -105,15 +110,4 @@ pub fn run(options: &Options) -> Outcome {
         show(&summary::separation(&separation))?;
     }
     Ok(if found.is_determined() { Exit::Done } else { Exit::NoResult })
-}
-
-/// Names the files that were written or removed, and those of another origin.
-fn say_changes(changes: &[Change]) {
-    say_written(changes);
-    say_undetermined(changes);
-    for change in changes {
-        if let Change::Kept(path) = change {
-            say(format_args!("note: {} is not of this recording, and stays", path.display()));
-        }
-    }
 }

@@ -17,10 +17,6 @@ use trackdyn::{InspectSettings, Parameters, inspect};
 /// Options of `trackdyn inspect`.
 #[derive(Args)]
 pub struct Options {
-    #[command(flatten)]
-    driving: DrivingOptions,
-    #[command(flatten)]
-    gauge: GaugeOptions,
     /// Parameters that predict the yaw rate (schema trackdyn.kinematics/1) [default: the distance
     /// of the ICRs that fits best]
     #[arg(long, value_name = "FILE")]
@@ -28,6 +24,10 @@ pub struct Options {
     /// Folder for inspect.png
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+    #[command(flatten)]
+    driving: DrivingOptions,
+    #[command(flatten)]
+    gauge: GaugeOptions,
 }
 
 /// Judges a recording, prints the judgement with the commands to go on with, and writes a picture.

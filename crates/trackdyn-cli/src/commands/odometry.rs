@@ -7,7 +7,7 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{DrivingOptions, GaugeOptions};
 use crate::provenance::provenance;
-use crate::stderr::say;
+use crate::stderr::{note, say};
 use crate::stdout::show;
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
@@ -17,16 +17,16 @@ use trackdyn::{OdometrySettings, Parameters, odometry, prepare_folder};
 #[derive(Args)]
 #[command(group(ArgGroup::new("known").required(true).args(["vehicle", "gauge"])))]
 pub struct Options {
-    #[command(flatten)]
-    driving: DrivingOptions,
     /// Parameters to replay with (schema trackdyn.kinematics/1); repeatable
     #[arg(long, value_name = "FILE")]
     kinematics: Vec<PathBuf>,
-    #[command(flatten)]
-    gauge: GaugeOptions,
     /// Folder for odometry.toml, runs.csv, odometry.png and trajectories
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+    #[command(flatten)]
+    driving: DrivingOptions,
+    #[command(flatten)]
+    gauge: GaugeOptions,
 }
 
 /// Replays, prints the table of errors and writes the files.
@@ -42,11 +42,11 @@ pub fn run(options: &Options) -> Outcome {
     let found = odometry(&recording, &gauge, &parameters, &settings)?;
     prepare_folder(&options.out)?;
     if let Some(reason) = found.clock.reason() {
-        say(format_args!("note: {reason}; the clock offset is taken as 0 (set it with --tau)"));
+        note(format_args!("{reason}; the clock offset is taken as 0 (set it with --tau)"));
     }
     for fitted in found.fitted_to_it() {
-        say(format_args!(
-            "note: {} was fitted to some of these runs, which makes its errors look smaller \
+        note(format_args!(
+            "{} was fitted to some of these runs, which makes its errors look smaller \
             (choose \
              others with --runs or --time)",
             fitted.name()
@@ -54,8 +54,8 @@ pub fn run(options: &Options) -> Outcome {
     }
     let left_out = found.comparison.left_out.len();
     if left_out > 0 {
-        say(format_args!(
-            "note: {left_out} runs left out, whose poses lie outside the time of their track speeds"
+        note(format_args!(
+            "{left_out} runs left out, whose poses lie outside the time of their track speeds"
         ));
     }
     let changes = found.write(&options.out, &provenance())?;

@@ -1,8 +1,8 @@
 //! Which vehicle is meant.
 
-use super::{pair, positive};
+use super::{VEHICLE, pair, positive};
 use crate::shell;
-use crate::stderr::say;
+use crate::stderr::note;
 use clap::Args;
 use std::error::Error;
 use std::path::PathBuf;
@@ -10,13 +10,14 @@ use trackdyn::{ActiveEffect, Gauge, Vehicle, refuse_repeated};
 
 /// The vehicle and its effects.
 #[derive(Args)]
+#[command(next_help_heading = VEHICLE)]
 pub struct ModelOptions {
     /// Vehicle: a file (schema trackdyn.vehicle/1), or a name such as husky-a200 [default:
     /// auriga-alpha]
     #[arg(long, value_name = "FILE|NAME")]
     pub vehicle: Option<PathBuf>,
     /// Centre of gravity in m from the centre of the contact area: right, forward
-    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
+    #[arg(long, value_name = "RIGHT,FORWARD", value_parser = pair, allow_hyphen_values = true)]
     pub cog: Option<[f64; 2]>,
     /// Switch an effect on, with its typical size or this one; repeatable (see `trackdyn effects`)
     #[arg(long = "effect", value_name = "ID[:PARAMETER=VALUE,...]")]
@@ -31,7 +32,7 @@ impl ModelOptions {
     pub fn vehicle(&self) -> Result<Vehicle, Box<dyn Error>> {
         let mut vehicle = match &self.vehicle {
             Some(path) => Vehicle::choose(path)?,
-            None => Vehicle::auriga_alpha(),
+            None => default_vehicle(),
         };
         if let Some(cog) = self.cog {
             vehicle = vehicle.with_cog(cog)?;
@@ -39,8 +40,8 @@ impl ModelOptions {
         refuse_repeated(&self.effects)?;
         for effect in &self.effects {
             if vehicle.effects().get(effect.card().id).is_some() {
-                say(format_args!(
-                    "note: --effect {effect} replaces the vehicle file's, all its parameters"
+                note(format_args!(
+                    "--effect {effect} replaces the vehicle file's, all its parameters"
                 ));
             }
             vehicle = vehicle.with_active(effect.clone());
@@ -49,8 +50,23 @@ impl ModelOptions {
     }
 }
 
+/// The vehicle where none is chosen, which is never taken in silence.
+fn default_vehicle() -> Vehicle {
+    say_default();
+    Vehicle::auriga_alpha()
+}
+
+/// Says that the vehicle is the default one.
+pub fn say_default() {
+    note(format_args!(
+        "vehicle: {} (default; --vehicle FILE|NAME takes another)",
+        Vehicle::DEFAULT
+    ));
+}
+
 /// The vehicle where its gauge alone counts.
 #[derive(Args)]
+#[command(next_help_heading = VEHICLE)]
 pub struct GaugeOptions {
     /// Vehicle, of which the gauge alone counts: a file (schema trackdyn.vehicle/1), or a name such
     /// as husky-a200

@@ -1,6 +1,6 @@
 //! The result of a replay as a file, schema `trackdyn.odometry/1`.
 
-use super::Odometry;
+use super::{Advice, Odometry};
 use crate::Provenance;
 use crate::document::{ClockTable, Rounded, to_toml};
 use serde::Serialize;
@@ -18,6 +18,7 @@ struct File<'a> {
     confidence: String,
     source: Source<'a>,
     clock: ClockTable<'a>,
+    advice: AdviceTable,
     set: Vec<SetTable>,
     span: Vec<SpanTable<'a>>,
 }
@@ -34,6 +35,27 @@ struct Source<'a> {
     vehicle: &'a str,
     vehicle_fingerprint: &'a str,
     gauge_m: f64,
+}
+
+/// Which parameters to take.
+#[derive(Serialize)]
+struct AdviceTable {
+    /// A file, or `ideal`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    take: Option<String>,
+    /// Why that is not decided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    undecided: Option<String>,
+    /// Errors as a share of those of the other sets.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    compared: Vec<ComparedTable>,
+}
+
+#[derive(Serialize)]
+struct ComparedTable {
+    with: String,
+    position: EstimateTable,
+    yaw: EstimateTable,
 }
 
 #[derive(Serialize)]
@@ -117,6 +139,7 @@ pub(super) fn text(odometry: &Odometry, provenance: &Provenance) -> String {
             gauge_m: gauge.metres(),
         },
         clock: ClockTable::of(clock),
+        advice: of_advice(&odometry.advice()),
         set: result
             .sets
             .iter()
@@ -125,6 +148,22 @@ pub(super) fn text(odometry: &Odometry, provenance: &Provenance) -> String {
             .collect(),
         span: result.spans.iter().map(|errors| of_span(result, errors)).collect(),
     })
+}
+
+fn of_advice(advice: &Advice) -> AdviceTable {
+    let compared = advice.compared().iter().map(|one| ComparedTable {
+        with: one.with.clone(),
+        position: of_estimate(one.place),
+        yaw: of_estimate(one.yaw),
+    });
+    AdviceTable {
+        take: advice.choice().map(str::to_owned),
+        undecided: match advice {
+            Advice::Undecided { reason } => Some(reason.clone()),
+            _ => None,
+        },
+        compared: compared.collect(),
+    }
 }
 
 fn of_set(odometry: &Odometry, index: usize, set: &ParameterSet) -> SetTable {

@@ -1,6 +1,7 @@
 //! `trackdyn identify` on a table of steady operating points.
 
 use super::summary::contradicted;
+use crate::wrapped::wrapped;
 use std::fmt::Write;
 use trackdyn::crates::estimate::steady::{SteadyEstimate, lagging};
 use trackdyn::crates::estimate::{Doubt, Error, Free, Parameters};
@@ -44,7 +45,7 @@ fn fit(text: &mut String, free: Free, fit: &Result<SteadyEstimate, Error>, gauge
     let fit = match fit {
         Ok(fit) => fit,
         Err(reason) => {
-            let _ = writeln!(text, "    {reason}");
+            *text += &wrapped("    ", &reason.to_string());
             return;
         }
     };
@@ -52,7 +53,7 @@ fn fit(text: &mut String, free: Free, fit: &Result<SteadyEstimate, Error>, gauge
     if !doubts.is_empty() {
         text.push_str("    not determined by this table:\n");
         for doubt in &doubts {
-            let _ = writeln!(text, "    - {doubt}");
+            *text += &wrapped("    - ", &doubt.to_string());
         }
         if doubts != [Doubt::NoLateralSpeed] {
             return;

@@ -1,5 +1,6 @@
 //! The result of an identification as text.
 
+use crate::wrapped::wrapped;
 use std::fmt::Write;
 use trackdyn::crates::estimate::identification::Fit;
 use trackdyn::crates::estimate::{
@@ -40,7 +41,7 @@ pub fn text(recording: &Recording, gauge: &Gauge, found: &Identification) -> Str
             );
         }
         Err(reason) => {
-            let _ = writeln!(text, "  spin test  {reason}");
+            text += &wrapped("  spin test  ", &reason.to_string());
         }
     }
     for fit in &found.fits {
@@ -69,7 +70,7 @@ pub fn contradicted(text: &mut String, contradictions: &[Contradiction]) {
     }
     text.push_str("    contradicted, and not written unless forced (--force):\n");
     for contradiction in contradictions {
-        let _ = writeln!(text, "    - {contradiction}");
+        *text += &wrapped("    - ", &contradiction.to_string());
     }
 }
 
@@ -88,7 +89,7 @@ pub fn turning(recording: &Recording, gauge: &Gauge, fit: &TurningFit) -> String
     text += "  poses      their yaw alone is known: it tells the distance of the ICRs, and not \
              where they are\n";
     for contradiction in fit.contradictions() {
-        let _ = writeln!(text, "  contradicted, and not written: {contradiction}");
+        text += &wrapped("  contradicted, and not written: ", &contradiction.to_string());
     }
     text
 }
@@ -131,21 +132,21 @@ fn fit(text: &mut String, fit: &Fit, gauge: f64, by_noise: bool) {
     let estimate = match &fit.least_squares {
         Ok(estimate) => estimate,
         Err(reason) => {
-            let _ = writeln!(text, "    {reason}");
+            *text += &wrapped("    ", &reason.to_string());
             return;
         }
     };
     if !fit.doubts.is_empty() {
         text.push_str("    not determined by this recording:\n");
         for doubt in &fit.doubts {
-            let _ = writeln!(text, "    - {doubt}");
+            *text += &wrapped("    - ", &doubt.to_string());
         }
         return;
     }
     contradicted(text, &fit.contradictions);
     parameters(text, fit, estimate, gauge);
     for doubt in &fit.refused {
-        let _ = writeln!(text, "    not fitted: {doubt}");
+        *text += &wrapped("    not fitted: ", &doubt.to_string());
     }
     let cut = if estimate.blocks.are_pieces() { "pieces of runs" } else { "runs" };
     let count = estimate.filled_blocks;

@@ -86,9 +86,9 @@ fn commands(found: &Inspection, asked: &Asked) -> Vec<String> {
         commands.push(line(Use::Identify, &further));
     }
     if is_ready(Use::Odometry) {
-        let file = path(&asked.out.join("kinematics.toml"));
-        let kinematics =
-            if is_identified { vec![format!("--kinematics {file}")] } else { Vec::new() };
+        let files = found.readiness.iter().flat_map(|of| &of.files);
+        let files = files.map(|name| path(&asked.out.join(name)));
+        let kinematics = files.map(|file| format!("--kinematics {file}")).collect();
         let further = [of_part(1), given_tau, kinematics, out(is_default, asked.out)];
         commands.push(line(Use::Odometry, &further));
     }

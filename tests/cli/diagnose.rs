@@ -99,6 +99,20 @@ fn straight_driving_is_refused_with_what_is_missing() {
     assert!(run.stderr.contains("hardly turns"), "{}", run.stderr);
 }
 
+/// A part of a recording is chosen as for the other commands, and stands in the file.
+#[test]
+fn a_part_of_a_recording_can_be_diagnosed() {
+    let place = Workplace::new();
+    drive(&place, "--run-count 3 --duration 20 --effect motion-resistance");
+    let (_, file) = diagnosed(&place, "--draws 1000 --runs 0,2 --time 0,15");
+    assert_eq!(file["source"]["runs"].as_str(), Some("0,2"), "{file}");
+    let time = file["source"]["time_s"].as_array().expect("two numbers");
+    assert_eq!(time.iter().map(toml::Value::as_float).collect::<Vec<_>>(), [Some(0.0), Some(15.0)]);
+    // what was measured of the noise stands there for a plan
+    let noise = file["noise"]["pose_forward_m"].as_float().expect("a number");
+    assert!((1e-4..0.01).contains(&noise), "{file}");
+}
+
 #[test]
 fn the_order_of_runs_and_the_number_of_threads_change_nothing() {
     let place = Workplace::new();
@@ -179,6 +193,11 @@ fn bad_input_is_refused_and_leaves_nothing() {
             "--wheel-radius: points.csv holds steady points",
         ),
         (format!("diagnose points.csv --held-out 1 --vehicle {VEHICLE}"), "--held-out 1: a table"),
+        (
+            format!("diagnose points.csv --runs 1 --time 0,5 --vehicle {VEHICLE}"),
+            "--runs, --time: points.csv holds steady points",
+        ),
+        (format!("diagnose drive --runs 99 --vehicle {VEHICLE}"), "--runs: run 99 is not in"),
         (format!("diagnose drive drive --vehicle {VEHICLE}"), "each recording once"),
         (
             format!("diagnose drive --wheel-radius 0.1 --vehicle {VEHICLE}"),

@@ -80,6 +80,44 @@ fn urdf_frames_and_gz_write_xml() {
     }
 }
 
+/// What the log says of the robot, where the parameters come from one.
+#[test]
+fn names_of_the_log_are_taken_and_said() {
+    let place = with_kinematics("");
+    let of_map = text(&place, "kinematics.toml");
+    let bag = "[source.bag]\nleft_joints = [\"front_left\", \"rear_left\"]\n\
+               right_joints = [\"front_right\", \"rear_right\"]\nwheel_radius_m = 0.165\n\
+               parent_frame = \"map\"\nchild_frame = \"base_footprint\"\n";
+    place.write("kinematics.toml", &(of_map + bag));
+    let run = place.run("export ros2 kinematics.toml");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    for part in [
+        "left joints front_left, rear_left; right joints front_right, rear_right; wheel radius \
+         0.165 m: those of the log of kinematics.toml",
+        "base frame base_footprint: the one whose poses the log has",
+    ] {
+        assert!(run.stderr.contains(part), "{part:?} is not in:\n{}", run.stderr);
+    }
+    let yaml = text(&place, "out/diff_drive_controller.yaml");
+    let parsed: serde_yaml_ng::Value = serde_yaml_ng::from_str(&yaml).expect("YAML");
+    let parameters = &parsed["diff_drive_controller"]["ros__parameters"];
+    assert_eq!(parameters["left_wheel_names"][1].as_str(), Some("rear_left"));
+    assert_eq!(parameters["wheel_radius"].as_f64(), Some(0.165));
+    // the frame of the log's poses is no odometry
+    assert_eq!(parameters["odom_frame_id"].as_str(), Some("odom"));
+    assert!(text(&place, "out/icr_frame.launch.py").contains("base_footprint"));
+    let options = "--left-joint l --right-joint r --wheel-radius 0.1 --base-frame chassis";
+    let run = place.run(&format!("export ros2 kinematics.toml {options} --out chosen"));
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(!run.stderr.contains("of the log of"), "{}", run.stderr);
+    let part = "ICRs are measured in base_footprint, whose poses the log has: --contact-centre";
+    assert!(run.stderr.contains(part), "{}", run.stderr);
+    let yaml = text(&place, "chosen/diff_drive_controller.yaml");
+    assert!(yaml.contains("wheel_radius: 0.1\n") && yaml.contains("[\"l\"]"), "{yaml}");
+    let run = place.run("export urdf-frames kinematics.toml --out urdf");
+    assert!(run.stderr.contains("base frame base_footprint"), "{}", run.stderr);
+}
+
 #[test]
 fn piecewise_kinematics_are_exported_with_a_warning() {
     let place = with_kinematics("--effect motion-resistance:coefficient=0.05");
@@ -114,8 +152,8 @@ fn bad_input_writes_nothing() {
         ("ros2 kinematics.toml --wheel-radius -0.1", "--wheel-radius = -0.1: expected"),
         ("ros2 kinematics.toml --wheel-radius nan", "--wheel-radius = NaN: expected"),
         (
-            "ros2 kinematics.toml --wheel-radius 1 --left-wheel a --left-wheel b",
-            "--right-wheel: 1 names, left-wheel: 2 names",
+            "ros2 kinematics.toml --wheel-radius 1 --left-joint a --left-joint b",
+            "--right-joint: 1 names, left-joint: 2 names",
         ),
         ("ros2 kinematics.toml --wheel-radius 1e-320", "expected a radius of 1e-6 to 1e4 m"),
         ("urdf-frames kinematics.toml --contact-centre 1e300,0", "expected at most 1e4 m"),

@@ -11,6 +11,7 @@ mod inspect;
 mod interrupted;
 mod map;
 mod odometry;
+mod origins;
 mod plan;
 mod proposal;
 mod recordings;
@@ -19,6 +20,8 @@ mod simulate;
 mod stdout;
 mod tables;
 mod trial;
+mod vehicles;
+mod words;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -29,7 +32,10 @@ use trackdyn_estimate::synthetic::{Stretch, Synthetic};
 struct Run {
     status: i32,
     stdout: String,
+    /// Notes and errors, each in one line.
     stderr: String,
+    /// Notes and errors in the lines of a terminal.
+    printed: String,
 }
 
 /// An empty folder in which the program runs.
@@ -70,10 +76,12 @@ impl Workplace {
             .env("RAYON_NUM_THREADS", threads.to_string())
             .output()
             .expect("the program starts");
+        let printed = String::from_utf8(output.stderr).expect("text");
         Run {
             status: output.status.code().expect("no signal"),
             stdout: String::from_utf8(output.stdout).expect("text"),
-            stderr: String::from_utf8(output.stderr).expect("text"),
+            stderr: unbroken(&printed),
+            printed,
         }
     }
 
@@ -94,6 +102,25 @@ impl Workplace {
         found.sort();
         found
     }
+}
+
+/// Notes, warnings and errors in one line each: their further lines stand below their beginning.
+fn unbroken(text: &str) -> String {
+    let mut whole = String::new();
+    let mut label = 0;
+    for line in text.lines() {
+        let indent = line.len() - line.trim_start().len();
+        if label > 0 && indent == label {
+            whole.push(' ');
+            whole += line.trim_start();
+            continue;
+        }
+        let labels = ["note: ", "warning: ", "error: "];
+        label = labels.iter().find(|of| line.starts_with(**of)).map_or(0, |of| of.len());
+        whole += if whole.is_empty() { "" } else { "\n" };
+        whole += line;
+    }
+    if text.ends_with('\n') { whole + "\n" } else { whole }
 }
 
 /// A file of the project.

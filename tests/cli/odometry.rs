@@ -62,7 +62,7 @@ fn true_parameters_win_by_all_that_is_not_noise() {
     for part in ["4 of 4 runs, 159 s", "clock offset 0.15", "gauge 0.42 m", "fit-no-alpha"] {
         assert!(run.stdout.contains(part), "{part} is not in:\n{}", run.stdout);
     }
-    assert!(run.stdout.lines().count() <= 24, "{}", run.stdout);
+    assert!(run.stdout.lines().count() <= 26, "{}", run.stdout);
     let files = place.files();
     let trajectories = files.iter().filter(|file| file.starts_with("out/trajectories")).count();
     // Recorded, ideal, fit, fit without alpha, other.
@@ -119,6 +119,27 @@ fn replayed(place: &Workplace, options: &str) -> (Run, toml::Table) {
     let run = place.run(&format!("{replay} {options}"));
     assert_eq!(run.status, 0, "{}", run.stderr);
     (run, document(place))
+}
+
+/// The last lines say what to take, with the numbers that decide it.
+#[test]
+fn what_to_take_is_said_at_the_end() {
+    let place = workplace(&synthetic());
+    let run = place.run(COMMAND);
+    let (_, end) = run.stdout.split_once("\ntake  fit.toml\n").expect("an advice");
+    assert_eq!(end.lines().count(), 2, "{end}");
+    assert!(end.contains("as shares of ideal's: place") && end.contains("as shares of other's"));
+    assert_eq!(document(&place)["advice"]["take"].as_str(), Some("fit.toml"));
+    for (options, part) in [
+        ("", "the ideal drive was replayed alone: give parameter files by --kinematics"),
+        ("--kinematics out/kinematics.toml", "kinematics: fitted to this driving"),
+    ] {
+        let fit = "identify recording --vehicle robot.toml --generations 1";
+        assert_eq!(place.run(fit).status, 0);
+        let run = place.run(&format!("odometry recording --vehicle robot.toml {options}"));
+        let (_, end) = run.stdout.split_once("\ntake  not decided: ").expect("an advice");
+        assert!(end.starts_with(part), "{options}: {end}");
+    }
 }
 
 #[test]

@@ -58,6 +58,72 @@ fn a_plan_is_driven_by_the_simulator_within_its_limits() {
     assert!(read == schedule.as_bytes(), "the simulator read another schedule");
 }
 
+/// The noise is that of the diagnosis unless it is given, and is told either way.
+#[test]
+fn the_noise_of_the_diagnosis_is_planned_with() {
+    let place = Workplace::new();
+    let noise = "[noise]\npose_forward_m = 0.003\npose_left_m = 0.004\npose_yaw_rad = 0.002\n\
+                 walk_forward_m = 0.001\nwalk_left_m = 0.002\nwalk_yaw_rad = 0.0005\n\
+                 walk_heading_rad = 0.0\n";
+    let text = diagnosis("ambiguous", &["motion-resistance", "hitch-drag"]);
+    place.write("vehicle.corrected.toml", &project_text("configs/vehicles/auriga-alpha.toml"));
+    let planned = |text: &str, options: &str| {
+        place.write("diagnosis.toml", text);
+        let command = format!("plan --diagnosis diagnosis.toml --out out --duration 30 {options}");
+        let run = place.run(&command);
+        assert_eq!(run.status, 0, "{options}: {}", run.stderr);
+        let printed = run.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+        let file = String::from_utf8(place.read("out/plan.toml")).expect("text");
+        let file: toml::Table = file.parse().expect("TOML");
+        let noise = |key: &str| file["noise"][key].as_float().expect("a number");
+        let keys = ["pose_forward_m", "pose_left_m", "pose_yaw_rad", "walk_yaw_rad"];
+        (printed, keys.map(noise))
+    };
+    let close = |found: [f64; 4], expected: [f64; 4]| {
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
+    };
+    let (stdout, found) = planned(&format!("{text}{noise}"), "");
+    close(found, [0.003, 0.004, 0.002, 0.0005]);
+    let told = "noise each pose 3.0 mm forward, 4.0 mm left, 0.11 deg";
+    assert!(stdout.contains(told) && stdout.contains("as the diagnosis measured it"), "{stdout}");
+    assert!(stdout.starts_with("vehicle Auriga-alpha "), "{stdout}");
+    let (stdout, found) = planned(&format!("{text}{noise}"), "--noise-xy 0.01");
+    close(found, [0.01, 0.01, 0.002, 0.0005]);
+    assert!(stdout.contains("(as given)"), "{stdout}");
+    let (stdout, found) = planned(&text, "");
+    close(found, [0.001; 4]);
+    assert!(stdout.contains("(assumed"), "{stdout}");
+    place.write("diagnosis.toml", &format!("{text}{}", noise.replace("0.003", "-0.003")));
+    let run = place.run("plan --diagnosis diagnosis.toml");
+    let part = "noise.pose_forward_m = -0.003: expected a standard deviation above 0";
+    assert!(run.status == 1 && run.stderr.contains(part), "{}", run.stderr);
+}
+
+/// What is printed to go on with can be typed.
+#[test]
+fn a_plan_says_how_to_go_on() {
+    let place = Workplace::new();
+    let made_by = "[source]\ncommand = \"trackdyn diagnose old --vehicle auriga-alpha --draws 1000 \
+                   --out found\"\n";
+    let text = diagnosis("ambiguous", &["motion-resistance", "hitch-drag"]);
+    std::fs::create_dir(place.path().join("found")).expect("made");
+    place.write("found/diagnosis.toml", &format!("{text}{made_by}"));
+    let vehicle = project_text("configs/vehicles/auriga-alpha.toml");
+    place.write("found/vehicle.corrected.toml", &vehicle);
+    let run = place.run("plan --diagnosis found/diagnosis.toml --duration 30");
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let joined = run.stdout.replace("\\\n", " ");
+    let commands = joined.lines().filter_map(|line| line.trim().strip_prefix("trackdyn "));
+    let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+    let commands: Vec<String> = commands.map(words).collect();
+    let [rehearse, inspect, both] = commands.as_slice() else { panic!("{}", run.stdout) };
+    let driven = place.run(rehearse);
+    assert_eq!(driven.status, 0, "{rehearse}: {}", driven.stderr);
+    let looked = place.run(&inspect.replace("NEW_LOG", "out/plan/rehearsal"));
+    assert_eq!(looked.status, 0, "{inspect}: {}", looked.stderr);
+    assert_eq!(*both, "diagnose old NEW_LOG --vehicle auriga-alpha --draws 1000 --out found-both");
+}
+
 #[test]
 fn a_plan_does_not_hang_on_the_number_of_threads() {
     let (place, _) = plan("ambiguous", &["slope", "tether"], "--duration 20");

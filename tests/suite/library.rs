@@ -1,6 +1,8 @@
 //! The library as a program that is built on it meets it.
 
+mod advice;
 mod examples;
+mod exports;
 mod observer;
 mod recordings;
 mod settings;

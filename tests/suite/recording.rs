@@ -6,7 +6,7 @@ mod clock;
 mod clocks_and_poses;
 mod clocks_of_chains;
 mod columns;
-mod drives;
+pub mod drives;
 mod folder;
 mod inspections;
 mod joints;

@@ -1,6 +1,6 @@
 //! What was done to files, as lines on stderr.
 
-use crate::stderr::say;
+use crate::stderr::{say, warn};
 use std::path::Path;
 use trackdyn::Change;
 
@@ -37,8 +37,8 @@ fn removed(changes: &[Change]) -> impl Iterator<Item = &Path> {
 
 /// Says that other parts of the answer that the parameters of a file come from contradict them.
 pub fn say_doubtful(name: &str) {
-    say(format_args!(
-        "warning: {name} is doubtful: what it was identified from contradicts it, and it was \
+    warn(format_args!(
+        "{name} is doubtful: what it was identified from contradicts it, and it was \
         written with --force"
     ));
 }

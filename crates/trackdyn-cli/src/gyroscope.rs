@@ -1,6 +1,6 @@
 //! What gyroscopes do to poses, as lines on stderr.
 
-use crate::stderr::say;
+use crate::stderr::note;
 use trackdyn::crates::estimate::Gyroscope;
 use trackdyn::crates::estimate::gyroscope::Unfit;
 
@@ -8,8 +8,8 @@ use trackdyn::crates::estimate::gyroscope::Unfit;
 pub fn say_gyroscopes<'a>(found: impl IntoIterator<Item = &'a Result<Gyroscope, Unfit>>) {
     for gyroscope in found {
         match gyroscope {
-            Ok(gyroscope) => say(format_args!("note: by the gyroscope, {gyroscope}")),
-            Err(reason) => say(format_args!("note: the gyroscope is left out: {reason}")),
+            Ok(gyroscope) => note(format_args!("by the gyroscope, {gyroscope}")),
+            Err(reason) => note(format_args!("the gyroscope is left out: {reason}")),
         }
     }
 }

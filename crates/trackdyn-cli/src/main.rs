@@ -22,7 +22,7 @@ mod wrapped;
 use arguments::Arguments;
 use exit::Exit;
 use std::process::ExitCode;
-use stderr::say;
+use stderr::fail;
 
 fn main() -> ExitCode {
     let arguments = match Arguments::read() {
@@ -35,13 +35,13 @@ fn main() -> ExitCode {
         }
     };
     if let Err(error) = interrupt::end_between_files() {
-        say(format_args!("error: Ctrl-C cannot be waited for: {error}"));
+        fail(&format!("Ctrl-C cannot be waited for: {error}"));
         return Exit::BadInput.into();
     }
     match arguments.command.run() {
         Ok(exit) => exit.into(),
         Err(error) => {
-            say(format_args!("error: {}", wording::message(&*error)));
+            fail(&wording::message(&*error));
             Exit::BadInput.into()
         }
     }

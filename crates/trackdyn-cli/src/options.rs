@@ -1,9 +1,12 @@
 //! Options that several commands share.
 
-use crate::stderr::say;
+mod vehicle;
+
+pub use vehicle::{GaugeOptions, ModelOptions, say_default};
+
+use crate::stderr::note;
 use crate::wording::option;
 use clap::{Args, ValueEnum};
-use std::error::Error;
 use std::path::{Path, PathBuf};
 use trackdyn::crates::core::Pose;
 use trackdyn::crates::model::Effects;
@@ -11,53 +14,17 @@ use trackdyn::crates::model::effect::Stage;
 use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
 use trackdyn::crates::recording::{Columns, DoubtKind, SpeedUnit};
 use trackdyn::recording::BagOptions;
-use trackdyn::refuse_repeated;
-use trackdyn::{
-    ActiveEffect, Circumstance, Part, ReadOptions, Recording, RunList, Symmetry, Vehicle,
-};
+use trackdyn::{ActiveEffect, Circumstance, Part, ReadOptions, Recording, RunList, Symmetry};
 
-/// The vehicle and its effects.
-#[derive(Args)]
-pub struct ModelOptions {
-    /// Vehicle file (schema trackdyn.vehicle/1) [default: Auriga-alpha, embedded]
-    #[arg(long, value_name = "FILE")]
-    pub vehicle: Option<PathBuf>,
-    /// Centre of gravity in m from the centre of the contact area: right, forward
-    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
-    pub cog: Option<[f64; 2]>,
-    /// Switch an effect on, with its typical size or this one; repeatable (see `trackdyn effects`)
-    #[arg(long = "effect", value_name = "ID[:PARAMETER=VALUE,...]")]
-    pub effects: Vec<ActiveEffect>,
-}
-
-impl ModelOptions {
-    /// The vehicle with the changes of the command line.
-    ///
-    /// # Errors
-    /// A message that names the file, line and key, or the option.
-    pub fn vehicle(&self) -> Result<Vehicle, Box<dyn Error>> {
-        let mut vehicle = match &self.vehicle {
-            Some(path) => Vehicle::open(path)?,
-            None => Vehicle::auriga_alpha(),
-        };
-        if let Some(cog) = self.cog {
-            vehicle = vehicle.with_cog(cog)?;
-        }
-        refuse_repeated(&self.effects)?;
-        for effect in &self.effects {
-            if vehicle.effects().get(effect.card().id).is_some() {
-                say(format_args!(
-                    "note: --effect {effect} replaces the vehicle file's, all its parameters"
-                ));
-            }
-            vehicle = vehicle.with_active(effect.clone());
-        }
-        Ok(vehicle)
-    }
-}
+/// Headings of groups of options in helps.
+const PLACE: &str = "Place and time";
+const READING: &str = "How the recording is read";
+const PART: &str = "What of the recording counts";
+const VEHICLE: &str = "Vehicle";
 
 /// Where the robot stands.
 #[derive(Args)]
+#[command(next_help_heading = PLACE)]
 pub struct PlaceOptions {
     /// Heading of the robot in the world in degrees, for effects that know directions
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true,
@@ -78,11 +45,13 @@ impl PlaceOptions {
 
 /// Where the robot stands, and when.
 #[derive(Args)]
+#[command(next_help_heading = PLACE)]
 pub struct CircumstanceOptions {
     #[command(flatten)]
     place: PlaceOptions,
     /// Time since the start of a recording in s, for effects that know times
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = finite)]
+    #[arg(long = "at-time", alias = "time", value_name = "SECONDS", default_value_t = 0.0,
+          value_parser = finite)]
     time: f64,
 }
 
@@ -97,8 +66,8 @@ impl CircumstanceOptions {
 /// Notes which effects do nothing where no pose sensor reports.
 pub fn note_what_no_sensor_reports(effects: &Effects) {
     for card in effects.iter().map(ActiveEffect::card).filter(|c| c.stages == [Stage::Sense]) {
-        say(format_args!(
-            "note: {} is of a pose sensor, and none reports here: it does nothing",
+        note(format_args!(
+            "{} is of a pose sensor, and none reports here: it does nothing",
             card.id
         ));
     }
@@ -109,8 +78,8 @@ pub fn note_what_no_sensor_reports(effects: &Effects) {
 pub fn note_what_steady_icrs_leave_out(effects: &Effects) {
     for card in effects.iter().map(ActiveEffect::card) {
         if card.stages == [Stage::Sense] || card.breaks == [Symmetry::Transient] {
-            say(format_args!(
-                "note: {} does not change the steady motion of the hull: these ICRs are without it",
+            note(format_args!(
+                "{} does not change the steady motion of the hull: these ICRs are without it",
                 card.id
             ));
         }
@@ -119,10 +88,12 @@ pub fn note_what_steady_icrs_leave_out(effects: &Effects) {
 
 /// A recording, and how it is read.
 #[derive(Args)]
+#[command(next_help_heading = READING)]
 pub struct RecordingOptions {
     /// Folder with recording.toml, bag of ROS (.mcap, .db3, .bag or their folder), or trajectory
     /// of the TUM benchmark (.tum, .txt) with --tracks, or one table of both (.csv) with --columns;
     /// for identify and diagnose also a table of steady operating points (.csv)
+    #[arg(help_heading = None::<&str>)]
     pub recording: PathBuf,
     /// Trajectory: its track speeds, of the same clock (CSV with t, v_left, v_right)
     #[arg(long, value_name = "FILE")]
@@ -243,7 +214,7 @@ impl RecordingOptions {
     pub fn read_path(&self, path: &Path) -> Result<Recording, trackdyn::Error> {
         let recording = Recording::open(path, &self.options())?;
         for warning in recording.warnings() {
-            say(format_args!("note: {warning}"));
+            note(format_args!("{warning}"));
         }
         Ok(recording)
     }
@@ -309,11 +280,10 @@ pub fn refuse_for_points(given: &[String], recording: &Path) -> Result<(), Strin
     }
 }
 
-/// Which part of a recording counts, and how late its poses are.
+/// Which part of a recording counts.
 #[derive(Args)]
-pub struct DrivingOptions {
-    #[command(flatten)]
-    recording: RecordingOptions,
+#[command(next_help_heading = PART)]
+pub struct PartOptions {
     /// Take these runs only, such as 7,8,20-29: fit on some, judge on others [default: all]
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     runs: Option<RunList>,
@@ -321,6 +291,29 @@ pub struct DrivingOptions {
     /// run
     #[arg(long, value_name = "FROM,UNTIL", value_parser = time)]
     time: Option<[f64; 2]>,
+}
+
+impl PartOptions {
+    /// The part of the recording to take.
+    pub fn part(&self) -> Part {
+        Part { runs: self.runs.clone(), time: self.time }
+    }
+
+    /// The options given, which mean something to recordings of motion alone.
+    pub fn given(&self) -> impl Iterator<Item = String> {
+        let options = [("--runs", self.runs.is_some()), ("--time", self.time.is_some())];
+        options.into_iter().filter(|(_, given)| *given).map(|(name, _)| name.to_owned())
+    }
+}
+
+/// A recording, which part of it counts, and how late its poses are.
+#[derive(Args)]
+#[command(next_help_heading = PART)]
+pub struct DrivingOptions {
+    #[command(flatten)]
+    recording: RecordingOptions,
+    #[command(flatten)]
+    part: PartOptions,
     /// Time in s by which poses lag behind the track speeds [default: estimated]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub tau: Option<f64>,
@@ -347,18 +340,13 @@ impl DrivingOptions {
 
     /// The part of the recording to take.
     pub fn part(&self) -> Part {
-        Part { runs: self.runs.clone(), time: self.time }
+        self.part.part()
     }
 
     /// The options given here that mean something to recordings of motion alone.
     pub fn given(&self) -> Vec<String> {
-        let options = [
-            ("--runs", self.runs.is_some()),
-            ("--time", self.time.is_some()),
-            ("--tau", self.tau.is_some()),
-        ];
-        let own = options.into_iter().filter(|(_, given)| *given).map(|(name, _)| name.to_owned());
-        self.recording.given().into_iter().chain(own).collect()
+        let tau = self.tau.map(|_| "--tau".to_owned());
+        self.recording.given().into_iter().chain(self.part.given()).chain(tau).collect()
     }
 }
 

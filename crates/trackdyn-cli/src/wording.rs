@@ -15,6 +15,9 @@ fn of_library(error: &Error) -> String {
         Error::Driving(drive::Error::Option { name, value, expected }) => {
             format!("{} {value}: expected {expected}", option(name))
         }
+        Error::GeneratedOnly { setting: "runs", .. } => {
+            error.to_string().replacen("runs", "--run-count", 1)
+        }
         // errors of exports begin with the option
         Error::Export(error) => format!("--{error}"),
         Error::NoTracks { path } => {

@@ -3,10 +3,13 @@
 /// Most characters in a line.
 pub const WIDTH: usize = 116;
 
-/// A text behind a label, its further lines below its first. Words that are longer than a line
-/// stay whole, for they are paths to be copied.
+/// A text behind a label, its further lines below its first. A text that fits stays as it is. Words
+/// that are longer than a line stay whole, for they are paths to be copied.
 pub fn wrapped(label: &str, text: &str) -> String {
     let indent = label.chars().count();
+    if !text.contains('\n') && indent + text.chars().count() <= WIDTH {
+        return format!("{label}{text}").trim_end().to_owned() + "\n";
+    }
     let mut lines = vec![label.to_owned()];
     let mut used = indent;
     for word in text.split_whitespace() {

@@ -1,7 +1,9 @@
 //! The diagnosis as a file, schema `trackdyn.diagnosis/1`.
 
+mod noise;
 mod proposed;
 
+pub use noise::NoiseTable;
 pub use proposed::{ProposalTable, ProposedTable};
 
 use crate::diagnosis::{Diagnosis, Kind};
@@ -37,6 +39,9 @@ pub struct DiagnosisFile {
     pub proposal: Option<ProposalTable>,
     /// Errors on held-out runs.
     pub fit: FitTable,
+    /// Noise of the poses; absent in older files, and of tables of steady points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub noise: Option<NoiseTable>,
     /// Smallest detectable size of each effect, by the keys of its sizes.
     #[serde(default)]
     pub detectable: BTreeMap<String, BTreeMap<String, f64>>,
@@ -175,6 +180,7 @@ impl DiagnosisFile {
                 noise_floor: rounded(held_out.noise_floor),
                 excess_explained: rounded(held_out.excess_explained().unwrap_or(1.0)),
             },
+            noise: diagnosis.evidence.seen.noise().map(NoiseTable::of),
             detectable: sizes,
             settings: diagnosis.evidence.seen.settings().clone(),
             source: Some(Table::try_from(source).expect("a source is a table")),
@@ -186,7 +192,9 @@ impl DiagnosisFile {
     /// # Errors
     /// A [`DocumentError`] that points at line and key.
     pub fn from_document(document: &Document) -> Result<Self, DocumentError> {
-        document.parse_as(SCHEMA)
+        let file = document.parse_as(SCHEMA)?;
+        NoiseTable::check(document)?;
+        Ok(file)
     }
 
     /// The file as TOML text.

@@ -38,10 +38,8 @@ pub struct Options {
     pub fastest: f64,
     /// Longest total time of the manoeuvres, s.
     pub duration: f64,
-    /// Standard deviation of a pose along each axis, m.
-    pub noise_xy: f64,
-    /// Standard deviation of a pose's yaw, rad.
-    pub noise_yaw: f64,
+    /// Noise of the poses.
+    pub noise: SegmentNoise,
     /// Settings: all numbers that decide.
     pub method: Settings,
 }
@@ -50,16 +48,16 @@ impl Default for Options {
     /// Poses as in a laboratory, 1 mm and 1 mrad.
     fn default() -> Self {
         let method = Settings::default();
-        Self { fastest: 1.0, duration: 60.0, noise_xy: 1e-3, noise_yaw: 1e-3, method }
+        let noise = assumed_noise(1e-3, 1e-3);
+        Self { fastest: 1.0, duration: 60.0, noise, method }
     }
 }
 
-impl Options {
-    /// Assumed noise: white noise of each pose, and a random walk as large after a second.
-    fn noise(&self) -> SegmentNoise {
-        let variances = [self.noise_xy.powi(2), self.noise_xy.powi(2), self.noise_yaw.powi(2)];
-        SegmentNoise { pose: variances, walk: variances, heading: 0.0 }
-    }
+/// Noise by the standard deviations of a pose along each axis, m, and of its yaw, rad: white noise
+/// of each pose, and a random walk as large after a second.
+pub fn assumed_noise(xy: f64, yaw: f64) -> SegmentNoise {
+    let variances = [xy.powi(2), xy.powi(2), yaw.powi(2)];
+    SegmentNoise { pose: variances, walk: variances, heading: 0.0 }
 }
 
 /// A manoeuvre of a plan.
@@ -235,7 +233,7 @@ impl Class {
 /// Evidence that runs would give if the fitted member is true.
 fn evidence(runs: &[PlannedRun], fitted: &Rival, options: &Options) -> Weighted {
     let moves = |evidence: &Evidence| fitted.moves(evidence);
-    Weighted::new(Evidence::planned(runs, options.noise(), fitted.delay(), &options.method, moves))
+    Weighted::new(Evidence::planned(runs, options.noise, fitted.delay(), &options.method, moves))
 }
 
 /// Manoeuvres one after the other as a run, each a block.

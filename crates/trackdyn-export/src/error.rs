@@ -11,7 +11,7 @@ pub enum Error {
         value: f64,
     },
     /// The two sides must pair up.
-    #[error("right-wheel: {right} names, left-wheel: {left} names: expected as many right as left")]
+    #[error("right-joint: {right} names, left-joint: {left} names: expected as many right as left")]
     WheelCount {
         /// Names on the left.
         left: usize,

@@ -7,6 +7,8 @@ pub struct Provenance {
     pub source: String,
     /// Fingerprint of its bytes: see [`trackdyn_core::output::fingerprint`].
     pub fingerprint: String,
+    /// Name of the vehicle whose kinematics they are.
+    pub vehicle: String,
     /// Version of the program.
     pub version: String,
     /// The command line.
@@ -38,6 +40,7 @@ impl Provenance {
             format!("Written by trackdyn {}", self.version),
             format!("command: {}", self.command),
             format!("source: {}, SHA-256 {}...", self.source, self.fingerprint),
+            format!("vehicle: {}", self.vehicle),
             String::new(),
         ];
         // A path may hold a line break, which would end the comment.

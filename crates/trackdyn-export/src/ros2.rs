@@ -27,7 +27,7 @@ impl Wheels {
         if left.len() != right.len() || left.is_empty() {
             return Err(Error::WheelCount { left: left.len(), right: right.len() });
         }
-        Name::all_differ("left-wheel, --right-wheel", &left, &right)?;
+        Name::all_differ("left-joint, --right-joint", &left, &right)?;
         Ok(Self { radius, left, right })
     }
 }

@@ -3,7 +3,7 @@
 mod file;
 mod separation;
 
-pub use file::{GridSource, KinematicsFile, Source};
+pub use file::{BagSource, GridSource, KinematicsFile, Source};
 pub use separation::SeparationFile;
 
 use crate::icr::Icrs;

@@ -55,7 +55,8 @@ pub fn read_by(folder: &Path, options: &TableOptions) -> Result<Recording, Error
     if imu.exists() {
         fill(&imu, &mut runs, &mut split, |run| &mut run.imu)?;
     }
-    let source = Source { format: Format::Folder, path: Some(folder.to_owned()), epoch_ns: None };
+    let source =
+        Source { format: Format::Folder, path: Some(folder.to_owned()), ..Source::computed() };
     let mut runs: Vec<UncheckedRun> = runs.into_values().collect();
     options.apply(folder, &mut runs)?;
     let Manifest { name, robot, noise } = manifest;

@@ -26,7 +26,7 @@ pub(crate) use cleaning::clean;
 pub use finding::{Cleaning, Finding};
 pub(crate) use run::turn_sensor;
 pub use run::{Run, UncheckedRun};
-pub use source::{Format, Source};
+pub use source::{BagNames, Format, Source};
 pub use warning::Warning;
 
 /// Track speeds, poses and, where there are any, readings of an IMU.

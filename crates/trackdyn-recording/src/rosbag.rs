@@ -15,7 +15,7 @@
 //! base_link.
 
 use crate::doubt::Doubt;
-use crate::recording::{Recording, Source, turn_sensor};
+use crate::recording::{BagNames, Recording, Source, turn_sensor};
 use crate::{Error, Format};
 use std::path::Path;
 use trackdyn_core::{PerSide, Side};
@@ -64,6 +64,8 @@ pub use topic::Role;
 /// # Errors
 /// [`Error::Topic`] when nothing or several things fit, [`Error::Bag`], [`Error::Unreadable`].
 pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
+    // what stands in for joints has a radius of its own
+    let radius = options.wheel_radius.filter(|_| options.counts_wheels());
     let options = twist::effective(path, options)?;
     let options = &*signals::effective(path, options)?;
     let signals = signals::Signals::new(path, options)?;
@@ -78,12 +80,24 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
         format: Format::Rosbag,
         path: Some(path.to_owned()),
         epoch_ns: Some(collected.epoch_ns),
+        names: Some(Box::new(collected.names.of_robot(options, radius))),
     };
-    let joints = collected.joints;
+    let joints = collected.names.joints;
     let are_joints = options.twist_topic.is_none();
     let kind = if options.left_signals.is_empty() { "joint" } else { "signal" };
     Recording::accepting(name, "unknown", collected.runs, source, warnings, &options.accepted)
         .map_err(|error| if are_joints { with_options(error, &joints, kind) } else { error })
+}
+
+impl BagNames {
+    /// The names without those of what stands in for joints.
+    fn of_robot(&self, options: &RosbagOptions, wheel_radius: Option<f64>) -> Self {
+        let mut names = Self { wheel_radius, ..self.clone() };
+        if options.twist_topic.is_some() || !options.left_signals.is_empty() {
+            names.joints = PerSide::default();
+        }
+        names
+    }
 }
 
 /// An error with the options that help, by the joints of each side as they were taken.

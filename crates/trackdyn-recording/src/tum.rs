@@ -46,7 +46,8 @@ pub fn read_by(
     let mut runs = vec![UncheckedRun { id: 0, tracks, poses, imu }];
     options.apply(trajectory, &mut runs)?;
     let name = trajectory.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let source = Source { format: Format::Tum, path: Some(trajectory.to_owned()), epoch_ns: None };
+    let source =
+        Source { format: Format::Tum, path: Some(trajectory.to_owned()), ..Source::computed() };
     let warnings = tilted.into_iter().map(Warning::Accepted).collect();
     Recording::accepting(name, robot, runs, source, warnings, &options.accepted)
 }

@@ -1,10 +1,11 @@
 //! What writing results does to a folder.
 
 use crate::Error;
+use crate::kinematics::source_of;
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
 use trackdyn_core::output::{OutputError, write_file};
-use trackdyn_model::kinematics::{KinematicsFile, SeparationFile, Source};
+use trackdyn_model::kinematics::Source;
 
 /// What was done to a file of a folder of results.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -14,15 +15,13 @@ pub enum Change {
     Wrote(PathBuf),
     /// It was of an earlier run and would be taken for this one's, which has none: it was removed.
     Removed(PathBuf),
-    /// This run has none, but the one that is there has another origin: it was left alone.
-    Kept(PathBuf),
 }
 
 impl Change {
     /// The file.
     pub fn path(&self) -> &Path {
         match self {
-            Self::Wrote(path) | Self::Removed(path) | Self::Kept(path) => path,
+            Self::Wrote(path) | Self::Removed(path) => path,
         }
     }
 }
@@ -66,24 +65,29 @@ impl<'a> Folder<'a> {
         self.changes.push(Change::Wrote(self.file(name)));
     }
 
-    /// Removes a kinematics file of which this run has none, if an earlier run of the same kind
-    /// wrote it.
-    pub(crate) fn remove_kinematics(
-        &mut self,
-        name: &str,
+    /// Refuses to replace a kinematics file that another use case wrote, or a hand.
+    pub(crate) fn refuse_other(
+        &self,
+        name: &'static str,
         is_own: impl FnOnce(&Source) -> bool,
     ) -> Result<(), Error> {
         let path = self.file(name);
-        let source = Document::read(&path).ok().and_then(|document| {
-            let full = KinematicsFile::from_document(&document).map(|file| file.source);
-            full.or_else(|_| SeparationFile::from_document(&document).map(|file| file.source)).ok()
-        });
-        if source.is_some_and(|source| is_own(&source)) {
-            self.remove(path)?;
-        } else if path.exists() {
-            self.changes.push(Change::Kept(path));
+        if !path.exists() {
+            return Ok(());
         }
-        Ok(())
+        let source = Document::read(&path).ok().and_then(|document| source_of(&document).ok());
+        if source.as_ref().is_some_and(is_own) {
+            return Ok(());
+        }
+        let command = source.map(|source| source.command).filter(|command| !command.is_empty());
+        let origin = command.map_or("of another origin".to_owned(), |of| format!("of `{of}`"));
+        Err(Error::OtherOrigin { folder: self.path.to_owned(), file: name, origin })
+    }
+
+    /// Removes a file of an earlier run, of which this one has none.
+    pub(crate) fn remove_if_there(&mut self, name: &str) -> Result<(), Error> {
+        let path = self.file(name);
+        if path.exists() { self.remove(path) } else { Ok(()) }
     }
 
     /// Removes those of these files that are there, where the file `written`, which every run of a

@@ -55,6 +55,8 @@ pub struct Prepared {
     place: String,
     fingerprint: String,
     runs: Option<String>,
+    /// The time of each run that counts, s.
+    time: Option<[f64; 2]>,
 }
 
 impl Prepared {
@@ -100,6 +102,7 @@ impl Prepared {
             place: recording.place(),
             fingerprint: recording.fingerprint().to_owned(),
             runs,
+            time: recording.time(),
         })
     }
 
@@ -188,6 +191,7 @@ impl Diagnosis {
             fingerprint: self.of.fingerprint.clone(),
             recording: Some(self.of.name.clone()),
             runs: self.of.runs.clone(),
+            time_s: self.of.time,
             seed: Some(self.of.options.resampling.seed),
             ..provenance.source()
         };

@@ -195,6 +195,11 @@ impl Drives {
         &self.drives
     }
 
+    /// The vehicle that drove.
+    pub fn vehicle(&self) -> &Vehicle {
+        &self.of.vehicle
+    }
+
     /// The path.
     pub fn path(&self) -> &Path {
         &self.of.path

@@ -1,5 +1,6 @@
 //! What a use case cannot do.
 
+use crate::preset;
 use std::path::PathBuf;
 use trackdyn_core::document::DocumentError;
 use trackdyn_core::output::OutputError;
@@ -230,6 +231,20 @@ pub enum Error {
         /// The file.
         file: &'static str,
     },
+    /// A folder with a file that would be replaced, and that another use case wrote, or a hand.
+    #[error(
+        "out {}: its {file} is {origin}, and would be replaced: expected another folder, or that \
+         file moved away",
+        folder.display()
+    )]
+    OtherOrigin {
+        /// The folder.
+        folder: PathBuf,
+        /// The file.
+        file: &'static str,
+        /// Where it comes from, in words.
+        origin: String,
+    },
     /// A run that cannot be simulated.
     #[error("run {run}: {cause}")]
     Run {
@@ -271,6 +286,15 @@ pub enum Error {
         most: f64,
     },
 
+    /// A vehicle that is neither a name nor a file.
+    #[error(
+        "vehicle {choice}: expected a file that exists, or one of {}",
+        preset::names().collect::<Vec<_>>().join(", ")
+    )]
+    NoVehicle {
+        /// What was asked for.
+        choice: String,
+    },
     /// A number that no vehicle has.
     #[error("{0}")]
     Vehicle(#[source] VehicleError),
@@ -288,6 +312,25 @@ pub enum Error {
     /// A setting that an export cannot be made with.
     #[error("{0}")]
     Export(#[from] trackdyn_export::Error),
+    /// A name of a log that an export cannot have.
+    #[error("{setting} {name}: so in the log, but {reason}")]
+    LogName {
+        /// The setting that it would be taken for.
+        setting: &'static str,
+        /// The name.
+        name: String,
+        /// Why it is refused.
+        reason: String,
+    },
+    /// A radius that neither a setting nor the log tells.
+    #[error(
+        "wheel_radius: {file} does not tell it: expected the belt travel in m per radian of the \
+         wheel joint"
+    )]
+    NoWheelRadius {
+        /// The parameters.
+        file: String,
+    },
     /// An odometry file from which no residuals can be taken.
     #[error("{0}")]
     Residuals(String),
@@ -300,7 +343,9 @@ impl Error {
     /// The setting that is to be changed, where the message begins with its name.
     pub fn setting(&self) -> Option<&'static str> {
         match self {
-            Self::NotABag { setting, .. } | Self::GeneratedOnly { setting, .. } => Some(setting),
+            Self::NotABag { setting, .. }
+            | Self::GeneratedOnly { setting, .. }
+            | Self::LogName { setting, .. } => Some(setting),
             Self::TracksNotNeeded { .. } => Some("tracks"),
             Self::Runs(_) => Some("runs"),
             Self::Time(_) => Some("time"),
@@ -310,9 +355,11 @@ impl Error {
             Self::EffectTwice { .. } => Some("effect"),
             Self::CentreOfGravity(_) => Some("cog"),
             Self::NoSensors { .. } => Some("sensors"),
-            Self::NotSimulated { .. } => Some("out"),
+            Self::NotSimulated { .. } | Self::OtherOrigin { .. } => Some("out"),
             Self::TooFast { .. } => Some("speed"),
             Self::Gauge { .. } => Some("gauge"),
+            Self::NoWheelRadius { .. } => Some("wheel_radius"),
+            Self::NoVehicle { .. } => Some("vehicle"),
             _ => None,
         }
     }

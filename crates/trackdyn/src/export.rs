@@ -1,12 +1,19 @@
 //! Kinematic parameters as files of other programs: ROS 2, URDF, Gazebo.
 
+mod robot;
+
+pub use robot::{BaseFrame, RobotWheels, WheelChoices};
+
 use crate::change::Folder;
+use crate::kinematics::source_of;
 use crate::{Change, Error, Parameters, Provenance};
 use std::path::Path;
+use trackdyn_core::Side;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::output::fingerprint;
 use trackdyn_export::ros2::{Published, Wheels};
 use trackdyn_export::{EquivalentDrive, Frames, Name, NodeName, Residuals, TextFile};
+use trackdyn_model::kinematics::BagSource;
 
 /// The frames of a robot, and where its ICRs are measured from.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,8 +74,8 @@ impl Ros2Settings {
         Self {
             frames: FrameSettings::default(),
             wheel_radius,
-            left_wheels: vec![name("left_wheel_joint")],
-            right_wheels: vec![name("right_wheel_joint")],
+            left_wheels: vec![usual_joint(Side::Left)],
+            right_wheels: vec![usual_joint(Side::Right)],
             controller: "diff_drive_controller".parse().expect("a name of a node"),
             residuals: None,
             publish_rate: Published::DEFAULT_RATE,
@@ -92,6 +99,14 @@ impl Default for GzSettings {
     }
 }
 
+/// The usual name of the wheel joint of a side.
+fn usual_joint(side: Side) -> Name {
+    name(match side {
+        Side::Left => "left_wheel_joint",
+        Side::Right => "right_wheel_joint",
+    })
+}
+
 fn name(text: &str) -> Name {
     text.parse().expect("a name")
 }
@@ -100,6 +115,8 @@ fn name(text: &str) -> Name {
 #[derive(Clone, Debug)]
 pub struct Export {
     drive: EquivalentDrive,
+    /// What the log that the parameters come from calls the parts of the robot.
+    bag: Option<BagSource>,
     provenance: trackdyn_export::Provenance,
 }
 
@@ -122,10 +139,14 @@ impl Export {
 
     fn of(document: &Document, provenance: &Provenance) -> Result<Self, Error> {
         let Provenance { command, version } = provenance.clone();
+        let drive = EquivalentDrive::from_document(document)?;
+        let source = source_of(document)?;
         Ok(Self {
-            drive: EquivalentDrive::from_document(document)?,
+            drive,
+            bag: source.bag,
             provenance: trackdyn_export::Provenance {
                 source: document.name().to_owned(),
+                vehicle: source.vehicle,
                 fingerprint: fingerprint(document.text().as_bytes()),
                 version,
                 command,
@@ -136,6 +157,11 @@ impl Export {
     /// The ideal differential drive that the robot is, seen midway between its ICRs.
     pub fn drive(&self) -> &EquivalentDrive {
         &self.drive
+    }
+
+    /// The name of the parameters' file.
+    pub fn name(&self) -> &str {
+        &self.provenance.source
     }
 
     /// How wrong odometry is with these parameters, from an odometry file (schema

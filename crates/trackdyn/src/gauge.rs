@@ -3,6 +3,9 @@
 use crate::{Error, Vehicle};
 use trackdyn_core::output::fingerprint;
 
+/// Name of the vehicle of a gauge alone.
+const NOT_GIVEN: &str = "vehicle not given";
+
 /// Largest gauge of a vehicle, m.
 const LARGEST: f64 = 100.0;
 
@@ -32,7 +35,7 @@ impl Gauge {
             return Err(Error::Gauge { metres, most: LARGEST });
         }
         let fingerprint = fingerprint(format!("gauge_m = {metres:?}\n").as_bytes());
-        Ok(Self { metres, vehicle: "vehicle not given".to_owned(), fingerprint })
+        Ok(Self { metres, vehicle: NOT_GIVEN.to_owned(), fingerprint })
     }
 
     /// Its length, m.
@@ -48,6 +51,15 @@ impl Gauge {
     /// Fingerprint of the vehicle file, or of the gauge alone.
     pub fn fingerprint(&self) -> &str {
         &self.fingerprint
+    }
+
+    /// The vehicle for a caption.
+    pub(crate) fn caption(&self) -> String {
+        if self.vehicle == NOT_GIVEN {
+            format!("{NOT_GIVEN}, gauge {} m", self.metres)
+        } else {
+            format!("vehicle {} {}", self.vehicle, self.fingerprint)
+        }
     }
 }
 

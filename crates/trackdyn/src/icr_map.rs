@@ -94,20 +94,30 @@ impl IcrMap {
         trackdyn_report::icr_map(&self.solved, &self.vehicle.model(), &caption)
     }
 
+    /// Refuses a folder whose `kinematics.toml` is not of a map: a map would replace it.
+    ///
+    /// # Errors
+    /// [`Error::OtherOrigin`].
+    pub fn refuse_other(folder: &Path) -> Result<(), Error> {
+        Folder::existing(folder).refuse_other(FILE, |source| source.grid.is_some())
+    }
+
     /// Writes `icr_map.png` and, where the robot turns, `kinematics.toml`.
     ///
     /// # Errors
-    /// [`Error::Output`], [`Error::NotRemoved`], [`Error::Figure`].
+    /// Those of [`IcrMap::refuse_other`]; [`Error::Output`], [`Error::NotRemoved`],
+    /// [`Error::Figure`].
     pub fn write(
         &self,
         folder: impl AsRef<Path>,
         provenance: &Provenance,
     ) -> Result<Vec<Change>, Error> {
+        Self::refuse_other(folder.as_ref())?;
         let mut folder = Folder::prepare(folder.as_ref())?;
         folder.write("icr_map.png", &self.figure(provenance).to_png()?)?;
         match self.parameters(provenance) {
             Some(parameters) => folder.write(FILE, parameters.document().text().as_bytes())?,
-            None => folder.remove_kinematics(FILE, |source| source.grid.is_some())?,
+            None => folder.remove_if_there(FILE)?,
         }
         Ok(folder.changes())
     }

@@ -20,7 +20,7 @@ use std::path::Path;
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::identification::Options;
 use trackdyn_estimate::{Contradiction, Nuisance, Turning, identify_unless_stopped};
-use trackdyn_model::kinematics::SeparationFile;
+use trackdyn_model::kinematics::{SeparationFile, Source};
 use trackdyn_recording::Recording as Motion;
 
 /// Names of the kinematics files of the two fits: the ICRs alone, and with the factors on the track
@@ -250,16 +250,16 @@ impl Identification {
     /// Writes `kinematics.toml` and `kinematics_alpha.toml`, each where the recording determines
     /// it, and of a recording of motion `identification.toml`. Where all that it determines is the
     /// distance of the ICRs, `kinematics.toml` holds that (schema
-    /// `trackdyn.separation/1`). A file of an earlier fit goes where this one determines none; that
-    /// of a map stays.
+    /// `trackdyn.separation/1`). A file of an earlier fit goes where this one determines none.
     ///
     /// # Errors
-    /// [`Error::Output`], [`Error::NotRemoved`].
+    /// Those of [`refuse_other`]; [`Error::Output`], [`Error::NotRemoved`].
     pub fn write(
         &self,
         folder: impl AsRef<Path>,
         provenance: &Provenance,
     ) -> Result<Vec<Change>, Error> {
+        refuse_other(folder.as_ref())?;
         let mut folder = Folder::prepare(folder.as_ref())?;
         if let Self::Motion(fit) = self {
             folder.write("identification.toml", fit.to_toml(provenance).as_bytes())?;
@@ -271,9 +271,20 @@ impl Identification {
         for (text, name) in [icrs, with_alphas.map(text)].into_iter().zip(FILES) {
             match text {
                 Some(text) => folder.write(name, text.as_bytes())?,
-                None => folder.remove_kinematics(name, |source| source.recording.is_some())?,
+                None => folder.remove_if_there(name)?,
             }
         }
         Ok(folder.changes())
     }
+}
+
+/// Refuses a folder with a kinematics file that is of no recording, such as that of a map: an
+/// identification would replace it.
+///
+/// # Errors
+/// [`Error::OtherOrigin`].
+pub fn refuse_other(folder: &Path) -> Result<(), Error> {
+    let folder = Folder::existing(folder);
+    let is_own = |source: &Source| source.recording.is_some();
+    FILES.into_iter().try_for_each(|name| folder.refuse_other(name, is_own))
 }

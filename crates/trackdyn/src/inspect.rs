@@ -58,6 +58,8 @@ pub enum Content {
 pub struct Inspection {
     /// Its name.
     pub name: String,
+    /// The gauge that ICRs were judged by, and its vehicle; none where it is not known.
+    pub gauge: Option<Gauge>,
     /// Fingerprint of what was read; none where it cannot be read.
     pub fingerprint: Option<String>,
     /// The topics, where it is a bag.
@@ -111,6 +113,7 @@ impl Inspection {
     fn new(name: &str, content: Content, settings: &InspectSettings) -> Self {
         Self {
             name: name.to_owned(),
+            gauge: settings.gauge.clone(),
             fingerprint: None,
             topics: Vec::new(),
             content,
@@ -209,7 +212,10 @@ impl Inspection {
         };
         let mut folder = Folder::prepare(folder.as_ref())?;
         let fingerprint = self.fingerprint.as_deref().unwrap_or_default();
-        let caption = format!("trackdyn {}, recording {fingerprint}", provenance.version);
+        let unknown = || "vehicle not given".to_owned();
+        let vehicle = self.gauge.as_ref().map_or_else(unknown, Gauge::caption);
+        let caption =
+            format!("trackdyn {}, recording {fingerprint}, {vehicle}", provenance.version);
         folder.write(FILE, &over_time.figure(&self.name, &caption).to_png()?)?;
         Ok(folder.changes())
     }

@@ -3,7 +3,7 @@
 use crate::Error;
 use std::path::Path;
 use trackdyn_core::PerSide;
-use trackdyn_core::document::Document;
+use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::output::{fingerprint, write_file};
 use trackdyn_model::Kinematics;
 use trackdyn_model::kinematics::{KinematicsFile, SeparationFile, Source};
@@ -60,6 +60,11 @@ impl Parameters {
         &self.file.source
     }
 
+    /// Name of the vehicle whose parameters they are.
+    pub fn vehicle(&self) -> &str {
+        &self.file.source.vehicle
+    }
+
     /// All that the file says.
     pub fn file(&self) -> &KinematicsFile {
         &self.file
@@ -98,4 +103,16 @@ impl Parameters {
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         Ok(write_file(path.as_ref(), self.document.text().as_bytes())?)
     }
+}
+
+/// Where the numbers of a kinematics file come from, be it that the distance of the ICRs is all it
+/// holds.
+///
+/// # Errors
+/// What is wrong with it.
+pub(crate) fn source_of(document: &Document) -> Result<Source, DocumentError> {
+    if SeparationFile::is_schema_of(document) {
+        return SeparationFile::from_document(document).map(|file| file.source);
+    }
+    KinematicsFile::from_document(document).map(|file| file.source)
 }

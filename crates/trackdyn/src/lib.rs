@@ -74,6 +74,7 @@ mod error;
 mod gauge;
 mod icr_map;
 mod kinematics;
+mod preset;
 mod progress;
 mod provenance;
 mod sketch;

@@ -1,11 +1,14 @@
 //! Dead reckoning of a recording with several sets of parameters.
 
+mod advice;
 mod document;
 mod names;
 mod runs_table;
 
+pub use advice::{Advice, Compared};
+
 use crate::change::Folder;
-use crate::{Change, Error, Figure, Parameters, Part, Provenance, Recording, Vehicle};
+use crate::{Change, Error, Figure, Gauge, Parameters, Part, Provenance, Recording};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use trackdyn_estimate::Clock;
@@ -40,7 +43,7 @@ pub struct Odometry {
     pub clock: Clock,
     replayed: Vec<Replayed>,
     recording: Recording,
-    vehicle: Vehicle,
+    gauge: Gauge,
     time: Option<[f64; 2]>,
 }
 
@@ -51,18 +54,19 @@ struct Replayed {
     set: ParameterSet,
 }
 
-/// Replays a recording with the ideal drive of the vehicle's gauge, and with each of these
-/// parameters, as they are and without their factors on the track speeds.
+/// Replays a recording with the ideal drive of the gauge, be it that of a `&Vehicle` or alone, and
+/// with each of these parameters, as they are and without their factors on the track speeds.
 ///
 /// # Errors
 /// [`Error::NoMotion`] for a table of steady operating points, [`Error::TooLarge`] for parameters
 /// that no robot has, [`Error::Runs`], [`Error::Time`], [`Error::Odometry`].
 pub fn odometry(
     recording: &Recording,
-    vehicle: &Vehicle,
+    gauge: impl Into<Gauge>,
     parameters: &[Parameters],
     settings: &OdometrySettings,
 ) -> Result<Odometry, Error> {
+    let gauge = gauge.into();
     recording.expect_positions()?;
     let corrected =
         if settings.gyroscope { recording.with_gyroscope(settings.tau) } else { recording.clone() };
@@ -79,7 +83,7 @@ pub fn odometry(
         .map_err(|cause| Error::Identify { recording: recording.place(), cause })?;
     let of_file = |one: &Replayed| [Some(one.set.clone()), one.set.without_alpha()];
     let sets = replayed.iter().flat_map(of_file).flatten();
-    let sets = std::iter::once(ParameterSet::ideal(vehicle.gauge())).chain(sets).collect();
+    let sets = std::iter::once(ParameterSet::ideal(gauge.metres())).chain(sets).collect();
     let comparison = Comparison::new(part.expect_motion()?, sets, clock.tau());
     let comparison =
         comparison.map_err(|cause| Error::Odometry { recording: recording.place(), cause })?;
@@ -88,7 +92,7 @@ pub fn odometry(
         clock,
         replayed,
         recording: corrected.clone(),
-        vehicle: vehicle.clone(),
+        gauge,
         time: part.time(),
     })
 }
@@ -99,15 +103,20 @@ impl Odometry {
         &self.recording
     }
 
-    /// The vehicle whose gauge is that of the ideal drive.
-    pub fn vehicle(&self) -> &Vehicle {
-        &self.vehicle
+    /// The gauge of the ideal drive, and the vehicle that has it.
+    pub fn gauge(&self) -> &Gauge {
+        &self.gauge
     }
 
     /// Parameters that were fitted to some of the driving that is replayed here, which makes their
     /// errors look smaller.
     pub fn fitted_to_it(&self) -> impl Iterator<Item = &Parameters> {
         self.replayed.iter().filter(|one| !self.is_held_out(one)).map(|one| &one.parameters)
+    }
+
+    /// Which of the parameters to take.
+    pub fn advice(&self) -> Advice {
+        advice::of(self)
     }
 
     /// Root mean square over runs of the errors of place, m, and yaw, rad, at the end, of a set.
@@ -135,10 +144,10 @@ impl Odometry {
     /// The replay as a figure.
     pub fn figure(&self, provenance: &Provenance) -> Figure {
         let caption = format!(
-            "trackdyn {}, recording {}, vehicle {}",
+            "trackdyn {}, {}, recording {}",
             provenance.version,
-            self.recording.fingerprint(),
-            self.vehicle.fingerprint()
+            self.gauge.caption(),
+            self.recording.fingerprint()
         );
         trackdyn_report::odometry(&self.comparison, self.recording.name(), &caption)
     }

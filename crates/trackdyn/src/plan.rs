@@ -7,13 +7,17 @@ use std::path::Path;
 use trackdyn_core::Schedule;
 use trackdyn_core::document::Document;
 use trackdyn_core::output::fingerprint;
+use trackdyn_diagnose::document::NoiseTable;
 use trackdyn_diagnose::plan::{Question, STAGES};
 use trackdyn_diagnose::{DiagnosisFile, Plan as Planned, PlanFile};
 use trackdyn_drive::schedules::{self, ScheduledRun};
+use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_model::kinematics::Source;
 
 /// How to plan: fastest speed, time, and noise of the poses.
 pub type PlanSettings = trackdyn_diagnose::plan::Options;
+
+pub use trackdyn_diagnose::plan::assumed_noise;
 
 /// Names of the files of a plan: the plan, and the driving as a schedule.
 const FILES: [&str; 2] = ["plan.toml", "plan.csv"];
@@ -22,7 +26,7 @@ const FILES: [&str; 2] = ["plan.toml", "plan.csv"];
 #[derive(Clone, Debug)]
 pub struct OpenQuestions {
     questions: Vec<Question>,
-    method: MethodSettings,
+    file: DiagnosisFile,
     document: Document,
 }
 
@@ -50,8 +54,8 @@ impl OpenQuestions {
     /// [`Error::Document`], which names line and key.
     pub fn from_document(document: Document) -> Result<Self, Error> {
         let questions = Question::of(&document)?;
-        let method = DiagnosisFile::from_document(&document)?.settings;
-        Ok(Self { questions, method, document })
+        let file = DiagnosisFile::from_document(&document)?;
+        Ok(Self { questions, file, document })
     }
 
     /// Whether nothing is open.
@@ -61,7 +65,19 @@ impl OpenQuestions {
 
     /// The numbers by which the diagnosis was made, for the plan to go by.
     pub fn method(&self) -> &MethodSettings {
-        &self.method
+        &self.file.settings
+    }
+
+    /// The noise of the poses as the diagnosis measured it; none in older files, and of tables of
+    /// steady points.
+    pub fn noise(&self) -> Option<SegmentNoise> {
+        self.file.noise.as_ref().map(NoiseTable::noise)
+    }
+
+    /// The command line that made the diagnosis; none where its file does not tell.
+    pub fn command(&self) -> Option<&str> {
+        let source = self.file.source.as_ref()?;
+        source.get("command")?.as_str().filter(|command| !command.is_empty())
     }
 
     /// The questions.
@@ -120,6 +136,16 @@ impl Plan {
             vehicle: name,
             fingerprint: fingerprint(made_from.as_bytes()),
         })
+    }
+
+    /// Name of the vehicle.
+    pub fn vehicle(&self) -> &str {
+        &self.vehicle
+    }
+
+    /// How it was planned.
+    pub fn settings(&self) -> &PlanSettings {
+        &self.settings
     }
 
     /// All that was found.

@@ -217,7 +217,9 @@ pub(crate) fn joined(recordings: &[Recording]) -> Result<Recording, Error> {
             let all: Vec<Motion> =
                 recordings.iter().filter_map(Recording::motion).cloned().collect();
             let seen = Seen::Motion(Motion::joined(&all)?);
-            Ok(Recording { seen, path: first.path.clone(), time: None, gyroscope: None })
+            let is_alike = recordings.iter().all(|one| one.time == first.time);
+            let time = first.time.filter(|_| is_alike);
+            Ok(Recording { seen, path: first.path.clone(), time, gyroscope: None })
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A vehicle with the physics that its model has.
 
-use crate::Error;
+use crate::{Error, preset};
 use std::path::Path;
 use trackdyn_core::document::Document;
 use trackdyn_core::output::{fingerprint, write_file};
@@ -27,6 +27,40 @@ impl Vehicle {
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         Self::from_document(&Document::read(path.as_ref())?)
     }
+
+    /// The vehicle of a file, or of a name: a file that is there counts first. The names are
+    /// [`Vehicle::names`].
+    ///
+    /// ```
+    /// assert_eq!(trackdyn::Vehicle::choose("husky-a200")?.gauge(), 0.555);
+    /// # Ok::<(), trackdyn::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NoVehicle`] for what is neither; [`Error::Document`] for a file that is not
+    /// accepted, or a path at which there is none.
+    pub fn choose(choice: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = choice.as_ref();
+        let named = || path.to_str().and_then(preset::named);
+        if !path.is_file() {
+            if let Some(file) = named() {
+                return Ok(Self { file });
+            }
+            let is_path = path.extension().is_some() || path.components().count() > 1;
+            if !is_path {
+                return Err(Error::NoVehicle { choice: path.display().to_string() });
+            }
+        }
+        Self::open(path)
+    }
+
+    /// The names of the vehicles that need no file.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        preset::names()
+    }
+
+    /// Name of the vehicle that counts where none is chosen.
+    pub const DEFAULT: &'static str = preset::DEFAULT;
 
     /// The vehicle of a text that is at hand.
     ///

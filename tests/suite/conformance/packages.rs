@@ -5,8 +5,12 @@ use std::fs;
 use std::path::Path;
 
 /// Files of the project that lie in a crate too, for it embeds them.
-const EMBEDDED: [(&str, &str); 4] = [
+const EMBEDDED: [(&str, &str); 8] = [
     ("configs/vehicles/auriga-alpha.toml", "crates/trackdyn-model/src/auriga-alpha.toml"),
+    ("configs/vehicles/husky-a200.toml", "crates/trackdyn/src/preset/husky-a200.toml"),
+    ("configs/vehicles/marmotte.toml", "crates/trackdyn/src/preset/marmotte.toml"),
+    ("configs/vehicles/maxxii.toml", "crates/trackdyn/src/preset/maxxii.toml"),
+    ("configs/vehicles/warthog.toml", "crates/trackdyn/src/preset/warthog.toml"),
     ("configs/sensors/perfect.toml", "crates/trackdyn-drive/src/sensors/perfect.toml"),
     ("configs/sensors/laboratory.toml", "crates/trackdyn-drive/src/sensors/laboratory.toml"),
     ("configs/sensors/field.toml", "crates/trackdyn-drive/src/sensors/field.toml"),
@@ -29,6 +33,17 @@ fn embedded_files_are_those_of_configs() {
     for (original, copy) in EMBEDDED {
         assert!(read(original) == read(copy), "{copy} is not {original}: copy it");
     }
+}
+
+/// `--vehicle NAME` knows every vehicle of the project.
+#[test]
+fn vehicles_of_configs_are_known_by_name() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../configs/vehicles");
+    let files = fs::read_dir(folder).expect("vehicles").map(|entry| entry.expect("a file").path());
+    let mut stems: Vec<String> =
+        files.map(|file| file.file_stem().expect("a name").to_string_lossy().into()).collect();
+    stems.sort();
+    assert_eq!(stems, trackdyn::Vehicle::names().collect::<Vec<_>>());
 }
 
 #[test]

@@ -4,8 +4,8 @@ use super::driven;
 use trackdyn::diagnose::{Prepared, every_fourth};
 use trackdyn::simulate::Driving;
 use trackdyn::{
-    DiagnoseSettings, DriveSettings, Error, HeldOut, Path, Recording, SimulateSettings, Vehicle,
-    drive, simulate,
+    DiagnoseSettings, DriveSettings, Error, Gauge, HeldOut, Path, Recording, SimulateSettings,
+    Vehicle, drive, simulate,
 };
 
 fn held_out(recording: &Recording, held_out: HeldOut) -> Result<Vec<usize>, Error> {
@@ -41,6 +41,8 @@ fn messages_begin_with_the_setting_to_be_changed() {
     let fast = DriveSettings { speed: 99.0, ..DriveSettings::default() };
     let errors = [
         vehicle().with_cog([9.0, 0.0]).map(drop),
+        Vehicle::choose("no-such-vehicle").map(drop),
+        Gauge::new(-1.0).map(drop),
         trackdyn::simulate::sensors("no-such-sensors").map(drop),
         simulate(&vehicle(), &with_runs).map(drop),
         drive(&vehicle(), &square, &[], &fast).map(drop),

@@ -38,7 +38,7 @@ fn read(runs: Vec<UncheckedRun>) -> Result<Recording, Error> {
 }
 
 fn accepting(runs: Vec<UncheckedRun>, accepted: &[DoubtKind]) -> Result<Recording, Error> {
-    let source = Source { format: Format::Folder, path: Some("log".into()), epoch_ns: None };
+    let source = Source { format: Format::Folder, path: Some("log".into()), ..Source::computed() };
     Recording::accepting("log", "robot", runs, source, Vec::new(), accepted)
 }
 

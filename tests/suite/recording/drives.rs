@@ -109,6 +109,21 @@ impl Bag {
         self.messages.push((log, "/slam/pose", "geometry_msgs/msg/PoseStamped", cdr.0));
     }
 
+    /// A `geometry_msgs/TransformStamped` from one frame to another.
+    pub fn transform(
+        &mut self,
+        (log, stamp): Times,
+        [parent, child]: [&str; 2],
+        [x, y]: [f64; 2],
+        quaternion: [f64; 4],
+    ) {
+        let mut cdr = Message::new(stamp, parent);
+        cdr.text(child);
+        cdr.numbers(&[x, y, 0.0]);
+        cdr.numbers(&quaternion);
+        self.messages.push((log, "/slam/frame", "geometry_msgs/msg/TransformStamped", cdr.0));
+    }
+
     /// The poses of the drive.
     pub fn with_poses(mut self) -> Self {
         for (t, pose) in poses() {

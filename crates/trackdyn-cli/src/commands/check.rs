@@ -2,8 +2,8 @@
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::note_what_steady_icrs_leave_out;
-use crate::stderr::say;
+use crate::options::{note_what_steady_icrs_leave_out, say_default};
+use crate::stderr::note;
 use crate::stdout::show;
 use clap::Args;
 use std::fmt::Write;
@@ -19,19 +19,22 @@ pub struct Options {
     reference: PathBuf,
     /// Check this vehicle instead of those that the cases name; a case's cog_m and effects still
     /// replace its own
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE|NAME")]
     vehicle: Option<PathBuf>,
 }
 
 /// Recomputes every case, prints a table, and fails where a number leaves its tolerance.
 pub fn run(options: &Options) -> Outcome {
     let reference = Reference::open(&options.reference)?;
-    let vehicle = options.vehicle.as_deref().map(Vehicle::open).transpose()?;
+    let vehicle = options.vehicle.as_deref().map(Vehicle::choose).transpose()?;
 
     let mut text = String::new();
     let mut misses = 0;
     let mut checked = 0;
     for case in &reference.cases {
+        if vehicle.is_none() && case.vehicle.is_none() {
+            say_default();
+        }
         let case = check(&reference, case, vehicle.as_ref())?;
         note_what_steady_icrs_leave_out(case.vehicle.effects());
         note_gaps(&case);
@@ -66,14 +69,14 @@ fn note_gaps(case: &CheckedCase) {
     let counts = map.counts();
     let gaps = counts[Status::Lifts.index()] + counts[Status::NotConverged.index()];
     if gaps > 0 {
-        say(format_args!(
-            "note: case \"{name}\": at {gaps} of {} pairs of speeds part of the contact lifts or \
+        note(format_args!(
+            "case \"{name}\": at {gaps} of {} pairs of speeds part of the contact lifts or \
             no forces balance: \
              they enter no mean (expect turning_pairs to watch how many do)",
             map.solutions.len()
         ));
     }
     if case.map.statistics().is_none() {
-        say(format_args!("note: case \"{name}\": no motion turns, so there are no ICRs"));
+        note(format_args!("case \"{name}\": no motion turns, so there are no ICRs"));
     }
 }

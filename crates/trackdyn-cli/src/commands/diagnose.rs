@@ -5,7 +5,7 @@ mod summary;
 use crate::changes::{say_removed, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{RecordingOptions, refuse_for_points};
+use crate::options::{PartOptions, RecordingOptions, refuse_for_points};
 use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stderr::say;
@@ -18,16 +18,15 @@ use trackdyn::{
     prepare_folder,
 };
 
+/// Heading of options in the help.
+const BOOTSTRAP: &str = "Bootstrap";
+
 /// Options of `trackdyn diagnose`.
 #[derive(Args)]
 pub struct Options {
-    #[command(flatten)]
-    recording: RecordingOptions,
-    /// More recordings of the same robot
-    more: Vec<PathBuf>,
-    /// Vehicle file (schema trackdyn.vehicle/1); its effects are part of the model, and what its
-    /// *_sd say is taken as known
-    #[arg(long, value_name = "FILE")]
+    /// Vehicle: a file (schema trackdyn.vehicle/1), or a name such as husky-a200; its effects are
+    /// part of the model, and what its *_sd say is taken as known
+    #[arg(long, value_name = "FILE|NAME")]
     vehicle: PathBuf,
     /// Runs to judge the result on, which nothing is fitted or chosen on: a list such as 9-11, or
     /// `none` [default: every fourth run where there are eight or more, every fourth point of a
@@ -35,11 +34,11 @@ pub struct Options {
     #[arg(long, value_name = "RUNS|none")]
     held_out: Option<String>,
     /// Draws of the bootstrap behind the tests
-    #[arg(long, value_name = "N", default_value_t = 2000,
+    #[arg(long, help_heading = BOOTSTRAP, value_name = "N", default_value_t = 2000,
           value_parser = clap::value_parser!(u32).range(1000..=100_000))]
     draws: u32,
     /// Seed of the bootstrap
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, help_heading = BOOTSTRAP, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Numbers of the method that differ from their defaults: a table such as `[verdict]` with
     /// max_p = 0.001
@@ -48,12 +47,21 @@ pub struct Options {
     /// Folder for diagnosis.toml, vehicle.corrected.toml, report.html and the figures
     #[arg(long, value_name = "DIR", default_value = "out/diagnosis")]
     out: PathBuf,
+    #[command(flatten)]
+    recording: RecordingOptions,
+    /// More recordings of the same robot
+    #[arg(help_heading = None::<&str>)]
+    more: Vec<PathBuf>,
+    #[command(flatten)]
+    part: PartOptions,
 }
 
 /// Diagnoses, prints the answer in one screen and writes it.
 pub fn run(options: &Options) -> Outcome {
-    let vehicle = Vehicle::open(&options.vehicle)?;
-    refuse_for_points(&options.recording.given(), &options.recording.recording)?;
+    let vehicle = Vehicle::choose(&options.vehicle)?;
+    let given: Vec<String> =
+        options.recording.given().into_iter().chain(options.part.given()).collect();
+    refuse_for_points(&given, &options.recording.recording)?;
     let recordings = recordings(options)?;
     let settings = DiagnoseSettings {
         held_out: held_out(options)?,
@@ -69,10 +77,12 @@ pub fn run(options: &Options) -> Outcome {
     Ok(Exit::Done)
 }
 
-/// All recordings, each read in the same way.
+/// All recordings, each read in one way, and of each the part that counts.
 fn recordings(options: &Options) -> Result<Vec<Recording>, Error> {
     let more = options.more.iter().map(|path| options.recording.read_path(path));
-    std::iter::once(options.recording.read()).chain(more).collect()
+    let all = std::iter::once(options.recording.read()).chain(more);
+    let part = options.part.part();
+    all.map(|recording| recording?.part(&part)).collect()
 }
 
 fn method(options: &Options) -> Result<MethodSettings, Error> {

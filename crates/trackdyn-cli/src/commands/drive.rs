@@ -21,8 +21,6 @@ use trackdyn::{DriveSettings, Parameters, Path, prepare_folder};
 /// Options of `trackdyn drive`.
 #[derive(Args)]
 pub struct Options {
-    #[command(flatten)]
-    model: ModelOptions,
     /// Path to follow, a table x,y in m [default: a square of 3 m, once to the left]
     #[arg(long, value_name = "FILE")]
     path: Option<PathBuf>,
@@ -46,6 +44,8 @@ pub struct Options {
     /// Folder for drive.toml, drive.png and tables of the cross-track error
     #[arg(long, value_name = "DIR", default_value = "out/drive")]
     out: PathBuf,
+    #[command(flatten)]
+    model: ModelOptions,
 }
 
 /// How the robot knows its pose.

@@ -3,6 +3,7 @@
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::stdout::show;
+use crate::wrapped::wrapped;
 use clap::Args;
 use std::fmt::Write;
 use trackdyn::{ActiveEffect, Card, Parameter, Symmetry, Term, effects};
@@ -73,8 +74,7 @@ fn list() -> String {
 fn card(card: &Card) -> String {
     let mut text = format!("{}: {}\n\n", card.id, card.title);
     let mut row = |name: &str, value: &str| {
-        text.push_str(format!("{name:9}{value}").trim_end());
-        text.push('\n');
+        text.push_str(&wrapped(&format!("{name:9}"), value));
     };
     row("law", card.law);
     row("assumes", card.assumes);

@@ -5,13 +5,14 @@ use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::pair;
 use crate::provenance::provenance;
-use crate::stderr::say;
+use crate::stderr::{note, say, warn};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
+use trackdyn::crates::core::PerSide;
 use trackdyn::crates::core::document::Document;
 use trackdyn::crates::export::ros2::Published;
 use trackdyn::crates::export::{Name, NodeName, Residuals, TextFile};
-use trackdyn::export::{FrameSettings, GzSettings, Ros2Settings, write};
+use trackdyn::export::{FrameSettings, GzSettings, Ros2Settings, WheelChoices, write};
 use trackdyn::{Error, Export};
 
 /// Options of `trackdyn export`.
@@ -39,15 +40,16 @@ struct Ros2Options {
     files: Files,
     #[command(flatten)]
     frames: FrameOptions,
-    /// Belt travel in m per radian of the wheel joint: the pitch radius of the sprocket
+    /// Belt travel in m per radian of the wheel joint: the pitch radius of the sprocket [default:
+    /// that with which the log was read]
     #[arg(long, value_name = "M")]
-    wheel_radius: f64,
-    /// Wheel joint on the left; repeatable
-    #[arg(long, value_name = "JOINT", default_value = "left_wheel_joint")]
-    left_wheel: Vec<Name>,
-    /// Wheel joint on the right; repeatable
-    #[arg(long, value_name = "JOINT", default_value = "right_wheel_joint")]
-    right_wheel: Vec<Name>,
+    wheel_radius: Option<f64>,
+    /// Wheel joint on the left; repeatable [default: those of the log, else left_wheel_joint]
+    #[arg(long, value_name = "JOINT", alias = "left-wheel")]
+    left_joint: Vec<Name>,
+    /// Wheel joint on the right; repeatable [default: those of the log, else right_wheel_joint]
+    #[arg(long, value_name = "JOINT", alias = "right-wheel")]
+    right_joint: Vec<Name>,
     /// Name of the controller
     #[arg(long, value_name = "NAME", default_value = "diff_drive_controller")]
     controller: NodeName,
@@ -64,14 +66,22 @@ struct Ros2Options {
 impl Ros2Options {
     /// What the kinematics file does not know of the robot.
     fn settings(&self, export: &Export) -> Result<Ros2Settings, Error> {
+        let wheels = export.wheels(&WheelChoices {
+            joints: PerSide::new(self.left_joint.clone(), self.right_joint.clone()),
+            wheel_radius: self.wheel_radius,
+        })?;
+        if !wheels.from_log.is_empty() {
+            let taken = wheels.from_log.join("; ");
+            note(format_args!("{taken}: those of the log of {}", export.name()));
+        }
         Ok(Ros2Settings {
-            frames: self.frames.settings(),
-            left_wheels: self.left_wheel.clone(),
-            right_wheels: self.right_wheel.clone(),
+            frames: self.frames.settings(export)?,
+            left_wheels: wheels.joints.left,
+            right_wheels: wheels.joints.right,
             controller: self.controller.clone(),
             residuals: self.residuals(export)?,
             publish_rate: self.publish_rate,
-            ..Ros2Settings::new(self.wheel_radius)
+            ..Ros2Settings::new(wheels.wheel_radius)
         })
     }
 
@@ -80,8 +90,8 @@ impl Ros2Options {
         let Some(path) = &self.residuals else { return Ok(None) };
         let residuals = export.residuals(&Document::read(path)?)?;
         if !residuals.held_out {
-            say(format_args!(
-                "warning: the residuals in {} are of runs that the kinematics were fitted to: \
+            warn(format_args!(
+                "the residuals in {} are of runs that the kinematics were fitted to: \
                 covariances \
                  come out too small (replay others, with --runs or --time)",
                 residuals.source
@@ -129,24 +139,37 @@ struct FrameOptions {
     /// Frame midway between the ICRs: parent of the base frame
     #[arg(long, value_name = "FRAME", default_value = "icr_link")]
     icr_frame: Name,
-    /// Root link of the robot's URDF
-    #[arg(long, value_name = "FRAME", default_value = "base_link")]
-    base_frame: Name,
+    /// Root link of the robot's URDF [default: the frame whose poses the log has, else base_link]
+    #[arg(long, value_name = "FRAME")]
+    base_frame: Option<Name>,
     /// Origin of the ICRs in the base frame, in m: forward, left (ROS axes). Of a map it is the
     /// centre of the contact area of both tracks; of a recording the frame of its poses
-    #[arg(long, value_name = "X,Y", value_parser = pair, default_value = "0,0",
+    #[arg(long, value_name = "FORWARD,LEFT", value_parser = pair, default_value = "0,0",
           allow_hyphen_values = true)]
     contact_centre: [f64; 2],
 }
 
 impl FrameOptions {
-    fn settings(&self) -> FrameSettings {
-        FrameSettings {
+    fn settings(&self, export: &Export) -> Result<FrameSettings, Error> {
+        let base = export.base_frame(self.base_frame.as_ref())?;
+        let name = &base.name;
+        match (&base.of_log, &self.base_frame) {
+            (Some(frame), None) => note(format_args!(
+                "base frame {frame}: the one whose poses the log has; the URDF has to have it as \
+                 its root link (--base-frame)"
+            )),
+            (Some(frame), Some(_)) if *frame != name.to_string() => note(format_args!(
+                "ICRs are measured in {frame}, whose poses the log has: --contact-centre has to be \
+                 its origin in {name}"
+            )),
+            _ => {}
+        }
+        Ok(FrameSettings {
             odom: self.odom_frame.clone(),
             icr: self.icr_frame.clone(),
-            base: self.base_frame.clone(),
+            base: base.name,
             contact_centre: self.contact_centre,
-        }
+        })
     }
 }
 
@@ -160,8 +183,8 @@ pub fn run(options: &Options) -> Outcome {
     let export = Export::open(&files.kinematics, &provenance())?;
     let name = files.kinematics.display();
     if export.drive().is_separation_alone {
-        say(format_args!(
-            "warning: {name} holds the distance of the ICRs alone; the point midway between them \
+        warn(format_args!(
+            "{name} holds the distance of the ICRs alone; the point midway between them \
             is taken for the origin of the base frame"
         ));
     }
@@ -171,8 +194,8 @@ pub fn run(options: &Options) -> Outcome {
     let exported = exported(&options.target, &export)?;
     let sectors = export.drive().sectors;
     if sectors > 0 {
-        say(format_args!(
-            "warning: {name} is piecewise with {sectors} sectors; the constants of the whole map \
+        warn(format_args!(
+            "{name} is piecewise with {sectors} sectors; the constants of the whole map \
             stand for all of them"
         ));
     }
@@ -190,6 +213,6 @@ fn exported(target: &Target, export: &Export) -> Result<Vec<TextFile>, Error> {
             left_tracks: options.left_track.clone(),
             right_tracks: options.right_track.clone(),
         }),
-        Target::UrdfFrames(options) => export.urdf(&options.frames.settings()),
+        Target::UrdfFrames(options) => export.urdf(&options.frames.settings(export)?),
     }
 }

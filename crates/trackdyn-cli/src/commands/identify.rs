@@ -8,25 +8,24 @@ pub use points::lagging_points;
 use crate::changes::{say_undetermined, say_written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{DrivingOptions, not_negative, refuse_for_points};
+use crate::options::{DrivingOptions, GaugeOptions, not_negative, refuse_for_points};
 use crate::progress::Progress;
 use crate::provenance::provenance;
-use crate::stderr::say;
+use crate::stderr::note;
 use crate::stdout::show;
-use clap::Args;
+use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 use trackdyn::crates::estimate::{GeneticOptions, Nuisance};
-use trackdyn::identify::Prepared;
-use trackdyn::{Change, Identification, IdentifySettings, Vehicle, prepare_folder};
+use trackdyn::identify::{Prepared, refuse_other};
+use trackdyn::{Identification, IdentifySettings, prepare_folder};
+
+/// Heading of options in the help.
+const GENETIC: &str = "Genetic algorithm";
 
 /// Options of `trackdyn identify`.
 #[derive(Args)]
+#[command(group(ArgGroup::new("known").required(true).args(["vehicle", "gauge"])))]
 pub struct Options {
-    #[command(flatten)]
-    driving: DrivingOptions,
-    /// Vehicle file (schema trackdyn.vehicle/1), for its gauge
-    #[arg(long, value_name = "FILE")]
-    vehicle: PathBuf,
     /// Use only segments before which the tracks ran steadily for this many seconds
     #[arg(long, value_name = "SECONDS", value_parser = not_negative)]
     settle: Option<f64>,
@@ -38,15 +37,15 @@ pub struct Options {
     #[arg(long)]
     gyroscope: bool,
     /// Individuals of the genetic algorithm
-    #[arg(long, value_name = "N", default_value_t = 100,
+    #[arg(long, help_heading = GENETIC, value_name = "N", default_value_t = 100,
           value_parser = clap::value_parser!(u32).range(4..=100_000))]
     population: u32,
     /// Generations of the genetic algorithm
-    #[arg(long, value_name = "N", default_value_t = 200,
+    #[arg(long, help_heading = GENETIC, value_name = "N", default_value_t = 200,
           value_parser = clap::value_parser!(u32).range(1..=100_000))]
     generations: u32,
     /// Seed of the genetic algorithm
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, help_heading = GENETIC, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// Write parameters that other parts of the answer contradict as well, marked as doubtful
     #[arg(long)]
@@ -54,6 +53,10 @@ pub struct Options {
     /// Folder for identification.toml, kinematics.toml and kinematics_alpha.toml
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+    #[command(flatten)]
+    driving: DrivingOptions,
+    #[command(flatten)]
+    gauge: GaugeOptions,
 }
 
 impl Options {
@@ -88,40 +91,31 @@ impl Options {
 
 /// Identifies the parameters, prints them side by side and writes what the recording determines.
 pub fn run(options: &Options) -> Outcome {
-    let vehicle = Vehicle::open(&options.vehicle)?;
+    let gauge = options.gauge.expect_gauge()?;
     refuse_for_points(&options.of_motion(), options.driving.path())?;
     let recording = options.driving.recording()?.part(&options.driving.part())?;
+    refuse_other(&options.out)?;
     prepare_folder(&options.out)?;
     let settings = options.settings();
-    let prepared = Prepared::new(&recording, &vehicle, &settings)?;
+    let prepared = Prepared::new(&recording, &gauge, &settings)?;
     let found = Progress::over(|observer| prepared.run(observer))?;
     let changes = found.write(&options.out, &provenance())?;
-    say_changes(&changes);
+    say_written(&changes);
+    say_undetermined(&changes);
     if settings.nuisances.contains(&Nuisance::SensorYaw) {
-        say(format_args!(
-            "note: no kinematics file holds the yaw of the sensor's mount: before odometry and \
+        note(format_args!(
+            "no kinematics file holds the yaw of the sensor's mount: before odometry and \
             export with these \
              parameters, turn the sensor by it, or the frame of the poses"
         ));
     }
     show(&match &found {
-        Identification::Motion(fit) => summary::text(&recording, &vehicle, fit),
-        Identification::Points(fit) => points::text(&recording, &vehicle, fit),
-        Identification::Turning(fit) => summary::turning(&recording, &vehicle, fit),
+        Identification::Motion(fit) => summary::text(&recording, &gauge, fit),
+        Identification::Points(fit) => points::text(&recording, &gauge, fit),
+        Identification::Turning(fit) => summary::turning(&recording, &gauge, fit),
     })?;
     if let Some(separation) = found.separation(&provenance()) {
         show(&summary::separation(&separation))?;
     }
     Ok(if found.is_determined() { Exit::Done } else { Exit::NoResult })
-}
-
-/// Names the files that were written or removed, and those of another origin.
-fn say_changes(changes: &[Change]) {
-    say_written(changes);
-    say_undetermined(changes);
-    for change in changes {
-        if let Change::Kept(path) = change {
-            say(format_args!("note: {} is not of this recording, and stays", path.display()));
-        }
-    }
 }

@@ -33,17 +33,17 @@ pub struct Options {
     #[arg(long, value_name = "LENGTH,WIDTH", value_parser = pair)]
     wheels: Option<[f64; 2]>,
     /// Wheels: axles in m forward of the middle, such as 0.256,-0.256
-    #[arg(long, value_name = "Y,Y,...", value_parser = finite, value_delimiter = ',',
+    #[arg(long, value_name = "FORWARD,...", value_parser = finite, value_delimiter = ',',
           allow_hyphen_values = true, conflicts_with = "track")]
     axles: Vec<f64>,
     /// Mass in kg, with all that it carries
     #[arg(long, value_name = "KG", value_parser = positive)]
     mass: Option<f64>,
     /// Centre of gravity in m from the centre of the contact area: right, forward [default: there]
-    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
+    #[arg(long, value_name = "RIGHT,FORWARD", value_parser = pair, allow_hyphen_values = true)]
     cog: Option<[f64; 2]>,
     /// Friction coefficients across and along the tracks [default: 0.8,0.8, as a guess]
-    #[arg(long, value_name = "MU_X,MU_Y", value_parser = pair)]
+    #[arg(long, value_name = "ACROSS,ALONG", value_parser = pair)]
     friction: Option<[f64; 2]>,
     /// Belt travel in m per radian of the joints: a remark in the file, and the option in logs
     #[arg(long, value_name = "M", value_parser = positive)]

@@ -6,22 +6,17 @@ mod summary;
 use crate::changes::{say_removed, say_written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{DrivingOptions, refuse_for_points};
+use crate::options::{DrivingOptions, GaugeOptions, refuse_for_points};
 use crate::provenance::provenance;
 use crate::stdout::show;
 use clap::Args;
 use next::Asked;
 use std::path::PathBuf;
-use trackdyn::{Gauge, InspectSettings, Parameters, Vehicle, inspect};
+use trackdyn::{InspectSettings, Parameters, inspect};
 
 /// Options of `trackdyn inspect`.
 #[derive(Args)]
 pub struct Options {
-    #[command(flatten)]
-    driving: DrivingOptions,
-    /// Vehicle file (schema trackdyn.vehicle/1), by whose gauge the ICRs are judged
-    #[arg(long, value_name = "FILE")]
-    vehicle: Option<PathBuf>,
     /// Parameters that predict the yaw rate (schema trackdyn.kinematics/1) [default: the distance
     /// of the ICRs that fits best]
     #[arg(long, value_name = "FILE")]
@@ -29,17 +24,20 @@ pub struct Options {
     /// Folder for inspect.png
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+    #[command(flatten)]
+    driving: DrivingOptions,
+    #[command(flatten)]
+    gauge: GaugeOptions,
 }
 
 /// Judges a recording, prints the judgement with the commands to go on with, and writes a picture.
 pub fn run(options: &Options) -> Outcome {
     refuse_for_points(&options.driving.given(), options.driving.path())?;
-    let vehicle = options.vehicle.as_ref().map(Vehicle::open).transpose()?;
     let settings = InspectSettings {
         read: options.driving.read_options(),
         part: options.driving.part(),
         tau: options.driving.tau,
-        gauge: vehicle.as_ref().map(Gauge::from),
+        gauge: options.gauge.gauge()?,
         parameters: options.kinematics.as_ref().map(Parameters::open).transpose()?,
     };
     let found = inspect(options.driving.path(), &settings)?;
@@ -48,7 +46,7 @@ pub fn run(options: &Options) -> Outcome {
     say_removed(&changes);
     let asked = Asked {
         path: options.driving.path(),
-        vehicle: options.vehicle.as_deref(),
+        gauge: &options.gauge,
         part: &settings.part,
         tau: settings.tau,
         out: &options.out,

@@ -3,7 +3,7 @@
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{CircumstanceOptions, ModelOptions, note_what_steady_icrs_leave_out, pair};
-use crate::stderr::say;
+use crate::stderr::note;
 use crate::stdout::show;
 use clap::{ArgGroup, Args};
 use std::error::Error;
@@ -49,7 +49,7 @@ pub fn run(options: &Options) -> Outcome {
         (None, Some([forward, yaw_rate])) => file.track_speeds(forward, yaw_rate),
         (None, None) => return Err("one of --speeds and --twist is needed".into()),
     };
-    show(&motion(speed, &kinematics))?;
+    show(&(format!("  vehicle       {}\n", file.vehicle()) + &motion(speed, &kinematics)))?;
     Ok(Exit::Done)
 }
 
@@ -67,8 +67,8 @@ fn parameters(options: &Options) -> Result<Parameters, Box<dyn Error>> {
     let spread = statistics.spread.to_array().into_iter().fold(0.0, f64::max);
     // a piecewise map has the ICRs of each sector
     if map.solved().sectors().is_empty() && spread > NOTABLE {
-        say(format_args!(
-            "note: the ICRs of this vehicle go with the speeds, by {:.1} mm up to {} m/s: these \
+        note(format_args!(
+            "the ICRs of this vehicle go with the speeds, by {:.1} mm up to {} m/s: these \
             are their means",
             1e3 * spread,
             Grid::PAPER_SPEED

@@ -17,25 +17,28 @@ use trackdyn::{Grid, IcrMap, MapSettings, prepare_folder};
 /// Options of `trackdyn map`.
 #[derive(Args)]
 pub struct Options {
-    #[command(flatten)]
-    model: ModelOptions,
-    #[command(flatten)]
-    circumstance: CircumstanceOptions,
     /// Speeds per track
     #[arg(long, value_name = "N", default_value_t = MapSettings::POINTS, value_parser = count)]
     grid: usize,
     /// Largest track speed in m/s
-    #[arg(long, value_name = "SPEED", default_value_t = Grid::PAPER_SPEED)]
-    speed: f64,
+    #[arg(long, value_name = "SPEED", alias = "speed", default_value_t = Grid::PAPER_SPEED)]
+    fastest: f64,
     /// Folder for kinematics.toml and icr_map.png
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+    #[command(flatten)]
+    model: ModelOptions,
+    #[command(flatten)]
+    circumstance: CircumstanceOptions,
 }
 
 /// Solves the map, prints its parameters and writes the files.
 pub fn run(options: &Options) -> Outcome {
-    let grid = Grid::new(options.grid, options.speed).map_err(|error| format!("--{error}"))?;
+    let grid = Grid::new(options.grid, options.fastest);
+    let grid =
+        grid.map_err(|error| format!("--{}", error.to_string().replacen("speed", "fastest", 1)))?;
     let vehicle = options.model.vehicle()?;
+    IcrMap::refuse_other(&options.out)?;
     prepare_folder(&options.out)?;
     note_what_steady_icrs_leave_out(vehicle.effects());
     let settings = MapSettings { grid, circumstance: options.circumstance.circumstance() };

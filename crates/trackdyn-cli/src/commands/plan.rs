@@ -1,5 +1,6 @@
 //! `trackdyn plan`: the driving that tells apart what a diagnosis could not.
 
+mod next;
 mod summary;
 
 use crate::changes::{say_removed, say_written};
@@ -11,10 +12,12 @@ use crate::provenance::provenance;
 use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
+use next::Place;
 use std::path::PathBuf;
 use trackdyn::crates::diagnose;
+use trackdyn::crates::estimate::weighting::SegmentNoise;
 use trackdyn::diagnose::corrected_beside;
-use trackdyn::plan::remove_earlier;
+use trackdyn::plan::{assumed_noise, remove_earlier};
 use trackdyn::{Error, OpenQuestions, Plan, PlanSettings, Vehicle};
 
 /// Options of `trackdyn plan`.
@@ -23,9 +26,9 @@ pub struct Options {
     /// Diagnosis file (schema trackdyn.diagnosis/1)
     #[arg(long, value_name = "FILE")]
     diagnosis: PathBuf,
-    /// Vehicle file that has what the diagnosis found [default: vehicle.corrected.toml beside the
+    /// Vehicle that has what the diagnosis found [default: vehicle.corrected.toml beside the
     /// diagnosis]
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE|NAME")]
     vehicle: Option<PathBuf>,
     /// Largest track speed, m/s
     #[arg(long, value_name = "SPEED", default_value_t = 1.0, value_parser = speed)]
@@ -33,12 +36,14 @@ pub struct Options {
     /// Time for all manoeuvres together, s
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = time)]
     duration: f64,
-    /// Standard deviation of a pose along each axis, m
-    #[arg(long, value_name = "M", default_value_t = 0.001, value_parser = noise)]
-    noise_xy_m: f64,
-    /// Standard deviation of the yaw of a pose, rad
-    #[arg(long, value_name = "RAD", default_value_t = 0.001, value_parser = noise)]
-    noise_yaw_rad: f64,
+    /// Standard deviation of a pose along each axis, m [default: as the diagnosis measured it, else
+    /// 0.001]
+    #[arg(long, value_name = "M", alias = "noise-xy-m", value_parser = noise)]
+    noise_xy: Option<f64>,
+    /// Standard deviation of the yaw of a pose, rad [default: as the diagnosis measured it, else
+    /// 0.001]
+    #[arg(long, value_name = "RAD", alias = "noise-yaw-rad", value_parser = noise)]
+    noise_yaw: Option<f64>,
     /// Folder for plan.csv, a schedule for `simulate --schedule` and for the robot, and plan.toml
     #[arg(long, value_name = "DIR", default_value = "out/plan")]
     out: PathBuf,
@@ -56,8 +61,7 @@ pub fn run(options: &Options) -> Outcome {
     let settings = PlanSettings {
         fastest: options.fastest,
         duration: options.duration,
-        noise_xy: options.noise_xy_m,
-        noise_yaw: options.noise_yaw_rad,
+        noise: options.noise(&questions),
         method: questions.method().clone(),
     };
     let plan = Progress::over(|observer| Plan::new(&questions, &vehicle, &settings, observer));
@@ -71,7 +75,13 @@ pub fn run(options: &Options) -> Outcome {
     })?;
     let changes = plan.write(&options.out, &provenance())?;
     say_written(&changes);
-    show(&summary::text(plan.found()))?;
+    let place = Place {
+        diagnosis: &options.diagnosis,
+        vehicle: &options.vehicle_file(),
+        out: &options.out,
+    };
+    let text = summary::text(&plan, options.origin(&questions));
+    show(&(text + &next::text(&plan, &questions, &place)))?;
     if plan.schedule().is_none() {
         say_removed(&changes);
         say(format_args!("wrote nothing: there is nothing to drive"));
@@ -79,9 +89,43 @@ pub fn run(options: &Options) -> Outcome {
     Ok(Exit::Done)
 }
 
+impl Options {
+    /// The noise as given, along the axes or in yaw, else as the diagnosis measured it, else that
+    /// of a laboratory.
+    fn noise(&self, questions: &OpenQuestions) -> SegmentNoise {
+        let assumed = PlanSettings::default().noise;
+        let mut noise = questions.noise().unwrap_or(assumed);
+        if let Some(xy) = self.noise_xy {
+            let SegmentNoise { pose: [forward, left, _], .. } = assumed_noise(xy, 0.0);
+            (noise.pose[0], noise.pose[1]) = (forward, left);
+            (noise.walk[0], noise.walk[1]) = (forward, left);
+        }
+        if let Some(yaw) = self.noise_yaw {
+            let SegmentNoise { pose: [_, _, yaw], .. } = assumed_noise(0.0, yaw);
+            (noise.pose[2], noise.walk[2], noise.heading) = (yaw, yaw, 0.0);
+        }
+        noise
+    }
+
+    /// Where the noise comes from.
+    fn origin(&self, questions: &OpenQuestions) -> &'static str {
+        match (self.noise_xy.or(self.noise_yaw), questions.noise()) {
+            (Some(_), _) => "as given",
+            (None, Some(_)) => "as the diagnosis measured it",
+            (None, None) => "assumed, for the diagnosis does not tell: --noise-xy, --noise-yaw",
+        }
+    }
+
+    /// The vehicle as an argument.
+    fn vehicle_file(&self) -> PathBuf {
+        let beside = || corrected_beside(&self.diagnosis);
+        self.vehicle.clone().unwrap_or_else(beside)
+    }
+}
+
 fn vehicle(options: &Options) -> Result<Vehicle, Box<dyn std::error::Error>> {
     match &options.vehicle {
-        Some(path) => Ok(Vehicle::open(path)?),
+        Some(path) => Ok(Vehicle::choose(path)?),
         None => Vehicle::open(corrected_beside(&options.diagnosis)).map_err(|error| {
             format!("{error}\nexpected beside the diagnosis, or --vehicle").into()
         }),

@@ -8,7 +8,7 @@ use crate::exit::Exit;
 use crate::options::{ModelOptions, PlaceOptions, count, finite};
 use crate::progress::Progress;
 use crate::provenance::provenance;
-use crate::stderr::say;
+use crate::stderr::{note, say};
 use crate::stdout::show;
 use clap::{Args, ValueEnum};
 use ground::Independent;
@@ -21,15 +21,11 @@ use trackdyn_second_simulator::ActiveMechanism;
 /// Options of `trackdyn simulate`.
 #[derive(Args)]
 pub struct Options {
-    #[command(flatten)]
-    model: ModelOptions,
-    #[command(flatten)]
-    place: PlaceOptions,
     /// What the tracks do: manual, validation, designed, square, or a file t,v_left,v_right
     #[arg(long, value_name = "NAME|FILE", default_value = "manual")]
     schedule: String,
     /// Runs of a schedule that is generated [default: what is usual for it]
-    #[arg(long, value_name = "N", value_parser = count)]
+    #[arg(long = "run-count", alias = "runs", value_name = "N", value_parser = count)]
     runs: Option<usize>,
     /// Time of each run of a schedule that is generated, s, with a second at rest before and after:
     /// a square or a plan that has begun is driven to its end [default: as long as the schedule
@@ -62,6 +58,10 @@ pub struct Options {
     /// Folder for the recording, the true motion (truth.csv) and what it was made from
     #[arg(long, value_name = "DIR", default_value = "out/recording")]
     out: PathBuf,
+    #[command(flatten)]
+    model: ModelOptions,
+    #[command(flatten)]
+    place: PlaceOptions,
 }
 
 /// Which simulator moves the robot.
@@ -93,7 +93,7 @@ pub fn run(options: &Options) -> Outcome {
         }
     })?;
     for warning in simulation.recording.warnings() {
-        say(format_args!("note: {warning}"));
+        note(format_args!("{warning}"));
     }
     simulation.write(&options.out, &provenance())?;
     show(&summary::text(&simulation, &options.mechanisms))?;

@@ -1,7 +1,9 @@
 //! The plan as a file, schema `trackdyn.plan/1`.
 
 use super::{Answer, Options, Plan, measurement, rounded};
+use crate::document::NoiseTable;
 use serde::Serialize;
+use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_model::EffectId;
 use trackdyn_model::kinematics::Source;
 
@@ -12,16 +14,29 @@ pub struct PlanFile {
     duration_s: f64,
     fastest_m_s: f64,
     /// Assumed noise of a pose.
-    noise: NoiseTable,
+    noise: PlannedNoise,
     manoeuvre: Vec<ManoeuvreTable>,
     pair: Vec<PairTable>,
     source: Source,
 }
 
+/// Noise of a pose, and of each axis.
 #[derive(Clone, Debug, Serialize)]
-struct NoiseTable {
+struct PlannedNoise {
+    /// Root mean square of both axes.
     pose_xy_m: f64,
-    pose_yaw_rad: f64,
+    #[serde(flatten)]
+    of_axes: NoiseTable,
+}
+
+impl PlannedNoise {
+    fn of(noise: &SegmentNoise) -> Self {
+        let [forward, left, _] = noise.pose;
+        Self {
+            pose_xy_m: rounded(f64::midpoint(forward, left).sqrt()),
+            of_axes: NoiseTable::of(noise),
+        }
+    }
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -93,7 +108,7 @@ impl PlanFile {
             schema: "trackdyn.plan/1",
             duration_s: rounded(duration),
             fastest_m_s: options.fastest,
-            noise: NoiseTable { pose_xy_m: options.noise_xy, pose_yaw_rad: options.noise_yaw },
+            noise: PlannedNoise::of(&options.noise),
             manoeuvre: manoeuvre.collect(),
             pair: pair.collect(),
             source,

@@ -52,6 +52,37 @@ pub struct Source {
     /// Number of motions of each kind in the map.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub motions: Option<BTreeMap<String, usize>>,
+    /// What the recording calls the parts of the robot, where it is a bag.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bag: Option<BagSource>,
+}
+
+/// What a bag calls the parts of the robot, as they were taken from it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BagSource {
+    /// Joints on the left, with a `-` before those that count backwards; empty where track speeds
+    /// come from something else.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub left_joints: Vec<String>,
+    /// Joints on the right.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub right_joints: Vec<String>,
+    /// Belt travel per radian of these, m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wheel_radius_m: Option<f64>,
+    /// Topics of the track speeds.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub track_topics: Vec<String>,
+    /// Topic of the poses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pose_topic: Option<String>,
+    /// Frame that the poses are expressed in.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parent_frame: Option<String>,
+    /// Frame whose poses they are: that of the ICRs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub child_frame: Option<String>,
 }
 
 /// The grid of a map.

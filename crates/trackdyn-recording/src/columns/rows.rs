@@ -34,7 +34,8 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
         warnings.extend(thin_out(&mut run.poses.samples));
     }
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let source = Source { format: Format::Table, path: Some(path.to_owned()), epoch_ns: None };
+    let source =
+        Source { format: Format::Table, path: Some(path.to_owned()), ..Source::computed() };
     Recording::accepting(name, "unknown", runs, source, warnings, &options.accepted)
 }
 

@@ -13,10 +13,9 @@ use super::topic::{Topic, list};
 use crate::Error;
 use crate::attitude::Attitude;
 use crate::doubt::{Doubt, DoubtKind};
-use crate::recording::{UncheckedRun, Warning};
+use crate::recording::{BagNames, UncheckedRun, Warning};
 use std::collections::BTreeMap;
 use std::path::Path;
-use trackdyn_core::PerSide;
 
 mod alike;
 mod choice;
@@ -84,8 +83,8 @@ pub(super) struct Collected {
     pub(super) runs: Vec<UncheckedRun>,
     /// Unix time of t = 0, ns.
     pub(super) epoch_ns: i64,
-    /// Joints of each side as they were taken, with a `-` where they are reversed.
-    pub(super) joints: PerSide<Vec<String>>,
+    /// What was taken; all joints, and no radius.
+    pub(super) names: BagNames,
     /// What was chosen, dated or skipped.
     pub(super) warnings: Vec<Warning>,
 }
@@ -128,6 +127,8 @@ impl<'a> Collector<'a> {
         let (imu_topic, imu) = sources.imu(self.imu, &mut warnings)?;
         let imu = upright(&imu_topic, imu, &mut warnings);
         let is_free = !self.options.names_poses();
+        let named = |frame: &str| Some(frame.to_owned()).filter(|frame| !frame.is_empty());
+        let mut frames = self.options.frames().map_or([None, None], |both| both.map(named));
         // Clocks of the tracks come first: others are compared with them.
         let mut clocks: Vec<Clock> = Vec::new();
         for joint in &chosen.joints {
@@ -154,6 +155,7 @@ impl<'a> Collector<'a> {
             _ => {
                 let (key, poses) = sources.poses(self.poses, &self.skipped, &mut warnings)?;
                 attitude = self.attitudes.get(&key).copied();
+                frames = [named(&key.parent), named(&key.child)];
                 (poses, key.topic, None)
             }
         };
@@ -173,7 +175,7 @@ impl<'a> Collector<'a> {
         };
         warnings.extend(told);
         warnings.extend(clocks.iter().flat_map(|clock| clock.warnings(by)));
-        let streams = Streams { chosen, poses, pose_topic, chained, imu, imu_topic };
+        let streams = Streams { chosen, poses, pose_topic, frames, chained, imu, imu_topic };
         speeds::runs(path, self.options, &clocks, by, streams, warnings)
     }
 }

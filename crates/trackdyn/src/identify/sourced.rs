@@ -2,8 +2,8 @@
 
 use crate::{Gauge, IdentifySettings, Provenance, Recording};
 use trackdyn_estimate::{Contradiction, Free, Interval, Parameters, Separation};
-use trackdyn_model::kinematics::{KinematicsFile, SeparationFile, Source};
-use trackdyn_recording::Recording as Motion;
+use trackdyn_model::kinematics::{BagSource, KinematicsFile, SeparationFile, Source};
+use trackdyn_recording::{BagNames, Recording as Motion};
 
 /// Parameters that were fitted, with the rows of their covariance.
 pub(super) struct Fitted {
@@ -77,6 +77,22 @@ fn of_motion(recording: &Recording, motion: &Motion) -> Source {
         pose_fingerprint: Some(motion.pose_fingerprint().to_owned()),
         runs: Some(motion.run_list().to_string()),
         time_s: recording.time(),
+        bag: motion.source().names.as_deref().map(of_names),
         ..Source::default()
+    }
+}
+
+/// What a bag calls the parts of the robot.
+fn of_names(names: &BagNames) -> BagSource {
+    let BagNames { joints, wheel_radius, track_topics, pose_topic, parent_frame, child_frame } =
+        names.clone();
+    BagSource {
+        left_joints: joints.left,
+        right_joints: joints.right,
+        wheel_radius_m: wheel_radius,
+        track_topics,
+        pose_topic,
+        parent_frame,
+        child_frame,
     }
 }

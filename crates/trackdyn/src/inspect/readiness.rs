@@ -1,7 +1,7 @@
 //! What a recording is good for: each use is tried.
 
 use super::{Driving, Finding, InspectSettings};
-use crate::identify::{Identification, IdentifySettings, identify};
+use crate::identify::{FILES, Identification, IdentifySettings, identify};
 use crate::{Error, Gauge, Recording};
 use trackdyn_diagnose::Settings;
 use trackdyn_diagnose::evidence::Evidence;
@@ -56,9 +56,15 @@ pub struct Readiness {
     pub what: Use,
     /// How far it suffices.
     pub verdict: Verdict,
+    /// Names of the files of all parameters that an identification would write; none of other uses.
+    pub files: Vec<&'static str>,
 }
 
 impl Readiness {
+    fn new(what: Use, verdict: Verdict) -> Self {
+        Self { what, verdict, files: Vec::new() }
+    }
+
     /// Whether the use gives anything.
     pub fn is_ready(&self) -> bool {
         !matches!(self.verdict, Verdict::No(_))
@@ -67,7 +73,7 @@ impl Readiness {
 
 /// A recording that is good for nothing, for one reason.
 pub(super) fn none(reason: &str) -> Vec<Readiness> {
-    let no = |what| Readiness { what, verdict: Verdict::No(reason.to_owned()) };
+    let no = |what| Readiness::new(what, Verdict::No(reason.to_owned()));
     [Use::Identify, Use::Odometry, Use::Diagnose].map(no).to_vec()
 }
 
@@ -83,9 +89,9 @@ pub(super) fn of_points(
     let no_motion = "a table has no path to reckon".to_owned();
     let evidence = Evidence::of_points(points, &Settings::default()).map(drop);
     vec![
-        Readiness { what: Use::Identify, verdict: identified },
-        Readiness { what: Use::Odometry, verdict: Verdict::No(no_motion) },
-        Readiness { what: Use::Diagnose, verdict: of_result(evidence) },
+        identified,
+        Readiness::new(Use::Odometry, Verdict::No(no_motion)),
+        Readiness::new(Use::Diagnose, of_result(evidence)),
     ]
 }
 
@@ -110,9 +116,9 @@ pub(super) fn of_motion(
         },
     );
     vec![
-        Readiness { what: Use::Identify, verdict: identified },
-        Readiness { what: Use::Odometry, verdict: odometry },
-        Readiness { what: Use::Diagnose, verdict: diagnose },
+        identified,
+        Readiness::new(Use::Odometry, odometry),
+        Readiness::new(Use::Diagnose, diagnose),
     ]
 }
 
@@ -150,7 +156,8 @@ fn to_identify(
     settings: &InspectSettings,
     gap: Option<f64>,
     findings: &mut Vec<Finding>,
-) -> Verdict {
+) -> Readiness {
+    let no = |reason: String| Readiness::new(Use::Identify, Verdict::No(reason));
     let gauge = Gauge::new(gauge(settings, gap));
     let gauge = settings.gauge.clone().map_or(gauge, Ok);
     let tried = gauge.and_then(|gauge| {
@@ -159,8 +166,8 @@ fn to_identify(
     });
     let identified = match tried {
         Ok(identified) => identified,
-        Err(Error::Identify { cause, .. }) => return Verdict::No(cause.to_string()),
-        Err(error) => return Verdict::No(error.to_string()),
+        Err(Error::Identify { cause, .. }) => return no(cause.to_string()),
+        Err(error) => return no(error.to_string()),
     };
     for contradiction in identified.contradictions().into_iter().flatten() {
         let is_of_gauge = matches!(contradiction, Contradiction::Efficiency { .. });
@@ -175,7 +182,9 @@ fn to_identify(
     {
         findings.push(Finding::Lagging(fit.lagging.len()));
     }
-    of_identified(&identified)
+    let files = FILES.into_iter().zip(identified.reasons());
+    let files = files.filter(|(_, reason)| reason.is_none()).map(|(file, _)| file).collect();
+    Readiness { files, ..Readiness::new(Use::Identify, of_identified(&identified)) }
 }
 
 fn of_identified(identified: &Identification) -> Verdict {

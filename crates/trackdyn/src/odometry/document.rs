@@ -1,6 +1,6 @@
 //! The result of a replay as a file, schema `trackdyn.odometry/1`.
 
-use super::Odometry;
+use super::{Advice, Odometry};
 use crate::Provenance;
 use crate::document::{ClockTable, GyroscopeTable, Rounded, to_toml};
 use serde::Serialize;
@@ -20,6 +20,7 @@ struct File<'a> {
     clock: ClockTable<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     gyroscope: Option<GyroscopeTable>,
+    advice: AdviceTable,
     set: Vec<SetTable>,
     span: Vec<SpanTable<'a>>,
 }
@@ -34,7 +35,29 @@ struct Source<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     time_s: Option<[f64; 2]>,
     vehicle: &'a str,
-    vehicle_fingerprint: String,
+    vehicle_fingerprint: &'a str,
+    gauge_m: f64,
+}
+
+/// Which parameters to take.
+#[derive(Serialize)]
+struct AdviceTable {
+    /// A file, or `ideal`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    take: Option<String>,
+    /// Why that is not decided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    undecided: Option<String>,
+    /// Errors as a share of those of the other sets.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    compared: Vec<ComparedTable>,
+}
+
+#[derive(Serialize)]
+struct ComparedTable {
+    with: String,
+    position: EstimateTable,
+    yaw: EstimateTable,
 }
 
 #[derive(Serialize)]
@@ -98,7 +121,7 @@ struct EstimateTable {
 
 /// The text of `odometry.toml`.
 pub(super) fn text(odometry: &Odometry, provenance: &Provenance) -> String {
-    let Odometry { comparison: result, clock, recording, vehicle, .. } = odometry;
+    let Odometry { comparison: result, clock, recording, gauge, .. } = odometry;
     to_toml(&File {
         schema: "trackdyn.odometry/1",
         runs: result.paths.iter().map(|path| path.run).collect(),
@@ -113,11 +136,13 @@ pub(super) fn text(odometry: &Odometry, provenance: &Provenance) -> String {
             robot: recording.motion().map_or("unknown", |motion| motion.robot()),
             fingerprint: recording.fingerprint(),
             time_s: odometry.time,
-            vehicle: vehicle.name(),
-            vehicle_fingerprint: vehicle.fingerprint(),
+            vehicle: gauge.vehicle(),
+            vehicle_fingerprint: gauge.fingerprint(),
+            gauge_m: gauge.metres(),
         },
         clock: ClockTable::of(clock),
         gyroscope: recording.gyroscope().map(GyroscopeTable::of),
+        advice: of_advice(&odometry.advice()),
         set: result
             .sets
             .iter()
@@ -126,6 +151,22 @@ pub(super) fn text(odometry: &Odometry, provenance: &Provenance) -> String {
             .collect(),
         span: result.spans.iter().map(|errors| of_span(result, errors)).collect(),
     })
+}
+
+fn of_advice(advice: &Advice) -> AdviceTable {
+    let compared = advice.compared().iter().map(|one| ComparedTable {
+        with: one.with.clone(),
+        position: of_estimate(one.place),
+        yaw: of_estimate(one.yaw),
+    });
+    AdviceTable {
+        take: advice.choice().map(str::to_owned),
+        undecided: match advice {
+            Advice::Undecided { reason } => Some(reason.clone()),
+            _ => None,
+        },
+        compared: compared.collect(),
+    }
 }
 
 fn of_set(odometry: &Odometry, index: usize, set: &ParameterSet) -> SetTable {

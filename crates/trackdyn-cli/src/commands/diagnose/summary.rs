@@ -1,5 +1,6 @@
 //! A diagnosis in one screen.
 
+use crate::wrapped::wrapped;
 use std::fmt::Write;
 use trackdyn::Diagnosis;
 use trackdyn::crates::diagnose::diagnosis::{Kind, Missing};
@@ -23,38 +24,40 @@ const DECIMALS: usize = 4;
 /// The text of a diagnosis.
 pub fn text(diagnosis: &Diagnosis) -> String {
     let (evidence, name) = (diagnosis.evidence(), diagnosis.name());
+    let vehicle = diagnosis.vehicle().name();
     let diagnosis = diagnosis.found();
     let mut text = String::new();
     let samples = evidence.samples().len();
     let unit = evidence.origin().samples();
     // Writing to a String cannot fail.
-    let _ = writeln!(text, "{name}: {samples} {unit}, {}", evidence.description());
+    text += &wrapped("", &format!("{name}: {samples} {unit}, {}", evidence.description()));
+    let _ = writeln!(text, "vehicle  {vehicle}");
     if let Some(noise) = diagnosis.evidence.seen.noise() {
-        let _ = writeln!(text, "noise    {}", noise::sentence(noise));
+        text += &wrapped("noise    ", &noise::sentence(noise));
     }
     let _ = writeln!(text, "\nstatus   {}", diagnosis.answer.status.name());
-    let _ = writeln!(
-        text,
-        "where    {} ({:.2} times the noise with clock, mount and constant ICRs fitted)",
+    let place = format!(
+        "{} ({:.2} times the noise with clock, mount and constant ICRs fitted)",
         diagnosis.answer.place, diagnosis.evidence.before.excess_over_noise
     );
+    text += &wrapped("where    ", &place);
     if diagnosis.answer.missing.is_empty() {
-        let _ = writeln!(text, "missing  {}", nothing(diagnosis));
+        text += &wrapped("missing  ", &nothing(diagnosis));
     }
     for (index, missing) in diagnosis.answer.missing.iter().enumerate() {
-        let head = if index == 0 { "missing " } else { "        " };
-        let _ = writeln!(text, "{head} {}", line(missing));
+        let head = if index == 0 { "missing  " } else { "         " };
+        text += &wrapped(head, &line(missing));
         if missing.verdict.one_of.len() > 1 {
-            let _ = writeln!(text, "           decides: {}", separate_by(missing));
+            text += &wrapped("           decides: ", &separate_by(missing));
         }
     }
     if let Some(level) = diagnosis.models.friction_level.filter(|level| level.is_sure) {
-        let _ = writeln!(text, "friction {}", friction(level));
+        text += &wrapped("friction ", &friction(level));
     }
     for verdict in &diagnosis.answer.refused {
         let id = verdict.effect.name();
         let why = verdict.refused.as_ref().map_or_else(String::new, Refusal::to_string);
-        let _ = writeln!(text, "refused  {id}: {why}");
+        text += &wrapped("refused  ", &format!("{id}: {why}"));
     }
     if diagnosis.answer.status == Status::Unexplained {
         let [_, most] = diagnosis.evidence.after.max_p;
@@ -71,10 +74,10 @@ pub fn text(diagnosis: &Diagnosis) -> String {
                 )
             })
             .collect();
-        let _ = writeln!(text, "left     {}", left.join("; "));
+        text += &wrapped("left     ", &left.join("; "));
     }
     if let Some(proposal) = &diagnosis.answer.proposed {
-        let _ = writeln!(text, "form     {}", form(proposal));
+        text += &wrapped("form     ", &form(proposal));
     }
     let fit = &diagnosis.evidence.errors;
     let of = diagnosis.evidence.seen.origin().runs();
@@ -84,14 +87,14 @@ pub fn text(diagnosis: &Diagnosis) -> String {
     let share = explained.map_or("no excess".to_owned(), |share| {
         format!("{:.1} % of the excess explained", 100.0 * share)
     });
-    let _ = writeln!(
-        text,
-        "fit      on {on}: {:.3} before, {:.3} with instruments and constants alone, {:.3} after, \
-         noise floor {:.3} ({share})",
+    let errors = format!(
+        "on {on}: {:.3} before, {:.3} with instruments and constants alone, {:.3} after, noise \
+         floor {:.3} ({share})",
         fit.before, fit.instruments, fit.after, fit.noise_floor
     );
+    text += &wrapped("fit      ", &errors);
     if let Some(sentence) = diagnosis.contradiction() {
-        let _ = writeln!(text, "         {sentence}");
+        text += &wrapped("         ", &sentence);
     }
     text
 }

@@ -11,7 +11,8 @@ pub fn text(drives: &Drives) -> String {
     let names = drives.drives().iter().map(|drive| drive.name.len());
     let width = names.max().unwrap_or(0).max(10);
     let mut text = format!(
-        "path of {:.1} m, {} m/s, look-ahead {} m\n\n{:width$}  {:>9}  {:>9}  {:>9}  {:>7}\n",
+        "{}, path of {:.1} m, {} m/s, look-ahead {} m\n\n{:width$}  {:>9}  {:>9}  {:>9}  {:>7}\n",
+        drives.vehicle().name(),
         path.length(),
         tracker.speed,
         tracker.look_ahead,

@@ -1,26 +1,26 @@
 //! `trackdyn identify` on a table of steady operating points.
 
 use super::summary::contradicted;
+use crate::wrapped::wrapped;
 use std::fmt::Write;
 use trackdyn::crates::estimate::steady::{SteadyEstimate, lagging};
 use trackdyn::crates::estimate::{Doubt, Error, Free, Parameters};
 use trackdyn::crates::recording::OperatingPoint;
 use trackdyn::identify::PointsFit;
 use trackdyn::recording::PointsTable;
-use trackdyn::{Recording, Vehicle};
+use trackdyn::{Gauge, Recording};
 
 /// Points with the largest residuals that are shown.
 const WORST: usize = 5;
 
 /// One screen: the table, and both fits.
-pub fn text(recording: &Recording, vehicle: &Vehicle, found: &PointsFit) -> String {
+pub fn text(recording: &Recording, gauge: &Gauge, found: &PointsFit) -> String {
     let points = recording.points().map_or(&[][..], PointsTable::points);
-    let gauge = vehicle.gauge();
+    let (vehicle, gauge) = (gauge.vehicle(), gauge.metres());
     let mut text = format!(
-        "{}: {} steady points; {}, gauge {gauge} m\n",
+        "{}: {} steady points; {vehicle}, gauge {gauge} m\n",
         recording.name(),
-        points.len(),
-        vehicle.name()
+        points.len()
     );
     for (free, fit) in &found.fits {
         self::fit(&mut text, *free, fit, gauge);
@@ -45,7 +45,7 @@ fn fit(text: &mut String, free: Free, fit: &Result<SteadyEstimate, Error>, gauge
     let fit = match fit {
         Ok(fit) => fit,
         Err(reason) => {
-            let _ = writeln!(text, "    {reason}");
+            *text += &wrapped("    ", &reason.to_string());
             return;
         }
     };
@@ -53,7 +53,7 @@ fn fit(text: &mut String, free: Free, fit: &Result<SteadyEstimate, Error>, gauge
     if !doubts.is_empty() {
         text.push_str("    not determined by this table:\n");
         for doubt in &doubts {
-            let _ = writeln!(text, "    - {doubt}");
+            *text += &wrapped("    - ", &doubt.to_string());
         }
         if doubts != [Doubt::NoLateralSpeed] {
             return;

@@ -1,5 +1,6 @@
 //! The result of an identification as text.
 
+use crate::wrapped::wrapped;
 use std::fmt::Write;
 use trackdyn::crates::estimate::identification::Fit;
 use trackdyn::crates::estimate::{
@@ -8,10 +9,10 @@ use trackdyn::crates::estimate::{
 use trackdyn::crates::model::kinematics::SeparationFile;
 use trackdyn::crates::recording::Run;
 use trackdyn::identify::{GyroscopeUse, MotionFit, TurningFit};
-use trackdyn::{Recording, Vehicle};
+use trackdyn::{Gauge, Recording};
 
 /// One screen: the recording, its clock and noise, the methods side by side.
-pub fn text(recording: &Recording, vehicle: &Vehicle, fit: &MotionFit) -> String {
+pub fn text(recording: &Recording, gauge: &Gauge, fit: &MotionFit) -> String {
     let found = &fit.found;
     let mut text = String::new();
     let runs = recording.runs();
@@ -22,8 +23,8 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, fit: &MotionFit) -> String
         recording.name(),
         runs.len(),
         found.segments,
-        vehicle.name(),
-        vehicle.gauge()
+        gauge.vehicle(),
+        gauge.metres()
     );
     let fits = found.fits.iter().filter_map(|fit| fit.least_squares.as_ref().ok());
     let mut fitted = fits.flat_map(|estimate| &estimate.unknowns.nuisances);
@@ -44,11 +45,11 @@ pub fn text(recording: &Recording, vehicle: &Vehicle, fit: &MotionFit) -> String
             );
         }
         Err(reason) => {
-            let _ = writeln!(text, "  spin test  {reason}");
+            text += &wrapped("  spin test  ", &reason.to_string());
         }
     }
     for fit in &found.fits {
-        self::fit(&mut text, fit, vehicle.gauge(), found.weighted_by_noise);
+        self::fit(&mut text, fit, gauge.metres(), found.weighted_by_noise);
     }
     text
 }
@@ -73,26 +74,26 @@ pub fn contradicted(text: &mut String, contradictions: &[Contradiction]) {
     }
     text.push_str("    contradicted, and not written unless forced (--force):\n");
     for contradiction in contradictions {
-        let _ = writeln!(text, "    - {contradiction}");
+        *text += &wrapped("    - ", &contradiction.to_string());
     }
 }
 
 /// One screen where poses have a yaw alone.
-pub fn turning(recording: &Recording, vehicle: &Vehicle, fit: &TurningFit) -> String {
+pub fn turning(recording: &Recording, gauge: &Gauge, fit: &TurningFit) -> String {
     let found = &fit.found;
     let mut text = format!(
         "{}: {} runs, {} segments; {}, gauge {} m\n\n",
         recording.name(),
         recording.runs().len(),
         found.segments,
-        vehicle.name(),
-        vehicle.gauge()
+        gauge.vehicle(),
+        gauge.metres()
     );
     clock(&mut text, &found.clock, false);
     text += "  poses      their yaw alone is known: it tells the distance of the ICRs, and not \
              where they are\n";
     for contradiction in fit.contradictions() {
-        let _ = writeln!(text, "  contradicted, and not written: {contradiction}");
+        text += &wrapped("  contradicted, and not written: ", &contradiction.to_string());
     }
     text
 }
@@ -155,21 +156,21 @@ fn fit(text: &mut String, fit: &Fit, gauge: f64, by_noise: bool) {
     let estimate = match &fit.least_squares {
         Ok(estimate) => estimate,
         Err(reason) => {
-            let _ = writeln!(text, "    {reason}");
+            *text += &wrapped("    ", &reason.to_string());
             return;
         }
     };
     if !fit.doubts.is_empty() {
         text.push_str("    not determined by this recording:\n");
         for doubt in &fit.doubts {
-            let _ = writeln!(text, "    - {doubt}");
+            *text += &wrapped("    - ", &doubt.to_string());
         }
         return;
     }
     contradicted(text, &fit.contradictions);
     parameters(text, fit, estimate, gauge);
     for doubt in &fit.refused {
-        let _ = writeln!(text, "    not fitted: {doubt}");
+        *text += &wrapped("    not fitted: ", &doubt.to_string());
     }
     let cut = if estimate.blocks.are_pieces() { "pieces of runs" } else { "runs" };
     let count = estimate.filled_blocks;

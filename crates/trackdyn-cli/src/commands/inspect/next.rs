@@ -1,5 +1,6 @@
 //! The commands to go on with.
 
+use crate::options::GaugeOptions;
 use crate::shell::{command, option, part, path, reading};
 use crate::wrapped::{WIDTH, wrapped};
 use std::fmt::Write;
@@ -12,8 +13,8 @@ use trackdyn::inspect::{Content, Lack, Use};
 pub struct Asked<'a> {
     /// The recording.
     pub path: &'a Path,
-    /// The vehicle file.
-    pub vehicle: Option<&'a Path>,
+    /// The vehicle, or its gauge.
+    pub gauge: &'a GaugeOptions,
     /// The part of the recording.
     pub part: &'a Part,
     /// The clock offset, s.
@@ -40,7 +41,8 @@ pub fn text(found: &Inspection, asked: &Asked) -> String {
             &wrapped("  METRES        ", "the wheel radius: belt travel per radian of the joints");
     }
     if has("VEHICLE.toml") {
-        let made = "a vehicle file: trackdyn init writes one from a few measured numbers";
+        let made = "a vehicle file: trackdyn init writes one from a few measured numbers; identify \
+                    and odometry need its gauge only (--gauge, in m)";
         text += &wrapped("  VEHICLE.toml  ", made);
     }
     if has("TRACKS.csv") {
@@ -67,8 +69,9 @@ fn commands(found: &Inspection, asked: &Asked) -> Vec<String> {
         return vec![command(&words.into_iter().chain(reading).collect::<Vec<_>>(), WIDTH)];
     }
     let tau = asked.tau.map(|tau| option("tau", &tau.to_string()));
-    let vehicle = asked.vehicle.map_or_else(|| "VEHICLE.toml".to_owned(), path);
-    let vehicle = format!("--vehicle {vehicle}");
+    let open = || "--vehicle VEHICLE.toml".to_owned();
+    let vehicle = asked.gauge.vehicle_option().unwrap_or_else(open);
+    let gauge = asked.gauge.gauge_option().unwrap_or_else(|| vehicle.clone());
     let is_ready = |what: Use| found.readiness.iter().any(|of| of.what == what && of.is_ready());
     let is_split = is_ready(Use::Identify) && is_ready(Use::Odometry);
     let parts = found.parts.as_ref().filter(|_| is_split);
@@ -76,7 +79,7 @@ fn commands(found: &Inspection, asked: &Asked) -> Vec<String> {
     let line = |what: Use, further: &[Vec<String>]| {
         let mut words = vec![format!("trackdyn {}", what.command()), recording.clone()];
         words.extend(reading.iter().cloned());
-        words.push(vehicle.clone());
+        words.push(if what == Use::Diagnose { vehicle.clone() } else { gauge.clone() });
         words.extend(further.iter().flatten().cloned());
         command(&words, WIDTH)
     };
@@ -92,9 +95,9 @@ fn commands(found: &Inspection, asked: &Asked) -> Vec<String> {
         commands.push(line(Use::Identify, &further));
     }
     if is_ready(Use::Odometry) {
-        let file = path(&asked.out.join("kinematics.toml"));
-        let kinematics =
-            if is_identified { vec![format!("--kinematics {file}")] } else { Vec::new() };
+        let files = found.readiness.iter().flat_map(|of| &of.files);
+        let files = files.map(|name| path(&asked.out.join(name)));
+        let kinematics = files.map(|file| format!("--kinematics {file}")).collect();
         let further = [of_part(1), given_tau, kinematics, out(is_default, asked.out)];
         commands.push(line(Use::Odometry, &further));
     }

@@ -13,6 +13,14 @@ const MAX_OTHERS: usize = 12;
 /// What is there, what it is good for, what looks wrong, what it lacks.
 pub fn text(found: &Inspection) -> String {
     let mut text = heading(found);
+    let vehicle = found.gauge.as_ref().map_or_else(
+        || "not given: ICRs are not compared with its gauge".to_owned(),
+        |of| {
+            let name = of.vehicle().strip_prefix("vehicle ").unwrap_or(of.vehicle());
+            format!("{name}, gauge {} m", of.metres())
+        },
+    );
+    text += &wrapped("vehicle: ", &vehicle);
     topics(&mut text, &found.topics);
     match &found.content {
         Content::Motion(driving) => motion(&mut text, found, driving),

@@ -1,5 +1,6 @@
 //! The result of a map as text.
 
+use crate::wrapped::wrapped;
 use std::fmt::Write;
 use trackdyn::crates::model::IcrMap as Solved;
 use trackdyn::crates::model::map::{Sector, Statistics};
@@ -15,7 +16,7 @@ pub fn text(vehicle: &Vehicle, map: &IcrMap) -> String {
         writeln!(text, "{}, {points} x {points} track speeds up to {speed} m/s", vehicle.name());
     let _ = match effects.as_slice() {
         [] => writeln!(text, "base model: no effects\n"),
-        effects => writeln!(text, "effects: {}\n", effects.join("  ")),
+        effects => writeln!(text, "{}", wrapped("effects: ", &effects.join("  "))),
     };
     match map.statistics() {
         Some(statistics) => parameters(&mut text, statistics),
@@ -65,7 +66,6 @@ fn motions(text: &mut String, map: &Solved) {
         "lift part of the contact: gaps",
         "have no balance of forces that was found: gaps",
     ];
-    let _ = write!(text, "\n  Of {} pairs of speeds", map.solutions.len());
     let parts: Vec<String> = map
         .counts()
         .iter()
@@ -73,7 +73,9 @@ fn motions(text: &mut String, map: &Solved) {
         .filter(|(count, _)| **count > 0)
         .map(|(count, meaning)| format!("{count} {meaning}"))
         .collect();
-    let _ = writeln!(text, " {}.", parts.join(", "));
+    text.push('\n');
+    let (pairs, parts) = (map.solutions.len(), parts.join(", "));
+    *text += &wrapped("  ", &format!("Of {pairs} pairs of speeds {parts}."));
 }
 
 fn sectors(text: &mut String, map: &Solved) {

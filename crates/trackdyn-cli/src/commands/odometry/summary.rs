@@ -1,15 +1,19 @@
 //! The result of a replay as text.
 
+use crate::shell::path;
+use crate::wrapped::wrapped;
 use std::fmt::Write;
+use std::path::Path;
 use trackdyn::Odometry;
 use trackdyn::crates::estimate::odometry::comparison::{Component, SpanErrors};
 use trackdyn::crates::estimate::odometry::{Comparison, Estimate, Span};
+use trackdyn::odometry::{Advice, Compared};
 
 /// One screen: what was replayed, errors per segment, drift, and how sets compare with the ideal.
 pub fn text(odometry: &Odometry) -> String {
     let mut text = String::new();
     let (result, clock) = (&odometry.comparison, &odometry.clock);
-    let (recording, vehicle) = (odometry.recording(), odometry.vehicle());
+    let (recording, gauge) = (odometry.recording(), odometry.gauge());
     let _ = writeln!(
         text,
         "{}, {} of {} runs, {:.0} s, {:.1} m",
@@ -24,7 +28,7 @@ pub fn text(odometry: &Odometry) -> String {
         Some(error) => write!(text, " (estimated, standard error {error:.3} s)"),
         None => write!(text, " ({})", clock.origin()),
     };
-    let (gauge, name) = (vehicle.gauge(), vehicle.name());
+    let (gauge, name) = (gauge.metres(), gauge.vehicle());
     let _ = writeln!(text, "; ideal drive: gauge {gauge} m ({name})");
     let _ = writeln!(text, "± 95 % confidence, {}", result.blocks.description());
     let width = result.sets.iter().map(|set| set.name().len()).max().unwrap_or(0).clamp(10, 26) + 6;
@@ -33,6 +37,7 @@ pub fn text(odometry: &Odometry) -> String {
     }
     if let Some(span) = result.drift() {
         drift(&mut text, odometry, span, width);
+        advice(&mut text, &odometry.advice(), span);
     }
     text
 }
@@ -77,18 +82,15 @@ fn residuals(text: &mut String, result: &Comparison, segments: &SpanErrors, widt
 /// Drift over the longest pieces, and errors at the end.
 fn drift(text: &mut String, odometry: &Odometry, span: &SpanErrors, width: usize) {
     let result = &odometry.comparison;
-    let pieces = match span.span {
-        Span::Segment => "segments".to_owned(),
-        Span::Distance(length) => format!("pieces of {length} m"),
-        Span::Duration(length) => format!("pieces of {length} s"),
-    };
     let runs = result.paths.len();
     #[expect(clippy::cast_precision_loss, reason = "a number of runs")]
     let mean_distance = result.distance() / runs as f64;
     let _ = writeln!(
         text,
-        "\n  drift per metre over {} {pieces}; error at the end, rms over {runs} runs of {:.1} m",
-        span.count, mean_distance
+        "\n  drift per metre over {} {}; error at the end, rms over {runs} runs of {:.1} m",
+        span.count,
+        pieces(span),
+        mean_distance
     );
     let _ = writeln!(
         text,
@@ -110,6 +112,36 @@ fn drift(text: &mut String, odometry: &Odometry, span: &SpanErrors, width: usize
             per_metre(&errors.yaw, 1.0_f64.to_degrees(), 2),
             yaw.to_degrees(),
         );
+    }
+}
+
+fn pieces(span: &SpanErrors) -> String {
+    match span.span {
+        Span::Segment => "segments".to_owned(),
+        Span::Distance(length) => format!("pieces of {length} m"),
+        Span::Duration(length) => format!("pieces of {length} s"),
+    }
+}
+
+/// Which parameters to take, with the numbers that decide it.
+fn advice(text: &mut String, advice: &Advice, span: &SpanErrors) {
+    let choice = match advice {
+        Advice::File { file, .. } => path(Path::new(file)),
+        Advice::Ideal { .. } => "the ideal drive, its gauge alone: no file is surely better".into(),
+        Advice::Undecided { reason } => {
+            text.push('\n');
+            *text += &wrapped("take  not decided: ", reason);
+            return;
+        }
+        _ => return,
+    };
+    let _ = writeln!(text, "\ntake  {choice}");
+    for Compared { with, place, yaw } in advice.compared() {
+        let (place, yaw) = (number(*place, 1.0, 3), number(*yaw, 1.0, 3));
+        let pieces = pieces(span);
+        let shares =
+            format!("errors over {pieces} as shares of {with}'s: place {place}, yaw {yaw}");
+        *text += &wrapped("      ", &shares);
     }
 }
 

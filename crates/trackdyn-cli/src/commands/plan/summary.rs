@@ -1,33 +1,38 @@
 //! A plan in one screen.
 
+use crate::wrapped::wrapped;
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use trackdyn::crates::diagnose::Plan;
+use trackdyn::Plan;
+use trackdyn::crates::diagnose::Plan as Found;
+use trackdyn::crates::diagnose::noise;
 use trackdyn::crates::diagnose::plan::menu::Manoeuvre;
 use trackdyn::crates::diagnose::plan::{Answer, Separation, measurements};
 use trackdyn::crates::model::EffectId;
 
-/// The text of a plan.
-pub fn text(plan: &Plan) -> String {
-    let mut text = String::new();
+/// The text of a plan; `origin` tells where its noise comes from.
+pub fn text(plan: &Plan, origin: &str) -> String {
+    let noise = noise::sentence(&plan.settings().noise);
+    let mut text = format!("vehicle  {}\n", plan.vehicle());
+    text += &wrapped("noise    ", &format!("{noise} ({origin})"));
+    let plan = plan.found();
     // Pairs that driving may tell apart have a column each.
     let columns: Vec<usize> =
         (0..plan.pairs.len()).filter(|&k| plan.pairs[k].answer != Answer::Never).collect();
     // Writing to a String cannot fail.
     for (index, &column) in columns.iter().enumerate() {
-        let _ = writeln!(text, "[{}] {}", index + 1, answer(&plan.pairs[column], plan));
+        text += &wrapped(&format!("[{}] ", index + 1), &answer(&plan.pairs[column], plan));
     }
     for members in never(plan) {
         let ids: Vec<&str> = members.iter().map(|&effect| effect.name()).collect();
-        let _ = writeln!(
-            text,
-            "{}: driving cannot decide, z is below {} over all {} manoeuvres of the menu \
-            ({:.0} s)",
+        let why = format!(
+            "{}: driving cannot decide, z is below {} over all {} manoeuvres of the menu ({:.0} s)",
             ids.join(" or "),
             plan.min_separation,
             plan.menu.0,
             plan.menu.1
         );
+        text += &wrapped("", &why);
         for measurement in measurements(members) {
             let _ = writeln!(text, "    instead: {measurement}");
         }
@@ -63,7 +68,7 @@ pub fn text(plan: &Plan) -> String {
 
 /// The members of each question that no driving tells from one another: those of pairs that share
 /// one.
-fn never(plan: &Plan) -> Vec<BTreeSet<EffectId>> {
+fn never(plan: &Found) -> Vec<BTreeSet<EffectId>> {
     let mut groups: Vec<(usize, BTreeSet<EffectId>)> = Vec::new();
     for pair in plan.pairs.iter().filter(|pair| pair.answer == Answer::Never) {
         let known = groups.iter_mut().find(|(question, members)| {
@@ -77,7 +82,7 @@ fn never(plan: &Plan) -> Vec<BTreeSet<EffectId>> {
     groups.into_iter().map(|(_, members)| members).collect()
 }
 
-fn answer(pair: &Separation, plan: &Plan) -> String {
+fn answer(pair: &Separation, plan: &Found) -> String {
     let [one, other] = pair.effects.map(EffectId::name);
     match pair.answer {
         Answer::Longer(time) => format!(

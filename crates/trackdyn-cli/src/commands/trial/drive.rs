@@ -178,7 +178,7 @@ impl Visit<'_> {
             answer.pose_white_m,
             answer.pose_white_rad,
         ];
-        let keys = ["--fastest", "--duration", "--noise-xy-m", "--noise-yaw-rad"];
+        let keys = ["--fastest", "--duration", "--noise-xy", "--noise-yaw"];
         let numbers = numbers.map(|number| number.to_string());
         let mut arguments = vec!["--diagnosis", diagnosis::FILE, "--out", OUT];
         arguments.extend(keys.iter().zip(&numbers).flat_map(|(key, text)| [*key, text]));

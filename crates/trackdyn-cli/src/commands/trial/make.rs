@@ -29,7 +29,7 @@ pub struct Options {
           value_parser = clap::value_parser!(u32).range(1..=MAX_CASES))]
     cases: u32,
     /// Seed of everything that is drawn; whoever has it and the key can make the answers again
-    #[arg(long, value_name = "SEED",
+    #[arg(long, value_name = "N",
           value_parser = clap::value_parser!(u64).range(..=MAX_SEED))]
     seed: u64,
     /// Time of each of the twelve runs of a case, s; less makes a trial quicker, with larger

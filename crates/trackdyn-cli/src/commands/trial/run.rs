@@ -5,7 +5,7 @@ use super::room::{OUT, Program, Room};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::progress::Progress;
-use crate::stderr::say;
+use crate::stderr::{note, say};
 use crate::stdout::show;
 use clap::Args;
 use std::error::Error;
@@ -103,8 +103,8 @@ fn note_what_is_within_reach(trial: &Path, commitment: &Commitment) {
     let Ok(key) = key_file(None, trial) else { return };
     let answers = folder::answers_file(&key, commitment);
     for file in [key, answers].iter().filter(|file| file.exists()) {
-        say(format_args!(
-            "note: {} is within reach of the processes that diagnose: for a proof keep it \
+        note(format_args!(
+            "{} is within reach of the processes that diagnose: for a proof keep it \
              elsewhere meanwhile",
             file.display()
         ));

@@ -3,7 +3,8 @@
 use super::component::Piece;
 use super::{Component, Path};
 use crate::Blocks;
-use crate::odometry::{Residual, Span, Stretch};
+use crate::odometry::intervals::{Sums, size};
+use crate::odometry::{Estimate, Residual, Span, Stretch};
 use trackdyn_core::real;
 
 /// Errors of all parameter sets over pieces of one length.
@@ -21,6 +22,9 @@ pub struct SpanErrors {
     pub mean_duration: f64,
     /// Errors in the order of the parameter sets.
     pub sets: Vec<SetErrors>,
+    /// Sums of the squares of the errors of place, m², and yaw, rad², of each set in each block
+    /// with pieces in it.
+    squares: Vec<Vec<[f64; 2]>>,
 }
 
 /// Errors of one parameter set over pieces of one length.
@@ -73,6 +77,16 @@ impl SpanErrors {
         let mut used: Vec<usize> = pieces.iter().map(|piece| piece.block).collect();
         used.sort_unstable();
         used.dedup();
+        let squares = residuals.iter().map(|of_set| {
+            let mut sums = vec![[0.0; 2]; blocks.count()];
+            for (piece, residual) in pieces.iter().zip(of_set) {
+                let [place, yaw] = &mut sums[piece.block];
+                *place += residual.position().powi(2);
+                *yaw += residual.yaw.powi(2);
+            }
+            used.iter().map(|&block| sums[block]).collect()
+        });
+        let squares = squares.collect();
         let count = stretches.len();
         let mean = |of: fn(&Stretch) -> f64| stretches.iter().map(of).sum::<f64>() / real(count);
         Some(Self {
@@ -89,6 +103,21 @@ impl SpanErrors {
                     position: component(set, Residual::position),
                 })
                 .collect(),
+            squares,
         })
+    }
+
+    /// Root mean squares of the errors of place and yaw of one set over those of another on the
+    /// same pieces, 1; none where there is no such set, or where the errors of the other vanish.
+    pub fn ratio(&self, set: usize, other: usize) -> Option<[Estimate; 2]> {
+        let (of, over) = (self.squares.get(set)?, self.squares.get(other)?);
+        let ratio = |component: usize| {
+            let sums: Vec<Sums<2>> =
+                of.iter().zip(over).map(|(of, over)| [of[component], over[component]]).collect();
+            let has_errors = sums.iter().any(|[_, over]| *over > 0.0);
+            // rms/rms = √(Σ e²/Σ e_other²), of as many pieces
+            has_errors.then(|| size(&sums, |[of, over]| (of / over).max(0.0).sqrt()))
+        };
+        Some([ratio(0)?, ratio(1)?])
     }
 }

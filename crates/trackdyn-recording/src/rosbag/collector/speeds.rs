@@ -6,7 +6,7 @@ use super::signal::Signal;
 use super::tracks::Chosen;
 use super::{Collected, Received, RosbagOptions, Rows, Stamped, turns};
 use crate::Error;
-use crate::recording::{Cleaning, UncheckedRun, Warning, clean};
+use crate::recording::{BagNames, Cleaning, UncheckedRun, Warning, clean};
 use crate::rosbag::clock::{By, Clock, segment};
 use crate::rosbag::date::seconds;
 use crate::sample::{ImuSample, PoseSample, Series, TrackSample};
@@ -18,6 +18,8 @@ pub(super) struct Streams {
     pub(super) chosen: Chosen,
     pub(super) poses: Rows,
     pub(super) pose_topic: String,
+    /// Frame that the poses are expressed in, and frame whose poses they are.
+    pub(super) frames: [Option<String>; 2],
     /// Poses along a chain of transforms, in place of others.
     pub(super) chained: Option<Vec<Stamped<[f64; 3]>>>,
     pub(super) imu: Rows,
@@ -59,7 +61,7 @@ pub(super) fn runs(
     streams: Streams,
     mut warnings: Vec<Warning>,
 ) -> Result<Collected, Error> {
-    let Streams { chosen, poses, pose_topic, chained, imu, imu_topic } = streams;
+    let Streams { chosen, poses, pose_topic, frames, chained, imu, imu_topic } = streams;
     let refuse = |problem: &str| Error::Topic {
         path: path.to_owned(),
         what: "track speeds",
@@ -148,7 +150,13 @@ pub(super) fn runs(
         let (poses, imu) = (poses.collect::<Vec<_>>().into(), imu.collect::<Vec<_>>().into());
         runs.push(UncheckedRun { id, tracks, poses, imu });
     }
-    let names = PerSide::from_fn(|side| {
+    let names = names(&chosen, pose_topic, frames);
+    Ok(Collected { runs, epoch_ns, names, warnings })
+}
+
+/// What was taken, by the names of the bag.
+fn names(chosen: &Chosen, pose_topic: String, frames: [Option<String>; 2]) -> BagNames {
+    let joints = PerSide::from_fn(|side| {
         let of_side = chosen.joints.iter().filter(|joint| joint.side == side);
         let name = |joint: &Joint| match joint.sign {
             sign if sign < 0.0 => format!("-{}", joint.name),
@@ -156,7 +164,13 @@ pub(super) fn runs(
         };
         of_side.map(name).collect()
     });
-    Ok(Collected { runs, epoch_ns, joints: names, warnings })
+    let mut track_topics: Vec<String> =
+        chosen.joints.iter().map(|joint| joint.topic.clone()).collect();
+    track_topics.sort();
+    track_topics.dedup();
+    let pose_topic = Some(pose_topic).filter(|topic| !topic.is_empty());
+    let ([parent_frame, child_frame], wheel_radius) = (frames, None);
+    BagNames { joints, wheel_radius, track_topics, pose_topic, parent_frame, child_frame }
 }
 
 /// The values of a run.

@@ -3,19 +3,20 @@
 //! # Law
 //! A pose at time t has the yaw ψ = ψ₀ + s G(t − τ) + b t + x(t) + o(t) + e. G is the integral of
 //! the measured yaw rate, s the gyroscope's scale, τ how late poses are against it, b its bias in
-//! the run, x a random walk of both, o an error that wanders about zero and e the white noise of the pose.
-//! s, τ and b follow from generalised least squares with Huber's loss; the variances of x, o and e
-//! from the median squares of differences over 1, 2, 4, ... poses. A Kalman smoother then gives x,
-//! and with it a yaw without most of o and e.
+//! the run, x a random walk of both, o an error that wanders about zero and e the white noise of
+//! the pose. s, τ and b follow from generalised least squares with Huber's loss; the variances of
+//! x, o and e from the median squares of differences over 1, 2, 4, ... poses. A Kalman smoother
+//! then gives x, and with the gyroscope's share of it a yaw without most of the other errors.
 //!
-//! A gyroscope that is worse than the poses changes nothing: x then follows the poses. Where the
-//! yaw of the poses jumps, as at the closure of a loop, smoothing begins anew.
+//! A gyroscope that is no better than the poses is left out. Where the yaw of the poses jumps, as
+//! at the closure of a loop, smoothing begins anew.
 //!
 //! # Assumes
 //! The noise of the gyroscope is white: the random walk of its integral follows from the scatter of
 //! its readings, at stand-still where the robot stands. What else grows with time is of the poses,
-//! and so is what stays bounded: their stamps, their filter, their map. The gyroscope turns with the body, about the vertical. Accelerometers are not
-//! used: a tilt of a degree shows as 0.17 m/s², more than most of what tracks do to a robot.
+//! and so is what stays bounded: their stamps, their filter, their map. The gyroscope turns with
+//! the body, about the vertical. Accelerometers are not used: a tilt of a degree shows as
+//! 0.17 m/s², more than most of what tracks do to a robot.
 //!
 //! # Sources
 //! Rauch, Tung, Striebel, AIAA Journal 3(8), 1965 (smoother); IEEE Std 952 (errors of gyroscopes).

@@ -141,9 +141,9 @@ impl Separation {
                 Ok(Self { gap, turns: turns.len(), groups: groups.len() })
             }
             Some(gap) if gap.low > 0.0 && gap.high.is_finite() => Err(refused(format!(
-                "yaw follows the tracks too loosely: {:.2} m, and 95 % from {:.2} to {:.2} m, where \
-                 a quarter of it is needed: drive more turns, both ways, or look at the gyroscope's \
-                 axes and at slipping wheels",
+                "yaw follows the tracks too loosely: {:.2} m, and 95 % from {:.2} to {:.2} m, \
+                 where a quarter of it is needed: drive more turns, both ways, or look at the \
+                 gyroscope's axes and at slipping wheels",
                 gap.value, gap.low, gap.high
             ))),
             _ => Err(refused(format!(

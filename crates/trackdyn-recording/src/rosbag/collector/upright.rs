@@ -1,13 +1,14 @@
 //! Which way is up for an IMU: gravity tells.
 //!
 //! # Law
-//! At rest and on the mean of a drive, the specific force f̄ points up with 9.81 m/s² (REP-145). The
-//! yaw rate is the part of the angular velocity along it, ω · f̄/|f̄|, however the IMU is mounted.
+//! At rest and on the mean of a drive, the specific force f̄ points up with 9.81 m/s² (REP-145).
+//! The yaw rate is the part of the angular velocity along it, ω · f̄/|f̄|, however the IMU is
+//! mounted.
 //!
 //! # Assumes
-//! Beyond [`MAX_TILT`] the tilt is that of the mount, below it that of the ground and of the sensor.
-//! An IMU whose z axis points down and one that reports gravity in place of specific force read
-//! alike: beyond [`MIN_OVERTURNED`] nothing is turned.
+//! Beyond [`MAX_TILT`] the tilt is that of the mount, below it that of the ground and of the
+//! sensor. An IMU whose z axis points down and one that reports gravity in place of specific force
+//! read alike: beyond [`MIN_OVERTURNED`] nothing is turned.
 
 use super::{Received, Rows};
 use crate::recording::Warning;
@@ -75,8 +76,8 @@ fn turn(readings: &[Received<Inertial>]) -> Option<Rotation3<f64>> {
 mod tests {
     use super::*;
 
-    /// Readings of a robot that turns by ω about the vertical and drives forward by fits and starts,
-    /// of an IMU in this turn from upright.
+    /// Readings of a robot that turns by ω about the vertical and drives forward by fits and
+    /// starts, of an IMU in this turn from upright.
     fn readings(mount: &Rotation3<f64>) -> Vec<Received<Inertial>> {
         let reading = |k: i64| {
             let time = 0.01 * real(usize::try_from(k).expect("small"));

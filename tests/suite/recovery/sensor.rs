@@ -180,6 +180,7 @@ fn what_the_driving_does_not_show_is_refused_with_the_reason() {
 #[test]
 fn the_others_are_fitted_where_one_is_refused() {
     let options = Options {
+        yaw_scale: 0.0,
         gauge: GAUGE,
         tau: None,
         settle: None,
@@ -199,6 +200,7 @@ fn the_others_are_fitted_where_one_is_refused() {
 fn a_clock_offset_that_is_far_off_is_found_too() {
     // Two and a half times what the readings around a segment allow for: segments are cut anew.
     let options = Options {
+        yaw_scale: 0.0,
         gauge: GAUGE,
         tau: Some(TAU + 0.25),
         settle: None,

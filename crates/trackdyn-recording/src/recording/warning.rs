@@ -234,13 +234,7 @@ impl fmt::Display for Warning {
                 "{joint}: {count} jumps of its position by more than half a turn that are no \
                  wraps, left as they are (the first at t = {t} s)"
             ),
-            Self::FromTwist { topic, separation } => write!(
-                f,
-                "{topic}: track speeds are computed from its twist with a separation of \
-                 {separation} m: they are right only if its driver computed the twist from the \
-                 encoders alone, with this separation; a driver may have put in a gyroscope, a \
-                 filter or a slip correction of its own, and a command is no measurement"
-            ),
+            Self::FromTwist { topic, separation } => from_twist(f, topic, *separation),
             Self::FromFixes { topic, imu } => write!(
                 f,
                 "{topic}: positions of its antenna in metres east and north of the first fix, \
@@ -262,6 +256,16 @@ impl fmt::Display for Warning {
             Self::Chosen { what, taken } => write!(f, "{what}: took {taken}"),
         }
     }
+}
+
+fn from_twist(f: &mut fmt::Formatter<'_>, topic: &str, separation: f64) -> fmt::Result {
+    write!(
+        f,
+        "{topic}: track speeds are computed from its twist with a separation of {separation} m: \
+         they are right only if its driver computed the twist from the encoders alone, with this \
+         separation; a driver may have put in a gyroscope, a filter or a slip correction of its \
+         own, and a command is no measurement"
+    )
 }
 
 fn positions_unknown(f: &mut fmt::Formatter<'_>, runs: usize, of: usize) -> fmt::Result {

@@ -66,7 +66,7 @@ fn turn(readings: &[Received<Inertial>]) -> Option<Rotation3<f64>> {
     let mean = sum / real(count.max(1));
     let is_gravity = (mean.norm() / GRAVITY - 1.0).abs() < MAX_DIFFERENCE;
     let tilt = mean.angle(&Vector3::z());
-    if !is_gravity || tilt < MAX_TILT || tilt > MIN_OVERTURNED {
+    if !is_gravity || !(MAX_TILT..=MIN_OVERTURNED).contains(&tilt) {
         return None;
     }
     Rotation3::rotation_between(&mean, &Vector3::z())

@@ -126,12 +126,13 @@ pub fn with_gyroscope(
     }
     let jumps = vec![Vec::new(); turned.len()];
     let drive = Drive { recording, turned: &turned, jumps };
-    let fit = Fit::new(&drive, tau).and_then(|fit| {
+    let by_fit = Fit::best_lag(&drive, tau).and_then(|lag| {
         // A jump hides in a fit across it.
-        let drive = Drive { jumps: jumps_of(&drive, &fit), ..drive };
-        corrected(&drive, &Fit::new(&drive, tau)?)
+        let jumps = jumps_of(&drive, &Fit::near(&drive, lag)?);
+        let drive = Drive { jumps, ..drive };
+        corrected(&drive, &Fit::near(&drive, lag)?)
     });
-    Some(fit)
+    Some(by_fit)
 }
 
 /// The recording with the yaw that a fit gives.

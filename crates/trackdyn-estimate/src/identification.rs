@@ -153,7 +153,7 @@ pub fn identify_unless_stopped(
         fits,
         clock: seen.clock,
         noise: seen.noise,
-        weighted_by_noise: seen.weighted_by_noise,
+        weighted_by_noise: matches!(seen.weighting, Weighting::Noise(_)),
         spin_test: seen.spin_test,
     })
 }
@@ -176,7 +176,6 @@ struct Seen<'a> {
     noise: Noise,
     spin_test: Result<SpinTest, Error>,
     weighting: Weighting,
-    weighted_by_noise: bool,
 }
 
 impl<'a> Seen<'a> {
@@ -198,20 +197,9 @@ impl<'a> Seen<'a> {
         let gap = spin_test.as_ref().map_or(1.5 * options.gauge, |spin| spin.gap);
         let stated = recording.stated_noise().map(SegmentNoise::stated);
         let known = SegmentNoise::measured(&noise, gap).or(stated);
-        let weighted_by_noise = known.is_some();
         let lever = options.gauge / 2.0;
         let weighting = known.map_or(Weighting::Distance { lever }, Weighting::Noise);
-        Ok(Self {
-            recording,
-            options,
-            segments,
-            clock,
-            observations,
-            noise,
-            spin_test,
-            weighting,
-            weighted_by_noise,
-        })
+        Ok(Self { recording, options, segments, clock, observations, noise, spin_test, weighting })
     }
 
     /// Least squares, and why properties of the sensor that were asked for are not fitted.

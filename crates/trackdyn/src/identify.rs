@@ -125,11 +125,7 @@ impl<'a> Prepared<'a> {
             return Ok(Identification::Points(Box::new(PointsFit::new(points, sourced))));
         }
         let raw: &Motion = recording.expect_motion()?;
-        let corrected = if settings.gyroscope {
-            recording.with_gyroscope(settings.tau)
-        } else {
-            (*recording).clone()
-        };
+        let corrected = recording.corrected(settings.gyroscope, settings.tau);
         let motion = corrected.expect_motion()?;
         let refuse = |cause| Error::Identify { recording: recording.place(), cause };
         if !motion.has_positions() {

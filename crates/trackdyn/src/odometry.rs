@@ -68,8 +68,7 @@ pub fn odometry(
 ) -> Result<Odometry, Error> {
     let gauge = gauge.into();
     recording.expect_positions()?;
-    let corrected =
-        if settings.gyroscope { recording.with_gyroscope(settings.tau) } else { recording.clone() };
+    let corrected = recording.corrected(settings.gyroscope, settings.tau);
     let motion = corrected.expect_positions()?;
     let names = names::names(parameters.iter().map(|one| Path::new(one.name())));
     let replayed: Vec<Replayed> = parameters
@@ -91,7 +90,7 @@ pub fn odometry(
         comparison,
         clock,
         replayed,
-        recording: corrected.clone(),
+        recording: corrected.into_owned(),
         gauge,
         time: part.time(),
     })

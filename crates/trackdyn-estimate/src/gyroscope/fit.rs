@@ -88,23 +88,27 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    /// The best fit near no lag, and near a clock offset, s.
-    pub(super) fn new(drive: &Drive, tau: f64) -> Result<Self, Unfit> {
+    /// A fit before any value is known but a lag, s.
+    fn start(lag: f64) -> Self {
+        let (scale, scale_deviation) = (1.0, SCALE_PRIOR);
+        Self { scale, scale_deviation, lag, level: Level::DIFFERENCES }
+    }
+
+    /// The lag that fits best of those near none, and near a clock offset, s.
+    pub(super) fn best_lag(drive: &Drive, tau: f64) -> Result<f64, Unfit> {
         #[expect(clippy::cast_possible_truncation, reason = "a small count")]
         let steps = (MAX_LAG / LAG_STEP).round() as i32;
         let starts = [0.0, tau].into_iter();
         let lags =
             starts.flat_map(|at| (-steps..=steps).map(move |step| at + LAG_STEP * f64::from(step)));
-        let start = |lag: f64| Self {
-            scale: 1.0,
-            scale_deviation: SCALE_PRIOR,
-            lag,
-            level: Level::DIFFERENCES,
-        };
-        let misfit = |lag: f64| Some((start(lag).with_best_scale(drive)?, lag));
+        let misfit = |lag: f64| Some((Self::start(lag).with_best_scale(drive)?, lag));
         let best = lags.filter_map(misfit).min_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((_, lag)) = best else { return Err(Unfit::TooFewPoses { found: 0 }) };
-        let mut fit = start(lag);
+        best.map(|(_, lag)| lag).ok_or(Unfit::TooFewPoses { found: 0 })
+    }
+
+    /// The best fit near a lag, s.
+    pub(super) fn near(drive: &Drive, lag: f64) -> Result<Self, Unfit> {
+        let mut fit = Self::start(lag);
         for _ in 0..ITERATIONS {
             let rows = drive.rows(fit.lag);
             let (step, variance) = fit.step(&fit.whitened(&rows), lag);

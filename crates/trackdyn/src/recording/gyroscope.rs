@@ -1,6 +1,7 @@
 //! A recording whose gyroscope corrects the yaw of its poses.
 
 use super::{Recording, Seen};
+use std::borrow::Cow;
 use trackdyn_estimate::gyroscope::Unfit;
 use trackdyn_estimate::{Clock, Gyroscope, with_gyroscope};
 
@@ -20,6 +21,12 @@ impl Recording {
             Some(Err(unfit)) => Self { gyroscope: Some(Err(unfit)), ..self.clone() },
             None => self.clone(),
         }
+    }
+
+    /// This recording, or where it is wanted [the one that its gyroscope
+    /// corrects](Recording::with_gyroscope).
+    pub(crate) fn corrected(&self, by_gyroscope: bool, tau: Option<f64>) -> Cow<'_, Self> {
+        if by_gyroscope { Cow::Owned(self.with_gyroscope(tau)) } else { Cow::Borrowed(self) }
     }
 
     /// Relative error that all yaw of its poses shares, 1: the standard deviation of the scale of

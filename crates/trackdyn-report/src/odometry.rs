@@ -72,11 +72,13 @@ fn heading(figure: &mut Figure, result: &Comparison, name: &str, caption: &str) 
         number(result.tau, 3)
     );
     sheet::line(figure, &title, 72, Style::new(40.0));
-    let below = format!(
-        "Whiskers: 95 % confidence, {}; marks of one length stand side by side. {caption}",
+    let whiskers = format!(
+        "Whiskers: 95 % confidence, {}; marks of one length stand side by side.",
         result.blocks.description()
     );
-    sheet::line(figure, &below, HEIGHT - 28, Style::new(24.0).colour(GREY));
+    for (text, from_below) in [(&*whiskers, 60), (caption, 28)] {
+        sheet::line(figure, text, HEIGHT - from_below, Style::new(24.0).colour(GREY));
+    }
 }
 
 #[cfg(test)]

@@ -82,6 +82,9 @@ impl fmt::Display for Gyroscope {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Unfit {
+    /// No gyroscope, or hardly a reading of one.
+    #[error("the recording has no readings of a gyroscope in a row")]
+    NoReadings,
     /// Too few poses beside its readings.
     #[error("{found} poses have readings of the gyroscope around them, {MIN_POSES} needed")]
     TooFewPoses {
@@ -111,28 +114,23 @@ pub enum Unfit {
     },
 }
 
-/// The recording with the yaw of its poses corrected by its gyroscope, and what that tells; none
-/// without a gyroscope. `tau` is the clock offset of the poses against the encoders, s.
+/// The recording with the yaw of its poses corrected by its gyroscope, and what that tells. `tau` is
+/// the clock offset of the poses against the encoders, s.
 ///
 /// # Errors
 /// Why the gyroscope does not serve.
-pub fn with_gyroscope(
-    recording: &Recording,
-    tau: f64,
-) -> Option<Result<(Recording, Gyroscope), Unfit>> {
+pub fn with_gyroscope(recording: &Recording, tau: f64) -> Result<(Recording, Gyroscope), Unfit> {
     let turned: Vec<Vec<Turned>> = recording.runs().iter().map(Turned::of_run).collect();
     if turned.iter().all(Vec::is_empty) {
-        return None;
+        return Err(Unfit::NoReadings);
     }
     let jumps = vec![Vec::new(); turned.len()];
     let drive = Drive { recording, turned: &turned, jumps };
-    let by_fit = Fit::best_lag(&drive, tau).and_then(|lag| {
-        // A jump hides in a fit across it.
-        let jumps = jumps_of(&drive, &Fit::near(&drive, lag)?);
-        let drive = Drive { jumps, ..drive };
-        corrected(&drive, &Fit::near(&drive, lag)?)
-    });
-    Some(by_fit)
+    let lag = Fit::best_lag(&drive, tau)?;
+    // A jump hides in a fit across it.
+    let jumps = jumps_of(&drive, &Fit::near(&drive, lag)?);
+    let drive = Drive { jumps, ..drive };
+    corrected(&drive, &Fit::near(&drive, lag)?)
 }
 
 /// The recording with the yaw that a fit gives.

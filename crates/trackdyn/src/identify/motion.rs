@@ -13,7 +13,7 @@ use trackdyn_recording::Recording as Motion;
 pub struct MotionFit {
     /// What was found, method by method.
     pub found: Identification,
-    /// What the recording's gyroscope adds; none where there is none, or where it is left out.
+    /// What the recording's gyroscope adds; none where it was not asked.
     pub gyroscope: Option<GyroscopeUse>,
     robot: String,
     vehicle_fingerprint: String,

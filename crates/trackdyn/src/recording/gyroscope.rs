@@ -14,12 +14,11 @@ impl Recording {
         let (Some(motion), None) = (usable, &self.gyroscope) else { return self.clone() };
         let Ok(clock) = Clock::of(motion, tau) else { return self.clone() };
         match with_gyroscope(motion, clock.tau()) {
-            Some(Ok((corrected, found))) => {
+            Ok((corrected, found)) => {
                 let (seen, gyroscope) = (Seen::Motion(corrected), Some(Ok(found)));
                 Self { seen, gyroscope, path: self.path.clone(), time: self.time }
             }
-            Some(Err(unfit)) => Self { gyroscope: Some(Err(unfit)), ..self.clone() },
-            None => self.clone(),
+            Err(unfit) => Self { gyroscope: Some(Err(unfit)), ..self.clone() },
         }
     }
 
@@ -36,8 +35,8 @@ impl Recording {
         served.map_or(0.0, |found| found.scale_deviation)
     }
 
-    /// What its gyroscope tells of the yaw of its poses, or why it does not serve; none where there
-    /// is none, or where it was not asked ([`Recording::with_gyroscope`]).
+    /// What its gyroscope tells of the yaw of its poses, or why it does not serve; none where it
+    /// was not asked ([`Recording::with_gyroscope`]).
     pub fn gyroscope(&self) -> Option<&Result<Gyroscope, Unfit>> {
         self.gyroscope.as_ref()
     }

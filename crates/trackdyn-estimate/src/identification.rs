@@ -39,6 +39,20 @@ pub struct Options {
     pub genetic: GeneticOptions,
 }
 
+impl Options {
+    /// The usual ones for a gauge, m: all segments, nothing given or fitted beside.
+    pub fn new(gauge: f64) -> Self {
+        Self {
+            gauge,
+            tau: None,
+            settle: None,
+            nuisances: Vec::new(),
+            yaw_scale: 0.0,
+            genetic: GeneticOptions::default(),
+        }
+    }
+}
+
 /// The parameters with one choice of what is free.
 #[derive(Clone, Debug)]
 pub struct Fit {

@@ -11,8 +11,7 @@ use trackdyn_recording::{Recording, Run, Source};
 
 fn identified(recording: &Recording, gauge: f64) -> Identification {
     let genetic = GeneticOptions { population: 20, generations: 20, ..GeneticOptions::default() };
-    let options =
-        Options { gauge, tau: None, settle: None, nuisances: Vec::new(), yaw_scale: 0.0, genetic };
+    let options = Options { genetic, ..Options::new(gauge) };
     identify(recording, &options, &|_| ()).expect("long enough")
 }
 

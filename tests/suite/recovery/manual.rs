@@ -36,14 +36,7 @@ fn nine_manual_paths_show_the_parameters_through_ticks_delays_and_noise() {
             let sensors = preset.sensors();
             let recording = driven(ScheduleKind::Manual, &sensors, seed);
             let genetic = GeneticOptions { generations: 1, ..GeneticOptions::default() };
-            let options = Options {
-                gauge: GAUGE,
-                tau: None,
-                settle: None,
-                nuisances: Vec::new(),
-                yaw_scale: 0.0,
-                genetic,
-            };
+            let options = Options { genetic, ..Options::new(GAUGE) };
             let found = identify(&recording, &options, &|_| ()).expect("enough segments");
             let (tau, expected) = (found.clock.tau(), sensors.clock_offset());
             // a sixth of the time between poses; stamps scatter by up to a tenth of it

@@ -180,12 +180,9 @@ fn what_the_driving_does_not_show_is_refused_with_the_reason() {
 #[test]
 fn the_others_are_fitted_where_one_is_refused() {
     let options = Options {
-        yaw_scale: 0.0,
-        gauge: GAUGE,
-        tau: None,
-        settle: None,
         nuisances: Nuisance::ALL.to_vec(),
         genetic: GeneticOptions { generations: 1, ..GeneticOptions::default() },
+        ..Options::new(GAUGE)
     };
     let found = identify(&drive(steps(6), 6), &options, &|_| ()).expect("enough");
     for fit in found.fits {
@@ -200,12 +197,10 @@ fn the_others_are_fitted_where_one_is_refused() {
 fn a_clock_offset_that_is_far_off_is_found_too() {
     // Two and a half times what the readings around a segment allow for: segments are cut anew.
     let options = Options {
-        yaw_scale: 0.0,
-        gauge: GAUGE,
         tau: Some(TAU + 0.25),
-        settle: None,
         nuisances: vec![Nuisance::TimeOffset],
         genetic: GeneticOptions { generations: 1, ..GeneticOptions::default() },
+        ..Options::new(GAUGE)
     };
     let found = identify(&drive(steps(7), 7), &options, &|_| ()).expect("enough");
     let estimate = found.fits[1].least_squares.as_ref().expect("determined");

@@ -12,14 +12,7 @@ use trackdyn_recording::{Recording, Run, RunList};
 pub fn identified(recording: &Recording, gauge: f64, nuisances: &[Nuisance]) -> Identification {
     // Least squares does not hang on the genetic algorithm.
     let genetic = GeneticOptions { generations: 1, ..GeneticOptions::default() };
-    let options = Options {
-        gauge,
-        tau: None,
-        settle: None,
-        nuisances: nuisances.to_vec(),
-        yaw_scale: 0.0,
-        genetic,
-    };
+    let options = Options { nuisances: nuisances.to_vec(), genetic, ..Options::new(gauge) };
     identify(recording, &options, &|_| ()).expect("enough segments")
 }
 

@@ -74,7 +74,7 @@ fn error(recording: &Recording, synthetic: &Synthetic) -> f64 {
 fn yaw_is_better_with_a_gyroscope_whose_errors_are_found() {
     let synthetic = synthetic(YAW_NOISE, 1);
     let raw = with_readings(&synthetic, 0.002, 1.0);
-    let (fused, found) = with_gyroscope(&raw, 0.0).expect("a gyroscope").expect("it serves");
+    let (fused, found) = with_gyroscope(&raw, 0.0).expect("it serves");
     assert!((found.scale / SCALE - 1.0).abs() < 0.003, "{found:?}");
     // Between two readings the rate is taken as linear: a step in it seems 5 ms early.
     assert!((found.lag - LATE - 0.005).abs() < 0.002, "{found:?}");
@@ -90,7 +90,7 @@ fn yaw_is_better_with_a_gyroscope_whose_errors_are_found() {
 #[test]
 fn a_gyroscope_that_is_worse_than_the_poses_is_left_out() {
     let raw = with_readings(&synthetic(0.002, 2), 1.0, 1.0);
-    let refused = with_gyroscope(&raw, 0.0).expect("a gyroscope").expect_err("worse");
+    let refused = with_gyroscope(&raw, 0.0).expect_err("worse");
     assert!(matches!(refused, Unfit::NoBetter { .. }), "{refused:?}");
 }
 
@@ -99,11 +99,12 @@ fn a_gyroscope_in_degrees_and_one_upside_down_are_refused() {
     let synthetic = synthetic(YAW_NOISE, 3);
     for unit in [57.3, -1.0] {
         let raw = with_readings(&synthetic, 0.002, unit);
-        let refused = with_gyroscope(&raw, 0.0).expect("a gyroscope");
+        let refused = with_gyroscope(&raw, 0.0);
         let Err(Unfit::Scale { scale }) = refused else { panic!("{unit}: {refused:?}") };
         assert!((scale * unit / SCALE - 1.0).abs() < 0.1, "{unit}: {scale}");
     }
-    assert!(with_gyroscope(&synthetic.recording().expect("long enough"), 0.0).is_none());
+    let without = with_gyroscope(&synthetic.recording().expect("long enough"), 0.0);
+    assert_eq!(without.expect_err("no gyroscope"), Unfit::NoReadings);
 }
 
 /// A loop is closed in the middle of each run: the map turns by six degrees.
@@ -121,7 +122,7 @@ fn a_jump_of_the_poses_stays_where_it_is() {
         Run::new(rows, &mut Vec::new())
     });
     let jumped = raw.with_runs(runs.collect());
-    let (fused, _) = with_gyroscope(&jumped, 0.0).expect("a gyroscope").expect("it serves");
+    let (fused, _) = with_gyroscope(&jumped, 0.0).expect("it serves");
     for (run, jumped) in fused.runs().iter().zip(jumped.runs()) {
         let middle = run.poses().len() / 2;
         for k in middle - 20..middle + 20 {
@@ -134,18 +135,11 @@ fn a_jump_of_the_poses_stays_where_it_is() {
 #[test]
 fn the_distance_of_the_icrs_is_better_known() {
     const DRIVES: u32 = 24;
-    let options = |yaw_scale: f64| Options {
-        gauge: 0.42,
-        tau: None,
-        settle: None,
-        nuisances: Vec::new(),
-        yaw_scale,
-        genetic: crate::GeneticOptions::default(),
-    };
+    let options = |yaw_scale: f64| Options { yaw_scale, ..Options::new(0.42) };
     let (mut ratio, mut squares) = (0.0, 0.0);
     for seed in 0..DRIVES {
         let raw = with_readings(&synthetic(YAW_NOISE, 10 + u64::from(seed)), 0.002, 1.0);
-        let (fused, found) = with_gyroscope(&raw, 0.0).expect("a gyroscope").expect("it serves");
+        let (fused, found) = with_gyroscope(&raw, 0.0).expect("it serves");
         let gap = |recording: &Recording, scale: f64| {
             icrs_alone(recording, &options(scale)).expect("it turns").gap()
         };

@@ -54,14 +54,7 @@ fn identified(drives: &[Drive], localised: &[Vec<LocalisedPose>]) -> (Recording,
         .expect("long enough");
     // Least squares does not hang on the genetic algorithm.
     let genetic = GeneticOptions { generations: 1, ..GeneticOptions::default() };
-    let options = Options {
-        gauge: GAUGE,
-        tau: None,
-        settle: None,
-        nuisances: Vec::new(),
-        yaw_scale: 0.0,
-        genetic,
-    };
+    let options = Options { genetic, ..Options::new(GAUGE) };
     let found = identify(&recording, &options, &|_| ()).expect("enough segments");
     (recording, found)
 }

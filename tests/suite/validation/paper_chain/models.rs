@@ -54,14 +54,7 @@ impl Trained {
     /// draws from `seed`.
     pub fn new(recording: &Recording, spins: &Recording, seed: u64) -> Self {
         let genetic = GeneticOptions { seed, ..GeneticOptions::default() };
-        let options = Options {
-            gauge: GAUGE,
-            tau: None,
-            settle: None,
-            nuisances: Vec::new(),
-            yaw_scale: 0.0,
-            genetic,
-        };
+        let options = Options { genetic, ..Options::new(GAUGE) };
         let found = identify(recording, &options, &|_| ()).expect("enough segments");
         let alpha = least_squares(&found, WITH_ALPHA).parameters.kinematics().alpha;
         let one = PerSide::new(1.0, 1.0);

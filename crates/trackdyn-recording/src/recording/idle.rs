@@ -51,11 +51,7 @@ fn are_explained(stretches: &[Stretch], dead: Option<Side>) -> bool {
     if stretches.len() < MIN_STRETCHES {
         return true;
     }
-    let other = |stretch: &Stretch| match dead {
-        Some(Side::Left) => stretch.tracks.right,
-        Some(Side::Right) => stretch.tracks.left,
-        None => 0.0,
-    };
+    let other = |stretch: &Stretch| dead.map_or(0.0, |side| stretch.tracks[side.other()]);
     let left_of = |of: fn(&Stretch) -> f64| {
         let rows = stretches.iter().map(|stretch| [stretch.duration, other(stretch), of(stretch)]);
         left(rows)

@@ -103,15 +103,11 @@ impl Following {
     pub(super) fn way(&self, side: Side, piece: &Piece, ways: PerSide<f64>) -> [Option<f64>; 2] {
         // turn = k (D_r − D_l);  forward = a (D_l + D_r)/2
         let difference = piece.turn / self.turn;
-        let by_turn = match side {
-            Side::Left => ways.right - difference,
-            Side::Right => ways.left + difference,
-        };
-        let other = match side {
-            Side::Left => ways.right,
-            Side::Right => ways.left,
-        };
-        [Some(by_turn), self.forward.map(|a| 2.0 * piece.forward / a - other)]
+        let other = ways[side.other()];
+        [
+            Some(other + side.sign() * difference),
+            self.forward.map(|a| 2.0 * piece.forward / a - other),
+        ]
     }
 
     /// Ways of the tracks in a piece by their readings, m.

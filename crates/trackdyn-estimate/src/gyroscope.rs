@@ -114,8 +114,8 @@ pub enum Unfit {
     },
 }
 
-/// The recording with the yaw of its poses corrected by its gyroscope, and what that tells. `tau` is
-/// the clock offset of the poses against the encoders, s.
+/// The recording with the yaw of its poses corrected by its gyroscope, and what that tells. `tau`
+/// is the clock offset of the poses against the encoders, s.
 ///
 /// # Errors
 /// Why the gyroscope does not serve.

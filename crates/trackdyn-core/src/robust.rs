@@ -7,6 +7,9 @@ pub const NORMAL_FROM_MAD: f64 = 1.482_602_218_505_602;
 /// Ratio of the median of squares to the mean of squares of a normal distribution, Φ⁻¹(3/4)².
 pub const MEDIAN_OF_CHI_SQUARE: f64 = 0.454_936_423_119_572_8;
 
+/// Median of χ² with three degrees of freedom.
+pub const MEDIAN_OF_CHI_SQUARE_3: f64 = 2.365_973_884_375_338;
+
 /// The median; `None` where there is nothing. Reorders the values.
 pub fn median(values: &mut [f64]) -> Option<f64> {
     if values.is_empty() {

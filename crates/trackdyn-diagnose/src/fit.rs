@@ -329,6 +329,11 @@ impl Fit {
         Self::at(self.hypothesis.clone(), &self.unknowns, evidence, None)
     }
 
+    /// Predicted motion of each sample: forward (m), left (m), yaw (rad).
+    pub fn prediction(&self, evidence: &Evidence) -> Vec<Vector3<f64>> {
+        self.mechanics.predict(&Instruments::of(&self.hypothesis), evidence)
+    }
+
     fn linearised(point: Point, unknowns: &[Unknown], evidence: &Weighted) -> Self {
         let Point { hypothesis, mechanics, prediction, .. } = &point;
         let columns = columns(hypothesis, mechanics, prediction, unknowns, evidence);

@@ -95,7 +95,9 @@ pub(crate) fn judged(
     resampling: Resampling,
 ) -> (HeldOut, Unseen) {
     let unseen = seen.weigh(unseen);
-    let evidence = without_outliers(&unseen, &best.on(&unseen));
+    let there = best.on(&unseen);
+    let unseen = unseen.moving_as(&there.prediction(&unseen));
+    let evidence = without_outliers(&unseen, &there);
     let [before, instruments, after] = [before, instruments, best].map(|fit| fit.on(&evidence));
     let errors = errors(&evidence, [&before, &instruments, &after], resampling);
     let (before, after) = (before.residual, after.residual);

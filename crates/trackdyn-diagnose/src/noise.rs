@@ -5,16 +5,12 @@
 //! [`locate`](crate::locate), by which ICRs vary with speed, direction, manoeuvre, side, heading,
 //! place, time and change of speed; ICRs that vary with the speed of turning; and the response to
 //! acceleration. The remaining residual r is noise ([`SegmentNoise`]): white noise R of each pose,
-//! shared by neighbouring segments, a random walk q within each segment, and a wandering heading of
-//! the sensor that turns all later segments of a run. Its seven variances maximise a restricted
-//! likelihood with heavy tails, so that outliers count little:
-//!
-//! maximise Σ ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν) − ½ ln det(Xᵀ V⁻¹ X),  z = L⁻¹ r, L the
-//! Cholesky factor of the covariance V, X the fitted columns.
-//!
-//! The last term corrects for the degrees of freedom of the fit: without it a walk, which is slow,
-//! would vanish into slow contrasts. It is taken as linear in the log variances. The level is then
-//! set by the median of |z|², that of a χ² with three degrees of freedom, corrected for the fit.
+//! shared by neighbouring segments, errors of its stamp, which displace it along the motion, a
+//! random walk q within each segment, and a wandering heading of the sensor that turns all later
+//! segments of a run. [`likely_noise`](trackdyn_estimate::likely_noise) finds its variances,
+//! corrected for the degrees of freedom of the fit, ½ ln det(Xᵀ V⁻¹ X), X the fitted columns:
+//! without that a walk, which is slow, would vanish into slow contrasts. The correction is taken as
+//! linear in the log variances.
 //!
 //! Physics that contrasts cannot represent is at first taken for a walk. Where a hypothesis
 //! explains more, noise is estimated again beside it, and accepted if the variance summed over a
@@ -23,31 +19,16 @@
 //! The search starts from noise measured without a model ([`trackdyn_estimate::noise`]). Poses
 //! alone cannot separate ripple of the drive, which the encoders see, from a walk of the pose; nor
 //! can encoders alone separate their own errors from slip.
-//!
-//! # Sources
-//! Lange, Little, Taylor, Journal of the American Statistical Association 84(408), 1989 (t
-//! likelihood); Patterson, Thompson, Biometrika 58(3), 1971 (restricted likelihood); Berndt, Hall,
-//! Hall, Hausman, Annals of Economic and Social Measurement 3(4), 1974 (steps).
 
 mod flexible;
 
 use crate::fit::Fit;
-use crate::settings;
 use crate::weighted::Weighted;
 use flexible::Flexible;
-use nalgebra::{Cholesky, SMatrix, SVector, Vector3};
-use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median};
+use nalgebra::Vector3;
 use trackdyn_core::{Pose, real};
+use trackdyn_estimate::likely_noise::mean_squares;
 use trackdyn_estimate::weighting::SegmentNoise;
-
-/// Median of χ² with three degrees of freedom.
-const MEDIAN_OF_CHI_SQUARE_3: f64 = 2.365_973_884_375_338;
-
-/// Number of variances: three of the pose, three of its walk, one of the heading.
-const COUNT: usize = 7;
-
-/// Their logarithms.
-type Variances = SVector<f64, COUNT>;
 
 /// The evidence with noise estimated from the residuals of a fit. Tables of steady points keep
 /// theirs.
@@ -59,27 +40,19 @@ pub fn with_remaining_noise(evidence: &Weighted, fit: &Fit) -> Weighted {
 /// The evidence with noise estimated beside all flexible columns, starting from `measured`.
 fn remaining(evidence: &Weighted, measured: SegmentNoise, flexible: &Flexible) -> Weighted {
     let settings = &evidence.settings().noise;
-    let mut noise = noise_of(&start(&measured, settings), settings);
-    let mut evidence = evidence.with_all_in(noise);
+    let search = settings.search();
+    let mut noise = search.regular(&measured);
+    let samples = evidence.samples().iter().zip(&flexible.residual);
+    let predicted: Vec<_> = samples.map(|(sample, left)| sample.motion - left).collect();
+    let mut evidence = evidence.with_all_in(noise).moving_as(&predicted);
     for _ in 0..settings.rounds {
         let left = flexible.left(&evidence);
         let taken = flexible.taken(&evidence, &noise, &left.columns);
-        noise = most_likely(&evidence, noise, &left.residual, &taken);
+        noise = search.most_likely(&evidence.motions(), &left.residual, noise, &taken);
         evidence = evidence.with_noise(noise);
         evidence = evidence.without(&outliers(&evidence, &noise, &left.residual));
     }
     evidence
-}
-
-/// Log variances to start from. A negligible variance has no gradient, neither in the likelihood
-/// nor in the correction, so a walk starts at a share of the white noise at least.
-fn start(measured: &SegmentNoise, settings: &settings::Noise) -> Variances {
-    let SegmentNoise { pose, mut walk, heading } = *measured;
-    for (walk, pose) in walk.iter_mut().zip(pose) {
-        *walk = walk.max(settings.start_walk * pose);
-    }
-    let heading = heading.max(settings.start_heading * walk[2]);
-    variances_of(&SegmentNoise { pose, walk, heading })
 }
 
 /// The evidence without samples at outlying poses, judged beside a fit with the present noise.
@@ -106,7 +79,11 @@ pub fn sentence(noise: &SegmentNoise) -> String {
         let yaw = yaw.sqrt().to_degrees();
         format!("{forward:.1} mm forward, {left:.1} mm left, {yaw:.2} deg")
     };
-    format!("each pose {}; more in a second {}", of(noise.pose), of(walk))
+    let stamps = match noise.stamp.sqrt() {
+        0.0 => String::new(),
+        seconds => format!(", and its stamp {:.1} ms", 1e3 * seconds),
+    };
+    format!("each pose {}{stamps}; more in a second {}", of(noise.pose), of(walk))
 }
 
 /// The evidence with noise estimated beside a hypothesis that explains more than contrasts; none
@@ -116,9 +93,11 @@ pub fn sharper(evidence: &Weighted, fit: &Fit) -> Option<Weighted> {
     let again = with_remaining_noise(evidence, fit);
     let after = again.noise()?;
     let time = run_time(evidence)?;
+    let squares = mean_squares(&evidence.motions());
     // A walk in yaw and a wandering heading look alike in a sample, but not over a run.
     let added = |noise: &SegmentNoise| {
-        let ([forward, left, yaw], [x, y, turn]) = (noise.pose, noise.walk);
+        let of_pose = |axis: usize| noise.pose[axis] + noise.stamp * squares[axis];
+        let ([forward, left, yaw], [x, y, turn]) = ([0, 1, 2].map(of_pose), noise.walk);
         let pairs = [(forward, x), (left, y), (yaw, turn), (yaw, noise.heading)];
         pairs.map(|(white, walk)| white + walk * time)
     };
@@ -144,6 +123,7 @@ fn outliers(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
     let settings = &evidence.settings().noise;
     let samples = evidence.samples();
     let pose = |motion: &Vector3<f64>| Pose::new(motion[0], motion[1], motion[2]);
+    let motions = evidence.motions();
     let mut lost: Vec<usize> = Vec::new();
     for index in 1..samples.len() {
         let pair = [index - 1, index];
@@ -161,11 +141,13 @@ fn outliers(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
         let expected = both(&|k| samples[k].motion - left[k]);
         let off = expected.relative(&observed);
         let duration = samples[pair[0]].duration + samples[pair[1]].duration;
+        let ([first, _], [_, last]) = (motions[pair[0]].twists, motions[pair[1]].twists);
         let reach = observed.x.hypot(observed.y).powi(2);
         // poses at both ends, the walk between them, and the first yaw error times the distance
         let variance = |k: usize| {
             let turned = if k < 2 { noise.pose[2] * reach } else { noise.heading * duration };
-            2.0 * noise.pose[k] + noise.walk[k] * duration + turned
+            let stamps = (first[(k, k)] + last[(k, k)]) * noise.stamp;
+            2.0 * noise.pose[k] + stamps + noise.walk[k] * duration + turned
         };
         let together = off.x.powi(2) / variance(0)
             + off.y.powi(2) / variance(1)
@@ -177,144 +159,6 @@ fn outliers(evidence: &Weighted, noise: &SegmentNoise, left: &[Vector3<f64>]) ->
     lost
 }
 
-/// Maximum-likelihood noise of the residuals.
-///
-/// A negligible variance has no gradient in its logarithm and would stay. So the search starts
-/// twice: from the measured noise, and from white noise alone.
-fn most_likely(
-    evidence: &Weighted,
-    measured: SegmentNoise,
-    residual: &[Vector3<f64>],
-    taken: &Variances,
-) -> SegmentNoise {
-    let likelihood = Likelihood { evidence, residual, taken };
-    let settings = &evidence.settings().noise;
-    let [first, second] =
-        [measured, likelihood.white_alone()].map(|noise| likelihood.climb(start(&noise, settings)));
-    let (here, _) = if second.1 > first.1 + settings.min_gain { second } else { first };
-    let noise = noise_of(&here, settings);
-    let (_, white) = likelihood.white(&noise);
-    let squares = white.iter().map(Vector3::norm_squared);
-    let mut squares: Vec<f64> = squares.filter(|square| *square > 0.0).collect();
-    let numbers = 3.0 * real(squares.len());
-    let free = (numbers - taken.sum()).max(1.0);
-    let level =
-        median(&mut squares).map_or(1.0, |median| median / MEDIAN_OF_CHI_SQUARE_3 * numbers / free);
-    SegmentNoise {
-        pose: noise.pose.map(|v| v * level),
-        walk: noise.walk.map(|v| v * level),
-        heading: noise.heading * level,
-    }
-}
-
-/// Likelihood of the noise of residuals.
-struct Likelihood<'a> {
-    evidence: &'a Weighted,
-    residual: &'a [Vector3<f64>],
-    /// Degrees of freedom that the fit took from each variance.
-    taken: &'a Variances,
-}
-
-impl Likelihood<'_> {
-    /// White pose noise that would explain all residuals: two poses meet in a segment.
-    fn white_alone(&self) -> SegmentNoise {
-        let mut squares: [Vec<f64>; 3] = Default::default();
-        for residual in self.residual {
-            for (squares, component) in squares.iter_mut().zip(residual.iter()) {
-                squares.push(component * component);
-            }
-        }
-        let pose = squares.map(|mut squares| {
-            let median = median(&mut squares).unwrap_or_default();
-            (median / MEDIAN_OF_CHI_SQUARE / 2.0).max(f64::MIN_POSITIVE)
-        });
-        SegmentNoise { pose, walk: [0.0; 3], heading: 0.0 }
-    }
-
-    /// Local maximum from a start: log variances, and log-likelihood.
-    fn climb(&self, start: Variances) -> (Variances, f64) {
-        let mut here = start;
-        let sum = |terms: &[f64], here: &Variances| {
-            terms.iter().sum::<f64>() + 0.5 * self.taken.dot(here)
-        };
-        let mut terms = self.terms(&here);
-        let mut value = sum(&terms, &here);
-        let settings = &self.evidence.settings().noise;
-        for _ in 0..settings.max_steps {
-            let step = self.step(&here, &terms);
-            let next = [1.0, 0.4, 0.1].into_iter().find_map(|share| {
-                let there = (here + step * share).map(|v| v.clamp(-80.0, 20.0));
-                let terms = self.terms(&there);
-                let reached = sum(&terms, &there);
-                (reached > value).then_some((there, terms, reached))
-            });
-            let Some((there, found, reached)) = next else { break };
-            let gain = reached - value;
-            (here, terms, value) = (there, found, reached);
-            if gain < settings.min_gain {
-                break;
-            }
-        }
-        (here, value)
-    }
-
-    fn white(&self, noise: &SegmentNoise) -> (Weighted, Vec<Vector3<f64>>) {
-        let evidence = self.evidence.with_noise(*noise);
-        let mut white = self.residual.to_vec();
-        evidence.whiten(&mut white);
-        (evidence, white)
-    }
-
-    /// Log-likelihood of each segment.
-    fn terms(&self, variances: &Variances) -> Vec<f64> {
-        let settings = &self.evidence.settings().noise;
-        let (evidence, white) = self.white(&noise_of(variances, settings));
-        let tails = settings.t_degrees;
-        let samples = white.iter().zip(evidence.ln_determinants());
-        samples
-            .map(|(z, ln_determinant)| {
-                if *z == Vector3::zeros() {
-                    return 0.0;
-                }
-                // ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν)
-                ln_determinant - 0.5 * (tails + 3.0) * (z.norm_squared() / tails).ln_1p()
-            })
-            .collect()
-    }
-
-    /// Step of Berndt et al.: (Σ g gᵀ)⁻¹ Σ g, with g the gradient of each term.
-    fn step(&self, here: &Variances, terms: &[f64]) -> Variances {
-        let settings::Noise { difference, max_step, .. } = self.evidence.settings().noise;
-        let there: [Vec<f64>; COUNT] = std::array::from_fn(|k| {
-            let mut moved = *here;
-            moved[k] += difference;
-            self.terms(&moved)
-        });
-        let mut information = SMatrix::<f64, COUNT, COUNT>::identity() * 1e-3;
-        let mut gradient = self.taken * 0.5;
-        for (index, term) in terms.iter().enumerate() {
-            let g = Variances::from_fn(|k, _| (there[k][index] - term) / difference);
-            gradient += g;
-            information += g * g.transpose();
-        }
-        let step = Cholesky::new(information).map_or(gradient, |factor| factor.solve(&gradient));
-        step.map(|value| value.clamp(-max_step, max_step))
-    }
-}
-
-fn variances_of(noise: &SegmentNoise) -> Variances {
-    let SegmentNoise { pose, walk, heading } = noise;
-    let all = pose.iter().chain(walk).chain([heading]);
-    let logarithms = all.map(|variance| variance.max(f64::MIN_POSITIVE).ln());
-    Variances::from_iterator(logarithms)
-}
-
-fn noise_of(variances: &Variances, settings: &settings::Noise) -> SegmentNoise {
-    let pose = std::array::from_fn(|k| variances[k].exp());
-    let walk = std::array::from_fn(|k| variances[3 + k].exp().max(settings.min_walk * pose[k]));
-    SegmentNoise { pose, walk, heading: variances[6].exp() }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -323,10 +167,15 @@ mod tests {
     use crate::settings::Settings;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
+    use trackdyn_estimate::likely_noise::{COUNT, Variances, variances_of};
     use trackdyn_recording::TrackSample;
 
-    const TRUE: SegmentNoise =
-        SegmentNoise { pose: [9e-6, 4e-6, 4e-6], walk: [1e-6, 4e-6, 2.5e-7], heading: 2.5e-7 };
+    const TRUE: SegmentNoise = SegmentNoise {
+        pose: [9e-6, 4e-6, 4e-6],
+        walk: [1e-6, 4e-6, 2.5e-7],
+        heading: 2.5e-7,
+        stamp: 0.0,
+    };
 
     /// A winding drive of 1500 segments with these errors added to its motion.
     fn drive(errors: &[Vector3<f64>]) -> Evidence {
@@ -365,18 +214,32 @@ mod tests {
         residual
     }
 
+    fn most_likely(
+        evidence: &Weighted,
+        residual: &[Vector3<f64>],
+        start: SegmentNoise,
+        taken: &Variances,
+    ) -> SegmentNoise {
+        let search = evidence.settings().noise.search();
+        search.most_likely(&evidence.motions(), residual, start, taken)
+    }
+
     fn found(evidence: &Weighted, residual: &[Vector3<f64>]) -> SegmentNoise {
-        let wrong =
-            SegmentNoise { pose: [4e-5, 1e-6, 1e-5], walk: [0.0, 1e-4, 1e-5], heading: 0.0 };
-        most_likely(evidence, wrong, residual, &Variances::zeros())
+        let wrong = SegmentNoise {
+            pose: [4e-5, 1e-6, 1e-5],
+            walk: [0.0, 1e-4, 1e-5],
+            heading: 0.0,
+            stamp: 0.0,
+        };
+        most_likely(evidence, residual, wrong, &Variances::zeros())
     }
 
     #[test]
     fn a_start_without_white_noise_is_left() {
         let evidence = Weighted::new(drive(&[]));
         let residual = noisy(&evidence, 4);
-        let start = SegmentNoise { pose: [1e-12; 3], walk: [3e-5; 3], heading: 0.0 };
-        let noise = most_likely(&evidence, start, &residual, &Variances::zeros());
+        let start = SegmentNoise { pose: [1e-12; 3], walk: [3e-5; 3], heading: 0.0, stamp: 0.0 };
+        let noise = most_likely(&evidence, &residual, start, &Variances::zeros());
         for k in 0..3 {
             assert!((noise.pose[k] / TRUE.pose[k]).ln().abs() < 0.2, "{k}: {noise:?}");
         }
@@ -435,7 +298,8 @@ mod tests {
         };
         let columns: Vec<_> = (0..COLUMNS).map(column).collect();
         // No forward pose noise and no walk, as a measurement without a model may give.
-        let measured = SegmentNoise { pose: [0.0, 4e-6, 4e-6], walk: [0.0; 3], heading: 0.0 };
+        let measured =
+            SegmentNoise { pose: [0.0, 4e-6, 4e-6], walk: [0.0; 3], heading: 0.0, stamp: 0.0 };
         let mut logarithms = [[0.0; COUNT]; 2];
         for seed in 0..SEEDS {
             let residual = noisy(&evidence, seed.into());
@@ -445,7 +309,7 @@ mod tests {
             assert_eq!(left.residual, scaled.residual, "noise is looked for whatever its scale");
             let taken = flexible.taken(&evidence, &TRUE, &left.columns);
             assert!((taken.sum() - real(COLUMNS)).abs() < 0.1 * real(COLUMNS), "{taken}");
-            let unaware = most_likely(&evidence, TRUE, &left.residual, &Variances::zeros());
+            let unaware = most_likely(&evidence, &left.residual, TRUE, &Variances::zeros());
             let aware = *remaining(&evidence, measured, &flexible).noise().expect("one");
             for (sums, found) in logarithms.iter_mut().zip([unaware, aware]) {
                 let off = variances_of(&found) - variances_of(&TRUE);

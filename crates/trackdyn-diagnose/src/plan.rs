@@ -57,7 +57,7 @@ impl Default for Options {
 /// of each pose, and a random walk as large after a second.
 pub fn assumed_noise(xy: f64, yaw: f64) -> SegmentNoise {
     let variances = [xy.powi(2), xy.powi(2), yaw.powi(2)];
-    SegmentNoise { pose: variances, walk: variances, heading: 0.0 }
+    SegmentNoise { pose: variances, walk: variances, heading: 0.0, stamp: 0.0 }
 }
 
 /// A manoeuvre of a plan.

@@ -19,7 +19,6 @@ use crate::fit::{Fit, columns};
 use crate::held_out::{HeldOut, Unseen};
 use crate::hypothesis::Unknown;
 use crate::locate::{Location, Residual, excess, icr_columns};
-use crate::mechanics::Instruments;
 use crate::prior::priors;
 use crate::resampling::Resampling;
 use crate::search::{Catalogue, Found, Search};
@@ -182,7 +181,7 @@ fn library(effect: EffectId, terms: Vec<Term>, search: &Search, fit: &Fit) -> Li
     unknowns.sort_unstable();
     unknowns.dedup();
     let hypothesis = &fit.hypothesis;
-    let prediction = fit.mechanics.predict(&Instruments::of(hypothesis), evidence);
+    let prediction = fit.prediction(evidence);
     let more = columns(hypothesis, &fit.mechanics, &prediction, &unknowns, evidence);
     let known = priors(hypothesis, &fit.unknowns, evidence);
     let mut stack = Stack::new(fit.columns.clone(), known);

@@ -2,12 +2,13 @@
 
 use crate::evidence::{Evidence, Origin, Sample};
 use crate::normal::{Columns, Normal};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use std::ops::Deref;
 use std::sync::Arc;
 use trackdyn_core::robust::deviation_about_zero;
+use trackdyn_core::{Pose, Twist};
 use trackdyn_estimate::gauss_newton::Huber;
-use trackdyn_estimate::weighting::{Seen, SegmentNoise, Weighting, Whitener};
+use trackdyn_estimate::weighting::{Seen, SegmentNoise, Weighting, Whitener, about};
 
 /// Evidence with the noise that weighs its residuals, and without the samples marked lost. It
 /// dereferences to [`Evidence`], which is shared: a copy with other noise copies no samples.
@@ -31,34 +32,54 @@ impl Deref for Weighted {
 #[derive(Clone)]
 enum Whitening {
     /// Segments of a drive: neighbours share a noisy pose, so their errors correlate.
-    Segments { noise: SegmentNoise, whitener: Arc<Whitener>, lost: Arc<[bool]> },
+    Segments { noise: SegmentNoise, whitener: Arc<Whitener>, lost: Arc<[bool]>, twists: Twists },
     /// Independent points: inverse standard deviation of each channel; zero where not measured.
     Points(Arc<[Vector3<f64>]>),
 }
 
+/// Mean of u uᵀ about the first and about the last pose of each sample, u the twist of the body
+/// along its axes there: forward (m/s), left (m/s), yaw (rad/s). An error of a pose's stamp
+/// displaces it along the twist.
+type Twists = Arc<[[Matrix3<f64>; 2]]>;
+
 impl Whitening {
     /// Whitening of segments. A lost one has no weight and shares no pose with its neighbours.
-    fn of(noise: SegmentNoise, samples: &[Sample], lost: Arc<[bool]>) -> Self {
-        let seen = samples.iter().enumerate().map(|(index, sample)| Seen {
-            motion: sample.motion.into(),
-            duration: sample.duration,
-            run: sample.run,
-            is_lost: lost[index],
-            follows: sample.follows && !(index > 0 && lost[index - 1]),
-        });
-        let whitener = Arc::new(Whitener::of_motions(&Weighting::Noise(noise), seen));
-        Self::Segments { noise, whitener, lost }
+    fn of(noise: SegmentNoise, samples: &[Sample], lost: Arc<[bool]>, twists: Twists) -> Self {
+        let motions = motions(samples, &lost, &twists);
+        let whitener = Arc::new(Whitener::of_motions(&Weighting::Noise(noise), motions));
+        Self::Segments { noise, whitener, lost, twists }
     }
 }
 
+/// What the noise of samples depends on.
+fn motions<'a>(
+    samples: &'a [Sample],
+    lost: &'a [bool],
+    twists: &'a [[Matrix3<f64>; 2]],
+) -> impl Iterator<Item = Seen> + use<'a> {
+    samples.iter().enumerate().map(|(index, sample)| Seen {
+        motion: sample.motion.into(),
+        duration: sample.duration,
+        run: sample.run,
+        twists: twists[index],
+        is_lost: lost[index],
+        follows: sample.follows && !(index > 0 && lost[index - 1]),
+    })
+}
+
 impl Weighted {
-    /// Evidence with all samples and the noise that was measured without a model.
+    /// Evidence with all samples and the noise that was measured without a model. Until a model
+    /// predicts the motion ([`Weighted::moving_as`]), errors of stamps displace poses along the
+    /// observed one.
     pub fn new(evidence: impl Into<Arc<Evidence>>) -> Self {
         let evidence = evidence.into();
         let whitening = match evidence.origin() {
             Origin::Drive(noise) => {
                 let all = vec![false; evidence.samples().len()];
-                Whitening::of(*noise, evidence.samples(), all.into())
+                let samples = evidence.samples();
+                let observed: Vec<_> = samples.iter().map(|sample| sample.motion).collect();
+                let twists = twists(samples, &observed);
+                Whitening::of(*noise, evidence.samples(), all.into(), twists)
             }
             Origin::SteadyPoints(inverse) => Whitening::Points(Arc::clone(inverse)),
         };
@@ -73,32 +94,51 @@ impl Weighted {
         }
     }
 
+    /// What the noise of each sample of a drive depends on; none for a table.
+    pub fn motions(&self) -> Vec<Seen> {
+        match &self.whitening {
+            Whitening::Segments { lost, twists, .. } => {
+                motions(self.samples(), lost, twists).collect()
+            }
+            Whitening::Points(_) => Vec::new(),
+        }
+    }
+
     /// The evidence with another noise; a table stays as it is.
     pub fn with_noise(&self, noise: SegmentNoise) -> Self {
-        let Whitening::Segments { lost, .. } = &self.whitening else { return self.clone() };
-        let whitening = Whitening::of(noise, self.samples(), Arc::clone(lost));
+        let Whitening::Segments { lost, twists, .. } = &self.whitening else { return self.clone() };
+        let whitening = Whitening::of(noise, self.samples(), Arc::clone(lost), Arc::clone(twists));
+        Self { whitening, ..self.clone() }
+    }
+
+    /// The evidence in which errors of stamps displace poses along the motion that is predicted for
+    /// each sample; a table stays as it is.
+    pub fn moving_as(&self, prediction: &[Vector3<f64>]) -> Self {
+        let Whitening::Segments { noise, lost, .. } = &self.whitening else { return self.clone() };
+        let twists = twists(self.samples(), prediction);
+        let whitening = Whitening::of(*noise, self.samples(), Arc::clone(lost), twists);
         Self { whitening, ..self.clone() }
     }
 
     /// The evidence with another noise and all segments, lost ones restored; a table stays as it
     /// is.
     pub fn with_all_in(&self, noise: SegmentNoise) -> Self {
-        if matches!(self.whitening, Whitening::Points(_)) {
-            return self.clone();
-        }
+        let Whitening::Segments { twists, .. } = &self.whitening else { return self.clone() };
         let all = vec![false; self.samples().len()];
-        let whitening = Whitening::of(noise, self.samples(), all.into());
+        let whitening = Whitening::of(noise, self.samples(), all.into(), Arc::clone(twists));
         Self { whitening, ..self.clone() }
     }
 
     /// The evidence with these segments marked lost, too; a table stays as it is.
     pub fn without(&self, samples: &[usize]) -> Self {
-        let Whitening::Segments { noise, lost, .. } = &self.whitening else { return self.clone() };
+        let Whitening::Segments { noise, lost, twists, .. } = &self.whitening else {
+            return self.clone();
+        };
         let mut lost = lost.to_vec();
         for &sample in samples {
             lost[sample] = true;
         }
-        let whitening = Whitening::of(*noise, self.samples(), lost.into());
+        let whitening = Whitening::of(*noise, self.samples(), lost.into(), Arc::clone(twists));
         Self { whitening, ..self.clone() }
     }
 
@@ -232,4 +272,23 @@ impl Weighted {
             Whitening::Points(inverse) => inverse[sample][channel] > 0.0,
         }
     }
+}
+
+/// Twists about the poses of samples that move as predicted.
+fn twists(samples: &[Sample], prediction: &[Vector3<f64>]) -> Twists {
+    let within: Vec<[f64; 3]> = (samples.iter().zip(prediction))
+        .map(|(sample, motion)| {
+            let Twist { v_x, v_y, w } =
+                Pose::new(motion[0], motion[1], motion[2]).log(sample.duration);
+            [v_x, v_y, w]
+        })
+        .collect();
+    let both = samples.iter().enumerate().map(|(index, sample)| {
+        let own = within[index];
+        let before = if sample.follows { within[index - 1] } else { own };
+        let is_shared = samples.get(index + 1).is_some_and(|next| next.follows);
+        let after = if is_shared { within[index + 1] } else { own };
+        [about(before, own), about(own, after)]
+    });
+    both.collect()
 }

@@ -18,7 +18,7 @@ use crate::prediction::Lanes;
 use crate::sensor::{Nuisance, Sensor};
 use crate::weighting::{Weighting, Whitener};
 use linearisation::{Linearisation, Point};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Change of an unknown in m, 1, s or rad: the iteration has settled below `settled_below`, and
 /// Newton's step is used below `newton_below`, where the loss is nearly a parabola.
@@ -134,6 +134,31 @@ impl Problem for Motions<'_> {
             Region::Inside
         }
     }
+}
+
+/// Residuals of an estimate, observed minus reported, forward (m), left (m), yaw (rad), and the
+/// derivatives of what is reported by each unknown.
+pub fn residuals(
+    observations: &Observations,
+    estimate: &Estimate,
+) -> (Vec<Vector3<f64>>, Vec<Vec<Vector3<f64>>>) {
+    let alike = Whitener::new(&Weighting::Distance { lever: 1.0 }, observations);
+    at_estimate(observations, estimate, &alike).into_parts()
+}
+
+/// Root mean square of the residuals of an estimate, whitened by a noise that need not be the one
+/// by which it was fitted.
+pub fn whitened_rms(observations: &Observations, estimate: &Estimate, by: &Weighting) -> f64 {
+    at_estimate(observations, estimate, &Whitener::new(by, observations)).rms(&estimate.unknowns)
+}
+
+fn at_estimate(
+    observations: &Observations,
+    estimate: &Estimate,
+    whitener: &Whitener,
+) -> Linearisation {
+    let point = Point { parameters: estimate.parameters, sensor: estimate.sensor };
+    Linearisation::at(&point, &estimate.unknowns, &Lanes::new(observations), whitener)
 }
 
 /// The estimate that parameters from elsewhere are, with their covariance.

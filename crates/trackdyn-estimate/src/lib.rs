@@ -8,6 +8,7 @@
 //! - [`gyroscope`]: a gyroscope as evidence of the yaw of poses.
 //! - [`regular`]: the times at which samples were due, of stamps that jitter.
 //! - [`thinned`]: fewer readings, of encoders that report very often.
+//! - [`frames`]: whether all runs share the frame of their poses.
 //! - [`blocks`]: parts that count as independent.
 //! - [`interval`]: 95 % from leaving out one of them each.
 //! - [`synthetic`]: recordings with known truth.
@@ -20,6 +21,7 @@
 //! - [`sensor`]: clock and mount of the pose sensor, which can be fitted beside.
 //! - [`mod@residual_noise`]: the noise, where only the residuals of a model show it.
 //! - [`weighting`]: how much a residual counts: the cost (17), or the noise that was measured.
+//! - [`likely_noise`]: the noise that makes residuals most likely; [`variances`]: its steps.
 //! - [`gauss_newton`]: robust least squares, whatever the residuals are of.
 //! - [`mod@spin_test`], [`mod@genetic`], [`mod@least_squares`]: three ways to the parameters.
 //! - [`separation`]: the distance of the ICRs from turning alone.
@@ -35,6 +37,7 @@ pub mod clock;
 pub mod contradiction;
 pub mod doubt;
 pub mod error;
+pub mod frames;
 pub mod gaps;
 pub mod gauss_newton;
 pub mod genetic;
@@ -42,6 +45,7 @@ pub mod gyroscope;
 pub mod identification;
 pub mod interval;
 pub mod least_squares;
+pub mod likely_noise;
 pub mod noise;
 pub mod observations;
 pub mod odometry;
@@ -56,6 +60,7 @@ pub mod spin_test;
 pub mod steady;
 pub mod synthetic;
 pub mod thinned;
+pub mod variances;
 pub mod weighting;
 pub mod yaw_rates;
 

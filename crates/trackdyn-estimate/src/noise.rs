@@ -10,7 +10,8 @@
 //! drifting map and, while moving, what the tracks do to the body below the noise of their
 //! encoders. With equal intervals, 4 Var e = 6R + 2nQ. R and q come from the variances at n = 1, 2,
 //! 4 and 8 by weighted least squares; variances come from the median of e², so that outliers and
-//! the few triples with a change of speed in them do not count.
+//! the few triples with a change of speed in them do not count. Errors of the stamps of poses,
+//! which grow with the speed, are told from them by a likelihood (`stamps`).
 //!
 //! # Sources
 //! The Allan variance of phase data with white phase noise and white frequency noise (IEEE Std
@@ -23,6 +24,7 @@ use trackdyn_recording::Recording;
 
 mod encoder;
 mod scatter;
+mod stamps;
 mod triples;
 
 pub use scatter::scatter;
@@ -47,6 +49,8 @@ pub struct PoseNoise {
     pub lateral: Component,
     /// Yaw, rad.
     pub yaw: Component,
+    /// Standard deviation of the error of each pose's stamp, s; zero where none shows.
+    pub stamp: f64,
     /// Triples of neighbouring poses (n = 1) behind the figures.
     pub triples: usize,
     /// How the figures were found.

@@ -4,6 +4,8 @@ use crate::{Blocks, Extent, Segment, SegmentOptions, segments};
 use std::ops::Range;
 use std::sync::Arc;
 use trackdyn_core::PerSide;
+use trackdyn_core::frames::ros_twist_from_paper;
+use trackdyn_model::Kinematics;
 use trackdyn_recording::hold::{held, travelled};
 use trackdyn_recording::{Recording, Run, TrackSample};
 
@@ -22,6 +24,8 @@ pub struct Observations {
     tau_margin: f64,
     /// Readings of each run.
     tracks: Arc<[Vec<TrackSample>]>,
+    /// How the body moves by the track speeds, once that is known.
+    moves: Option<Kinematics>,
 }
 
 /// A time during which the track speeds are constant.
@@ -52,6 +56,10 @@ pub struct Observation {
     pub run: usize,
     /// Whether its first pose is the last one of the segment before it.
     pub follows: bool,
+    /// Twist of the body at its first and at its last pose, by the track speeds there: forward
+    /// (m/s), left (m/s), yaw (rad/s); zero while no kinematics are known
+    /// ([`Observations::moving_by`]).
+    pub twists: [[f64; 3]; 2],
 }
 
 impl Observation {
@@ -66,6 +74,7 @@ impl Observation {
             duration: segment.duration(),
             run: segment.run,
             follows: segment.follows,
+            twists: [[0.0; 3]; 2],
         }
     }
 }
@@ -120,7 +129,8 @@ impl Observations {
         }
         let tracks = recording.runs().iter().map(|run| run.tracks().to_vec()).collect();
         let SegmentOptions { tau, tau_margin, .. } = *options;
-        Self { segments: kept, pieces: Vec::new(), tau, tau_margin, tracks }.at(tau)
+        let pieces = Vec::new();
+        Self { segments: kept, pieces, tau, tau_margin, tracks, moves: None }.at(tau)
     }
 
     /// These segments at another clock offset, s: other readings go with their poses.
@@ -137,8 +147,29 @@ impl Observations {
                 v_right: piece.speeds.right,
             }));
             segment.last_piece = pieces.len();
+            let own = &pieces[segment.first_piece..];
+            let twist = |piece: Option<&Piece>| match (&self.moves, piece) {
+                (Some(kinematics), Some(piece)) => {
+                    let speeds = PerSide::new(piece.v_left, piece.v_right);
+                    let twist = ros_twist_from_paper(&kinematics.twist(speeds));
+                    [twist.v_x, twist.v_y, twist.w]
+                }
+                _ => [0.0; 3],
+            };
+            segment.twists = [twist(own.first()), twist(own.last())];
         }
         Self { segments, pieces, tau, tracks: Arc::clone(&self.tracks), ..*self }
+    }
+
+    /// These segments, with the twist at each pose by these kinematics: what an error of its stamp
+    /// does to it.
+    pub fn moving_by(&self, kinematics: Kinematics) -> Self {
+        Self { moves: Some(kinematics), ..self.clone() }.at(self.tau)
+    }
+
+    /// How the body moves at its poses, once that is known.
+    pub fn moves(&self) -> Option<Kinematics> {
+        self.moves
     }
 
     /// Clock offset at which the pieces are cut, s.

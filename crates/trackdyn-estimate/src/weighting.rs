@@ -30,6 +30,9 @@ pub struct SegmentNoise {
     /// Variance per second of a random walk of the sensor's heading, rad²/s. It turns all later
     /// segments as the sensor sees them, and not the motion within one.
     pub heading: f64,
+    /// Variance of the error of each pose's stamp, s². A pose that was taken e later than it says
+    /// lies e times the body's twist further.
+    pub stamp: f64,
 }
 
 /// Smallest standard deviation of a pose that is assumed, m and rad: poses of a simulator have no
@@ -41,7 +44,7 @@ impl SegmentNoise {
     pub fn stated(stated: StatedNoise) -> Self {
         let position = stated.position.max(MIN_POSE_NOISE).powi(2);
         let pose = [position, position, stated.yaw.max(MIN_POSE_NOISE).powi(2)];
-        Self { pose, walk: [0.0; 3], heading: 0.0 }
+        Self { pose, walk: [0.0; 3], heading: 0.0, stamp: 0.0 }
     }
 
     /// From the noise that was measured without a model: that of the poses while moving, or at
@@ -60,7 +63,7 @@ impl SegmentNoise {
         let mut walk = components.map(|component| component.walk.powi(2));
         walk.iter_mut().zip(encoders).for_each(|(walk, encoder)| *walk += encoder);
         let pose = components.map(|component| component.white.max(MIN_POSE_NOISE).powi(2));
-        Some(Self { pose, walk, heading: 0.0 })
+        Some(Self { pose, walk, heading: 0.0, stamp: poses.stamp.powi(2) })
     }
 }
 
@@ -75,15 +78,41 @@ pub struct Seen {
     pub run: usize,
     /// Whether its first pose is the last one of the segment before it.
     pub follows: bool,
+    /// Mean of u uᵀ about its first and about its last pose ([`about`]), u the twist of the body
+    /// along its axes there: forward (m/s), left (m/s), yaw (rad/s). Not the observed one: an error
+    /// of a stamp that enters its own weight biases what is fitted.
+    pub twists: [Matrix3<f64>; 2],
     /// Whether it carries no information.
     pub is_lost: bool,
 }
 
 impl Seen {
-    fn of(segment: &Observation) -> Self {
-        let Observation { motion, duration, run, follows, .. } = *segment;
-        Self { motion, duration, run, follows, is_lost: false }
+    /// The segments that were observed.
+    pub fn all(segments: &[Observation]) -> Vec<Self> {
+        let at = |place: Option<usize>| place.and_then(|place| segments.get(place));
+        let seen = segments.iter().enumerate().map(|(index, segment)| {
+            let Observation { motion, duration, run, follows, twists: [first, last], .. } =
+                *segment;
+            let before = at(index.checked_sub(1)).filter(|_| follows);
+            let after = at(Some(index + 1)).filter(|after| after.follows);
+            let twists = [
+                about(before.map_or(first, |before| before.twists[1]), first),
+                about(last, after.map_or(last, |after| after.twists[0])),
+            ];
+            Self { motion, duration, run, follows, twists, is_lost: false }
+        });
+        seen.collect()
     }
+}
+
+/// Mean of u uᵀ about a pose: a pose that was taken early has moved by the twist before it, one
+/// that was taken late by the twist after it.
+pub fn about(before: [f64; 3], after: [f64; 3]) -> Matrix3<f64> {
+    let square = |twist: [f64; 3]| {
+        let twist = Vector3::from(twist);
+        twist * twist.transpose()
+    };
+    (square(before) + square(after)) / 2.0
 }
 
 /// Residuals and their derivatives, three rows per segment, made white: unit variance, no
@@ -119,7 +148,7 @@ struct Known {
 impl Whitener {
     /// The whitener for these observations.
     pub fn new(weighting: &Weighting, observations: &Observations) -> Self {
-        Self::of_motions(weighting, observations.segments().iter().map(Seen::of))
+        Self::of_motions(weighting, Seen::all(observations.segments()).into_iter())
     }
 
     /// The whitener for motions that were not observed but are expected.
@@ -190,12 +219,12 @@ impl SegmentNoise {
     /// The whitening of a segment, given what is known from its run before it, and what is known
     /// after it.
     fn block(&self, segment: &Seen, before: Option<Known>) -> (Block, Known) {
-        let pose = Matrix3::from_diagonal(&Vector3::from(self.pose));
+        let [first, last] = segment.twists.map(|twists| self.of_pose(&twists));
         let heading = before.map_or(0.0, |known| known.covariance[(3, 3)]);
         let wanders = self.heading * segment.duration;
         // P, the covariance of the first pose and of the heading there
         let mut known = Matrix4::from_diagonal_element(heading);
-        known.fixed_view_mut::<3, 3>(0, 0).copy_from(&pose);
+        known.fixed_view_mut::<3, 3>(0, 0).copy_from(&first);
         let shared = before.filter(|_| segment.follows);
         if let Some(shared) = shared {
             known = shared.covariance;
@@ -207,16 +236,16 @@ impl SegmentNoise {
         let mut by_known = Matrix3x4::zeros();
         by_known.fixed_view_mut::<3, 3>(0, 0).copy_from(&start);
         by_known.set_column(3, &turned);
-        // The noise of the end pose lies along the body's axes there: E R Eᵀ.
+        // The noise of the last pose lies along the body's axes there: E R Eᵀ.
         let turn = rotation(-segment.motion[2]);
         let mut walk = Vector3::from(self.walk) * segment.duration;
         walk[2] += wanders;
-        let own = turn.transpose() * pose * turn + Matrix3::from_diagonal(&walk);
+        let own = turn.transpose() * last * turn + Matrix3::from_diagonal(&walk);
         // S = H P Hᵀ + E R Eᵀ + q T = L Lᵀ
         let innovation = by_known * known * by_known.transpose() + own;
         let factor = innovation.cholesky().map_or(Matrix3::identity(), |cholesky| cholesky.l());
         let inverse = factor.try_inverse().unwrap_or(Matrix3::identity());
-        // The covariance G of the end pose and of the heading there with the residual, G L⁻ᵀ of it
+        // The covariance G of the last pose and of the heading there with the residual, G L⁻ᵀ of it
         // made white.
         let mut with = known.row(3) * by_known.transpose();
         with[2] += wanders;
@@ -224,11 +253,11 @@ impl SegmentNoise {
             [Matrix3::zeros(), Matrix3::zeros()]
         } else {
             let with = Matrix3::from_rows(&[with, RowVector3::zeros(), RowVector3::zeros()]);
-            [pose * turn, with].map(|with| with * inverse.transpose())
+            [last * turn, with].map(|with| with * inverse.transpose())
         };
         let tells: RowVector3<f64> = of_heading.row(0).into_owned();
         let mut after = Matrix4::zeros();
-        after.fixed_view_mut::<3, 3>(0, 0).copy_from(&(pose - of_pose * of_pose.transpose()));
+        after.fixed_view_mut::<3, 3>(0, 0).copy_from(&(last - of_pose * of_pose.transpose()));
         let between = -of_pose * tells.transpose();
         after.fixed_view_mut::<3, 1>(0, 3).copy_from(&between);
         after.fixed_view_mut::<1, 3>(3, 0).copy_from(&between.transpose());
@@ -241,6 +270,11 @@ impl SegmentNoise {
             begins: before.is_none(),
         };
         (block, Known { covariance: after, tells: of_pose })
+    }
+
+    /// Covariance of a pose's noise along the body's axes: R + s² u uᵀ.
+    fn of_pose(&self, twists: &Matrix3<f64>) -> Matrix3<f64> {
+        Matrix3::from_diagonal(&Vector3::from(self.pose)) + twists * self.stamp
     }
 
     /// What noise of the first pose, along its axes, does to the observed motion: it is subtracted,
@@ -261,15 +295,24 @@ fn rotation(angle: f64) -> Matrix3<f64> {
 mod tests {
     use super::*;
     use nalgebra::DMatrix;
+    use trackdyn_core::real;
 
-    const NOISE: SegmentNoise =
-        SegmentNoise { pose: [9e-6, 4e-6, 3e-6], walk: [1e-6, 4e-6, 2.5e-7], heading: 4e-6 };
+    const NOISE: SegmentNoise = SegmentNoise {
+        pose: [9e-6, 4e-6, 3e-6],
+        walk: [1e-6, 4e-6, 2.5e-7],
+        heading: 4e-6,
+        stamp: 1e-4,
+    };
 
     /// Two runs of winding driving, the first with a gap and with a segment that is lost.
     fn segments() -> Vec<Seen> {
         let segment = |k: usize| {
-            let turn = 0.3 + 0.1 * f64::from(u32::try_from(k).expect("small"));
+            let turn = 0.3 + 0.1 * real(k);
+            // the twist at a pose does not depend on which of its segments is looked at
+            let twist = |k: usize| [0.7, 0.1 - 0.02 * real(k), real(k % 5) - 2.0];
+            let about = |k: usize| about(twist(k), twist(k));
             Seen {
+                twists: [about(k), about(k + 1)],
                 motion: [0.2 * turn.cos(), 0.05 * turn.sin(), 0.6 * turn.sin()],
                 duration: 0.3,
                 run: k / 8,
@@ -297,19 +340,25 @@ mod tests {
                 add(NOISE.walk[axis] * segment.duration, &|at| {
                     if at == k { unit(axis) } else { Vector3::zeros() }
                 });
-                // the pose at the end, which may be the start of the next one
-                add(NOISE.pose[axis], &|at| match at {
-                    _ if at == k => rotation(segment.motion[2]) * unit(axis),
+            }
+            // errors of a pose: along each axis, and along the twist by its stamp
+            let errors = |twists: Matrix3<f64>| {
+                let axes = (0..3).map(|axis| (NOISE.pose[axis], unit(axis)));
+                let along = twists.column(0) / twists[(0, 0)].sqrt();
+                axes.chain([(NOISE.stamp, along)])
+            };
+            for (variance, error) in errors(segment.twists[1]) {
+                // the last pose, which may be the first of the next one
+                add(variance, &|at| match at {
+                    _ if at == k => rotation(segment.motion[2]) * error,
                     _ if at == k + 1 && segments[at].follows => {
-                        SegmentNoise::by_start(&segments[at]) * unit(axis)
+                        SegmentNoise::by_start(&segments[at]) * error
                     }
                     _ => Vector3::zeros(),
                 });
-                if !segment.follows {
-                    add(NOISE.pose[axis], &|at| {
-                        if at == k { start * unit(axis) } else { Vector3::zeros() }
-                    });
-                }
+            }
+            for (variance, error) in errors(segment.twists[0]).filter(|_| !segment.follows) {
+                add(variance, &|at| if at == k { start * error } else { Vector3::zeros() });
             }
             // the heading, which stays wrong until the end of the run
             add(NOISE.heading * segment.duration, &|at| {

@@ -112,6 +112,7 @@ impl Instruments {
             ],
             walk: [walk, walk, 0.0],
             heading: pose.walk.yaw.powi(2),
+            stamp: 0.0,
         }
     }
 

@@ -55,7 +55,8 @@ mod tests {
     use trackdyn_model::EffectId;
     use trackdyn_recording::TrackSample;
 
-    const NOISE: SegmentNoise = SegmentNoise { pose: [1e-6; 3], walk: [0.0; 3], heading: 0.0 };
+    const NOISE: SegmentNoise =
+        SegmentNoise { pose: [1e-6; 3], walk: [0.0; 3], heading: 0.0, stamp: 0.0 };
 
     /// Circles with a radius of 1 m, then 30 m straight ahead.
     fn drive() -> Evidence {

@@ -23,6 +23,14 @@ pub struct NoiseTable {
     pub walk_yaw_rad: f64,
     /// What a second adds to the heading of the sensor, rad.
     pub walk_heading_rad: f64,
+    /// Of the stamp of each pose, s; zero where stamps show no error.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub stamp_s: f64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde asks")]
+fn is_none(deviation: &f64) -> bool {
+    *deviation == 0.0
 }
 
 /// Smallest and largest standard deviation that a reader takes for meant, m or rad.
@@ -43,6 +51,7 @@ impl NoiseTable {
             walk_left_m,
             walk_yaw_rad,
             walk_heading_rad,
+            stamp_s: deviation(noise.stamp),
         }
     }
 
@@ -53,6 +62,7 @@ impl NoiseTable {
             pose: [self.pose_forward_m, self.pose_left_m, self.pose_yaw_rad].map(square),
             walk: [self.walk_forward_m, self.walk_left_m, self.walk_yaw_rad].map(square),
             heading: square(self.walk_heading_rad),
+            stamp: square(self.stamp_s),
         }
     }
 

@@ -122,7 +122,7 @@ mod tests {
             pose: Pose::new(30.0, 0.0, 0.0),
             blocks: vec![0],
         };
-        let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3], heading: 0.0 };
+        let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3], heading: 0.0, stamp: 0.0 };
         let run = [run];
         let evidence =
             Evidence::planned(&run, noise, 0.0, &settings, |evidence| moves(&filed, evidence));

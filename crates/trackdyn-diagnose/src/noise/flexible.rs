@@ -1,6 +1,5 @@
 //! Columns of all that driving could explain in a residual, and the noise lost to fitting them.
 
-use super::{COUNT, Variances, noise_of, variances_of};
 use crate::evidence::Evidence;
 use crate::fit::{Fit, derivatives};
 use crate::hypothesis::Unknown;
@@ -9,8 +8,8 @@ use crate::mechanics::{Instruments, Mechanics};
 use crate::normal::{Columns, Normal};
 use crate::weighted::Weighted;
 use nalgebra::Vector3;
-use rayon::prelude::*;
 use trackdyn_core::real;
+use trackdyn_estimate::likely_noise::Variances;
 use trackdyn_estimate::weighting::SegmentNoise;
 
 /// Residual of a fit, and all columns that driving could explain; not whitened.
@@ -62,7 +61,7 @@ pub(super) struct Left {
 impl Flexible {
     pub(super) fn new(evidence: &Weighted, fit: &Fit) -> Self {
         let Fit { hypothesis, mechanics, unknowns, .. } = fit;
-        let prediction = mechanics.predict(&Instruments::of(hypothesis), evidence);
+        let prediction = fit.prediction(evidence);
         let mut columns = derivatives(hypothesis, mechanics, &prediction, unknowns, evidence);
         let icrs = icr_columns(evidence, fit);
         let contrasts = contrasts(evidence, &icrs).into_iter();
@@ -100,8 +99,6 @@ impl Flexible {
         noise: &SegmentNoise,
         fitted: &[usize],
     ) -> Variances {
-        let settings = &evidence.settings().noise;
-        let step = settings.taken_difference;
         let count = evidence.samples().len();
         let ln_det = |noise: SegmentNoise| -> Option<f64> {
             let evidence = evidence.with_noise(noise);
@@ -116,18 +113,6 @@ impl Flexible {
             let all: Vec<usize> = (0..fitted.len()).collect();
             Some(normal.least_squares(&all)?.1)
         };
-        let here = variances_of(noise);
-        let stepped = (0..=COUNT).into_par_iter().map(|k| {
-            let mut there = here;
-            if k < COUNT {
-                there[k] += step;
-            }
-            ln_det(noise_of(&there, settings))
-        });
-        let stepped: Vec<Option<f64>> = stepped.collect();
-        Variances::from_fn(|k, _| match (stepped[COUNT], stepped[k]) {
-            (Some(here), Some(there)) => ((here - there) / step).max(0.0),
-            _ => 0.0,
-        })
+        evidence.settings().noise.search().taken(noise, ln_det)
     }
 }

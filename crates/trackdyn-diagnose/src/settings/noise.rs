@@ -1,6 +1,8 @@
 //! How noise is told from what driving could explain.
 
 use super::group::group;
+use trackdyn_estimate::likely_noise::Search;
+use trackdyn_estimate::variances::Climb;
 
 group! {
     /// How noise is told from what driving could explain.
@@ -45,6 +47,14 @@ group! {
         start_heading: f64 = 0.5, "", [1e-9, 1e3],
             "Less has no slope.",
             "Lower: no heading is found.";
+        /// Variance of the stamps to start from, as its share of the white one at the mean speed.
+        start_stamp: f64 = 0.3, "", [1e-6, 1e6],
+            "Less has no slope.",
+            "Lower: no error of the stamps is found.";
+        /// Gain of ln likelihood from which stamps have errors.
+        min_stamp_gain: f64 = 7.6, "", [0.0, 1e6],
+            "Chance: 1e-4.",
+            "Higher: jitter of stamps passes for waves of the ground.";
         /// Smallest walk, in the unit of start_walk.
         min_walk: f64 = 1e-5, "1/s", [0.0, 1.0],
             "Keeps the filter regular.";
@@ -66,5 +76,22 @@ group! {
         /// Difference step for what the fit took of the noise.
         taken_difference: f64 = 0.05, "", [1e-6, 0.5],
             "It is nearly linear.";
+    }
+}
+
+impl Noise {
+    /// How the most likely noise is looked for.
+    pub(crate) fn search(&self) -> Search {
+        let &Self { max_steps, min_gain, max_step, difference, .. } = self;
+        Search {
+            climb: Climb { max_steps, min_gain, max_step, difference },
+            tails: self.t_degrees,
+            start_walk: self.start_walk,
+            start_heading: self.start_heading,
+            start_stamp: self.start_stamp,
+            min_stamp_gain: self.min_stamp_gain,
+            taken_difference: self.taken_difference,
+            min_walk: self.min_walk,
+        }
     }
 }

@@ -132,22 +132,25 @@ fn a_jump_of_the_poses_stays_where_it_is() {
     }
 }
 
+/// With its scale unknown, a gyroscope says little of the distance of the ICRs that the total
+/// turning of the poses does not say. What it says must have an honest interval.
 #[test]
-fn the_distance_of_the_icrs_is_better_known() {
+fn the_interval_of_the_distance_holds_the_error_of_the_scale() {
     const DRIVES: u32 = 24;
-    let options = |yaw_scale: f64| Options { yaw_scale, ..Options::new(0.42) };
-    let (mut ratio, mut squares) = (0.0, 0.0);
+    let (mut ratio, mut squares, mut without) = (0.0, 0.0, 0.0);
     for seed in 0..DRIVES {
         let raw = with_readings(&synthetic(YAW_NOISE, 10 + u64::from(seed)), 0.002, 1.0);
         let (fused, found) = with_gyroscope(&raw, 0.0).expect("it serves");
-        let gap = |recording: &Recording, scale: f64| {
-            icrs_alone(recording, &options(scale)).expect("it turns").gap()
+        let gap = |recording: &Recording, yaw_scale: f64| {
+            let options = Options { yaw_scale, ..Options::new(0.42) };
+            icrs_alone(recording, &options).expect("it turns").gap()
         };
         let [before, after] = [gap(&raw, 0.0), gap(&fused, found.scale_deviation)];
         ratio += after.deviation / before.deviation / f64::from(DRIVES);
         squares += ((after.value - 0.832) / after.deviation).powi(2) / f64::from(DRIVES);
+        without += ((before.value - 0.832) / before.deviation).powi(2) / f64::from(DRIVES);
     }
-    assert!(ratio < 0.8, "standard errors with and without it: {ratio}");
+    assert!(ratio < 2.0, "standard errors with and without it: {ratio}");
     // A mean square of 24 normal deviates lies below 1.9 but once in a hundred times.
-    assert!(squares < 1.9, "mean square of errors over their deviations: {squares}");
+    assert!(squares < 1.9 && without < 1.9, "errors over deviations: {squares}, {without}");
 }

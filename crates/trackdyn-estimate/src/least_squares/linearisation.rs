@@ -101,6 +101,19 @@ impl Linearisation {
         Self { residuals, columns }
     }
 
+    /// Residuals and derivatives.
+    pub(super) fn into_parts(self) -> (Vec<Vector3<f64>>, Vec<Vec<Vector3<f64>>>) {
+        (self.residuals, self.columns)
+    }
+
+    /// Root mean square of the residuals, for the degrees of freedom that the unknowns leave.
+    pub(super) fn rms(&self, unknowns: &Unknowns) -> f64 {
+        let squares: f64 = self.residuals.iter().map(Vector3::norm_squared).sum();
+        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 residuals")]
+        let degrees = (3 * self.residuals.len() - unknowns.count()) as f64;
+        (squares / degrees).sqrt()
+    }
+
     pub(super) fn cost(&self, loss: Loss) -> f64 {
         self.residuals.iter().flat_map(Vector3::iter).map(|r| loss.value(*r)).sum()
     }
@@ -165,12 +178,10 @@ impl Linearisation {
                 (curvature, self.part(range, &weights).1)
             })
             .collect();
-        let squares: f64 = self.residuals.iter().map(Vector3::norm_squared).sum();
-        #[expect(clippy::cast_precision_loss, reason = "far fewer than 2^52 residuals")]
-        let degrees = (3 * self.residuals.len() - unknowns.count()) as f64;
+        let rms = self.rms(unknowns);
         let variance = match weighting {
             Weighting::Noise(_) => 1.0,
-            Weighting::Distance { .. } => squares / degrees,
+            Weighting::Distance { .. } => rms * rms,
         };
         Estimate {
             parameters: point.parameters,
@@ -181,7 +192,7 @@ impl Linearisation {
             blocks,
             filled_blocks: parts.len(),
             cost: self.cost(loss),
-            whitened_rms: (squares / degrees).sqrt(),
+            whitened_rms: rms,
             iterations,
         }
     }

@@ -1,7 +1,9 @@
 //! Triples of poses and the noise they show.
 
+use super::stamps::{Triple, stamps};
 use super::{Component, Method, PoseNoise};
 use crate::gaps::Gaps;
+use nalgebra::Vector3;
 use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median};
 use trackdyn_core::{PerSide, Pose, Side, real};
 use trackdyn_recording::hold::travelled;
@@ -29,30 +31,32 @@ const MAX_SPEED_CHANGE: f64 = 2.0;
 /// Triples of one number of steps.
 #[derive(Default)]
 struct Group {
-    /// e of forward, lateral and yaw.
-    distances: [Vec<f64>; 3],
-    /// Σ (1 + λ² + (1 − λ)²).
-    white: f64,
-    /// Σ T₁ T₂/(T₁ + T₂), s.
-    walk: f64,
+    triples: Vec<Triple>,
 }
 
 impl Group {
-    fn add(&mut self, [a, b, c]: [&PoseSample; 3]) {
+    fn add(&mut self, [a, b, c]: [&PoseSample; 3], is_clean: bool) {
         let (t_1, t_2) = (b.t - a.t, c.t - b.t);
-        let first = body_velocity(&a.pose.relative(&b.pose), t_1);
-        let second = body_velocity(&b.pose.relative(&c.pose), t_2);
+        let first = Vector3::from(body_velocity(&a.pose.relative(&b.pose), t_1));
+        let second = Vector3::from(body_velocity(&b.pose.relative(&c.pose), t_2));
         let lever = t_1 * t_2 / (t_1 + t_2);
         let lambda = t_1 / (t_1 + t_2);
-        for (distances, (v_1, v_2)) in self.distances.iter_mut().zip(first.iter().zip(second)) {
-            distances.push((v_2 - v_1) * lever);
-        }
-        self.white += 1.0 + lambda * lambda + (1.0 - lambda) * (1.0 - lambda);
-        self.walk += lever;
+        self.triples.push(Triple {
+            off: (second - first) * lever,
+            twist: first * lambda + second * (1.0 - lambda),
+            white: 1.0 + lambda * lambda + (1.0 - lambda) * (1.0 - lambda),
+            walk: lever,
+            is_clean,
+        });
     }
 
     fn count(&self) -> usize {
-        self.distances[0].len()
+        self.triples.len()
+    }
+
+    /// Sum of a number of each triple.
+    fn sum(&self, of: fn(&Triple) -> f64) -> f64 {
+        self.triples.iter().map(of).sum()
     }
 }
 
@@ -79,7 +83,7 @@ pub(super) fn standing(recording: &Recording) -> Option<PoseNoise> {
             gather(poses.get(first..after).unwrap_or_default(), &mut groups, |_| true);
         }
     }
-    figures(&groups, Method::StandStill)
+    figures(groups, Method::StandStill)
 }
 
 /// Pose noise while the speeds of both sides stay the same within their noise.
@@ -96,7 +100,7 @@ pub(super) fn moving(
             is_known(triple[0], triple[2]) && is_steady(run, triple, tau, deviation)
         });
     }
-    figures(&groups, Method::SteadyIncrements)
+    figures(groups, Method::SteadyIncrements)
 }
 
 /// Times of a run during which the robot stands.
@@ -147,21 +151,28 @@ fn gather(
     groups: &mut [Group; 4],
     accept: impl Fn([&PoseSample; 3]) -> bool,
 ) {
+    let at = |index: Option<usize>| index.and_then(|index| poses.get(index));
     for (group, steps) in groups.iter_mut().zip(STEPS) {
-        for triple in poses.windows(2 * steps + 1) {
+        for (index, triple) in poses.windows(2 * steps + 1).enumerate() {
             let triple = [&triple[0], &triple[steps], &triple[2 * steps]];
             let turn = |from: usize| triple[from + 1].pose.yaw - triple[from].pose.yaw;
             let is_small = turn(0).abs() <= MAX_TURN && turn(1).abs() <= MAX_TURN;
             if is_small && triple[2].t - triple[0].t <= MAX_DURATION && accept(triple) {
-                group.add(triple);
+                let around = (at(index.checked_sub(1)), at(Some(index + 2 * steps + 1)));
+                let is_amid = match around {
+                    (Some(before), Some(after)) => accept([before, triple[1], after]),
+                    _ => false,
+                };
+                // Triples overlap: about one in `steps` is independent of the others.
+                group.add(triple, is_amid && index.is_multiple_of(steps));
             }
         }
     }
 }
 
-fn figures(groups: &[Group; 4], method: Method) -> Option<PoseNoise> {
-    let triples = groups[0].count();
-    if triples < MIN_TRIPLES {
+fn figures(groups: [Group; 4], method: Method) -> Option<PoseNoise> {
+    let count = groups[0].count();
+    if count < MIN_TRIPLES {
         return None;
     }
     let component = |coordinate: usize| {
@@ -171,23 +182,19 @@ fn figures(groups: &[Group; 4], method: Method) -> Option<PoseNoise> {
                 continue;
             }
             let count = real(group.count());
-            let (white, walk) = (group.white / count, group.walk / count);
-            // Triples overlap: about one in `steps` is independent of the others.
+            let white = group.sum(|triple| triple.white) / count;
+            let walk = group.sum(|triple| triple.walk) / count;
             let independent = count / real(steps);
-            let mut squares: Vec<f64> =
-                group.distances[coordinate].iter().map(|distance| distance * distance).collect();
-            let variance = median(&mut squares)? / MEDIAN_OF_CHI_SQUARE;
+            let squares = group.triples.iter().map(|triple| triple.off[coordinate].powi(2));
+            let variance = median(&mut squares.collect::<Vec<_>>())? / MEDIAN_OF_CHI_SQUARE;
             rows.push(([white, walk], variance, independent));
         }
         Some(split(&rows))
     };
-    Some(PoseNoise {
-        forward: component(0)?,
-        lateral: component(1)?,
-        yaw: component(2)?,
-        triples,
-        method,
-    })
+    let plain = [component(0)?, component(1)?, component(2)?];
+    let triples: Vec<Triple> = groups.into_iter().flat_map(|group| group.triples).collect();
+    let ([forward, lateral, yaw], stamp) = stamps(&triples, plain).unwrap_or((plain, 0.0));
+    Some(PoseNoise { forward, lateral, yaw, stamp, triples: count, method })
 }
 
 /// R ≥ 0 and q ≥ 0 from variances = R white + q walk. A variance is known to a part of itself, so

@@ -44,6 +44,8 @@ struct NoiseTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     pose_yaw_rad: Option<Rounded>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pose_stamp_s: Option<Rounded>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     encoder_left_m_s: Option<Rounded>,
     #[serde(skip_serializing_if = "Option::is_none")]
     encoder_right_m_s: Option<Rounded>,
@@ -135,6 +137,7 @@ fn of_noise(found: &Identification) -> NoiseTable {
         pose_forward_m: poses.map(|poses| white(&poses.forward)),
         pose_lateral_m: poses.map(|poses| white(&poses.lateral)),
         pose_yaw_rad: poses.map(|poses| white(&poses.yaw)),
+        pose_stamp_s: poses.map(|poses| poses.stamp).filter(|stamp| *stamp > 0.0).map(Rounded),
         encoder_left_m_s: encoders.left,
         encoder_right_m_s: encoders.right,
     }

@@ -136,10 +136,14 @@ fn noise(text: &mut String, found: &Identification) {
     let _ = match poses {
         Some(poses) => writeln!(
             text,
-            "  noise      poses {:.1} mm forward, {:.1} mm aside, {:.2} mrad ({}, {})",
+            "  noise      poses {:.1} mm forward, {:.1} mm aside, {:.2} mrad{} ({}, {})",
             1e3 * poses.forward.white,
             1e3 * poses.lateral.white,
             1e3 * poses.yaw.white,
+            match poses.stamp {
+                0.0 => String::new(),
+                seconds => format!(", their stamps {:.0} ms", 1e3 * seconds),
+            },
             poses.triples,
             poses.method
         ),

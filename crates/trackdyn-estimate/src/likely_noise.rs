@@ -1,0 +1,246 @@
+//! The noise of segments that makes their residuals most likely.
+//!
+//! # Law
+//! White noise R of each pose, errors of its stamp, a random walk q within each segment, and a
+//! wandering heading ([`SegmentNoise`]): eight variances that maximise a restricted likelihood with
+//! heavy tails, so that outliers count little:
+//!
+//! maximise Σ ln det L⁻¹ − (ν + 3)/2 ln(1 + |z|²/ν) + ½ taken·ln variances,  z = L⁻¹ r,
+//!
+//! L the Cholesky factor of the covariance. The last term corrects for the degrees of freedom that
+//! a fit took from each variance. The level is then set by the median of |z|², that of a χ² with
+//! three degrees of freedom, corrected for the fit.
+//!
+//! # Sources
+//! Patterson, Thompson, Biometrika 58(3), 1971 (restricted likelihood);
+//! [`variances`](crate::variances) (steps and tails).
+
+use crate::variances::{Climb, heavy_tailed};
+use crate::weighting::{Seen, SegmentNoise, Weighting, Whitener};
+use nalgebra::{DMatrix, SVector, Vector3};
+use rayon::prelude::*;
+use trackdyn_core::real;
+use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, MEDIAN_OF_CHI_SQUARE_3, median};
+
+/// Number of variances: three of the pose, three of its walk, one of the heading, one of the
+/// stamps.
+pub const COUNT: usize = 8;
+
+/// Place of the variance of the stamps.
+const STAMP: usize = 7;
+
+/// Logarithm of a variance that is none.
+const NONE: f64 = -80.0;
+
+/// Logarithms of the variances.
+pub type Variances = SVector<f64, COUNT>;
+
+/// How the noise is looked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Search {
+    /// Steps of the logarithms.
+    pub climb: Climb,
+    /// Degrees of freedom of the tails.
+    pub tails: f64,
+    /// Walk variance per second to start from, as share of the white one, 1/s.
+    pub start_walk: f64,
+    /// Heading variance to start from, as share of the walk in yaw.
+    pub start_heading: f64,
+    /// Variance of the stamps to start from, as its share of the white one at the mean speed.
+    pub start_stamp: f64,
+    /// Gain of the log-likelihood from which stamps have errors.
+    pub min_stamp_gain: f64,
+    /// Difference of a logarithm for what a fit took of the noise.
+    pub taken_difference: f64,
+    /// Smallest walk variance per second, as share of the white one, 1/s.
+    pub min_walk: f64,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Self {
+            climb: Climb { max_steps: 20, min_gain: 0.05, max_step: 1.5, difference: 1e-3 },
+            tails: 5.0,
+            start_walk: 0.03,
+            start_heading: 0.5,
+            start_stamp: 0.3,
+            min_stamp_gain: 7.6,
+            taken_difference: 0.05,
+            min_walk: 1e-5,
+        }
+    }
+}
+
+impl Search {
+    /// Logarithms of the variances of a noise to start from. A negligible variance has no gradient,
+    /// neither in the likelihood nor in the correction, so a walk starts at a share of the white
+    /// noise at least.
+    fn start(&self, noise: &SegmentNoise) -> Variances {
+        let SegmentNoise { pose, mut walk, heading, .. } = *noise;
+        for (walk, pose) in walk.iter_mut().zip(pose) {
+            *walk = walk.max(self.start_walk * pose);
+        }
+        let heading = heading.max(self.start_heading * walk[2]);
+        variances_of(&SegmentNoise { pose, walk, heading, ..*noise })
+    }
+
+    /// A noise from which the search can start.
+    pub fn regular(&self, noise: &SegmentNoise) -> SegmentNoise {
+        self.noise_of(&self.start(noise))
+    }
+
+    /// The noise with these logarithms of its variances.
+    pub fn noise_of(&self, variances: &Variances) -> SegmentNoise {
+        let pose = std::array::from_fn(|k| variances[k].exp());
+        let walk = std::array::from_fn(|k| variances[3 + k].exp().max(self.min_walk * pose[k]));
+        let stamp = if variances[STAMP] > NONE { variances[STAMP].exp() } else { 0.0 };
+        SegmentNoise { pose, walk, heading: variances[6].exp(), stamp }
+    }
+
+    /// Degrees of freedom that a fit of columns X takes from each variance v of a noise, −d ln
+    /// det(Xᵀ V⁻¹ X)/d ln v, from that ln det by the noise; zero where there is none.
+    pub fn taken(
+        &self,
+        noise: &SegmentNoise,
+        ln_det: impl Fn(SegmentNoise) -> Option<f64> + Sync,
+    ) -> Variances {
+        let here = variances_of(noise);
+        let stepped = (0..=COUNT).into_par_iter().map(|k| {
+            let mut there = here;
+            if k < COUNT {
+                there[k] += self.taken_difference;
+            }
+            ln_det(self.noise_of(&there))
+        });
+        let stepped: Vec<Option<f64>> = stepped.collect();
+        Variances::from_fn(|k, _| match (stepped[COUNT], stepped[k]) {
+            (Some(here), Some(there)) => ((here - there) / self.taken_difference).max(0.0),
+            _ => 0.0,
+        })
+    }
+
+    /// Most likely noise of the residuals of these motions, starting from `measured`. `taken` are
+    /// the degrees of freedom that a fit took from each variance.
+    ///
+    /// A negligible variance has no gradient in its logarithm and would stay. So the search starts
+    /// twice: from the measured noise, and from white noise alone.
+    pub fn most_likely(
+        &self,
+        motions: &[Seen],
+        residual: &[Vector3<f64>],
+        measured: SegmentNoise,
+        taken: &Variances,
+    ) -> SegmentNoise {
+        let likelihood = Likelihood { by: self, motions, residual };
+        let climb = |start: Variances| self.climb.from(start, taken, |at| likelihood.terms(at));
+        let [first, second] = [measured, likelihood.white_alone()].map(|noise| {
+            let mut here = self.start(&noise);
+            here[STAMP] = NONE;
+            climb(here)
+        });
+        let without = if second.1 > first.1 + self.climb.min_gain { second } else { first };
+        // Errors of the stamps, where the likelihood asks for them clearly.
+        let with = climb(likelihood.with_stamps(without.0, measured.stamp));
+        let (here, _) = if with.1 > without.1 + self.min_stamp_gain { with } else { without };
+        let noise = self.noise_of(&here);
+        let (_, white) = likelihood.white(&noise);
+        let squares = white.iter().map(Vector3::norm_squared);
+        let mut squares: Vec<f64> = squares.filter(|square| *square > 0.0).collect();
+        let numbers = 3.0 * real(squares.len());
+        let free = (numbers - taken.sum()).max(1.0);
+        let level = median(&mut squares)
+            .map_or(1.0, |median| median / MEDIAN_OF_CHI_SQUARE_3 * numbers / free);
+        SegmentNoise {
+            pose: noise.pose.map(|v| v * level),
+            walk: noise.walk.map(|v| v * level),
+            heading: noise.heading * level,
+            stamp: noise.stamp * level,
+        }
+    }
+}
+
+/// Logarithms of the variances of a noise.
+pub fn variances_of(noise: &SegmentNoise) -> Variances {
+    let SegmentNoise { pose, walk, heading, stamp } = noise;
+    let all = pose.iter().chain(walk).chain([heading, stamp]);
+    let logarithms = all.map(|variance| variance.max(f64::MIN_POSITIVE).ln());
+    Variances::from_iterator(logarithms)
+}
+
+/// Mean square of the twist at the last poses of motions: forward ((m/s)²), left ((m/s)²), yaw
+/// ((rad/s)²).
+pub fn mean_squares(motions: &[Seen]) -> [f64; 3] {
+    let square =
+        |axis: usize| -> f64 { motions.iter().map(|motion| motion.twists[1][(axis, axis)]).sum() };
+    [0, 1, 2].map(|axis| square(axis) / real(motions.len().max(1)))
+}
+
+/// ln det(Xᵀ V⁻¹ X) of a few columns; none where they are not independent.
+pub fn ln_det(motions: &[Seen], columns: &[Vec<Vector3<f64>>], noise: SegmentNoise) -> Option<f64> {
+    let whitener = Whitener::of_motions(&Weighting::Noise(noise), motions.iter().copied());
+    let white = |column: &Vec<Vector3<f64>>| {
+        let mut column = without_lost(column, motions);
+        whitener.whiten(&mut column);
+        column
+    };
+    let white: Vec<_> = columns.iter().map(white).collect();
+    let product =
+        |a: usize, b: usize| -> f64 { white[a].iter().zip(&white[b]).map(|(a, b)| a.dot(b)).sum() };
+    let factor = DMatrix::from_fn(white.len(), white.len(), product).cholesky()?;
+    Some(2.0 * factor.l_dirty().diagonal().map(f64::ln).sum())
+}
+
+/// A column with zeros where motions are lost.
+fn without_lost(column: &[Vector3<f64>], motions: &[Seen]) -> Vec<Vector3<f64>> {
+    let values = column.iter().zip(motions);
+    values.map(|(v, motion)| if motion.is_lost { Vector3::zeros() } else { *v }).collect()
+}
+
+/// Likelihood of the noise of residuals.
+struct Likelihood<'a> {
+    by: &'a Search,
+    motions: &'a [Seen],
+    residual: &'a [Vector3<f64>],
+}
+
+impl Likelihood<'_> {
+    /// White pose noise that would explain all residuals: two poses meet in a segment.
+    fn white_alone(&self) -> SegmentNoise {
+        let pose = [0, 1, 2].map(|axis| {
+            let squares = self.residual.iter().map(|residual| residual[axis].powi(2));
+            let median = median(&mut squares.collect::<Vec<_>>()).unwrap_or_default();
+            (median / MEDIAN_OF_CHI_SQUARE / 2.0).max(f64::MIN_POSITIVE)
+        });
+        SegmentNoise { pose, walk: [0.0; 3], heading: 0.0, stamp: 0.0 }
+    }
+
+    /// Where to start with errors of the stamps, from a maximum without: at `stamp` (s²), or where
+    /// they would be a share of the white noise forward.
+    fn with_stamps(&self, mut here: Variances, stamp: f64) -> Variances {
+        let [forward, ..] = mean_squares(self.motions);
+        let share = self.by.start_stamp * here[0].exp() / forward.max(f64::MIN_POSITIVE);
+        here[STAMP] = if stamp > 0.0 { stamp } else { share }.max(f64::MIN_POSITIVE).ln();
+        here
+    }
+
+    fn white(&self, noise: &SegmentNoise) -> (Whitener, Vec<Vector3<f64>>) {
+        let motions = self.motions.iter().copied();
+        let whitener = Whitener::of_motions(&Weighting::Noise(*noise), motions);
+        let mut white = without_lost(self.residual, self.motions);
+        whitener.whiten(&mut white);
+        (whitener, white)
+    }
+
+    /// Log-likelihood of each segment.
+    fn terms(&self, variances: &Variances) -> Vec<f64> {
+        let (whitener, white) = self.white(&self.by.noise_of(variances));
+        let segments = self.motions.iter().zip(white).zip(whitener.ln_determinants());
+        segments
+            .map(|((motion, z), ln_determinant)| {
+                let is_nothing = motion.is_lost || z == Vector3::zeros();
+                let likelihood = || heavy_tailed(ln_determinant, z.norm_squared(), self.by.tails);
+                if is_nothing { 0.0 } else { likelihood() }
+            })
+            .collect()
+    }
+}

@@ -7,7 +7,7 @@
 mod between;
 mod places;
 
-use crate::evidence::{Evidence, Origin};
+use crate::evidence::Evidence;
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral};
 use crate::mechanics::{Instruments, Mechanics, feels_inertia, is_instrument};
 use crate::prior::area;
@@ -132,15 +132,14 @@ pub fn candidates(instruments: &[EffectId], evidence: &Evidence) -> Vec<Variant>
         .collect()
 }
 
-/// Variants of an effect tried on this evidence: none for effects of place or direction in tables
-/// of steady motion.
+/// Variants of an effect tried on this evidence: none for effects of place or direction where there
+/// is no common world.
 pub fn variants(effect: EffectId, evidence: &Evidence) -> Vec<Variant> {
     let card = effect.card();
     let parameters = card.parameters;
     let of_the_world =
         |parameter: &Parameter| matches!(parameter.role, Role::Place { .. } | Role::Direction);
-    let has_world = matches!(evidence.origin(), Origin::Drive(_));
-    if !has_world && parameters.iter().any(of_the_world) {
+    if !evidence.has_world() && parameters.iter().any(of_the_world) {
         return Vec::new();
     }
     let mut all = vec![Vec::new()];

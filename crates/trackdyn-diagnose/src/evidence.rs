@@ -79,6 +79,8 @@ pub struct Evidence {
     /// Number of each run in the recording.
     runs: Vec<i64>,
     tau: f64,
+    /// Whether places and headings are those of one world.
+    has_world: bool,
     origin: Origin,
     description: String,
     settings: Arc<Settings>,
@@ -113,6 +115,12 @@ impl Evidence {
     /// Clock offset of the poses against the encoders, estimated from the recording, s.
     pub fn tau(&self) -> f64 {
         self.tau
+    }
+
+    /// Whether its samples have places and headings in one world: a table has none, and runs with a
+    /// frame each share none.
+    pub fn has_world(&self) -> bool {
+        self.has_world
     }
 
     /// Kind of its samples: segments of a drive, or points of steady motion.

@@ -59,9 +59,9 @@ pub fn read_by(folder: &Path, options: &TableOptions) -> Result<Recording, Error
         Source { format: Format::Folder, path: Some(folder.to_owned()), ..Source::computed() };
     let mut runs: Vec<UncheckedRun> = runs.into_values().collect();
     options.apply(folder, &mut runs)?;
-    let Manifest { name, robot, noise } = manifest;
+    let Manifest { name, robot, noise, pose_frame } = manifest;
     Recording::accepting(name, robot, runs, source, Vec::new(), &options.accepted)
-        .map(|recording| recording.with_stated_noise(noise))
+        .map(|recording| recording.with_stated_noise(noise).with_pose_frame(pose_frame))
 }
 
 /// The CSV file of a table, or the Parquet file where only that is there.

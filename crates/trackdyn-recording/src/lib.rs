@@ -34,7 +34,9 @@ pub use doubt::{Axes, Doubt, DoubtKind};
 pub use error::Error;
 pub use format::read;
 pub use operating_points::{OperatingPoint, OperatingPoints};
-pub use recording::{BagNames, Format, Recording, Run, Source, StatedNoise, UncheckedRun, Warning};
+pub use recording::{
+    BagNames, Format, PoseFrame, Recording, Run, Source, StatedNoise, UncheckedRun, Warning,
+};
 pub use sample::{ImuSample, PoseSample, Series, TrackSample};
 pub use selection::RunList;
 pub use table_options::TableOptions;

@@ -41,10 +41,21 @@ pub struct Recording {
     robot: String,
     runs: Vec<Run>,
     stated_noise: Option<StatedNoise>,
+    pose_frame: Option<PoseFrame>,
     source: Source,
     warnings: Vec<Warning>,
     fingerprint: String,
     pose_fingerprint: String,
+}
+
+/// Which frame the poses of a recording stand in, as its maker states it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PoseFrame {
+    /// One frame for all runs: a place is the same place in each.
+    World,
+    /// A frame of its own for each run, as of an odometry that begins anew.
+    Run,
 }
 
 /// Pose noise as the maker of the recording states it.
@@ -156,6 +167,7 @@ impl Recording {
             robot: robot.into(),
             runs: kept,
             stated_noise: None,
+            pose_frame: None,
             source,
             warnings,
             fingerprint,
@@ -166,6 +178,12 @@ impl Recording {
     /// This recording with a statement of its pose noise.
     pub fn with_stated_noise(mut self, noise: Option<StatedNoise>) -> Self {
         self.stated_noise = noise;
+        self
+    }
+
+    /// This recording with a statement of the frame of its poses.
+    pub fn with_pose_frame(mut self, frame: Option<PoseFrame>) -> Self {
+        self.pose_frame = frame;
         self
     }
 
@@ -198,6 +216,11 @@ impl Recording {
     /// Pose noise as its maker states it.
     pub fn stated_noise(&self) -> Option<StatedNoise> {
         self.stated_noise
+    }
+
+    /// The frame of its poses as its maker states it.
+    pub fn pose_frame(&self) -> Option<PoseFrame> {
+        self.pose_frame
     }
 
     /// Where it comes from.

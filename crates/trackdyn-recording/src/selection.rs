@@ -105,8 +105,9 @@ impl Recording {
         let runs = recordings.iter().flat_map(Self::runs).zip(0..);
         let runs = runs.map(|(run, id)| UncheckedRun { id, ..run.clone().into_rows() }).collect();
         let noise = recordings.iter().find_map(Self::stated_noise);
+        let frame = recordings.iter().find_map(Self::pose_frame);
         let joined = Self::new(names.join(" + "), robot, runs, Source::computed(), Vec::new())?;
-        Ok(joined.with_stated_noise(noise))
+        Ok(joined.with_stated_noise(noise).with_pose_frame(frame))
     }
 
     /// The recording of a time only, s from the first reading of each run; runs without readings or

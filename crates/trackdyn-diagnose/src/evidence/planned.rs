@@ -47,6 +47,7 @@ impl Evidence {
             blocks,
             runs: (0..).take(runs.len()).collect(),
             tau,
+            has_world: true,
             origin: Origin::Drive(noise),
             description: format!("{blocks} planned manoeuvres"),
             settings: Arc::new(settings.clone()),

@@ -8,6 +8,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_estimate::blocks::Blocks;
+use trackdyn_estimate::frames::share_a_frame;
 use trackdyn_estimate::noise::{Noise, noise};
 use trackdyn_estimate::observations::{Observation, Observations, Piece};
 use trackdyn_estimate::regular::with_regular_poses;
@@ -17,6 +18,10 @@ use trackdyn_estimate::thinned::with_readings_every;
 use trackdyn_estimate::weighting::{MIN_POSE_NOISE, SegmentNoise};
 use trackdyn_estimate::{Clock, SegmentOptions};
 use trackdyn_recording::{Recording, Run, TrackSample};
+
+/// What is said where each run has a frame of its own.
+const NO_WORLD: &str = "; each run has a frame of its own, so nothing is looked for that needs a \
+                        place or a heading in the world";
 
 impl Evidence {
     /// The segments of a recording, with noise measured on the recording without a model: the
@@ -44,6 +49,7 @@ impl Evidence {
             spin_test(&observations, gauge).map_or(by.gap_without_spins * gauge, |spin| spin.gap);
         let noise = noise_of_segments(&recording, &measured, &observations, gap, gauge)?;
         let blocks = observations.blocks();
+        let has_world = share_a_frame(&recording);
         let begin = begin(&recording);
         let samples = samples(&recording, &observations, &blocks, begin);
         Ok(Self {
@@ -52,10 +58,12 @@ impl Evidence {
             blocks: blocks.count(),
             runs: recording.runs().iter().map(Run::id).collect(),
             tau,
+            has_world,
             origin: Origin::Drive(noise),
             description: format!(
-                "{}; noise measured on what driving cannot explain",
-                blocks.description()
+                "{}; noise measured on what driving cannot explain{}",
+                blocks.description(),
+                if has_world { "" } else { NO_WORLD }
             ),
             settings: Arc::new(settings.clone()),
         })
@@ -170,9 +178,8 @@ fn with_quieter_poses(recording: &Recording, tau: f64) -> (Cow<'_, Recording>, N
     let as_due = noise(&due, tau);
     // log of the product of the white-noise standard deviations
     let level = |noise: &Noise| -> Option<f64> {
-        let poses = noise.moving.as_ref()?;
-        let axes = [poses.forward, poses.lateral, poses.yaw];
-        Some(axes.iter().map(|axis| axis.white.max(MIN_POSE_NOISE).ln()).sum())
+        let axes = noise.moving.as_ref()?.of_pose;
+        Some(axes.iter().map(|white| white.max(MIN_POSE_NOISE).ln()).sum())
     };
     match (level(&as_stamped), level(&as_due)) {
         (Some(stamped), Some(level)) if level < stamped => (Cow::Owned(due), as_due),

@@ -68,8 +68,11 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Contrasts> {
     if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
         return collector.all;
     }
-    collector.of_heading();
-    collector.of_place_and_time();
+    if evidence.has_world() {
+        collector.of_heading();
+        collector.of_place();
+    }
+    collector.of_time();
     collector.of_changes_of_speed(fastest);
     collector.of_turning_round(&turned(evidence));
     let mut all = collector.all;
@@ -152,10 +155,9 @@ impl Collector<'_> {
         }
     }
 
-    fn of_place_and_time(&mut self) {
+    fn of_place(&mut self) {
         let x = scaled(self.samples, |s: &Sample| s.pose.x);
         let y = scaled(self.samples, |s: &Sample| s.pose.y);
-        let time = scaled(self.samples, |s: &Sample| s.start);
         for of in self.moved {
             self.add(Symmetry::Place, of, &x);
             self.add(Symmetry::Place, of, &y);
@@ -163,6 +165,10 @@ impl Collector<'_> {
             self.add(Symmetry::Place, of, |s| x(s).powi(2) - 0.3);
             self.add(Symmetry::Place, of, |s| y(s).powi(2) - 0.3);
         }
+    }
+
+    fn of_time(&mut self) {
+        let time = scaled(self.samples, |s: &Sample| s.start);
         for of in self.moved {
             self.add(Symmetry::Time, of, &time);
             self.add(Symmetry::Time, of, |s| time(s).powi(2) - 0.3);
@@ -263,7 +269,7 @@ pub(super) mod tests {
         };
         let tracks: Vec<TrackSample> = (0..).zip(speeds.chain([last])).map(reading).collect();
         let run = || PlannedRun { pose: Pose::default(), tracks: tracks.clone(), blocks: vec![0] };
-        let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3], heading: 0.0 };
+        let noise = SegmentNoise { pose: [1e-6; 3], walk: [1e-6; 3], heading: 0.0, stamp: 0.0 };
         Evidence::planned(&[run(), run()], noise, 0.0, &Settings::default(), |evidence| {
             vec![Vector3::zeros(); evidence.samples().len()]
         })

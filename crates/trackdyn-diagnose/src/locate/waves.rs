@@ -12,7 +12,7 @@
 
 use super::IcrColumns;
 use super::departures::middle_half_y;
-use crate::evidence::{Evidence, Origin, Sample};
+use crate::evidence::{Evidence, Sample};
 use crate::resampling::Resampling;
 use crate::settings;
 use crate::significance::{Group, Test, test_family};
@@ -38,7 +38,6 @@ pub struct Wave {
 /// The most significant wave in a residual, beside other columns that may explain it; none in
 /// tables of steady motion.
 ///
-/// `residual` and `beside` are whitened, `icrs` is not.
 /// `residual` and the columns `beside` are whitened, `icrs` are not.
 pub fn strongest_wave(
     evidence: &Weighted,
@@ -47,7 +46,7 @@ pub fn strongest_wave(
     icrs: &IcrColumns,
     resampling: Resampling,
 ) -> Option<Wave> {
-    if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
+    if !evidence.has_world() {
         return None;
     }
     let numbers = numbers(evidence);

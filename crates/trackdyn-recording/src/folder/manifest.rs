@@ -1,7 +1,7 @@
 //! `recording.toml`, schema `trackdyn.recording/1`.
 
 use crate::Error;
-use crate::recording::StatedNoise;
+use crate::recording::{PoseFrame, StatedNoise};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use toml::Spanned;
@@ -15,6 +15,7 @@ pub(super) struct Manifest {
     pub(super) name: String,
     pub(super) robot: String,
     pub(super) noise: Option<StatedNoise>,
+    pub(super) pose_frame: Option<PoseFrame>,
 }
 
 #[derive(Deserialize, Serialize)]
@@ -24,6 +25,8 @@ struct Keys {
     name: String,
     robot: String,
     frame: Spanned<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pose_frame: Option<PoseFrame>,
     #[serde(skip_serializing_if = "Option::is_none")]
     noise: Option<Spanned<StatedNoise>>,
 }
@@ -44,7 +47,7 @@ impl Manifest {
             }
         }
         let noise = keys.noise.map(Spanned::into_inner);
-        Ok(Self { name: keys.name, robot: keys.robot, noise })
+        Ok(Self { name: keys.name, robot: keys.robot, noise, pose_frame: keys.pose_frame })
     }
 
     pub(super) fn to_toml(&self) -> String {
@@ -54,6 +57,7 @@ impl Manifest {
             name: self.name.clone(),
             robot: self.robot.clone(),
             frame: unplaced(FRAME),
+            pose_frame: self.pose_frame,
             noise: self.noise.map(|noise| Spanned::new(0..0, noise)),
         };
         toml::to_string(&keys).expect("numbers, texts and tables are TOML")

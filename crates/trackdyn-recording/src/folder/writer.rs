@@ -39,6 +39,7 @@ pub fn write(recording: &Recording, folder: &Path) -> Result<(), Error> {
         name: recording.name().to_owned(),
         robot: recording.robot().to_owned(),
         noise: recording.stated_noise(),
+        pose_frame: recording.pose_frame(),
     };
     output::write_file(&file(MANIFEST), manifest.to_toml().as_bytes())?;
     Ok(())

@@ -103,6 +103,26 @@ fn nothing_is_named_where_nothing_is_concealed() {
     assert!(file.contains("[detectable.centripetal]"), "{file}");
 }
 
+/// A robot on ice: all inertia is felt eight times as strongly as by the friction of the file. It is
+/// neither a clock nor a lag.
+#[test]
+fn a_slide_is_inertia_and_no_clock() {
+    let concealed = ["yaw-inertia:strength=8", "centripetal:strength=8"];
+    let found = diagnosis(&concealed);
+    let [inertia, centripetal] = ["yaw-inertia", "centripetal"].map(|id| BTreeSet::from([id]));
+    let named = physics(&found);
+    assert!(named.contains(&inertia) && named.contains(&centripetal), "{named:?}");
+    let [friction, ..] = found.friction_by_inertia().expect("it slides farther than the file says");
+    assert!((friction * 8.0).ln().abs() < 0.3, "{friction}");
+    let delay = found.models.best.hypothesis.effects.iter().fold(0.0, |sum, effect| {
+        let alone = std::iter::once(effect.clone()).collect();
+        let vehicle = found.models.best.hypothesis.vehicle.clone();
+        sum + trackdyn_model::Model::new(vehicle, alone).sensor().delay
+    });
+    let offset = sensors(Preset::Laboratory).clock_offset();
+    assert!((delay - offset).abs() < 0.05, "{delay} s, not {offset}");
+}
+
 #[test]
 fn a_high_centre_of_gravity_is_named() {
     is_named("load-transfer:cog_height_m=0.2");

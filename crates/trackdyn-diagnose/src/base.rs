@@ -111,6 +111,20 @@ fn with_clock(hypothesis: &Hypothesis, evidence: &Weighted) -> Hypothesis {
     hypothesis.clone()
 }
 
+/// The hypothesis with none of the delay of poses that the vehicle file does not have.
+pub fn without_clock(hypothesis: &Hypothesis, filed: &Hypothesis) -> Hypothesis {
+    let delays = |effect: &ActiveEffect| {
+        let alone: Effects = std::iter::once(effect.clone()).collect();
+        Model::new(hypothesis.vehicle.clone(), alone).sensor().delay != 0.0
+    };
+    let late = hypothesis.effects.iter().filter(|effect| delays(effect));
+    let added = late.map(ActiveEffect::effect).filter(|effect| filed.effect(*effect).is_none());
+    added.collect::<Vec<_>>().into_iter().fold(hypothesis.clone(), |hypothesis, effect| {
+        let values: Vec<f64> = effect.card().parameters.iter().map(neutral).collect();
+        hypothesis.with_effect(active(effect, &values))
+    })
+}
+
 /// Instrument effects that this evidence separates from each other and from constant ICRs, in
 /// catalogue order.
 fn free_instruments(

@@ -21,12 +21,12 @@ use crate::locate::cells::Cell;
 use crate::proposal::Proposal;
 use crate::resampling::Resampling;
 use crate::search::Found;
-use crate::uncertainty::Level;
+use crate::uncertainty::{Interval, Level};
 use crate::verdict::Verdict;
 use crate::weighted::Weighted;
 use std::sync::Arc;
 use trackdyn_model::VehicleFile;
-use trackdyn_model::effect::Symmetry;
+use trackdyn_model::effect::{Card, Parameter, Role, Symmetry};
 
 /// Options of a diagnosis.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -129,6 +129,23 @@ impl Diagnosis {
     /// filed.
     pub fn blames_instruments(&self) -> bool {
         blame_instruments(&self.answer.missing)
+    }
+
+    /// Factor of the vehicle file's friction that inertia shows, and its 95 % interval; none where
+    /// no inertial effect is claimed alone, or its strength may be that of the file.
+    ///
+    /// Inertia is felt in units of friction: k m over μ is m over μ/k.
+    pub fn friction_by_inertia(&self) -> Option<[f64; 3]> {
+        let alone = self.answer.missing.iter().filter(|missing| missing.verdict.one_of.len() == 1);
+        let sizes = alone.flat_map(|missing| &missing.parameters).filter(|size| {
+            let is_inertia = size.unknown.card().is_some_and(Card::is_inertia);
+            let is_size = |parameter: &Parameter| matches!(parameter.role, Role::Size { .. });
+            is_inertia && size.unknown.parameter().is_some_and(is_size)
+        });
+        let width = |size: &&Interval| (size.high - size.low) / size.value;
+        let size = sizes.min_by(|a, b| width(a).total_cmp(&width(b)))?;
+        let is_other = size.low > 1.0 || size.high < 1.0;
+        is_other.then(|| [size.value, size.high, size.low].map(f64::recip))
     }
 
     /// A sentence where held-out runs contradict the claims; none where the corrected model

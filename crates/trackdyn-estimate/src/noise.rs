@@ -51,6 +51,9 @@ pub struct PoseNoise {
     pub yaw: Component,
     /// Standard deviation of the error of each pose's stamp, s; zero where none shows.
     pub stamp: f64,
+    /// Standard deviation of each pose by white noise and stamps together: forward (m), left (m),
+    /// yaw (rad).
+    pub of_pose: [f64; 3],
     /// Triples of neighbouring poses (n = 1) behind the figures.
     pub triples: usize,
     /// How the figures were found.

@@ -1,7 +1,7 @@
 //! Noise figures of synthetic recordings.
 
 use trackdyn_core::PerSide;
-use trackdyn_estimate::noise::{Method, noise};
+use trackdyn_estimate::noise::{Method, PoseNoise, noise};
 use trackdyn_estimate::regular::with_regular_poses;
 use trackdyn_estimate::synthetic::{Stretch, Synthetic, random_steps};
 use trackdyn_recording::{Recording, Source};
@@ -156,10 +156,14 @@ fn poses_that_are_stamped_late_by_chance_are_quiet_at_the_times_they_were_due() 
     });
     let late = Recording::new("late", "synthetic", late.collect(), Source::computed(), Vec::new());
     let late = late.expect("long enough");
-    let yaw = |recording: &Recording| {
-        noise(recording, 0.2).moving.expect("six seconds of steady driving").yaw.white
+    let found = |recording: &Recording| {
+        noise(recording, 0.2).moving.expect("six seconds of steady driving")
     };
-    let [even, due, late] = [yaw(&even), yaw(&with_regular_poses(&late)), yaw(&late)];
-    assert!(late > 1.5 * even, "{late} rad of {even}");
-    assert!(due < 1.15 * even, "{due} rad of {even}");
+    let [even, due, late] = [found(&even), found(&with_regular_poses(&late)), found(&late)];
+    let yaw = |noise: &PoseNoise| noise.of_pose[2];
+    assert!(yaw(&late) > 1.5 * yaw(&even), "{late:?} of {even:?}");
+    assert!(yaw(&due) < 1.15 * yaw(&even), "{due:?} of {even:?}");
+    // The errors of the stamps are told from the noise of the poses.
+    assert!((late.stamp / 0.0101).ln().abs() < 0.3 && even.stamp == 0.0, "{late:?}");
+    assert!(late.yaw.white < 1.15 * yaw(&even), "{late:?} of {even:?}");
 }

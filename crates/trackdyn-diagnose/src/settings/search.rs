@@ -61,6 +61,10 @@ group! {
         max_rise_of_nested: f64 = 0.1, "", [0.0, 100.0],
             "Rounding, and the end of a descent.",
             "Higher: effects are lost in worse minima.";
+        /// Mass over friction, against the vehicle file's, at which Newton's law is tried.
+        newton_levels: [f64; 4] = [0.3, 1.0, 3.0, 9.0], "", [1e-3, 10.0],
+            "Two decades.",
+            "A robot on ice keeps a late clock.";
         /// Offset of an ICR that the vehicle need not take over.
         max_offset: f64 = 5e-3, "gauge", [1e-6, 1.0],
             "It is hardly noticed.",

@@ -194,7 +194,8 @@ fn figures(groups: [Group; 4], method: Method) -> Option<PoseNoise> {
     let plain = [component(0)?, component(1)?, component(2)?];
     let triples: Vec<Triple> = groups.into_iter().flat_map(|group| group.triples).collect();
     let ([forward, lateral, yaw], stamp) = stamps(&triples, plain).unwrap_or((plain, 0.0));
-    Some(PoseNoise { forward, lateral, yaw, stamp, triples: count, method })
+    let of_pose = plain.map(|component| component.white);
+    Some(PoseNoise { forward, lateral, yaw, stamp, of_pose, triples: count, method })
 }
 
 /// R ≥ 0 and q ≥ 0 from variances = R white + q walk. A variance is known to a part of itself, so

@@ -54,6 +54,9 @@ pub fn text(diagnosis: &Diagnosis) -> String {
     if let Some(level) = diagnosis.models.friction_level.filter(|level| level.is_sure) {
         text += &wrapped("friction ", &friction(level));
     }
+    if let Some(factors) = diagnosis.friction_by_inertia() {
+        text += &wrapped("friction ", &as_on(factors));
+    }
     for verdict in &diagnosis.answer.refused {
         let id = verdict.effect.name();
         let why = verdict.refused.as_ref().map_or_else(String::new, Refusal::to_string);
@@ -105,6 +108,13 @@ fn friction(Level { value, half, .. }: Level) -> String {
     format!(
         "both coefficients times {factor:.2} [{low:.2}, {high:.2}]: steady turns do not tell, but \
          mass slides that far"
+    )
+}
+
+fn as_on([factor, low, high]: [f64; 3]) -> String {
+    format!(
+        "it slides as on {factor:.3} [{low:.3}, {high:.3}] times the friction of the vehicle file: \
+         inertia is felt in units of friction"
     )
 }
 

@@ -1,0 +1,40 @@
+"""Builds the wheel: the program `trackdyn` first, which goes into it as a script, then maturin.
+
+The program starts itself again for trials, and has signals and exit states of its own; so it lies
+in the wheel as it is, and no Python stands between it and its user.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import maturin
+from maturin import *  # noqa: F403
+
+HERE = Path(__file__).resolve().parent
+
+
+def put_program() -> None:
+    """Compile the program, and all that the extension shares with it, and put it where maturin looks."""
+    command = ["cargo", "build", "--release", "--package", "trackdyn-cli", "--package", "trackdyn-py"]
+    print("$", " ".join(command), file=sys.stderr, flush=True)
+    subprocess.run(command, cwd=HERE, check=True)
+    target = Path(os.environ.get("CARGO_TARGET_DIR") or HERE.parent.parent / "target")
+    name = "trackdyn.exe" if os.name == "nt" else "trackdyn"
+    scripts = HERE / "trackdyn.data" / "scripts"
+    scripts.mkdir(parents=True, exist_ok=True)
+    shutil.copy2(target / "release" / name, scripts / name)
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    """Hook of PEP 517."""
+    put_program()
+    return maturin.build_wheel(wheel_directory, config_settings, metadata_directory)
+
+
+def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
+    """Hook of PEP 660."""
+    put_program()
+    return maturin.build_editable(wheel_directory, config_settings, metadata_directory)

@@ -17,8 +17,12 @@ HERE = Path(__file__).resolve().parent
 
 
 def put_program() -> None:
-    """Compile the program, and all that the extension shares with it, and put it where maturin looks."""
-    command = ["cargo", "build", "--release", "--package", "trackdyn-cli", "--package", "trackdyn-py"]
+    """Compile the program, with the features that the extension needs, and put it into the wheel.
+
+    So program and extension share all crates, and those that the tests compiled.
+    """
+    packages = ["--package", "trackdyn-cli", "--package", "trackdyn-py"]
+    command = ["cargo", "build", "--release", *packages, "--bin", "trackdyn"]
     print("$", " ".join(command), file=sys.stderr, flush=True)
     subprocess.run(command, cwd=HERE, check=True)
     target = Path(os.environ.get("CARGO_TARGET_DIR") or HERE.parent.parent / "target")

@@ -47,3 +47,12 @@ def test_the_shape_of_speeds_is_checked(robot, recording):
         fitted.predict(np.zeros((4, 3)))
     assert fitted.predict(0.1, [0.1, 0.2]).shape == (2, 3)
     assert fitted.predict(0.1, 0.2).shape == (3,)
+
+
+def test_what_contradicts_a_fit_withholds_it_unless_forced(recording):
+    """A gauge of 2 m, and ICRs that are 0.83 m apart."""
+    with pytest.raises(td.NotDeterminedError, match="gauge"):
+        td.IcrKinematics(2.0).fit(recording)
+    with pytest.warns(td.Warning, match="gauge"):
+        forced = td.IcrKinematics(2.0, force=True).fit(recording)
+    assert forced.parameters_.is_doubtful and forced.contradictions_

@@ -33,8 +33,26 @@ def draw(panel: dict[str, Any], ax: Axes | None) -> Axes:
     ax.set_xlim(panel["x"]["range"])
     ax.set_ylim(panel["y"]["range"])
     for label in panel["labels"]:
-        ax.annotate(label["text"], label["at"], ha="center", va="center", fontsize="small")
+        _label(ax, label)
     return ax
+
+
+def _label(ax: Any, label: dict[str, Any]) -> None:
+    across, up = label["style"]["anchor"]
+    # sheets are drawn at about 200 pixels per inch, downwards
+    right, down = (0.36 * pixels for pixels in label["shift"])
+    ax.annotate(
+        label["text"],
+        label["at"],
+        (right, -down),
+        textcoords="offset points",
+        annotation_clip=False,
+        ha={"centre": "center"}.get(across, across),
+        va={"middle": "center"}.get(up, up),
+        rotation=90 if label["style"]["upwards"] else 0,
+        color=_colour(label["style"]["colour"]),
+        fontsize=0.32 * label["style"]["size"],
+    )
 
 
 def _colour(rgb: Any) -> tuple[float, ...]:
@@ -117,8 +135,10 @@ def _boxes(ax: Any, sign: dict[str, Any], name: str | None) -> None:
 
     patches = [box(corners) for corners in sign["boxes"]]
     edge = "none" if sign["edge"] is None else _colour(sign["edge"][1])
-    collection = PatchCollection(patches, edgecolor=edge, facecolor="none", label=name)
-    if sign["paint"] is not None:
+    collection = PatchCollection(patches, edgecolor=edge, label=name)
+    if sign["paint"] is None:
+        collection.set_facecolor("none")
+    else:
         paint = _paint(sign["paint"])
         if "c" in paint:
             collection.set_array(np.asarray(paint["c"]))

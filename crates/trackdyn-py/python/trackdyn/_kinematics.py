@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect as _inspect
 import os
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -12,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _trackdyn
 from ._arguments import COMMAND, Progress, VehicleLike, gauge_of, names_of, told
-from ._errors import NotDeterminedError, ResultError
+from ._errors import NotDeterminedError, ResultError, Warning  # noqa: A004
 from ._odometry import odometry
 from ._parameters import Parameters
 from ._recording import Recording
@@ -148,6 +149,9 @@ class IcrKinematics:
         self.identification_: dict[str, Any] = found.document(COMMAND) or {}
         self.contradictions_ = found.contradictions[place]
         self.n_features_in_ = 2
+        if self.parameters_.is_doubtful:
+            reasons = "; ".join(self.contradictions_)
+            warnings.warn(f"{recording._inner.place}: {reasons}", Warning, stacklevel=2)
         return self
 
     def predict(self, v_l: ArrayLike, v_r: ArrayLike | None = None) -> NDArray[np.float64]:

@@ -7,6 +7,32 @@ from typing import Any, Final, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "Diagnosis",
+    "Figure",
+    "Identification",
+    "IcrMap",
+    "Odometry",
+    "Parameters",
+    "Plan",
+    "Recording",
+    "Simulation",
+    "VERSION",
+    "Vehicle",
+    "arrow_stream",
+    "diagnose",
+    "effects",
+    "from_toml",
+    "icr_map",
+    "identify",
+    "inspect",
+    "odometry",
+    "plan",
+    "simulate",
+    "simulate_batch",
+    "to_toml",
+]
+
 VERSION: Final[str]
 
 _Path = str | os.PathLike[str]

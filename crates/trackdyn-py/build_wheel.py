@@ -15,6 +15,10 @@ from maturin import *  # noqa: F403
 
 HERE = Path(__file__).resolve().parent
 
+# Where maturin looks for scripts; metadata are asked for before there are any.
+SCRIPTS = HERE / "trackdyn.data" / "scripts"
+SCRIPTS.mkdir(parents=True, exist_ok=True)
+
 
 def put_program() -> None:
     """Compile the program, with the features that the extension needs, and put it into the wheel.
@@ -27,9 +31,7 @@ def put_program() -> None:
     subprocess.run(command, cwd=HERE, check=True)
     target = Path(os.environ.get("CARGO_TARGET_DIR") or HERE.parent.parent / "target")
     name = "trackdyn.exe" if os.name == "nt" else "trackdyn"
-    scripts = HERE / "trackdyn.data" / "scripts"
-    scripts.mkdir(parents=True, exist_ok=True)
-    shutil.copy2(target / "release" / name, scripts / name)
+    shutil.copy2(target / "release" / name, SCRIPTS / name)
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):

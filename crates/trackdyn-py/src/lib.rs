@@ -1,7 +1,7 @@
 //! The extension module of the Python package `trackdyn`: thin over the library of that name.
 //!
 //! What a user sees is Python (`python/trackdyn`), with names, units and frames explained there.
-//! Here are the calls that it makes. Work that takes long runs on a thread of its own, see [`work`];
+//! Here are the calls that it makes. Work that takes long runs on threads of its own, see [`work`];
 //! what goes wrong is raised by [`errors`], in the words of the library.
 
 #![allow(clippy::needless_pass_by_value, reason = "values that Python passes are owned")]

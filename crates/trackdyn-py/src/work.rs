@@ -1,10 +1,11 @@
-//! Work that takes long: on a thread of its own, so that Python goes on, Ctrl-C is heard at once and
+//! Work that takes long: on threads of its own, so that Python goes on, Ctrl-C is heard at once and
 //! progress is told by the thread that called.
 
 use crate::errors::raised;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -14,7 +15,7 @@ use trackdyn::{Error, Observer, Progress};
 /// Time between two looks at signals and progress.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Stack of the thread, bytes: that of a main thread.
+/// Stack of a thread, bytes: that of a main thread.
 const STACK: usize = 8 << 20;
 
 /// The threads that share the work, and the process that they are of.
@@ -27,7 +28,8 @@ fn pool() -> Arc<ThreadPool> {
     match &*pool {
         Some((of, threads)) if *of == process => threads.clone(),
         _ => {
-            let threads = ThreadPoolBuilder::new().build().expect("threads can be started");
+            let threads =
+                ThreadPoolBuilder::new().stack_size(STACK).build().expect("threads can be started");
             let threads = Arc::new(threads);
             // the drop of a pool waits for no thread, so that of a parent can go
             *pool = Some((process, threads.clone()));
@@ -66,12 +68,12 @@ pub fn run<T: Send + 'static>(
                 ControlFlow::Continue(())
             }
         };
-        let result = pool().install(|| job(&observer));
+        // a panic is that of the caller
+        let result = catch_unwind(AssertUnwindSafe(|| job(&observer)));
         // nobody waits after an interrupt
         let _ = sender.send(result);
     };
-    let worker = std::thread::Builder::new().name("trackdyn".to_owned()).stack_size(STACK);
-    let worker = worker.spawn(work)?;
+    pool().spawn(work);
     let mut told = None;
     loop {
         let (back, got) = py.detach(move || {
@@ -80,7 +82,8 @@ pub fn run<T: Send + 'static>(
         });
         receiver = back;
         match got {
-            Ok(result) => {
+            Ok(Err(panic)) => resume_unwind(panic),
+            Ok(Ok(result)) => {
                 let result = result.map_err(raised)?;
                 tell(progress, &shared, &mut told)?;
                 return Ok(result);
@@ -92,11 +95,7 @@ pub fn run<T: Send + 'static>(
                 }
                 heard?;
             }
-            // it panicked: the panic becomes an exception of the caller
-            Err(RecvTimeoutError::Disconnected) => match worker.join() {
-                Ok(()) => return Err(raised(Error::Cancelled)),
-                Err(panic) => std::panic::resume_unwind(panic),
-            },
+            Err(RecvTimeoutError::Disconnected) => return Err(raised(Error::Cancelled)),
         }
     }
 }

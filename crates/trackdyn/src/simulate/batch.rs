@@ -42,7 +42,9 @@ mod tests {
 
     #[test]
     fn each_is_the_simulation_of_that_robot_and_seed() {
-        let tall = Vehicle::auriga_alpha().with_effect("load-transfer").expect("an effect");
+        let tall = Vehicle::auriga_alpha()
+            .with_effect("load-transfer:cog_height_m=0.05")
+            .expect("an effect");
         let robots = [(Vehicle::auriga_alpha(), 1), (tall.clone(), 1), (tall, 7)];
         let all = simulate_all(&robots, &settings(), &unobserved).expect("nobody stops it");
         assert_eq!(all.len(), robots.len());

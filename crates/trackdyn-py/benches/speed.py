@@ -74,12 +74,13 @@ def main() -> None:
             f"{1e3 * library:.1f} ms, fit {1e3 * fit:.1f} ms, {fit / library:.2f} of the library"
         )
 
+    # a map of four pairs is next to no work: this is what a call costs, there and back
+    raw = robot._inner
+    nothing = median(lambda: _trackdyn.icr_map(raw, 2, 1.0, (0.0, 0.0), 0.0, 0.0, None), 2000)
+    print(f"a call with next to no work: {1e6 * nothing:.0f} us")
     commands = np.array([[0.0, 0.1, 0.1], [0.2, 0.0, 0.0]])
-    short = median(lambda: td.simulate(robot, commands, sensors="perfect"), 400)
-    twice = np.array([[0.0, 0.1, 0.1], [0.4, 0.0, 0.0]])
-    longer = median(lambda: td.simulate(robot, twice, sensors="perfect"), 400)
-    print(f"a drive of 0.2 s: {1e6 * short:.0f} us, of 0.4 s: {1e6 * longer:.0f} us, so a call")
-    print(f"  without driving takes {1e6 * (2 * short - longer):.0f} us")
+    short = median(lambda: td.simulate(robot, commands, sensors="perfect"), 1000)
+    print(f"a drive of 0.2 s: {1e6 * short:.0f} us")
     fitted = td.IcrKinematics(0.42).fit(log)
     print(f"predict of one pair: {1e6 * median(lambda: fitted.predict(0.3, 0.9), 2000):.1f} us")
     pairs = np.random.default_rng(1).uniform(-1.0, 1.0, (2, 100_000))

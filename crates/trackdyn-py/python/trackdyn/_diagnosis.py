@@ -88,8 +88,9 @@ class Diagnosis:
         The vehicle that explains the recordings.
     """
 
-    __slots__ = ("_inner", "_said", "claims", "corrected_vehicle", "name", "refusals")
+    __slots__ = ("_inner", "_report", "_said", "claims", "corrected_vehicle", "name", "refusals")
     _inner: _trackdyn.Diagnosis | None
+    _report: tuple[list[Figure], str] | None
 
     def __init__(self, inner: _trackdyn.Diagnosis) -> None:
         said = {
@@ -103,6 +104,7 @@ class Diagnosis:
 
     def _take(self, said: dict[str, Any], inner: _trackdyn.Diagnosis | None) -> None:
         self._inner = inner
+        self._report = None
         self._said = said
         self.name: str = said["name"]
         missing = self.to_dict().get("missing", [])
@@ -133,11 +135,11 @@ class Diagnosis:
     @property
     def figures(self) -> list[Figure]:
         """The figures of the report."""
-        return [Figure(figure) for figure in self._computed().report(COMMAND)[0]]
+        return list(self._drawn()[0])
 
     def report(self) -> str:
         """The page with all figures, HTML."""
-        return self._computed().report(COMMAND)[1]
+        return self._drawn()[1]
 
     def to_dict(self) -> dict[str, Any]:
         """What its file says (schema ``trackdyn.diagnosis/1``)."""
@@ -182,6 +184,13 @@ class Diagnosis:
             The files.
         """
         return list(self._computed().write(folder, COMMAND))
+
+    def _drawn(self) -> tuple[list[Figure], str]:
+        """Figures and page, made once."""
+        if self._report is None:
+            figures, page = self._computed().report(COMMAND)
+            self._report = [Figure(figure) for figure in figures], page
+        return self._report
 
     def _computed(self) -> _trackdyn.Diagnosis:
         if self._inner is None:

@@ -35,16 +35,8 @@ _QUANTITIES = {
 class IcrMap:
     """The stationary motion of a vehicle for every pair of track speeds of a grid.
 
-    Attributes
-    ----------
-    x_l, x_r, y : ndarray of shape (n, n)
-        ICRs, m: right and forward of the centre. NaN where the robot does not turn.
-    v_forward, v_lateral, yaw_rate : ndarray of shape (n, n)
-        Motion of the body, m/s and rad/s (REP-103). NaN where there is no stationary motion.
-    status : ndarray of shape (n, n), int64
-        Kind of motion: an index in :attr:`status_names`.
-
-    Rows are speeds of the left track, columns those of the right one, as :attr:`speeds`.
+    Quantities are arrays of shape (n, n): rows are speeds of the left track, columns those of the
+    right one, as :attr:`speeds`. :attr:`table` has a row for each pair.
     """
 
     def __init__(self, inner: _trackdyn.IcrMap, vehicle: Vehicle) -> None:
@@ -52,11 +44,44 @@ class IcrMap:
         self.vehicle = vehicle
         self.table = Table(inner.columns())
 
-    def __getattr__(self, name: str) -> NDArray[Any]:
-        if name in _QUANTITIES:
-            count = len(self.speeds)
-            return self.table[name].reshape(count, count)
-        raise AttributeError(name)
+    def _square(self, name: str) -> NDArray[Any]:
+        count = len(self.speeds)
+        return self.table[name].reshape(count, count)
+
+    @property
+    def x_l(self) -> NDArray[np.float64]:
+        """ICR of the left track, m right of the centre; NaN where the robot does not turn."""
+        return self._square("x_l")
+
+    @property
+    def x_r(self) -> NDArray[np.float64]:
+        """ICR of the right track, m right of the centre; NaN where the robot does not turn."""
+        return self._square("x_r")
+
+    @property
+    def y(self) -> NDArray[np.float64]:
+        """ICR of both tracks, m forward of the centre; NaN where the robot does not turn."""
+        return self._square("y")
+
+    @property
+    def v_forward(self) -> NDArray[np.float64]:
+        """Speed forward, m/s; NaN where there is no stationary motion."""
+        return self._square("v_forward")
+
+    @property
+    def v_lateral(self) -> NDArray[np.float64]:
+        """Speed to the left, m/s; NaN where there is no stationary motion."""
+        return self._square("v_lateral")
+
+    @property
+    def yaw_rate(self) -> NDArray[np.float64]:
+        """Yaw rate, rad/s, counter-clockwise; NaN where there is no stationary motion."""
+        return self._square("yaw_rate")
+
+    @property
+    def status(self) -> NDArray[np.int64]:
+        """Kind of motion: an index in :attr:`status_names`."""
+        return self._square("status")
 
     @property
     def speeds(self) -> NDArray[np.float64]:

@@ -13,7 +13,8 @@ Axes are those of REP-103 (x forward, y left), but for the ICRs, which have thos
 (x right, y forward). Units are SI, angles in radians. What goes wrong is a :class:`trackdyn.Error`.
 """
 
-from ._diagnosis import Claim, Diagnosis, Refusal, Size, diagnose
+from ._claims import Claim, Refusal, Size
+from ._diagnosis import Diagnosis, diagnose
 from ._effects import Effect, EffectParameter, effects
 from ._errors import (
     DiagnoseError,
@@ -43,7 +44,8 @@ from ._map import IcrMap, icr_map
 from ._odometry import Odometry, odometry
 from ._parameters import Parameters
 from ._plan import Plan, plan
-from ._recording import Recording, read_recording
+from ._reading import read_recording
+from ._recording import Recording
 from ._simulation import Simulation, simulate, simulate_batch
 from ._tables import Table
 from ._trackdyn import VERSION as __version__

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _trackdyn
 from ._arguments import COMMAND, Progress, RunsLike, VehicleLike, plain, runs_of, told, vehicle_of
+from ._claims import Claim, Refusal, claim_of
 from ._errors import ResultError
 from ._figure import Figure
 from ._recording import Recording
@@ -17,59 +17,6 @@ from ._vehicle import Vehicle
 
 if TYPE_CHECKING:
     import pandas
-
-
-@dataclass(frozen=True)
-class Size:
-    """A parameter of a claimed effect, with its 95 % interval, in `unit`."""
-
-    name: str
-    value: float
-    low: float
-    high: float
-    unit: str
-
-
-@dataclass(frozen=True)
-class Claim:
-    """Something that the model of a vehicle lacks.
-
-    Attributes
-    ----------
-    effect : str
-        The effect that was fitted, by its id in the catalogue.
-    one_of : tuple of str
-        All effects that explain the recordings alike, the fitted one among them.
-    kind : {"physics", "instrument", "constant"}
-        What kind of thing it is.
-    sizes : tuple of Size
-        Parameters of the fitted effect; empty where it stands for a class of constants.
-    p : float
-        Probability of such evidence by chance, over all effects that were tried.
-    ln_bayes_factor : float
-        Logarithm of the Bayes factor against the best alternative.
-    held_out_gain : float
-        Gain of log-likelihood on blocks left out of the fit.
-    separate_by : str or None
-        How to decide between several; None where one is named.
-    """
-
-    effect: str
-    one_of: tuple[str, ...]
-    kind: str
-    sizes: tuple[Size, ...]
-    p: float
-    ln_bayes_factor: float
-    held_out_gain: float
-    separate_by: str | None
-
-
-@dataclass(frozen=True)
-class Refusal:
-    """Effects of the best hypothesis that are not claimed, and why."""
-
-    one_of: tuple[str, ...]
-    reason: str
 
 
 class Diagnosis:
@@ -108,7 +55,7 @@ class Diagnosis:
         self._said = said
         self.name: str = said["name"]
         missing = self.to_dict().get("missing", [])
-        self.claims = tuple(_claim(of, kind) for of, kind in zip(missing, said["kinds"]))
+        self.claims = tuple(claim_of(of, kind) for of, kind in zip(missing, said["kinds"]))
         self.refusals = tuple(Refusal(tuple(of), reason) for of, reason in said["refusals"])
         self.corrected_vehicle = Vehicle.from_toml(said["corrected"], "vehicle.corrected.toml")
 
@@ -239,24 +186,6 @@ class Diagnosis:
         below = table(head, claims) if claims else ""
         notes = [f"not claimed: {' or '.join(of.one_of)}: {of.reason}" for of in self.refusals]
         return page(f"Diagnosis of {self.name}", rows, notes) + below
-
-
-def _claim(of: Mapping[str, Any], kind: str) -> Claim:
-    sizes = (
-        Size(one["name"], one["value"], one["low95"], one["high95"], one["unit"])
-        for one in of["parameters"]
-    )
-    evidence = of["evidence"]
-    return Claim(
-        effect=of["effect"],
-        one_of=tuple(of["one_of"]),
-        kind=kind,
-        sizes=tuple(sizes),
-        p=evidence["p"],
-        ln_bayes_factor=evidence["ln_bayes_factor"],
-        held_out_gain=evidence["held_out_gain"],
-        separate_by=of.get("separate_by"),
-    )
 
 
 def diagnose(

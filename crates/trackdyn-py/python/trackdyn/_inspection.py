@@ -10,7 +10,7 @@ from . import _trackdyn
 from ._arguments import RunsLike, VehicleLike, gauge_of, runs_of, time_of
 from ._figure import Figure
 from ._parameters import Parameters
-from ._recording import reading
+from ._reading import reading
 
 
 class Inspection:

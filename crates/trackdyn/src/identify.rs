@@ -198,7 +198,7 @@ impl Identification {
 
     /// For each of the fits, the first reason why the recording does not determine it, or why it is
     /// withheld.
-    pub(crate) fn reasons(&self) -> [Option<String>; 2] {
+    pub fn reasons(&self) -> [Option<String>; 2] {
         let doubts: [Option<String>; 2] = match self {
             Self::Motion(fit) => fit.found.fits.each_ref().map(|fit| match &fit.least_squares {
                 Ok(_) => fit.doubts.first().map(ToString::to_string),

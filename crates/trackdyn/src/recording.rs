@@ -1,10 +1,12 @@
 //! What was seen of a robot.
 
 mod gyroscope;
+mod kept;
 mod options;
 mod part;
 mod points;
 
+pub use kept::{Kept, KeptSeen};
 pub use options::ReadOptions;
 pub use part::Part;
 pub use points::PointsTable;

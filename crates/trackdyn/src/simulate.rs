@@ -1,9 +1,11 @@
 //! A drive in time over ground with any of the effects, recorded with realistic sensors.
 
+mod batch;
 mod document;
 mod driving;
 mod ground;
 
+pub use batch::simulate_all;
 pub use driving::Driving;
 pub use ground::{Ground, Model, Motion};
 

@@ -4,7 +4,7 @@ use super::crates::{Crate, all};
 use std::path::Path;
 
 /// Which crates of the project each crate may use, without `trackdyn-`.
-const ALLOWED: [(&str, &[&str]); 13] = [
+const ALLOWED: [(&str, &[&str]); 14] = [
     ("core", &[]),
     ("model", &["core"]),
     ("recording", &["core"]),
@@ -18,6 +18,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
         &["core", "model", "recording", "estimate", "drive", "diagnose", "export", "report"],
     ),
     ("cli", &["trackdyn", "second-simulator", "blind-trial"]),
+    ("py", &["trackdyn"]),
     ("localisation", &["core"]),
     ("second-simulator", &["core", "model"]),
     ("blind-trial", &["core", "model", "recording", "estimate", "drive", "second-simulator"]),

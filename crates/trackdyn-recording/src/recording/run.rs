@@ -80,7 +80,12 @@ impl Run {
 
     /// This run with positions as well known as those of the run that it is a part of.
     pub(crate) fn with_positions_of(self, whole: &Self) -> Self {
-        Self { has_positions: whole.has_positions, ..self }
+        self.with_positions(whole.has_positions)
+    }
+
+    /// This run, of whose positions it is known whether they were measured.
+    pub(super) fn with_positions(self, has_positions: bool) -> Self {
+        Self { has_positions, ..self }
     }
 
     /// Whether the positions of its poses are known. Where they are not, x and y are 0 throughout

@@ -8,9 +8,9 @@ use trackdyn_recording::{OperatingPoint, OperatingPoints};
 /// A table of steady operating points with its origin: a measured map of ICRs.
 #[derive(Clone, Debug)]
 pub struct PointsTable {
-    table: OperatingPoints,
-    path: PathBuf,
-    fingerprint: String,
+    pub(super) table: OperatingPoints,
+    pub(super) path: PathBuf,
+    pub(super) fingerprint: String,
 }
 
 impl PointsTable {

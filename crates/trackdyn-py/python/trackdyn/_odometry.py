@@ -1,0 +1,139 @@
+"""Dead reckoning."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _trackdyn
+from ._arguments import COMMAND, RunsLike, VehicleLike, gauge_of, runs_of, time_of
+from ._figure import Figure
+from ._parameters import Parameters
+from ._recording import Recording
+
+if TYPE_CHECKING:
+    import pandas
+
+
+class Odometry:
+    """Where the robot would be if parameters were true, against where it was.
+
+    Sets of parameters are the ideal drive, then those given, each as it is and, where it has
+    factors on the track speeds, without them.
+    """
+
+    __slots__ = ("_inner",)
+
+    def __init__(self, inner: _trackdyn.Odometry) -> None:
+        self._inner = inner
+
+    @property
+    def sets(self) -> list[str]:
+        """Names of the sets of parameters."""
+        return self._inner.sets
+
+    @property
+    def errors_at_end(self) -> NDArray[np.float64]:
+        """Errors at the end of each run, root mean square over runs: (sets, 2), place (m), yaw (rad)."""
+        return self._inner.errors_at_end()
+
+    @property
+    def paths(self) -> list[dict[str, Any]]:
+        """For each run: ``run``, stamps ``t`` (s), ``recorded`` and a path by the name of each set.
+
+        Paths are arrays of shape (n, 3): x, y (m), yaw (rad) in the frame of the run.
+        """
+        return self._inner.paths()
+
+    @property
+    def advice(self) -> str | None:
+        """The file to take, or ``"ideal"``; None where this replay does not tell."""
+        return self._inner.advice()[0]
+
+    @property
+    def reason(self) -> str | None:
+        """Why it does not tell, and what to do."""
+        return self._inner.advice()[1]
+
+    @property
+    def figure(self) -> Figure:
+        """The replay as a figure."""
+        return Figure(self._inner.figure(COMMAND))
+
+    def to_dict(self) -> dict[str, Any]:
+        """All errors with their intervals, as ``odometry.toml`` says them."""
+        return self._inner.document(COMMAND)
+
+    def to_frame(self) -> pandas.DataFrame:
+        """Errors run by run and set by set, as a frame of pandas, which has to be installed."""
+        import pandas
+
+        return pandas.read_csv(io.StringIO(self._inner.runs_csv()))
+
+    def rows(self) -> list[dict[str, str]]:
+        """Errors run by run and set by set, as texts."""
+        return list(csv.DictReader(io.StringIO(self._inner.runs_csv())))
+
+    def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
+        """Write ``odometry.png``, ``runs.csv``, ``odometry.toml`` and trajectories; the files."""
+        return list(self._inner.write(folder, COMMAND))
+
+    def __repr__(self) -> str:
+        return f"<Odometry of {len(self._inner.paths())} runs: {', '.join(self.sets)}>"
+
+    def _repr_html_(self) -> str:
+        from ._html import table
+
+        rows = [
+            (name, f"{place:.3f} m", f"{np.degrees(yaw):.2f}°")
+            for name, (place, yaw) in zip(self.sets, self.errors_at_end)
+        ]
+        return table(("parameters", "place at the end", "yaw at the end"), rows)
+
+
+def odometry(
+    recording: Recording,
+    vehicle: VehicleLike | float,
+    parameters: Parameters | Iterable[Parameters] = (),
+    *,
+    runs: RunsLike = None,
+    time: Sequence[float] | None = None,
+    tau: float | None = None,
+    gyroscope: bool = False,
+) -> Odometry:
+    """Replay a recording by dead reckoning with the ideal drive and with parameters.
+
+    Parameters
+    ----------
+    recording : Recording
+        Track speeds and poses with positions.
+    vehicle : Vehicle, str, path, mapping or float
+        The vehicle, or its gauge in m: the ideal drive has it.
+    parameters : Parameters or several
+        What to compare.
+    runs : str, int or sequence of int, optional
+        Replay these runs only. Clocks are estimated from all.
+    time : pair of float, optional
+        Replay this time of each run only, s from its first reading.
+    tau : float, optional
+        Time by which poses lag behind the track speeds, s. Default: estimated.
+    gyroscope : bool
+        Correct the yaw of the poses by the recording's gyroscope.
+    """
+    several = [parameters] if isinstance(parameters, Parameters) else list(parameters)
+    inner = _trackdyn.odometry(
+        recording._inner,
+        gauge_of(vehicle),
+        [one._inner for one in several],
+        runs_of(runs),
+        time_of(time),
+        tau,
+        gyroscope,
+    )
+    return Odometry(inner)

@@ -1,0 +1,162 @@
+"""Kinematic parameters."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _trackdyn
+
+
+class Parameters:
+    """Kinematic parameters of a robot, and where they come from (schema ``trackdyn.kinematics/1``).
+
+    Parameters
+    ----------
+    path : str or path
+        A kinematics file.
+
+    Notes
+    -----
+    ICRs have the axes of the paper (x right, y forward, from the robot's centre), motions those of
+    REP-103 (x forward, y left).
+    """
+
+    __slots__ = ("_inner",)
+    _inner: _trackdyn.Parameters
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self._inner = _trackdyn.Parameters.open(path)
+
+    @classmethod
+    def _of(cls, inner: _trackdyn.Parameters) -> Parameters:
+        self = object.__new__(cls)
+        self._inner = inner
+        return self
+
+    @classmethod
+    def from_toml(cls, text: str, name: str = "kinematics.toml") -> Parameters:
+        """The parameters of the text of a kinematics file; errors call it `name`."""
+        return cls._of(_trackdyn.Parameters.from_toml(name, text))
+
+    @property
+    def name(self) -> str:
+        """The file as given, or the name of the one that they go into."""
+        return self._inner.name
+
+    @property
+    def x_l(self) -> float:
+        """ICR of the left track, m right of the centre: negative."""
+        return self._inner.values[0]
+
+    @property
+    def x_r(self) -> float:
+        """ICR of the right track, m right of the centre."""
+        return self._inner.values[1]
+
+    @property
+    def y(self) -> float:
+        """ICR of both, m forward of the centre."""
+        return self._inner.values[2]
+
+    @property
+    def alpha_l(self) -> float:
+        """Factor from measured to true speed of the left track; 1 where it was not fitted."""
+        return self._inner.values[3]
+
+    @property
+    def alpha_r(self) -> float:
+        """Factor from measured to true speed of the right track; 1 where it was not fitted."""
+        return self._inner.values[4]
+
+    @property
+    def covariance(self) -> NDArray[np.float64] | None:
+        """Covariance of x_l, x_r, y and, where fitted, alpha_l, alpha_r; None of a map."""
+        covariance = self._inner.covariance
+        return None if covariance is None else np.array(covariance)
+
+    @property
+    def steering_efficiency(self) -> float:
+        """Gauge over the distance of the ICRs: 1 of an ideal differential drive."""
+        return self._inner.steering_efficiency
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether other parts of the answer that they come from contradict them."""
+        return self._inner.is_doubtful
+
+    @property
+    def fingerprint(self) -> str:
+        """Fingerprint of the text of the file."""
+        return self._inner.fingerprint
+
+    def predict(self, v_l: ArrayLike, v_r: ArrayLike) -> NDArray[np.float64]:
+        """Motion of the body at track speeds.
+
+        Parameters
+        ----------
+        v_l, v_r : array_like
+            Speeds of the tracks, m/s, forward positive; of shapes that broadcast.
+
+        Returns
+        -------
+        ndarray of shape (..., 3)
+            Speed forward and to the left (m/s), and yaw rate (rad/s, counter-clockwise).
+        """
+        left, right, shape = _pair(v_l, v_r)
+        return self._inner.twist(left, right).reshape((*shape, 3))
+
+    def track_speeds(self, forward: ArrayLike, yaw_rate: ArrayLike) -> NDArray[np.float64]:
+        """Track speeds for a motion; the lateral speed follows and cannot be chosen.
+
+        Parameters
+        ----------
+        forward, yaw_rate : array_like
+            Speed forward (m/s), and yaw rate (rad/s, counter-clockwise).
+
+        Returns
+        -------
+        ndarray of shape (..., 2)
+            Speeds of the left and the right track, m/s.
+        """
+        ahead, turn, shape = _pair(forward, yaw_rate)
+        return self._inner.track_speeds(ahead, turn).reshape((*shape, 2))
+
+    def to_dict(self) -> dict[str, Any]:
+        """What the file says."""
+        return _trackdyn.from_toml(self._inner.toml)
+
+    def to_toml(self) -> str:
+        """The text of the file."""
+        return self._inner.toml
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write the file."""
+        self._inner.write(path)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Parameters):
+            return NotImplemented
+        return self._inner.toml == other._inner.toml
+
+    def __hash__(self) -> int:
+        return hash(self._inner.toml)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Parameters.from_toml, (self._inner.toml, self.name)
+
+    def __repr__(self) -> str:
+        return f"<Parameters x_l {self.x_l:.5f}, x_r {self.x_r:.5f}, y {self.y:.5f} m>"
+
+
+def _pair(
+    one: ArrayLike, other: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64], tuple[int, ...]]:
+    """Two arrays of one shape, flat, and that shape."""
+    first, second = np.broadcast_arrays(
+        np.asarray(one, dtype=np.float64), np.asarray(other, dtype=np.float64)
+    )
+    return np.ravel(first), np.ravel(second), first.shape

@@ -1,0 +1,88 @@
+"""Plans of the driving that decides."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _trackdyn
+from ._arguments import COMMAND, Progress, VehicleLike, told, vehicle_of
+from ._diagnosis import Diagnosis
+
+
+class Plan:
+    """What to drive next, and what it separates."""
+
+    __slots__ = ("_inner",)
+
+    def __init__(self, inner: _trackdyn.Plan) -> None:
+        self._inner = inner
+
+    @property
+    def schedule(self) -> NDArray[np.float64] | None:
+        """The commands, of shape (n, 3): t (s), v_left, v_right (m/s). None: no driving decides."""
+        return self._inner.schedule()
+
+    def to_dict(self) -> dict[str, Any]:
+        """The plan, as ``plan.toml`` says it."""
+        return self._inner.document(COMMAND)
+
+    def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
+        """Write ``plan.csv``, a schedule for simulator and robot, and ``plan.toml``; the files."""
+        return list(self._inner.write(folder, COMMAND))
+
+    def __repr__(self) -> str:
+        schedule = self.schedule
+        if schedule is None:
+            return "<Plan: no driving decides>"
+        return f"<Plan of {schedule[-1, 0] - schedule[0, 0]:.1f} s>"
+
+
+def plan(
+    diagnosis: Diagnosis | str | os.PathLike[str],
+    vehicle: VehicleLike | None = None,
+    *,
+    fastest: float = 1.0,
+    duration: float = 60.0,
+    noise_xy: float | None = None,
+    noise_yaw: float | None = None,
+    progress: bool | Progress | None = None,
+) -> Plan:
+    """Plan the driving that tells apart what a diagnosis could not.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis, or path of its file
+        What is open.
+    vehicle : Vehicle, str, path or mapping, optional
+        The vehicle that has what the diagnosis found. Default: the one that it corrected.
+    fastest : float
+        Largest track speed, m/s.
+    duration : float
+        Time for all manoeuvres together, s.
+    noise_xy, noise_yaw : float, optional
+        Standard deviation of a pose along each axis, m, and of its yaw, rad. Default: as the
+        diagnosis measured it.
+    progress : bool or callable
+        Show a bar (tqdm), or call with stage, finished parts and all parts.
+
+    Returns
+    -------
+    Plan
+        Its schedule is None where nothing is open, or where no driving decides.
+    """
+    if isinstance(diagnosis, Diagnosis):
+        named = (diagnosis.name, diagnosis.to_toml())
+        of = diagnosis.corrected_vehicle if vehicle is None else vehicle_of(vehicle)
+    else:
+        path = Path(diagnosis)
+        named = (str(path), path.read_text(encoding="utf-8"))
+        beside = path.with_name("vehicle.corrected.toml")
+        of = vehicle_of(beside if vehicle is None else vehicle)
+    with told(progress, "plan") as tell:
+        inner = _trackdyn.plan(named, of._inner, fastest, duration, noise_xy, noise_yaw, tell)
+    return Plan(inner)

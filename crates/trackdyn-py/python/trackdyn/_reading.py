@@ -1,0 +1,129 @@
+"""Reading recordings."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from . import _trackdyn
+from ._arguments import names_of, warn_of
+from ._recording import Recording
+
+
+def reading(
+    *,
+    tracks: str | os.PathLike[str] | None = None,
+    columns: str | Mapping[str, str] | None = None,
+    tracks_topic: str | None = None,
+    left_joints: str | Sequence[str] | None = None,
+    right_joints: str | Sequence[str] | None = None,
+    joint_signal: str | None = None,
+    wheel_radius: float | None = None,
+    pose_topic: str | None = None,
+    pose_index: int | None = None,
+    parent_frame: str | None = None,
+    child_frame: str | None = None,
+    imu_topic: str | None = None,
+    twist_topic: str | None = None,
+    separation: float | None = None,
+    left_signals: str | Sequence[str] | None = None,
+    right_signals: str | Sequence[str] | None = None,
+    speed_unit: str | None = None,
+    msg_dir: str | os.PathLike[str] | None = None,
+    dated_by: str | None = None,
+    mount_yaw: float | None = None,
+    gyro_unit: str | None = None,
+    accept: str | Sequence[str] | None = None,
+) -> dict[str, Any]:
+    """The options of reading, all of them."""
+    if isinstance(columns, Mapping):
+        columns = ",".join(f"{key}={name}" for key, name in columns.items())
+    return {
+        "tracks": tracks,
+        "columns": columns,
+        "tracks_topic": tracks_topic,
+        "left_joints": names_of(left_joints),
+        "right_joints": names_of(right_joints),
+        "joint_signal": joint_signal,
+        "wheel_radius": wheel_radius,
+        "pose_topic": pose_topic,
+        "pose_index": pose_index,
+        "parent_frame": parent_frame,
+        "child_frame": child_frame,
+        "imu_topic": imu_topic,
+        "twist_topic": twist_topic,
+        "separation": separation,
+        "left_signals": names_of(left_signals),
+        "right_signals": names_of(right_signals),
+        "speed_unit": speed_unit,
+        "msg_dir": msg_dir,
+        "dated_by": dated_by,
+        "mount_yaw": mount_yaw,
+        "gyro_unit": gyro_unit,
+        "accept": names_of(accept),
+    }
+
+
+def read_recording(path: str | os.PathLike[str], **options: Any) -> Recording:
+    """Read a recording.
+
+    Parameters
+    ----------
+    path : str or path
+        A folder with ``recording.toml``; a bag of ROS (``.mcap``, ``.db3``, ``.bag``, or their
+        folder); a trajectory of the TUM benchmark (``.tum``, ``.txt``) with `tracks`; one table of
+        both (``.csv``) with `columns`; or a table of steady points (``.csv``).
+    tracks : str or path
+        Of a trajectory: the table of its track speeds (CSV with t, v_left, v_right).
+    columns : str or mapping
+        Of one table: its columns by key, such as ``{"t": "Time:ms", "v_l": "left:rpm", "v_r":
+        "-right:rpm", "x": "px", "y": "py", "yaw": "heading:deg"}``.
+    wheel_radius : float
+        Belt travel in m per radian of the joints, or of wheels.
+    tracks_topic, pose_topic, imu_topic, twist_topic : str
+        Of a bag: topics of joint states, poses, readings of an IMU, or a twist in place of joints.
+    left_joints, right_joints : str or sequence of str
+        Of a bag: joints of each side, with ``-`` before those that run backwards.
+    joint_signal : {"velocity", "position"}
+        Of a bag: signal of the joints. Default: velocity where there is one.
+    pose_index : int
+        Of a bag: which pose of a PoseArray is that of the robot, from 0.
+    parent_frame, child_frame : str
+        Of a bag: frame that the poses are expressed in, and frame whose poses they are.
+    separation : float
+        Of a bag: separation in m that the driver of `twist_topic` computes with.
+    left_signals, right_signals : str or sequence of str
+        Of a bag: numbers that are speeds, such as ``"/status:motors[0].rpm"``.
+    speed_unit : str
+        Unit of the speeds: m/s, mm/s, cm/s, km/h, mph, ft/s, or of wheels rad/s, rpm, turns/s, deg/s.
+    msg_dir : str or path
+        Folder of definitions of messages, for signals of a bag that has none.
+    dated_by : {"header", "log"}
+        Of a bag: what dates its messages.
+    mount_yaw : float
+        Yaw of the pose sensor on the robot, rad: pi where it faces backwards.
+    gyro_unit : {"rad/s", "deg/s"}
+        Unit of the yaw rates of the IMU.
+    accept : str or sequence of str
+        Doubts that do not stop the reader, see :meth:`Recording.from_arrays`.
+
+    Returns
+    -------
+    Recording
+
+    Warns
+    -----
+    trackdyn.Warning
+        Of what was cleaned, left out or guessed.
+
+    Raises
+    ------
+    RecordingError
+        For what cannot be read: names file and, where there is one, line and column.
+    SettingError
+        For an option whose value is not accepted.
+    """
+    inner = _trackdyn.Recording.open(path, reading(**options))
+    warn_of(inner)
+    return Recording._of(inner)

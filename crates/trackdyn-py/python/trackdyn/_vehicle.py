@@ -1,0 +1,208 @@
+"""Vehicles."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from . import _trackdyn
+from ._arguments import plain
+from ._errors import VehicleError
+
+
+class Vehicle:
+    """A vehicle, and the physics that its model has beyond the base model.
+
+    Parameters
+    ----------
+    source : str, path or mapping, optional
+        The path of a vehicle file (schema ``trackdyn.vehicle/1``), the name of a vehicle that needs
+        no file (:meth:`names`), or what such a file says as a dict. In its place the numbers may be
+        given as keywords.
+    name : str
+        What outputs call it.
+    gauge : float
+        Distance between the centre-lines of the two sides, m.
+    mass : float
+        Mass with all that it carries, kg.
+    contact_length : float
+        Length of the contact of a belt, or of one tyre, m.
+    width : float
+        Width of a belt or a tyre, m.
+    axles : sequence of float, optional
+        Places of the axles, m forward of the middle. None: tracks.
+    cog : pair of float, optional
+        Centre of gravity, m right and forward of the centre of the contact area.
+    friction : pair of float, optional
+        Friction coefficients across and along. Default: a guess, 0.8 and 0.8.
+    effects : iterable of str
+        Effects such as ``"load-transfer:cog_height_m=0.15"``, see :func:`trackdyn.effects`.
+
+    Examples
+    --------
+    >>> import trackdyn as td
+    >>> td.Vehicle("husky-a200").gauge
+    0.555
+    >>> robot = td.Vehicle(gauge=0.42, mass=258.0, contact_length=0.7, width=0.15)
+    >>> robot.with_effect("centripetal").effects
+    ['centripetal:strength=1']
+    """
+
+    __slots__ = ("_inner",)
+    _inner: _trackdyn.Vehicle
+
+    def __init__(
+        self,
+        source: str | os.PathLike[str] | Mapping[str, Any] | None = None,
+        *,
+        name: str = "vehicle",
+        gauge: float | None = None,
+        mass: float | None = None,
+        contact_length: float | None = None,
+        width: float | None = None,
+        axles: Sequence[float] | None = None,
+        cog: Sequence[float] | None = None,
+        friction: Sequence[float] | None = None,
+        effects: Iterable[str] = (),
+    ) -> None:
+        numbers = {"gauge": gauge, "mass": mass, "contact_length": contact_length, "width": width}
+        others = {"axles": axles, "cog": cog, "friction": friction}
+        given = [key for key, one in {**numbers, **others}.items() if one is not None]
+        if source is not None and given:
+            raise VehicleError(f"{', '.join(given)}: {source!s} says it: expected one of both")
+        if isinstance(source, Mapping):
+            text = _trackdyn.to_toml(plain({"schema": "trackdyn.vehicle/1", **source}))
+            inner = _trackdyn.Vehicle.from_toml("vehicle", text)
+        elif source is not None:
+            inner = _trackdyn.Vehicle.choose(source)
+        else:
+            if gauge is None or mass is None or contact_length is None or width is None:
+                missing = ", ".join(key for key, one in numbers.items() if one is None)
+                expected = "expected a file, a name, a dict, or numbers"
+                raise VehicleError(f"{missing}: not given: {expected}")
+            inner = _trackdyn.Vehicle.of_numbers(
+                name,
+                float(gauge),
+                float(mass),
+                float(contact_length),
+                float(width),
+                None if axles is None else [float(one) for one in axles],
+                None if cog is None else (float(cog[0]), float(cog[1])),
+                None if friction is None else (float(friction[0]), float(friction[1])),
+            )
+        for effect in effects:
+            inner = inner.with_effect(effect)
+        self._inner = inner
+
+    @classmethod
+    def _of(cls, inner: _trackdyn.Vehicle) -> Vehicle:
+        self = object.__new__(cls)
+        self._inner = inner
+        return self
+
+    @classmethod
+    def from_toml(cls, text: str, name: str = "vehicle") -> Vehicle:
+        """The vehicle of the text of a vehicle file.
+
+        Parameters
+        ----------
+        text : str
+            The text.
+        name : str
+            What errors call it.
+        """
+        return cls._of(_trackdyn.Vehicle.from_toml(name, text))
+
+    @staticmethod
+    def names() -> list[str]:
+        """The names of the vehicles that need no file."""
+        return _trackdyn.Vehicle.names()
+
+    @property
+    def name(self) -> str:
+        """What outputs call it."""
+        return self._inner.name
+
+    @property
+    def gauge(self) -> float:
+        """Distance between the centre-lines of the two sides, m."""
+        return self._inner.gauge
+
+    @property
+    def effects(self) -> list[str]:
+        """The effects that its model has, with their parameters."""
+        return self._inner.effects
+
+    @property
+    def fingerprint(self) -> str:
+        """Fingerprint of the text of its file: equal vehicles have equal ones."""
+        return self._inner.fingerprint
+
+    def with_effect(self, effect: str, **parameters: float) -> Vehicle:
+        """The vehicle with an effect in place of the one of this kind that it may have.
+
+        Parameters
+        ----------
+        effect : str
+            ``"id"`` or ``"id:parameter=value,..."``.
+        **parameters : float
+            Parameters of the effect by their keys, in the unit that the key ends in.
+        """
+        if parameters:
+            settings = ",".join(f"{key}={float(value)!r}" for key, value in parameters.items())
+            effect = f"{effect}{',' if ':' in effect else ':'}{settings}"
+        return self._of(self._inner.with_effect(effect))
+
+    def with_cog(self, right: float, forward: float) -> Vehicle:
+        """The vehicle with another centre of gravity, m right and forward of the contact's centre."""
+        return self._of(self._inner.with_cog((float(right), float(forward))))
+
+    def with_inertia(self, inertia: bool = True) -> Vehicle:
+        """The vehicle with its inertia in the model, or without."""
+        return self._of(self._inner.with_inertia(inertia))
+
+    def with_values(self, values: Mapping[str, Any]) -> Vehicle:
+        """The vehicle with other values in its file.
+
+        Parameters
+        ----------
+        values : mapping
+            Values by their place in the file, such as ``{"mass_kg": 80.0, "friction.mu_x": 0.7,
+            "effect.load-transfer.cog_height_m": 0.3}``.
+        """
+        tables = self.to_dict()
+        for place, value in values.items():
+            *path, key = place.split(".")
+            table = tables
+            for step in path:
+                table = table.setdefault(step, {})
+            table[key] = value
+        return Vehicle(tables)
+
+    def to_dict(self) -> dict[str, Any]:
+        """What its file says."""
+        return _trackdyn.from_toml(self._inner.toml)
+
+    def to_toml(self) -> str:
+        """The text of its file."""
+        return self._inner.toml
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write its file."""
+        self._inner.write(path)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Vehicle):
+            return NotImplemented
+        return self._inner.toml == other._inner.toml
+
+    def __hash__(self) -> int:
+        return hash(self._inner.toml)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Vehicle.from_toml, (self._inner.toml,)
+
+    def __repr__(self) -> str:
+        effects = "".join(f", {effect}" for effect in self.effects)
+        return f"<Vehicle {self.name}, gauge {self.gauge} m{effects}>"

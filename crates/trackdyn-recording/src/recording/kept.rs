@@ -1,6 +1,6 @@
 //! A recording taken apart and restored: for those who keep it in another form than files.
 
-use super::{Recording, Run, Source, StatedNoise, UncheckedRun, Warning};
+use super::{PoseFrame, Recording, Run, Source, StatedNoise, UncheckedRun, Warning};
 use crate::Error;
 use std::path::PathBuf;
 
@@ -17,6 +17,8 @@ pub struct Kept {
     pub has_positions: bool,
     /// Pose noise as its maker states it.
     pub stated_noise: Option<StatedNoise>,
+    /// Frame of its poses as its maker states it.
+    pub pose_frame: Option<PoseFrame>,
     /// Where it comes from.
     pub source: Source,
     /// Fingerprint of the whole that it is, or is a part of.
@@ -34,6 +36,7 @@ impl Recording {
             runs: self.runs.iter().map(|run| run.clone().into_rows()).collect(),
             has_positions: self.has_positions(),
             stated_noise: self.stated_noise,
+            pose_frame: self.pose_frame,
             source: self.source.clone(),
             fingerprint: self.fingerprint.clone(),
             pose_fingerprint: self.pose_fingerprint.clone(),
@@ -62,6 +65,7 @@ impl Recording {
             robot: kept.robot,
             runs,
             stated_noise: kept.stated_noise,
+            pose_frame: kept.pose_frame,
             source: kept.source,
             warnings,
             fingerprint: kept.fingerprint,

@@ -17,8 +17,10 @@ pub use rule::Rule;
 pub use support::{Support, cross_validated};
 
 use crate::candidate::{Signature, Variant, sizes};
+use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::hypothesis::{Unknown, beyond_none, neutral};
+use crate::prior::area;
 use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
 use crate::search::{Found, Search};
@@ -161,8 +163,9 @@ fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<Re
     })
 }
 
-/// The verdict, refused where the intervals of all its sizes include the neutral size.
-pub fn unless_unsure(verdict: Verdict, intervals: &[Interval]) -> Verdict {
+/// The verdict, refused where the intervals of all its sizes include the neutral size, or that of its
+/// place is wider than the area that was driven.
+pub fn unless_unsure(verdict: Verdict, intervals: &[Interval], evidence: &Evidence) -> Verdict {
     let places = sizes(verdict.effect).into_iter();
     let sizes: Vec<&Interval> = places
         .map(|place| Unknown::Effect(verdict.effect, place))
@@ -174,12 +177,53 @@ pub fn unless_unsure(verdict: Verdict, intervals: &[Interval]) -> Verdict {
     };
     let is_unsure = !sizes.is_empty() && sizes.iter().all(may_be_none);
     let unsure = || is_unsure.then_some(Refusal::MayBeNone);
-    Verdict { refused: verdict.refused.clone().or_else(unsure), ..verdict }
+    let is_anywhere = |interval: &Interval| {
+        let role = interval.unknown.parameter().map(|parameter| parameter.role);
+        let place = role.filter(|role| matches!(role, Role::Place { .. }));
+        place.is_some_and(|role| (interval.high - interval.low) / 2.0 > area(evidence, role)[1])
+    };
+    let mut own = intervals.iter().filter(|interval| interval.unknown.is_of(verdict.effect));
+    let nowhere = || own.any(is_anywhere).then_some(Refusal::Nowhere);
+    let refused = verdict.refused.clone().or_else(unsure).or_else(nowhere);
+    Verdict { refused, ..verdict }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evidence::planned::PlannedRun;
+    use crate::plan::assumed_noise;
+    use crate::settings::Settings;
+    use nalgebra::Vector3;
+    use trackdyn_core::Pose;
+    use trackdyn_recording::TrackSample;
+
+    /// Eight metres along x.
+    fn driven() -> Evidence {
+        let reading = |k: u32| TrackSample { t: 0.03 * f64::from(k), v_left: 1.0, v_right: 1.0 };
+        let tracks = (0..=270).map(reading).collect();
+        let run = PlannedRun { tracks, pose: Pose::default(), blocks: vec![0] };
+        let noise = assumed_noise(1e-3, 1e-3);
+        Evidence::planned(&[run], noise, 0.0, &Settings::default(), |evidence| {
+            evidence.samples().iter().map(|s| Vector3::new(s.duration, 0.0, 0.0)).collect()
+        })
+    }
+
+    #[test]
+    fn a_place_that_may_be_anywhere_is_not_claimed() {
+        let effect = EffectId::of("terrain-patch").expect("an effect");
+        let parameters = effect.card().parameters.iter();
+        let along = parameters.clone().position(|p| p.role == Role::Place { axis: 0 }).expect("x");
+        let refused = |half: f64| {
+            let unknown = Unknown::Effect(effect, along);
+            let interval = Interval { unknown, value: 4.0, low: 4.0 - half, high: 4.0 + half };
+            let (one_of, support) = (vec![effect], Support::none());
+            let verdict = Verdict { effect, one_of, found: None, support, refused: None };
+            unless_unsure(verdict, &[interval], &driven()).refused
+        };
+        assert_eq!(refused(0.5), None);
+        assert_eq!(refused(150.0), Some(Refusal::Nowhere));
+    }
 
     #[test]
     fn a_size_that_may_be_none_is_not_claimed() {
@@ -191,7 +235,7 @@ mod tests {
             let support = Support::none();
             let one_of = vec![effect];
             let verdict = Verdict { effect, one_of, found: None, support, refused: None };
-            unless_unsure(verdict, &[interval]).refused.is_some()
+            unless_unsure(verdict, &[interval], &driven()).refused.is_some()
         };
         assert!(refused("yaw-inertia", [0.0, 0.03]));
         assert!(!refused("yaw-inertia", [0.01, 0.03]));

@@ -6,7 +6,7 @@
 
 use trackdyn_core::Pose;
 use trackdyn_core::robust::{median, quantile};
-use trackdyn_recording::{PoseFrame, PoseSample, Recording};
+use trackdyn_recording::{PoseFrame, PoseSample, Recording, Run};
 
 /// Fewest runs that follow one another, to tell.
 const MIN_PAIRS: usize = 5;
@@ -27,7 +27,7 @@ pub fn share_a_frame(recording: &Recording) -> bool {
 
 /// Whether runs begin near one pose though nothing leads back to it.
 fn begin_anew(recording: &Recording) -> bool {
-    let mut runs: Vec<&[PoseSample]> = recording.runs().iter().map(|run| run.poses()).collect();
+    let mut runs: Vec<&[PoseSample]> = recording.runs().iter().map(Run::poses).collect();
     runs.retain(|poses| poses.len() > 1);
     runs.sort_by(|a, b| a[0].t.total_cmp(&b[0].t));
     let ends: Vec<[&PoseSample; 2]> =
@@ -72,7 +72,7 @@ fn spread(poses: &[Pose]) -> Option<[f64; 2]> {
 mod tests {
     use super::*;
     use crate::synthetic::{Synthetic, random_steps};
-    use trackdyn_recording::{Run, UncheckedRun};
+    use trackdyn_recording::UncheckedRun;
 
     /// One drive, cut into windows of 6 s; `anew` says whether each begins at the origin.
     fn windows(anew: bool, pause: f64) -> Recording {

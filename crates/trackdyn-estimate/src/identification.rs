@@ -6,18 +6,17 @@ use crate::error::Error;
 use crate::genetic::{GeneticEstimate, GeneticOptions, genetic_unless_stopped};
 use crate::least_squares::{
     Estimate, Loss, Unknowns, doubts, estimate_at, lacks, lacks_nuisance, least_squares,
-    nuisance_doubts, residuals, whitened_rms,
+    nuisance_doubts, whitened_rms,
 };
-use crate::likely_noise::{Search, ln_det};
 use crate::noise::{Noise, noise};
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
+use crate::scatter::scatter;
 use crate::sensor::Nuisance;
 use crate::separation::Separation;
 use crate::spin_test::{SpinTest, spin_test};
-use crate::weighting::{self, SegmentNoise, Weighting};
+use crate::weighting::{SegmentNoise, Weighting};
 use crate::{Clock, SegmentOptions};
-use nalgebra::Vector3;
 use std::ops::ControlFlow;
 use trackdyn_model::Kinematics;
 use trackdyn_recording::Recording;
@@ -97,13 +96,6 @@ pub struct Identification {
 
 /// How far a fitted clock offset may go from its start, s: two readings at 20 Hz.
 const TAU_MARGIN: f64 = 0.1;
-
-/// Most segments from which the scatter of residuals is found, and how many of them in a row.
-const MAX_SCATTERED: usize = 800;
-const STRETCH: usize = 50;
-
-/// Rounds of finding the scatter, and what the fit took of it.
-const SCATTER_ROUNDS: usize = 2;
 
 /// Times that segments are cut anew where the clock offset runs to its margin.
 const MAX_CUTS: usize = 5;
@@ -240,46 +232,20 @@ impl<'a> Seen<'a> {
             }
         };
         let fit = |by: &Weighting| fit_with_sensor(observations, &cut, noise, free, by, options);
-        let (estimate, refused) = fit(weighting);
-        let (estimate, refused) = match (&estimate, weighting) {
-            (Ok(first), &Weighting::Noise(measured)) => {
-                let scatter = Weighting::Noise(scatter(observations, first, measured));
-                let (again, refused) = fit(&scatter);
-                let whitened = |again: Estimate| {
+        let (estimate, refused) = match (fit(weighting), weighting) {
+            ((Ok(first), _), &Weighting::Noise(measured)) => {
+                let by_scatter = Weighting::Noise(scatter(observations, &first, measured));
+                let (again, refused) = fit(&by_scatter);
+                let beside_noise = |again: Estimate| {
                     let whitened_rms = whitened_rms(observations, &again, weighting);
                     Estimate { whitened_rms, ..again }
                 };
-                (again.map(whitened), refused)
+                (again.map(beside_noise), refused)
             }
-            _ => (estimate, refused),
+            (first, _) => first,
         };
         (estimate.map(|estimate| estimate.with_yaw_scale(options.yaw_scale)), refused)
     }
-}
-
-/// How the residuals of an estimate scatter: by the noise, of which `measured` is known, and by
-/// what constant ICRs do not describe.
-fn scatter(observations: &Observations, of: &Estimate, measured: SegmentNoise) -> SegmentNoise {
-    let motions = weighting::Seen::all(observations.segments());
-    let (left, columns) = residuals(observations, of);
-    // Enough to know a variance to 5 %, in stretches from all over the recording.
-    let stride = motions.len().div_ceil(MAX_SCATTERED);
-    let chosen: Vec<usize> = (0..motions.len()).filter(|k| k / STRETCH % stride == 0).collect();
-    let of = |column: &[Vector3<f64>]| chosen.iter().map(|&k| column[k]).collect::<Vec<_>>();
-    let begins = |k: usize| k.is_multiple_of(STRETCH) && stride > 1;
-    let motion = |&k: &usize| {
-        let follows = motions[k].follows && !begins(k);
-        weighting::Seen { follows, ..motions[k] }
-    };
-    let motions: Vec<_> = chosen.iter().map(motion).collect();
-    let (left, columns) = (of(&left), columns.iter().map(|column| of(column)).collect::<Vec<_>>());
-    let search = Search::default();
-    let mut noise = search.regular(&measured);
-    for _ in 0..SCATTER_ROUNDS {
-        let taken = search.taken(&noise, |noise| ln_det(&motions, &columns, noise));
-        noise = search.most_likely(&motions, &left, noise, &taken);
-    }
-    noise
 }
 
 /// How the body moves by the track speeds, as far as the weights of segments depend on it: the

@@ -53,6 +53,7 @@ pub mod parameters;
 pub mod prediction;
 pub mod regular;
 pub mod residual_noise;
+mod scatter;
 pub mod segment;
 pub mod sensor;
 pub mod separation;

@@ -46,7 +46,7 @@ fn distances_agree_with_independent_fits() {
     let page = include_str!("../../../docs/validation.md").lines().collect::<Vec<_>>();
     for (name, row, error, chance) in rows {
         let is_there = |line: &&str| line.contains(name) && line.ends_with(&row);
-        assert!(page.iter().any(|line| is_there(line)), "docs/validation.md: {name} {row}");
+        assert!(page.iter().any(is_there), "docs/validation.md: {name} {row}");
         assert!(error.abs() < GOAL.max(chance), "{name}: {error:+.1} %");
     }
 }

@@ -133,7 +133,8 @@ impl Physics {
             } else {
                 Vec::new()
             };
-            let verdicts = verdicts.into_iter().map(|one| unless_unsure(one, &intervals));
+            let verdicts =
+                verdicts.into_iter().map(|one| unless_unsure(one, &intervals, &search.evidence));
             let (staying, mut verdicts): (Vec<Verdict>, Vec<Verdict>) =
                 verdicts.partition(|one| one.refused.is_some() && stays(one));
             refused.extend(staying);

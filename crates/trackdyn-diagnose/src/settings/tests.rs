@@ -3,6 +3,7 @@
 use super::{Entry, SettingError, Settings, page};
 use toml::{Table, Value};
 use trackdyn_core::document::Document;
+use trackdyn_estimate::likely_noise::Search;
 
 fn table(text: &str) -> Table {
     text.parse().expect("a table")
@@ -92,4 +93,10 @@ fn the_page_is_the_tree() {
     let path = "../../docs/theory/diagnosis/settings.md";
     let written = std::fs::read_to_string(path).expect("the page");
     assert_eq!(written, page(), "cargo run -p trackdyn-diagnose --example settings > {path}");
+}
+
+/// Identification and diagnosis look for noise in one way.
+#[test]
+fn noise_is_looked_for_as_by_default() {
+    assert_eq!(Settings::default().noise.search(), Search::default());
 }

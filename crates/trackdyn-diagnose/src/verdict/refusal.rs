@@ -79,6 +79,8 @@ pub enum Refusal {
     },
     /// The intervals of all its sizes include the neutral size.
     MayBeNone,
+    /// The interval of its place is wider than the area that was driven.
+    Nowhere,
     /// Constant ICRs are nearly those of the vehicle file.
     ConstantsAsFiled {
         /// Largest difference, m.
@@ -124,6 +126,9 @@ impl fmt::Display for Refusal {
                 write!(f, "no more than what {names} of a slightly other size may leave")
             }
             Self::MayBeNone => f.write_str("the 95 % interval of its size holds none"),
+            Self::Nowhere => {
+                f.write_str("the 95 % interval of its place is wider than the area driven")
+            }
             Self::ConstantsAsFiled { largest, needed } => write!(
                 f,
                 "ICRs differ from the vehicle file's by {:.1} mm, less than {:.0} % of the gauge",

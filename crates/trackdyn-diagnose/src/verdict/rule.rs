@@ -22,6 +22,8 @@ pub enum Rule {
     PhysicalSize,
     /// Broken by [`Refusal::MayBeNone`].
     Interval,
+    /// Broken by [`Refusal::Nowhere`].
+    Place,
     /// Broken by [`Refusal::NearlyAsFiled`].
     FiledSize,
     /// Broken by [`Refusal::WithinFiled`].
@@ -34,7 +36,7 @@ pub enum Rule {
 
 impl Rule {
     /// All rules, in the order of the report.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Chance,
         Self::Blocks,
         Self::BayesFactor,
@@ -43,6 +45,7 @@ impl Rule {
         Self::Form,
         Self::PhysicalSize,
         Self::Interval,
+        Self::Place,
         Self::FiledSize,
         Self::FiledLaws,
         Self::Constants,
@@ -58,7 +61,7 @@ impl Rule {
             Self::HeldOutGain => &["verdict.min_held_out_gain"],
             Self::Stability => &["verdict.min_stability"],
             Self::Form => &["verdict.max_form_error"],
-            Self::PhysicalSize | Self::Interval => &[],
+            Self::PhysicalSize | Self::Interval | Self::Place => &[],
             Self::FiledSize => &["verdict.min_filed_change"],
             Self::FiledLaws => &["answer.min_separation", "verdict.max_form_error"],
             Self::Constants => &["verdict.min_icr_difference"],
@@ -98,6 +101,10 @@ impl Rule {
             ),
             Self::PhysicalSize => "its sizes lie inside their physical ranges".to_owned(),
             Self::Interval => "the 95 % interval of one of its sizes excludes none".to_owned(),
+            Self::Place => {
+                "the 95 % interval of its place, if it has one, is narrower than the area driven"
+                    .to_owned()
+            }
             Self::FiledSize => format!(
                 "no law of the vehicle file explains it at a size within {} of the filed one",
                 percent(verdict.min_filed_change)
@@ -137,6 +144,7 @@ impl Refusal {
             Self::NearlyAsFiled { .. } => Rule::FiledSize,
             Self::WithinFiled { .. } => Rule::FiledLaws,
             Self::MayBeNone => Rule::Interval,
+            Self::Nowhere => Rule::Place,
             Self::ConstantsAsFiled { .. } => Rule::Constants,
         }
     }

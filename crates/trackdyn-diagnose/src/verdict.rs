@@ -163,8 +163,8 @@ fn within_filed(search: &Search, without: &Found, changed: &Change) -> Option<Re
     })
 }
 
-/// The verdict, refused where the intervals of all its sizes include the neutral size, or that of its
-/// place is wider than the area that was driven.
+/// The verdict, refused where the intervals of all its sizes include the neutral size, or that of
+/// its place is wider than the area that was driven.
 pub fn unless_unsure(verdict: Verdict, intervals: &[Interval], evidence: &Evidence) -> Verdict {
     let places = sizes(verdict.effect).into_iter();
     let sizes: Vec<&Interval> = places

@@ -1,8 +1,9 @@
 //! How the residuals of constant ICRs scatter.
 //!
-//! Constant ICRs leave more than noise: slip that changes with speed, slides, stamps. Weights by the
-//! noise alone would follow what they do not describe. The variances of [`SegmentNoise`] describe the
-//! scatter as a whole; they follow from the residuals of a fit by restricted likelihood.
+//! Constant ICRs leave more than noise: slip that changes with speed, slides, stamps. Weights by
+//! the noise alone would follow what they do not describe. The variances of [`SegmentNoise`]
+//! describe the scatter as a whole; they follow from the residuals of a fit by restricted
+//! likelihood.
 
 use crate::least_squares::{Estimate, residuals};
 use crate::likely_noise::{Search, ln_det};

@@ -36,6 +36,12 @@ def test_a_gauge_does_in_place_of_a_vehicle(robot, recording):
     )
 
 
+def test_a_vehicle_is_not_taken_in_silence(robot, recording):
+    with pytest.warns(td.Warning, match="no vehicle given: taken for auriga-alpha"):
+        by_default = td.IcrKinematics().fit(recording)
+    assert by_default.x_l_ == td.IcrKinematics(robot).fit(recording).x_l_
+
+
 def test_it_fits_one_part_and_scores_another(robot, recording):
     fitted = td.IcrKinematics(robot).fit(recording.part(runs="0-1"))
     assert fitted.score(recording.part(runs=2)) > 0.9

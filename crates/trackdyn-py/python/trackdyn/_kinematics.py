@@ -28,7 +28,8 @@ class IcrKinematics:
     Parameters
     ----------
     vehicle : Vehicle, str, path, mapping or float
-        The vehicle, or its gauge in m: that is all that counts of it.
+        The vehicle, or its gauge in m: that is all that counts of it. Default: Auriga-alpha, with
+        a warning.
     alphas : bool
         Fit factors on the track speeds beside the ICRs.
     tau : float, optional
@@ -67,7 +68,7 @@ class IcrKinematics:
 
     def __init__(
         self,
-        vehicle: VehicleLike | float = "auriga-alpha",
+        vehicle: VehicleLike | float | None = None,
         *,
         alphas: bool = False,
         tau: float | None = None,
@@ -133,7 +134,10 @@ class IcrKinematics:
             "population": self.population,
             "generations": self.generations,
         }
-        gauge = gauge_of(self.vehicle)
+        if self.vehicle is None:
+            text = "no vehicle given: taken for auriga-alpha; give a vehicle or its gauge"
+            warnings.warn(f"{recording._inner.place}: {text}", Warning, stacklevel=2)
+        gauge = gauge_of(self._vehicle())
         with told(self.progress, "identify") as progress:
             found = _trackdyn.identify(recording._inner, gauge, keywords, progress)
         place = int(self.alphas)
@@ -192,7 +196,7 @@ class IcrKinematics:
             worse.
         """
         replay = odometry(
-            recording, self.vehicle, [self._fitted()], tau=self.tau, gyroscope=self.gyroscope
+            recording, self._vehicle(), [self._fitted()], tau=self.tau, gyroscope=self.gyroscope
         )
         ideal, fitted = replay.errors_at_end[0, 0], replay.errors_at_end[1, 0]
         return float(1.0 - (fitted / ideal) ** 2) if ideal > 0.0 else float("nan")
@@ -209,6 +213,9 @@ class IcrKinematics:
         if self._found is None:
             raise ResultError("an estimator that was unpickled has its parameters_ alone to write")
         return list(self._found.write(folder, COMMAND))
+
+    def _vehicle(self) -> VehicleLike | float:
+        return "auriga-alpha" if self.vehicle is None else self.vehicle
 
     def _fitted(self) -> Parameters:
         parameters: Parameters | None = getattr(self, "parameters_", None)

@@ -5,6 +5,7 @@ use trackdyn_diagnose::base::Base;
 use trackdyn_diagnose::candidate::{Beside, candidates};
 use trackdyn_diagnose::evidence::Evidence;
 use trackdyn_diagnose::noise::with_remaining_noise;
+use trackdyn_diagnose::progress::Watch;
 use trackdyn_diagnose::search::{Catalogue, Search};
 use trackdyn_diagnose::{Settings, Weighted};
 use trackdyn_drive::sensors::Preset;
@@ -25,8 +26,9 @@ fn search(concealed: &[&str], seed: u64) -> Search {
     let settings = Settings::default();
     let evidence = Evidence::of_recording(&recording, file.vehicle.gauge, &settings);
     let evidence = Weighted::new(evidence.expect("enough"));
-    let base = Base::new(&file, &evidence);
-    let evidence = with_remaining_noise(&evidence, &base.fit);
+    let base = Base::new(&file, &evidence, &Watch::none()).expect("not cancelled");
+    let evidence =
+        with_remaining_noise(&evidence, &base.fit, &Watch::none()).expect("not cancelled");
     let base = base.refitted(&evidence);
     let tried = candidates(&base.instruments, &evidence);
     let entries = Beside::new(&base.fit.hypothesis, &evidence).signatures(&tried);

@@ -13,6 +13,7 @@ use crate::hypothesis::{
 use crate::mechanics::{Mechanics, is_instrument};
 use crate::normal::{Columns, Normal, Prior};
 use crate::prior::prior;
+use crate::progress::{Cancelled, Watch};
 use crate::weighted::Weighted;
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::PerSide;
@@ -43,13 +44,16 @@ const SHOWN_BY_INERTIA: [Unknown; 3] = [Unknown::FrictionLevel, Unknown::Cog(0),
 
 impl Base {
     /// Fits the base of a vehicle to the evidence.
-    pub fn new(file: &VehicleFile, evidence: &Weighted) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`], by the observer of the watch.
+    pub fn new(file: &VehicleFile, evidence: &Weighted, watch: &Watch) -> Result<Self, Cancelled> {
         let settings = evidence.settings();
         let hypothesis = Hypothesis::filed(file, &settings.prior);
         let as_filed = Fit::new(hypothesis.clone(), &OFFSETS, evidence, None);
         let start = with_clock(&hypothesis, evidence);
         let mut nuisances = OFFSETS.to_vec();
-        let instruments = free_instruments(&start, evidence, &as_filed.mechanics);
+        let instruments = free_instruments(&start, evidence, &as_filed.mechanics, watch)?;
         for &effect in &instruments {
             nuisances.extend(unknowns_of(effect));
         }
@@ -64,11 +68,13 @@ impl Base {
                 nuisances.push(unknown);
             }
         }
+        watch.go_on()?;
         let plain = Fit::new(start, &nuisances, evidence, Some(&fit.mechanics));
         // The vehicle's numbers absorb constant ICR offsets; a second fit finds the rest.
         let (mut fit, mut calibration) = (plain.clone(), Calibration::None);
         for tried in Calibration::ALL {
             let Some(hypothesis) = tried.calibrated(&plain.hypothesis) else { continue };
+            watch.go_on()?;
             let again = Fit::new(hypothesis, &nuisances, evidence, None);
             // Where no calibration fits clearly better, the first one is kept.
             let least = settings.base.min_fall_of_calibration;
@@ -77,7 +83,7 @@ impl Base {
                 (fit, calibration) = (again, tried);
             }
         }
-        Self { as_filed, fit, nuisances, instruments, calibration }
+        Ok(Self { as_filed, fit, nuisances, instruments, calibration })
     }
 
     /// The base refitted to evidence with other noise or scale.
@@ -131,13 +137,15 @@ fn free_instruments(
     hypothesis: &Hypothesis,
     evidence: &Weighted,
     mechanics: &Mechanics,
-) -> Vec<EffectId> {
+    watch: &Watch,
+) -> Result<Vec<EffectId>, Cancelled> {
     let mut unknowns = OFFSETS.to_vec();
     let mut chosen = Vec::new();
     for effect in EffectId::all() {
         if !is_instrument(&hypothesis.vehicle, &typical(effect)) {
             continue;
         }
+        watch.go_on()?;
         let more: Vec<Unknown> = unknowns_of(effect).collect();
         let tried: Vec<Unknown> = unknowns.iter().chain(&more).copied().collect();
         let fit = Fit::at(hypothesis.clone(), &tried, evidence, Some(mechanics));
@@ -146,7 +154,7 @@ fn free_instruments(
             chosen.push(effect);
         }
     }
-    chosen
+    Ok(chosen)
 }
 
 /// Smallest share of a column's square, of all columns after the first `base`, that is independent

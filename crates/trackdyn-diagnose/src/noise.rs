@@ -23,6 +23,7 @@
 mod flexible;
 
 use crate::fit::Fit;
+use crate::progress::{Cancelled, Watch};
 use crate::weighted::Weighted;
 use flexible::Flexible;
 use nalgebra::Vector3;
@@ -32,13 +33,26 @@ use trackdyn_estimate::weighting::SegmentNoise;
 
 /// The evidence with noise estimated from the residuals of a fit. Tables of steady points keep
 /// theirs.
-pub fn with_remaining_noise(evidence: &Weighted, fit: &Fit) -> Weighted {
-    let Some(&measured) = evidence.noise() else { return evidence.clone() };
-    remaining(evidence, measured, &Flexible::new(evidence, fit))
+///
+/// # Errors
+/// [`Cancelled`], by the observer of the watch.
+pub fn with_remaining_noise(
+    evidence: &Weighted,
+    fit: &Fit,
+    watch: &Watch,
+) -> Result<Weighted, Cancelled> {
+    let Some(&measured) = evidence.noise() else { return Ok(evidence.clone()) };
+    watch.go_on()?;
+    remaining(evidence, measured, &Flexible::new(evidence, fit), watch)
 }
 
 /// The evidence with noise estimated beside all flexible columns, starting from `measured`.
-fn remaining(evidence: &Weighted, measured: SegmentNoise, flexible: &Flexible) -> Weighted {
+fn remaining(
+    evidence: &Weighted,
+    measured: SegmentNoise,
+    flexible: &Flexible,
+    watch: &Watch,
+) -> Result<Weighted, Cancelled> {
     let settings = &evidence.settings().noise;
     let search = settings.search();
     let mut noise = search.regular(&measured);
@@ -46,13 +60,14 @@ fn remaining(evidence: &Weighted, measured: SegmentNoise, flexible: &Flexible) -
     let predicted: Vec<_> = samples.map(|(sample, left)| sample.motion - left).collect();
     let mut evidence = evidence.with_all_in(noise).moving_as(&predicted);
     for _ in 0..settings.rounds {
+        watch.go_on()?;
         let left = flexible.left(&evidence);
         let taken = flexible.taken(&evidence, &noise, &left.columns);
         noise = search.most_likely(&evidence.motions(), &left.residual, noise, &taken);
         evidence = evidence.with_noise(noise);
         evidence = evidence.without(&outliers(&evidence, &noise, &left.residual));
     }
-    evidence
+    Ok(evidence)
 }
 
 /// The evidence without samples at outlying poses, judged beside a fit with the present noise.
@@ -88,10 +103,21 @@ pub fn sentence(noise: &SegmentNoise) -> String {
 
 /// The evidence with noise estimated beside a hypothesis that explains more than contrasts; none
 /// where no axis has less noise.
-pub fn sharper(evidence: &Weighted, fit: &Fit) -> Option<Weighted> {
-    let before = evidence.noise()?;
-    let again = with_remaining_noise(evidence, fit);
-    let after = again.noise()?;
+///
+/// # Errors
+/// [`Cancelled`], by the observer of the watch.
+pub fn sharper(
+    evidence: &Weighted,
+    fit: &Fit,
+    watch: &Watch,
+) -> Result<Option<Weighted>, Cancelled> {
+    let again = with_remaining_noise(evidence, fit, watch)?;
+    Ok(is_quieter(evidence, &again).unwrap_or(false).then_some(again))
+}
+
+/// Whether the noise of evidence, summed over a run, fell along an axis; none without a noise.
+fn is_quieter(evidence: &Weighted, again: &Weighted) -> Option<bool> {
+    let (before, after) = (evidence.noise()?, again.noise()?);
     let time = run_time(evidence)?;
     let squares = mean_squares(&evidence.motions());
     // A walk in yaw and a wandering heading look alike in a sample, but not over a run.
@@ -102,9 +128,7 @@ pub fn sharper(evidence: &Weighted, fit: &Fit) -> Option<Weighted> {
         pairs.map(|(white, walk)| white + walk * time)
     };
     let ratio = evidence.settings().noise.min_variance_ratio;
-    let is_less =
-        added(before).iter().zip(added(after)).any(|(before, after)| *before > ratio * after);
-    is_less.then_some(again)
+    Some(added(before).iter().zip(added(after)).any(|(before, after)| *before > ratio * after))
 }
 
 /// Mean duration of a run with samples, s; none without samples.
@@ -310,7 +334,8 @@ mod tests {
             let taken = flexible.taken(&evidence, &TRUE, &left.columns);
             assert!((taken.sum() - real(COLUMNS)).abs() < 0.1 * real(COLUMNS), "{taken}");
             let unaware = most_likely(&evidence, &left.residual, TRUE, &Variances::zeros());
-            let aware = *remaining(&evidence, measured, &flexible).noise().expect("one");
+            let aware = remaining(&evidence, measured, &flexible, &Watch::none());
+            let aware = *aware.expect("not cancelled").noise().expect("one");
             for (sums, found) in logarithms.iter_mut().zip([unaware, aware]) {
                 let off = variances_of(&found) - variances_of(&TRUE);
                 for (sum, off) in sums.iter_mut().zip(off.iter()) {

@@ -164,7 +164,14 @@ impl Search {
 
     /// Variants between those of the catalogue with a higher gain, for effects that show beside the
     /// base.
-    pub fn between(&self, beside: &Beside) -> Vec<(Variant, Vec<Signature>)> {
+    ///
+    /// # Errors
+    /// [`Cancelled`], by the observer of the watch.
+    pub fn between(
+        &self,
+        beside: &Beside,
+        watch: &Watch,
+    ) -> Result<Vec<(Variant, Vec<Signature>)>, Cancelled> {
         let nothing = self.nothing();
         let alone = |variant: &Variant, signatures: &[Signature]| -> f64 {
             let catalogue = Catalogue { entries: vec![(variant.clone(), signatures.to_vec())] };
@@ -177,7 +184,10 @@ impl Search {
         shows
             .map(|one| (&self.catalogue.entries[one.entry].0, one.gain))
             .filter(|(variant, _)| !beside.knows(variant))
-            .filter_map(|(variant, gain)| beside.between(variant, gain, alone))
+            .filter_map(|(variant, gain)| match watch.go_on() {
+                Ok(()) => beside.between(variant, gain, alone).map(Ok),
+                Err(cancelled) => Some(Err(cancelled)),
+            })
             .collect()
     }
 
@@ -377,7 +387,7 @@ impl Search {
         let mut best = self.nothing();
         for round in 0..settings.max_rounds {
             let mut proposals: Vec<(Found, Vec<Screened>)> = Vec::new();
-            let whole = if round == 0 { self.newton(&best) } else { None };
+            let whole = if round == 0 { self.newton(&best, watch)? } else { None };
             if best.effects.len() < settings.max_effects {
                 let mut screened = self.screen(&best);
                 screened.retain(|one| !self.is_as_filed(one));

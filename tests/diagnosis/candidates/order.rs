@@ -40,7 +40,7 @@ fn both_ways() -> [Found; 2] {
     let evidence = Evidence::of_recording(&recording(), file.vehicle.gauge, &Settings::default())
         .expect("enough");
     let evidence = Weighted::new(evidence);
-    let base = Base::new(&file, &evidence);
+    let base = Base::new(&file, &evidence, &Watch::none()).expect("not cancelled");
     let tried = candidates(&base.instruments, &evidence);
     let mut entries = Beside::new(&base.fit.hypothesis, &evidence).signatures(&tried);
     [false, true].map(|is_reversed| {

@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::evidence::{Evidence, Origin};
 use crate::fit::Fit;
 use crate::noise::with_remaining_noise;
+use crate::progress::{Cancelled, Watch};
 use crate::settings;
 use crate::weighted::Weighted;
 use trackdyn_model::VehicleFile;
@@ -55,16 +56,16 @@ impl InNoise {
     ///
     /// # Errors
     /// Evidence without turning, or a vehicle for which no motion exists.
-    pub fn of(seen: Evidence, file: &VehicleFile) -> Result<Self, Error> {
+    pub fn of(seen: Evidence, file: &VehicleFile, watch: &Watch) -> Result<Self, Error> {
         let measured = Weighted::new(seen);
-        let base = Base::new(file, &measured);
+        let base = Base::new(file, &measured, watch)?;
         if let Some(reason) = base.as_filed.mechanics.failure() {
             return Err(Error::NoMotion(reason.to_owned()));
         }
         if !turns(&base.as_filed, &measured.settings().base) {
             return Err(Error::NoTurning);
         }
-        Ok(Self { seen: with_remaining_noise(&measured, &base.fit), base })
+        Ok(Self { seen: with_remaining_noise(&measured, &base.fit, watch)?, base })
     }
 }
 
@@ -79,24 +80,38 @@ pub(super) struct Cleaned {
 impl Cleaned {
     /// Removes late stamps, then encoder ticks: a fit would mistake either noise for a drive lag. A
     /// cleaning is kept unless the fit becomes worse.
-    pub fn of(seen: Weighted, unseen: Option<Evidence>, base: &Base) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`], by the observer of the watch.
+    pub fn of(
+        seen: Weighted,
+        unseen: Option<Evidence>,
+        base: &Base,
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
         let steps = seen.steps();
         let as_read = Self { seen, unseen };
-        let even = as_read.unless_worse(base, Evidence::with_regular_stamps);
-        even.unless_worse(base, |evidence| evidence.with_speeds_between_ticks(steps))
+        let even = as_read.unless_worse(base, Evidence::with_regular_stamps, watch)?;
+        even.unless_worse(base, |evidence| evidence.with_speeds_between_ticks(steps), watch)
     }
 
     /// Evidence with cleaned readings and its re-estimated noise, unless the base fits worse.
-    fn unless_worse(self, base: &Base, cleaned: impl Fn(&Evidence) -> Evidence) -> Self {
+    fn unless_worse(
+        self,
+        base: &Base,
+        cleaned: impl Fn(&Evidence) -> Evidence,
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
+        watch.go_on()?;
         let base = base.refitted(&self.seen);
         let tried = self.seen.with_readings(&cleaned);
         let again = base.refitted(&tried);
         let most = self.seen.settings().evidence.max_rise_by_cleaning;
         if again.fit.objective < base.fit.objective + most {
-            let seen = with_remaining_noise(&tried, &again.fit);
-            Self { seen, unseen: self.unseen.as_ref().map(cleaned) }
+            let seen = with_remaining_noise(&tried, &again.fit, watch)?;
+            Ok(Self { seen, unseen: self.unseen.as_ref().map(cleaned) })
         } else {
-            self
+            Ok(self)
         }
     }
 }

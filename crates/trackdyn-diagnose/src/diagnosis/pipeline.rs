@@ -39,11 +39,12 @@ pub fn diagnose(
     let Split { seen, unseen } = Split::new(evidence, &options.held_out)?;
 
     // Noise: the residual scatter after everything that driving could explain is fitted.
-    let InNoise { seen, base } = watch.try_stage(Stage::Noise, || InNoise::of(seen, file))?;
+    let InNoise { seen, base } =
+        watch.try_stage(Stage::Noise, || InNoise::of(seen, file, watch))?;
 
     // Cleaned: late stamps and encoder ticks are removed from the readings.
     let Cleaned { seen, unseen } =
-        watch.stage(Stage::Readings, || Cleaned::of(seen, unseen, &base))?;
+        watch.try_stage(Stage::Readings, || Cleaned::of(seen, unseen, &base, watch))?;
 
     // Signatures and search, repeated with smaller noise where the best hypothesis shows that the
     // noise was overestimated. Then the verdicts.

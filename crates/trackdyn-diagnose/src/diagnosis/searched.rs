@@ -37,7 +37,7 @@ impl Searched {
     /// explains what contrasts cannot, which had been counted as noise.
     pub fn sharpened(seen: &Weighted, base: Base, watch: &Watch) -> Result<Self, Cancelled> {
         let first = Self::of(seen, base, watch)?;
-        if let Some(seen) = sharper(&first.search.evidence, &first.found.fit) {
+        if let Some(seen) = sharper(&first.search.evidence, &first.found.fit, watch)? {
             let base = first.search.base.refitted(&seen);
             drop(first); // its signatures take as much memory as the next ones
             Self::of(&seen, base, watch)
@@ -56,6 +56,6 @@ fn with_signatures(seen: &Weighted, base: Base, watch: &Watch) -> Result<Search,
     let beside = Beside::new(&base.fit.hypothesis, seen);
     let catalogue = Catalogue { entries: beside.signatures_while(&tried, watch.of_tasks())? };
     let search = Search::new(seen.clone(), Arc::clone(&base), catalogue);
-    let between = search.between(&beside);
+    let between = search.between(&beside, watch)?;
     Ok(search.with_more(between))
 }

@@ -8,19 +8,23 @@ use super::{Found, Search};
 use crate::base::without_clock;
 use crate::fit::{Fit, Point};
 use crate::hypothesis::{Hypothesis, active, neutral, unknowns_of};
+use crate::progress::{Cancelled, Watch};
 use trackdyn_model::EffectId;
 use trackdyn_model::effect::{Parameter, Role};
 
 impl Search {
     /// The hypothesis with all inertial effects that it lacks, refitted from the best of the
-    /// levels; none where it lacks fewer than two.
-    pub(super) fn newton(&self, beside: &Found) -> Option<Found> {
+    /// levels; none where it lacks fewer than two, or no motion exists at any level.
+    ///
+    /// # Errors
+    /// [`Cancelled`], by the observer of the watch.
+    pub(super) fn newton(&self, beside: &Found, watch: &Watch) -> Result<Option<Found>, Cancelled> {
         let hypothesis = &beside.fit.hypothesis;
         let is_lacking =
             |effect: &EffectId| effect.card().is_inertia() && hypothesis.effect(*effect).is_none();
         let inertial: Vec<EffectId> = EffectId::all().filter(is_lacking).collect();
         if inertial.len() < 2 {
-            return None;
+            return Ok(None);
         }
         let mut effects = beside.effects.clone();
         let mut unknowns = beside.fit.unknowns.clone();
@@ -29,19 +33,25 @@ impl Search {
             unknowns.extend(unknowns_of(effect));
         }
         effects.sort_unstable();
-        let clocks =
-            [hypothesis.clone(), without_clock(hypothesis, &self.base.as_filed.hypothesis)];
+        let mut clocks =
+            vec![hypothesis.clone(), without_clock(hypothesis, &self.base.as_filed.hypothesis)];
+        clocks.dedup();
         let levels = &self.settings().search.newton_levels;
         let starts =
             clocks.iter().flat_map(|clock| levels.iter().map(|&l| at(clock, &inertial, l)));
-        let points = starts
-            .map(|start| Point::new(start, &unknowns, &self.evidence, Some(&beside.fit.mechanics)));
-        let best = points.min_by(|a, b| a.objective.total_cmp(&b.objective))?;
-        if best.objective.is_infinite() {
-            return None;
+        let mut best: Option<Point> = None;
+        for start in starts {
+            watch.go_on()?;
+            let point = Point::new(start, &unknowns, &self.evidence, Some(&beside.fit.mechanics));
+            let most = best.as_ref().map_or(f64::INFINITY, |best| best.objective);
+            if point.objective < most {
+                best = Some(point);
+            }
         }
+        let Some(best) = best else { return Ok(None) };
+        watch.go_on()?;
         let fit = Fit::from_point(best, &unknowns, &self.evidence);
-        Some(self.recalibrated(effects, fit))
+        Ok(Some(self.recalibrated(effects, fit)))
     }
 }
 

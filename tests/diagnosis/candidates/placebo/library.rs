@@ -12,6 +12,7 @@ use trackdyn_diagnose::evidence::{Evidence, Sample};
 use trackdyn_diagnose::locate::{IcrColumns, icr_columns};
 use trackdyn_diagnose::normal::{Normal, Prior};
 use trackdyn_diagnose::prior::priors;
+use trackdyn_diagnose::progress::Watch;
 use trackdyn_diagnose::{Settings, Weighted};
 use trackdyn_estimate::synthetic::{Synthetic, random_steps};
 use trackdyn_model::{EffectId, VehicleFile};
@@ -56,7 +57,8 @@ impl Library {
         let evidence = Evidence::of_recording(&recording, file.vehicle.gauge, &Settings::default())
             .expect("enough");
         let evidence = Weighted::new(evidence);
-        let Base { fit, instruments, .. } = Base::new(&file, &evidence);
+        let base = Base::new(&file, &evidence, &Watch::none());
+        let Base { fit, instruments, .. } = base.expect("not cancelled");
         let tried: Vec<_> = EffectId::all()
             .filter(|effect| !instruments.contains(effect))
             .flat_map(|effect| variants(effect, &evidence))

@@ -8,13 +8,10 @@ use crate::stderr::note;
 use crate::wording::option;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use trackdyn::crates::core::Pose;
-use trackdyn::crates::model::Effects;
-use trackdyn::crates::model::effect::Stage;
-use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
-use trackdyn::crates::recording::{Columns, DoubtKind, SpeedUnit};
 use trackdyn::recording::BagOptions;
+use trackdyn::recording::{Columns, Dating, DoubtKind, JointSignal, SpeedUnit};
 use trackdyn::{ActiveEffect, Circumstance, Part, ReadOptions, Recording, RunList, Symmetry};
+use trackdyn::{Effects, Pose, Stage};
 
 /// Headings of groups of options in helps.
 const PLACE: &str = "Place and time";

@@ -1,7 +1,6 @@
 //! Command lines for a user to copy.
 
-use trackdyn::crates::recording::SpeedUnit;
-use trackdyn::crates::recording::rosbag::{Dating, JointSignal};
+use trackdyn::recording::{Dating, JointSignal, SpeedUnit};
 use trackdyn::{Part, ReadOptions};
 
 /// A word as a POSIX shell takes it for one: quoted where it has to be.

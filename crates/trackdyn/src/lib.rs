@@ -123,11 +123,12 @@ pub use simulate::{SimulateSettings, Simulation, simulate};
 pub use sketch::VehicleSketch;
 pub use vehicle::{Vehicle, refuse_repeated};
 
+pub use trackdyn_core::Pose;
 pub use trackdyn_diagnose::{Resampling, Settings as MethodSettings, Status};
 pub use trackdyn_drive::{Path, Sensors};
-pub use trackdyn_model::effect::{Card, Parameter, Symmetry, Term};
+pub use trackdyn_model::effect::{Card, Parameter, Stage, Symmetry, Term};
 pub use trackdyn_model::vehicle::RunningGear;
-pub use trackdyn_model::{ActiveEffect, Circumstance, Grid, Kinematics};
+pub use trackdyn_model::{ActiveEffect, Circumstance, Effects, Grid, Kinematics};
 pub use trackdyn_recording::RunList;
 pub use trackdyn_report::Figure;
 

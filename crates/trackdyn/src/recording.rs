@@ -10,6 +10,8 @@ pub use kept::{Kept, KeptSeen};
 pub use options::ReadOptions;
 pub use part::Part;
 pub use points::PointsTable;
+pub use trackdyn_recording::rosbag::{Dating, JointSignal};
+pub use trackdyn_recording::{Columns, DoubtKind, PoseFrame, SpeedUnit};
 
 use crate::Error;
 use std::path::{Path, PathBuf};

@@ -18,6 +18,8 @@ INTERRUPTED = """
 import signal, sys, threading, time, os
 import trackdyn as td
 
+# also where the tests run in the background, whose interrupts a shell ignores
+signal.signal(signal.SIGINT, signal.default_int_handler)
 model = td.Vehicle("auriga-alpha").with_inertia()
 log = td.simulate(model.with_effect("directional-lugs"), runs=4, seed=2).recording
 jobs = {

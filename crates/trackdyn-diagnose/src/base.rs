@@ -10,7 +10,7 @@ use crate::fit::Fit;
 use crate::hypothesis::{
     Hypothesis, Unknown, active, neutral, typical, unknowns_of, with_friction,
 };
-use crate::mechanics::{Mechanics, is_instrument};
+use crate::mechanics::{Mechanics, is_instrument, single};
 use crate::normal::{Columns, Normal, Prior};
 use crate::prior::prior;
 use crate::progress::{Cancelled, Watch};
@@ -101,8 +101,7 @@ impl Base {
 fn with_clock(hypothesis: &Hypothesis, evidence: &Weighted) -> Hypothesis {
     let own = Model::new(hypothesis.vehicle.clone(), hypothesis.effects.clone()).sensor().delay;
     for effect in EffectId::all() {
-        let effects: Effects = std::iter::once(typical(effect)).collect();
-        let delay = Model::new(hypothesis.vehicle.clone(), effects).sensor().delay;
+        let delay = single(&hypothesis.vehicle, &typical(effect)).sensor().delay;
         if delay != 0.0 && hypothesis.effect(effect).is_none() {
             let share = (evidence.tau() - own) / delay;
             let values: Vec<f64> = (effect.card().parameters)
@@ -119,16 +118,10 @@ fn with_clock(hypothesis: &Hypothesis, evidence: &Weighted) -> Hypothesis {
 
 /// The hypothesis with none of the delay of poses that the vehicle file does not have.
 pub fn without_clock(hypothesis: &Hypothesis, filed: &Hypothesis) -> Hypothesis {
-    let delays = |effect: &ActiveEffect| {
-        let alone: Effects = std::iter::once(effect.clone()).collect();
-        Model::new(hypothesis.vehicle.clone(), alone).sensor().delay != 0.0
-    };
+    let delays = |effect: &ActiveEffect| single(&hypothesis.vehicle, effect).sensor().delay != 0.0;
     let late = hypothesis.effects.iter().filter(|effect| delays(effect));
     let added = late.map(ActiveEffect::effect).filter(|effect| filed.effect(*effect).is_none());
-    added.collect::<Vec<_>>().into_iter().fold(hypothesis.clone(), |hypothesis, effect| {
-        let values: Vec<f64> = effect.card().parameters.iter().map(neutral).collect();
-        hypothesis.with_effect(active(effect, &values))
-    })
+    added.fold(hypothesis.clone(), |hypothesis, effect| hypothesis.without(effect))
 }
 
 /// Instrument effects that this evidence separates from each other and from constant ICRs, in

@@ -388,7 +388,8 @@ fn coarse(vehicle: &Vehicle, effects: Effects) -> Model {
     Model::new(vehicle.clone(), effects).with_resolution(Resolution::Coarse)
 }
 
-fn single(vehicle: &Vehicle, effect: &ActiveEffect) -> Model {
+/// The model of a vehicle with one effect alone.
+pub(crate) fn single(vehicle: &Vehicle, effect: &ActiveEffect) -> Model {
     coarse(vehicle, std::iter::once(effect.clone()).collect())
 }
 

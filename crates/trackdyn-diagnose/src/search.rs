@@ -385,9 +385,9 @@ impl Search {
         let settings = &self.settings().search;
         let worth = settings.min_ln_evidence;
         let mut best = self.nothing();
-        for round in 0..settings.max_rounds {
+        let mut whole = self.newton(&best, watch)?;
+        for _ in 0..settings.max_rounds {
             let mut proposals: Vec<(Found, Vec<Screened>)> = Vec::new();
-            let whole = if round == 0 { self.newton(&best, watch)? } else { None };
             if best.effects.len() < settings.max_effects {
                 let mut screened = self.screen(&best);
                 screened.retain(|one| !self.is_as_filed(one));
@@ -443,7 +443,7 @@ impl Search {
             let next = reduced
                 .into_iter()
                 .chain(refitted)
-                .chain(whole)
+                .chain(whole.take())
                 .max_by(|a, b| value(a).total_cmp(&value(b)).then(b.effects.cmp(&a.effects)));
             match next {
                 Some(next) if value(&next) > value(&best) + settings.min_round_gain => {

@@ -35,8 +35,8 @@ pub struct Wave {
     pub test: Test,
 }
 
-/// The most significant wave in a residual, beside other columns that may explain it; none in
-/// tables of steady motion.
+/// The most significant wave in a residual, beside other columns that may explain it; none
+/// where samples share no world.
 ///
 /// `residual` and the columns `beside` are whitened, `icrs` are not.
 pub fn strongest_wave(

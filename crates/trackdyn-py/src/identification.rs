@@ -1,6 +1,7 @@
 //! Identification of the kinematics.
 
 use crate::errors::{raised, refused};
+use crate::files::written;
 use crate::options::parsed;
 use crate::parameters::Parameters;
 use crate::recording::Recording;
@@ -141,7 +142,6 @@ impl Identification {
 
     /// Writes its files into a folder; those that were written.
     fn write(&self, folder: PathBuf, command: &str) -> PyResult<Vec<PathBuf>> {
-        let changes = self.inner.write(folder, &Provenance::new(command)).map_err(raised)?;
-        Ok(changes.iter().map(|change| change.path().to_owned()).collect())
+        written(self.inner.write(folder, &Provenance::new(command)))
     }
 }

@@ -11,6 +11,7 @@ mod arrow;
 mod diagnosis;
 mod errors;
 mod figure;
+mod files;
 mod identification;
 mod inspection;
 mod map;

@@ -1,8 +1,9 @@
 //! ICR maps.
 
 use crate::arrays::Table;
-use crate::errors::{raised, refused, said};
+use crate::errors::{refused, said};
 use crate::figure::Figure;
+use crate::files::written;
 use crate::parameters::Parameters;
 use crate::vehicle::Vehicle;
 use crate::work::run;
@@ -135,7 +136,6 @@ impl IcrMap {
 
     /// Writes its files into a folder; those that were written.
     fn write(&self, folder: PathBuf, command: &str) -> PyResult<Vec<PathBuf>> {
-        let changes = self.inner.write(folder, &Provenance::new(command)).map_err(raised)?;
-        Ok(changes.iter().map(|change| change.path().to_owned()).collect())
+        written(self.inner.write(folder, &Provenance::new(command)))
     }
 }

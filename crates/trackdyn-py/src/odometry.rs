@@ -1,8 +1,8 @@
 //! Dead reckoning.
 
 use crate::arrays::rows;
-use crate::errors::raised;
 use crate::figure::Figure;
+use crate::files::written;
 use crate::identification::OfGauge;
 use crate::options::part;
 use crate::parameters::Parameters;
@@ -104,8 +104,7 @@ impl Odometry {
 
     /// Writes its files into a folder; those that were written.
     fn write(&self, folder: PathBuf, command: &str) -> PyResult<Vec<PathBuf>> {
-        let changes = self.inner.write(folder, &Provenance::new(command)).map_err(raised)?;
-        Ok(changes.iter().map(|change| change.path().to_owned()).collect())
+        written(self.inner.write(folder, &Provenance::new(command)))
     }
 }
 

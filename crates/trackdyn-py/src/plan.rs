@@ -2,6 +2,7 @@
 
 use crate::arrays::rows;
 use crate::errors::{raised, refused};
+use crate::files::written;
 use crate::tables::from_toml;
 use crate::vehicle::Vehicle;
 use crate::work::run;
@@ -80,7 +81,6 @@ impl Plan {
 
     /// Writes its files into a folder; those that were written.
     fn write(&self, folder: PathBuf, command: &str) -> PyResult<Vec<PathBuf>> {
-        let changes = self.inner.write(folder, &Provenance::new(command)).map_err(raised)?;
-        Ok(changes.iter().map(|change| change.path().to_owned()).collect())
+        written(self.inner.write(folder, &Provenance::new(command)))
     }
 }

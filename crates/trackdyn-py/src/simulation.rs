@@ -2,6 +2,7 @@
 
 use crate::arrays::Table;
 use crate::errors::{raised, refused, said};
+use crate::files::written;
 use crate::recording::Recording;
 use crate::tables::from_toml;
 use crate::vehicle::Vehicle;
@@ -185,7 +186,6 @@ impl Simulation {
 
     /// Writes its files into a folder; those that were written.
     fn write(&self, folder: PathBuf, command: &str) -> PyResult<Vec<PathBuf>> {
-        let changes = self.inner.write(folder, &Provenance::new(command)).map_err(raised)?;
-        Ok(changes.iter().map(|change| change.path().to_owned()).collect())
+        written(self.inner.write(folder, &Provenance::new(command)))
     }
 }

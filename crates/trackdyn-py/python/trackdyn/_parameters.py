@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _trackdyn
+from ._document import Document
 
 
-class Parameters:
+class Parameters(Document):
     """Kinematic parameters of a robot, and where they come from (schema ``trackdyn.kinematics/1``).
 
     Parameters
@@ -124,26 +125,6 @@ class Parameters:
         """
         ahead, turn, shape = _pair(forward, yaw_rate)
         return self._inner.track_speeds(ahead, turn).reshape((*shape, 2))
-
-    def to_dict(self) -> dict[str, Any]:
-        """What the file says."""
-        return _trackdyn.from_toml(self._inner.toml)
-
-    def to_toml(self) -> str:
-        """The text of the file."""
-        return self._inner.toml
-
-    def write(self, path: str | os.PathLike[str]) -> None:
-        """Write the file."""
-        self._inner.write(path)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Parameters):
-            return NotImplemented
-        return self._inner.toml == other._inner.toml
-
-    def __hash__(self) -> int:
-        return hash(self._inner.toml)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Parameters.from_toml, (self._inner.toml, self.name)

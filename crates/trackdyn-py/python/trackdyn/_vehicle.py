@@ -8,10 +8,11 @@ from typing import Any
 
 from . import _trackdyn
 from ._arguments import plain
+from ._document import Document
 from ._errors import VehicleError
 
 
-class Vehicle:
+class Vehicle(Document):
     """A vehicle, and the physics that its model has beyond the base model.
 
     Parameters
@@ -179,26 +180,6 @@ class Vehicle:
                 table = table.setdefault(step, {})
             table[key] = value
         return Vehicle(tables)
-
-    def to_dict(self) -> dict[str, Any]:
-        """What its file says."""
-        return _trackdyn.from_toml(self._inner.toml)
-
-    def to_toml(self) -> str:
-        """The text of its file."""
-        return self._inner.toml
-
-    def write(self, path: str | os.PathLike[str]) -> None:
-        """Write its file."""
-        self._inner.write(path)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Vehicle):
-            return NotImplemented
-        return self._inner.toml == other._inner.toml
-
-    def __hash__(self) -> int:
-        return hash(self._inner.toml)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Vehicle.from_toml, (self._inner.toml,)

@@ -7,9 +7,7 @@
 
 use crate::equations::{Column, Stack};
 use crate::fit::Fit;
-use crate::hypothesis::{
-    Hypothesis, Unknown, active, neutral, typical, unknowns_of, with_friction,
-};
+use crate::hypothesis::{Hypothesis, Unknown, at_share, typical, unknowns_of, with_friction};
 use crate::mechanics::{Mechanics, is_instrument, single};
 use crate::normal::{Columns, Normal, Prior};
 use crate::prior::prior;
@@ -104,13 +102,7 @@ fn with_clock(hypothesis: &Hypothesis, evidence: &Weighted) -> Hypothesis {
         let delay = single(&hypothesis.vehicle, &typical(effect)).sensor().delay;
         if delay != 0.0 && hypothesis.effect(effect).is_none() {
             let share = (evidence.tau() - own) / delay;
-            let values: Vec<f64> = (effect.card().parameters)
-                .iter()
-                .map(|parameter| {
-                    neutral(parameter) + share * (parameter.typical - neutral(parameter))
-                })
-                .collect();
-            return hypothesis.with_effect(active(effect, &values));
+            return hypothesis.with_effect(at_share(effect, share));
         }
     }
     hypothesis.clone()
@@ -299,6 +291,7 @@ pub fn with_vehicle(hypothesis: &Hypothesis, vehicle: &Vehicle) -> Option<Hypoth
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hypothesis::active;
     use crate::settings;
 
     /// An unclaimed effect leaves its shift of the ICRs, and the offset, to the vehicle; friction

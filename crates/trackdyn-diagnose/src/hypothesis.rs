@@ -200,6 +200,15 @@ pub fn typical(effect: EffectId) -> ActiveEffect {
     ActiveEffect::new(effect.name(), &[]).expect("an effect of the catalogue")
 }
 
+/// An effect with sizes at a share of the typical ones, and the typical values of all other
+/// parameters.
+pub fn at_share(effect: EffectId, share: f64) -> ActiveEffect {
+    let value = |parameter: &Parameter| {
+        neutral(parameter) + share * (parameter.typical - neutral(parameter))
+    };
+    active(effect, &effect.card().parameters.iter().map(value).collect::<Vec<_>>())
+}
+
 /// An effect with these values, clamped into their physical ranges.
 ///
 /// # Panics

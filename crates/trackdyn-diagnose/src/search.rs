@@ -59,6 +59,16 @@ pub struct Found {
     pub ln_evidence: f64,
 }
 
+impl Found {
+    /// Effects, ascending, and unknowns with those of more effects.
+    fn extended(&self, more: &[EffectId]) -> (Vec<EffectId>, Vec<Unknown>) {
+        let mut effects = [&self.effects, more].concat();
+        effects.sort_unstable();
+        let unknowns = more.iter().flat_map(|&effect| unknowns_of(effect));
+        (effects, self.fit.unknowns.iter().copied().chain(unknowns).collect())
+    }
+}
+
 /// Evidence, base and candidates of a search, with a cache of its refits.
 pub struct Search {
     /// The evidence, with the noise used in the search.
@@ -235,13 +245,8 @@ impl Search {
 
     fn refitted(&self, beside: &Found, more: &[Screened]) -> Found {
         let settings = &self.settings().search;
-        let mut effects = beside.effects.clone();
-        let mut unknowns = beside.fit.unknowns.clone();
-        for one in more {
-            effects.push(one.effect);
-            unknowns.extend(unknowns_of(one.effect));
-        }
-        effects.sort_unstable();
+        let added: Vec<EffectId> = more.iter().map(|one| one.effect).collect();
+        let (effects, unknowns) = beside.extended(&added);
         let evidence = &self.evidence;
         let start = |share: f64| {
             let hypothesis = self.with(beside, more, share);

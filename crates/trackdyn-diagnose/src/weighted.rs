@@ -8,7 +8,7 @@ use std::sync::Arc;
 use trackdyn_core::robust::deviation_about_zero;
 use trackdyn_core::{Pose, Twist};
 use trackdyn_estimate::gauss_newton::Huber;
-use trackdyn_estimate::weighting::{Seen, SegmentNoise, Weighting, Whitener, about};
+use trackdyn_estimate::weighting::{Seen, SegmentNoise, Stretch, Weighting, Whitener, about_poses};
 
 /// Evidence with the noise that weighs its residuals, and without the samples marked lost. It
 /// dereferences to [`Evidence`], which is shared: a copy with other noise copies no samples.
@@ -32,7 +32,7 @@ impl Deref for Weighted {
 #[derive(Clone)]
 enum Whitening {
     /// Segments of a drive: neighbours share a noisy pose, so their errors correlate.
-    Segments { noise: SegmentNoise, whitener: Arc<Whitener>, lost: Arc<[bool]>, twists: Twists },
+    Segments(Segments, Arc<Whitener>),
     /// Independent points: inverse standard deviation of each channel; zero where not measured.
     Points(Arc<[Vector3<f64>]>),
 }
@@ -42,29 +42,35 @@ enum Whitening {
 /// displaces it along the twist.
 type Twists = Arc<[[Matrix3<f64>; 2]]>;
 
-impl Whitening {
-    /// Whitening of segments. A lost one has no weight and shares no pose with its neighbours.
-    fn of(noise: SegmentNoise, samples: &[Sample], lost: Arc<[bool]>, twists: Twists) -> Self {
-        let motions = motions(samples, &lost, &twists);
-        let whitener = Arc::new(Whitener::of_motions(&Weighting::Noise(noise), motions));
-        Self::Segments { noise, whitener, lost, twists }
-    }
+/// What the whitening of segments depends on beside the samples.
+#[derive(Clone)]
+struct Segments {
+    noise: SegmentNoise,
+    /// Which have no weight and share no pose with their neighbours.
+    lost: Arc<[bool]>,
+    twists: Twists,
 }
 
-/// What the noise of samples depends on.
-fn motions<'a>(
-    samples: &'a [Sample],
-    lost: &'a [bool],
-    twists: &'a [[Matrix3<f64>; 2]],
-) -> impl Iterator<Item = Seen> + use<'a> {
-    samples.iter().enumerate().map(|(index, sample)| Seen {
-        motion: sample.motion.into(),
-        duration: sample.duration,
-        run: sample.run,
-        twists: twists[index],
-        is_lost: lost[index],
-        follows: sample.follows && !(index > 0 && lost[index - 1]),
-    })
+impl Segments {
+    /// What the noise of each sample depends on.
+    fn motions<'a>(&'a self, samples: &'a [Sample]) -> impl Iterator<Item = Seen> + use<'a> {
+        let Self { lost, twists, .. } = self;
+        samples.iter().enumerate().map(|(index, sample)| Seen {
+            motion: sample.motion.into(),
+            duration: sample.duration,
+            run: sample.run,
+            twists: twists[index],
+            is_lost: lost[index],
+            follows: sample.follows && !(index > 0 && lost[index - 1]),
+        })
+    }
+
+    /// The whitening of these samples.
+    fn whitening(self, samples: &[Sample]) -> Whitening {
+        let weighting = Weighting::Noise(self.noise);
+        let whitener = Arc::new(Whitener::of_motions(&weighting, self.motions(samples)));
+        Whitening::Segments(self, whitener)
+    }
 }
 
 impl Weighted {
@@ -75,11 +81,11 @@ impl Weighted {
         let evidence = evidence.into();
         let whitening = match evidence.origin() {
             Origin::Drive(noise) => {
-                let all = vec![false; evidence.samples().len()];
                 let samples = evidence.samples();
                 let observed: Vec<_> = samples.iter().map(|sample| sample.motion).collect();
                 let twists = twists(samples, &observed);
-                Whitening::of(*noise, evidence.samples(), all.into(), twists)
+                let lost = none_lost(samples);
+                Segments { noise: *noise, lost, twists }.whitening(samples)
             }
             Origin::SteadyPoints(inverse) => Whitening::Points(Arc::clone(inverse)),
         };
@@ -89,7 +95,7 @@ impl Weighted {
     /// Noise of the segments of a recording; none for a table.
     pub fn noise(&self) -> Option<&SegmentNoise> {
         match &self.whitening {
-            Whitening::Segments { noise, .. } => Some(noise),
+            Whitening::Segments(segments, _) => Some(&segments.noise),
             Whitening::Points(_) => None,
         }
     }
@@ -97,49 +103,48 @@ impl Weighted {
     /// What the noise of each sample of a drive depends on; none for a table.
     pub fn motions(&self) -> Vec<Seen> {
         match &self.whitening {
-            Whitening::Segments { lost, twists, .. } => {
-                motions(self.samples(), lost, twists).collect()
-            }
+            Whitening::Segments(segments, _) => segments.motions(self.samples()).collect(),
             Whitening::Points(_) => Vec::new(),
         }
     }
 
     /// The evidence with another noise; a table stays as it is.
     pub fn with_noise(&self, noise: SegmentNoise) -> Self {
-        let Whitening::Segments { lost, twists, .. } = &self.whitening else { return self.clone() };
-        let whitening = Whitening::of(noise, self.samples(), Arc::clone(lost), Arc::clone(twists));
-        Self { whitening, ..self.clone() }
+        self.with_segments(|segments| segments.noise = noise)
     }
 
     /// The evidence in which errors of stamps displace poses along the motion that is predicted for
     /// each sample; a table stays as it is.
     pub fn moving_as(&self, prediction: &[Vector3<f64>]) -> Self {
-        let Whitening::Segments { noise, lost, .. } = &self.whitening else { return self.clone() };
-        let twists = twists(self.samples(), prediction);
-        let whitening = Whitening::of(*noise, self.samples(), Arc::clone(lost), twists);
-        Self { whitening, ..self.clone() }
+        self.with_segments(|segments| segments.twists = twists(self.samples(), prediction))
     }
 
     /// The evidence with another noise and all segments, lost ones restored; a table stays as it
     /// is.
     pub fn with_all_in(&self, noise: SegmentNoise) -> Self {
-        let Whitening::Segments { twists, .. } = &self.whitening else { return self.clone() };
-        let all = vec![false; self.samples().len()];
-        let whitening = Whitening::of(noise, self.samples(), all.into(), Arc::clone(twists));
-        Self { whitening, ..self.clone() }
+        self.with_segments(|segments| {
+            segments.noise = noise;
+            segments.lost = none_lost(self.samples());
+        })
     }
 
     /// The evidence with these segments marked lost, too; a table stays as it is.
     pub fn without(&self, samples: &[usize]) -> Self {
-        let Whitening::Segments { noise, lost, twists, .. } = &self.whitening else {
-            return self.clone();
-        };
-        let mut lost = lost.to_vec();
-        for &sample in samples {
-            lost[sample] = true;
-        }
-        let whitening = Whitening::of(*noise, self.samples(), lost.into(), Arc::clone(twists));
-        Self { whitening, ..self.clone() }
+        self.with_segments(|segments| {
+            let mut lost = segments.lost.to_vec();
+            for &sample in samples {
+                lost[sample] = true;
+            }
+            segments.lost = lost.into();
+        })
+    }
+
+    /// The evidence after a change of what its whitening depends on; a table stays as it is.
+    fn with_segments(&self, change: impl FnOnce(&mut Segments)) -> Self {
+        let Whitening::Segments(segments, _) = &self.whitening else { return self.clone() };
+        let mut segments = segments.clone();
+        change(&mut segments);
+        Self { whitening: segments.whitening(self.samples()), ..self.clone() }
     }
 
     /// Other runs of the recording, with the noise and scale of these.
@@ -169,7 +174,7 @@ impl Weighted {
     /// Whitens a column of residuals or derivatives in place: unit variance, no correlation.
     pub fn whiten(&self, column: &mut [Vector3<f64>]) {
         match &self.whitening {
-            Whitening::Segments { whitener, lost, .. } => {
+            Whitening::Segments(Segments { lost, .. }, whitener) => {
                 for (value, _) in column.iter_mut().zip(lost.iter()).filter(|(_, lost)| **lost) {
                     *value = Vector3::zeros();
                 }
@@ -241,7 +246,7 @@ impl Weighted {
     /// Colours a white column in place: the inverse of [`Weighted::whiten`].
     pub fn colour(&self, column: &mut [Vector3<f64>]) {
         match &self.whitening {
-            Whitening::Segments { whitener, .. } => whitener.colour(column),
+            Whitening::Segments(_, whitener) => whitener.colour(column),
             Whitening::Points(inverse) => {
                 for (value, inverse) in column.iter_mut().zip(inverse.iter()) {
                     value.component_div_assign(&inverse.map(|i| if i > 0.0 { i } else { 1.0 }));
@@ -253,7 +258,7 @@ impl Weighted {
     /// Log determinant of the whitening of each sample, given those before it; none for a table.
     pub fn ln_determinants(&self) -> Vec<f64> {
         match &self.whitening {
-            Whitening::Segments { whitener, .. } => whitener.ln_determinants().collect(),
+            Whitening::Segments(_, whitener) => whitener.ln_determinants().collect(),
             Whitening::Points(_) => Vec::new(),
         }
     }
@@ -268,27 +273,25 @@ impl Weighted {
     /// Whether a channel of a sample was measured.
     pub fn is_measured(&self, sample: usize, channel: usize) -> bool {
         match &self.whitening {
-            Whitening::Segments { lost, .. } => !lost[sample],
+            Whitening::Segments(segments, _) => !segments.lost[sample],
             Whitening::Points(inverse) => inverse[sample][channel] > 0.0,
         }
     }
 }
 
+/// No sample lost.
+fn none_lost(samples: &[Sample]) -> Arc<[bool]> {
+    vec![false; samples.len()].into()
+}
+
 /// Twists about the poses of samples that move as predicted.
 fn twists(samples: &[Sample], prediction: &[Vector3<f64>]) -> Twists {
-    let within: Vec<[f64; 3]> = (samples.iter().zip(prediction))
+    let within: Vec<Stretch> = (samples.iter().zip(prediction))
         .map(|(sample, motion)| {
             let Twist { v_x, v_y, w } =
                 Pose::new(motion[0], motion[1], motion[2]).log(sample.duration);
-            [v_x, v_y, w]
+            Stretch { twists: [[v_x, v_y, w]; 2], follows: sample.follows }
         })
         .collect();
-    let both = samples.iter().enumerate().map(|(index, sample)| {
-        let own = within[index];
-        let before = if sample.follows { within[index - 1] } else { own };
-        let is_shared = samples.get(index + 1).is_some_and(|next| next.follows);
-        let after = if is_shared { within[index + 1] } else { own };
-        [about(before, own), about(own, after)]
-    });
-    both.collect()
+    about_poses(&within).into()
 }

@@ -214,7 +214,10 @@ impl<'a> Seen<'a> {
         let known = SegmentNoise::measured(&noise, gap).or(stated);
         let lever = options.gauge / 2.0;
         let weighting = known.map_or(Weighting::Distance { lever }, Weighting::Noise);
-        let observations = observations.moving_by(moves(&observations, gap));
+        let observations = match weighting {
+            Weighting::Noise(_) => observations.moving_by(moves(&observations, gap)),
+            Weighting::Distance { .. } => observations,
+        };
         Ok(Self { recording, options, segments, clock, observations, noise, spin_test, weighting })
     }
 

@@ -15,7 +15,7 @@
 //! Patterson, Thompson, Biometrika 58(3), 1971 (restricted likelihood);
 //! [`variances`](crate::variances) (steps and tails).
 
-use crate::variances::{Climb, heavy_tailed};
+use crate::variances::{Climb, MIN_GAIN, NONE, heavy_tailed};
 use crate::weighting::{Seen, SegmentNoise, Weighting, Whitener};
 use nalgebra::{DMatrix, SVector, Vector3};
 use rayon::prelude::*;
@@ -28,9 +28,6 @@ pub const COUNT: usize = 8;
 
 /// Place of the variance of the stamps.
 const STAMP: usize = 7;
-
-/// Logarithm of a variance that is none.
-const NONE: f64 = -80.0;
 
 /// Logarithms of the variances.
 pub type Variances = SVector<f64, COUNT>;
@@ -64,7 +61,7 @@ impl Default for Search {
             start_walk: 0.03,
             start_heading: 0.5,
             start_stamp: 0.3,
-            min_stamp_gain: 7.6,
+            min_stamp_gain: MIN_GAIN,
             taken_difference: 0.05,
             min_walk: 1e-5,
         }

@@ -20,8 +20,14 @@ pub struct Climb {
     pub difference: f64,
 }
 
-/// Largest and smallest logarithm.
-const LIMITS: [f64; 2] = [-80.0, 20.0];
+/// Logarithm of a variance that is none: far below anything seen, and without a slope.
+pub const NONE: f64 = -80.0;
+
+/// Smallest and largest logarithm.
+const LIMITS: [f64; 2] = [NONE, 20.0];
+
+/// Gain of the log-likelihood that one more variance has by chance once in ten thousand times.
+pub const MIN_GAIN: f64 = 7.6;
 
 impl Climb {
     /// Local maximum of Σ terms + ½ taken·here from a start: log variances, and the value there.

@@ -78,7 +78,7 @@ pub struct Seen {
     pub run: usize,
     /// Whether its first pose is the last one of the segment before it.
     pub follows: bool,
-    /// Mean of u uᵀ about its first and about its last pose ([`about`]), u the twist of the body
+    /// Mean of u uᵀ about its first and about its last pose ([`about_poses`]), u the twist of the body
     /// along its axes there: forward (m/s), left (m/s), yaw (rad/s). Not the observed one: an error
     /// of a stamp that enters its own weight biases what is fitted.
     pub twists: [Matrix3<f64>; 2],
@@ -89,25 +89,40 @@ pub struct Seen {
 impl Seen {
     /// The segments that were observed.
     pub fn all(segments: &[Observation]) -> Vec<Self> {
-        let at = |place: Option<usize>| place.and_then(|place| segments.get(place));
-        let seen = segments.iter().enumerate().map(|(index, segment)| {
-            let Observation { motion, duration, run, follows, twists: [first, last], .. } =
-                *segment;
-            let before = at(index.checked_sub(1)).filter(|_| follows);
-            let after = at(Some(index + 1)).filter(|after| after.follows);
-            let twists = [
-                about(before.map_or(first, |before| before.twists[1]), first),
-                about(last, after.map_or(last, |after| after.twists[0])),
-            ];
+        let stretch =
+            |segment: &Observation| Stretch { twists: segment.twists, follows: segment.follows };
+        let twists = about_poses(&segments.iter().map(stretch).collect::<Vec<_>>());
+        let seen = segments.iter().zip(twists).map(|(segment, twists)| {
+            let Observation { motion, duration, run, follows, .. } = *segment;
             Self { motion, duration, run, follows, twists, is_lost: false }
         });
         seen.collect()
     }
 }
 
-/// Mean of u uᵀ about a pose: a pose that was taken early has moved by the twist before it, one
-/// that was taken late by the twist after it.
-pub fn about(before: [f64; 3], after: [f64; 3]) -> Matrix3<f64> {
+/// How the body moves in a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// Its twist after the first and before the last pose: forward (m/s), left (m/s), yaw (rad/s).
+    pub twists: [[f64; 3]; 2],
+    /// Whether its first pose is the last one of the segment before it.
+    pub follows: bool,
+}
+
+/// Mean of u uᵀ about the first and the last pose of each segment: a pose that was taken early has
+/// moved by the twist before it, one that was taken late by the twist after it.
+pub fn about_poses(segments: &[Stretch]) -> Vec<[Matrix3<f64>; 2]> {
+    let both = segments.iter().enumerate().map(|(index, segment)| {
+        let [first, last] = segment.twists;
+        let before = if segment.follows { segments[index - 1].twists[1] } else { first };
+        let after = segments.get(index + 1).filter(|next| next.follows);
+        [about(before, first), about(last, after.map_or(last, |next| next.twists[0]))]
+    });
+    both.collect()
+}
+
+/// Mean of u uᵀ of two twists.
+fn about(before: [f64; 3], after: [f64; 3]) -> Matrix3<f64> {
     let square = |twist: [f64; 3]| {
         let twist = Vector3::from(twist);
         twist * twist.transpose()

@@ -7,10 +7,9 @@
 use super::{Found, Search};
 use crate::base::without_clock;
 use crate::fit::{Fit, Point};
-use crate::hypothesis::{Hypothesis, active, neutral, unknowns_of};
+use crate::hypothesis::{Hypothesis, at_share};
 use crate::progress::{Cancelled, Watch};
 use trackdyn_model::EffectId;
-use trackdyn_model::effect::{Parameter, Role};
 
 impl Search {
     /// The hypothesis with all inertial effects that it lacks, refitted from the best of the
@@ -26,13 +25,7 @@ impl Search {
         if inertial.len() < 2 {
             return Ok(None);
         }
-        let mut effects = beside.effects.clone();
-        let mut unknowns = beside.fit.unknowns.clone();
-        for &effect in &inertial {
-            effects.push(effect);
-            unknowns.extend(unknowns_of(effect));
-        }
-        effects.sort_unstable();
+        let (effects, unknowns) = beside.extended(&inertial);
         let mut clocks =
             vec![hypothesis.clone(), without_clock(hypothesis, &self.base.as_filed.hypothesis)];
         clocks.dedup();
@@ -57,12 +50,6 @@ impl Search {
 
 /// The hypothesis with these effects, their sizes at `level` times the typical ones.
 fn at(hypothesis: &Hypothesis, effects: &[EffectId], level: f64) -> Hypothesis {
-    let value = |parameter: &Parameter| match parameter.role {
-        Role::Size { .. } => neutral(parameter) + level * (parameter.typical - neutral(parameter)),
-        _ => parameter.typical,
-    };
-    effects.iter().fold(hypothesis.clone(), |hypothesis, &effect| {
-        let values: Vec<f64> = effect.card().parameters.iter().map(value).collect();
-        hypothesis.with_effect(active(effect, &values))
-    })
+    let with = |hypothesis: Hypothesis, &effect| hypothesis.with_effect(at_share(effect, level));
+    effects.iter().fold(hypothesis.clone(), with)
 }

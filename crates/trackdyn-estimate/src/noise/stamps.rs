@@ -7,8 +7,8 @@
 //! likelihood asks for it clearly.
 
 use super::Component;
-use crate::variances::{Climb, heavy_tailed};
-use nalgebra::{Cholesky, Matrix3, SVector, U3, Vector3};
+use crate::variances::{Climb, MIN_GAIN, NONE, heavy_tailed};
+use nalgebra::{Matrix3, SVector, Vector3};
 use trackdyn_core::real;
 use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE_3, median};
 
@@ -27,9 +27,6 @@ pub(super) struct Triple {
     /// it to the pose after it: a late stamp at its ends then hides no change of speed.
     pub is_clean: bool,
 }
-
-/// Gain of the log-likelihood from which stamps are said to have errors: 1e-4 by chance.
-const MIN_GAIN: f64 = 7.6;
 
 /// Degrees of freedom of the tails.
 const TAILS: f64 = 5.0;
@@ -61,7 +58,13 @@ pub(super) fn stamps(triples: &[Triple], start: [Component; 3]) -> Option<([Comp
     }
     let terms = |at: &Logarithms| -> Vec<f64> {
         let variances = at.map(f64::exp);
-        triples.iter().map(|triple| ln_likelihood(triple, &variances)).collect()
+        let term = |triple: &&Triple| {
+            let white = whitened(triple, &variances);
+            white.map_or(f64::NEG_INFINITY, |(ln_determinant, square)| {
+                heavy_tailed(ln_determinant, square, TAILS)
+            })
+        };
+        triples.iter().map(term).collect()
     };
     // A variance of zero has no slope: start from a share of what is seen at least.
     let seen = [0, 1, 2].map(|axis| mean_square(&|triple| triple.off[axis]));
@@ -72,14 +75,15 @@ pub(super) fn stamps(triples: &[Triple], start: [Component; 3]) -> Option<([Comp
         without[3 + axis] = floor(start[axis].walk.powi(2), axis);
     }
     let none = Logarithms::zeros();
-    without[STAMP] = -80.0; // far below anything seen
+    without[STAMP] = NONE;
     let (without, plain) = CLIMB.from(without, &none, terms);
     let mut with = without;
     with[STAMP] = (seen[0] / fastest).max(1e-18).ln();
     let (with, value) = CLIMB.from(with, &none, terms);
     // Heavy tails take a part of the noise for outliers: the median sets the level.
     let variances = with.map(f64::exp);
-    let mut squares: Vec<f64> = triples.iter().filter_map(|of| square(of, &variances)).collect();
+    let white = triples.iter().filter_map(|triple| whitened(triple, &variances));
+    let mut squares: Vec<f64> = white.map(|(_, square)| square).collect();
     let level = median(&mut squares)? / MEDIAN_OF_CHI_SQUARE_3;
     let deviation = |k: usize| (level * variances[k]).sqrt();
     let noise =
@@ -87,26 +91,16 @@ pub(super) fn stamps(triples: &[Triple], start: [Component; 3]) -> Option<([Comp
     (value > plain + MIN_GAIN).then(|| (noise, deviation(STAMP)))
 }
 
-/// Covariance of the e of a triple: W (R + s² u uᵀ) + T q.
-fn covariance(triple: &Triple, variances: &Logarithms) -> Option<Cholesky<f64, U3>> {
-    let Triple { twist, white, walk, .. } = triple;
+/// ln det L⁻¹ and |L⁻¹ e|² of the e of a triple, whose covariance is W (R + s² u uᵀ) + T q = L Lᵀ;
+/// none where that has no factor.
+fn whitened(triple: &Triple, variances: &Logarithms) -> Option<(f64, f64)> {
+    let Triple { off, twist, white, walk, .. } = triple;
     let own: Vector3<f64> = variances.fixed_rows::<3>(0).into();
     let drift: Vector3<f64> = variances.fixed_rows::<3>(3).into();
     let of_pose = Matrix3::from_diagonal(&own) + twist * twist.transpose() * variances[STAMP];
-    (of_pose * *white + Matrix3::from_diagonal(&drift) * *walk).cholesky()
-}
-
-/// Squared length of the e of a triple in standard deviations.
-fn square(triple: &Triple, variances: &Logarithms) -> Option<f64> {
-    Some(triple.off.dot(&covariance(triple, variances)?.solve(&triple.off)))
-}
-
-/// Log-likelihood of a triple.
-fn ln_likelihood(triple: &Triple, variances: &Logarithms) -> f64 {
-    let Some(factor) = covariance(triple, variances) else { return f64::NEG_INFINITY };
-    let square = triple.off.dot(&factor.solve(&triple.off));
+    let factor = (of_pose * *white + Matrix3::from_diagonal(&drift) * *walk).cholesky()?;
     let ln_determinant = -factor.l_dirty().diagonal().map(f64::ln).sum();
-    heavy_tailed(ln_determinant, square, TAILS)
+    Some((ln_determinant, off.dot(&factor.solve(off))))
 }
 
 #[cfg(test)]

@@ -55,7 +55,7 @@ pub fn text(diagnosis: &Diagnosis) -> String {
         text += &wrapped("friction ", &friction(level));
     }
     if let Some(factors) = diagnosis.friction_by_inertia() {
-        text += &wrapped("friction ", &as_on(factors));
+        text += &wrapped("friction ", &slide(factors));
     }
     for verdict in &diagnosis.answer.refused {
         let id = verdict.effect.name();
@@ -111,7 +111,8 @@ fn friction(Level { value, half, .. }: Level) -> String {
     )
 }
 
-fn as_on([factor, low, high]: [f64; 3]) -> String {
+/// How far the robot slides, as factor of the file's friction.
+fn slide([factor, low, high]: [f64; 3]) -> String {
     format!(
         "it slides as on {factor:.3} [{low:.3}, {high:.3}] times the friction of the vehicle file: \
          inertia is felt in units of friction"

@@ -115,3 +115,13 @@ def test_a_heat_map_shows_its_numbers(robot):
     finite = [np.sort(of[np.isfinite(of)]) for of in quantities]
     assert any(len(of) == len(shown) and np.allclose(of, shown) for of in finite)
     plt.close(fig)
+
+
+def test_axes_say_which_line_is_which(robot, recording):
+    fitted = td.IcrKinematics(robot).fit(recording)
+    replay = td.odometry(recording, robot, [fitted.parameters_])
+    fig, ax = plt.subplots()
+    replay.figure.plot(0, ax)
+    said = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert said[:2] == ["recorded", "ideal"] and len(said) == len(set(said))
+    plt.close(fig)

@@ -36,6 +36,8 @@ def test_every_kind_is_an_error_and_a_usual_one():
         (td.HeldOutError, "held_out", "run 9", lambda of: td.diagnose(of, "maxxii", held_out=9)),
         (td.HeldOutError, "held_out", "at least", lambda of: td.diagnose(of, "maxxii", held_out="0-2")),
         (td.SettingError, "draws", "expected 1000", lambda of: td.diagnose(of, "maxxii", draws=3)),
+        (td.SettingError, "seed", "seed -1: expected 0", lambda of: td.diagnose(of, "maxxii", seed=-1)),
+        (td.SettingError, "seed", "seed -1: expected 0", lambda of: td.simulate("maxxii", seed=-1)),
         (
             td.DocumentError,
             None,

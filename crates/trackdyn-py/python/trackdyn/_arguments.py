@@ -59,6 +59,14 @@ def time_of(time: Sequence[float] | None) -> tuple[float, float] | None:
     return float(start), float(end)
 
 
+def seed_of(seed: Any) -> int:
+    """A seed of random numbers."""
+    number = int(seed)
+    if not 0 <= number < 2**64:
+        raise _errors.SettingError(f"seed {number}: expected 0 to 2^64 - 1", "seed")
+    return number
+
+
 def names_of(names: str | Sequence[str] | None) -> list[str]:
     """One name, several or none."""
     if names is None:

@@ -34,7 +34,17 @@ def draw(panel: dict[str, Any], ax: Axes | None) -> Axes:
     ax.set_ylim(panel["y"]["range"])
     for label in panel["labels"]:
         _label(ax, label)
+    _explain(ax, panel["title"])
     return ax
+
+
+def _explain(ax: Any, title: str) -> None:
+    """A legend of the named series, where more than the title names them."""
+    handles, names = ax.get_legend_handles_labels()
+    # series of one name look alike: the last one stands for them
+    named = {name: handle for handle, name in zip(handles, names) if name != title}
+    if len(named) > 1:
+        ax.legend(named.values(), named.keys(), fontsize="small")
 
 
 def _label(ax: Any, label: dict[str, Any]) -> None:
@@ -157,7 +167,7 @@ def _cells(ax: Any, sign: dict[str, Any], name: str | None) -> None:
     (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
     x = np.linspace(left, right, table.shape[1] + 1)
     y = np.linspace(low, high, table.shape[0] + 1)
-    mesh = ax.pcolormesh(x, y, table, cmap=paint["cmap"], label=name)
+    mesh = ax.pcolormesh(x, y, table, cmap=paint["cmap"])
     mesh.set_clim(paint["vmin"], paint["vmax"])
 
 

@@ -8,7 +8,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _trackdyn
-from ._arguments import COMMAND, Progress, RunsLike, VehicleLike, plain, runs_of, told, vehicle_of
+from ._arguments import (
+    COMMAND,
+    Progress,
+    RunsLike,
+    VehicleLike,
+    plain,
+    runs_of,
+    seed_of,
+    told,
+    vehicle_of,
+)
 from ._claims import Claim, Refusal, claim_of
 from ._errors import ResultError
 from ._figure import Figure
@@ -227,7 +237,7 @@ def diagnose(
     keywords = {
         "held_out": runs_of(held_out),
         "draws": draws,
-        "seed": seed,
+        "seed": seed_of(seed),
         "settings": _settings(settings),
     }
     with told(progress, "diagnose") as tell:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _trackdyn
-from ._arguments import COMMAND, Progress, VehicleLike, gauge_of, names_of, told
+from ._arguments import COMMAND, Progress, VehicleLike, gauge_of, names_of, seed_of, told
 from ._errors import NotDeterminedError, ResultError, Warning  # noqa: A004
 from ._odometry import odometry
 from ._parameters import Parameters
@@ -130,7 +130,7 @@ class IcrKinematics:
             "nuisances": names_of(self.nuisances),
             "gyroscope": self.gyroscope,
             "force": self.force,
-            "seed": self.seed,
+            "seed": seed_of(self.seed),
             "population": self.population,
             "generations": self.generations,
         }

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _trackdyn
-from ._arguments import COMMAND, Progress, VehicleLike, told, vehicle_of
+from ._arguments import COMMAND, Progress, VehicleLike, seed_of, told, vehicle_of
 from ._errors import DrivingError, SettingError
 from ._recording import Recording
 from ._tables import Table
@@ -103,7 +103,7 @@ def simulate(
     """
     keywords = _keywords(schedule, runs, duration, fastest, sensors, start, inertia, longest_step)
     with told(progress, "simulate") as tell:
-        inner = _trackdyn.simulate(vehicle_of(vehicle)._inner, keywords, seed, tell)
+        inner = _trackdyn.simulate(vehicle_of(vehicle)._inner, keywords, seed_of(seed), tell)
     return Simulation(inner)
 
 
@@ -151,7 +151,7 @@ def simulate_batch(
     seeds = np.broadcast_to(np.asarray(seed), (len(vehicles),)) if np.ndim(seed) == 0 else seed
     keywords = _keywords(schedule, runs, duration, fastest, sensors, start, inertia, longest_step)
     inner = [one._inner for one in vehicles]
-    numbers = [int(number) for number in np.asarray(seeds)]
+    numbers = [seed_of(number) for number in np.asarray(seeds)]
     with told(progress, "simulate") as tell:
         found = _trackdyn.simulate_batch(inner, keywords, numbers, tell)
     simulated: list[Simulation | None] = []

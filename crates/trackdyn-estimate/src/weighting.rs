@@ -78,9 +78,9 @@ pub struct Seen {
     pub run: usize,
     /// Whether its first pose is the last one of the segment before it.
     pub follows: bool,
-    /// Mean of u uᵀ about its first and about its last pose ([`about_poses`]), u the twist of the body
-    /// along its axes there: forward (m/s), left (m/s), yaw (rad/s). Not the observed one: an error
-    /// of a stamp that enters its own weight biases what is fitted.
+    /// Mean of u uᵀ about its first and about its last pose ([`about_poses`]), u the twist of the
+    /// body along its axes there: forward (m/s), left (m/s), yaw (rad/s). Not the observed one: an
+    /// error of a stamp that enters its own weight biases what is fitted.
     pub twists: [Matrix3<f64>; 2],
     /// Whether it carries no information.
     pub is_lost: bool,

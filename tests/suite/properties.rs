@@ -1,5 +1,6 @@
 //! Properties that hold for every vehicle, ground and speed.
 
+mod bearing;
 mod contact;
 mod force_law;
 mod map;

@@ -295,8 +295,8 @@ impl Mechanics {
         }
     }
 
-    /// Why the hypothesis is impossible: over a large share of the speeds part of the contact lifts
-    /// or no motion balances the forces, or the transient simulation fails. None where it is
+    /// Why the hypothesis is impossible: over a large share of the speeds it tips over or no
+    /// motion balances the forces, or the transient simulation fails. None where it is
     /// possible.
     pub fn failure(&self) -> Option<&str> {
         match &self.in_time {
@@ -355,10 +355,7 @@ impl Mechanics {
 fn unbalanced(surface: &Surface, most: f64) -> Option<String> {
     let share = surface.unsolved();
     (share > most).then(|| {
-        format!(
-            "at {:.0} % of the speeds part of the contact lifts or no forces balance",
-            100.0 * share
-        )
+        format!("at {:.0} % of the speeds the robot tips over or no forces balance", 100.0 * share)
     })
 }
 

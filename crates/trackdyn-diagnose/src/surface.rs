@@ -67,7 +67,7 @@ impl Surface {
                 let speeds = grid.speeds(index);
                 let near = before.and_then(|before| before.near(index, &grid));
                 let solution = solver.starting_at(near).solve(speeds);
-                let usable = !matches!(solution.status, Status::NotConverged | Status::Lifts);
+                let usable = !matches!(solution.status, Status::NotConverged | Status::Tips);
                 let node = usable.then(|| beyond(speeds, &solution.twist) / scale.of(speeds));
                 (node, solution.linearised.map(Near::Linearised))
             })
@@ -82,7 +82,7 @@ impl Surface {
         known.or_else(|| self.motion(grid.speeds(index)).near())
     }
 
-    /// Share of the nodes without a motion: part of the contact lifts, or the solve failed.
+    /// Share of the nodes without a motion: the robot tips over, or the solve failed.
     pub fn unsolved(&self) -> f64 {
         real(self.unsolved) / real(Grid::NODES)
     }

@@ -1,9 +1,10 @@
 //! Contact of one side's running gear with the ground.
 //!
 //! Friction is the anisotropic Coulomb law of eqs (22)-(23), `τ = −[μ] p s/|s|`, under a pressure
-//! that is linear along the track. [`closed_form`] integrates it exactly; [`quadrature`] integrates
-//! the changes by effects.
+//! that is linear along the part of the track that bears ([`bearing`]). [`closed_form`] integrates
+//! it exactly; [`quadrature`] integrates the changes by effects.
 
+pub mod bearing;
 pub mod closed_form;
 pub mod patch;
 pub mod pressure;
@@ -11,6 +12,7 @@ pub mod quadrature;
 pub mod shear;
 pub mod slip;
 
+pub use bearing::Bearing;
 pub use patch::{Extent, Patch};
 pub use pressure::Pressure;
 pub use quadrature::Resolution;
@@ -30,21 +32,21 @@ pub struct Friction {
 
 /// Friction wrench on the body from the patches of one side, about the frame's origin.
 ///
-/// Each patch uses the closed form where it is accurate. Where the ICR is so far away that the
+/// The pressure vanishes at an edge that moves with the load. Each patch uses the closed form where it is accurate. Where the ICR is so far away that the
 /// closed form cancels, the integrand is smooth and a Gauss rule has the requested digits.
 pub fn friction_wrench<S: Scalar>(
-    patches: &[Patch],
+    patches: impl Iterator<Item = Patch<S>> + Clone,
     friction: Friction,
     pressure: &Pressure<S>,
     slip: &SlipField<S>,
     resolution: Resolution,
 ) -> Wrench<S> {
-    let is_near = |patch: &&Patch| closed_form::applies(patch, slip, resolution);
-    let far = patches.iter().filter(|patch| !is_near(patch));
+    let is_near = |patch: &Patch<S>| closed_form::applies(&patch.value(), slip, resolution);
+    let far = patches.clone().filter(|patch| !is_near(patch));
     let mut wrench = quadrature::far_field_wrench(far, friction, pressure, slip, resolution);
     // The closed form needs an ICR: a field without rotation has none.
-    if patches.iter().any(|patch| is_near(&patch)) {
-        let near = patches.iter().filter(is_near);
+    let mut near = patches.filter(is_near).peekable();
+    if near.peek().is_some() {
         wrench += closed_form::friction_wrench(near, friction, pressure, slip);
     }
     wrench

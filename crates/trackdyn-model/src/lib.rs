@@ -40,7 +40,7 @@ pub use forces::Forces;
 pub use icr::Icrs;
 pub use kinematics::Kinematics;
 pub use map::{Grid, IcrMap};
-pub use model::{Balance, Model};
+pub use model::{Balance, Model, Support};
 pub use pipeline::{Circumstance, Drive, Ground, Motion, Sensor};
 pub use stationary::{Linearised, Near, Solution, Stationary, Status};
 pub use transient::Transient;

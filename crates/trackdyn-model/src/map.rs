@@ -69,6 +69,13 @@ impl IcrMap {
         self.solutions.iter().filter(|solution| solution.status == Status::Turning)
     }
 
+    /// Motions in which part of the contact has lifted.
+    pub fn lifted(&self) -> impl Iterator<Item = &Solution> {
+        self.solutions.iter().filter(|solution| {
+            solution.is_lifted && !matches!(solution.status, Status::Tips | Status::NotConverged)
+        })
+    }
+
     /// Number of solutions of each kind, in the order of [`Status::NAMES`].
     pub fn counts(&self) -> [usize; 5] {
         let mut counts = [0; 5];

@@ -2,7 +2,7 @@
 
 use crate::contact::pressure::Footprint;
 use crate::contact::quadrature;
-use crate::contact::{Extent, Patch, Pressure, Resolution, ShearStress, friction_wrench};
+use crate::contact::{Bearing, Extent, Patch, Pressure, Resolution, ShearStress, friction_wrench};
 use crate::effects::Effects;
 use crate::pipeline::{Circumstance, Drive, Ground, Motion, Sensor, Site, Situation};
 use crate::vehicle::Vehicle;
@@ -14,8 +14,8 @@ use trackdyn_core::{PerSide, Scalar, Side, Wrench};
 /// Stationary motion, eqs (14)-(15): friction + weight along the slope + what effects add = 0.
 ///
 /// # Assumes
-/// A rigid hull on flat patches, the pressure linear along the track and constant across it (Fig.
-/// 5), anisotropic Coulomb friction (22)-(23).
+/// A rigid hull on flat patches, the pressure linear along the part of the track that bears and
+/// constant across it (Fig. 5), anisotropic Coulomb friction (22)-(23).
 ///
 /// # Sources
 /// Martinez et al., IJRR 24(10), 2005.
@@ -42,6 +42,17 @@ pub struct Balance<S = f64> {
     pub load: Wrench<S>,
     /// Weight on each side, N.
     pub normal_load: PerSide<S>,
+}
+
+/// How the contact bears the load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Support {
+    /// All of it bears.
+    Whole,
+    /// Part of it has lifted.
+    Part,
+    /// None can: the load lies outside the contact, and the robot tips over.
+    Tips,
 }
 
 impl<S: Scalar> Balance<S> {
@@ -130,18 +141,22 @@ impl Model {
     /// Stages `load`, `shear` and `wrench`: the balance of forces at a motion.
     pub fn balance<S: Scalar>(&self, ground: &Ground, motion: &Motion<S>) -> Balance<S> {
         let situation = self.situation(ground, motion);
-        let (normal_load, pressure) = self.load(&situation);
+        let centre_of_pressure = self.centre_of_pressure(&situation);
+        let normal_load = self.normal_load(ground, centre_of_pressure[0]);
+        let bearing = self.bearing(centre_of_pressure[1]);
 
         let friction = PerSide::from_fn(|side| {
+            let pressure = bearing.pressure(&self.footprint, normal_load[side]);
+            let pressed = self.patches[side].iter().filter_map(|patch| bearing.pressed(patch));
             let mut wrench = friction_wrench(
-                &self.patches[side],
+                pressed.clone(),
                 ground.friction[side],
-                &pressure[side],
+                &pressure,
                 &motion.slip[side],
                 self.resolution,
             );
             if !self.shear_laws.is_empty() {
-                wrench += self.shear_departure(&situation, side, &pressure[side]);
+                wrench += self.shear_departure(&situation, side, pressed, &pressure);
             }
             wrench
         });
@@ -154,55 +169,59 @@ impl Model {
         Balance { friction, load, normal_load }
     }
 
-    /// Whether the pressure is not positive somewhere in the contact at this motion.
-    pub fn lifts(&self, ground: &Ground, motion: &Motion) -> bool {
-        let situation = self.situation(ground, motion);
-        let (normal_load, pressure) = self.load(&situation);
-        Side::BOTH.iter().any(|&side| {
-            normal_load[side] <= 0.0
-                || self.footprint.ends.iter().any(|&y| pressure[side].at(y) <= 0.0)
-        })
-    }
-
-    /// Whether the resultant load lies outside the contact at this motion, so that no pressure can
-    /// bear it.
-    pub fn tips(&self, ground: &Ground, motion: &Motion) -> bool {
-        let (normal_load, pressure) = self.load(&self.situation(ground, motion));
+    /// How the contact bears the load at this motion.
+    pub fn support(&self, ground: &Ground, motion: &Motion) -> Support {
+        let [x, y] = self.centre_of_pressure(&self.situation(ground, motion));
         let [rear, front] = self.footprint.ends;
-        Side::BOTH.iter().any(|&side| {
-            let centre = self.footprint.centre_of_pressure(normal_load[side], &pressure[side]);
-            normal_load[side] <= 0.0 || !(rear..=front).contains(&centre)
-        })
+        // The pressure is constant across a track: beyond a centre-line no pressure bears the load.
+        if x.abs() >= self.vehicle.gauge / 2.0 || y <= rear || y >= front {
+            return Support::Tips;
+        }
+        match self.bearing(y) {
+            Bearing::Whole(_) => Support::Whole,
+            Bearing::Part { .. } => Support::Part,
+        }
     }
 
     fn situation<'a, S>(&'a self, ground: &'a Ground, motion: &'a Motion<S>) -> Situation<'a, S> {
         Situation { vehicle: &self.vehicle, ground, footprint: &self.footprint, motion }
     }
 
-    /// Stage `load`: weight on each side (N; negative where it would have to pull) and pressure.
+    /// Stage `load`: where the weight acts (x, y), m.
     #[inline]
-    fn load<S: Scalar>(&self, situation: &Situation<S>) -> (PerSide<S>, PerSide<Pressure<S>>) {
+    fn centre_of_pressure<S: Scalar>(&self, situation: &Situation<S>) -> [S; 2] {
         let mut centre_of_pressure = self.vehicle.cog.map(S::from);
         for effect in &self.effects {
             effect.load(situation, &mut centre_of_pressure);
         }
-        let [x, y] = centre_of_pressure;
-        let weight = self.vehicle.mass * situation.ground.gravity_normal;
+        centre_of_pressure
+    }
+
+    /// Weight on each side (N) with the centre of pressure at x (m); negative beyond a centre-line.
+    #[inline]
+    fn normal_load<S: Scalar>(&self, ground: &Ground, x: S) -> PerSide<S> {
+        let weight = self.vehicle.mass * ground.gravity_normal;
         // Moments about the other track's centre-line: N_l = W (½ − x_p/L), N_r = W (½ + x_p/L)
         let share = x * (weight / self.vehicle.gauge);
-        let normal_load = PerSide::new(-share + weight / 2.0, share + weight / 2.0);
-        let pressure = normal_load.map(|load| self.footprint.pressure(load, y));
-        (normal_load, pressure)
+        PerSide::new(-share + weight / 2.0, share + weight / 2.0)
+    }
+
+    /// The part of each side that bears with the centre of pressure at y, m.
+    #[inline]
+    fn bearing<S: Scalar>(&self, y: S) -> Bearing<S> {
+        // Both sides have the same patches along y.
+        Bearing::of(&self.patches.left, &self.footprint, y)
     }
 
     fn shear_departure<S: Scalar>(
         &self,
         situation: &Situation<S>,
         side: Side,
+        pressed: impl Iterator<Item = Patch<S>>,
         pressure: &Pressure<S>,
     ) -> Wrench<S> {
         quadrature::departure_wrench(
-            &self.patches[side],
+            pressed,
             situation.ground.friction[side],
             pressure,
             &situation.motion.slip[side],

@@ -22,7 +22,7 @@ pub use solution::{Solution, Status};
 
 use crate::icr::Icrs;
 use crate::newton::{self, Convergence, Evaluation, Tolerance};
-use crate::{Balance, Circumstance, Ground, Model, Motion};
+use crate::{Balance, Circumstance, Ground, Model, Motion, Support};
 use nalgebra::{Matrix3, Vector3};
 use trackdyn_core::{Dual, PerSide, Scalar, Side, Twist};
 
@@ -186,9 +186,10 @@ impl<'m> Stationary<'m> {
             Some(difference(&self.model.drive().belt_speed(driven, self.traction(solution)?)))
         };
         let holds = turns(&left)? <= 0.0 && turns(&right)? >= 0.0;
-        let lifts = [&left, &right].iter().any(|end| end.status == Status::Lifts);
+        let tips = [&left, &right].iter().any(|end| end.status == Status::Tips);
         holds.then(|| Solution {
-            status: if lifts { Status::Lifts } else { Status::Straight },
+            status: if tips { Status::Tips } else { Status::Straight },
+            is_lifted: left.is_lifted || right.is_lifted,
             belt_speed: PerSide::new(speed, speed),
             twist: Twist { v_x: 0.0, v_y: speed, w: 0.0 },
             icrs: None,
@@ -202,7 +203,7 @@ impl<'m> Stationary<'m> {
         let anchor = match solution.status {
             Status::NotConverged => return None,
             Status::Holds(side) => side,
-            Status::Turning | Status::Straight | Status::Lifts => Side::Left,
+            Status::Turning | Status::Straight | Status::Tips => Side::Left,
         };
         let motion = match solution.icrs {
             Some(Icrs { x_left, x_right, y }) => {
@@ -361,10 +362,11 @@ impl Root<'_> {
         let z = self.convergence.point;
         let motion = self.problem.motion([z[0], z[1], z[2]]);
         let turn = z[2];
+        let support = solver.model.support(&solver.ground, &motion);
         let status = if !self.convergence.is_root {
             Status::NotConverged
-        } else if solver.model.lifts(&solver.ground, &motion) {
-            Status::Lifts
+        } else if support == Support::Tips {
+            Status::Tips
         } else if belt_speed.left == belt_speed.right {
             Status::Straight
         } else if turn <= 0.0 {
@@ -386,6 +388,7 @@ impl Root<'_> {
             twist,
             icrs: icrs(anchor, &z),
             residual: self.convergence.residual,
+            is_lifted: support == Support::Part,
             iterations: self.convergence.iterations,
             linearised: inverse.map(|inverse| Linearised { anchor, point: z, inverse }),
         }

@@ -29,7 +29,7 @@ mod tangent;
 pub(crate) use stage::gripping;
 pub use tangent::tangents;
 
-use crate::{Circumstance, Model, Motion};
+use crate::{Circumstance, Model, Motion, Support};
 use stage::{Balanced, Inverse, Stage, Start};
 use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{Moment, PerSide, Plant, Pose, Stopped, Trajectory, Twist};
@@ -97,8 +97,6 @@ pub struct Transient<'m> {
     /// Whether forces depend on acceleration. Without inertia the twist jumps, and its rate is
     /// meaningless.
     has_inertia: bool,
-    /// Whether the simulation continues with negative pressure on part of the contact.
-    may_pull: bool,
     /// Recorded steps; none unless requested.
     steps: Option<Vec<Step>>,
     state: State,
@@ -117,8 +115,6 @@ struct State {
     belt_speed: PerSide<f64>,
     /// Traction over normal load, forward positive, where belts slip on their sprockets; else zero.
     traction: PerSide<f64>,
-    /// Whether the pressure is negative on part of the contact.
-    lifts: bool,
     /// Whether the resultant load lies outside the contact.
     tips: bool,
     /// Inverse Jacobian of the last balance.
@@ -140,7 +136,6 @@ impl<'m> Transient<'m> {
             driven: still,
             belt_speed: still,
             traction: still,
-            lifts: false,
             tips: false,
             inverse: Inverse::default(),
         };
@@ -150,7 +145,6 @@ impl<'m> Transient<'m> {
             tolerance: f64::INFINITY,
             creep: STICKING_SLIP_VELOCITY,
             has_inertia: Self::feels_inertia(model),
-            may_pull: false,
             steps: None,
             state,
         }
@@ -171,13 +165,6 @@ impl<'m> Transient<'m> {
     /// a larger one is faster.
     pub fn with_creep(self, creep: f64) -> Self {
         Self { creep, ..self }
-    }
-
-    /// Lets the simulation continue where part of the contact lifts, until the robot tips over. The
-    /// pressure stays linear and becomes negative there: a load shift of 1 + ε times the limit of
-    /// lifting causes a relative error of ε² in the forces.
-    pub fn with_pull(self) -> Self {
-        Self { may_pull: true, ..self }
     }
 
     /// Records the steps.
@@ -282,10 +269,9 @@ impl<'m> Transient<'m> {
             inverse: before.inverse,
         };
         let Balanced { motion, traction, inverse } = stage.solve(&start)?;
-        let lifts = self.model.lifts(&ground, &motion);
-        let tips = lifts && self.may_pull && self.model.tips(&ground, &motion);
+        let tips = self.model.support(&ground, &motion) == Support::Tips;
         let Motion { twist, belt_speed, .. } = motion;
-        Some(State { twist, driven, belt_speed, traction, lifts, tips, inverse, ..*before })
+        Some(State { twist, driven, belt_speed, traction, tips, inverse, ..*before })
     }
 
     /// Whether forces other than friction depend on acceleration; otherwise the motion is always
@@ -322,13 +308,9 @@ impl Plant for Transient<'_> {
             self.step(speeds, end, 0)?;
             trajectory.push(self.moment());
             if self.state.tips {
-                return Err(Stopped { t: end, reason: "the robot tips over".to_owned() });
-            }
-            if self.state.lifts && !self.may_pull {
-                let reason =
-                    "part of the contact lifts off the ground, for the load shifts too far; \
-                              gentler changes of speed, or a lower centre of gravity, keep it down"
-                        .to_owned();
+                let reason = "the robot tips over: gentler changes of speed, or a lower centre of \
+                              gravity, keep it on the ground"
+                    .to_owned();
                 return Err(Stopped { t: end, reason });
             }
         }

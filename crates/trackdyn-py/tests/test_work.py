@@ -124,7 +124,7 @@ def test_a_batch_is_its_members(robot):
     seeds = td.simulate_batch([robot, robot], seed=[1, 2], runs=1, duration=5.0)
     assert seeds[0].recording.fingerprint != seeds[1].recording.fingerprint
     tall = {place: [0.1, 2.0]}
-    with pytest.raises(td.SimulateError, match="lifts off"):
+    with pytest.raises(td.SimulateError, match="tips over"):
         td.simulate_batch(robot, parameters=tall, runs=1, duration=10.0)
     stands, tips = td.simulate_batch(robot, parameters=tall, runs=1, duration=10.0, errors="none")
     assert stands is not None and tips is None

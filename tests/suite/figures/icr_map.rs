@@ -93,8 +93,7 @@ fn the_widest_numbers_keep_the_margins() {
 fn maps_without_turns_are_drawn_without_colour() {
     let model = auriga(&[]);
     let mut map = solve(&model, 11);
-    for (status, held) in
-        [(Status::Holds(Side::Left), 0), (Status::Lifts, 0), (Status::Straight, 0)]
+    for (status, held) in [(Status::Holds(Side::Left), 0), (Status::Tips, 0), (Status::Straight, 0)]
     {
         for solution in &mut map.solutions {
             solution.status = status;
@@ -173,7 +172,7 @@ fn the_figure_is_well_formed_svg() {
     let model = auriga(&["motion-resistance"]);
     let mut map = solve(&model, 11);
     for (k, status) in
-        [Status::Holds(Side::Left), Status::Lifts, Status::NotConverged].into_iter().enumerate()
+        [Status::Holds(Side::Left), Status::Tips, Status::NotConverged].into_iter().enumerate()
     {
         map.solutions[k].status = status;
     }

@@ -72,6 +72,7 @@ impl Case {
 
     /// The friction wrench of patches in this case's ground and pressure, to all digits.
     fn wrench<S: Scalar>(&self, patches: &[Patch], slip: &SlipField<S>) -> Wrench<S> {
+        let patches = patches.iter().map(|patch| Patch { x: patch.x, y: patch.y.map(S::from) });
         friction_wrench(patches, self.friction, &self.pressure(), slip, Resolution::Fine)
     }
 
@@ -171,9 +172,14 @@ fn far_field_takes_over_without_a_step() {
             let Case { patch, friction, .. } = case;
             let (pressure, slip) = (case.pressure(), case.slip());
             let patch = [patch];
-            let near = closed_form::friction_wrench(patch.iter(), friction, &pressure, &slip);
-            let far =
-                quadrature::far_field_wrench(patch.iter(), friction, &pressure, &slip, resolution);
+            let near = closed_form::friction_wrench(patch.into_iter(), friction, &pressure, &slip);
+            let far = quadrature::far_field_wrench(
+                patch.into_iter(),
+                friction,
+                &pressure,
+                &slip,
+                resolution,
+            );
             let pairs = components(&near).into_iter().zip(components(&far));
             for ((a, b), scale) in pairs.zip(case.scale()) {
                 assert!((a - b).abs() < error * scale, "{a} {b} {case:?}");
@@ -239,7 +245,7 @@ fn departure_of_a_polynomial_law_is_exact() {
         let case = Case::random(&mut random, 2.0);
         let slip = case.slip();
         let departure = quadrature::departure_wrench(
-            &[case.patch],
+            [case.patch].into_iter(),
             case.friction,
             &case.pressure(),
             &slip,

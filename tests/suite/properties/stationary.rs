@@ -68,7 +68,7 @@ fn solve_random(count: u32, seed: u64) {
                 assert_eq!(solution.twist.v_y, speed[side]);
                 assert_eq!(solution.twist.w, 0.0);
             }
-            Status::Lifts | Status::NotConverged => panic!("{}", context()),
+            Status::Tips | Status::NotConverged => panic!("{}", context()),
         }
     }
     // Both kinds occur: the test covers the boundary between them.
@@ -122,7 +122,7 @@ fn tracks_that_hold_stay_within_their_limit_surface() {
             let sense = if random.random() { 1.0 } else { -1.0 };
             let slip =
                 SlipField { lateral: sense * y, forward: -sense * x, rotation: sense, speed: 1.0 };
-            let patches = &model.patches()[anchor];
+            let patches = model.patches()[anchor].iter().copied();
             let wrench =
                 friction_wrench(patches, friction, &pressure(anchor), &slip, Resolution::Fine);
             let power = |[x, y, moment]: [f64; 3]| {

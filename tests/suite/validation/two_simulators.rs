@@ -60,8 +60,7 @@ fn schedule() -> Schedule {
 
 fn own(vehicle: &Vehicle, effects: &[ActiveEffect]) -> Trajectory {
     let model = Model::new(vehicle.clone(), effects.iter().cloned().collect::<Effects>());
-    // a hull on springs unloads an end without a word: to go on is next to that
-    let mut robot = Transient::at_rest(&model, 0.0, Pose::default()).with_pull();
+    let mut robot = Transient::at_rest(&model, 0.0, Pose::default());
     let path = robot.follow(&schedule()).unwrap_or_else(|stop| panic!("{effects:?}: {stop}"));
     model.sensor().reported_path(&path)
 }

@@ -67,12 +67,11 @@ pub fn run(options: &Options) -> Outcome {
 fn note_gaps(case: &CheckedCase) {
     let (name, map) = (&case.name, case.map.solved());
     let counts = map.counts();
-    let gaps = counts[Status::Lifts.index()] + counts[Status::NotConverged.index()];
+    let gaps = counts[Status::Tips.index()] + counts[Status::NotConverged.index()];
     if gaps > 0 {
         note(format_args!(
-            "case \"{name}\": at {gaps} of {} pairs of speeds part of the contact lifts or \
-            no forces balance: \
-             they enter no mean (expect turning_pairs to watch how many do)",
+            "case \"{name}\": at {gaps} of {} pairs of speeds the robot tips over or no \
+             forces balance: they enter no mean (expect turning_pairs to watch how many do)",
             map.solutions.len()
         ));
     }

@@ -346,7 +346,6 @@ fn path_in_time(
         .with_tolerance(steps.tolerance)
         .with_creep(creep)
         .with_twist(start)
-        .with_pull()
         .with_steps();
     path.push(robot.moment());
     for pair in belts.windows(2) {

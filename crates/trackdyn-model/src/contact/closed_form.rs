@@ -54,9 +54,10 @@ pub fn distance_squared<S: Scalar>(patch: &Patch, slip: &SlipField<S>) -> f64 {
 
 /// Friction wrench about the frame's origin of patches that share friction, pressure and slip.
 ///
-/// Meaningful where [`applies`] holds for each patch.
-pub fn friction_wrench<'p, S: Scalar>(
-    patches: impl Iterator<Item = &'p Patch>,
+/// Meaningful where [`applies`] holds for each patch. Edges have no derivative here: the pressure
+/// vanishes where they move.
+pub fn friction_wrench<S: Scalar>(
+    patches: impl Iterator<Item = Patch<S>>,
     friction: Friction,
     pressure: &Pressure<S>,
     slip: &SlipField<S>,
@@ -65,7 +66,7 @@ pub fn friction_wrench<'p, S: Scalar>(
     let position = icr.map(Scalar::value);
     let mut sum = Integrals::default();
     for patch in patches {
-        sum.add(patch, friction, position);
+        sum.add(&patch.value(), friction, position);
     }
     sum.wrench(friction, slip.rotation.value().signum(), icr, pressure)
 }

@@ -1,12 +1,14 @@
 //! Contact rectangles.
 
+use trackdyn_core::Scalar;
+
 /// A rectangular contact area with its sides along the axes of the paper's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Patch {
+pub struct Patch<S = f64> {
     /// Left and right edge, m.
     pub x: [f64; 2],
-    /// Rear and front edge, m.
-    pub y: [f64; 2],
+    /// Rear and front edge, m; they move with the load where part of the patch lifts.
+    pub y: [S; 2],
 }
 
 impl Patch {
@@ -18,9 +20,16 @@ impl Patch {
         }
     }
 
+    /// Area, m².
+    pub fn area(&self) -> f64 {
+        self.width() * self.length()
+    }
+}
+
+impl<S: Scalar> Patch<S> {
     /// Centre (x, y), m.
-    pub fn centre(&self) -> [f64; 2] {
-        [f64::midpoint(self.x[0], self.x[1]), f64::midpoint(self.y[0], self.y[1])]
+    pub fn centre(&self) -> [S; 2] {
+        [S::from(f64::midpoint(self.x[0], self.x[1])), (self.y[0] + self.y[1]) * 0.5]
     }
 
     /// Extent along x, m.
@@ -29,13 +38,13 @@ impl Patch {
     }
 
     /// Extent along y, m.
-    pub fn length(&self) -> f64 {
+    pub fn length(&self) -> S {
         self.y[1] - self.y[0]
     }
 
-    /// Area, m².
-    pub fn area(&self) -> f64 {
-        self.width() * self.length()
+    /// The rectangle without derivatives.
+    pub fn value(&self) -> Patch {
+        Patch { x: self.x, y: self.y.map(Scalar::value) }
     }
 }
 

@@ -62,10 +62,10 @@ impl Footprint {
     /// Centre and size of the contact of these patches, which differ in y only.
     pub fn extent(&self, patches: &[Patch]) -> Extent {
         // All patches of a side have the same width and centre-line.
-        let Patch { x: [left, right], .. } = patches[0];
+        let patch = &patches[0];
         Extent {
-            middle: [f64::midpoint(left, right), self.centroid],
-            radius: (self.gyration_squared + (right - left).powi(2) / 12.0).sqrt(),
+            middle: [patch.centre()[0], self.centroid],
+            radius: (self.gyration_squared + patch.width().powi(2) / 12.0).sqrt(),
         }
     }
 
@@ -78,7 +78,7 @@ impl Footprint {
     }
 
     /// The pressure that carries `normal_load` (N) with its resultant at `centre_of_pressure`
-    /// (y, m); negative where the patch would lift.
+    /// (y, m) if all of the contact bears; negative where it would lift.
     #[inline]
     pub fn pressure<S: Scalar>(&self, normal_load: S, centre_of_pressure: S) -> Pressure<S> {
         // p(y) = N/A (1 + (y_p − ȳ)(y − ȳ)/ρ²), Fig. 5; with ρ² = l²/12 and ȳ = 0 it is
@@ -86,11 +86,5 @@ impl Footprint {
         let mean = normal_load / self.area;
         let gradient = mean * (centre_of_pressure - self.centroid) / self.gyration_squared;
         Pressure { at_origin: mean - gradient * self.centroid, gradient }
-    }
-
-    /// Centre of pressure (y, m) of a `normal_load` (N) with this pressure.
-    pub fn centre_of_pressure(&self, normal_load: f64, pressure: &Pressure) -> f64 {
-        // y_p = ȳ + ρ² A p′/N
-        self.centroid + self.gyration_squared * self.area * pressure.gradient / normal_load
     }
 }

@@ -80,8 +80,8 @@ pub enum Resolution {
 }
 
 /// Friction wrench of the base law about the origin, where the ICR is far from every patch.
-pub fn far_field_wrench<'p, S: Scalar>(
-    patches: impl Iterator<Item = &'p Patch>,
+pub fn far_field_wrench<S: Scalar>(
+    patches: impl Iterator<Item = Patch<S>>,
     friction: Friction,
     pressure: &Pressure<S>,
     slip: &SlipField<S>,
@@ -91,10 +91,10 @@ pub fn far_field_wrench<'p, S: Scalar>(
     let unit = S::from(1.0);
     let mut wrench = Wrench::zero();
     for patch in patches {
-        let distance = distance_squared(patch, slip).sqrt();
+        let distance = distance_squared(&patch.value(), slip).sqrt();
         let reached = NODES_BY_DISTANCE.iter().position(|(from, _)| distance >= *from);
         let rule = &rules[reached.unwrap_or(NODES_BY_DISTANCE.len() - 1)];
-        wrench += integrate(rule, &Panels::whole(patch), slip, |site| {
+        wrench += integrate(rule, &Panels::whole(&patch), slip, |site| {
             site.traction(friction, pressure, [unit, unit])
         });
     }
@@ -107,16 +107,16 @@ pub fn far_field_wrench<'p, S: Scalar>(
 /// the base law is integrated, on panels cut at the ICR: the base law stays exact, and a weak
 /// effect has a small error.
 pub fn departure_wrench<S: Scalar>(
-    patches: &[Patch],
+    patches: impl Iterator<Item = Patch<S>>,
     friction: Friction,
     pressure: &Pressure<S>,
     slip: &SlipField<S>,
     resolution: Resolution,
-    mut law: impl FnMut(&Patch, &SlipSite<S>) -> ShearStress<S>,
+    mut law: impl FnMut(&Patch<S>, &SlipSite<S>) -> ShearStress<S>,
 ) -> Wrench<S> {
     let mut wrench = Wrench::zero();
     for patch in patches {
-        let is_short = patch.length() < 2.0 * patch.width();
+        let is_short = patch.length().value() < 2.0 * patch.width();
         let rule = match (resolution, is_short) {
             (Resolution::Fine, _) => &FINE,
             (Resolution::Coarse, false) => &COARSE,
@@ -124,9 +124,9 @@ pub fn departure_wrench<S: Scalar>(
             (Resolution::Rough, false) => &ROUGH,
             (Resolution::Rough, true) => &ROUGH_SHORT,
         };
-        let panels = Panels::cut(patch, slip);
+        let panels = Panels::cut(&patch, slip);
         wrench += integrate(rule, &panels, slip, |site| {
-            let ShearStress { factor, added } = law(patch, &site);
+            let ShearStress { factor, added } = law(&patch, &site);
             let base = site.traction(friction, pressure, factor.map(|f| f - 1.0));
             [base[0] + factor[0] * added[0], base[1] + factor[1] * added[1]]
         });
@@ -208,31 +208,30 @@ const MIN_TURN: f64 = 1e-9;
 
 impl<S: Scalar> Panels<S> {
     /// The whole patch.
-    fn whole(patch: &Patch) -> Self {
-        let all = |interval: [f64; 2]| [Some(interval.map(S::from)), None];
-        Self { columns: all(patch.x), rows: all(patch.y) }
+    fn whole(patch: &Patch<S>) -> Self {
+        Self { columns: [Some(patch.x.map(S::from)), None], rows: [Some(patch.y), None] }
     }
 
     /// The patch, cut at the ICR.
     ///
     /// The slip direction jumps at the ICR, and its components change sign along the lines through
     /// it. The nodes move with the cuts, so the sum stays a smooth function of the motion.
-    fn cut(patch: &Patch, slip: &SlipField<S>) -> Self {
-        if slip.rotation.value().abs() * patch.width().hypot(patch.length()) < MIN_TURN {
+    fn cut(patch: &Patch<S>, slip: &SlipField<S>) -> Self {
+        let diagonal = patch.width().hypot(patch.length().value());
+        if slip.rotation.value().abs() * diagonal < MIN_TURN {
             return Self::whole(patch);
         }
         let [icr_x, icr_y] = slip.icr();
-        Self { columns: cut(patch.x, icr_x), rows: cut(patch.y, icr_y) }
+        Self { columns: cut(patch.x.map(S::from), icr_x), rows: cut(patch.y, icr_y) }
     }
 }
 
 /// The interval, cut in two if `at` lies inside.
-fn cut<S: Scalar>([low, high]: [f64; 2], at: S) -> [Option<[S; 2]>; 2] {
-    let (low_edge, high_edge) = (S::from(low), S::from(high));
-    if at.value() > low && at.value() < high {
-        [Some([low_edge, at]), Some([at, high_edge])]
+fn cut<S: Scalar>([low, high]: [S; 2], at: S) -> [Option<[S; 2]>; 2] {
+    if at.value() > low.value() && at.value() < high.value() {
+        [Some([low, at]), Some([at, high])]
     } else {
-        [Some([low_edge, high_edge]), None]
+        [Some([low, high]), None]
     }
 }
 
@@ -265,7 +264,7 @@ mod tests {
             for (resolution, error) in [(Resolution::Fine, 2e-14), (Resolution::Coarse, 1e-8)] {
                 let patches = [patch];
                 let chosen =
-                    far_field_wrench(patches.iter(), friction, &pressure, &slip, resolution);
+                    far_field_wrench(patches.into_iter(), friction, &pressure, &slip, resolution);
                 for (a, b) in [
                     (chosen.force_x, exact.force_x),
                     (chosen.force_y, exact.force_y),

@@ -16,8 +16,8 @@ impl Effect for LoadTransfer {
         title: "Load transfer of a centre of gravity above the ground",
         law: "(x_p, y_p) = (x_c, y_c) + h (g_along − a)/g_normal, a = ω × v_cog + dv_cog/dt",
         assumes: "No suspension: the load shifts at once. dv_cog/dt \
-                  counts where inertia does. The pressure stays linear along the track; \
-                  where it would turn negative the patch lifts and the motion is reported so.",
+                  counts where inertia does. The pressure is linear along the part of the track \
+                  that bears; what would have to pull has lifted.",
         shows: "Fast turns: the outer track gains load, so its ICR comes closer.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
         stages: &[Stage::Load],

@@ -43,8 +43,8 @@ impl Effect for PressureConcentration {
 
     fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {
         let [_, middle] = site.patch.centre();
-        let mean = site.pressure.at(S::from(middle));
-        let eta = (site.slip.position[1] - middle) * (2.0 / site.patch.length());
+        let mean = site.pressure.at(middle);
+        let eta = (site.slip.position[1] - middle) * (site.patch.length().recip() * 2.0);
         // p ← p + κ p̄ (3 η² − 1)/2
         let pressure = mean * (eta * eta * 1.5 - 0.5) * self.concentration;
         let Friction { across, along } = site.friction();

@@ -74,7 +74,7 @@ impl Effect for ShearDisplacement {
         let [x, y] = site.slip.position;
         let entry = if belt_speed.value() > 0.0 { site.patch.y[1] } else { site.patch.y[0] };
         // The slip is linear in y, so ∫ s dt is its mid-way value times |y_entry − y|/|V|.
-        let travelled = (-y + entry).abs();
+        let travelled = (entry - y).abs();
         let half_way = site.slip_field().direction_at([x, (y + entry) * 0.5]);
         let unit_slip = (half_way[0] * half_way[0] + half_way[1] * half_way[1]).sqrt();
         let displacement = unit_slip * travelled * (site.slip_field().speed / belt_speed.abs());

@@ -41,8 +41,8 @@ pub struct Site<'a, S> {
     pub situation: &'a Situation<'a, S>,
     /// The side.
     pub side: Side,
-    /// The patch that holds the point.
-    pub patch: &'a Patch,
+    /// The patch that holds the point, as far as it bears.
+    pub patch: &'a Patch<S>,
     /// Normal pressure under the side.
     pub pressure: &'a Pressure<S>,
     /// Position and slip direction of the point.

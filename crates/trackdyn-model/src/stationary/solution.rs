@@ -22,6 +22,8 @@ pub struct Solution {
     pub icrs: Option<Icrs>,
     /// Norm of force over weight and moment over weight times gauge.
     pub residual: f64,
+    /// Whether part of the contact has lifted, and the rest bears the load.
+    pub is_lifted: bool,
     /// Number of Newton steps.
     pub iterations: usize,
     /// Start for a solve of a similar model at these speeds; none without an inverse Jacobian.
@@ -34,7 +36,7 @@ impl Solution {
         match self.status {
             Status::Turning | Status::Straight => self.icrs.map(Near::Turning),
             Status::Holds(side) => Some(Near::Held(side)),
-            Status::Lifts | Status::NotConverged => None,
+            Status::Tips | Status::NotConverged => None,
         }
     }
 }
@@ -49,15 +51,15 @@ pub enum Status {
     Straight,
     /// The track speeds differ, but this track holds the robot straight while the other slips.
     Holds(Side),
-    /// Forces balance only with negative pressure on part of the contact: a patch lifts.
-    Lifts,
+    /// The load lies outside the contact: the robot tips over.
+    Tips,
     /// No balance was found.
     NotConverged,
 }
 
 impl Status {
     /// Names of the kinds, in the order of summaries.
-    pub const NAMES: [&'static str; 5] = ["turning", "straight", "held", "lifts", "not converged"];
+    pub const NAMES: [&'static str; 5] = ["turning", "straight", "held", "tips", "not converged"];
 
     /// Index in [`Status::NAMES`].
     pub fn index(self) -> usize {
@@ -65,7 +67,7 @@ impl Status {
             Self::Turning => 0,
             Self::Straight => 1,
             Self::Holds(_) => 2,
-            Self::Lifts => 3,
+            Self::Tips => 3,
             Self::NotConverged => 4,
         }
     }

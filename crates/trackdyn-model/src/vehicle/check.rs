@@ -17,11 +17,11 @@ pub struct VehicleError {
 }
 
 impl Vehicle {
-    /// Checks all values, and that the pressure is positive on the whole contact.
+    /// Checks all values, and that the robot stands on its contact.
     ///
     /// # Errors
     /// The first invalid value; for a centre of gravity outside the limits, the error names the end
-    /// or side that lifts.
+    /// or side over which it tips.
     pub fn check(&self) -> Result<(), VehicleError> {
         positive("mass_kg", self.mass, "a positive mass in kg")?;
         positive("gauge_m", self.gauge, "a positive distance between the track centre-lines in m")?;
@@ -70,8 +70,7 @@ impl Vehicle {
         Ok(())
     }
 
-    /// The pressure must be positive on the whole contact: |x_c| < L/2, and for one track |y_c| <
-    /// l/6.
+    /// The centre of gravity must lie above the contact: |x_c| < L/2, and for one track |y_c| < l/2.
     fn check_support(&self) -> Result<(), VehicleError> {
         let [x, y] = self.cog;
         let error = |expected: String| VehicleError {
@@ -84,18 +83,19 @@ impl Vehicle {
         }
         let half_gauge = self.gauge / 2.0;
         if x.abs() >= half_gauge {
-            let side = if x > 0.0 { "left" } else { "right" };
+            let side = if x > 0.0 { "right" } else { "left" };
             return Err(error(format!(
-                "x between {:.4} and {half_gauge:.4} m (half the gauge): the {side} side lifts",
+                "x between {:.4} and {half_gauge:.4} m (half the gauge): the robot tips over its \
+                 {side} side",
                 -half_gauge
             )));
         }
-        let [rear, front] = Footprint::of(&self.patches(Side::Left)).support();
+        let [rear, front] = Footprint::of(&self.patches(Side::Left)).ends;
         if y <= rear || y >= front {
-            let end = if y >= front { "rear" } else { "front" };
+            let end = if y >= front { "front" } else { "rear" };
             return Err(error(format!(
-                "y between {rear:.4} and {front:.4} m (the pressure must stay positive along the \
-                 whole contact): the {end} end lifts"
+                "y between {rear:.4} and {front:.4} m (the ends of the contact): the robot tips \
+                 over its {end} end"
             )));
         }
         Ok(())

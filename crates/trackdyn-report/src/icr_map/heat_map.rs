@@ -1,8 +1,8 @@
 //! One coordinate of the ICRs over the track speeds.
 
 use super::metres;
-use crate::colour::{Rgb, VIRIDIS, WHITE};
-use crate::figure::{Area, Axis, Cell, Cells, ColourBar, Hatch, Panel};
+use crate::colour::{INK, Rgb, VIRIDIS, WHITE};
+use crate::figure::{Area, Axis, Cell, Cells, ColourBar, Hatch, Marker, Panel, Points, Shape};
 use trackdyn_core::real;
 use trackdyn_model::{IcrMap, Status};
 
@@ -12,6 +12,16 @@ const SIDE: i32 = 370;
 const MIN_RANGE: f64 = 1e-3;
 /// Range, m, below which a map is called constant.
 const MAX_CONSTANT_RANGE: f64 = 1e-6;
+
+/// What the sign of motions with part of the contact lifted says.
+pub(super) const LIFTED: &str = "part of the contact has lifted";
+
+/// The sign of a motion with part of the contact lifted, in a cell of this side (pixels): seen on
+/// dark and on bright colours.
+pub(super) fn lifted_sign(cell: f64) -> Marker {
+    let radius = (0.35 * cell).min(5.0);
+    Marker { shape: Shape::Open(radius, radius / 3.0), colour: INK }
+}
 
 /// The map of xₗ (0), xᵣ (1) or y (2), with its upper left corner.
 pub(super) fn heat_map(map: &IcrMap, coordinate: usize, [left, top]: [i32; 2]) -> Panel {
@@ -31,6 +41,12 @@ pub(super) fn heat_map(map: &IcrMap, coordinate: usize, [left, top]: [i32; 2]) -
     });
     let cells = cells.collect();
     panel.show_as(title, Cells { count: map.grid.points(), cells, scale: scale.clone() });
+    let lifted: Vec<[f64; 2]> =
+        map.lifted().map(|motion| [motion.track_speed.left, motion.track_speed.right]).collect();
+    if !lifted.is_empty() {
+        let cell = f64::from(SIDE) / real(map.grid.points());
+        panel.show_as(LIFTED, Points::new(lifted, lifted_sign(cell)));
+    }
     if extremes.is_some() {
         let place = Area::new(place.right() + 18, top, 28, SIDE);
         panel.colour_bars.push(ColourBar { place, scale });
@@ -66,7 +82,7 @@ pub(super) const fn gap(status: Status) -> Hatch {
     match status {
         Status::Turning | Status::Straight => Hatch { paper: PALE, ink: DARK, directions: 0 },
         Status::Holds(_) => Hatch { paper: PALE, ink: DARK, directions: 1 },
-        Status::Lifts => Hatch { paper: WHITE, ink: DARK, directions: 2 },
+        Status::Tips => Hatch { paper: WHITE, ink: DARK, directions: 2 },
         Status::NotConverged => Hatch { paper: RED, ink: RED, directions: 0 },
     }
 }
@@ -120,7 +136,7 @@ mod tests {
     fn kinds_of_motion_look_different() {
         use trackdyn_core::Side;
         let patterns: Vec<Vec<Rgb>> =
-            [Status::Straight, Status::Holds(Side::Left), Status::Lifts, Status::NotConverged]
+            [Status::Straight, Status::Holds(Side::Left), Status::Tips, Status::NotConverged]
                 .map(|status| (0..144).map(|k| gap(status).at(k % 12, k / 12)).collect())
                 .into();
         for (k, pattern) in patterns.iter().enumerate() {

@@ -70,7 +70,7 @@ fn counts(panel: &mut Panel, area: Area, first: i32, map: &IcrMap) -> (Vec<Panel
         (Status::Turning, "turning"),
         (Status::Straight, "straight: both tracks stick"),
         (Status::Holds(Side::Left), "held straight by one track"),
-        (Status::Lifts, "lifts: part of the contact would pull"),
+        (Status::Tips, "tips over"),
         (Status::NotConverged, "no balance found"),
     ];
     let counts = map.counts();
@@ -94,6 +94,14 @@ fn counts(panel: &mut Panel, area: Area, first: i32, map: &IcrMap) -> (Vec<Panel
         panel.show(Boxes::framed(vec![corners(place)], 2, FRAME));
         entry(panel, meaning, [area.left, row]);
         write(panel, &counts[status.index()].to_string(), [area.right(), row], INK);
+        row += LINE;
+    }
+    let lifted = map.lifted().count();
+    if lifted > 0 {
+        let at = [area.left + SWATCH[0] / 2, row].map(f64::from);
+        panel.show(Points::new(vec![at], heat_map::lifted_sign(f64::from(SWATCH[1]))));
+        entry(panel, heat_map::LIFTED, [area.left, row]);
+        write(panel, &lifted.to_string(), [area.right(), row], INK);
         row += LINE;
     }
     (samples, row)

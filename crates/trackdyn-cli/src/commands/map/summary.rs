@@ -63,7 +63,7 @@ fn motions(text: &mut String, map: &Solved) {
         "turn and enter the means",
         "are straight: both tracks stick",
         "are held straight by one track",
-        "lift part of the contact: gaps",
+        "tip the robot over: gaps",
         "have no balance of forces that was found: gaps",
     ];
     let parts: Vec<String> = map
@@ -75,7 +75,11 @@ fn motions(text: &mut String, map: &Solved) {
         .collect();
     text.push('\n');
     let (pairs, parts) = (map.solutions.len(), parts.join(", "));
-    *text += &wrapped("  ", &format!("Of {pairs} pairs of speeds {parts}."));
+    let lifted = match map.lifted().count() {
+        0 => String::new(),
+        lifted => format!(" In {lifted} of them part of the contact has lifted."),
+    };
+    *text += &wrapped("  ", &format!("Of {pairs} pairs of speeds {parts}.{lifted}"));
 }
 
 fn sectors(text: &mut String, map: &Solved) {

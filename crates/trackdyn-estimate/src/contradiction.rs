@@ -2,10 +2,12 @@
 
 use crate::Interval;
 use crate::least_squares::Estimate;
+use crate::left_over::LeftOver;
 use crate::observations::Observations;
 use crate::parameters::Parameters;
 use crate::spin_test::SpinTest;
-use trackdyn_core::robust::{median, quantile};
+use crate::weighting::SegmentNoise;
+use trackdyn_core::robust::quantile;
 use trackdyn_core::{PerSide, Side};
 use trackdyn_recording::unit;
 
@@ -24,6 +26,10 @@ const MAX_OF_GENETIC: f64 = 0.25;
 /// the gauge is known to a few percent.
 const MAX_EFFICIENCY: f64 = 1.05;
 
+/// χ below which it is the units that are wrong: ten times the gauge is more than any friction
+/// between the tracks' centre-lines gives.
+const MIN_EFFICIENCY: f64 = 0.1;
+
 /// α of encoders and wheel radii that are what their file says, and of tracks that hold.
 const ALPHAS: [f64; 2] = [0.8, 1.25];
 
@@ -37,9 +43,20 @@ const MAX_SPREAD_OF_UNITS: f64 = 1.3;
 /// Part of the turning that a fit leaves where it describes the drive.
 const MAX_TURNING_LEFT: f64 = 0.5;
 
+/// Part of the way that a fit leaves where it describes the drive: twice what the slip of real
+/// robots on gravel leaves.
+const MAX_WAY_LEFT: f64 = 0.3;
+
+/// Smallest turn of the sensor that shows, rad: in turns, ICRs that are shifted turn the way, too.
+const MIN_MOUNT: f64 = 0.17;
+
 /// Part of the turning, and of the distance of the ICRs, that is left where poses are computed from
 /// the tracks: the time between readings, and rounding.
 const COMPUTED: f64 = 2e-3;
+
+/// Part of the gauge by which ICRs miss the tracks' centre-lines where poses are computed from the
+/// tracks. The slip of any contact longer than a point moves them further out.
+const MAX_OFF_CENTRE_LINES: f64 = 0.02;
 
 /// Something that contradicts a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +76,11 @@ pub enum Contradiction {
         /// χ.
         chi: f64,
     },
+    /// ICRs further from each other than friction puts them.
+    Apart {
+        /// χ.
+        chi: f64,
+    },
     /// A track that moves much less or more than its encoder says.
     Alpha {
         /// The side.
@@ -74,6 +96,13 @@ pub enum Contradiction {
         /// Part of the turning that it leaves, of the segments that turn most.
         left: f64,
     },
+    /// The poses move where the tracks do not drive.
+    Way {
+        /// Part of the way that the fit leaves, of the segments in which the poses move furthest.
+        left: f64,
+        /// Heading of the sensor on the robot that would explain it, rad.
+        mount: Option<f64>,
+    },
     /// Poses that are computed from the tracks.
     WheelOdometry {
         /// Part of the turning that the fit leaves.
@@ -87,12 +116,12 @@ impl Contradiction {
         fit: &Estimate,
         genetic: &Estimate,
         spin_test: Option<&SpinTest>,
-        observations: &Observations,
+        (observations, noise): (&Observations, Option<&SegmentNoise>),
         gauge: f64,
     ) -> Vec<Self> {
-        let left = turning_left(&fit.parameters, observations);
-        if is_computed(&fit.parameters, left) {
-            return vec![Self::WheelOdometry { left }];
+        let left = LeftOver::of(&fit.parameters, observations, noise);
+        if is_computed(&fit.parameters, &left, gauge) {
+            return vec![Self::WheelOdometry { left: left.turning }];
         }
         let mut found = Self::of_parameters(&fit.parameters, &fit.steering_efficiency(gauge));
         let [.., alpha_l, alpha_r] = fit.parameters.0;
@@ -126,8 +155,13 @@ impl Contradiction {
             }
             None => by_method("the genetic algorithm", genetic.gap(), MAX_OF_GENETIC),
         });
-        if left > MAX_TURNING_LEFT {
-            found.push(Self::Turning { left });
+        if left.turning > MAX_TURNING_LEFT {
+            found.push(Self::Turning { left: left.turning });
+        }
+        if left.way > MAX_WAY_LEFT {
+            let [mount, beside] = LeftOver::mount(observations);
+            let shows = mount.abs() > MIN_MOUNT && beside < MAX_WAY_LEFT;
+            found.push(Self::Way { left: left.way, mount: shows.then_some(mount) });
         }
         found
     }
@@ -135,12 +169,16 @@ impl Contradiction {
     /// What contradicts a distance of the ICRs with this χ.
     pub fn of_efficiency(efficiency: &Interval) -> Option<Self> {
         let chi = efficiency.value;
-        (efficiency.low > MAX_EFFICIENCY).then_some(Self::Efficiency { chi })
+        if efficiency.low > MAX_EFFICIENCY {
+            Some(Self::Efficiency { chi })
+        } else {
+            (efficiency.high < MIN_EFFICIENCY).then_some(Self::Apart { chi })
+        }
     }
 
-    /// Whether it shows a unit of the track speeds, which is wrong whatever else is fitted.
-    pub fn is_of_units(&self) -> bool {
-        matches!(self, Self::Alpha { ratio: Some(ratio), .. } if unit::mixed_up(*ratio).is_some())
+    /// Whether it shows that track speeds are not what they seem, whatever else is fitted.
+    pub fn is_of_track_speeds(&self) -> bool {
+        matches!(self, Self::Alpha { .. })
     }
 
     /// What contradicts parameters whatever they were fitted to.
@@ -175,35 +213,20 @@ fn spread_of_ways(observations: &Observations) -> f64 {
     lower.zip(upper).map_or(f64::INFINITY, |(lower, upper)| upper / lower)
 }
 
-/// Part of the turning that parameters leave unexplained: medians over the half of the segments
-/// that turn most.
-fn turning_left(parameters: &Parameters, observations: &Observations) -> f64 {
-    let [x_l, x_r, _, alpha_l, alpha_r] = parameters.0;
-    let mut turns: Vec<[f64; 2]> = observations
-        .segments()
-        .iter()
-        .map(|segment| {
-            let travelled = observations.travelled(segment);
-            // ∫ ω dt = (α_r D_r − α_l D_l)/(x_r − x_l), eq. (9)
-            let turned = (alpha_r * travelled.right - alpha_l * travelled.left) / (x_r - x_l);
-            [segment.motion[2].abs(), (segment.motion[2] - turned).abs()]
-        })
-        .collect();
-    turns.sort_by(|a, b| b[0].total_cmp(&a[0]));
-    turns.truncate(turns.len().div_ceil(2));
-    let of = |k: usize| median(&mut turns.iter().map(|turn| turn[k]).collect::<Vec<_>>());
-    match (of(0), of(1)) {
-        (Some(turned), Some(left)) if turned > 0.0 => left / turned,
-        _ => 0.0,
-    }
-}
-
-/// Whether poses are those of a differential drive: nothing left, ICRs on one line through the
-/// middle, as far from it on either side.
-fn is_computed(parameters: &Parameters, left: f64) -> bool {
+/// Whether poses are those of a differential drive: ICRs on the tracks' centre-lines; or nothing
+/// left, and ICRs on one line through the middle, as far from it on either side; or never a move to
+/// the side.
+fn is_computed(parameters: &Parameters, left: &LeftOver, gauge: f64) -> bool {
     let [x_l, x_r, y, ..] = parameters.0;
     let gap = x_r - x_l;
-    left < COMPUTED && (x_l + x_r).abs() < COMPUTED * gap && y.abs() < COMPUTED * gap
+    let is_ideal = [x_l + gauge / 2.0, x_r - gauge / 2.0, y]
+        .into_iter()
+        .all(|off| off.abs() < MAX_OFF_CENTRE_LINES * gauge);
+    let is_level = y.abs() < COMPUTED * gap;
+    let is_even = (x_l + x_r).abs() < COMPUTED * gap;
+    is_ideal
+        || is_level && is_even && left.turning < COMPUTED
+        || is_level && left.sideways < COMPUTED
 }
 
 impl std::fmt::Display for Contradiction {
@@ -219,6 +242,32 @@ impl std::fmt::Display for Contradiction {
                 "chi = {chi:.2}: the ICRs lie closer to each other than the tracks, which friction \
                  cannot do: check the gauge, the wheel radius, and which joints were taken"
             ),
+            Self::Apart { chi } => write!(
+                f,
+                "chi = {chi:.3}: the ICRs lie {:.0} gauges from each other, which friction cannot \
+                 do: check the units of poses and track speeds (--speed-unit), and the gauge",
+                1.0 / chi
+            ),
+            Self::Way { left, mount } => {
+                write!(
+                    f,
+                    "the fit leaves {:.0} % of the way: the poses move where the tracks do not \
+                     drive: ",
+                    100.0 * left
+                )?;
+                match mount {
+                    Some(mount) => write!(
+                        f,
+                        "the sensor is turned on the robot, by {0:.0} degrees: --mount-yaw {0:.0} \
+                         takes it back, --fit sensor-yaw finds the rest",
+                        mount.to_degrees()
+                    ),
+                    None => f.write_str(
+                        "check the wheel radius and the units, whether x and y are swapped or \
+                         mirrored, and whether these poses measure positions at all",
+                    ),
+                }
+            }
             Self::Alpha { side, alpha, ratio } => {
                 let side = if side == Side::Left { "l" } else { "r" };
                 let more = if alpha < 1.0 { "less" } else { "more" };
@@ -248,9 +297,10 @@ impl std::fmt::Display for Contradiction {
             ),
             Self::WheelOdometry { left } => write!(
                 f,
-                "the fit leaves {:.2} % of the turning, and the ICRs of an ideal drive: these \
-                 poses are wheel odometry, computed from the tracks, and show no slip. Poses have \
-                 to come from something else: lidar, GNSS, motion capture",
+                "the fit leaves {:.2} % of the turning, and the ICRs are those of an ideal drive: \
+                 these poses are wheel odometry, computed from the tracks, and show no slip (or \
+                 the gauge is not the distance between the tracks' centre-lines). Poses have to \
+                 come from something else: lidar, GNSS, motion capture",
                 100.0 * left
             ),
         }

@@ -140,7 +140,8 @@ pub fn identify_unless_stopped(
             least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
         let contradictions = least_squares.as_ref().map_or(Vec::new(), |estimate| {
             let spin = spin_test.as_ref().ok();
-            Contradiction::of_motions(estimate, &genetic_estimate, spin, observations, gauge)
+            let seen = (observations, seen.weighting.noise());
+            Contradiction::of_motions(estimate, &genetic_estimate, spin, seen, gauge)
         });
         Some(Fit {
             free,
@@ -156,8 +157,8 @@ pub fn identify_unless_stopped(
     let mut fits = fits.ok_or(Error::Cancelled)?;
     let [icrs, with_alphas] = &mut fits;
     if with_alphas.doubts.is_empty() {
-        let of_units = with_alphas.contradictions.iter().filter(|found| found.is_of_units());
-        icrs.contradictions.extend(of_units.copied());
+        let found = with_alphas.contradictions.iter();
+        icrs.contradictions.extend(found.filter(|found| found.is_of_track_speeds()).copied());
     }
     let is_open = fits.iter().all(|fit| fit.least_squares.is_err() || !fit.doubts.is_empty());
     let separation = if is_open { Separation::of_motions(observations).ok() } else { None };

@@ -45,6 +45,7 @@ pub mod gyroscope;
 pub mod identification;
 pub mod interval;
 pub mod least_squares;
+mod left_over;
 pub mod likely_noise;
 pub mod noise;
 pub mod observations;

@@ -20,6 +20,16 @@ pub enum Weighting {
     Noise(SegmentNoise),
 }
 
+impl Weighting {
+    /// The noise of the recording; none where segments count alike.
+    pub fn noise(&self) -> Option<&SegmentNoise> {
+        match self {
+            Self::Distance { .. } => None,
+            Self::Noise(noise) => Some(noise),
+        }
+    }
+}
+
 /// Noise along the axes of the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentNoise {

@@ -2,7 +2,7 @@
 
 use crate::recovery::{GAUGE, drive};
 use rayon::prelude::*;
-use trackdyn_core::PerSide;
+use trackdyn_core::{PerSide, Pose};
 use trackdyn_estimate::Contradiction;
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::identification::{Identification, Options, identify};
@@ -49,6 +49,82 @@ fn a_unit_that_a_reader_lets_pass_contradicts_both_fits() {
     }
 }
 
+/// A drive whose poses or readings are changed: forward and left (m), yaw (rad); or both speeds.
+fn changed(
+    seed: u64,
+    pose: impl Fn(Pose) -> Pose,
+    speeds: impl Fn(PerSide<f64>) -> PerSide<f64>,
+) -> Recording {
+    let mut runs: Vec<_> = drive(seed).runs().iter().cloned().map(Run::into_rows).collect();
+    for run in &mut runs {
+        for sample in &mut run.poses.samples {
+            sample.pose = pose(sample.pose);
+        }
+        for reading in &mut run.tracks.samples {
+            let PerSide { left, right } = speeds(reading.speeds());
+            (reading.v_left, reading.v_right) = (left, right);
+        }
+    }
+    let recording = Recording::new("changed", "robot", runs, Source::computed(), Vec::new());
+    recording.expect("long enough")
+}
+
+fn texts(found: &[Contradiction]) -> String {
+    found.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}
+
+/// A diameter in place of a radius: the ICRs would take all of it for slip.
+#[test]
+fn track_speeds_that_are_wrong_by_a_factor_contradict_both_fits() {
+    for factor in [0.5, 0.7, 1.4, 2.0] {
+        let recording = changed(3, |pose| pose, |speeds| speeds.map(|v| factor * v));
+        for fit in identified(&recording, GAUGE).fits {
+            let is_named = |found: &Contradiction| matches!(found, Contradiction::Alpha { .. });
+            assert!(fit.contradictions.iter().any(is_named), "{factor}: {:?}", fit.contradictions);
+        }
+    }
+}
+
+/// Poses in mm and speeds in mm/s agree with each other, and with no robot.
+#[test]
+fn one_wrong_unit_of_all_lengths_is_named() {
+    let scaled = |pose: Pose| Pose { x: 1e3 * pose.x, y: 1e3 * pose.y, ..pose };
+    let recording = changed(4, scaled, |speeds| speeds.map(|v| 1e3 * v));
+    let found = contradictions(&recording, GAUGE);
+    assert!(found.iter().any(|one| matches!(one, Contradiction::Apart { .. })), "{found:?}");
+    assert!(texts(&found).contains("units of poses"), "{}", texts(&found));
+}
+
+/// A sensor that looks to the side shows the turns, and each ICR in the wrong place.
+#[test]
+fn a_turned_sensor_is_named_with_its_angle() {
+    for degrees in [-90.0_f64, 30.0, 90.0] {
+        let turned = |pose: Pose| Pose { yaw: pose.yaw + degrees.to_radians(), ..pose };
+        let found = contradictions(&changed(5, turned, |speeds| speeds), GAUGE);
+        let mount = found.iter().find_map(|one| match one {
+            Contradiction::Way { mount, .. } => *mount,
+            _ => None,
+        });
+        let mount = mount.unwrap_or_else(|| panic!("{degrees}: {found:?}"));
+        assert!((mount.to_degrees() - degrees).abs() < 5.0, "{mount} rad for {degrees} degrees");
+        assert!(texts(&found).contains("--mount-yaw"), "{}", texts(&found));
+    }
+}
+
+/// Positions that a filter made up beside a heading that is right.
+#[test]
+fn positions_without_a_measurement_are_named() {
+    for pose in [
+        |pose: Pose| Pose { x: 0.0, y: 0.0, ..pose },
+        |pose: Pose| Pose { x: pose.y, y: pose.x, ..pose },
+        |pose: Pose| Pose { y: -pose.y, ..pose },
+    ] {
+        let found = contradictions(&changed(6, pose, |speeds| speeds), GAUGE);
+        let is_named = |one: &Contradiction| matches!(one, Contradiction::Way { mount: None, .. });
+        assert!(found.iter().any(is_named), "{found:?}");
+    }
+}
+
 /// Poses of an ideal drive, as a controller computes them; with slip they are those of a robot.
 #[test]
 fn wheel_odometry_is_told_from_poses() {
@@ -64,4 +140,27 @@ fn wheel_odometry_is_told_from_poses() {
     let text = found[0].to_string();
     assert!(text.contains("computed from the tracks"), "{text}");
     assert!(contradictions(&computed(0.4, 0.05), GAUGE).is_empty());
+}
+
+/// Odometry that a driver rounds, delays or fuses with a gyroscope is still odometry: its ICRs are
+/// on the centre-lines of the tracks, or it never moves to the side.
+#[test]
+fn wheel_odometry_with_errors_is_told_from_poses() {
+    let computed = |[x_left, x_right]: [f64; 2], position_noise: f64| {
+        let alpha = PerSide::new(1.0, 1.0);
+        let kinematics = ConstantIcr { x_left, x_right, y: 0.0, alpha };
+        let schedules = vec![random_steps(150, 2.0, 0.8, 5)];
+        let yaw_noise = position_noise;
+        let synthetic =
+            Synthetic { kinematics, schedules, position_noise, yaw_noise, ..Synthetic::default() };
+        contradictions(&synthetic.recording().expect("long enough"), GAUGE)
+    };
+    for found in [
+        computed([-0.5 * GAUGE, 0.5 * GAUGE], 0.005),
+        computed([-0.495 * GAUGE, 0.505 * GAUGE], 0.0),
+        computed([-0.4, 0.45], 0.0),
+    ] {
+        assert!(matches!(found[..], [Contradiction::WheelOdometry { .. }]), "{found:?}");
+    }
+    assert!(computed([-0.4, 0.45], 0.005).is_empty());
 }

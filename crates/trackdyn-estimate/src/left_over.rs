@@ -1,0 +1,110 @@
+//! How much of the motion constant ICRs leave unexplained.
+//!
+//! Medians over the half of the segments that move most: an outlier is no misfit, a wrong unit is.
+//! What the noise of the poses explains does not count.
+
+use crate::observations::{Observation, Observations};
+use crate::parameters::Parameters;
+use crate::prediction::{Lanes, Prediction};
+use crate::weighting::SegmentNoise;
+use trackdyn_core::robust::median;
+
+/// Median of |z| of a standard normal number.
+const HALF_NORMAL_MEDIAN: f64 = 0.674_489_750_196_082;
+/// Median of the length of two of them, √(2 ln 2).
+const RAYLEIGH_MEDIAN: f64 = 1.177_410_022_515_475;
+
+/// Parts of the motion that parameters leave.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeftOver {
+    /// Of the turning, where the robot turns most.
+    pub turning: f64,
+    /// Of the way, where the robot moves furthest.
+    pub way: f64,
+    /// Of the move to the side, over the turning times the distance of the ICRs, where the robot
+    /// turns most. Noise counts here.
+    pub sideways: f64,
+}
+
+impl LeftOver {
+    /// What parameters leave of the observed motions; `noise` is that of the poses, where known.
+    pub fn of(
+        parameters: &Parameters,
+        observations: &Observations,
+        noise: Option<&SegmentNoise>,
+    ) -> Self {
+        let [x_l, x_r, ..] = parameters.0;
+        let predictions = Lanes::new(observations).predict(parameters);
+        let segments = || observations.segments().iter().zip(&predictions);
+        let off =
+            |(segment, by): (&Observation, &Prediction), k: usize| segment.motion[k] - by.motion[k];
+        let variance = |segment: &Observation, k: usize| {
+            noise.map_or(0.0, |noise| 2.0 * noise.pose[k] + noise.walk[k] * segment.duration)
+        };
+        let turns: Vec<[f64; 3]> = segments()
+            .map(|(segment, by)| {
+                let [_, _, yaw] = segment.motion;
+                [yaw.abs(), off((segment, by), 2).abs(), variance(segment, 2)]
+            })
+            .collect();
+        let ways: Vec<[f64; 3]> = segments()
+            .map(|(segment, by)| {
+                let [x, y, _] = segment.motion;
+                let variance = f64::midpoint(variance(segment, 0), variance(segment, 1));
+                [x.hypot(y), off((segment, by), 0).hypot(off((segment, by), 1)), variance]
+            })
+            .collect();
+        let sides: Vec<[f64; 3]> = segments()
+            .map(|(segment, by)| {
+                let turned = segment.motion[2].abs() * (x_r - x_l);
+                [turned, off((segment, by), 1).abs(), 0.0]
+            })
+            .collect();
+        Self {
+            turning: left(turns, HALF_NORMAL_MEDIAN),
+            way: left(ways, RAYLEIGH_MEDIAN),
+            sideways: left(sides, HALF_NORMAL_MEDIAN),
+        }
+    }
+
+    /// Heading of the sensor on the robot (rad) by the direction of its way against that of the
+    /// tracks, and the part of the way that a sensor turned back by it leaves beside them.
+    pub fn mount(observations: &Observations) -> [f64; 2] {
+        let ways: Vec<[f64; 3]> = observations
+            .segments()
+            .iter()
+            .map(|segment| {
+                let travelled = observations.travelled(segment);
+                let [x, y, yaw] = segment.motion;
+                let along = f64::midpoint(travelled.left, travelled.right);
+                // The chord of an arc points half a turn ahead.
+                let (sin, cos) = (yaw / 2.0).sin_cos();
+                [along, cos * x + sin * y, cos * y - sin * x]
+            })
+            .collect();
+        let [dot, cross] = [1, 2].map(|k| ways.iter().map(|way| way[0] * way[k]).sum::<f64>());
+        let direction = cross.atan2(dot);
+        let (sin, cos) = direction.sin_cos();
+        let beside = ways.iter().map(|&[along, x, y]| {
+            let off = [along - (cos * x + sin * y), cos * y - sin * x];
+            [x.hypot(y), off[0].hypot(off[1]), 0.0]
+        });
+        [-direction, left(beside.collect(), RAYLEIGH_MEDIAN)]
+    }
+}
+
+/// Median of what is left over the median of what was there, over the half with most of it. Rows
+/// hold how much was there, how much is left, and the variance of its noise, whose median is
+/// `of_noise` standard deviations.
+fn left(mut rows: Vec<[f64; 3]>, of_noise: f64) -> f64 {
+    rows.sort_by(|a, b| b[0].total_cmp(&a[0]));
+    rows.truncate(rows.len().div_ceil(2));
+    let of = |k: usize| median(&mut rows.iter().map(|row| row[k]).collect::<Vec<_>>());
+    match (of(0), of(1), of(2)) {
+        (Some(there), Some(left), Some(variance)) if there > 0.0 => {
+            let by_noise = of_noise * of_noise * variance;
+            (left * left - by_noise).max(0.0).sqrt() / there
+        }
+        _ => 0.0,
+    }
+}

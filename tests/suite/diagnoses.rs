@@ -114,6 +114,8 @@ fn a_slide_is_inertia_and_no_clock() {
     assert!(named.contains(&inertia) && named.contains(&centripetal), "{named:?}");
     let [friction, ..] = found.friction_by_inertia().expect("it slides farther than the file says");
     assert!((friction * 8.0).ln().abs() < 0.3, "{friction}");
+    let file = DiagnosisFile::new(&found, &Source::default());
+    assert!((file.friction_by_inertia.expect("in the file").factor - friction).abs() < 1e-6);
     let best = &found.models.best.fit.hypothesis;
     let delay = best.effects.iter().fold(0.0, |sum, effect| {
         let alone = std::iter::once(effect.clone()).collect();

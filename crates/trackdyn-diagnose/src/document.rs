@@ -37,6 +37,10 @@ pub struct DiagnosisFile {
     /// Quality of that law.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proposal: Option<ProposalTable>,
+    /// Friction by which the robot slides; absent where it is that of the vehicle file, and in older
+    /// files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction_by_inertia: Option<FactorTable>,
     /// Errors on held-out runs.
     pub fit: FitTable,
     /// Noise of the poses; absent in older files, and of tables of steady points.
@@ -109,6 +113,17 @@ pub struct ParameterTable {
     pub unit: String,
 }
 
+/// A factor on what the vehicle file says, with its 95 % interval.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct FactorTable {
+    /// Estimate.
+    pub factor: f64,
+    /// Lower end of the interval.
+    pub low95: f64,
+    /// Upper end of the interval.
+    pub high95: f64,
+}
+
 /// Statistical support of a claim.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct SupportTable {
@@ -172,6 +187,10 @@ impl DiagnosisFile {
             missing: diagnosis.answer.missing.iter().map(missing).collect(),
             proposed: diagnosis.answer.proposed.as_ref().map_or_else(Vec::new, proposed::terms),
             proposal: diagnosis.answer.proposed.as_ref().map(proposed::law),
+            friction_by_inertia: diagnosis.friction_by_inertia().map(|factors| {
+                let [factor, low95, high95] = factors.map(rounded);
+                FactorTable { factor, low95, high95 }
+            }),
             fit: FitTable {
                 are_held_out: held_out.are_held_out,
                 held_out_before: rounded(held_out.before),

@@ -54,7 +54,9 @@ pub(super) fn parts(subject: &Subject) -> Vec<[String; 2]> {
         let first = letters.next().map(char::to_uppercase);
         format!("{}{}.", first.into_iter().flatten().collect::<String>(), letters.as_str())
     };
-    let much: Vec<String> = std::iter::once(errors(subject)).chain(worth(subject)).collect();
+    let slide = diagnosis.friction_by_inertia().map(slide);
+    let much = std::iter::once(errors(subject)).chain(worth(subject)).chain(slide);
+    let much: Vec<String> = much.collect();
     [
         ["What", what.join(" ").as_str()],
         ["Where", place.as_str()],
@@ -63,6 +65,15 @@ pub(super) fn parts(subject: &Subject) -> Vec<[String; 2]> {
     ]
     .map(|part| part.map(str::to_owned))
     .to_vec()
+}
+
+/// How far the robot slides, as factor of the file's friction with its interval.
+fn slide([factor, low, high]: [f64; 3]) -> String {
+    let [factor, low, high] = [factor, low, high].map(|value| number(value, 3));
+    format!(
+        "It slides as on {factor} times the friction of the vehicle file (95 % interval {low} to \
+         {high}): inertia is felt in units of friction."
+    )
 }
 
 /// What is not claimed because the robot met it once.

@@ -8,7 +8,9 @@ As a program: ``python -m trackdyn.fleet "logs/**/*.mcap" --vehicle fleet.toml -
 Needs ``pip install trackdyn[fleet]``.
 """
 
+from ._judged import Finding
 from ._outcome import Outcome
 from ._run import run
+from ._trends import ClaimTrend, RobotTrend, Trends, trends
 
-__all__ = ["Outcome", "run"]
+__all__ = ["ClaimTrend", "Finding", "Outcome", "RobotTrend", "Trends", "run", "trends"]

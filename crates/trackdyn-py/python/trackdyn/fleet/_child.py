@@ -25,7 +25,7 @@ from .._kinematics import IcrKinematics
 from .._reading import read_recording
 from .._recording import Recording
 from .._vehicle import Vehicle
-from ._files import content, stat
+from ._files import content, look
 
 #: Stamps before 2000 or after 2100 are not dates: clocks that count from the start of a robot.
 _DATES_NS = (946_684_800 * 10**9, 4_102_444_800 * 10**9)
@@ -99,7 +99,7 @@ def _fill(job: dict[str, Any], said: dict[str, Any], stage: Callable[[str], Any]
     vehicle = Vehicle.from_toml(job["vehicle"], job["vehicle_name"])
     path = Path(job["path"])
     with stage("fingerprint"):
-        said["stat"] = stat(path)
+        said["look"] = look(path)
         row["sha256"] = content(path)
     if row["sha256"] == job["unless"]:
         said["is_same"] = True

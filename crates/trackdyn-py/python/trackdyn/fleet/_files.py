@@ -1,17 +1,21 @@
-"""Size, time and content of a log, which is a file or a folder."""
+"""Look and content of a log, which is a file or a folder."""
 
 from __future__ import annotations
 
 import hashlib
+import json
 from pathlib import Path
+from typing import Any
 
 
-def stat(path: Path) -> dict[str, int]:
-    """Size (bytes) and latest change (ns) of a file, or of all files of a folder."""
-    found = [file.stat() for file in _files(path)]
+def look(path: Path) -> dict[str, Any]:
+    """How a log looks without being read: its size, and a fingerprint of the name, the size and the
+    time of change of each of its files."""
+    found = {file.relative_to(path).as_posix(): file.stat() for file in _files(path)}
+    sizes = [(name, one.st_size, one.st_mtime_ns) for name, one in found.items()]
     return {
-        "size_bytes": sum(one.st_size for one in found),
-        "changed_ns": max((one.st_mtime_ns for one in found), default=0),
+        "size_bytes": sum(size for _, size, _ in sizes),
+        "look": hashlib.sha256(json.dumps(sizes).encode()).hexdigest()[:16],
     }
 
 

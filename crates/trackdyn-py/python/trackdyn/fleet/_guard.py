@@ -21,6 +21,9 @@ LOGS_OF_A_PROCESS = 100
 #: Times that a log may end its process: one may be the machine's fault, two are the log's.
 MAX_CRASHES = 2
 
+#: Time that a process has to start, s: no log is blamed for it.
+START_S = 120.0
+
 #: Time that a process whose answers ended has to end as well, s.
 END_S = 5.0
 
@@ -47,10 +50,10 @@ def make(job: dict[str, Any]) -> dict[str, Any]:
     """
     begin = time.monotonic()
     for attempt in range(1, MAX_CRASHES + 1):
-        said = _process(job["memory"]).ask(job, begin + job["timeout"])
+        said = _process(job["memory"]).ask(job)
         if said["row"].get("status") != "crashed":
             break
-    timing = {"log": job["log"], **said.get("stat", {})}
+    timing = {"log": job["log"], **said.get("look", {})}
     timing.update({f"{stage}_s": seconds for stage, seconds in said.get("seconds", {}).items()})
     timing.update(total_s=time.monotonic() - begin, attempts=attempt, host=socket.gethostname())
     return {"row": said["row"], "timing": timing, "is_same": said.get("is_same", False)}
@@ -101,6 +104,8 @@ class _Process:
         ).start()
         # a thread that ends leaves no process behind
         self._finalizer = weakref.finalize(self, _end, self._inner)
+        self._words_before = 0
+        self._is_started = False
 
     @property
     def is_ready(self) -> bool:
@@ -112,9 +117,11 @@ class _Process:
         self._left = 0
         self._finalizer()
 
-    def ask(self, job: dict[str, Any], deadline: float) -> dict[str, Any]:
+    def ask(self, job: dict[str, Any]) -> dict[str, Any]:
         """What it says of a job until that is done, its time is over, or the process ended."""
         self._left -= 1
+        self._words_before = os.fstat(self._words.fileno()).st_size
+        deadline = time.monotonic() + (job["timeout"] if self._is_started else START_S)
         said: dict[str, Any] = {"row": {"stage": "start"}}
         try:
             assert self._inner.stdin is not None
@@ -128,17 +135,21 @@ class _Process:
                 line = self._answers.get(timeout=max(deadline - time.monotonic(), 0.0))
             except queue.Empty:
                 self.end()
-                text = f"{said['row']['stage']}: not done after {job['timeout']:g} s"
+                seconds = job["timeout"] if self._is_started else START_S
+                text = f"{said['row']['stage']}: not done after {seconds:g} s"
                 said["row"].update(status="timed out", error=text)
                 return said
             if not line:
                 said["row"].update(status="crashed", error=self._last_words(said["row"]["stage"]))
                 return said
             said = json.loads(line)
+            if not self._is_started:
+                self._is_started = True
+                deadline = time.monotonic() + job["timeout"]
         return said
 
     def _last_words(self, stage: str) -> str:
-        """How it ended, and the last line that it wrote."""
+        """How it ended, and the first line that it wrote of this log."""
         try:
             self._inner.wait(END_S)
         except subprocess.TimeoutExpired:
@@ -148,9 +159,9 @@ class _Process:
             raise Stopped("stopped")
         code = self._inner.returncode
         how = f"ended with {code}" if code >= 0 else f"ended by {signal.Signals(-code).name}"
-        self._words.seek(0)
+        self._words.seek(self._words_before)
         lines = self._words.read().decode(errors="replace").strip().splitlines()
-        return f"{stage}: its process {how}{f': {lines[-1]}' if lines else ''}"
+        return f"{stage}: its process {how}{f': {lines[0]}' if lines else ''}"
 
 
 def _listen(stream: IO[bytes], answers: queue.SimpleQueue[bytes]) -> None:
@@ -175,4 +186,4 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 def _environment() -> dict[str, str]:
     """One thread for a log: workers are what runs side by side."""
     one = {"RAYON_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    return {**one, **os.environ}
+    return {**one, **os.environ, "RUST_BACKTRACE": "0"}

@@ -7,11 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from . import _table
-from ._files import stat
+from ._files import look
 from ._journal import Journal
 
 _COLUMNS = ["status", "sha256", "vehicle", "options", "version"]
-_SEEN = ["size_bytes", "changed_ns"]
 
 
 @dataclass(frozen=True)
@@ -23,8 +22,7 @@ class Known:
     vehicle: str
     options: str
     version: str
-    size_bytes: int | None = None
-    changed_ns: int | None = None
+    look: str | None = None
 
     def differs(self, vehicle: str, options: str, version: str, retry: bool) -> str | None:
         """Why the row is to be made again, whatever the log; None: it is not."""
@@ -37,12 +35,11 @@ class Known:
         return "not ok" if retry and self.status != "ok" else None
 
     def is_touched(self, log: str) -> bool:
-        """Whether size or time of the log changed, so that its bytes have to tell."""
+        """Whether the log looks otherwise, so that its bytes have to tell."""
         try:
-            seen = stat(Path(log))
+            return bool(look(Path(log))["look"] != self.look)
         except OSError:
             return True
-        return (seen["size_bytes"], seen["changed_ns"]) != (self.size_bytes, self.changed_ns)
 
 
 def known_rows(out: Path, journal: Journal) -> dict[str, Known]:
@@ -51,7 +48,7 @@ def known_rows(out: Path, journal: Journal) -> dict[str, Known]:
     table = _table.read(out, ["log", *_COLUMNS])
     for row in () if table is None else table.to_pylist():
         known[row["log"]] = _known(row)
-    seen = _table.read(_table.beside(out), ["log", *_SEEN])
+    seen = _table.read(_table.beside(out), ["log", "look"])
     for row in () if seen is None else seen.to_pylist():
         _see(known, row)
     for made, timing in journal.rows():
@@ -69,5 +66,4 @@ def _known(row: dict[str, Any]) -> Known:
 def _see(known: dict[str, Known], seen: dict[str, Any]) -> None:
     log = seen["log"]
     if log in known:
-        size, changed = (seen.get(key) for key in _SEEN)
-        known[log] = replace(known[log], size_bytes=size, changed_ns=changed)
+        known[log] = replace(known[log], look=seen.get("look"))

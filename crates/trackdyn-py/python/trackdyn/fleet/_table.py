@@ -73,7 +73,7 @@ def timing_schema() -> Any:
     import pyarrow as pa
 
     stages = ("fingerprint", "read", "identify", "diagnose", "total")
-    columns = {"log": pa.string(), "size_bytes": pa.int64(), "changed_ns": pa.int64()}
+    columns = {"log": pa.string(), "size_bytes": pa.int64(), "look": pa.string()}
     columns |= {f"{stage}_s": pa.float64() for stage in stages}
     columns |= {"attempts": pa.int64(), "host": pa.string()}
     return pa.schema(list(columns.items()), metadata={b"schema": SCHEMA})

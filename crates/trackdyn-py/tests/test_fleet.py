@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
-
 import trackdyn as td
 from trackdyn.fleet import _child, _executors, _guard, _journal, _table
 from trackdyn.fleet.__main__ import main
@@ -245,7 +244,9 @@ def test_an_end_in_the_middle_loses_no_row(here, expected, monkeypatch, how):
     hanging = here / "logs" / "robot2" / "z.mcap"
     os.mkfifo(hanging)
     out = Path(f"{how.name}.parquet")
-    code = "import sys; from trackdyn.fleet import _executors; _executors.has_dask = lambda: False\n"
+    code = (
+        "import sys; from trackdyn.fleet import _executors; _executors.has_dask = lambda: False\n"
+    )
     code += "from trackdyn.fleet.__main__ import main; sys.exit(main())"
     words = ["logs/*/*", "--vehicle", "auriga-alpha", "--no-diagnose", "--out", out, "--workers", 1]
     program = subprocess.Popen(
@@ -332,7 +333,9 @@ def test_without_dask_threads_start_the_work(here, expected, monkeypatch, capsys
     assert main(words) == 0
     said = capsys.readouterr()
     assert "Dask is not installed" in said.err and "7 of 7 logs, 1 not ok" in said.err
-    assert said.out.startswith("threads.parquet: 7 of 7 logs have a row: 0 were there, made 1 error")
+    assert said.out.startswith(
+        "threads.parquet: 7 of 7 logs have a row: 0 were there, made 1 error"
+    )
     assert Path("threads.parquet").read_bytes() == expected
     assert main([*words, "--scheduler", "tcp://127.0.0.1:1"]) == 1
     assert "--scheduler tcp://127.0.0.1:1: Dask is not installed" in capsys.readouterr().err
@@ -364,9 +367,14 @@ def test_without_dask_threads_start_the_work(here, expected, monkeypatch, capsys
 def test_bad_input_is_refused_before_any_work(here, capsys, words, message):
     Path("foreign.parquet").write_text("a,b\n1,2\n")
     Path("bad.toml").write_text("[verdikt]\nmax_p = 0.1\n")
-    out = [] if "--out" in words else ["--out", "bad.parquet"]
+    # the latest of an option counts
+    usual = ["--vehicle", "auriga-alpha", "--out", "bad.parquet"]
+    if words[0].startswith("--"):
+        words = ["logs/*/*", *usual, *words]
+    else:
+        words = [*words, *usual]
     try:
-        status = main([*words, "logs/*/*", "--vehicle", "auriga-alpha", *out])
+        status = main(words)
     except SystemExit as ended:
         status = ended.code
     said = capsys.readouterr().err

@@ -4,9 +4,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.stats import linregress
-
 import trackdyn as td
+from scipy.stats import linregress
 from trackdyn.fleet import _lines, _siblings
 
 #: Days that the logs of a fleet span.
@@ -148,7 +147,9 @@ def test_logs_that_cannot_count_are_told(quick, tmp_path):
     table.loc[1, "time"] = pd.NaT
     found = td.fleet.trends(table)
     assert len(found.notes) == 2 and sum(len(one.t) for one in found.robots) == 78
-    with pytest.raises(td.InputError, match="no log with ICRs and a time: 80 of 80 logs have stamps"):
+    with pytest.raises(
+        td.InputError, match="no log with ICRs and a time: 80 of 80 logs have stamps"
+    ):
         td.fleet.trends(fleet(1).assign(time=pd.NaT))
     with pytest.raises(td.InputError, match="table: no column chi_se"):
         td.fleet.trends(table.drop(columns="chi_se"))

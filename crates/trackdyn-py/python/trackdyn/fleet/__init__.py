@@ -4,7 +4,7 @@
 >>> outcome = td.fleet.run("logs/**/*.mcap", "fleet.toml", "results.parquet")  # doctest: +SKIP
 >>> td.fleet.trends("results.parquet").plot()  # doctest: +SKIP
 
-As a program: ``python -m trackdyn.fleet "logs/**/*.mcap" --vehicle fleet.toml --out results.parquet``.
+As a program: ``python -m trackdyn.fleet "logs/**/*.mcap" --vehicle fleet.toml``.
 Needs ``pip install trackdyn[fleet]``.
 """
 

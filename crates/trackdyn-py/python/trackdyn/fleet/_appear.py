@@ -103,5 +103,6 @@ def _later_se(later: float, has: NDArray[np.bool_]) -> float:
         return math.nan
     # a share of 1 would have no error
     a = min(later, 1.0 - 0.5 / (with_it * without))
-    spread = (with_it - 1) * (a / (2.0 - a) - a**2) + (without - 1) * (2.0 * a**2 / (1.0 + a) - a**2)
+    spread = (with_it - 1) * (a / (2.0 - a) - a**2)
+    spread += (without - 1) * (2.0 * a**2 / (1.0 + a) - a**2)
     return math.sqrt((a * (1.0 - a) + spread) / (with_it * without))

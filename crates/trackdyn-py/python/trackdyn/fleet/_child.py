@@ -19,11 +19,11 @@ from typing import Any
 
 import numpy as np
 
-from .._trackdyn import VERSION as __version__
 from .._diagnosis import diagnose
 from .._kinematics import IcrKinematics
 from .._reading import read_recording
 from .._recording import Recording
+from .._trackdyn import VERSION as __version__
 from .._vehicle import Vehicle
 from ._files import content, look
 
@@ -133,9 +133,7 @@ def _identified(fitted: IcrKinematics) -> dict[str, Any]:
     return row
 
 
-def _diagnosed(
-    recording: Recording, vehicle: Vehicle, keywords: dict[str, Any]
-) -> dict[str, Any]:
+def _diagnosed(recording: Recording, vehicle: Vehicle, keywords: dict[str, Any]) -> dict[str, Any]:
     found = diagnose(recording, vehicle, **keywords)
     claims = [
         {

@@ -9,7 +9,7 @@ from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 
 from .._errors import SettingError
-from . import _guard
+from . import _guard, _preload
 
 #: Time within which the scheduler of a cluster has to answer, s.
 CONNECT_S = 10.0
@@ -76,6 +76,7 @@ def dask(scheduler: str | None, workers: int | None) -> Iterator[Executor]:
         memory_limit=None,
         dashboard_address="127.0.0.1:0",
         silence_logs=logging.CRITICAL,
+        preload=[_preload.__name__],
     )
     with cluster, Client(cluster) as client:
         yield client.get_executor(pure=False)

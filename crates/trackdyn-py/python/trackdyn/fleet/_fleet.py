@@ -7,9 +7,9 @@ from concurrent.futures import CancelledError, Executor, Future
 from contextlib import closing
 from typing import Any
 
-from .._trackdyn import VERSION as __version__
 from .._arguments import Progress
 from .._errors import ResultError, SettingError
+from .._trackdyn import VERSION as __version__
 from .._vehicle import Vehicle
 from . import _table
 from ._jobs import Options, job_of

@@ -25,7 +25,8 @@ _LATER = 0.75
 #: Standard deviations of the 95 % interval.
 _NORMAL = 1.96
 
-Verdict = Literal["yes", "no", "cannot tell"]
+#: Why neither is said of an interval.
+_WIDE = "the interval holds both none and one that matters"
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ class Finding:
     high: float = math.nan
     p: float = math.nan
     q: float = math.nan
-    verdict: Verdict = "cannot tell"
+    verdict: str = "cannot tell"
     reason: str = ""
 
 
@@ -72,10 +73,10 @@ def judged(findings: Sequence[Finding], rate: float) -> list[Finding]:
 def drift(of: Series, fit: Line, matters: float) -> Finding:
     """Change along the line of a robot, before it is judged."""
     if len(of.t) < MIN_LOGS or fit.freedom < 1:
-        return Finding(reason=f"{len(of.t)} logs: expected {MIN_LOGS} of three days or times")
+        return Finding(reason=f"{len(of.t)} logs: expected {MIN_LOGS}, of three times")
     value, half = fit.slope * of.span, fit.half_width * of.span
     found = Finding(value, value - half, value + half, fit.p)
-    return _answered(found, matters * fit.level, "the interval holds both none and one that matters")
+    return _answered(found, matters * fit.level)
 
 
 def judged_beside(
@@ -135,10 +136,10 @@ def _beside(
     half = _NORMAL * math.hypot(error, against.centre_se) * scale
     found = Finding(away, away - half, away + half, p)
     bound = max(bound, _ALIKE * against.scatter * scale)
-    return _answered(found, bound, "the interval holds both none and one that matters")
+    return _answered(found, bound)
 
 
-def _answered(found: Finding, bound: float, reason: str) -> Finding:
+def _answered(found: Finding, bound: float) -> Finding:
     if -bound < found.low and found.high < bound:
         return replace(found, verdict="no")
-    return replace(found, reason=reason)
+    return replace(found, reason=_WIDE)

@@ -35,7 +35,7 @@ class Series:
 
     @property
     def design(self) -> _Array:
-        """A level at the mean time, and a slope where three times or more can show more than one."""
+        """A level at the mean time and, where there are three times or more, a slope."""
         level = np.ones_like(self.t)
         if len(np.unique(self.t)) < 3:
             return level[:, None]

@@ -40,13 +40,13 @@ class Log:
 
 
 def find(logs: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> list[str]:
-    """Paths of all logs, sorted, each once. Patterns may have ``*``, ``?``, ``[...]`` and ``**``."""
+    """Paths of all logs, sorted, each once. Patterns have ``*``, ``?``, ``[...]`` and ``**``."""
     patterns = [logs] if isinstance(logs, (str, os.PathLike)) else list(logs)
     found: set[str] = set()
     for pattern in [os.fspath(one) for one in patterns]:
         paths = [pattern] if os.path.exists(pattern) else glob.glob(pattern, recursive=True)
         if not paths:
-            raise SettingError(f"logs {pattern}: no such file: expected a path or a pattern", "logs")
+            raise SettingError(f"logs {pattern}: no such file: expected paths or patterns", "logs")
         found.update(PurePath(os.path.normpath(path)).as_posix() for path in paths)
     if not found:
         raise SettingError("logs: none given: expected a path or a pattern", "logs")

@@ -29,8 +29,8 @@ _ROUNDS = 40
 #: Simulated values, of all robots together.
 _DRAWS = 20_000
 
-#: Scatters that are tried beside the one that was found, in units of it and of the median error: few
-#: robots show theirs badly, and the largest probability counts.
+#: Scatters that are tried beside the one that was found, in units of it and of the median error:
+#: few robots show theirs badly, and the largest probability counts.
 _SCATTERS = np.array([1.0, 1.5, 2.5, 4.0, 8.0])
 
 #: Probability of a scatter as small as the one found, below which a larger one is not believed.
@@ -91,9 +91,7 @@ def siblings(values: _Array, errors: _Array, seed: int = 1) -> Siblings:
     )
 
 
-def _by_chance(
-    normal: _Array, s: _Array, sigma: float, found: float
-) -> tuple[_Array, bool]:
+def _by_chance(normal: _Array, s: _Array, sigma: float, found: float) -> tuple[_Array, bool]:
     """Distances of siblings that differ by `sigma`, sorted; and whether they may seem as alike as
     by `found`."""
     drawn = normal * np.sqrt(sigma**2 + s**2)

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime, timezone
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .._errors import InputError, SettingError
-from . import _table
 from ._appear import Appearance, appearances
 from ._judged import Finding, drift, judged, judged_beside, order
 from ._lines import Line, Series, excess, line
+from ._rows import left_out, name_of, rows_of
 
 if TYPE_CHECKING:
     import pandas
@@ -152,9 +150,9 @@ def trends(
 ) -> Trends:
     """Say which robots drift away from their own past and from their siblings.
 
-    Three questions are asked of each robot, by its steering efficiency chi: does it change over
-    time, by a straight line; does it change otherwise than those of its siblings; is it another than
-    theirs. Of each effect that diagnoses claim: do later logs have it and earlier ones not.
+    Three questions are asked of each robot, by its steering efficiency chi: does it change along a
+    straight line over time; does it change otherwise than those of its siblings; does it differ
+    from theirs. Of each effect that diagnoses claim: do later logs have it and earlier ones not.
 
     Parameters
     ----------
@@ -180,11 +178,11 @@ def trends(
     for name, value in (("rate", rate), ("matters", matters)):
         if not 0.0 < value < 1.0:
             raise SettingError(f"{name} {value}: expected a number between 0 and 1", name)
-    rows = _rows(table)
-    notes = _left_out(rows)
+    rows = rows_of(table)
+    notes = left_out(rows)
     used = rows[rows["chi_se"].gt(0.0) & rows["time"].notna()].sort_values(["robot", "time", "log"])
     if used.empty:
-        raise InputError(f"{_named(table)}: no log with ICRs and a time: {'; '.join(notes)}")
+        raise InputError(f"{name_of(table)}: no log with ICRs and a time: {'; '.join(notes)}")
     begin = int(used["ns"].min())
     by_robot = {
         str(robot): Series(
@@ -217,42 +215,6 @@ def _claims(rows: Any, rate: float) -> tuple[ClaimTrend, ...]:
         ClaimTrend(robot, one.effect, one.logs, one.claimed, _time(one.first_ns), finding)
         for (robot, one), finding in zip(found, findings)
     )
-
-
-def _rows(table: Any) -> Any:
-    """The rows that count, with whole ns beside their times."""
-    import pandas
-
-    if isinstance(table, (str, os.PathLike)):
-        columns = ["log", "robot", "time", "chi", "chi_se", "diagnosis", "claims"]
-        read = _table.read(Path(table), columns)
-        if read is None:
-            raise InputError(f"{table}: no such file: expected a table of trackdyn.fleet")
-        rows = read.to_pandas()
-    else:
-        rows = table.copy()
-    missing = {"log", "robot", "time", "chi", "chi_se", "diagnosis", "claims"} - set(rows.columns)
-    if missing:
-        raise InputError(f"table: no column {', '.join(sorted(missing))}: expected those of a fleet")
-    rows["time"] = pandas.to_datetime(rows["time"], utc=True).astype("datetime64[ns, UTC]")
-    rows["ns"] = rows["time"].astype("int64")
-    return rows
-
-
-def _left_out(rows: Any) -> list[str]:
-    notes = []
-    without = int((~rows["chi_se"].gt(0.0)).sum())
-    if without:
-        notes.append(f"{without} of {len(rows)} logs have no ICRs")
-    undated = int((rows["chi_se"].gt(0.0) & rows["time"].isna()).sum())
-    if undated:
-        how = "give them by time"
-        notes.append(f"{undated} of {len(rows)} logs have stamps that are no dates: {how}")
-    return notes
-
-
-def _named(table: Any) -> str:
-    return os.fspath(table) if isinstance(table, (str, os.PathLike)) else "table"
 
 
 def _time(ns: int) -> datetime:

@@ -31,11 +31,17 @@ def said(of: Trends) -> str:
             since = f"{claim.first:%Y-%m-%d}"
             share = f"{claim.claimed} of {claim.logs} logs"
             lines.append(
-                f"{claim.robot}: {claim.effect} appeared: {share}, the first on {since}, "
+                f"{claim.robot}: {_short(claim.effect)} appeared: {share}, the first on {since}, "
                 f"q = {claim.appeared.q:.2g}"
             )
     lines.append(f"claim that appeared: {_count([claim.appeared for claim in of.claims])}")
     return "\n".join([*lines, *of.notes])
+
+
+def _short(effect: str) -> str:
+    """Several effects that go together, without more than three names."""
+    names = effect.split(" or ")
+    return effect if len(names) <= 3 else f"{' or '.join(names[:2])} or {len(names) - 2} others"
 
 
 def _finding(of: RobotTrend, name: str) -> Finding:

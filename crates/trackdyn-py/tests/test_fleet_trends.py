@@ -127,11 +127,24 @@ def test_what_all_robots_see_is_no_drift_beside_siblings(quick):
     assert len(named(found, "drift")) == 8 and not named(found, "drift_beside")
 
 
+def test_robots_driven_at_other_times_are_compared_at_one(quick):
+    table = fleet(8, robots=8, logs=12, apart=0.004)
+    # one had its logs in the first month, and all fall by 0.1 in three
+    days = (table["time"] - BEGIN) / pd.Timedelta(days=1)
+    early = table["robot"] == "robot2"
+    days[early] /= 3.0
+    table["time"] = BEGIN + pd.to_timedelta(days, unit="D")
+    table["chi"] -= 0.1 * days / SPAN
+    found = td.fleet.trends(table)
+    assert len(named(found, "drift")) == 8 and not named(found, "difference")
+    assert abs(found.robots[2].difference.value) < 0.02
+
+
 def test_few_or_poor_logs_cannot_tell(quick):
     few = td.fleet.trends(fleet(6, robots=3, logs=3))
     for one in few.robots:
-        assert one.drift.verdict == "cannot tell" and "3 logs" in one.drift.reason
-        assert one.difference.verdict == "cannot tell" and "3 robots" in one.difference.reason
+        assert one.drift.verdict == "cannot tell" and "logs: 3" in one.drift.reason
+        assert one.difference.verdict == "cannot tell" and "compare: 3" in one.difference.reason
     poor = td.fleet.trends(fleet(6, scatter=0.1))
     assert {one.drift.verdict for one in poor.robots} == {"cannot tell"}
     # a change that matters only from half of chi on is excluded

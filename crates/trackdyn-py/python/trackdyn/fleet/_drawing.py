@@ -30,23 +30,26 @@ def draw(of: Trends, figure: Figure | None) -> Figure:
         height = max(4.5, 1.5 + 0.22 * len(shown))
         figure = plt.figure(figsize=(12.0, height), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=(3, 2))
-    named = [robot for robot in sorted(of.robots, key=_rank) if _is_named(robot)]
+    ranked = sorted(of.robots, key=_rank)
+    # a few robots have colours in any case
+    is_small = len(ranked) <= len(_COLOURS)
+    named = [robot for robot in ranked if is_small or _is_named(robot)]
     styles = {
         robot.robot: (_COLOURS[place], _MARKERS[place])
         for place, robot in enumerate(named[: len(_COLOURS)])
     }
-    _over_time(left, of, styles)
+    _over_time(left, of, styles, "the others" if styles else "all robots")
     _drifts(right, of, shown, styles)
     return figure
 
 
-def _over_time(ax: Any, of: Trends, styles: dict[str, tuple[str, str]]) -> None:
+def _over_time(ax: Any, of: Trends, styles: dict[str, tuple[str, str]], rest: str) -> None:
     is_told = False
     for robot in sorted(of.robots, key=lambda one: one.robot in styles):
         at = [of.epoch + timedelta(days=float(t)) for t in robot.t] if of.epoch else robot.t
         colour, marker = styles.get(robot.robot, (_GREY, "."))
         is_other = robot.robot not in styles
-        label = None if is_other and is_told else "the others" if is_other else robot.robot
+        label = None if is_other and is_told else rest if is_other else robot.robot
         is_told = is_told or is_other
         ax.errorbar(
             at,

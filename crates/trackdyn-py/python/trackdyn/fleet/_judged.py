@@ -5,25 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
-
-import numpy as np
 
 from ._appear import Appearance
 from ._lines import Line, Series
-from ._siblings import MIN_ROBOTS, Siblings, siblings
 
 #: Logs below which no line has an honest interval.
 MIN_LOGS = 4
 
-#: Scatters of siblings within which one is as they are.
-_ALIKE = 2.0
-
 #: Share of pairs of logs in order that is half-way from no order to sure order.
 _LATER = 0.75
 
-#: Standard deviations of the 95 % interval.
-_NORMAL = 1.96
+#: Standard deviations of half a 95 % interval.
+NORMAL = 1.96
 
 #: Why neither is said of an interval.
 _WIDE = "the interval holds both none and one that matters"
@@ -70,45 +63,23 @@ def judged(findings: Sequence[Finding], rate: float) -> list[Finding]:
     return judged
 
 
+def has_slope(of: Series, fit: Line) -> bool:
+    """Whether there are logs enough for a slope with an honest interval."""
+    return len(of.t) >= MIN_LOGS and fit.freedom > 0
+
+
 def drift(of: Series, fit: Line, matters: float) -> Finding:
     """Change along the line of a robot, before it is judged."""
-    if len(of.t) < MIN_LOGS or fit.freedom < 1:
-        return Finding(reason=f"{len(of.t)} logs: expected {MIN_LOGS}, of three times")
+    if not has_slope(of, fit):
+        return Finding(reason=f"logs: {len(of.t)}, expected {MIN_LOGS} at three times or more")
     value, half = fit.slope * of.span, fit.half_width * of.span
     found = Finding(value, value - half, value + half, fit.p)
-    return _answered(found, matters * fit.level)
-
-
-def judged_beside(
-    several: Sequence[Series],
-    lines: Sequence[Line],
-    what: Literal["slope", "level"],
-    matters: float,
-    rate: float,
-) -> list[Finding]:
-    """Each robot against its siblings, by slope (as the change over its own time) or by level."""
-    known = [
-        place
-        for place, fit in enumerate(lines)
-        if what == "level" or _has_slope(several, place, fit)
-    ]
-    if len(known) < MIN_ROBOTS:
-        reason = f"{len(known)} robots to compare: expected {MIN_ROBOTS}"
-        return [Finding(reason=reason) for _ in lines]
-    values = np.array([getattr(lines[place], what) for place in known])
-    errors = np.array([_error(several[place], lines[place], what) for place in known])
-    against = siblings(values, errors)
-    findings = [Finding(reason=f"fewer than {MIN_LOGS} logs") for _ in lines]
-    for place, value, error, p in zip(known, values, errors, against.p):
-        of, fit = several[place], lines[place]
-        scale = of.span if what == "slope" else 1.0
-        findings[place] = _beside(value, error, float(p), against, scale, matters * fit.level)
-    return judged(findings, rate)
+    return answered(found, matters * fit.level)
 
 
 def order(of: Appearance) -> Finding:
     """Whether an effect came later, before it is judged."""
-    half = _NORMAL * of.later_se
+    half = NORMAL * of.later_se
     found = Finding(of.later, max(of.later - half, 0.0), min(of.later + half, 1.0), of.p)
     if not of.can_tell:
         reason = f"{of.claimed} of {of.logs} logs have it: too few with or without"
@@ -118,28 +89,8 @@ def order(of: Appearance) -> Finding:
     return replace(found, reason="the interval holds both no order and a clear one")
 
 
-def _has_slope(several: Sequence[Series], place: int, fit: Line) -> bool:
-    return fit.freedom > 0 and len(several[place].t) >= MIN_LOGS
-
-
-def _error(of: Series, fit: Line, what: str) -> float:
-    if what == "level":
-        return fit.level_se
-    # few logs know their own scatter badly: as wide as Student's interval of them
-    return fit.half_width / _NORMAL
-
-
-def _beside(
-    value: float, error: float, p: float, against: Siblings, scale: float, bound: float
-) -> Finding:
-    away = (value - against.centre) * scale
-    half = _NORMAL * math.hypot(error, against.centre_se) * scale
-    found = Finding(away, away - half, away + half, p)
-    bound = max(bound, _ALIKE * against.scatter * scale)
-    return _answered(found, bound)
-
-
-def _answered(found: Finding, bound: float) -> Finding:
+def answered(found: Finding, bound: float) -> Finding:
+    """A finding with "no" where its interval lies within a bound; else with the reason."""
     if -bound < found.low and found.high < bound:
         return replace(found, verdict="no")
     return replace(found, reason=_WIDE)

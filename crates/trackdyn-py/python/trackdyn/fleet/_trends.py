@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from .._errors import InputError, SettingError
 from ._appear import Appearance, appearances
-from ._judged import Finding, drift, judged, judged_beside, order
+from ._beside import differences, drifts_beside
+from ._judged import Finding, drift, judged, order
 from ._lines import Line, Series, excess, line
 from ._rows import left_out, name_of, rows_of
 
@@ -41,7 +42,7 @@ class RobotTrend:
     drift_beside : Finding
         That, less the change that its siblings have in the time.
     difference : Finding
-        Its steering efficiency less that of its siblings.
+        Its steering efficiency less that of its siblings, at one time.
     """
 
     robot: str
@@ -194,8 +195,8 @@ def trends(
     lines = {robot: line(of, common) for robot, of in by_robot.items()}
     several, those = list(by_robot.values()), list(lines.values())
     own = judged([drift(of, fit, matters) for of, fit in zip(several, those)], rate)
-    slopes = judged_beside(several, those, "slope", matters, rate)
-    levels = judged_beside(several, those, "level", matters, rate)
+    slopes, shared = drifts_beside(several, those, matters, rate)
+    levels = differences(several, those, shared, matters, rate)
     robots = tuple(
         RobotTrend(robot, of.t, of.y, of.s, lines[robot], *findings)
         for (robot, of), *findings in zip(by_robot.items(), own, slopes, levels)

@@ -5,7 +5,7 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import Executor, Future, ProcessPoolExecutor
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from datetime import datetime, timezone
 from pathlib import Path
 
@@ -13,7 +13,7 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 import trackdyn as td
-from trackdyn.fleet import _child, _executors, _guard, _journal, _table
+from trackdyn.fleet import _child, _executors, _guard, _journal, _submit, _table
 from trackdyn.fleet.__main__ import main
 
 needs_posix = pytest.mark.skipif(sys.platform == "win32", reason="pipes and signals of POSIX")
@@ -299,6 +299,23 @@ def test_dask_loses_a_worker_and_no_row(here, expected):
     # nothing lost, nothing twice
     assert outcome.made == {"ok": 6, "error": 1} and outcome.kept == 0
     assert Path("dask.parquet").read_bytes() == expected
+
+
+def test_an_executor_has_few_jobs_at_a_time(monkeypatch):
+    monkeypatch.setattr(_submit, "IN_FLIGHT", 3)
+    monkeypatch.setattr(_submit, "make", lambda job: time.sleep(0.001) or job)
+    given = []
+
+    def jobs():
+        for number in range(30):
+            given.append(number)
+            yield {"number": number}
+
+    with ThreadPoolExecutor(2) as pool:
+        for done, (job, future) in enumerate(_submit.results(pool, jobs())):
+            assert future.result() == job
+            assert len(given) - done <= 3 + 1
+    assert len(given) == done + 1 == 30
 
 
 def test_an_executor_that_breaks_keeps_what_was_done(here, expected):

@@ -32,9 +32,8 @@ def drifts_beside(
     findings = [Finding(reason=f"fewer than {MIN_LOGS} logs") for _ in lines]
     if len(known) < MIN_ROBOTS:
         return [_too_few(len(known)) for _ in lines], Common()
-    slopes = np.array([lines[place].slope for place in known])
-    # few logs know their own scatter badly: as wide as Student's interval of them
-    errors = np.array([lines[place].half_width / NORMAL for place in known])
+    slopes = np.array([lines[place].shared_slope for place in known])
+    errors = np.array([lines[place].shared_slope_se for place in known])
     against = siblings(slopes, errors)
     for place, slope, error, p in zip(known, slopes, errors, against.p):
         span = several[place].span

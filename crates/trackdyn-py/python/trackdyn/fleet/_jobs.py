@@ -14,7 +14,7 @@ from .._arguments import VehicleLike, plain, vehicle_of
 from .._diagnosis import _settings
 from .._errors import RecordingError, SettingError
 from .._kinematics import IcrKinematics
-from .._reading import reading
+from .._reading import reading as reading_of
 from .._vehicle import Vehicle
 from ._logs import Log
 
@@ -23,6 +23,9 @@ FleetVehicle = VehicleLike
 
 #: Whether to diagnose, or how.
 DiagnoseLike = Union[bool, Mapping[str, Any]]
+
+#: Options of reading that are paths: workers may run elsewhere.
+_PATHS = ("tracks", "msg_dir")
 
 _DIAGNOSE = ("settings", "held_out", "draws", "seed")
 _NOT_IDENTIFY = ("vehicle", "alphas", "progress")
@@ -68,7 +71,7 @@ def options_of(
         raise SettingError(f"memory {memory}: expected bytes above zero", "memory")
     if memory is not None and os.name == "nt":
         raise SettingError(f"memory {memory}: Windows bounds no process: expected none", "memory")
-    read = reading(**reading_options)
+    read = reading_of(**reading_options)
     try:
         _trackdyn.Recording.open(os.devnull + ".no-recording", read)
     # all but the options is well
@@ -143,12 +146,16 @@ def vehicles_of(vehicle: FleetVehicle, robots: Iterable[str]) -> dict[str, Vehic
 
 def job_of(log: Log, vehicle: Vehicle, options: Options, unless: str | None) -> dict[str, Any]:
     """What a worker is told; `unless` is the SHA-256 of the log whose row is there already."""
+    reading = dict(options.reading)
+    for key in _PATHS:
+        if key in reading:
+            reading[key] = os.path.abspath(reading[key])
     return {
         "log": log.name,
         "path": os.path.abspath(log.name),
         "vehicle": vehicle.to_toml(),
         "vehicle_name": vehicle.name,
-        "reading": options.reading,
+        "reading": reading,
         "identify": options.identify,
         "diagnose": options.diagnose,
         "timeout": options.timeout,

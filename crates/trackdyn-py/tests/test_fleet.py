@@ -335,6 +335,11 @@ def test_an_executor_that_breaks_keeps_what_was_done(here, expected):
     outcome = run("lost.parquet", executor=Inline(lost))
     assert outcome.made == {"crashed": 7}
 
+    # nothing starts in 10 MB, whatever the log
+    with pytest.raises(td.Error, match="broke: NotStarted: its process ended"):
+        run("none.parquet", workers=1, memory=1e7)
+    assert not Path("none.parquet").exists()
+
     def old(result):
         return {**result, "row": {**result["row"], "version": "0.0.1"}}
 

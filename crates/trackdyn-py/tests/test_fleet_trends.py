@@ -78,7 +78,7 @@ def test_a_line_of_logs_known_alike_is_that_of_least_squares(count):
     assert found == pytest.approx(np.sqrt(max(variance - 0.004**2, 0.0)), abs=2e-5)
 
 
-@pytest.mark.parametrize(("count", "ratio"), [(4, 1.0), (8, 0.0), (8, 3.0)])
+@pytest.mark.parametrize(("count", "ratio"), [(4, 1.0), (8, 3.0)])
 def test_siblings_alike_are_named_at_most_at_the_rate(quick, count, ratio):
     rng = np.random.default_rng(7)
     fleets, alarms = 100, 0
@@ -93,12 +93,11 @@ def test_siblings_alike_are_named_at_most_at_the_rate(quick, count, ratio):
 
 def test_a_fleet_that_does_not_drift_is_named_at_most_at_the_rate(quick):
     questions = ("drift", "drift_beside", "difference")
-    fleets = 40
-    found = [td.fleet.trends(fleet(seed, robots=6, logs=6)) for seed in range(fleets)]
+    found = [td.fleet.trends(fleet(seed, robots=5, logs=5)) for seed in range(30)]
     for question in questions:
-        # 2 on average; 7 or more in one of 300
-        assert sum(bool(named(one, question)) for one in found) <= 6, question
-    assert sum(any(c.appeared.verdict == "yes" for c in one.claims) for one in found) <= 6
+        # 1.5 on average; 6 or more in one of 300
+        assert sum(bool(named(one, question)) for one in found) <= 5, question
+    assert sum(any(c.appeared.verdict == "yes" for c in one.claims) for one in found) <= 5
 
 
 def test_robots_that_drift_differ_or_show_claims_are_named(quick):

@@ -43,14 +43,28 @@ class Stopped(Exception):
     """A row that nobody waits for any more."""
 
 
+class NotStarted(Exception):
+    """A process that ended before it had a log, which is no log's fault."""
+
+
 def make(job: dict[str, Any]) -> dict[str, Any]:
     """The row of a job, what it took, and whether it is the row that is there already.
 
     Raises for no log: one that ends or outlasts its process has a row that says so.
+
+    Raises
+    ------
+    NotStarted
+        Where no process can be had.
     """
     begin = time.monotonic()
     for attempt in range(1, MAX_CRASHES + 1):
-        said = _process(job["memory"]).ask(job)
+        try:
+            said = _process(job["memory"]).ask(job)
+        except NotStarted:
+            if attempt == MAX_CRASHES:
+                raise
+            continue
         if said["row"].get("status") != "crashed":
             break
     timing = {"log": job["log"], **said.get("look", {})}
@@ -135,12 +149,16 @@ class _Process:
                 line = self._answers.get(timeout=max(deadline - time.monotonic(), 0.0))
             except queue.Empty:
                 self.end()
-                seconds = job["timeout"] if self._is_started else START_S
-                text = f"{said['row']['stage']}: not done after {seconds:g} s"
+                if not self._is_started:
+                    raise NotStarted(f"no process started within {START_S:g} s") from None
+                text = f"{said['row']['stage']}: not done after {job['timeout']:g} s"
                 said["row"].update(status="timed out", error=text)
                 return said
             if not line:
-                said["row"].update(status="crashed", error=self._last_words(said["row"]["stage"]))
+                text = f"its process {self._last_words()}"
+                if not self._is_started:
+                    raise NotStarted(text)
+                said["row"].update(status="crashed", error=f"{said['row']['stage']}: {text}")
                 return said
             said = json.loads(line)
             if not self._is_started:
@@ -148,7 +166,7 @@ class _Process:
                 deadline = time.monotonic() + job["timeout"]
         return said
 
-    def _last_words(self, stage: str) -> str:
+    def _last_words(self) -> str:
         """How it ended, and the first line that it wrote of this log."""
         try:
             self._inner.wait(END_S)
@@ -158,10 +176,14 @@ class _Process:
         if self.is_stopped:
             raise Stopped("stopped")
         code = self._inner.returncode
-        how = f"ended with {code}" if code >= 0 else f"ended by {signal.Signals(-code).name}"
+        how = "closed its answers" if code is None else f"ended with {code}"
+        if code is not None and code < 0:
+            how = f"ended by {signal.Signals(-code).name}"
         self._words.seek(self._words_before)
         lines = self._words.read().decode(errors="replace").strip().splitlines()
-        return f"{stage}: its process {how}{f': {lines[0]}' if lines else ''}"
+        # an exception of Python stands last
+        line = lines[-1 if lines[0].startswith("Traceback") else 0] if lines else ""
+        return f"{how}: {line}" if line else how
 
 
 def _listen(stream: IO[bytes], answers: queue.SimpleQueue[bytes]) -> None:
@@ -175,7 +197,11 @@ def _listen(stream: IO[bytes], answers: queue.SimpleQueue[bytes]) -> None:
 def _end(process: subprocess.Popen[bytes]) -> None:
     if process.poll() is None:
         process.kill()
-    process.wait()
+    try:
+        process.wait(END_S)
+    # it waits for a disk, and nothing ends it before that answers
+    except subprocess.TimeoutExpired:
+        pass
     if process.stdin is not None:
         try:
             process.stdin.close()

@@ -1,6 +1,9 @@
 """One row a log, whoever makes it and whatever happens to it."""
 
+import argparse
+import inspect
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -13,8 +16,10 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 import trackdyn as td
+from trackdyn._reading import reading
 from trackdyn.fleet import _child, _executors, _guard, _journal, _submit, _table
 from trackdyn.fleet.__main__ import main
+from trackdyn.fleet._reading_options import add_options, option_of, reading_of
 
 needs_posix = pytest.mark.skipif(sys.platform == "win32", reason="pipes and signals of POSIX")
 
@@ -363,22 +368,39 @@ def test_without_dask_threads_start_the_work(here, expected, monkeypatch, capsys
     assert "--scheduler tcp://127.0.0.1:1: Dask is not installed" in capsys.readouterr().err
 
 
+def test_options_of_reading_are_those_of_the_program(program):
+    # a diagnosis alone reads an IMU
+    said = program("diagnose", "--help").stdout
+    of_program = set(re.findall(r"^ +(--[a-z-]+)", said, re.M))
+    given = [option_of(keyword) for keyword in inspect.signature(reading).parameters]
+    assert set(given) <= of_program and len(given) > 20
+    parser = argparse.ArgumentParser()
+    add_options(parser)
+    words = "--left-joint a --left-joint b --mount-yaw 180 --wheel-radius 0.1 --pose-index 2"
+    expected = {"left_joints": ["a", "b"], "mount_yaw": np.pi, "wheel_radius": 0.1, "pose_index": 2}
+    assert reading_of(parser.parse_args(words.split())) == expected
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
         (["--robot", "("], "--robot (: not a regular expression"),
         (["--robot", "x"], "--robot x: expected a group (?P<robot>...)"),
-        (["--robot", "(?P<robot>z)"], "--robot (?P<robot>z): does not match the log logs/robot0"),
-        (["--robot", r"(?P<robot>ro)(?P<time>b)"], "--time b of the log logs/robot0"),
-        (["--time", "%Y"], "--time %Y: expected a group (?P<time>...)"),
+        (
+            ["--robot", "(?P<robot>z)"],
+            "--robot (?P<robot>z): does not match 7 of 7 logs, such as logs",
+        ),
+        (["--robot", r"(?P<robot>ro)(?P<time>b)"], "--time-format b of the log logs/robot0"),
+        (["--time-format", "%Y"], "--time-format %Y: expected a group (?P<time>...)"),
         (["--vehicle", "none.toml"], "none.toml: cannot be read"),
         (["--vehicle", "{robot}.toml"], "robot0.toml: cannot be read"),
         (["--out", "x.csv"], "--out x.csv: expected a name that ends in .parquet"),
         (["--out", "foreign.parquet"], "foreign.parquet: not a table of a fleet"),
         (["--settings", "none.toml"], "--settings none.toml: cannot be read"),
         (["--settings", "bad.toml"], "bad.toml:1: verdikt"),
-        (["--read", "wheel_radios=1"], "--read wheel_radios=1: expected KEY=VALUE"),
-        (["--read", "wheel_radius=-1"], "--read wheel_radius -1: expected a number above zero"),
+        (["--wheel-radius", "-1"], "--wheel-radius -1: expected a number above zero"),
+        (["--wheel-radius", "x"], "argument --wheel-radius: invalid float value"),
+        (["--gyro-unit", "rpm"], "--gyro-unit rpm: expected one of rad/s, deg/s"),
         (["--workers", "0"], "--workers 0: expected 1 or more"),
         (["--timeout", "0"], "--timeout 0.0: expected seconds above zero"),
         (["--memory", "-1"], "--memory -1000000000.0: expected bytes above zero"),

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import inspect
 import sys
 import time
 from typing import Any, NoReturn
 
-from .. import _trackdyn
-from .._errors import DocumentError, Error, SettingError
-from .._reading import reading
+from .._errors import Error, SettingError
 from . import _executors
+from ._reading_options import add_options, option_of, reading_of
 from ._run import run
 
 #: Time between two lines of progress where there is no bar, s.
@@ -46,7 +44,7 @@ def main(arguments: list[str] | None = None) -> int:
             memory=None if given.memory is None else given.memory * 1e9,
             retry=given.retry,
             progress=_progress(),
-            **_reading(given.read),
+            **reading_of(given),
         )
     except KeyboardInterrupt:
         _say(f"interrupted: {given.out} has the rows that were done; run again to go on")
@@ -61,6 +59,7 @@ def main(arguments: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = _Parser(
         prog="trackdyn.fleet",
+        allow_abbrev=False,
         description=_ABOUT,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -80,7 +79,8 @@ def _parser() -> argparse.ArgumentParser:
         "[default: the folder that it lies in]",
     )
     add(
-        "--time",
+        "--time-format",
+        dest="time",
         metavar="FORMAT",
         help="format of (?P<time>...), such as %%Y%%m%%d-%%H%%M [default: ISO 8601]; without the "
         "group, the first stamp of the log is its time",
@@ -88,14 +88,6 @@ def _parser() -> argparse.ArgumentParser:
     add("--no-diagnose", action="store_true", help="ICRs alone, in a hundredth of the time")
     add("--settings", metavar="FILE", help="settings of the diagnosis")
     add("--gyroscope", action="store_true", help="correct the yaw of poses by the gyroscope")
-    add(
-        "--read",
-        action="append",
-        default=[],
-        metavar="KEY=VALUE",
-        help="how logs are read, by the keywords and units of td.read_recording, such as "
-        "wheel_radius=0.165; repeatable",
-    )
     add("--scheduler", metavar="ADDRESS", help="Dask cluster [default: one on this machine]")
     add("--workers", type=int, metavar="N", help="workers on this machine [default: processors]")
     add(
@@ -107,6 +99,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     add("--memory", type=float, metavar="GB", help="memory that a log may take [default: any]")
     add("--retry", action="store_true", help="make rows again that are not ok")
+    add_options(parser)
     return parser
 
 
@@ -129,22 +122,6 @@ def _executor(given: argparse.Namespace) -> Any:
         raise SettingError(f"scheduler {given.scheduler}: {how}", "scheduler")
     _say("Dask is not installed, so threads start the work: pip install trackdyn[fleet]")
     return None
-
-
-def _reading(pairs: list[str]) -> dict[str, Any]:
-    """Keywords of reading; a value is one of TOML, else a text."""
-    known = list(inspect.signature(reading).parameters)
-    options: dict[str, Any] = {}
-    for pair in pairs:
-        key, equals, text = pair.partition("=")
-        if not equals or key not in known:
-            expected = f"expected KEY=VALUE with a key of {', '.join(known)}"
-            raise SettingError(f"read {pair}: {expected}", "read")
-        try:
-            options[key] = _trackdyn.from_toml(f"value = {text}")["value"]
-        except DocumentError:
-            options[key] = text
-    return options
 
 
 def _progress() -> Any:
@@ -170,12 +147,11 @@ def _progress() -> Any:
 def _worded(error: Error) -> str:
     """A message that begins with a setting names the option for it."""
     text, setting = str(error), error.setting
-    if setting is None or not text.startswith(setting):
-        return text
-    if setting in inspect.signature(reading).parameters:
-        return f"--read {text}"
     # the logs have no option
-    return text if setting == "logs" else f"--{text}"
+    if setting is None or setting == "logs" or not text.startswith(setting):
+        return text
+    option = "--time-format" if setting == "time" else option_of(setting)
+    return option + text[len(setting) :]
 
 
 def _say(text: str) -> None:

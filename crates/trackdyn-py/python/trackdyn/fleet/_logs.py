@@ -69,7 +69,17 @@ def name_all(paths: Iterable[str], robot: RobotLike, time: TimeLike) -> list[Log
         pattern = None if robot is None else _compiled(robot)
     if isinstance(time, str) and (pattern is None or "time" not in pattern.groupindex):
         raise SettingError(f"time {time}: expected a group (?P<time>...) in robot", "time")
+    paths = list(paths)
+    others = [path for path in paths if pattern and not _robot_in(pattern, path)]
+    if pattern and others:
+        found = f"does not match {len(others)} of {len(paths)} logs, such as {others[0]}"
+        raise SettingError(f"robot {pattern.pattern}: {found}", "robot")
     return [_named(path, of_robot, pattern, time) for path in paths]
+
+
+def _robot_in(pattern: re.Pattern[str], path: str) -> str | None:
+    match = pattern.search(path)
+    return match["robot"] if match else None
 
 
 def _compiled(robot: str) -> re.Pattern[str]:
@@ -89,19 +99,14 @@ def _named(
     pattern: re.Pattern[str] | None,
     time: TimeLike,
 ) -> Log:
-    if of_robot is None and pattern is None:
-        robot = Path(path).absolute().parent.name
-        text = None
-    elif of_robot is not None:
+    text = None
+    if of_robot is not None:
         robot = str(of_robot(path))
-        text = None
+    elif pattern is not None and (match := pattern.search(path)):
+        robot = match["robot"]
+        text = match.groupdict().get("time")
     else:
-        match = pattern.search(path) if pattern else None
-        groups = match.groupdict() if match else {}
-        if pattern and not groups.get("robot"):
-            raise SettingError(f"robot {pattern.pattern}: does not match the log {path}", "robot")
-        robot = groups["robot"]
-        text = groups.get("time")
+        robot = Path(path).absolute().parent.name
     if callable(time):
         return Log(path, robot, _nanoseconds(time(path)))
     return Log(path, robot, None if text is None else _parsed(path, text, time))

@@ -84,12 +84,12 @@ def run(
     Returns
     -------
     Outcome
-        With the path of the table. Its columns: ``log``, ``robot``, ``time`` (UTC), ``first_stamp``;
+        With the path of the table. Its columns: ``log``, ``robot``, ``time``, ``first_stamp``;
         ``status``, ``stage``, ``error_kind``, ``error``; ``runs``, ``duration_s``; ``x_l_m``,
-        ``x_r_m``, ``y_m``, ``covariance_m2`` (3 by 3, row by row), ``gauge_m``, ``chi``, ``chi_se``;
-        ``diagnosis``, ``claims``, ``refusals`` (null: none was made); ``warnings``;
-        ``fingerprint`` (of the recording), ``sha256`` (of the log), and of what made the row
-        ``vehicle``, ``options``, ``version``.
+        ``x_r_m``, ``y_m``, ``covariance_m2`` (3 by 3, row by row), ``gauge_m``; ``chi`` and its
+        standard error ``chi_se``; ``diagnosis``, ``claims``, ``refusals`` (null: not diagnosed);
+        ``warnings``; ``fingerprint`` of the recording, ``sha256`` of the log; and of what made the
+        row ``vehicle``, ``options``, ``version``.
 
     Notes
     -----

@@ -162,6 +162,28 @@ def test_an_executor_that_breaks_keeps_what_was_done(in_fleet, expected):
         run("old.parquet", executor=Inline(), identify={"nuisances": ["lever"]})
 
 
+def test_a_journal_goes_on_behind_a_row_that_was_cut(tmp_path):
+    out = tmp_path / "out.parquet"
+    first = _journal.Journal(out)
+    first.append({"log": "a", "chi": 0.1}, {"log": "a"})
+    first.append({"log": "b", "chi": 0.2}, {"log": "b"})
+    first.close(False)
+    with first.path.open("ab") as torn:
+        torn.write(b'[{"log": "c", "chi"')
+    second = _journal.Journal(out)
+    second.append({"log": "d", "chi": 0.3}, {"log": "d"})
+    second.append({"log": "a", "chi": 0.4}, {"log": "a"})
+    second.close(False)
+    third = _journal.Journal(out)
+    assert [(row["log"], row["chi"]) for row, _ in third.rows()] == [
+        ("a", 0.4),
+        ("b", 0.2),
+        ("d", 0.3),
+    ]
+    third.close(True)
+    assert not third.path.exists()
+
+
 def test_a_journal_of_something_else_is_refused(tmp_path):
     (tmp_path / "out.parquet.journal").write_text("notes\n")
     with pytest.raises(td.InputError, match="byte 0: not a row"):

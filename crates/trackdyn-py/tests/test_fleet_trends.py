@@ -74,8 +74,11 @@ def test_a_line_of_logs_known_alike_is_that_of_least_squares(count):
     # τ² = residual variance - s² where all are known alike
     residual = y - plain.intercept - plain.slope * t
     variance = residual @ residual / (count - 2)
-    found = _lines.excess([_lines.Series(t, y, np.full(count, 0.004))])
-    assert found == pytest.approx(np.sqrt(max(variance - 0.004**2, 0.0)), abs=2e-5)
+    series = _lines.Series(t, y, np.full(count, 0.004))
+    expected = np.sqrt(max(variance - 0.004**2, 0.0))
+    assert _lines.excess([series]) == pytest.approx(expected, abs=2e-5)
+    assert _lines.line(series, 0.0).tau == pytest.approx(expected, abs=2e-5)
+    assert _lines.line(series, 0.1).tau == 0.1
 
 
 @pytest.mark.parametrize(("count", "ratio"), [(4, 1.0), (8, 3.0)])

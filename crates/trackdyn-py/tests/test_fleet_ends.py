@@ -40,7 +40,7 @@ def test_a_log_that_hangs_or_crashes_costs_its_row(robot, tmp_path, monkeypatch)
     code = _guard._CODE.replace("_child.serve()", crash + "_child.serve()")
     monkeypatch.setattr(_guard, "_CODE", code)
     out = tmp_path / "out.parquet"
-    outcome = td.fleet.run(tmp_path / "*", robot, out, diagnose=False, workers=2, timeout=5.0)
+    outcome = td.fleet.run(tmp_path / "*", robot, out, diagnose=False, workers=1, timeout=5.0)
     found = {Path(log).name: row for log, row in rows(out).items()}
     assert outcome.made == {"ok": 2, "timed out": 1, "crashed": 1}
     assert found["b.mcap"]["error"] == "fingerprint: not done after 5 s"

@@ -63,7 +63,8 @@ def _over_time(ax: Any, of: Trends, styles: dict[str, tuple[str, str]], rest: st
             alpha=0.5 if is_other else 1.0,
             label=label,
         )
-        if not is_other and np.isfinite(robot.line.slope):
+        # too few logs have no line
+        if not is_other and np.isfinite(robot.drift.value):
             line = robot.line.level + robot.line.slope * (robot.t - robot.t.mean())
             ax.plot(at, line, color=colour, lw=1.5)
     ax.set_title("Steering efficiency of each log")
@@ -83,7 +84,9 @@ def _drifts(
             half = (found.high - found.low) / 2.0
             ax.errorbar(found.value, place, xerr=half, color=colour, marker=marker, ms=4)
         else:
-            ax.text(0.0, place, found.reason, fontsize="x-small", color="0.3", va="center")
+            text = f"cannot tell: {len(robot.t)} logs"
+            inside = ax.get_yaxis_transform()
+            ax.text(0.02, place, text, fontsize="small", va="center", transform=inside)
     level = float(np.median([robot.line.level for robot in of.robots]))
     band = of.matters * level
     ax.axvspan(-band, band, color="0.92", zorder=0, label=f"less than {100 * of.matters:g} % of χ")

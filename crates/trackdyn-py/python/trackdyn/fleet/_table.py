@@ -48,8 +48,8 @@ def schema() -> Any:
         "x_l_m": number,
         "x_r_m": number,
         "y_m": number,
-        # of x_l, x_r, y, row by row
-        "covariance_m2": pa.list_(number, 9),
+        # of x_l, x_r, y, row by row; not of a fixed size, which some versions of Arrow do not read
+        "covariance_m2": pa.list_(number),
         "gauge_m": number,
         "chi": number,
         "chi_se": number,

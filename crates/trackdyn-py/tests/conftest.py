@@ -45,3 +45,32 @@ def program() -> Callable[..., subprocess.CompletedProcess[str]]:
         return subprocess.run(words, capture_output=True, text=True, check=False)
 
     return call
+
+
+@pytest.fixture(scope="session")
+def fleet_logs(robot, tmp_path_factory):
+    """Six logs of three robots, and one that is none, in a folder to work in."""
+    folder = tmp_path_factory.mktemp("fleet")
+    for number in range(6):
+        drive = td.simulate(robot, "designed", runs=1, duration=15.0, seed=number)
+        drive.write(folder / "logs" / f"robot{number // 2}" / f"2026-05-0{number + 1}")
+    (folder / "logs" / "robot2" / "broken.mcap").write_bytes(b"not a bag")
+    return folder
+
+
+@pytest.fixture
+def in_fleet(fleet_logs, monkeypatch):
+    monkeypatch.chdir(fleet_logs)
+    return fleet_logs
+
+
+@pytest.fixture(scope="session")
+def expected(fleet_logs):
+    """The bytes of the table, made by threads."""
+    before = Path.cwd()
+    os.chdir(fleet_logs)
+    try:
+        td.fleet.run("logs/*/*", "auriga-alpha", "expected.parquet", diagnose=False, workers=2)
+    finally:
+        os.chdir(before)
+    return (fleet_logs / "expected.parquet").read_bytes()

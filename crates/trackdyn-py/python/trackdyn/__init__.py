@@ -13,6 +13,7 @@ Axes are those of REP-103 (x forward, y left), but for the ICRs, which have thos
 (x right, y forward). Units are SI, angles in radians. What goes wrong is a :class:`trackdyn.Error`.
 """
 
+from . import fleet
 from ._claims import Claim, Refusal, Size
 from ._diagnosis import Diagnosis, diagnose
 from ._effects import Effect, EffectParameter, effects
@@ -91,6 +92,7 @@ __all__ = [
     "__version__",
     "diagnose",
     "effects",
+    "fleet",
     "icr_map",
     "inspect",
     "odometry",

@@ -1,0 +1,164 @@
+"""What a worker is told of a log: plain values, so that every executor can carry them."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, Union
+
+from .. import _trackdyn
+from .._arguments import VehicleLike, plain, vehicle_of
+from .._diagnosis import _settings
+from .._errors import RecordingError, SettingError
+from .._kinematics import IcrKinematics
+from .._reading import reading as reading_of
+from .._vehicle import Vehicle
+from ._logs import Log
+
+#: A vehicle for all robots; or a path or name with ``{robot}`` where the name of a robot stands.
+FleetVehicle = VehicleLike
+
+#: Whether to diagnose, or how.
+DiagnoseLike = Union[bool, Mapping[str, Any]]
+
+#: Options of reading that are paths: workers may run elsewhere.
+_PATHS = ("tracks", "msg_dir")
+
+_DIAGNOSE = ("settings", "held_out", "draws", "seed")
+_NOT_IDENTIFY = ("vehicle", "alphas", "progress")
+
+
+@dataclass(frozen=True)
+class Options:
+    """How rows are made; what of it counts for their content has a fingerprint."""
+
+    reading: dict[str, Any]
+    identify: dict[str, Any]
+    diagnose: dict[str, Any] | None
+    timeout: float
+    memory: int | None
+
+    @property
+    def fingerprint(self) -> str:
+        """Fingerprint of what counts for rows."""
+        counts = [self.reading, self.identify, self.diagnose]
+        text = json.dumps(counts, sort_keys=True, separators=(",", ":"))
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def options_of(
+    reading_options: Mapping[str, Any],
+    identify: Mapping[str, Any] | None,
+    diagnose: DiagnoseLike,
+    timeout: float,
+    memory: float | None,
+) -> Options:
+    """The options, checked before any log is read.
+
+    Raises
+    ------
+    SettingError
+        For a value that is not accepted.
+    DocumentError
+        For settings of the diagnosis that are not.
+    """
+    if not timeout > 0.0:
+        raise SettingError(f"timeout {timeout}: expected seconds above zero", "timeout")
+    if memory is not None and not memory > 0.0:
+        raise SettingError(f"memory {memory}: expected bytes above zero", "memory")
+    if memory is not None and os.name == "nt":
+        raise SettingError(f"memory {memory}: Windows bounds no process: expected none", "memory")
+    read = reading_of(**reading_options)
+    try:
+        _trackdyn.Recording.open(os.devnull + ".no-recording", read)
+    # all but the options is well
+    except RecordingError:
+        pass
+    return Options(
+        reading={key: _carried(value) for key, value in read.items() if value not in (None, [])},
+        identify=_identify(identify or {}),
+        diagnose=_diagnose(diagnose),
+        timeout=float(timeout),
+        memory=None if memory is None else int(memory),
+    )
+
+
+def _carried(value: Any) -> Any:
+    return os.fspath(value) if isinstance(value, os.PathLike) else plain(value)
+
+
+def _identify(keywords: Mapping[str, Any]) -> dict[str, Any]:
+    known = [name for name in IcrKinematics().get_params() if name not in _NOT_IDENTIFY]
+    for name in keywords:
+        if name not in known:
+            expected = f"expected one of {', '.join(known)}"
+            raise SettingError(f"identify {name}: {expected}", "identify")
+    return {name: plain(value) for name, value in sorted(keywords.items())}
+
+
+def _diagnose(diagnose: DiagnoseLike) -> dict[str, Any] | None:
+    if diagnose is False:
+        return None
+    keywords = {} if diagnose is True else dict(diagnose)
+    for name in keywords:
+        if name not in _DIAGNOSE:
+            expected = f"expected one of {', '.join(_DIAGNOSE)}"
+            raise SettingError(f"diagnose {name}: {expected}", "diagnose")
+    settings = _read(keywords.get("settings"))
+    held_out = keywords.get("held_out")
+    full = {"held_out": held_out, "draws": 2000, "seed": 1, **keywords, "settings": settings}
+    try:
+        _trackdyn.diagnose([], Vehicle(Vehicle.names()[0])._inner, full, None)
+    # all but the recordings is well
+    except RecordingError:
+        pass
+    if settings is not None:
+        keywords["settings"] = _trackdyn.from_toml(settings[1])
+    return {name: plain(value) for name, value in sorted(keywords.items())}
+
+
+def _read(settings: Any) -> Any:
+    """The name and the text of settings."""
+    try:
+        return _settings(settings)
+    except OSError as error:
+        text = f"settings {settings}: cannot be read: {error.strerror}"
+        raise SettingError(text, "settings") from None
+
+
+def vehicles_of(vehicle: FleetVehicle, robots: Iterable[str]) -> dict[str, Vehicle]:
+    """The vehicle of each robot.
+
+    Raises
+    ------
+    InputError
+        For one that cannot be read.
+    """
+    if isinstance(vehicle, (str, os.PathLike)) and "{robot}" in os.fspath(vehicle):
+        path = os.fspath(vehicle)
+        return {robot: vehicle_of(path.replace("{robot}", robot)) for robot in robots}
+    same = vehicle_of(vehicle)
+    return {robot: same for robot in robots}
+
+
+def job_of(log: Log, vehicle: Vehicle, options: Options, unless: str | None) -> dict[str, Any]:
+    """What a worker is told; `unless` is the SHA-256 of the log whose row is there already."""
+    reading = dict(options.reading)
+    for key in _PATHS:
+        if key in reading:
+            reading[key] = os.path.abspath(reading[key])
+    return {
+        "log": log.name,
+        "path": os.path.abspath(log.name),
+        "vehicle": vehicle.to_toml(),
+        "vehicle_name": vehicle.name,
+        "reading": reading,
+        "identify": options.identify,
+        "diagnose": options.diagnose,
+        "timeout": options.timeout,
+        "memory": options.memory,
+        "unless": unless,
+    }

@@ -22,9 +22,9 @@ const MAX_OF_SPIN: f64 = 0.15;
 /// squares follow outliers.
 const MAX_OF_GENETIC: f64 = 0.25;
 
-/// χ that no track reaches: friction only ever moves the ICRs out of the tracks' centre-lines, and
-/// the gauge is known to a few percent.
-const MAX_EFFICIENCY: f64 = 1.05;
+/// χ that no track reaches: friction under a contact longer than a point moves the ICRs out of the
+/// tracks' centre-lines. Axles a fifth of the gauge apart, μ_x = μ_y, give 0.96.
+const MAX_EFFICIENCY: f64 = 0.97;
 
 /// χ below which it is the units that are wrong: ten times the gauge is more than any friction
 /// between the tracks' centre-lines gives.
@@ -239,8 +239,9 @@ impl std::fmt::Display for Contradiction {
             ),
             Self::Efficiency { chi } => write!(
                 f,
-                "chi = {chi:.2}: the ICRs lie closer to each other than the tracks, which friction \
-                 cannot do: check the gauge, the wheel radius, and which joints were taken"
+                "chi = {chi:.2}: the ICRs lie on the tracks' centre-lines or between them, where \
+                 friction cannot put them: check the gauge, the wheel radius, and which joints \
+                 were taken; or these poses or speeds are computed without slip"
             ),
             Self::Apart { chi } => write!(
                 f,

@@ -1,7 +1,8 @@
 //! How much of the motion constant ICRs leave unexplained.
 //!
-//! Medians over the half of the segments that move most: an outlier is no misfit, a wrong unit is.
-//! What the noise of the poses explains does not count.
+//! Medians over the half of the segments that should move most by the fit: an outlier is no misfit,
+//! a wrong unit is. What the noise of the poses explains does not count. The half is chosen by the
+//! prediction, since that with most observed motion is that with most noise where the robot is slow.
 
 use crate::observations::{Observation, Observations};
 use crate::parameters::Parameters;
@@ -17,12 +18,12 @@ const RAYLEIGH_MEDIAN: f64 = 1.177_410_022_515_475;
 /// Parts of the motion that parameters leave.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeftOver {
-    /// Of the turning, where the robot turns most.
+    /// Of the turning, where the robot should turn most.
     pub turning: f64,
-    /// Of the way, where the robot moves furthest.
+    /// Of the way, where the robot should move furthest.
     pub way: f64,
     /// Of the move to the side, over the turning times the distance of the ICRs, where the robot
-    /// turns most. Noise counts here.
+    /// should turn most. Noise counts here.
     pub sideways: f64,
 }
 
@@ -43,20 +44,19 @@ impl LeftOver {
         };
         let turns: Vec<[f64; 3]> = segments()
             .map(|(segment, by)| {
-                let [_, _, yaw] = segment.motion;
-                [yaw.abs(), off((segment, by), 2).abs(), variance(segment, 2)]
+                [by.motion[2].abs(), off((segment, by), 2).abs(), variance(segment, 2)]
             })
             .collect();
         let ways: Vec<[f64; 3]> = segments()
             .map(|(segment, by)| {
-                let [x, y, _] = segment.motion;
+                let [x, y, _] = by.motion;
                 let variance = f64::midpoint(variance(segment, 0), variance(segment, 1));
                 [x.hypot(y), off((segment, by), 0).hypot(off((segment, by), 1)), variance]
             })
             .collect();
         let sides: Vec<[f64; 3]> = segments()
             .map(|(segment, by)| {
-                let turned = segment.motion[2].abs() * (x_r - x_l);
+                let turned = by.motion[2].abs() * (x_r - x_l);
                 [turned, off((segment, by), 1).abs(), 0.0]
             })
             .collect();
@@ -87,14 +87,14 @@ impl LeftOver {
         let (sin, cos) = direction.sin_cos();
         let beside = ways.iter().map(|&[along, x, y]| {
             let off = [along - (cos * x + sin * y), cos * y - sin * x];
-            [x.hypot(y), off[0].hypot(off[1]), 0.0]
+            [along.abs(), off[0].hypot(off[1]), 0.0]
         });
         [-direction, left(beside.collect(), RAYLEIGH_MEDIAN)]
     }
 }
 
-/// Median of what is left over the median of what was there, over the half with most of it. Rows
-/// hold how much was there, how much is left, and the variance of its noise, whose median is
+/// Median of what is left over the median of what is there, over the half with most of it. Rows
+/// hold how much is there, how much is left, and the variance of its noise, whose median is
 /// `of_noise` standard deviations.
 fn left(mut rows: Vec<[f64; 3]>, of_noise: f64) -> f64 {
     rows.sort_by(|a, b| b[0].total_cmp(&a[0]));

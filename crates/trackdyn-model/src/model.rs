@@ -114,6 +114,19 @@ impl Model {
         &self.footprint
     }
 
+    /// Extent and second moment of the part of one side's contact that bears with the centre of
+    /// pressure at y, m.
+    pub fn pressed(&self, y: f64) -> Footprint {
+        let bearing = self.bearing(y);
+        match bearing {
+            Bearing::Whole(_) => self.footprint,
+            Bearing::Part { .. } => {
+                let parts = self.patches.left.iter().filter_map(|patch| bearing.pressed(patch));
+                Footprint::of(&parts.collect::<Vec<_>>())
+            }
+        }
+    }
+
     /// Centre and size of each side's contact.
     pub fn extent(&self) -> &PerSide<Extent> {
         &self.extent

@@ -287,11 +287,12 @@ impl<'s> Problem<'s> {
         let (gauge, cog_y) = (model.vehicle().gauge, model.vehicle().cog[1]);
         let outwards = self.anchor.sign();
         // Both tracks turn about points a quarter of the contact length outside their centre-lines.
-        let [rear, front] = model.footprint().ends;
+        let pressed = model.pressed(cog_y);
+        let [rear, front] = pressed.ends;
         let x = gauge / 2.0 + (front - rear) / 4.0;
         let turning = Vector3::new(outwards * x, cog_y, 0.5 / x);
         // The anchor breaks loose under twice the other track's friction, with the gauge as lever.
-        let x = gauge / 2.0 + model.footprint().gyration_squared / gauge;
+        let x = gauge / 2.0 + pressed.gyration_squared / gauge;
         let holding = Vector3::new(outwards * x, cog_y, -1.0 / gauge);
         let from = |icrs: Icrs| {
             let x = match self.anchor {

@@ -141,7 +141,7 @@ fn thinned(count: usize, most: usize) -> impl Iterator<Item = usize> {
     (0..kept).map(move |place| (real(place) * step).round() as usize)
 }
 
-fn markers<'a>(layer: &'a MarkerLayer, stamp: u64, index: usize) -> MarkerArray<'a> {
+fn markers(layer: &MarkerLayer, stamp: u64, index: usize) -> MarkerArray<'_> {
     let places = layer.points.iter().zip(&layer.places[index]);
     let markers = places.map(|(name, place)| {
         let header = Header::new(stamp, &layer.frame);
@@ -150,7 +150,7 @@ fn markers<'a>(layer: &'a MarkerLayer, stamp: u64, index: usize) -> MarkerArray<
     MarkerArray { markers: markers.collect() }
 }
 
-fn joints<'a>(layer: &'a JointLayer, stamp: u64, index: usize) -> JointState<'a> {
+fn joints(layer: &JointLayer, stamp: u64, index: usize) -> JointState<'_> {
     let speeds = layer.speeds[index];
     JointState {
         header: Header::new(stamp, ""),

@@ -1,8 +1,8 @@
 //! A layout of Foxglove that shows what is in the file.
 //!
 //! # Sources
-//! Lichtblick (the open successor of Foxglove Studio) 1.2, settings of the panels "3D", "Plot" and
-//! "Tab".
+//! Lichtblick (the open successor of Foxglove Studio) 1.2, settings of the panels "3D", "Plot",
+//! "StateTransitions" and "Tab".
 
 use super::{Curve, Layers, Plot, Rgb};
 use serde_json::{Map, Value, json};
@@ -23,12 +23,19 @@ pub fn layout(layers: &Layers) -> String {
         panels.extend(ids.iter().cloned().zip(tab.plots.iter().map(plot_settings)));
         tabs.push(json!({ "title": tab.title, "layout": column(&ids) }));
     }
-    let layout = if tabs.is_empty() {
+    let left = if layers.texts.is_empty() {
         json!(scene)
+    } else {
+        let states = "StateTransitions!texts";
+        panels.insert(states.to_owned(), text_settings(layers));
+        json!({ "direction": "column", "first": scene, "second": states, "splitPercentage": 85 })
+    };
+    let layout = if tabs.is_empty() {
+        left
     } else {
         let plots = "Tab!plots";
         panels.insert(plots.to_owned(), json!({ "activeTabIdx": 0, "tabs": tabs }));
-        json!({ "direction": "row", "first": scene, "second": plots, "splitPercentage": 55 })
+        json!({ "direction": "row", "first": left, "second": plots, "splitPercentage": 55 })
     };
     let all = json!({
         "configById": panels,
@@ -107,6 +114,15 @@ fn scene_settings(layers: &Layers) -> Value {
         "publish": {},
         "imageMode": {},
     })
+}
+
+fn text_settings(layers: &Layers) -> Value {
+    let path = |topic: &str| {
+        let label = topic.rsplit('/').next();
+        json!({ "value": format!("{topic}.data"), "label": label, "timestampMethod": "receiveTime" })
+    };
+    let paths: Vec<Value> = layers.texts.iter().map(|of| path(&of.topic)).collect();
+    json!({ "paths": paths, "isSynced": true })
 }
 
 fn plot_settings(plot: &Plot) -> Value {

@@ -4,6 +4,8 @@
 //! ROS 2 Humble: `common_interfaces` 4.2, `geometry2` 0.25, `rcl_interfaces` 1.2. MCAP format
 //! registry, "ros2msg".
 
+use std::fmt::Write;
+
 /// Members of each type, by its name without `msg/`.
 const MEMBERS: [(&str, &str); 21] = [
     ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec"),
@@ -61,7 +63,7 @@ pub(super) fn text(kind: &str) -> String {
     while let Some(kind) = kinds.get(next).cloned() {
         let members = members(&kind);
         if next > 0 {
-            text += &format!("{RULE}\nMSG: {kind}\n");
+            let _ = writeln!(text, "{RULE}\nMSG: {kind}");
         }
         text += members;
         text.push('\n');

@@ -2,6 +2,7 @@
 //! own reader.
 
 mod bags;
+mod diagnosis;
 mod layouts;
 mod values;
 

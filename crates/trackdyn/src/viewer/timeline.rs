@@ -26,10 +26,10 @@ impl Timeline {
     /// The times of the runs of a recording.
     pub(crate) fn new(motion: &Motion) -> Self {
         let epoch = motion.source().epoch_ns.unwrap_or(0);
-        let mut end = 0;
+        let mut end: i64 = 0;
         let runs = motion.runs().iter().map(|run| {
             let [first, last] = ends(run).map(|t| epoch.saturating_add(nanoseconds(t)));
-            let late = end - first;
+            let late = end.saturating_sub(first);
             let shift = if late > 0 { (late - 1) / SECOND + 1 } else { 0 };
             let moved = shift.saturating_mul(SECOND);
             // A stamp that two runs share would be of both.

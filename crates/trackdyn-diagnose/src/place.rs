@@ -78,12 +78,13 @@ impl Regime {
             .flat_map(|manoeuvre| (0..3).map(move |third| Self { manoeuvre, third }))
     }
 
-    /// That of a sample; none at rest. `fastest` is the largest track speed of all, m/s.
+    /// That of a sample; none at rest. `fastest` is the largest track speed, m/s; what is faster
+    /// counts to the fastest third.
     pub fn of(sample: &Sample, fastest: f64, settings: &settings::Location) -> Option<Self> {
         let speed = faster(sample);
-        let end = |third: usize| fastest * real(third) / 3.0;
-        let third = (0..3).find(|&third| speed > end(third) && speed <= end(third + 1))?;
-        Some(Self { manoeuvre: Manoeuvre::of(sample, settings), third })
+        let manoeuvre = Manoeuvre::of(sample, settings);
+        let third = (1..3).find(|&end| speed <= fastest * real(end) / 3.0).map_or(2, |end| end - 1);
+        (speed > 0.0).then_some(Self { manoeuvre, third })
     }
 
     /// Its name in words.

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use trackdyn::crates::export::viewer::{PathLayer, bag};
 use trackdyn::viewer::Layers;
 use trackdyn::{Provenance, ReadOptions, Recording};
-use trackdyn_core::Pose;
+use trackdyn_core::{Pose, real};
 use trackdyn_recording::SpeedUnit;
 
 /// Definitions of ROS 2 Humble, by name: their members in order.
@@ -91,8 +91,8 @@ fn long_paths_are_thinned() {
         paths: vec![PathLayer {
             topic: "/observed".to_owned(),
             frame: "base_link".to_owned(),
-            stamps: (0..count as u64).collect(),
-            poses: (0..count).map(|k| Pose::new(k as f64, 0.0, 0.0)).collect(),
+            stamps: (0..).take(count).collect(),
+            poses: (0..count).map(|k| Pose::new(real(k), 0.0, 0.0)).collect(),
             starts: vec![0],
             ..PathLayer::default()
         }],
@@ -101,9 +101,9 @@ fn long_paths_are_thinned() {
     let found = messages(&bytes(&drive));
     assert_eq!(found["/observed/pose"].len(), count);
     let path = &found["/observed/path"][0];
-    assert_eq!(path.number("poses[]"), bag::MAX_PATH_POSES as f64);
+    assert_eq!(path.number("poses[]"), real(bag::MAX_PATH_POSES));
     let x = |k: usize| path.number(&format!("poses[{k}].pose.position.x"));
-    assert_eq!([x(0), x(bag::MAX_PATH_POSES - 1)], [0.0, (count - 1) as f64]);
+    assert_eq!([x(0), x(bag::MAX_PATH_POSES - 1)], [0.0, real(count - 1)]);
     let steps = (1..bag::MAX_PATH_POSES).map(|k| x(k) - x(k - 1));
     assert!(steps.into_iter().all(|step| (5.0..=6.0).contains(&step)));
 }

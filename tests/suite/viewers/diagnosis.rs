@@ -2,8 +2,16 @@
 
 use super::{Message, bytes, messages};
 use trackdyn::{
-    DiagnoseSettings, Provenance, Recording, SimulateSettings, Vehicle, diagnose, simulate,
+    DiagnoseSettings, Provenance, Recording, Resampling, SimulateSettings, Vehicle, diagnose,
+    simulate,
 };
+use trackdyn_core::real;
+
+/// A stamp in s.
+#[expect(clippy::cast_precision_loss, reason = "below 2⁵³ ns, 104 days")]
+fn seconds(stamp: u64) -> f64 {
+    stamp as f64 / 1e9
+}
 
 /// Where the corrected vehicle is nearer to the drive than the one as filed, viewers show it.
 #[test]
@@ -14,7 +22,8 @@ fn the_corrected_vehicle_is_nearer_and_leaves_noise() {
     let drive = simulate(&robot, &settings).expect("it drives");
     let recording: Recording = drive.recording.into();
     let filed = Vehicle::auriga_alpha().with_inertia(true);
-    let settings = DiagnoseSettings::default();
+    let resampling = Resampling { draws: 1000, ..Resampling::default() };
+    let settings = DiagnoseSettings { resampling, ..DiagnoseSettings::default() };
     let found = diagnose(&[recording.clone()], &filed, &settings).expect("an answer");
     let layers = found.layers(&Provenance::default()).expect("a drive");
     let found = messages(&bytes(&layers));
@@ -29,27 +38,26 @@ fn the_corrected_vehicle_is_nearer_and_leaves_noise() {
             let ([x, y], [u, v]) = (place(seen), place(model));
             (x - u).hypot(y - v)
         });
-        distances.sum::<f64>() / poses(driver).len() as f64
+        distances.sum::<f64>() / real(poses(driver).len())
     };
     let [filed, corrected] = ["as_filed", "corrected"].map(distance);
     assert!(corrected < 0.5 * filed, "{corrected} {filed}");
     // what is seen was recorded then
     let run = &recording.runs()[0];
     for seen in poses("observed") {
-        let log = seen.log as f64;
-        let near = run
-            .poses()
-            .iter()
-            .min_by(|a, b| (a.t * 1e9 - log).abs().total_cmp(&(b.t * 1e9 - log).abs()));
+        let log = seconds(seen.log);
+        let near =
+            run.poses().iter().min_by(|a, b| (a.t - log).abs().total_cmp(&(b.t - log).abs()));
         let near = near.expect("poses").pose;
-        assert_eq!(place(seen), [near.x, near.y]);
+        let [x, y] = place(seen);
+        assert!((x - near.x).hypot(y - near.y) < 1e-9, "{x} {y} {near:?}");
     }
 
     for channel in ["forward", "left", "yaw"] {
         let rms = |state: &str| {
             let values = &found[&format!("/trackdyn/{state}/whitened_residual/{channel}")];
             let sum: f64 = values.iter().map(|of| of.number("data").powi(2)).sum();
-            (sum / values.len() as f64).sqrt()
+            (sum / real(values.len())).sqrt()
         };
         // about 130 segments: a standard error of 6 %
         assert!((0.7..1.3).contains(&rms("after")), "{channel}: {}", rms("after"));

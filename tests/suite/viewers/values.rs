@@ -2,6 +2,7 @@
 
 use super::{ICRS, Message, bytes, messages, synthetic, synthetic_layers};
 use std::collections::BTreeMap;
+use trackdyn_core::real;
 use trackdyn_recording::Run;
 
 /// Rounding of sums of a few lengths, m or rad.
@@ -18,6 +19,12 @@ fn stamp(runs: &[Run], run: usize, t: f64) -> u64 {
     let end = ends.into_iter().flatten().fold(0.0, f64::max);
     let moved = if run == 0 { 0.0 } else { (end + 1e-9).ceil() };
     ((moved + t) * 1e9).round() as u64
+}
+
+/// A stamp of a header in ns, from whole numbers.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small, positive")]
+fn stamp_of(seconds: f64, nanoseconds: f64) -> u64 {
+    seconds as u64 * 1_000_000_000 + nanoseconds as u64
 }
 
 #[test]
@@ -48,7 +55,7 @@ fn poses_and_transforms_are_the_recorded_ones() {
             assert_eq!(message.text(&format!("{header}.frame_id")), "map");
             let [seconds, rest] =
                 ["sec", "nanosec"].map(|of| number(header, &format!("stamp.{of}")));
-            assert_eq!(seconds * 1e9 + rest, message.log as f64);
+            assert_eq!(stamp_of(seconds, rest), message.log);
             let (sin, cos) = (sample.pose.yaw / 2.0).sin_cos();
             assert_eq!(
                 ["x", "y", "z"].map(|of| number(place, of)),
@@ -159,7 +166,7 @@ fn a_path_is_a_whole_run() {
     assert_eq!(paths.len(), 2);
     for (path, run) in paths.iter().zip(recording.runs()) {
         let count = run.poses().len();
-        assert_eq!(path.number("poses[]"), count as f64);
+        assert_eq!(path.number("poses[]"), real(count));
         let last = count - 1;
         let end =
             ["x", "y"].map(|axis| path.number(&format!("poses[{last}].pose.position.{axis}")));

@@ -39,7 +39,7 @@ fn replay(recording: &Recording, name: &str) -> Odometry {
          eccentricity = 0.0\n[source]\ncommand = \"\"\nversion = \"\"\nvehicle = \"\"\n\
          fingerprint = \"\"\n"
     );
-    let document = Document::new(&format!("{name}.toml"), text);
+    let document = Document::new(format!("{name}.toml"), text);
     let parameters = Parameters::from_document(document).expect("parameters");
     let gauge = Gauge::new(0.42).expect("a gauge");
     let settings = OdometrySettings { tau: Some(0.0), ..OdometrySettings::default() };

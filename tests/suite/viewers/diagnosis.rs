@@ -20,11 +20,11 @@ fn the_corrected_vehicle_is_nearer_and_leaves_noise() {
     let settings =
         SimulateSettings { runs: Some(1), duration: Some(40.0), ..SimulateSettings::default() };
     let drive = simulate(&robot, &settings).expect("it drives");
-    let recording: Recording = drive.recording.into();
+    let recording: Recording = drive.recording;
     let filed = Vehicle::auriga_alpha().with_inertia(true);
     let resampling = Resampling { draws: 1000, ..Resampling::default() };
     let settings = DiagnoseSettings { resampling, ..DiagnoseSettings::default() };
-    let found = diagnose(&[recording.clone()], &filed, &settings).expect("an answer");
+    let found = diagnose(std::slice::from_ref(&recording), &filed, &settings).expect("an answer");
     let layers = found.layers(&Provenance::default()).expect("a drive");
     let found = messages(&bytes(&layers));
 

@@ -136,7 +136,7 @@ fn icrs_are_those_of_the_robot() {
     }
     let markers = &found["/trackdyn/my_fit/icrs"];
     let [x_left, x_right, y] = ICRS;
-    for of in markers.iter() {
+    for of in markers {
         assert_eq!(of.number("markers[]"), 3.0);
         for (k, x) in [(0, x_left), (1, x_right)] {
             let number = |path: &str| of.number(&format!("markers[{k}].{path}"));

@@ -60,8 +60,8 @@ pub fn sentence(
     parts.join("; ")
 }
 
-/// A kind of driving by which a mismatch is placed: a manoeuvre, and a third of the speeds up to the
-/// fastest.
+/// A kind of driving by which a mismatch is placed: a manoeuvre, and a third of the speeds up to
+/// the fastest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Regime {
     /// The manoeuvre.

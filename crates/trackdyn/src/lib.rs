@@ -55,7 +55,7 @@
 //! | plan the driving that decides what is open | [`plan()`] | [`PlanSettings`] | [`Plan`] |
 //! | follow a path | [`drive()`] | [`DriveSettings`] | [`Drives`] |
 //! | write files of ROS 2, Gazebo, URDF | [`Export`] | [`export`] | text files |
-//! | look at it in Foxglove, Rerun, PlotJuggler | [`viewer::write`] | [`viewer::Layers`] | `.mcap` |
+//! | look at it in Foxglove or PlotJuggler | [`viewer::write`] | [`viewer::Layers`] | `.mcap` |
 //! | check that ICRs stay as they were | [`check()`] | [`Reference`] | [`check::CheckedCase`] |
 //!
 //! All of them are functions over checked types. They print nothing, read nothing from the

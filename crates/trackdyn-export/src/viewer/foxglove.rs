@@ -119,7 +119,8 @@ fn scene_settings(layers: &Layers) -> Value {
 fn text_settings(layers: &Layers) -> Value {
     let path = |topic: &str| {
         let label = topic.rsplit('/').next();
-        json!({ "value": format!("{topic}.data"), "label": label, "timestampMethod": "receiveTime" })
+        let value = format!("{topic}.data");
+        json!({ "value": value, "label": label, "timestampMethod": "receiveTime" })
     };
     let paths: Vec<Value> = layers.texts.iter().map(|of| path(&of.topic)).collect();
     json!({ "paths": paths, "isSynced": true })

@@ -59,8 +59,8 @@ fn paths(paths: &[PathLayer]) -> String {
 
 fn area(title: &str, mode: &str, curves: &str) -> String {
     format!(
-        "     <DockArea name=\"{title}\">\n      <plot mode=\"{mode}\" style=\"Lines\">\n{curves}      \
-         </plot>\n     </DockArea>\n",
+        "     <DockArea name=\"{title}\">\n      <plot mode=\"{mode}\" style=\"Lines\">\n\
+         {curves}      </plot>\n     </DockArea>\n",
         title = escaped(title)
     )
 }

@@ -53,8 +53,8 @@ impl Moment {
     /// or turns so far that it does not tell how it did.
     ///
     /// # Law
-    /// V_l = v_y + x_l ω and V_r = v_y + x_r ω, eqs (10)-(11), with v_y forward; v_x = ω y, eq. (7),
-    /// with v_x to the right.
+    /// V_l = v_y + x_l ω and V_r = v_y + x_r ω, eqs (10)-(11), with v_y forward; v_x = ω y,
+    /// eq. (7), with v_x to the right.
     pub(crate) fn of_motion(motion: &Pose, duration: f64, speeds: PerSide<f64>) -> Option<Self> {
         if !(MIN_TURN..std::f64::consts::PI).contains(&motion.yaw.abs()) {
             return None;

@@ -2,6 +2,7 @@
 
 pub mod cdr;
 pub mod concealed;
+pub mod ros2msg;
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

@@ -295,3 +295,48 @@ fn recordings_without_poses_or_motion_are_refused() {
     assert_eq!(run.status, 1, "{}", run.stdout);
     assert!(!place.path().join("out").exists());
 }
+
+/// The files for viewers, and what becomes of them.
+#[test]
+fn layers_are_written_where_they_are_asked_for() {
+    let place = workplace(&synthetic());
+    let names = ["odometry.mcap", "odometry.foxglove.json", "odometry.plotjuggler.xml"];
+    let are_there = |folder: &str| {
+        names
+            .map(|name| place.path().join(folder).join(name))
+            .iter()
+            .filter(|of| of.exists())
+            .count()
+    };
+    let run = place.run(&format!("{COMMAND} --mcap"));
+    assert_eq!((run.status, are_there("out")), (0, 3), "{}", run.stderr);
+    for name in names {
+        assert!(run.stderr.contains(&format!("wrote out/{name}")), "{}", run.stderr);
+    }
+    // what an earlier run wrote would be taken for this one's
+    let run = place.run(COMMAND);
+    assert_eq!((run.status, are_there("out")), (0, 0), "{}", run.stderr);
+    assert!(run.stderr.contains("removed out/odometry.mcap, of an earlier run"), "{}", run.stderr);
+    let options = COMMAND.strip_prefix("odometry").expect("the command");
+    let export = format!("export mcap {options} --out viewers");
+    let run = place.run(&export);
+    assert_eq!((run.status, run.stdout.as_str(), are_there("viewers")), (0, "", 3));
+    assert_eq!(std::fs::read_dir(place.path().join("viewers")).expect("a folder").count(), 3);
+    let file = place.read("viewers/odometry.mcap");
+    assert_eq!(place.run(&export).status, 0);
+    assert!(place.read("viewers/odometry.mcap") == file, "no time stands in it");
+}
+
+#[test]
+fn layers_that_cannot_be_written_are_named() {
+    let place = workplace(&synthetic());
+    std::fs::create_dir_all(place.path().join("out/odometry.mcap")).expect("a folder");
+    let run = place.run("export mcap recording --gauge 0.42");
+    assert_eq!(run.status, 1);
+    assert!(run.stderr.contains("error: out/odometry.mcap: cannot be written"), "{}", run.stderr);
+    let left = place.files().into_iter().filter(|file| file.starts_with("out"));
+    assert_eq!(left.count(), 0);
+    let run = place.run("export mcap recording");
+    assert_eq!(run.status, 1);
+    assert!(run.stderr.contains("--gauge"), "{}", run.stderr);
+}

@@ -15,3 +15,4 @@ mod recording;
 mod recovery;
 mod second_simulator;
 mod validation;
+mod viewers;

@@ -53,7 +53,7 @@ pub enum Command {
     Odometry(commands::odometry::Options),
     /// Recompute chi, e and the ICRs, and fail where they leave the tolerances of a reference file
     Check(commands::check::Options),
-    /// Write the kinematics as files of other programs: ROS 2, URDF, Gazebo
+    /// Write kinematics, or a drive, as files of other programs: ROS 2, URDF, Gazebo, Foxglove
     Export(commands::export::Options),
     /// List the effects that a vehicle file or --effect can switch on
     Effects(commands::effects::Options),

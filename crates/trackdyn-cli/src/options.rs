@@ -1,7 +1,9 @@
 //! Options that several commands share.
 
+mod replay;
 mod vehicle;
 
+pub use replay::ReplayOptions;
 pub use vehicle::{GaugeOptions, ModelOptions, say_default};
 
 use crate::stderr::note;

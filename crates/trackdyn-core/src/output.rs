@@ -1,7 +1,8 @@
 //! Files that the tool writes: whole or not at all, and traceable to their source.
 
 use sha2::{Digest, Sha256};
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{PoisonError, RwLock, RwLockWriteGuard};
 
@@ -35,9 +36,34 @@ pub fn write_private(path: &Path, contents: &[u8]) -> Result<(), OutputError> {
     write(path, contents, &mut tempfile::Builder::new())
 }
 
+/// Writes a file as [`write_file`] does, piece by piece, for one that memory shall not hold.
+///
+/// # Errors
+/// As [`write_file`], and what `fill` returns; the old file is then untouched.
+pub fn write_stream(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
+) -> Result<(), OutputError> {
+    let fill = |file: &mut File| {
+        let mut buffered = BufWriter::new(file);
+        fill(&mut buffered)?;
+        buffered.flush()
+    };
+    replace(path, fill, tempfile::Builder::new().permissions(permissions()))
+}
+
 fn write(
     path: &Path,
     contents: &[u8],
+    builder: &mut tempfile::Builder<'_, '_>,
+) -> Result<(), OutputError> {
+    replace(path, |file| file.write_all(contents), builder)
+}
+
+/// Fills a temporary file beside a path and puts it there.
+fn replace(
+    path: &Path,
+    fill: impl FnOnce(&mut File) -> io::Result<()>,
     builder: &mut tempfile::Builder<'_, '_>,
 ) -> Result<(), OutputError> {
     let folder = match path.parent() {
@@ -45,13 +71,13 @@ fn write(
         _ => Path::new("."),
     };
     let _writing = WRITING.read().unwrap_or_else(PoisonError::into_inner);
-    let mut replace = || -> io::Result<()> {
+    let put = || -> io::Result<()> {
         let mut temporary = builder.prefix(".trackdyn-").tempfile_in(folder)?;
-        temporary.write_all(contents)?;
+        fill(temporary.as_file_mut())?;
         temporary.persist(path).map_err(|failure| failure.error)?;
         Ok(())
     };
-    replace().map_err(|cause| OutputError { path: path.to_owned(), cause })
+    put().map_err(|cause| OutputError { path: path.to_owned(), cause })
 }
 
 /// Waits until no file is being written, and lets none be begun while what it gives is kept.
@@ -108,6 +134,21 @@ mod tests {
         write_file(&path, b"a long first text").expect("written");
         write_file(&path, b"short").expect("written");
         assert_eq!(std::fs::read(&path).expect("readable"), b"short");
+        assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), 1);
+    }
+
+    #[test]
+    fn a_stream_that_breaks_off_leaves_the_old_file_alone() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("a.mcap");
+        write_stream(&path, |file| file.write_all(b"whole")).expect("written");
+        let half = |file: &mut BufWriter<&mut File>| {
+            file.write_all(b"half")?;
+            Err(io::Error::other("no more"))
+        };
+        let error = write_stream(&path, half).expect_err("it breaks off").to_string();
+        assert!(error.ends_with("a.mcap: cannot be written: no more"), "{error}");
+        assert_eq!(std::fs::read(&path).expect("readable"), b"whole");
         assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), 1);
     }
 

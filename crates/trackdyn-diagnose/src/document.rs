@@ -37,8 +37,8 @@ pub struct DiagnosisFile {
     /// Quality of that law.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub proposal: Option<ProposalTable>,
-    /// Friction by which the robot slides; absent where it is that of the vehicle file, and in older
-    /// files.
+    /// Friction by which the robot slides; absent where it is that of the vehicle file, and in
+    /// older files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_by_inertia: Option<FactorTable>,
     /// Errors on held-out runs.

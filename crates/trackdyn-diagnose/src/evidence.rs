@@ -79,6 +79,8 @@ pub struct Evidence {
     /// Number of each run in the recording.
     runs: Vec<i64>,
     tau: f64,
+    /// Stamp of the recording at which the times of samples and readings begin, s.
+    begin: f64,
     /// Whether places and headings are those of one world.
     has_world: bool,
     origin: Origin,
@@ -115,6 +117,11 @@ impl Evidence {
     /// Clock offset of the poses against the encoders, estimated from the recording, s.
     pub fn tau(&self) -> f64 {
         self.tau
+    }
+
+    /// Stamp of the recording at which the times of samples and readings begin, s; 0 of a table.
+    pub fn begin(&self) -> f64 {
+        self.begin
     }
 
     /// Whether its samples have places and headings in one world: a table has none, and runs with a

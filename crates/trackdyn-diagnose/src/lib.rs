@@ -17,6 +17,7 @@
 //! - [`verdict`], [`uncertainty`], [`isolability`]: claims, intervals, and which effects can be
 //!   told apart.
 //! - [`proposal`]: an empirical force law for what no effect explains.
+//! - [`replay`]: dead reckoning with a vehicle file.
 //! - [`answer`], [`held_out`]: the status, and errors on runs that were not fitted.
 //! - [`mod@diagnosis`]: all stages in order and their result; [`document`]: the result as a file;
 //!   [`exposure`]: series for figures.
@@ -47,6 +48,7 @@ pub mod plan;
 pub mod prior;
 pub mod progress;
 pub mod proposal;
+pub mod replay;
 pub mod resampling;
 pub mod search;
 pub mod settings;

@@ -3,7 +3,9 @@
 use crate::base::Base;
 use crate::evidence::Sample;
 use crate::locate::{Location, Manoeuvre, Wave};
+use crate::settings;
 use crate::weighted::Weighted;
+use nalgebra::Vector3;
 use trackdyn_core::real;
 use trackdyn_model::effect::Symmetry;
 
@@ -58,37 +60,71 @@ pub fn sentence(
     parts.join("; ")
 }
 
+/// A kind of driving by which a mismatch is placed: a manoeuvre, and a third of the speeds up to
+/// the fastest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Regime {
+    /// The manoeuvre.
+    pub manoeuvre: Manoeuvre,
+    /// The third: 0 the slowest.
+    pub third: usize,
+}
+
+impl Regime {
+    /// All of them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        [Manoeuvre::Straight, Manoeuvre::Arc, Manoeuvre::CounterRotation, Manoeuvre::Spin]
+            .into_iter()
+            .flat_map(|manoeuvre| (0..3).map(move |third| Self { manoeuvre, third }))
+    }
+
+    /// That of a sample; none at rest. `fastest` is the largest track speed, m/s; what is faster
+    /// counts to the fastest third.
+    pub fn of(sample: &Sample, fastest: f64, settings: &settings::Location) -> Option<Self> {
+        let speed = faster(sample);
+        let manoeuvre = Manoeuvre::of(sample, settings);
+        let third = (1..3).find(|&end| speed <= fastest * real(end) / 3.0).map_or(2, |end| end - 1);
+        (speed > 0.0).then_some(Self { manoeuvre, third })
+    }
+
+    /// Its name in words.
+    pub fn name(self) -> String {
+        format!("{}, {}", self.manoeuvre.name(), ["slow", "medium", "fast"][self.third.min(2)])
+    }
+}
+
+/// Speed of the faster track, m/s.
+fn faster(sample: &Sample) -> f64 {
+    sample.speeds.left.abs().max(sample.speeds.right.abs())
+}
+
 /// Manoeuvre with the largest residuals, and its mean track speed, m/s.
 fn worst(evidence: &Weighted, base: &Base) -> Option<(Manoeuvre, f64)> {
-    let (residual, settings) = (&base.fit.residual, &evidence.settings().location);
+    worst_regime(evidence, &base.fit.residual).map(|(regime, speed)| (regime.manoeuvre, speed))
+}
+
+/// The regime with the largest whitened residuals, and its mean track speed, m/s; none where each
+/// has too few samples.
+pub fn worst_regime(evidence: &Weighted, residual: &[Vector3<f64>]) -> Option<(Regime, f64)> {
+    let settings = &evidence.settings().location;
     let weights = evidence.weights(residual);
-    let fast = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs());
     let fastest = evidence.fastest();
-    let mut best: Option<(f64, Manoeuvre, f64)> = None;
-    for manoeuvre in
-        [Manoeuvre::Straight, Manoeuvre::Arc, Manoeuvre::CounterRotation, Manoeuvre::Spin]
-    {
-        for third in 0..3 {
-            let (low, high) = (fastest * real(third) / 3.0, fastest * real(third + 1) / 3.0);
-            let chosen: Vec<usize> = (0..residual.len())
-                .filter(|&k| {
-                    let sample = &evidence.samples()[k];
-                    let inside = fast(sample) > low && fast(sample) <= high;
-                    inside && Manoeuvre::of(sample, settings) == manoeuvre
-                })
-                .collect();
-            if chosen.len() < settings.min_samples_named {
-                continue;
-            }
-            let count = real(chosen.len());
-            let square =
-                chosen.iter().map(|&k| weights[k] * residual[k].norm_squared()).sum::<f64>();
-            let speed = chosen.iter().map(|&k| fast(&evidence.samples()[k])).sum::<f64>() / count;
-            let mean = square / count;
-            if best.is_none_or(|(most, ..)| mean > most) {
-                best = Some((mean, manoeuvre, speed));
-            }
+    let regimes: Vec<Option<Regime>> =
+        evidence.samples().iter().map(|sample| Regime::of(sample, fastest, settings)).collect();
+    let mut best: Option<(f64, Regime, f64)> = None;
+    for regime in Regime::all() {
+        let chosen: Vec<usize> =
+            (0..residual.len()).filter(|&k| regimes[k] == Some(regime)).collect();
+        if chosen.len() < settings.min_samples_named {
+            continue;
+        }
+        let count = real(chosen.len());
+        let square = chosen.iter().map(|&k| weights[k] * residual[k].norm_squared()).sum::<f64>();
+        let speed = chosen.iter().map(|&k| faster(&evidence.samples()[k])).sum::<f64>() / count;
+        let mean = square / count;
+        if best.is_none_or(|(most, ..)| mean > most) {
+            best = Some((mean, regime, speed));
         }
     }
-    best.map(|(_, manoeuvre, speed)| (manoeuvre, speed))
+    best.map(|(_, regime, speed)| (regime, speed))
 }

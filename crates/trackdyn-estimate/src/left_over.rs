@@ -2,7 +2,7 @@
 //!
 //! Medians over the half of the segments that should move most by the fit: an outlier is no misfit,
 //! a wrong unit is. What the noise of the poses explains does not count. The half is chosen by the
-//! prediction, since that with most observed motion is that with most noise where the robot is slow.
+//! prediction: where the robot is slow, those with most observed motion are those with most noise.
 
 use crate::observations::{Observation, Observations};
 use crate::parameters::Parameters;

@@ -49,6 +49,17 @@ pub enum Error {
         /// Fingerprint of the kinematics file.
         fingerprint: String,
     },
+    /// Nothing that a viewer could show.
+    #[error("no poses: expected a path of one or more")]
+    NoPoses,
+    /// A time that messages of ROS 2 cannot hold.
+    #[error(
+        "stamp {stamp} ns: expected Unix time before the year 2038, with which stamps of ROS 2 end"
+    )]
+    LateStamp {
+        /// The stamp, ns.
+        stamp: u64,
+    },
     /// A place that is no part of a robot.
     #[error("contact-centre = {x},{y}: expected at most 1e4 m in size")]
     ContactCentre {

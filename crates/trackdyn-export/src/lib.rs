@@ -4,6 +4,7 @@
 //! - [`covariance`]: how wrong its odometry is, from the residuals of a replay.
 //! - [`frames`]: the frame at that point, and the robot's own.
 //! - [`ros2`], [`urdf`], [`gz`]: the files, one module per program.
+//! - [`viewer`]: paths, markers and curves of a drive for Foxglove, Rerun and PlotJuggler.
 //!
 //! Derivation, signs and direction of the transform: `docs/theory/export.md`.
 
@@ -16,6 +17,7 @@ pub mod name;
 pub mod provenance;
 pub mod ros2;
 pub mod urdf;
+pub mod viewer;
 
 mod number;
 

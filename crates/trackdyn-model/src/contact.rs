@@ -32,8 +32,9 @@ pub struct Friction {
 
 /// Friction wrench on the body from the patches of one side, about the frame's origin.
 ///
-/// The pressure vanishes at an edge that moves with the load. Each patch uses the closed form where it is accurate. Where the ICR is so far away that the
-/// closed form cancels, the integrand is smooth and a Gauss rule has the requested digits.
+/// The pressure vanishes at an edge that moves with the load. Each patch uses the closed form where
+/// it is accurate. Where the ICR is so far away that the closed form cancels, the integrand is
+/// smooth and a Gauss rule has the requested digits.
 pub fn friction_wrench<S: Scalar>(
     patches: impl Iterator<Item = Patch<S>> + Clone,
     friction: Friction,

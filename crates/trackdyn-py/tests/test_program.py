@@ -57,6 +57,35 @@ def test_odometry(program, folder, robot, tmp_path):
     assert replay.advice == str(kinematics) and replay.reason is None
 
 
+def test_layers_open_elsewhere(program, folder, tmp_path):
+    """Decoders of others read each message; rosbags by its own definitions, to equal bytes."""
+    reader = pytest.importorskip("mcap.reader")
+    decoder = pytest.importorskip("mcap_ros2.decoder")
+    rosbag2 = pytest.importorskip("rosbags.rosbag2")
+    typesys = pytest.importorskip("rosbags.typesys")
+    done = program("odometry", folder, "--gauge", 0.42, "--mcap", "--out", tmp_path)
+    assert done.returncode == 0, done.stderr
+    path = tmp_path / "odometry.mcap"
+    for name, of in (("observed", "recorded"), ("ideal", "ideal")):
+        files = sorted((tmp_path / "trajectories").glob(f"{of}-run*.tum"))
+        expected = np.concatenate([np.loadtxt(file)[:, 1:] for file in files])
+        found = []
+        with path.open("rb") as file:
+            bag = reader.make_reader(file, True, [decoder.DecoderFactory()])
+            for decoded in bag.iter_decoded_messages(f"/trackdyn/{name}/pose"):
+                pose = decoded.decoded_message.pose
+                at, turn = pose.position, pose.orientation
+                found.append([at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w])
+        assert np.array_equal(np.array(found), expected), name
+    types = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
+    with rosbag2.Reader(path) as bag:
+        topics = {connection.topic for connection in bag.connections}
+        for connection, _, raw in bag.messages():
+            message = types.deserialize_cdr(raw, connection.msgtype)
+            assert bytes(types.serialize_cdr(message, connection.msgtype)) == bytes(raw)
+    assert {"/tf", "/trackdyn/tracks", "/trackdyn/ideal/icrs"} <= topics
+
+
 def test_map(program, tmp_path):
     effect = "load-transfer:cog_height_m=0.3"
     done = program("map", "--effect", effect, "--grid", 11, "--out", tmp_path)

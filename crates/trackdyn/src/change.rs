@@ -2,9 +2,11 @@
 
 use crate::Error;
 use crate::kinematics::source_of;
+use std::fs::File;
+use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 use trackdyn_core::document::Document;
-use trackdyn_core::output::{OutputError, write_file};
+use trackdyn_core::output::{OutputError, write_file, write_stream};
 use trackdyn_model::kinematics::Source;
 
 /// What was done to a file of a folder of results.
@@ -56,6 +58,18 @@ impl<'a> Folder<'a> {
     pub(crate) fn write(&mut self, name: &str, contents: &[u8]) -> Result<(), Error> {
         let path = self.file(name);
         write_file(&path, contents)?;
+        self.changes.push(Change::Wrote(path));
+        Ok(())
+    }
+
+    /// Writes a file piece by piece.
+    pub(crate) fn write_stream(
+        &mut self,
+        name: &str,
+        fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
+    ) -> Result<(), Error> {
+        let path = self.file(name);
+        write_stream(&path, fill)?;
         self.changes.push(Change::Wrote(path));
         Ok(())
     }

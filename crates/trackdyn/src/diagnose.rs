@@ -2,12 +2,14 @@
 
 mod claim;
 mod held_out;
+mod layers;
 
 pub use claim::{Claim, Size};
 pub use held_out::{HeldOut, every_fourth};
 
 use crate::change::Folder;
 use crate::recording::joined;
+use crate::viewer::{self, Layers};
 use crate::{
     Change, Error, MethodSettings, Observer, Progress, Provenance, Recording, Vehicle, unobserved,
 };
@@ -18,6 +20,9 @@ use trackdyn_report::{Figure, Subject, diagnosis_figures, diagnosis_html};
 
 /// Name of the report.
 const REPORT: &str = "report.html";
+
+/// Name of the files for viewers, without extension.
+const LAYERS: &str = "diagnosis";
 
 /// The one figure that not every diagnosis has: points have no path.
 const PATH: &str = "path.png";
@@ -57,6 +62,8 @@ pub struct Prepared {
     runs: Option<String>,
     /// The time of each run that counts, s.
     time: Option<[f64; 2]>,
+    /// What viewers need of the log; none of a table of steady operating points.
+    log: Option<layers::Log>,
 }
 
 impl Prepared {
@@ -103,6 +110,7 @@ impl Prepared {
             fingerprint: recording.fingerprint().to_owned(),
             runs,
             time: recording.time(),
+            log: recording.motion().map(layers::Log::of),
         })
     }
 
@@ -239,7 +247,30 @@ impl Diagnosis {
         Ok(Report { figures, html })
     }
 
-    /// Writes `diagnosis.toml`, `vehicle.corrected.toml`, `report.html` and its figures.
+    /// What Foxglove, Rerun and PlotJuggler show of it: paths and ICRs as observed, as the vehicle
+    /// file has them and as it is corrected, whitened residuals before and after, and how the robot
+    /// drives.
+    ///
+    /// # Errors
+    /// [`Error::NoMotion`] of a table of steady operating points.
+    pub fn layers(&self, provenance: &Provenance) -> Result<Layers, Error> {
+        layers::of(self, provenance)
+    }
+
+    /// Writes `diagnosis.mcap` with these [layers](Self::layers), and layouts beside it.
+    ///
+    /// # Errors
+    /// Those of [`layers`](Self::layers), [`Error::Output`].
+    pub fn write_layers(
+        &self,
+        folder: impl AsRef<Path>,
+        provenance: &Provenance,
+    ) -> Result<Vec<Change>, Error> {
+        viewer::write(&self.layers(provenance)?, folder, LAYERS)
+    }
+
+    /// Writes `diagnosis.toml`, `vehicle.corrected.toml`, `report.html` and its figures. The
+    /// [layers](Self::write_layers) of an earlier diagnosis go; they are written after this.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`], [`Error::Figure`].
@@ -255,6 +286,7 @@ impl Diagnosis {
         for figure in &figures {
             folder.write(&figure.file(), &figure.to_small_png()?)?;
         }
+        viewer::remove_earlier(&mut folder, REPORT, LAYERS)?;
         if figures.iter().all(|figure| figure.file() != PATH) {
             let path = folder.file(PATH);
             folder.remove_earlier(REPORT, [path])?;

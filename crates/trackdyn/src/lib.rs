@@ -55,6 +55,7 @@
 //! | plan the driving that decides what is open | [`plan()`] | [`PlanSettings`] | [`Plan`] |
 //! | follow a path | [`drive()`] | [`DriveSettings`] | [`Drives`] |
 //! | write files of ROS 2, Gazebo, URDF | [`Export`] | [`export`] | text files |
+//! | look at it in Foxglove or PlotJuggler | [`viewer::write`] | [`viewer::Layers`] | `.mcap` |
 //! | check that ICRs stay as they were | [`check()`] | [`Reference`] | [`check::CheckedCase`] |
 //!
 //! All of them are functions over checked types. They print nothing, read nothing from the
@@ -90,6 +91,7 @@ pub mod odometry;
 pub mod plan;
 pub mod recording;
 pub mod simulate;
+pub mod viewer;
 
 /// The crates below, for what the use cases do not cover.
 pub mod crates {

@@ -2,12 +2,14 @@
 
 mod advice;
 mod document;
+mod layers;
 mod names;
 mod runs_table;
 
 pub use advice::{Advice, Compared};
 
 use crate::change::Folder;
+use crate::viewer::{self, Layers};
 use crate::{Change, Error, Figure, Gauge, Parameters, Part, Provenance, Recording};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -18,6 +20,9 @@ use trackdyn_recording::RunList;
 
 /// Name of the document that every replay writes.
 const FILE: &str = "odometry.toml";
+
+/// Name of the files for viewers, without extension.
+const LAYERS: &str = "odometry";
 
 /// Largest coordinate of an ICR, m, and largest alpha, 1, that a replay takes for meant.
 const LARGEST: f64 = 1e3;
@@ -44,6 +49,7 @@ pub struct Odometry {
     replayed: Vec<Replayed>,
     recording: Recording,
     gauge: Gauge,
+    part: Part,
     time: Option<[f64; 2]>,
 }
 
@@ -92,6 +98,7 @@ pub fn odometry(
         replayed,
         recording: corrected.into_owned(),
         gauge,
+        part: settings.part.clone(),
         time: part.time(),
     })
 }
@@ -151,8 +158,30 @@ impl Odometry {
         trackdyn_report::odometry(&self.comparison, self.recording.name(), &caption)
     }
 
+    /// What Foxglove, Rerun and PlotJuggler show of it: the recorded path, those of the ideal drive
+    /// and of each set of parameters as given, the ICRs, track speeds, and residuals by segments.
+    ///
+    /// # Errors
+    /// None for a replay that this library made.
+    pub fn layers(&self, provenance: &Provenance) -> Result<Layers, Error> {
+        layers::of(self, provenance)
+    }
+
+    /// Writes `odometry.mcap` with these [layers](Self::layers), and layouts beside it.
+    ///
+    /// # Errors
+    /// [`Error::Output`].
+    pub fn write_layers(
+        &self,
+        folder: impl AsRef<Path>,
+        provenance: &Provenance,
+    ) -> Result<Vec<Change>, Error> {
+        viewer::write(&self.layers(provenance)?, folder, LAYERS)
+    }
+
     /// Writes `odometry.png`, `runs.csv`, `odometry.toml` and the paths into `trajectories`. Paths
-    /// of an earlier replay go where this one has none.
+    /// of an earlier replay go where this one has none, and so do its [layers](Self::write_layers),
+    /// which are written after this.
     ///
     /// # Errors
     /// [`Error::Output`], [`Error::NotRemoved`], [`Error::Unreadable`], [`Error::Figure`].
@@ -165,6 +194,7 @@ impl Odometry {
         folder.write("odometry.png", &self.figure(provenance).to_png()?)?;
         folder.write("runs.csv", self.runs_csv().as_bytes())?;
         self.write_trajectories(&mut folder)?;
+        viewer::remove_earlier(&mut folder, FILE, LAYERS)?;
         folder.write(FILE, self.to_toml(provenance).as_bytes())?;
         Ok(folder.changes())
     }

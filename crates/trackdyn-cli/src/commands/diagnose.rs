@@ -2,7 +2,7 @@
 
 mod summary;
 
-use crate::changes::{say_removed, written};
+use crate::changes::{say_removed, say_written, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
 use crate::options::{PartOptions, RecordingOptions, refuse_for_points};
@@ -47,6 +47,10 @@ pub struct Options {
     /// Folder for diagnosis.toml, vehicle.corrected.toml, report.html and the figures
     #[arg(long, value_name = "DIR", default_value = "out/diagnosis")]
     out: PathBuf,
+    /// Write diagnosis.mcap too, for Foxglove, Rerun and PlotJuggler, and layouts beside it: paths,
+    /// ICRs and whitened residuals before and after
+    #[arg(long)]
+    mcap: bool,
     #[command(flatten)]
     recording: RecordingOptions,
     /// More recordings of the same robot
@@ -59,8 +63,9 @@ pub struct Options {
 /// Diagnoses, prints the answer in one screen and writes it.
 pub fn run(options: &Options) -> Outcome {
     let vehicle = Vehicle::choose(&options.vehicle)?;
+    let mcap = options.mcap.then(|| "--mcap".to_owned());
     let given: Vec<String> =
-        options.recording.given().into_iter().chain(options.part.given()).collect();
+        options.recording.given().into_iter().chain(options.part.given()).chain(mcap).collect();
     refuse_for_points(&given, &options.recording.recording)?;
     let recordings = recordings(options)?;
     let settings = DiagnoseSettings {
@@ -73,6 +78,9 @@ pub fn run(options: &Options) -> Outcome {
     let diagnosis = Progress::over(|observer| prepared.run(observer))?;
     let changes = diagnosis.write(&options.out, &provenance())?;
     say_changes(&changes);
+    if options.mcap {
+        say_written(&diagnosis.write_layers(&options.out, &provenance())?);
+    }
     show(&summary::text(&diagnosis))?;
     Ok(Exit::Done)
 }

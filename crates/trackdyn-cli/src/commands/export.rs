@@ -1,9 +1,9 @@
-//! `trackdyn export`: the kinematics as files of other programs.
+//! `trackdyn export`: kinematics and drives as files of other programs.
 
-use crate::changes::{say_doubtful, written};
+use crate::changes::{say_doubtful, say_written, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::pair;
+use crate::options::{ReplayOptions, pair};
 use crate::provenance::provenance;
 use crate::stderr::{note, say, warn};
 use clap::{Args, Subcommand};
@@ -32,6 +32,9 @@ enum Target {
     Gz(GzOptions),
     /// The frame at which the robot is an ideal differential drive, as a URDF/xacro fragment
     UrdfFrames(UrdfOptions),
+    /// A drive for Foxglove, Rerun and PlotJuggler: its path, those of the ideal drive and of
+    /// kinematics files, ICRs, speeds and residuals, as messages of ROS 2
+    Mcap(Box<McapOptions>),
 }
 
 #[derive(Args)]
@@ -121,6 +124,15 @@ struct UrdfOptions {
     frames: FrameOptions,
 }
 
+#[derive(Args)]
+struct McapOptions {
+    /// Folder for odometry.mcap, odometry.foxglove.json and odometry.plotjuggler.xml
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    #[command(flatten)]
+    replay: ReplayOptions,
+}
+
 /// What is read and where to write.
 #[derive(Args)]
 struct Files {
@@ -173,13 +185,31 @@ impl FrameOptions {
     }
 }
 
-/// Reads the kinematics, writes the files of one program and names them.
+/// Writes the files of one program and names them.
 pub fn run(options: &Options) -> Outcome {
-    let files = match &options.target {
-        Target::Ros2(options) => &options.files,
-        Target::Gz(options) => &options.files,
-        Target::UrdfFrames(options) => &options.files,
-    };
+    match &options.target {
+        Target::Ros2(options) => {
+            export(&options.files, |export| export.ros2(&options.settings(export)?))
+        }
+        Target::Gz(options) => export(&options.files, |export| {
+            export.gz(&GzSettings {
+                left_tracks: options.left_track.clone(),
+                right_tracks: options.right_track.clone(),
+            })
+        }),
+        Target::UrdfFrames(options) => {
+            export(&options.files, |export| export.urdf(&options.frames.settings(export)?))
+        }
+        Target::Mcap(options) => {
+            let replay = options.replay.replay()?;
+            say_written(&replay.write_layers(&options.out, &provenance())?);
+            Ok(Exit::Done)
+        }
+    }
+}
+
+/// Reads the kinematics, writes the files that are made of them and names them.
+fn export(files: &Files, made: impl FnOnce(&Export) -> Result<Vec<TextFile>, Error>) -> Outcome {
     let export = Export::open(&files.kinematics, &provenance())?;
     let name = files.kinematics.display();
     if export.drive().is_separation_alone {
@@ -191,7 +221,7 @@ pub fn run(options: &Options) -> Outcome {
     if export.drive().is_doubtful {
         say_doubtful(&name.to_string());
     }
-    let exported = exported(&options.target, &export)?;
+    let exported = made(&export)?;
     let sectors = export.drive().sectors;
     if sectors > 0 {
         warn(format_args!(
@@ -203,16 +233,4 @@ pub fn run(options: &Options) -> Outcome {
     let written: Vec<String> = written(&changes).map(|path| path.display().to_string()).collect();
     say(format_args!("wrote {}", written.join(" and ")));
     Ok(Exit::Done)
-}
-
-/// The files of one program.
-fn exported(target: &Target, export: &Export) -> Result<Vec<TextFile>, Error> {
-    match target {
-        Target::Ros2(options) => export.ros2(&options.settings(export)?),
-        Target::Gz(options) => export.gz(&GzSettings {
-            left_tracks: options.left_track.clone(),
-            right_tracks: options.right_track.clone(),
-        }),
-        Target::UrdfFrames(options) => export.urdf(&options.frames.settings(export)?),
-    }
 }

@@ -47,6 +47,7 @@ impl Evidence {
             blocks,
             runs: (0..).take(runs.len()).collect(),
             tau,
+            begin: 0.0,
             has_world: true,
             origin: Origin::Drive(noise),
             description: format!("{blocks} planned manoeuvres"),

@@ -69,6 +69,7 @@ impl Evidence {
             blocks,
             runs: (0..).take(points.len()).collect(),
             tau: 0.0,
+            begin: 0.0,
             has_world: false,
             origin: Origin::SteadyPoints(inverse.into()),
             description: format!(

@@ -58,6 +58,7 @@ impl Evidence {
             blocks: blocks.count(),
             runs: recording.runs().iter().map(Run::id).collect(),
             tau,
+            begin,
             has_world,
             origin: Origin::Drive(noise),
             description: format!(

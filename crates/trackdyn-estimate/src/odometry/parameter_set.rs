@@ -69,13 +69,17 @@ impl ParameterSet {
         }
     }
 
-    /// Twist in ROS axes at measured track speeds, m/s.
-    pub fn twist(&self, measured: PerSide<f64>) -> Twist {
-        let kinematics = match &self.parameters {
+    /// The parameters at measured track speeds, m/s: those of their sector.
+    pub fn kinematics_at(&self, measured: PerSide<f64>) -> Kinematics {
+        match &self.parameters {
             Parameters::Constant(kinematics) => *kinematics,
             Parameters::File(file) => file.kinematics_at(measured),
-        };
-        ros_twist_from_paper(&kinematics.twist(measured))
+        }
+    }
+
+    /// Twist in ROS axes at measured track speeds, m/s.
+    pub fn twist(&self, measured: PerSide<f64>) -> Twist {
+        ros_twist_from_paper(&self.kinematics_at(measured).twist(measured))
     }
 }
 

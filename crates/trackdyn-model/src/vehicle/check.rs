@@ -70,7 +70,8 @@ impl Vehicle {
         Ok(())
     }
 
-    /// The centre of gravity must lie above the contact: |x_c| < L/2, and for one track |y_c| < l/2.
+    /// The centre of gravity must lie above the contact: |x_c| < L/2, and for one track |y_c| <
+    /// l/2.
     fn check_support(&self) -> Result<(), VehicleError> {
         let [x, y] = self.cog;
         let error = |expected: String| VehicleError {

@@ -6,13 +6,9 @@ use crate::colour::INK;
 use crate::figure::{Area, Axis, Figure, Legend, Line, Panel, Swatch, around, entry_colour};
 use crate::paths::{self, Named};
 use crate::ticks::number;
-use nalgebra::Vector3;
 use trackdyn_core::Pose;
-use trackdyn_diagnose::Evidence;
 use trackdyn_diagnose::evidence::Origin;
-use trackdyn_diagnose::hypothesis::Hypothesis;
-use trackdyn_diagnose::mechanics::{Instruments, Mechanics};
-use trackdyn_model::VehicleFile;
+use trackdyn_diagnose::replay;
 
 const HEIGHT: i32 = 1380;
 const PATHS: Area = Area::new(158, sheet::TOP + 130, 960, 900);
@@ -36,7 +32,7 @@ struct Replay {
 
 /// The paths and their errors; none where there are no paths.
 pub(super) fn figure(subject: &Subject) -> Option<Figure> {
-    let replay = replay(subject)?;
+    let replay = replayed(subject)?;
     let held_out = if replay.is_held_out { ", held out of the fit" } else { "" };
     let title = format!("Dead reckoning of run {}{held_out}", replay.run);
     let explanation = "Where the recorded track speeds alone lead, from the first observed pose \
@@ -60,7 +56,7 @@ pub(super) fn figure(subject: &Subject) -> Option<Figure> {
 }
 
 /// The longest of the held-out runs, or of all where none was held out.
-fn replay(subject: &Subject) -> Option<Replay> {
+fn replayed(subject: &Subject) -> Option<Replay> {
     let View { evidence, is_held_out, .. } = subject.judging();
     if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
         return None;
@@ -78,69 +74,11 @@ fn replay(subject: &Subject) -> Option<Replay> {
         .take_while(|sample| sample.run == run && sample.start - start <= MAX_TIME)
         .count();
     let chosen = first..first + count;
-    let observed = poses(evidence, chosen.clone(), |index| samples[index].motion);
-    let replayed = [subject.vehicle, &subject.diagnosis.answer.corrected].map(|file| {
-        let motions = motions(evidence, file);
-        chained(evidence, chosen.clone(), &observed, &motions)
-    });
-    let times = chosen.clone().map(|index| samples[index].start - start);
-    let last = samples[first + count - 1];
-    let times = times.chain([last.start + last.duration - start]).collect();
+    let observed = replay::observed(evidence, chosen.clone());
+    let replayed = [subject.vehicle, &subject.diagnosis.answer.corrected]
+        .map(|file| replay::chained(evidence, chosen.clone(), &replay::motions(evidence, file)));
+    let times = replay::times(evidence, chosen).iter().map(|time| time - start).collect();
     Some(Replay { run: evidence.runs()[run], is_held_out, times, observed, replayed })
-}
-
-/// The motion of every sample with a vehicle file, moved by the recording's clock where the file
-/// says nothing of it.
-fn motions(evidence: &Evidence, file: &VehicleFile) -> Vec<Vector3<f64>> {
-    let hypothesis = Hypothesis::filed(file, &evidence.settings().prior);
-    let mut instruments = Instruments::of(&hypothesis);
-    if instruments.sensor.delay == 0.0 {
-        instruments.sensor.delay = evidence.tau();
-    }
-    Mechanics::new(&hypothesis, evidence).predict(&instruments, evidence)
-}
-
-fn pose(motion: &Vector3<f64>) -> Pose {
-    Pose::new(motion[0], motion[1], motion[2])
-}
-
-/// Observed poses at the beginning of each sample and at the end of the last.
-fn poses(
-    evidence: &Evidence,
-    chosen: std::ops::Range<usize>,
-    motion: impl Fn(usize) -> Vector3<f64>,
-) -> Vec<Pose> {
-    let samples = evidence.samples();
-    let mut poses: Vec<Pose> = chosen.clone().map(|index| samples[index].pose).collect();
-    if let (Some(last), Some(pose_then)) = (chosen.last(), poses.last().copied()) {
-        poses.push(pose_then.compose(&pose(&motion(last))));
-    }
-    poses
-}
-
-/// Predicted motions in a row. Where samples leave a gap, the observed motion bridges it.
-fn chained(
-    evidence: &Evidence,
-    chosen: std::ops::Range<usize>,
-    observed: &[Pose],
-    motions: &[Vector3<f64>],
-) -> Vec<Pose> {
-    const GAP: f64 = 1e-6;
-    let samples = evidence.samples();
-    let Some(mut at) = observed.first().copied() else { return Vec::new() };
-    let mut path = vec![at];
-    for index in chosen.clone() {
-        at = at.compose(&pose(&motions[index]));
-        let next = index + 1;
-        if chosen.contains(&next)
-            && samples[next].start > samples[index].start + samples[index].duration + GAP
-        {
-            let end = samples[index].pose.compose(&pose(&samples[index].motion));
-            at = at.compose(&end.relative(&samples[next].pose));
-        }
-        path.push(at);
-    }
-    path
 }
 
 fn paths(replay: &Replay) -> Panel {

@@ -1,5 +1,6 @@
 //! What can contradict what in a recording.
 
+use crate::sample::Stream;
 use crate::unit;
 use std::fmt;
 use std::str::FromStr;
@@ -11,7 +12,7 @@ use trackdyn_core::Side;
 pub enum DoubtKind {
     /// [`Doubt::Travel`].
     Travel,
-    /// [`Doubt::Stamps`].
+    /// [`Doubt::Stamps`], [`Doubt::CoarseStamps`].
     Stamps,
     /// [`Doubt::YawInDegrees`], [`Doubt::TurnInDegrees`].
     YawUnit,
@@ -93,6 +94,15 @@ pub enum Doubt {
         /// The unit that explains them, where there is one.
         unit: Option<&'static str>,
     },
+    /// Stamps that most rows share with others.
+    CoarseStamps {
+        /// The rows.
+        stream: Stream,
+        /// How many share the stamp of the row before and are not its copies.
+        shared: usize,
+        /// All rows of the run.
+        of: usize,
+    },
     /// Yaw in degrees.
     YawInDegrees,
     /// Poses whose orientation never changes while the tracks turn the robot.
@@ -159,6 +169,12 @@ impl fmt::Display for Doubt {
                     None => write!(f, ", and poses and tracks cover other times"),
                 }
             }
+            Self::CoarseStamps { stream, shared, of } => write!(
+                f,
+                "{}: {shared} of {of} rows share the stamp of the row before and are not its \
+                 copies: stamps of whole seconds, or rounded",
+                stream.name()
+            ),
             Self::YawInDegrees => {
                 write!(f, "yaw follows the path of the poses in degrees, and not in radians")
             }
@@ -225,7 +241,7 @@ impl Doubt {
     pub fn kind(&self) -> DoubtKind {
         match self {
             Self::Travel { .. } => DoubtKind::Travel,
-            Self::Stamps { .. } => DoubtKind::Stamps,
+            Self::Stamps { .. } | Self::CoarseStamps { .. } => DoubtKind::Stamps,
             Self::YawInDegrees | Self::TurnInDegrees { .. } => DoubtKind::YawUnit,
             Self::ConstantOrientation { .. } => DoubtKind::Orientation,
             Self::OutOfPlane { .. } => DoubtKind::OutOfPlane,
@@ -244,6 +260,9 @@ impl Doubt {
             Self::Stamps { .. } => {
                 "expected seconds; of one table with both, --columns t=COLUMN:ms (or us, ns) reads \
                  others"
+            }
+            Self::CoarseStamps { .. } => {
+                "expected a stamp for each row; of a bag, --dated-by log takes the times of logging"
             }
             Self::YawInDegrees => {
                 "expected yaw in rad; of one table, --columns yaw=COLUMN:deg reads degrees"

@@ -2,6 +2,7 @@
 
 use super::finding::Cleaning;
 use crate::doubt::Doubt;
+use std::f64::consts::TAU;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -95,6 +96,12 @@ pub enum Warning {
         /// The topic.
         topic: String,
     },
+    /// Stamps that most readings share with the one before: all messages were dated by their
+    /// logging.
+    CoarseStamps {
+        /// The topic.
+        topic: String,
+    },
     /// Stamps that step back and go on from there, as a simulation does that is reset.
     ClockReset {
         /// The topic.
@@ -102,12 +109,14 @@ pub enum Warning {
         /// Runs that come of it.
         runs: usize,
     },
-    /// A joint that is reported modulo a turn: whole turns were added.
+    /// A joint whose position wraps: what it lacks was added.
     TurnsAdded {
         /// The joint.
         joint: String,
         /// Places at which its position wraps.
         count: usize,
+        /// Modulo what it is reported, rad: a whole turn, or what its jumps show.
+        modulus: f64,
     },
     /// Jumps in the position of a joint that are no wraps: they stay, as speeds that no wheel has.
     JointJumps {
@@ -221,14 +230,24 @@ impl fmt::Display for Warning {
                 "{topic}: its clock was set while it was logged, so all is dated by its logging \
                  (--dated-by header keeps the stamps)"
             ),
+            Self::CoarseStamps { topic } => write!(
+                f,
+                "{topic}: most of its readings share their stamp with another one, so all is dated \
+                 by its logging (--dated-by header keeps the stamps)"
+            ),
             Self::ClockReset { topic, runs } => write!(
                 f,
                 "{topic}: stamps step back and go on from there, as after the reset of a \
                  simulation: {runs} runs"
             ),
-            Self::TurnsAdded { joint, count } => {
+            Self::TurnsAdded { joint, count, modulus } if *modulus == TAU => {
                 write!(f, "{joint}: its position wraps ({count} times), whole turns added")
             }
+            Self::TurnsAdded { joint, count, modulus } => write!(
+                f,
+                "{joint}: its position wraps at {modulus:.4} rad, as its jumps show ({count} \
+                 times): added"
+            ),
             Self::JointJumps { joint, count, t } => write!(
                 f,
                 "{joint}: {count} jumps of its position by more than half a turn that are no \

@@ -2,8 +2,13 @@
 //!
 //! # Law
 //! A message is logged shortly after its stamp. Two topics have one clock where the medians of
-//! stamp − logging differ by no more than a sensor may be late. Where they differ by more while
-//! both were logged over one time, their stamps cannot be compared, and logging dates both.
+//! stamp − logging differ by no more than a sensor may be late, or those of the messages that are
+//! logged soonest: a driver that logs in bursts keeps the others back. Where both differ by more
+//! while both topics were logged over one time, their stamps cannot be compared, and logging dates
+//! both.
+//!
+//! Stamps that most readings share with the one before, though they differ from it, are too coarse
+//! to date them: logging does it then, if it tells the readings apart.
 //!
 //! A stamp that steps back and stays back while logging goes on is a clock that was set anew, as by
 //! the reset of a simulation: what follows is another run.
@@ -12,10 +17,19 @@ use super::date::{Received, seconds};
 use super::options::Dating;
 use crate::far::{self, Parts};
 use crate::recording::Warning;
-use trackdyn_core::robust::median;
+use nalgebra::Isometry3;
+use trackdyn_core::real;
+use trackdyn_core::robust::{median, quantile};
 
 /// Latest that a stamped message may be logged after those of other topics, s: a slow SLAM.
 const MAX_LATENESS: f64 = 2.0;
+
+/// Share of the messages of a topic that are logged later after their stamps than the soonest.
+const SOON_SHARE: f64 = 0.95;
+
+/// Smallest share of readings with the stamp of another one before, from which on stamps are too
+/// coarse.
+const MIN_COARSE_SHARE: f64 = 0.5;
 
 /// Smallest difference of two clocks that is told, s.
 const MIN_TOLD: f64 = 0.2;
@@ -42,6 +56,30 @@ pub(super) enum By {
     Log,
 }
 
+/// What a message says, of which it counts whether it is that of another one again.
+pub(super) trait Reading {
+    /// Whether both say the same; what is no number in both is.
+    fn repeats(&self, other: &Self) -> bool;
+}
+
+impl Reading for f64 {
+    fn repeats(&self, other: &Self) -> bool {
+        self == other || (self.is_nan() && other.is_nan())
+    }
+}
+
+impl<const N: usize> Reading for [f64; N] {
+    fn repeats(&self, other: &Self) -> bool {
+        self.iter().zip(other).all(|(a, b)| a.repeats(b))
+    }
+}
+
+impl Reading for Isometry3<f64> {
+    fn repeats(&self, other: &Self) -> bool {
+        self == other
+    }
+}
+
 /// The clock of a topic.
 #[derive(Clone, Debug)]
 pub(super) struct Clock {
@@ -55,6 +93,10 @@ pub(super) struct Clock {
     broken: bool,
     /// Median of stamp − logging, s.
     ahead: f64,
+    /// Stamp − logging of the messages that are logged soonest, s.
+    soonest: f64,
+    /// Most stamps are those of another reading.
+    coarse: bool,
     /// Time covered by the stamps, and by their logging, s.
     covered: [f64; 2],
     /// First and last logging, ns.
@@ -65,8 +107,9 @@ pub(super) struct Clock {
 
 impl Clock {
     /// The clock of a topic by all its messages.
-    pub(super) fn of<T>(topic: &str, received: &[Received<T>]) -> Self {
+    pub(super) fn of<T: Reading>(topic: &str, received: &[Received<T>]) -> Self {
         let count = received.len();
+        let coarse = are_coarse(received);
         let mut pairs: Vec<(i64, i64)> =
             received.iter().filter_map(|one| Some((one.log_ns, one.stamp_ns?))).collect();
         let undated = count - pairs.len();
@@ -83,7 +126,8 @@ impl Clock {
             covered[0] += seconds(first, last);
             covered[1] += seconds(pairs[0].0, pairs[pairs.len() - 1].0);
         }
-        let ahead = pairs.iter().map(|(logged, stamp)| seconds(*logged, *stamp));
+        let mut ahead: Vec<f64> =
+            pairs.iter().map(|(logged, stamp)| seconds(*logged, *stamp)).collect();
         let logged = received.iter().map(|one| one.log_ns);
         Self {
             topic: topic.to_owned(),
@@ -92,7 +136,9 @@ impl Clock {
             right,
             wrong: dated - pairs.len(),
             broken,
-            ahead: median(&mut ahead.collect::<Vec<_>>()).unwrap_or_default(),
+            ahead: median(&mut ahead).unwrap_or_default(),
+            soonest: quantile(&mut ahead, SOON_SHARE).unwrap_or_default(),
+            coarse,
             covered,
             logged: [logged.clone().min().unwrap_or_default(), logged.max().unwrap_or_default()],
             resets,
@@ -147,7 +193,13 @@ impl Clock {
 
     /// Whether the stamps of two topics differ by more than a delay explains.
     pub(super) fn is_apart_from(&self, other: &Self) -> bool {
-        self.broken || (self.ahead - other.ahead).abs() > MAX_LATENESS
+        self.broken || self.differs_from(other)
+    }
+
+    /// Whether the stamps of two topics differ by more than a delay or bursts explain.
+    fn differs_from(&self, other: &Self) -> bool {
+        let differ = |a: f64, b: f64| (a - b).abs() > MAX_LATENESS;
+        differ(self.ahead, other.ahead) && differ(self.soonest, other.soonest)
     }
 
     /// Whether two topics were logged over one time, at least half of the shorter one.
@@ -178,6 +230,10 @@ fn by_evidence(clocks: &[Clock], warnings: &mut Vec<Warning>) -> By {
         warnings.push(Warning::ClockSet { topic: broken.topic.clone() });
         by = By::Log;
     }
+    if let Some(coarse) = clocks.iter().find(|clock| clock.coarse && by == By::Header) {
+        warnings.push(Warning::CoarseStamps { topic: coarse.topic.clone() });
+        by = By::Log;
+    }
     for other in &clocks[1.min(clocks.len())..] {
         let offset = other.ahead - first.ahead;
         if offset.abs() <= MIN_TOLD || by == By::Log || other.count == 0 {
@@ -187,7 +243,7 @@ fn by_evidence(clocks: &[Clock], warnings: &mut Vec<Warning>) -> By {
         // What is logged before its stamp has another clock than the logger.
         let is_ahead = first.ahead.max(other.ahead) > MAX_AHEAD
             && first.ahead.min(other.ahead).abs() <= MAX_AHEAD;
-        let differ = is_as_logged && (is_ahead || offset.abs() > MAX_LATENESS);
+        let differ = is_as_logged && (is_ahead || other.differs_from(first));
         if differ {
             by = By::Log;
         }
@@ -203,6 +259,20 @@ fn by_evidence(clocks: &[Clock], warnings: &mut Vec<Warning>) -> By {
 /// The run that a message belongs to, by the loggings at which the clock begins anew.
 pub(super) fn segment(resets: &[i64], log_ns: i64) -> usize {
     resets.partition_point(|reset| *reset <= log_ns)
+}
+
+/// Whether most readings have the stamp of the one before, are other readings, and were logged at
+/// times of their own.
+fn are_coarse<T: Reading>(received: &[Received<T>]) -> bool {
+    let shares = |pair: &&[Received<T>]| {
+        let [before, next] = pair else { return false };
+        next.stamp_ns.is_some()
+            && next.stamp_ns == before.stamp_ns
+            && !next.value.repeats(&before.value)
+            && next.log_ns != before.log_ns
+    };
+    let count = received.windows(2).filter(shares).count();
+    real(count) > MIN_COARSE_SHARE * real(received.len())
 }
 
 /// Between which stamps all right ones lie, and whether many lie on both sides of a long gap.
@@ -245,11 +315,11 @@ mod tests {
     const S: i64 = 1_000_000_000;
 
     /// A message every 0.1 s, stamped by a clock.
-    fn clock(topic: &str, count: i64, stamp: impl Fn(i64) -> i64) -> (Clock, Vec<Received<()>>) {
+    fn clock(topic: &str, count: i64, stamp: impl Fn(i64) -> i64) -> (Clock, Vec<Received<f64>>) {
         let all = (0..count).map(|k| Received {
             stamp_ns: Some(stamp(k * S / 10)).filter(|stamp| *stamp != 0),
             log_ns: 1_700_000_000 * S + k * S / 10,
-            value: (),
+            value: 0.0,
         });
         let all: Vec<_> = all.collect();
         (Clock::of(topic, &all), all)
@@ -276,6 +346,34 @@ mod tests {
             assert_eq!(warnings.len(), usize::from(is_told), "{what}: {warnings:?}");
             assert_eq!(decide(&clocks, Dating::Header).0, By::Header);
         }
+    }
+
+    #[test]
+    fn a_driver_that_logs_in_bursts_keeps_its_stamps() {
+        let (_, mut all) = clock("tracks", 600, |t| UNIX + t);
+        for one in &mut all {
+            one.log_ns = UNIX + ((one.log_ns - UNIX) / (5 * S) + 1) * 5 * S;
+        }
+        let tracks = Clock::of("tracks", &all);
+        let poses = clock("poses", 600, |t| UNIX + t - S / 100).0;
+        let (by, warnings) = decide(&[tracks, poses], Dating::Any);
+        assert_eq!((by, warnings.len()), (By::Header, 1), "{warnings:?}");
+    }
+
+    #[test]
+    fn stamps_of_whole_seconds_give_way_to_the_log_and_repeats_do_not() {
+        let coarse = |topic: &str, changes: bool| {
+            let readings = (0..600).map(|k: i32| Received {
+                stamp_ns: Some(UNIX + i64::from(k / 10) * S),
+                log_ns: UNIX + i64::from(k) * S / 10,
+                value: f64::from(if changes { k } else { k / 10 }),
+            });
+            Clock::of(topic, &readings.collect::<Vec<_>>())
+        };
+        let poses = clock("poses", 600, |t| UNIX + t).0;
+        let (by, warnings) = decide(&[coarse("tracks", true), poses.clone()], Dating::Any);
+        assert_eq!((by, warnings.len()), (By::Log, 1), "{warnings:?}");
+        assert_eq!(decide(&[coarse("tracks", false), poses], Dating::Any).0, By::Header);
     }
 
     #[test]

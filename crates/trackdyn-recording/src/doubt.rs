@@ -10,7 +10,7 @@ use trackdyn_core::Side;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DoubtKind {
-    /// [`Doubt::Travel`].
+    /// [`Doubt::Travel`], [`Doubt::Jumps`].
     Travel,
     /// [`Doubt::Stamps`], [`Doubt::CoarseStamps`].
     Stamps,
@@ -87,6 +87,13 @@ pub enum Doubt {
         /// The units that have this ratio; none where no usual ones do.
         units: Option<&'static str>,
     },
+    /// Speeds that no track has, too often to be cut as spikes.
+    Jumps {
+        /// Their share in the readings.
+        share: f64,
+        /// Size of the largest, m/s.
+        largest: f64,
+    },
     /// Stamps in a fraction of a second.
     Stamps {
         /// Median interval of the poses, in what should be s.
@@ -162,6 +169,12 @@ impl fmt::Display for Doubt {
                     None => write!(f, ", which no slip explains"),
                 }
             }
+            Self::Jumps { share, largest } => write!(
+                f,
+                "{:.0} % of the track speeds jump to what no track has and back, up to \
+                 {largest:.1} m/s, too many to be spikes",
+                100.0 * share
+            ),
             Self::Stamps { interval, unit } => {
                 write!(f, "by the stamps there is a pose every {interval:.3} s")?;
                 match unit {
@@ -240,7 +253,7 @@ impl Doubt {
     /// Its kind.
     pub fn kind(&self) -> DoubtKind {
         match self {
-            Self::Travel { .. } => DoubtKind::Travel,
+            Self::Travel { .. } | Self::Jumps { .. } => DoubtKind::Travel,
             Self::Stamps { .. } | Self::CoarseStamps { .. } => DoubtKind::Stamps,
             Self::YawInDegrees | Self::TurnInDegrees { .. } => DoubtKind::YawUnit,
             Self::ConstantOrientation { .. } => DoubtKind::Orientation,
@@ -257,6 +270,10 @@ impl Doubt {
     pub(crate) fn remedy(&self) -> String {
         match self {
             Self::Travel { ratio, .. } => return unit::remedy(*ratio),
+            Self::Jumps { .. } => {
+                "expected speeds of the tracks, with few wrong readings; of a bag, --joint-signal \
+                 and --tracks-topic choose others"
+            }
             Self::Stamps { .. } => {
                 "expected seconds; of one table with both, --columns t=COLUMN:ms (or us, ns) reads \
                  others"

@@ -13,6 +13,7 @@ mod finding;
 mod frozen;
 mod gyro_unit;
 mod idle;
+mod jumps;
 mod kept;
 mod motion;
 mod positions;

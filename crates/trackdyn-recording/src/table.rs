@@ -2,6 +2,7 @@
 
 use crate::Error;
 use csv::{ByteRecord, ErrorKind, Reader, ReaderBuilder};
+use std::cell::Cell;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -10,7 +11,7 @@ mod number;
 mod opening;
 
 pub(crate) use number::number;
-use number::with_commas;
+use number::{shows_decimal_comma, with_commas};
 use opening::Text;
 
 /// A table that is being read, one row at a time.
@@ -19,8 +20,9 @@ pub struct Table {
     reader: Reader<Box<dyn Read + Send>>,
     header: Vec<String>,
     row: ByteRecord,
-    /// Whether numbers are written with a decimal comma.
-    has_commas: bool,
+    /// Whether numbers are written with a decimal comma: beside semicolons, and where a cell before
+    /// has shown it.
+    has_commas: Cell<bool>,
     above: Above,
 }
 
@@ -71,7 +73,8 @@ impl Table {
             let found = if found.is_empty() { "(none)".to_owned() } else { found };
             return Err(Error::Header { path: path.to_owned(), line, found, expected });
         }
-        let (path, row, has_commas) = (path.to_owned(), ByteRecord::new(), delimiter == b';');
+        let (path, row, has_commas) =
+            (path.to_owned(), ByteRecord::new(), Cell::new(delimiter == b';'));
         Ok(Self { path, reader, header, row, has_commas, above })
     }
 
@@ -110,7 +113,13 @@ impl Table {
     /// The cell as a number where it is one; NaN where it is empty.
     pub(crate) fn value(&self, column: usize) -> Option<f64> {
         let cell = self.cell(column);
-        if cell.contains(&b',') { with_commas(cell, self.has_commas) } else { number(cell) }
+        if !cell.contains(&b',') {
+            return number(cell);
+        }
+        if shows_decimal_comma(cell) {
+            self.has_commas.set(true);
+        }
+        with_commas(cell, self.has_commas.get())
     }
 
     /// The cell as a finite number.

@@ -49,7 +49,7 @@ const USUAL_SHARE: f64 = 0.9;
 const MIN_OF_SPEED: f64 = 0.5;
 
 /// Acceleration that no track has, m/s².
-const MAX_ACCELERATION: f64 = 10.0;
+pub(super) const MAX_ACCELERATION: f64 = 10.0;
 
 /// Factor on the limit within [`HALF_WINDOW`] of the ends of a run.
 const AT_END: f64 = 4.0;

@@ -81,6 +81,16 @@ pub enum Warning {
         /// How many.
         count: u64,
     },
+    /// Messages without a stamp, dated by the clock of another topic, which runs at another rate
+    /// than that of the logger.
+    ShownTime {
+        /// Their topic.
+        topic: String,
+        /// How many.
+        count: u64,
+        /// The topic of the clock.
+        clock: String,
+    },
     /// Clocks of two topics that differ by more than messages are late.
     ClocksDiffer {
         /// The topics.
@@ -203,6 +213,12 @@ impl fmt::Display for Warning {
             Self::LogTime { topic, count } => {
                 write!(f, "{topic}: {count} messages without a stamp, dated by their logging")
             }
+            Self::ShownTime { topic, count, clock } => write!(
+                f,
+                "{topic}: {count} messages without a stamp, dated by what the clock of {clock} \
+                 shows at their logging, for it runs at another rate, as in a simulation \
+                 (--dated-by log dates all by logging)"
+            ),
             Self::ClocksDiffer { topics: [first, second], offset, by_log } => {
                 let order = if *offset < 0.0 { "earlier" } else { "later" };
                 write!(

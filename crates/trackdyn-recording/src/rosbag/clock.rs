@@ -7,6 +7,9 @@
 //! while both topics were logged over one time, their stamps cannot be compared, and logging dates
 //! both.
 //!
+//! Messages without stamps are dated by their logging; where the clock of the tracks runs at
+//! another [rate], by what that shows then.
+//!
 //! Stamps that most readings share with the one before, though they differ from it, are too coarse
 //! to date them: logging does it then, if it tells the readings apart.
 //!
@@ -20,6 +23,10 @@ use crate::recording::Warning;
 use nalgebra::Isometry3;
 use trackdyn_core::real;
 use trackdyn_core::robust::{median, quantile};
+
+mod rate;
+
+use rate::Rate;
 
 /// Latest that a stamped message may be logged after those of other topics, s: a slow SLAM.
 const MAX_LATENESS: f64 = 2.0;
@@ -103,6 +110,10 @@ pub(super) struct Clock {
     logged: [i64; 2],
     /// Loggings at which the stamps begin anew, ns.
     resets: Vec<i64>,
+    /// What its stamps show at a logging, where they run at another rate.
+    rate: Option<Rate>,
+    /// The topic whose clock dates messages without stamps, and what that shows.
+    shown: Option<(String, Rate)>,
 }
 
 impl Clock {
@@ -141,6 +152,8 @@ impl Clock {
             coarse,
             covered,
             logged: [logged.clone().min().unwrap_or_default(), logged.max().unwrap_or_default()],
+            rate: Rate::of(&pairs).filter(|_| !broken && resets.is_empty()),
+            shown: None,
             resets,
         }
     }
@@ -157,7 +170,8 @@ impl Clock {
     /// When a message was measured; none where that is not known.
     pub(super) fn date<T>(&self, by: By, one: &Received<T>) -> Option<i64> {
         if by == By::Log || !self.is_stamped() {
-            return Some(one.log_ns);
+            let shown = self.shown.as_ref().filter(|_| by == By::Header);
+            return shown.map_or(Some(one.log_ns), |(_, rate)| rate.at(one.log_ns));
         }
         one.stamp_ns.filter(|stamp| (self.right[0]..=self.right[1]).contains(stamp))
     }
@@ -178,6 +192,10 @@ impl Clock {
             .collect(),
             By::Header => {
                 let (topic, count) = (self.topic.clone(), self.count as u64);
+                if let Some((clock, _)) = &self.shown {
+                    let clock = clock.clone();
+                    return vec![Warning::ShownTime { topic, count, clock }];
+                }
                 Some(Warning::LogTime { topic, count }).filter(|_| count > 0).into_iter().collect()
             }
             By::Log => Vec::new(),
@@ -211,6 +229,16 @@ impl Clock {
     }
 }
 
+/// Dates messages without stamps by the clock of the first topic, where that runs at another rate
+/// than logging.
+pub(super) fn share_rate(clocks: &mut [Clock]) {
+    let Some((first, others)) = clocks.split_first_mut() else { return };
+    let Some(rate) = &first.rate else { return };
+    for other in others.iter_mut().filter(|other| other.count > 0 && !other.is_stamped()) {
+        other.shown = Some((first.topic.clone(), rate.clone()));
+    }
+}
+
 /// By what to date the messages of these topics, the one of the tracks first.
 pub(super) fn decide(clocks: &[Clock], dating: Dating) -> (By, Vec<Warning>) {
     let mut warnings = Vec::new();
@@ -236,7 +264,8 @@ fn by_evidence(clocks: &[Clock], warnings: &mut Vec<Warning>) -> By {
     }
     for other in &clocks[1.min(clocks.len())..] {
         let offset = other.ahead - first.ahead;
-        if offset.abs() <= MIN_TOLD || by == By::Log || other.count == 0 {
+        let is_shown = other.shown.is_some();
+        if offset.abs() <= MIN_TOLD || by == By::Log || other.count == 0 || is_shown {
             continue;
         }
         let is_as_logged = first.is_as_logged() && other.is_as_logged() && can_log(other);

@@ -1,7 +1,7 @@
 //! From messages to a run.
 
 use super::chain;
-use super::clock::{Clock, decide};
+use super::clock::{Clock, decide, share_rate};
 use super::date::{Received, Stamped};
 use super::fixes::{Fix, Yaw};
 use super::frames::{Frames, Hop, is_of_odometry};
@@ -183,6 +183,7 @@ impl<'a> Collector<'a> {
         }
         clocks.push(Clock::of(&pose_topic, &poses));
         clocks.push(Clock::of(&imu_topic, &imu));
+        share_rate(&mut clocks);
         // Poses of a chain are dated already, by the clocks of its links.
         let (by, told) = match chain_by {
             Some(by) => (by, Vec::new()),

@@ -36,17 +36,23 @@ pub(super) fn with_commas(text: &[u8], are_decimal: bool) -> Option<f64> {
         (1.., 1) if text.find(',') < text.find('.') => grouped(',', '.'),
         (1, 1..) => grouped('.', ','),
         (1, 0) => {
-            let (whole, fraction) = text.split_once(',')?;
-            // 1,234 may be a thousand and more
-            let is_clear = are_decimal
-                || fraction.len() != 3
-                || whole.trim_start_matches(['-', '+']) == "0"
-                || whole.len() > 4;
+            let is_clear = are_decimal || shows_decimal_comma(text.as_bytes());
             is_clear.then(|| number(text.replace(',', ".").as_bytes())).flatten()
         }
         (2.., 0) => grouped(',', '.'),
         _ => None,
     }
+}
+
+/// Whether a cell has a comma that parts no thousands: 1,234 may do so.
+pub(super) fn shows_decimal_comma(text: &[u8]) -> bool {
+    let mut parts = text.split(|byte| *byte == b',');
+    let (Some(whole), Some(fraction), None) = (parts.next(), parts.next(), parts.next()) else {
+        return false;
+    };
+    let digits = whole.strip_prefix(b"-").unwrap_or(whole);
+    let are_digits = [digits, fraction].concat().iter().all(u8::is_ascii_digit);
+    are_digits && (fraction.len() != 3 || digits == b"0" || digits.len() > 3)
 }
 
 #[cfg(test)]

@@ -148,6 +148,9 @@ const MIN_CORRELATION: f64 = 0.5;
 /// Correlation of a peak beside which no other is looked for.
 const CLEAR_CORRELATION: f64 = 0.95;
 
+/// Share of the pose intervals that such a peak has to use.
+const MIN_CLEAR_SHARE: f64 = 0.5;
+
 /// Largest part of the variance beside the first peak, 1 − r², that a far one may leave: peaks of
 /// driving that repeats itself are hardly higher.
 const MAX_LEFT_BY_FAR_PEAK: f64 = 0.5;
@@ -216,11 +219,15 @@ impl Peak {
 fn highest(intervals: &Intervals, search: &ClockSearch) -> Result<Peak, usize> {
     let range = [search.earliest, search.latest];
     let near = Peak::within(intervals, range, SEARCH_STEP, MIN_INTERVALS)?;
-    if !near.is_at_end && near.fit.correlation.abs() >= CLEAR_CORRELATION {
+    // A peak of a small part of the poses may be one of chance.
+    let is_of_most =
+        |peak: &Peak| real(peak.fit.count) >= MIN_CLEAR_SHARE * real(intervals.count());
+    let is_clear =
+        |peak: &Peak| peak.fit.correlation.abs() >= CLEAR_CORRELATION && is_of_most(peak);
+    if !near.is_at_end && is_clear(&near) {
         return Ok(near);
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of them")]
-    let needed = ((MIN_SHARE * real(near.fit.count)) as usize).max(MIN_INTERVALS);
+    let needed = share(near.fit.count);
     let reach = [-search.farthest, search.farthest];
     let far = Peak::within(intervals, reach, FAR_STEP, needed)
         .ok()
@@ -229,10 +236,18 @@ fn highest(intervals: &Intervals, search: &ClockSearch) -> Result<Peak, usize> {
         Some(far) => around(intervals, far, needed)?,
         None => uphill(intervals, near, search)?,
     };
-    if best.fit.correlation >= CLEAR_CORRELATION {
+    if best.fit.correlation > 0.0 && is_clear(&best) {
         return Ok(best);
     }
-    Ok(farthest(intervals, search, needed).unwrap_or(best))
+    let farther =
+        |far: &Peak| best.fit.correlation < CLEAR_CORRELATION || far.fit.count > 2 * best.fit.count;
+    Ok(farthest(intervals, search).filter(farther).unwrap_or(best))
+}
+
+/// Fewest of so many pose intervals that a far offset may use.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of them")]
+fn share(count: usize) -> usize {
+    ((MIN_SHARE * real(count)) as usize).max(MIN_INTERVALS)
 }
 
 /// The peak near one of a coarse search.
@@ -244,17 +259,23 @@ fn around(intervals: &Intervals, coarse: Peak, needed: usize) -> Result<Peak, us
 
 /// The peak that the correlation rises to from an end of the first range.
 fn uphill(intervals: &Intervals, near: Peak, search: &ClockSearch) -> Result<Peak, usize> {
+    let within = |tau: f64| tau.clamp(-search.farthest, search.farthest);
     let mut peak = near;
-    while peak.is_at_end && peak.tau.abs() < search.farthest {
-        let within = |tau: f64| tau.clamp(-search.farthest, search.farthest);
+    while peak.is_at_end {
         let around = [within(peak.tau - UPHILL), within(peak.tau + UPHILL)];
-        peak = Peak::within(intervals, around, SEARCH_STEP, MIN_INTERVALS)?;
+        let next = Peak::within(intervals, around, SEARCH_STEP, MIN_INTERVALS)?;
+        let rises = next.fit.correlation.abs() > peak.fit.correlation.abs();
+        peak = Peak { is_at_end: next.is_at_end, ..if rises { next } else { peak } };
+        if !rises {
+            break;
+        }
     }
     Ok(peak)
 }
 
 /// A clear peak beyond the search: of clocks that were set by hand, or in another time zone.
-fn farthest(intervals: &Intervals, search: &ClockSearch, needed: usize) -> Option<Peak> {
+fn farthest(intervals: &Intervals, search: &ClockSearch) -> Option<Peak> {
+    let needed = share(intervals.count());
     let stride = intervals.count().div_ceil(MAX_INTERVALS).max(1);
     let range = [-search.last, search.last];
     let far = Peak::of_every(stride, intervals, range, FAR_STEP, needed.div_ceil(stride)).ok()?;

@@ -238,7 +238,7 @@ mod tests {
         let (only, options) = of_tracks(1.0 / 19.6, 0.05).expect("near");
         assert!(!only.contains("too near"), "{only}");
         assert!(options.contains("--speed-unit m/s") && !options.contains("turns"), "{options}");
-        assert_eq!(of_tracks(1.0 / 6.28, 0.05), None);
+        assert_eq!(of_tracks(1.0 / 6.2, 0.05), None);
         assert_eq!(of_tracks(9.5, 0.165), None);
     }
 }

@@ -63,13 +63,8 @@ fn days(date: &str) -> Option<f64> {
         let parts: Result<Vec<i32>, _> = date.split(separator).map(str::parse).collect();
         parts.ok()?.try_into().ok()
     };
-    let [year, month, day] = match parts('-').or_else(|| parts('/')) {
-        Some(ymd) => ymd,
-        None => {
-            let [day, month, year] = parts('.')?;
-            [year, month, day]
-        }
-    };
+    let with_points = || parts('.').map(|[day, month, year]| [year, month, day]);
+    let [year, month, day] = parts('-').or_else(|| parts('/')).or_else(with_points)?;
     if !(1900..3000).contains(&year) || !(1..=12).contains(&month) || !(1..=31).contains(&day) {
         return None;
     }

@@ -4,6 +4,10 @@ use super::{Columns, Key, Unit};
 use crate::Error;
 use crate::table::Table;
 
+/// What a cell of a row of units may be.
+const EXPECTED: &str = "a number, or in a row of units one that --columns takes and that is not \
+                        contrary to it";
+
 /// Columns with the units of the current row, where that is a row of units; none where it is not.
 ///
 /// # Errors
@@ -32,14 +36,10 @@ pub(super) fn of_row(columns: &Columns, table: &Table) -> Result<Option<Columns>
             continue;
         }
         let unit = key.unit(&text).filter(|unit| column.unit == Unit::Open || column.unit == *unit);
-        match unit {
-            Some(unit) => column.unit = unit,
-            None => {
-                let expected = "a number, or in a row of units one that --columns takes and that \
-                                is not contrary to it";
-                return Err(table.cell_error(place, expected));
-            }
-        }
+        let Some(unit) = unit else {
+            return Err(table.cell_error(place, EXPECTED));
+        };
+        column.unit = unit;
     }
     Ok(Some(found))
 }

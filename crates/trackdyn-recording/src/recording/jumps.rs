@@ -14,6 +14,9 @@ use trackdyn_core::{Side, real};
 /// Difference of two ways in the median one.
 const MIN_JUMP: f64 = 10.0;
 
+/// Fewest jumps that are too many.
+const MIN_JUMPS: usize = 20;
+
 /// Largest share of readings that may jump.
 const MAX_SHARE: f64 = 0.05;
 
@@ -55,5 +58,5 @@ fn of_side(runs: &[Run], side: Side) -> Option<Doubt> {
     // A jump leads to a reading and away from it.
     let count = all.iter().map(|(_, readings)| readings.len()).sum::<usize>();
     let share = 0.5 * real(jumps) / real(count.max(1));
-    (share > MAX_SHARE).then_some(Doubt::Jumps { share, largest })
+    (share > MAX_SHARE && jumps >= MIN_JUMPS).then_some(Doubt::Jumps { share, largest })
 }

@@ -81,8 +81,8 @@ pub enum Warning {
         /// How many.
         count: u64,
     },
-    /// Messages without a stamp, dated by the clock of another topic, which runs at another rate
-    /// than that of the logger.
+    /// Messages without a stamp by the clock of another topic, which runs at another rate than that
+    /// of the logger and dates them.
     ShownTime {
         /// Their topic.
         topic: String,
@@ -215,31 +215,12 @@ impl fmt::Display for Warning {
             }
             Self::ShownTime { topic, count, clock } => write!(
                 f,
-                "{topic}: {count} messages without a stamp, dated by what the clock of {clock} \
-                 shows at their logging, for it runs at another rate, as in a simulation \
+                "{topic}: {count} messages are dated by what the clock of {clock} shows at their \
+                 logging, for it runs at another rate, as in a simulation, and does not stamp them \
                  (--dated-by log dates all by logging)"
             ),
-            Self::ClocksDiffer { topics: [first, second], offset, by_log } => {
-                let order = if *offset < 0.0 { "earlier" } else { "later" };
-                write!(
-                    f,
-                    "clocks: by the log, stamps of {second} are {:.3} s {order} than those of \
-                     {first}: ",
-                    offset.abs()
-                )?;
-                if *by_log {
-                    write!(
-                        f,
-                        "clocks of their own, so all is dated by its logging (--dated-by header \
-                         keeps the stamps)"
-                    )
-                } else {
-                    write!(
-                        f,
-                        "taken for a delay, so the stamps are kept (--dated-by log, or --tau, if \
-                         the clocks differ)"
-                    )
-                }
+            Self::ClocksDiffer { topics, offset, by_log } => {
+                clocks_differ(f, topics, *offset, *by_log)
             }
             Self::ClockSet { topic } => write!(
                 f,
@@ -256,14 +237,7 @@ impl fmt::Display for Warning {
                 "{topic}: stamps step back and go on from there, as after the reset of a \
                  simulation: {runs} runs"
             ),
-            Self::TurnsAdded { joint, count, modulus } if *modulus == TAU => {
-                write!(f, "{joint}: its position wraps ({count} times), whole turns added")
-            }
-            Self::TurnsAdded { joint, count, modulus } => write!(
-                f,
-                "{joint}: its position wraps at {modulus:.4} rad, as its jumps show ({count} \
-                 times): added"
-            ),
+            Self::TurnsAdded { joint, count, modulus } => turns_added(f, joint, *count, *modulus),
             Self::JointJumps { joint, count, t } => write!(
                 f,
                 "{joint}: {count} jumps of its position by more than half a turn that are no \
@@ -310,4 +284,41 @@ fn positions_unknown(f: &mut fmt::Formatter<'_>, runs: usize, of: usize) -> fmt:
                  positions are not known, {}",
         if runs == of { "only yaw counts" } else { "and these runs are left out" }
     )
+}
+
+fn turns_added(f: &mut fmt::Formatter<'_>, joint: &str, count: usize, modulus: f64) -> fmt::Result {
+    if modulus == TAU {
+        return write!(f, "{joint}: its position wraps ({count} times), whole turns added");
+    }
+    write!(
+        f,
+        "{joint}: its position wraps at {modulus:.4} rad, as its jumps show ({count} times): added"
+    )
+}
+
+fn clocks_differ(
+    f: &mut fmt::Formatter<'_>,
+    [first, second]: &[String; 2],
+    offset: f64,
+    by_log: bool,
+) -> fmt::Result {
+    let order = if offset < 0.0 { "earlier" } else { "later" };
+    write!(
+        f,
+        "clocks: by the log, stamps of {second} are {:.3} s {order} than those of {first}: ",
+        offset.abs()
+    )?;
+    if by_log {
+        write!(
+            f,
+            "clocks of their own, so all is dated by its logging (--dated-by header keeps the \
+             stamps)"
+        )
+    } else {
+        write!(
+            f,
+            "taken for a delay, so the stamps are kept (--dated-by log, or --tau, if the clocks \
+             differ)"
+        )
+    }
 }

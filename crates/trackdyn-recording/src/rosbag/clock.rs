@@ -169,9 +169,14 @@ impl Clock {
 
     /// When a message was measured; none where that is not known.
     pub(super) fn date<T>(&self, by: By, one: &Received<T>) -> Option<i64> {
-        if by == By::Log || !self.is_stamped() {
-            let shown = self.shown.as_ref().filter(|_| by == By::Header);
-            return shown.map_or(Some(one.log_ns), |(_, rate)| rate.at(one.log_ns));
+        if by == By::Log {
+            return Some(one.log_ns);
+        }
+        if let Some((_, rate)) = &self.shown {
+            return rate.at(one.log_ns);
+        }
+        if !self.is_stamped() {
+            return Some(one.log_ns);
         }
         one.stamp_ns.filter(|stamp| (self.right[0]..=self.right[1]).contains(stamp))
     }
@@ -182,6 +187,10 @@ impl Clock {
             let (topic, reason) = (self.topic.clone(), reason.to_owned());
             (count > 0).then_some(Warning::MessagesSkipped { topic, count: count as u64, reason })
         };
+        if let Some((clock, _)) = self.shown.as_ref().filter(|_| by == By::Header) {
+            let (topic, count, clock) = (self.topic.clone(), self.count as u64, clock.clone());
+            return vec![Warning::ShownTime { topic, count, clock }];
+        }
         match by {
             By::Header if self.is_stamped() => [
                 skipped(self.undated, "it has no stamp, as others have"),
@@ -192,10 +201,6 @@ impl Clock {
             .collect(),
             By::Header => {
                 let (topic, count) = (self.topic.clone(), self.count as u64);
-                if let Some((clock, _)) = &self.shown {
-                    let clock = clock.clone();
-                    return vec![Warning::ShownTime { topic, count, clock }];
-                }
                 Some(Warning::LogTime { topic, count }).filter(|_| count > 0).into_iter().collect()
             }
             By::Log => Vec::new(),
@@ -229,12 +234,13 @@ impl Clock {
     }
 }
 
-/// Dates messages without stamps by the clock of the first topic, where that runs at another rate
-/// than logging.
+/// Dates messages without stamps, or with those of another clock, by the clock of the first topic,
+/// where that runs at another rate than logging.
 pub(super) fn share_rate(clocks: &mut [Clock]) {
     let Some((first, others)) = clocks.split_first_mut() else { return };
     let Some(rate) = &first.rate else { return };
-    for other in others.iter_mut().filter(|other| other.count > 0 && !other.is_stamped()) {
+    let has_other_clock = |other: &Clock| !other.is_stamped() || other.differs_from(first);
+    for other in others.iter_mut().filter(|other| other.count > 0 && has_other_clock(other)) {
         other.shown = Some((first.topic.clone(), rate.clone()));
     }
 }
@@ -403,6 +409,27 @@ mod tests {
         let (by, warnings) = decide(&[coarse("tracks", true), poses.clone()], Dating::Any);
         assert_eq!((by, warnings.len()), (By::Log, 1), "{warnings:?}");
         assert_eq!(decide(&[coarse("tracks", false), poses], Dating::Any).0, By::Header);
+    }
+
+    #[test]
+    fn a_simulation_dates_what_it_does_not_stamp() {
+        // The simulation takes three times as long as it simulates.
+        let (_, mut all) = clock("tracks", 600, |t| t + S);
+        for one in &mut all {
+            one.log_ns = UNIX + 3 * (one.log_ns - UNIX);
+        }
+        let tracks = Clock::of("tracks", &all);
+        for stamp in [|_| 0, |t| UNIX + 3 * t] {
+            let (_, mut poses) = clock("poses", 600, stamp);
+            for one in &mut poses {
+                one.log_ns = UNIX + 3 * (one.log_ns - UNIX);
+            }
+            let mut clocks = [tracks.clone(), Clock::of("poses", &poses)];
+            share_rate(&mut clocks);
+            assert_eq!(decide(&clocks, Dating::Any), (By::Header, Vec::new()));
+            assert_eq!(clocks[1].date(By::Header, &poses[300]), Some(31 * S));
+            assert!(matches!(clocks[1].warnings(By::Header)[..], [Warning::ShownTime { .. }]));
+        }
     }
 
     #[test]

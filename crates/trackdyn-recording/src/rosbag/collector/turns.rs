@@ -90,13 +90,12 @@ impl Steps {
                 let last = before.unwrap_or(0.0);
                 let goes_on = |other: f64| (shortest - other).abs() <= 0.25 * modulus;
                 let after = step_after(place);
-                let is_wrap = match known {
-                    Some(_) => goes_on(last) || after.is_some_and(goes_on),
-                    None => {
-                        let first = before.or(after).unwrap_or(shortest);
-                        let is_turn = modulus::is_of_a_turn(step, first, after.unwrap_or(first));
-                        within_a_turn && goes_on(last) && is_turn
-                    }
+                let is_wrap = if known.is_some() {
+                    goes_on(last) || after.is_some_and(goes_on)
+                } else {
+                    let first = before.or(after).unwrap_or(shortest);
+                    let is_turn = modulus::is_of_a_turn(step, first, after.unwrap_or(first));
+                    within_a_turn && goes_on(last) && is_turn
                 };
                 if is_wrap {
                     turns -= step.signum();

@@ -3,7 +3,6 @@
 use crate::Error;
 use crate::doubt::{Doubt, DoubtKind};
 use std::path::PathBuf;
-use trackdyn_core::{PerSide, Side};
 
 mod cleaning;
 mod content;
@@ -119,10 +118,9 @@ impl Recording {
             without_yaw += run.poses.samples.iter().filter(|row| lacks_yaw(row)).count();
             kept.push(Run::new(run, &mut cleanings));
         }
-        let usual = PerSide::from_fn(|side: Side| {
-            let readings = kept.iter().flat_map(Run::tracks);
-            wide_spikes::largest_usual_speed(readings.map(|reading| reading.speeds()[side]))
-        });
+        let speeds = kept.iter().flat_map(Run::tracks);
+        let speeds = speeds.flat_map(|reading| [reading.v_left, reading.v_right]);
+        let usual = wide_spikes::largest_usual_speed(speeds);
         let mut kept: Vec<Run> =
             kept.into_iter().map(|run| run.mended(usual, &mut cleanings)).collect();
         let leave_out = |kept: &mut Vec<Run>, warnings: &mut Vec<Warning>| {

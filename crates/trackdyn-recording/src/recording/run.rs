@@ -5,7 +5,6 @@ use super::finding::Cleaning;
 use super::positions::settle;
 use super::spikes::mend;
 use crate::sample::{ImuSample, PoseSample, Series, TrackSample};
-use trackdyn_core::PerSide;
 
 /// The rows of a run as a reader found them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,8 +52,8 @@ impl Run {
     }
 
     /// This run with its spikes mended: once, where it is read, for a part of it has another
-    /// spread. `usual` is the largest usual speed of each side, m/s.
-    pub(super) fn mended(mut self, usual: PerSide<f64>, cleanings: &mut Vec<Cleaning>) -> Self {
+    /// spread. `usual` is the largest usual speed, m/s.
+    pub(super) fn mended(mut self, usual: f64, cleanings: &mut Vec<Cleaning>) -> Self {
         let dropped = mend(&mut self.tracks.samples, usual, self.id, cleanings);
         if !dropped.is_empty() {
             let rows = 0..self.tracks.samples.len();

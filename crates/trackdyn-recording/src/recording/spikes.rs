@@ -58,11 +58,11 @@ const AT_END: f64 = 4.0;
 const MIN_DROPPED: usize = 5;
 
 /// Replaces the spikes of either side; `usual` is the [largest usual
-/// speed](super::wide_spikes::largest_usual_speed) of each, m/s, and `cleanings` takes what was
-/// found. Returns the rows that cannot be replaced, in order.
+/// speed](super::wide_spikes::largest_usual_speed), m/s, and `cleanings` takes what was found.
+/// Returns the rows that cannot be replaced, in order.
 pub(super) fn mend(
     tracks: &mut [TrackSample],
-    usual: PerSide<f64>,
+    usual: f64,
     run: i64,
     cleanings: &mut Vec<Cleaning>,
 ) -> Vec<usize> {
@@ -83,7 +83,7 @@ pub(super) fn mend(
             count += spikes.len();
             bridge(&times, speeds, spikes);
         };
-        let wide = wide_spikes(&speeds, usual[side], Distances::of(&speeds, possible).least);
+        let wide = wide_spikes(&speeds, usual, Distances::of(&speeds, possible).least);
         let long = wide.iter().filter(|spike| spike.len() >= MIN_DROPPED);
         dropped.extend(long.cloned().flatten());
         replace(&mut speeds, &wide.into_iter().flatten().collect::<Vec<usize>>());
@@ -166,8 +166,8 @@ pub(super) fn bridge(times: &[f64], values: &mut [f64], places: &[usize]) {
 mod tests {
     use super::*;
 
-    /// Largest usual speed of either side, m/s.
-    const USUAL: PerSide<f64> = PerSide { left: 0.9, right: 0.9 };
+    /// Largest usual speed, m/s.
+    const USUAL: f64 = 0.9;
 
     /// A drive at 50 Hz that speeds up, turns, stops and reverses, with noise of 5 mm/s.
     fn drive() -> Vec<TrackSample> {

@@ -26,8 +26,8 @@ const GOOD_SHARE: f64 = 0.97;
 /// Speed of a spike in the largest speed of this share.
 const MIN_SPEED_RATIO: f64 = 3.0;
 
-/// The speed that usual readings keep below, by the speeds of all runs, m/s; infinite where nothing
-/// moves.
+/// The speed that usual readings keep below, by the speeds of both sides in all runs, m/s; infinite
+/// where nothing moves.
 pub(super) fn largest_usual_speed(speeds: impl Iterator<Item = f64>) -> f64 {
     let mut moving: Vec<f64> = speeds.map(f64::abs).filter(|size| *size > MIN_MOVING).collect();
     quantile(&mut moving, GOOD_SHARE).unwrap_or(f64::INFINITY)

@@ -100,7 +100,7 @@ pub struct RecordingOptions {
     /// One table of track speeds and poses (.csv): its columns by key, with a unit after a colon
     /// and a `-` before a sign that is wrong, such as
     /// t=Time:ms,v_l=left:rpm,v_r=-right:rpm,x=px:mm,y=py:mm,yaw=heading:deg. Units: s, ms, us, ns,
-    /// min; those of --speed-unit; m, cm, mm, km, ft; rad, deg, compass (clockwise from north, x
+    /// min, h, d; those of --speed-unit; m, cm, mm, km, ft; rad, deg, compass (clockwise from north, x
     /// east). qx, qy, qz, qw may stand for yaw; run parts the table into runs
     #[arg(long, value_name = "KEY=COLUMN,...")]
     columns: Option<Columns>,
@@ -132,6 +132,10 @@ pub struct RecordingOptions {
     /// Bag: frame whose poses they are
     #[arg(long, value_name = "FRAME")]
     child_frame: Option<String>,
+    /// Bag: topic of the IMU, where it has several; --pose-topic with that of an IMU takes the yaw of
+    /// its gyroscope in place of poses
+    #[arg(long, value_name = "TOPIC")]
+    imu_topic: Option<String>,
     /// Bag without joints: topic of a twist (Odometry, Twist, TwistStamped) that track speeds are
     /// computed from; right only where its driver computes it from the encoders alone
     #[arg(long, value_name = "TOPIC")]
@@ -242,6 +246,7 @@ impl RecordingOptions {
                 pose_index: self.pose_index,
                 parent_frame: self.parent_frame.clone(),
                 child_frame: self.child_frame.clone(),
+                imu_topic: self.imu_topic.clone(),
                 twist_topic: self.twist_topic.clone(),
                 separation: self.separation,
                 left_signals: self.left_signal.clone(),
@@ -256,7 +261,6 @@ impl RecordingOptions {
                 mount_yaw: self.mount_yaw.map(f64::to_radians),
                 gyro_in_degrees: matches!(self.gyro_unit, Some(GyroUnit::Degrees)),
                 accepted: self.accept.clone(),
-                ..BagOptions::default()
             },
         }
     }

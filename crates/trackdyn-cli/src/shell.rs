@@ -70,6 +70,7 @@ pub fn reading(options: &ReadOptions, needs_radius: bool) -> Vec<String> {
     add("pose-index", index.as_deref());
     add("parent-frame", bag.parent_frame.as_deref());
     add("child-frame", bag.child_frame.as_deref());
+    add("imu-topic", bag.imu_topic.as_deref());
     add(
         "dated-by",
         match bag.dated_by {

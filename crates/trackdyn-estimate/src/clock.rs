@@ -6,7 +6,7 @@
 //! constant yaw rate.
 //!
 //! The correlation of Δψ and D (b removed) is searched for its peak: first where offsets usually
-//! are, and where no clear peak lies there, as far as it takes. The peak itself is not the
+//! are, from there on uphill, and where no clear peak is found, as far as it takes. The peak itself is not the
 //! estimate: encoder noise averages better where D cuts readings in two, which pulls the peak by up
 //! to half a reading. From there on, the residual is made orthogonal to D before and after the
 //! interval (lead minus lag for τ, lead plus lag for k, Δt for b). These instruments share no
@@ -43,11 +43,13 @@ pub struct ClockSearch {
     pub latest: f64,
     /// Size of the offsets that are looked at where no clear peak lies between these two, s.
     pub farthest: f64,
+    /// Size of the offsets of which a clear peak is taken where none of these is clear, s.
+    pub last: f64,
 }
 
 impl Default for ClockSearch {
     fn default() -> Self {
-        Self { earliest: -0.5, latest: 1.0, farthest: 60.0 }
+        Self { earliest: -0.5, latest: 1.0, farthest: 60.0, last: 600.0 }
     }
 }
 
@@ -146,9 +148,18 @@ const MIN_CORRELATION: f64 = 0.5;
 /// Correlation of a peak beside which no other is looked for.
 const CLEAR_CORRELATION: f64 = 0.95;
 
+/// Share of the pose intervals that such a peak has to use.
+const MIN_CLEAR_SHARE: f64 = 0.5;
+
 /// Largest part of the variance beside the first peak, 1 − r², that a far one may leave: peaks of
 /// driving that repeats itself are hardly higher.
 const MAX_LEFT_BY_FAR_PEAK: f64 = 0.5;
+
+/// Most pose intervals of the search that is tried last.
+const MAX_INTERVALS: usize = 2000;
+
+/// Width of the search uphill on either side, s.
+const UPHILL: f64 = 1.0;
 
 /// Smallest share of the pose intervals that a far offset may use.
 const MIN_SHARE: f64 = 0.3;
@@ -170,11 +181,22 @@ impl Peak {
         step: f64,
         needed: usize,
     ) -> Result<Self, usize> {
+        Self::of_every(1, intervals, [first, last], step, needed)
+    }
+
+    /// As [`Peak::within`], by every so many of the pose intervals.
+    fn of_every(
+        stride: usize,
+        intervals: &Intervals,
+        [first, last]: [f64; 2],
+        step: f64,
+        needed: usize,
+    ) -> Result<Self, usize> {
         let (mut best, mut most): (Option<Self>, usize) = (None, 0);
         let taus =
             (0..).map(|k| first + step * real(k)).take_while(|tau| *tau <= last + step / 2.0);
         for tau in taus {
-            let fit = intervals.fit(tau);
+            let fit = intervals.fit(tau, stride);
             most = most.max(fit.count);
             let is_better =
                 best.is_none_or(|best| fit.correlation.abs() > best.fit.correlation.abs());
@@ -197,19 +219,68 @@ impl Peak {
 fn highest(intervals: &Intervals, search: &ClockSearch) -> Result<Peak, usize> {
     let range = [search.earliest, search.latest];
     let near = Peak::within(intervals, range, SEARCH_STEP, MIN_INTERVALS)?;
-    if !near.is_at_end && near.fit.correlation.abs() >= CLEAR_CORRELATION {
+    // A peak of a small part of the poses may be one of chance.
+    let is_of_most =
+        |peak: &Peak| real(peak.fit.count) >= MIN_CLEAR_SHARE * real(intervals.count());
+    let is_clear =
+        |peak: &Peak| peak.fit.correlation.abs() >= CLEAR_CORRELATION && is_of_most(peak);
+    if !near.is_at_end && is_clear(&near) {
         return Ok(near);
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of them")]
-    let needed = ((MIN_SHARE * real(near.fit.count)) as usize).max(MIN_INTERVALS);
+    let needed = share(near.fit.count);
     let reach = [-search.farthest, search.farthest];
-    let Ok(far) = Peak::within(intervals, reach, FAR_STEP, needed) else { return Ok(near) };
-    if far.left() > MAX_LEFT_BY_FAR_PEAK * near.left() {
-        return Ok(near);
+    let far = Peak::within(intervals, reach, FAR_STEP, needed)
+        .ok()
+        .filter(|far| far.left() <= MAX_LEFT_BY_FAR_PEAK * near.left());
+    let best = match far {
+        Some(far) => around(intervals, far, needed)?,
+        None => uphill(intervals, near, search)?,
+    };
+    if best.fit.correlation > 0.0 && is_clear(&best) {
+        return Ok(best);
     }
-    let around = [far.tau - FAR_STEP, far.tau + FAR_STEP];
+    let farther =
+        |far: &Peak| best.fit.correlation < CLEAR_CORRELATION || far.fit.count > 2 * best.fit.count;
+    Ok(farthest(intervals, search).filter(farther).unwrap_or(best))
+}
+
+/// Fewest of so many pose intervals that a far offset may use.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of them")]
+fn share(count: usize) -> usize {
+    ((MIN_SHARE * real(count)) as usize).max(MIN_INTERVALS)
+}
+
+/// The peak near one of a coarse search.
+fn around(intervals: &Intervals, coarse: Peak, needed: usize) -> Result<Peak, usize> {
+    let around = [coarse.tau - FAR_STEP, coarse.tau + FAR_STEP];
     let fine = Peak::within(intervals, around, SEARCH_STEP, needed)?;
-    Ok(Peak { is_at_end: far.is_at_end, ..fine })
+    Ok(Peak { is_at_end: coarse.is_at_end, ..fine })
+}
+
+/// The peak that the correlation rises to from an end of the first range.
+fn uphill(intervals: &Intervals, near: Peak, search: &ClockSearch) -> Result<Peak, usize> {
+    let within = |tau: f64| tau.clamp(-search.farthest, search.farthest);
+    let mut peak = near;
+    while peak.is_at_end {
+        let around = [within(peak.tau - UPHILL), within(peak.tau + UPHILL)];
+        let next = Peak::within(intervals, around, SEARCH_STEP, MIN_INTERVALS)?;
+        let rises = next.fit.correlation.abs() > peak.fit.correlation.abs();
+        peak = Peak { is_at_end: next.is_at_end, ..if rises { next } else { peak } };
+        if !rises {
+            break;
+        }
+    }
+    Ok(peak)
+}
+
+/// A clear peak beyond the search: of clocks that were set by hand, or in another time zone.
+fn farthest(intervals: &Intervals, search: &ClockSearch) -> Option<Peak> {
+    let needed = share(intervals.count());
+    let stride = intervals.count().div_ceil(MAX_INTERVALS).max(1);
+    let range = [-search.last, search.last];
+    let far = Peak::of_every(stride, intervals, range, FAR_STEP, needed.div_ceil(stride)).ok()?;
+    let fine = around(intervals, far, needed).ok()?;
+    (fine.fit.correlation >= CLEAR_CORRELATION && !fine.is_at_end).then_some(fine)
 }
 
 /// Estimates the clock offset.
@@ -231,7 +302,7 @@ pub fn clock_offset(recording: &Recording, search: &ClockSearch) -> Result<Clock
         )));
     }
     if correlation < 0.0 {
-        return Err(Error::Swapped { correlation });
+        return Err(Error::Swapped { correlation, farthest: search.last });
     }
     if is_at_end {
         return Err(Error::ClockFar { tau: coarse, farthest: search.farthest });

@@ -75,9 +75,10 @@ pub enum Error {
     },
     /// The clock offset lies beyond all that were tried.
     #[error(
-        "the clocks of poses and tracks differ by {tau:.2} s or more: the best clock offset lies \
-         at an end of the search, up to {farthest} s either way. Expected stamps by one clock: see \
-         what `inspect` says of the stamps, or give the offset with --tau"
+        "the clocks of poses and tracks differ by {farthest} s or more: the best clock offset lies \
+         at an end of the search, at {tau:.2} s. Expected stamps by one clock: see what `inspect` \
+         says of the stamps, give the offset with --tau, or of a bag take the times of logging with \
+         --dated-by log"
     )]
     ClockFar {
         /// The best of those that were tried, s.
@@ -88,12 +89,16 @@ pub enum Error {
     /// Yaw falls where the right track is faster.
     #[error(
         "yaw falls where the right track is faster (correlation {correlation:.2}): left and right \
-         are swapped, a side counts backwards, or the sign of yaw is another. Give the joints with \
-         --left-joint and --right-joint (-NAME reverses one)"
+         are swapped, a side counts backwards, or the sign of yaw is another: give the joints with \
+         --left-joint and --right-joint (-NAME reverses one). Or the clocks differ by more than the \
+         {farthest} s that were tried: --tau gives the offset, and of a bag --dated-by chooses the \
+         clock"
     )]
     Swapped {
         /// Correlation of yaw increments and encoders.
         correlation: f64,
+        /// How far clock offsets were tried, s.
+        farthest: f64,
     },
     /// The caller asked to stop.
     #[error("stopped before the end")]

@@ -3,7 +3,8 @@
 //! A [`Columns`] is written as `KEY=COLUMN`, several with commas between, such as
 //! `t=Time:ms,v_l=left_rpm:rpm,v_r=-right_rpm:rpm,x=pos_x,y=pos_y,yaw=heading:deg`. A unit may
 //! follow the name after a colon, and a `-` before it reverses the sign. Cells may stand between
-//! commas, semicolons (with decimal commas) or tabs. An empty cell was not measured.
+//! commas, semicolons (with decimal commas) or tabs. An empty cell was not measured. Times may be
+//! dates. A row of units may follow the header.
 
 use crate::unit::SpeedUnit;
 use std::collections::BTreeMap;
@@ -12,6 +13,8 @@ use std::fmt;
 use std::str::FromStr;
 
 mod rows;
+mod time;
+mod units;
 
 pub use rows::read;
 
@@ -49,8 +52,15 @@ const KEYS: [(&str, Key); 13] = [
 ];
 
 /// Units of times in s, of lengths in m, and of angles in rad.
-const TIMES: [(&str, f64); 5] =
-    [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9), ("min", 60.0)];
+const TIMES: [(&str, f64); 7] = [
+    ("s", 1.0),
+    ("ms", 1e-3),
+    ("us", 1e-6),
+    ("ns", 1e-9),
+    ("min", 60.0),
+    ("h", 3600.0),
+    ("d", 86_400.0),
+];
 const LENGTHS: [(&str, f64); 5] =
     [("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("km", 1e3), ("ft", 0.3048)];
 const ANGLES: [(&str, f64); 2] = [("rad", 1.0), ("deg", TAU / 360.0)];

@@ -1,5 +1,6 @@
 //! What can contradict what in a recording.
 
+use crate::sample::Stream;
 use crate::unit;
 use std::fmt;
 use std::str::FromStr;
@@ -9,9 +10,9 @@ use trackdyn_core::Side;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DoubtKind {
-    /// [`Doubt::Travel`].
+    /// [`Doubt::Travel`], [`Doubt::Jumps`].
     Travel,
-    /// [`Doubt::Stamps`].
+    /// [`Doubt::Stamps`], [`Doubt::CoarseStamps`].
     Stamps,
     /// [`Doubt::YawInDegrees`], [`Doubt::TurnInDegrees`].
     YawUnit,
@@ -86,12 +87,28 @@ pub enum Doubt {
         /// The units that have this ratio; none where no usual ones do.
         units: Option<&'static str>,
     },
+    /// Speeds that no track has, too often to be cut as spikes.
+    Jumps {
+        /// Their share in the readings.
+        share: f64,
+        /// Size of the largest, m/s.
+        largest: f64,
+    },
     /// Stamps in a fraction of a second.
     Stamps {
         /// Median interval of the poses, in what should be s.
         interval: f64,
         /// The unit that explains them, where there is one.
         unit: Option<&'static str>,
+    },
+    /// Stamps that most rows share with others.
+    CoarseStamps {
+        /// The rows.
+        stream: Stream,
+        /// How many share the stamp of the row before and are not its copies.
+        shared: usize,
+        /// All rows of the run.
+        of: usize,
     },
     /// Yaw in degrees.
     YawInDegrees,
@@ -152,6 +169,12 @@ impl fmt::Display for Doubt {
                     None => write!(f, ", which no slip explains"),
                 }
             }
+            Self::Jumps { share, largest } => write!(
+                f,
+                "{:.0} % of the track speeds jump to what no track has and back, up to \
+                 {largest:.1} m/s, too many to be spikes",
+                100.0 * share
+            ),
             Self::Stamps { interval, unit } => {
                 write!(f, "by the stamps there is a pose every {interval:.3} s")?;
                 match unit {
@@ -159,6 +182,12 @@ impl fmt::Display for Doubt {
                     None => write!(f, ", and poses and tracks cover other times"),
                 }
             }
+            Self::CoarseStamps { stream, shared, of } => write!(
+                f,
+                "{}: {shared} of {of} rows share the stamp of the row before and are not its \
+                 copies: stamps of whole seconds, or rounded",
+                stream.name()
+            ),
             Self::YawInDegrees => {
                 write!(f, "yaw follows the path of the poses in degrees, and not in radians")
             }
@@ -224,8 +253,8 @@ impl Doubt {
     /// Its kind.
     pub fn kind(&self) -> DoubtKind {
         match self {
-            Self::Travel { .. } => DoubtKind::Travel,
-            Self::Stamps { .. } => DoubtKind::Stamps,
+            Self::Travel { .. } | Self::Jumps { .. } => DoubtKind::Travel,
+            Self::Stamps { .. } | Self::CoarseStamps { .. } => DoubtKind::Stamps,
             Self::YawInDegrees | Self::TurnInDegrees { .. } => DoubtKind::YawUnit,
             Self::ConstantOrientation { .. } => DoubtKind::Orientation,
             Self::OutOfPlane { .. } => DoubtKind::OutOfPlane,
@@ -241,9 +270,16 @@ impl Doubt {
     pub(crate) fn remedy(&self) -> String {
         match self {
             Self::Travel { ratio, .. } => return unit::remedy(*ratio),
+            Self::Jumps { .. } => {
+                "expected speeds of the tracks, with few wrong readings; of a bag, --joint-signal \
+                 and --tracks-topic choose others"
+            }
             Self::Stamps { .. } => {
                 "expected seconds; of one table with both, --columns t=COLUMN:ms (or us, ns) reads \
                  others"
+            }
+            Self::CoarseStamps { .. } => {
+                "expected a stamp for each row; of a bag, --dated-by log takes the times of logging"
             }
             Self::YawInDegrees => {
                 "expected yaw in rad; of one table, --columns yaw=COLUMN:deg reads degrees"

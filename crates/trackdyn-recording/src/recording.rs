@@ -12,6 +12,7 @@ mod finding;
 mod frozen;
 mod gyro_unit;
 mod idle;
+mod jumps;
 mod kept;
 mod motion;
 mod positions;
@@ -21,6 +22,7 @@ mod spikes;
 mod stretches;
 mod stuck;
 mod warning;
+mod wide_spikes;
 
 pub use cleaning::MIN_GAP_RATIO;
 pub(crate) use cleaning::clean;
@@ -114,8 +116,13 @@ impl Recording {
         for run in runs {
             doubts.extend(contradictions::of_rows(&run).filter(|_| is_read));
             without_yaw += run.poses.samples.iter().filter(|row| lacks_yaw(row)).count();
-            kept.push(Run::new(run, &mut cleanings).mended(&mut cleanings));
+            kept.push(Run::new(run, &mut cleanings));
         }
+        let speeds = kept.iter().flat_map(Run::tracks);
+        let speeds = speeds.flat_map(|reading| [reading.v_left, reading.v_right]);
+        let usual = wide_spikes::largest_usual_speed(speeds);
+        let mut kept: Vec<Run> =
+            kept.into_iter().map(|run| run.mended(usual, &mut cleanings)).collect();
         let leave_out = |kept: &mut Vec<Run>, warnings: &mut Vec<Warning>| {
             let useless = kept.extract_if(.., |run| !run.is_usable());
             warnings.extend(useless.map(|run| Warning::RunLeftOut {

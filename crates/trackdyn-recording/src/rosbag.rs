@@ -16,6 +16,7 @@
 
 use crate::doubt::Doubt;
 use crate::recording::{BagNames, Recording, Source, turn_sensor};
+use crate::unit::{self, SpeedUnit};
 use crate::{Error, Format};
 use std::path::Path;
 use trackdyn_core::{PerSide, Side};
@@ -83,10 +84,14 @@ pub fn read(path: &Path, options: &RosbagOptions) -> Result<Recording, Error> {
         names: Some(Box::new(collected.names.of_robot(options, radius))),
     };
     let joints = collected.names.joints;
+    let is_in_radians = options.speed_unit.is_none_or(|unit| unit == SpeedUnit::RadiansPerSecond);
+    let radius = radius.filter(|_| is_in_radians);
     let are_joints = options.twist_topic.is_none();
     let kind = if options.left_signals.is_empty() { "joint" } else { "signal" };
     Recording::accepting(name, "unknown", collected.runs, source, warnings, &options.accepted)
-        .map_err(|error| if are_joints { with_options(error, &joints, kind) } else { error })
+        .map_err(
+            |error| if are_joints { with_options(error, &joints, kind, radius) } else { error },
+        )
 }
 
 impl BagNames {
@@ -100,9 +105,21 @@ impl BagNames {
     }
 }
 
-/// An error with the options that help, by the joints of each side as they were taken.
-fn with_options(error: Error, taken: &PerSide<Vec<String>>, kind: &str) -> Error {
+/// An error with the options that help, by the joints of each side as they were taken and, where
+/// these are wheels, their radius, m.
+fn with_options(
+    error: Error,
+    taken: &PerSide<Vec<String>>,
+    kind: &str,
+    radius: Option<f64>,
+) -> Error {
     let Error::Contradiction { path, doubt, remedy, .. } = error else { return error };
+    if let Doubt::Travel { ratio, .. } = doubt
+        && let Some((units, remedy)) = radius.and_then(|radius| unit::of_tracks(ratio, radius))
+    {
+        let doubt = Doubt::Travel { ratio, units: Some(units) };
+        return Error::Contradiction { path, doubt, remedy, joints: None };
+    }
     let reversed = |names: &[String]| -> Vec<String> {
         let of = |name: &String| match name.strip_prefix('-') {
             Some(bare) => bare.to_owned(),

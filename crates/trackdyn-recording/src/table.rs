@@ -2,61 +2,67 @@
 
 use crate::Error;
 use csv::{ByteRecord, ErrorKind, Reader, ReaderBuilder};
+use std::cell::Cell;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
+use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-/// Longest first line that is looked at, bytes.
-const MAX_HEADER: u64 = 1 << 16;
+mod number;
+mod opening;
+
+pub(crate) use number::number;
+use number::{shows_decimal_comma, with_commas};
+use opening::Text;
 
 /// A table that is being read, one row at a time.
 pub struct Table {
     path: PathBuf,
-    reader: Reader<File>,
+    reader: Reader<Box<dyn Read + Send>>,
     header: Vec<String>,
     row: ByteRecord,
-    /// Whether numbers are written with a decimal comma.
-    has_commas: bool,
+    /// Whether numbers are written with a decimal comma: beside semicolons, and where a cell before
+    /// has shown it.
+    has_commas: Cell<bool>,
+    above: Above,
+}
+
+/// What stands above the header.
+#[derive(Clone, Copy)]
+struct Above {
+    lines: u64,
+    /// None where the file is read in another encoding.
+    bytes: Option<u64>,
 }
 
 impl Table {
-    /// Opens a file and reads its header.
+    /// Opens a file and reads its header. Lines above the header are left out where it is found
+    /// below them. Cells may stand between commas, tabs, or semicolons. Beside semicolons, numbers
+    /// may have a decimal comma.
     ///
     /// # Errors
-    /// [`Error::Unreadable`]; [`Error::Header`] when a name stands there twice or `required` lacks.
+    /// [`Error::Unreadable`]; [`Error::Header`] when a name stands there twice or `required` lacks;
+    /// [`Error::Empty`] for files that are no text.
     pub fn open(path: &Path, required: &[&str]) -> Result<Self, Error> {
-        Self::open_with(path, required, b',', false)
+        Self::open_with(path, required, false)
     }
 
-    /// Opens a file whose cells stand between commas, tabs, or semicolons: the first line has one
-    /// of them more often than the others. Beside semicolons, numbers may have a decimal comma.
+    /// Opens a file of another program, which may have any columns beside those that are required.
     ///
     /// # Errors
     /// Those of [`Table::open`].
     pub fn open_any(path: &Path, required: &[&str]) -> Result<Self, Error> {
-        let mut line = Vec::new();
-        let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
-        let mut start = BufReader::new(file).take(MAX_HEADER);
-        start.read_until(b'\n', &mut line).map_err(|cause| unreadable(path, cause))?;
-        let count = |delimiter: u8| line.split(|byte| *byte == delimiter).count();
-        let delimiter = [b';', b'\t', b','].into_iter().max_by_key(|&delimiter| count(delimiter));
-        Self::open_with(path, required, delimiter.unwrap_or(b','), true)
+        Self::open_with(path, required, true)
     }
 
-    fn open_with(
-        path: &Path,
-        required: &[&str],
-        delimiter: u8,
-        is_any: bool,
-    ) -> Result<Self, Error> {
-        let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
+    fn open_with(path: &Path, required: &[&str], is_any: bool) -> Result<Self, Error> {
+        let Text { reader, delimiter, lines, bytes } = opening::open(path, required)?;
+        let above = Above { lines, bytes };
         let mut builder = ReaderBuilder::new();
-        let mut reader = builder.buffer_capacity(1 << 18).delimiter(delimiter).from_reader(file);
-        let header = reader.byte_headers().map_err(|error| csv_error(path, error))?;
-        let line = header.position().map_or(1, csv::Position::line);
+        let mut reader = builder.buffer_capacity(1 << 18).delimiter(delimiter).from_reader(reader);
+        let header = reader.byte_headers().map_err(|error| csv_error(path, above, error))?;
+        let line = header.position().map_or(1, csv::Position::line) + lines;
         let header: Vec<String> =
-            header.iter().map(|name| String::from_utf8_lossy(name.trim_ascii()).into()).collect();
-        // Tables of other programs may have any columns beside those that are named.
+            header.iter().map(|name| opening::text(name.trim_ascii())).collect();
         let counts = |name: &String| !is_any || required.contains(&name.as_str());
         let mut twice = header.iter().enumerate().filter(|(_, name)| counts(name));
         let twice = twice.any(|(at, name)| header[..at].contains(name));
@@ -67,8 +73,9 @@ impl Table {
             let found = if found.is_empty() { "(none)".to_owned() } else { found };
             return Err(Error::Header { path: path.to_owned(), line, found, expected });
         }
-        let (path, row, has_commas) = (path.to_owned(), ByteRecord::new(), delimiter == b';');
-        Ok(Self { path, reader, header, row, has_commas })
+        let (path, row, has_commas) =
+            (path.to_owned(), ByteRecord::new(), Cell::new(delimiter == b';'));
+        Ok(Self { path, reader, header, row, has_commas, above })
     }
 
     /// Names of the columns.
@@ -86,7 +93,8 @@ impl Table {
     /// # Errors
     /// [`Error::Row`] where the number of cells is wrong, [`Error::Unreadable`].
     pub fn advance(&mut self) -> Result<bool, Error> {
-        self.reader.read_byte_record(&mut self.row).map_err(|error| csv_error(&self.path, error))
+        let read = self.reader.read_byte_record(&mut self.row);
+        read.map_err(|error| csv_error(&self.path, self.above, error))
     }
 
     /// The cell of the current row without the blanks around it.
@@ -99,14 +107,19 @@ impl Table {
     /// # Errors
     /// [`Error::Cell`].
     pub fn number(&self, column: usize) -> Result<f64, Error> {
+        self.value(column).ok_or_else(|| self.cell_error(column, "a number"))
+    }
+
+    /// The cell as a number where it is one; NaN where it is empty.
+    pub(crate) fn value(&self, column: usize) -> Option<f64> {
         let cell = self.cell(column);
-        let value = if self.has_commas && cell.contains(&b',') {
-            let point = |byte: &u8| if *byte == b',' { b'.' } else { *byte };
-            number(&cell.iter().map(point).collect::<Vec<_>>())
-        } else {
-            number(cell)
-        };
-        value.ok_or_else(|| self.cell_error(column, "a number"))
+        if !cell.contains(&b',') {
+            return number(cell);
+        }
+        if shows_decimal_comma(cell) {
+            self.has_commas.set(true);
+        }
+        with_commas(cell, self.has_commas.get())
     }
 
     /// The cell as a finite number.
@@ -114,7 +127,7 @@ impl Table {
     /// # Errors
     /// [`Error::Cell`].
     pub fn finite(&self, column: usize) -> Result<f64, Error> {
-        number(self.cell(column))
+        self.value(column)
             .filter(|value| value.is_finite())
             .ok_or_else(|| self.cell_error(column, "a finite number"))
     }
@@ -134,7 +147,7 @@ impl Table {
     pub fn cell_error(&self, column: usize, expected: &'static str) -> Error {
         Error::Cell {
             path: self.path.clone(),
-            line: self.row.position().map_or(0, |position| line(&self.path, position)),
+            line: self.row.position().map_or(0, |position| line(&self.path, self.above, position)),
             column: column + 1,
             name: self.header[column].clone(),
             value: String::from_utf8_lossy(self.cell(column)).into(),
@@ -143,37 +156,30 @@ impl Table {
     }
 }
 
-/// A number as spreadsheets, numpy and C write it; NaN for nothing.
-pub(crate) fn number(text: &[u8]) -> Option<f64> {
-    if text.is_empty() {
-        return Some(f64::NAN);
-    }
-    fast_float2::parse(text).ok()
-}
-
 /// The error of a file that the system does not let us read.
 pub(crate) fn unreadable(path: &Path, cause: std::io::Error) -> Error {
     Error::Unreadable { path: path.to_owned(), cause }
 }
 
 /// The line of a row. Of lines that end in CR LF a row seems to begin at the LF before it.
-fn line(path: &Path, position: &csv::Position) -> u64 {
-    let first = || -> std::io::Result<u8> {
+fn line(path: &Path, above: Above, position: &csv::Position) -> u64 {
+    let first = |bytes: u64| -> std::io::Result<u8> {
         let mut file = File::open(path)?;
-        file.seek(SeekFrom::Start(position.byte()))?;
+        file.seek(SeekFrom::Start(bytes + position.byte()))?;
         let mut byte = [0];
         file.read_exact(&mut byte)?;
         Ok(byte[0])
     };
-    position.line() + u64::from(first().is_ok_and(|byte| byte == b'\n'))
+    let is_before = above.bytes.is_some_and(|bytes| first(bytes).is_ok_and(|byte| byte == b'\n'));
+    above.lines + position.line() + u64::from(is_before)
 }
 
-fn csv_error(path: &Path, error: csv::Error) -> Error {
+fn csv_error(path: &Path, above: Above, error: csv::Error) -> Error {
     let path = path.to_owned();
     match error.into_kind() {
         ErrorKind::Io(cause) => Error::Unreadable { path, cause },
         ErrorKind::UnequalLengths { pos, expected_len, len } => Error::Row {
-            line: pos.map_or(0, |position| line(&path, &position)),
+            line: pos.map_or(0, |position| line(&path, above, &position)),
             path,
             found: len,
             expected: expected_len,

@@ -168,6 +168,38 @@ pub fn remedy(ratio: f64) -> String {
     text + "; for joints, --wheel-radius is in m per radian, with any gear"
 }
 
+/// Factor between the distances of two explanations from a ratio, below which both are named.
+const MIN_CONTRAST: f64 = 1.15;
+
+/// What ways of the tracks that are so many times those of the poses may mean besides units, where
+/// speeds are taken for those of wheels of a radius, m: speeds of the tracks themselves. Names what
+/// stands in place of what, and the options that read it.
+pub(crate) fn of_tracks(ratio: f64, radius: f64) -> Option<(&'static str, String)> {
+    // Speeds of the tracks are multiplied by the radius once too often.
+    let off = (ratio / radius).max(radius / ratio);
+    let unit = error(ratio).unwrap_or(f64::INFINITY);
+    if off > MAX_ERROR || off > MIN_CONTRAST * unit {
+        return None;
+    }
+    let of_tracks = format!(
+        "--speed-unit {} reads speeds, or positions, of the tracks themselves",
+        SpeedUnit::MetresPerSecond
+    );
+    if unit > MIN_CONTRAST * off {
+        return Some(("metres of the tracks in place of radians of the wheels", of_tracks));
+    }
+    let both = "metres of the tracks in place of radians of the wheels, and as well of other units, \
+                too near to tell";
+    let is_of_turns = ratio < 1.0 && mixed_up(ratio) == Some(MIXED[6].1);
+    if is_of_turns {
+        let both = "metres of the tracks in place of radians of the wheels, and as well of turns in \
+                    place of radians, too near to tell";
+        let turns = SpeedUnit::TurnsPerSecond;
+        return Some((both, format!("{of_tracks}, --speed-unit {turns} reads turns")));
+    }
+    Some((both, of_tracks))
+}
+
 fn nearest(size: f64) -> Option<(f64, &'static str, Option<SpeedUnit>)> {
     let off = |unit: f64| (size / unit).max(unit / size);
     let allowed = |unit: f64| if unit < MAX_SLIP { MAX_ERROR_OF_SMALL } else { MAX_ERROR };
@@ -195,5 +227,18 @@ mod tests {
         assert!(remedy(6.06).contains("some 0.165 m (--speed-unit rad/s --wheel-radius METRES)"));
         assert!(remedy(1.0 / 6.2).contains("--speed-unit turns/s"));
         assert_eq!(mixed_up(1.2), None);
+    }
+
+    #[test]
+    fn a_ratio_near_the_radius_names_speeds_of_the_tracks() {
+        // 1/0.165 = 6.06 lies too near to 2 pi to tell, 1/0.05 = 20 far from any ratio of units
+        let (both, options) = of_tracks(1.0 / 6.1, 0.165).expect("near");
+        assert!(both.contains("turns in place of radians, too near to tell"), "{both}");
+        assert!(options.contains("m/s") && options.contains("turns/s"), "{options}");
+        let (only, options) = of_tracks(1.0 / 19.6, 0.05).expect("near");
+        assert!(!only.contains("too near"), "{only}");
+        assert!(options.contains("--speed-unit m/s") && !options.contains("turns"), "{options}");
+        assert_eq!(of_tracks(1.0 / 6.2, 0.05), None);
+        assert_eq!(of_tracks(9.5, 0.165), None);
     }
 }

@@ -334,3 +334,16 @@ fn headings_in_degrees_are_refused() {
     assert!(matches!(doubt, Doubt::TurnInDegrees { .. }), "{text}");
     assert!(text.contains("--gyro-unit deg/s"), "{text}");
 }
+
+#[test]
+fn speeds_that_jump_too_often_are_named() {
+    let runs = change(rows(), |run| {
+        for reading in run.tracks.samples.iter_mut().step_by(4) {
+            reading.v_left = 30.0;
+        }
+    });
+    let (doubt, text) = refused(runs);
+    let Doubt::Jumps { share, largest } = doubt else { panic!("{text}") };
+    assert!((share - 0.25).abs() < 0.01 && largest == 30.0, "{text}");
+    assert!(text.contains("25 % of the track speeds jump"), "{text}");
+}

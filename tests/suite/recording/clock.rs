@@ -85,7 +85,7 @@ fn swapped_sides_short_recordings_and_far_offsets_are_refused() {
 
     let recording =
         Synthetic { tau: 0.9, ..Synthetic::default() }.recording().expect("long enough");
-    let search = ClockSearch { earliest: -0.5, latest: 0.5, farthest: 0.7 };
+    let search = ClockSearch { earliest: -0.5, latest: 0.5, farthest: 0.7, last: 0.7 };
     let error = clock_offset(&recording, &search).expect_err("refused");
     assert!(matches!(error, Error::ClockFar { farthest: 0.7, .. }), "{error}");
 }
@@ -93,11 +93,28 @@ fn swapped_sides_short_recordings_and_far_offsets_are_refused() {
 /// A clock that is seconds off is found as well as one that is a tenth off.
 #[test]
 fn the_search_goes_as_far_as_it_has_to() {
-    for tau in [-14.3, -1.5, 2.5, 37.0] {
+    for tau in [-14.3, -1.5, -0.5, 1.0, 2.5, 37.0] {
         let recording = noisy(tau, 6).recording().expect("long enough");
         let found = clock_offset(&recording, &ClockSearch::default()).expect("turning");
         let off = (found.tau - tau).abs();
         assert!(off < 4.0 * found.standard_error && off < 0.02, "{tau}: {found:?}");
+    }
+}
+
+/// A clock that was set by hand.
+#[test]
+fn a_clear_peak_beyond_the_search_is_taken() {
+    for late in [65.0, -80.0] {
+        let recording = noisy(0.2, 6).recording().expect("long enough");
+        let runs = recording.runs().iter().cloned().map(|run| {
+            let mut rows = run.into_rows();
+            rows.poses.samples.iter_mut().for_each(|sample| sample.t += late);
+            rows
+        });
+        let late_runs = Recording::new("n", "r", runs.collect(), Source::computed(), Vec::new());
+        let search = ClockSearch::default();
+        let found = clock_offset(&late_runs.expect("long enough"), &search).expect("turning");
+        assert!((found.tau - 0.2 - late).abs() < 0.02, "{late}: {found:?}");
     }
 }
 

@@ -4,7 +4,7 @@
 use super::drives::{Bag, RADIUS, angles, at, ns, poses, quaternion, speeds, times};
 use trackdyn_core::PerSide;
 use trackdyn_recording::rosbag::{self, JointSignal, RosbagOptions};
-use trackdyn_recording::{Doubt, Error, Recording, SpeedUnit};
+use trackdyn_recording::{Doubt, DoubtKind, Error, Recording, SpeedUnit};
 
 const TOPIC: &str = "/joint_states";
 
@@ -98,15 +98,21 @@ fn joints_of_a_side_that_move_apart_are_refused_with_the_options() {
         let PerSide { left, right } = speeds(t);
         [vec![], vec![left, 0.3 * (2.0 * t).sin(), right]]
     }));
-    for part in ["do not move alike", "--left-joint left_a", "--left-joint left_b", "--right-joint"]
-    {
+    for part in ["do not move alike", "--left-joint and --right-joint", "has left_a, left_b"] {
         assert!(text.contains(part), "{part} is not in {text}");
     }
+    assert!(!text.contains("--left-joint left_a"), "the mean of both is wrong: {text}");
+    let text = refused(of_joints(50, &["left_a", "left_b", "right_a"], |t| {
+        let PerSide { left, right } = speeds(t);
+        [vec![], vec![2.0 * left, left, right]]
+    }));
+    assert!(text.contains("the first turns 2.00 times as far"), "{text}");
     let text = refused(of_joints(50, &["left_a", "left_b", "right_a"], |t| {
         let PerSide { left, right } = speeds(t);
         [vec![], vec![left, -left, right]]
     }));
     assert!(text.contains("left_b counts backwards beside left_a"), "{text}");
+    assert!(text.contains("--left-joint left_a --left-joint -left_b"), "{text}");
     // a wheel whose encoder is dead is left out
     let recording = read(of_joints(50, &["left_a", "left_b", "right_a"], |t| {
         let PerSide { left, right } = speeds(t);
@@ -114,6 +120,57 @@ fn joints_of_a_side_that_move_apart_are_refused_with_the_options() {
     }));
     assert_speeds(&recording, 3000, 0.0, 1e-12);
     assert_says(&recording, "left_b, which never move");
+}
+
+#[test]
+fn the_options_that_an_error_offers_read_the_drive() {
+    let names = ["left_a", "left_b", "right_a"];
+    let bag = || {
+        of_joints(50, &names, |t| {
+            let PerSide { left, right } = speeds(t);
+            [vec![], vec![left, -left, right]]
+        })
+    };
+    let named = RosbagOptions { left_joints: vec!["left_a".into(), "-left_b".into()], ..options() };
+    let recording = read_by(bag().with_poses(), &named).expect("readable");
+    assert_speeds(&recording, 3000, 0.0, 1e-12);
+    let wrong = RosbagOptions { left_joints: vec!["left_a".into(), "left_b".into()], ..options() };
+    let wrong = RosbagOptions { accepted: DoubtKind::ALL.to_vec(), ..wrong };
+    let recording = read_by(bag().with_poses(), &wrong).expect("accepted");
+    assert_says(&recording, "the mean of left_a, left_b, but left_a and left_b do not move alike");
+}
+
+#[test]
+fn joints_of_two_robots_are_told_apart() {
+    let names = ["r1/left_wheel", "r1/right_wheel", "r2/left_wheel", "r2/right_wheel"];
+    let text = refused(of_joints(50, &names, |t| {
+        let PerSide { left, right } = speeds(t);
+        [vec![], vec![left, right, (0.3 * t).sin(), (0.2 * t).cos()]]
+    }));
+    for part in [
+        "joints of several robots",
+        "--left-joint r1/left_wheel --right-joint r1/right_wheel are those of r1",
+        "--left-joint r2/left_wheel --right-joint r2/right_wheel are those of r2",
+    ] {
+        assert!(text.contains(part), "{part} is not in {text}");
+    }
+}
+
+/// Speeds, and ways, of the tracks in place of those of the wheels: their ratio is too near to that
+/// of turns and radians to tell which it is.
+#[test]
+fn metres_in_place_of_radians_are_named_beside_turns() {
+    for is_position in [false, true] {
+        let bag = of_joints(50, &["left_wheel", "right_wheel"], |t| {
+            let PerSide { left, right } = if is_position { angles(t) } else { speeds(t) };
+            let signal = vec![RADIUS * left, RADIUS * right];
+            if is_position { [signal, vec![]] } else { [vec![], signal] }
+        });
+        let text = refused(bag);
+        for part in ["--speed-unit m/s", "--speed-unit turns/s", "too near to tell"] {
+            assert!(text.contains(part), "{part} is not in {text}");
+        }
+    }
 }
 
 #[test]
@@ -304,4 +361,25 @@ fn joints_in_other_units_are_read_with_the_option() {
     };
     let bag = of_joints(50, &names, kilometres).with_poses();
     assert_speeds(&read_by(bag, &of_tracks).expect("readable"), 3000, 0.0, 1e-9);
+}
+
+/// A joint whose position is reported modulo anything: the jumps tell it.
+#[test]
+fn positions_that_wrap_anywhere_give_the_speeds() {
+    let modulo = |rate: u32, modulus: f64| {
+        of_joints(rate, &["left_wheel", "right_wheel"], |t| {
+            let PerSide { left, right } = angles(t);
+            let coarse = |angle: f64| (angle / 5e-4).round() * 5e-4;
+            [vec![coarse(left).rem_euclid(modulus), coarse(right).rem_euclid(modulus)], vec![]]
+        })
+    };
+    for (rate, modulus) in [(50, 1.0), (10, 3.0), (20, 6.0), (10, 12.5)] {
+        let recording = read(modulo(rate, modulus));
+        // Means over a step of a speed that changes by up to 2.1 rad/s², and 2e-3 of 4.5 rad/s.
+        let tolerance = RADIUS * (2.1 / f64::from(rate) + 0.05);
+        assert_speeds(&recording, usize::try_from(60 * rate).expect("small"), 0.0, tolerance);
+        assert_says(&recording, "as its jumps show");
+    }
+    let text = refused(modulo(10, 0.7));
+    assert!(text.contains("which way it turned is not known"), "{text}");
 }

@@ -44,7 +44,7 @@ fn positions_modulo_a_turn_give_the_speeds_of_the_wheels() {
     let mut wraps: Vec<String> = Vec::new();
     for warning in recording.warnings() {
         match warning {
-            Warning::TurnsAdded { joint, count } => wraps.push(format!("{joint} {count}")),
+            Warning::TurnsAdded { joint, count, .. } => wraps.push(format!("{joint} {count}")),
             Warning::JointJumps { .. } => panic!("{warning}"),
             _ => {}
         }

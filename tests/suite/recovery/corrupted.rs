@@ -102,6 +102,36 @@ fn dead_stretches_move_the_distance_by_less_than_its_standard_error() {
     assert!(largest < 1.0 && mean < 0.2, "{largest} {mean}");
 }
 
+/// A level that no track has, for three readings up to more than a second.
+#[test]
+fn a_wide_spike_moves_the_distance_by_less_than_its_standard_error() {
+    for seed in 0..24 {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let whole = drive(seed % 20);
+        let mut runs: Vec<_> = whole.runs().iter().cloned().map(Run::into_rows).collect();
+        let run = random.random_range(0..runs.len());
+        let tracks = &mut runs[run].tracks.samples;
+        let width = random.random_range(3..50);
+        let first = random.random_range(0..tracks.len() - width);
+        let level = random.random_range(3.0..1000.0) * if seed % 2 == 0 { 1.0 } else { -1.0 };
+        for reading in &mut tracks[first..first + width] {
+            let speed = if seed % 4 < 2 { &mut reading.v_left } else { &mut reading.v_right };
+            *speed = level;
+        }
+        let hurt = Recording::new("hurt", "robot", runs, Source::computed(), Vec::new());
+        let hurt = hurt.expect("usable");
+        let told = format!("up to {:.1} m/s", level.abs());
+        assert!(
+            hurt.warnings().iter().any(|warning| warning.to_string().contains(&told)),
+            "{seed}"
+        );
+        let good = fit(&whole, Free::Icrs).expect("settles").gap();
+        let hurt = fit(&hurt, Free::Icrs).expect("settles").gap();
+        let moved = (hurt.value - good.value).abs() / hurt.deviation.max(good.deviation);
+        assert!(moved < 1.0, "{seed}: {width} readings of {level} m/s: {moved}");
+    }
+}
+
 #[test]
 fn what_was_mended_is_counted() {
     let hurt = corrupted(&drive(3), &[Fault::Spike], 3);

@@ -52,11 +52,17 @@ impl Intervals {
         Self { runs, track_interval, update_interval }
     }
 
-    /// Least squares at one offset.
-    pub(super) fn fit(&self, tau: f64) -> Fit {
+    /// Number of pose intervals.
+    pub(super) fn count(&self) -> usize {
+        self.runs.iter().map(|run| run.turns.len()).sum()
+    }
+
+    /// Least squares at one offset, by every `stride`-th pose interval.
+    pub(super) fn fit(&self, tau: f64, stride: usize) -> Fit {
         let mut sums = Sums::default();
         for run in &self.runs {
-            for turn in run.turns.iter().filter(|turn| run.covers(turn, [tau, tau])) {
+            let turns = run.turns.iter().step_by(stride);
+            for turn in turns.filter(|turn| run.covers(turn, [tau, tau])) {
                 sums.add([run.difference(turn, tau), turn.end - turn.start], turn.yaw);
             }
         }

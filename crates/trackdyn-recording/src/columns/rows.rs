@@ -1,6 +1,7 @@
 //! The rows of a table whose columns are named.
 
-use super::{Columns, Key, Unit};
+use super::time::Times;
+use super::{Columns, Key, Unit, units};
 use crate::recording::{Recording, Source, UncheckedRun, Warning, turn_sensor};
 use crate::rosbag::yaw_of_quaternion;
 use crate::sample::{PoseSample, TrackSample};
@@ -12,12 +13,24 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::Path;
 use trackdyn_core::Pose;
 
+/// What a time may be.
+const TIME: &str = "a number, a date such as 2024-03-31T00:59:30.05 or 31.03.2024 00:59:30.05, or a \
+                    time of day such as 00:59:30.05";
+
 /// Reads a table of these columns.
 ///
 /// # Errors
 /// [`Error::Header`] for a column that is not there, [`Error::Cell`] with line and column,
 /// [`Error::Options`] for units and a radius that do not go together, those of [`Recording::new`].
 pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Recording, Error> {
+    let names: Vec<&str> = columns.columns.values().map(|column| column.name.as_str()).collect();
+    let mut table = Table::open_any(path, &names)?;
+    let mut has_row = table.advance()?;
+    let units = if has_row { units::of_row(columns, &table)? } else { None };
+    if units.is_some() {
+        has_row = table.advance()?;
+    }
+    let columns = units.as_ref().unwrap_or(columns);
     let scales = [Key::Left, Key::Right].map(|key| -> Result<f64, Error> {
         let column = &columns.columns[&key];
         let unit = match column.unit {
@@ -27,7 +40,12 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
         Ok(column.sign * scale_of_table(path, unit, options.wheel_radius)?)
     });
     let [left, right] = scales;
-    let mut runs = rows(path, columns, [left?, right?])?;
+    let scales = [left?, right?];
+    if !has_row {
+        let message = "no rows below the header".to_owned();
+        return Err(Error::Empty { path: path.to_owned(), message });
+    }
+    let mut runs = rows(table, columns, scales)?;
     turn_sensor(&mut runs, options.mount_yaw);
     let mut warnings = Vec::new();
     for run in &mut runs {
@@ -39,10 +57,8 @@ pub fn read(path: &Path, columns: &Columns, options: &TableOptions) -> Result<Re
     Recording::accepting(name, "unknown", runs, source, warnings, &options.accepted)
 }
 
-/// The rows of all runs.
-fn rows(path: &Path, columns: &Columns, scales: [f64; 2]) -> Result<Vec<UncheckedRun>, Error> {
-    let names: Vec<&str> = columns.columns.values().map(|column| column.name.as_str()).collect();
-    let mut table = Table::open_any(path, &names)?;
+/// The rows of all runs, from the current one on.
+fn rows(mut table: Table, columns: &Columns, scales: [f64; 2]) -> Result<Vec<UncheckedRun>, Error> {
     let at = |key: Key| {
         let column = columns.columns.get(&key)?;
         Some((table.column(&column.name)?, column))
@@ -56,11 +72,16 @@ fn rows(path: &Path, columns: &Columns, scales: [f64; 2]) -> Result<Vec<Unchecke
     let yaw = yaw.map(|(place, column)| (place, column.unit, column.factor()));
     let quaternion = quaternion.map(|of| of.map(|(place, column)| (place, column.sign)));
     let mut runs: BTreeMap<i64, UncheckedRun> = BTreeMap::new();
-    while table.advance()? {
+    let mut times = Times::default();
+    let mut has_row = true;
+    while has_row {
         let number = |place: Option<usize>| place.map_or(Ok(f64::NAN), |at| table.number(at));
         let id = run.map_or(Ok(0), |at| table.integer(at))?;
         let of_run = runs.entry(id).or_insert_with(|| UncheckedRun { id, ..Default::default() });
-        let stamp = factors[0] * number(places[0])?;
+        let stamp = match places[0].filter(|at| table.value(*at).is_none()) {
+            Some(at) => times.read(table.cell(at)).ok_or_else(|| table.cell_error(at, TIME))?,
+            None => factors[0] * number(places[0])?,
+        };
         let [v_left, v_right] = [number(places[3])?, number(places[4])?];
         if !(v_left.is_nan() && v_right.is_nan()) {
             let (v_left, v_right) = (scales[0] * v_left, scales[1] * v_right);
@@ -85,10 +106,7 @@ fn rows(path: &Path, columns: &Columns, scales: [f64; 2]) -> Result<Vec<Unchecke
         if !(x.is_nan() && y.is_nan() && yaw.is_nan()) {
             of_run.poses.samples.push(PoseSample { t: stamp, pose: Pose::new(x, y, yaw) });
         }
-    }
-    if runs.is_empty() {
-        let message = "no rows below the header".to_owned();
-        return Err(Error::Empty { path: path.to_owned(), message });
+        has_row = table.advance()?;
     }
     Ok(runs.into_values().collect())
 }

@@ -6,8 +6,9 @@
 
 use super::motion::Following;
 use super::stretches::{Stretch, path_extent, stretches};
-use super::{Run, UncheckedRun, idle, stuck};
+use super::{Run, UncheckedRun, idle, jumps, stuck};
 use crate::doubt::Doubt;
+use crate::sample::Stream;
 use crate::unit;
 use std::f64::consts::TAU;
 use trackdyn_core::robust::{median, usual_interval};
@@ -48,8 +49,35 @@ const MAX_UNIT_ERROR: f64 = 1.15;
 /// Largest ratio of its quartiles.
 const MAX_UNIT_QUARTILE_RATIO: f64 = 1.3;
 
+/// Share of the rows with the stamp of another one from which on stamps are too coarse.
+const MIN_COARSE_SHARE: f64 = 0.5;
+
 /// What contradicts the rows of a run before they are cleaned.
 pub(super) fn of_rows(rows: &UncheckedRun) -> Option<Doubt> {
+    coarse_stamps(rows).or_else(|| degrees(rows))
+}
+
+/// Stamps that most rows share with the one before, of which they are no copies.
+fn coarse_stamps(rows: &UncheckedRun) -> Option<Doubt> {
+    let shared = |stream: Stream, shared: usize, of: usize| {
+        (real(shared) > MIN_COARSE_SHARE * real(of)).then_some(Doubt::CoarseStamps {
+            stream,
+            shared,
+            of,
+        })
+    };
+    let (tracks, poses) = (&rows.tracks.samples, &rows.poses.samples);
+    let of_tracks = tracks
+        .windows(2)
+        .filter(|pair| pair[0].t == pair[1].t && pair[0].speeds() != pair[1].speeds());
+    let of_poses =
+        poses.windows(2).filter(|pair| pair[0].t == pair[1].t && pair[0].pose != pair[1].pose);
+    shared(Stream::Tracks, of_tracks.count(), tracks.len())
+        .or_else(|| shared(Stream::Poses, of_poses.count(), poses.len()))
+}
+
+/// Yaw that follows the path in degrees.
+fn degrees(rows: &UncheckedRun) -> Option<Doubt> {
     let poses = &rows.poses.samples;
     let steps = path_extent(poses).map(|extent| extent / 40.0).filter(|step| *step > 0.0)?;
     // R = |Σ exp(2i(θ − yaw))| / n: 1 where the path leads along the heading, forward or backward.
@@ -108,6 +136,7 @@ pub(super) fn of_runs(runs: &[Run]) -> Vec<Doubt> {
     let stuck = stuck::stuck_poses(runs, explained);
     let orientation = if stuck.is_none() { orientation(runs) } else { None };
     let mut doubts: Vec<Doubt> = runs.iter().find_map(of_times).into_iter().collect();
+    doubts.extend(jumps::of(runs));
     doubts.extend(stuck.or(orientation));
     doubts.extend(turn_in_degrees(runs));
     doubts.extend(idle::dead_encoder(runs, &late));

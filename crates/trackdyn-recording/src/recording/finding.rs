@@ -44,7 +44,8 @@ pub enum Finding {
     },
     /// A jump of yaw by more than half a turn: whole turns are added from there on.
     YawUnwrapped,
-    /// A speed that jumps away from its neighbours and back: the line between them replaces it.
+    /// Speeds that jump away from their neighbours and back: the line between these replaces a few
+    /// in a row, more are dropped.
     Spike {
         /// Size of the largest, m/s.
         largest: f64,
@@ -128,7 +129,8 @@ impl fmt::Display for Cleaning {
             Finding::Spike { largest } => write!(
                 f,
                 "speeds that jump away from their neighbours and back, up to {largest:.1} m/s \
-                 (glitch, restart or wrap of an encoder), replaced by the line between them"
+                 (glitch, restart or wrap of an encoder), replaced by the line between them where \
+                 short and else left out"
             )?,
             Finding::Dead { longest } => write!(
                 f,

@@ -52,9 +52,14 @@ impl Run {
     }
 
     /// This run with its spikes mended: once, where it is read, for a part of it has another
-    /// spread.
-    pub(crate) fn mended(mut self, cleanings: &mut Vec<Cleaning>) -> Self {
-        mend(&mut self.tracks.samples, self.id, cleanings);
+    /// spread. `usual` is the largest usual speed, m/s.
+    pub(super) fn mended(mut self, usual: f64, cleanings: &mut Vec<Cleaning>) -> Self {
+        let dropped = mend(&mut self.tracks.samples, usual, self.id, cleanings);
+        if !dropped.is_empty() {
+            let rows = 0..self.tracks.samples.len();
+            let kept = rows.filter(|row| dropped.binary_search(row).is_err());
+            self.keep_readings(&kept.collect::<Vec<_>>());
+        }
         self
     }
 

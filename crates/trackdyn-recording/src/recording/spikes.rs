@@ -10,16 +10,19 @@
 //! with σ the robust spread of d over the run, q the size of d that 97 % of the readings keep
 //! below, v the speed that 90 % keep below, and g Δt what the weight could change in the
 //! median interval of the readings. At the ends of a run, where a spike has neighbours on one side
-//! only, it takes four times as much. A spike is replaced by the line between the readings beside
-//! it.
+//! only, it takes four times as much. [Wide spikes](super::wide_spikes) are cut before.
+//!
+//! A spike of less than five readings is replaced by the line between the readings beside it. More
+//! are dropped, which leaves a gap: nobody knows what the track did within.
 //!
 //! # Assumes
-//! At most 3 % of the readings are spikes, and no more than two in a row.
+//! At most 3 % of the readings are spikes.
 //!
 //! # Sources
 //! The filter is Hampel's: Pearson, IEEE Transactions on Control Systems Technology 10(1), 2002.
 
 use super::finding::{Cleaning, Finding};
+use super::wide_spikes::wide_spikes;
 use crate::sample::{Stream, TrackSample};
 use trackdyn_core::robust::{deviation_about_zero, quantile, usual_interval};
 use trackdyn_core::{PerSide, Side};
@@ -46,61 +49,98 @@ const USUAL_SHARE: f64 = 0.9;
 const MIN_OF_SPEED: f64 = 0.5;
 
 /// Acceleration that no track has, m/s².
-const MAX_ACCELERATION: f64 = 10.0;
+pub(super) const MAX_ACCELERATION: f64 = 10.0;
 
 /// Factor on the limit within [`HALF_WINDOW`] of the ends of a run.
 const AT_END: f64 = 4.0;
 
-/// Replaces the spikes of either side; `cleanings` takes what was found.
-pub(super) fn mend(tracks: &mut [TrackSample], run: i64, cleanings: &mut Vec<Cleaning>) {
+/// Fewest readings of a spike that leaves a gap.
+const MIN_DROPPED: usize = 5;
+
+/// Replaces the spikes of either side; `usual` is the [largest usual
+/// speed](super::wide_spikes::largest_usual_speed), m/s, and `cleanings` takes what was found.
+/// Returns the rows that cannot be replaced, in order.
+pub(super) fn mend(
+    tracks: &mut [TrackSample],
+    usual: f64,
+    run: i64,
+    cleanings: &mut Vec<Cleaning>,
+) -> Vec<usize> {
+    let mut dropped = Vec::new();
     if tracks.len() < MIN_READINGS {
-        return;
+        return dropped;
     }
     let times: Vec<f64> = tracks.iter().map(|sample| sample.t).collect();
     let possible = MAX_ACCELERATION * usual_interval(times.iter().copied());
     let (mut count, mut first, mut largest) = (0, f64::INFINITY, 0.0_f64);
     let mended = PerSide::from_fn(|side: Side| {
         let mut speeds: Vec<f64> = tracks.iter().map(|sample| sample.speeds()[side]).collect();
-        let spikes = spikes(&speeds, possible);
-        for &spike in &spikes {
-            largest = largest.max(speeds[spike].abs());
-            first = first.min(times[spike]);
-        }
-        count += spikes.len();
-        bridge(&times, &mut speeds, &spikes);
+        let mut replace = |speeds: &mut [f64], spikes: &[usize]| {
+            for &spike in spikes {
+                largest = largest.max(speeds[spike].abs());
+                first = first.min(times[spike]);
+            }
+            count += spikes.len();
+            bridge(&times, speeds, spikes);
+        };
+        let wide = wide_spikes(&speeds, usual, Distances::of(&speeds, possible).least);
+        let long = wide.iter().filter(|spike| spike.len() >= MIN_DROPPED);
+        dropped.extend(long.cloned().flatten());
+        replace(&mut speeds, &wide.into_iter().flatten().collect::<Vec<usize>>());
+        let narrow = Distances::of(&speeds, possible).spikes();
+        replace(&mut speeds, &narrow);
         speeds
     });
     if count == 0 {
-        return;
+        return dropped;
     }
     for (k, sample) in tracks.iter_mut().enumerate() {
         (sample.v_left, sample.v_right) = (mended.left[k], mended.right[k]);
     }
     let finding = Finding::Spike { largest };
     cleanings.push(Cleaning { stream: Stream::Tracks, finding, count, runs: 1, run, t: first });
+    dropped.sort_unstable();
+    dropped.dedup();
+    dropped
 }
 
-/// Places of the spikes among speeds; `possible` is the largest change between two readings.
-fn spikes(speeds: &[f64], possible: f64) -> Vec<usize> {
-    let off = |k: usize| {
-        let window = &speeds[k.saturating_sub(HALF_WINDOW)..speeds.len().min(k + HALF_WINDOW + 1)];
-        let mut sorted = [0.0; 2 * HALF_WINDOW + 1];
-        let sorted = &mut sorted[..window.len()];
-        sorted.copy_from_slice(window);
-        sorted.sort_by(f64::total_cmp);
-        (speeds[k] - sorted[sorted.len() / 2]).abs()
-    };
-    let distances: Vec<f64> = (0..speeds.len()).map(off).collect();
-    let mut sizes: Vec<f64> = speeds.iter().map(|speed| speed.abs()).collect();
-    let mut sorted = distances.clone();
-    let far = quantile(&mut sorted, GOOD_SHARE).unwrap_or(0.0);
-    let spread = deviation_about_zero(&mut sorted).unwrap_or(0.0);
-    let usual = quantile(&mut sizes, USUAL_SHARE).unwrap_or(0.0);
-    let least =
-        (MIN_DEVIATIONS * spread).max(MIN_RATIO * far).max(MIN_OF_SPEED * usual).max(possible);
-    let is_at_end = |k: usize| k < HALF_WINDOW || k + HALF_WINDOW >= speeds.len();
-    let limit = |k: usize| if is_at_end(k) { AT_END * least } else { least };
-    (0..speeds.len()).filter(|&k| distances[k] > limit(k)).collect()
+/// Distances of speeds from the medians of those around them, m/s.
+struct Distances {
+    of_readings: Vec<f64>,
+    /// Least distance of a spike.
+    least: f64,
+}
+
+impl Distances {
+    /// `possible` is the largest change between two readings.
+    fn of(speeds: &[f64], possible: f64) -> Self {
+        let off = |k: usize| {
+            let window =
+                &speeds[k.saturating_sub(HALF_WINDOW)..speeds.len().min(k + HALF_WINDOW + 1)];
+            let mut sorted = [0.0; 2 * HALF_WINDOW + 1];
+            let sorted = &mut sorted[..window.len()];
+            sorted.copy_from_slice(window);
+            sorted.sort_by(f64::total_cmp);
+            (speeds[k] - sorted[sorted.len() / 2]).abs()
+        };
+        let of_readings: Vec<f64> = (0..speeds.len()).map(off).collect();
+        let mut sizes: Vec<f64> = speeds.iter().map(|speed| speed.abs()).collect();
+        let mut sorted = of_readings.clone();
+        let far = quantile(&mut sorted, GOOD_SHARE).unwrap_or(0.0);
+        let spread = deviation_about_zero(&mut sorted).unwrap_or(0.0);
+        let usual = quantile(&mut sizes, USUAL_SHARE).unwrap_or(0.0);
+        let least =
+            (MIN_DEVIATIONS * spread).max(MIN_RATIO * far).max(MIN_OF_SPEED * usual).max(possible);
+        Self { of_readings, least }
+    }
+
+    /// Places of the spikes.
+    fn spikes(&self) -> Vec<usize> {
+        let count = self.of_readings.len();
+        let is_at_end = |k: usize| k < HALF_WINDOW || k + HALF_WINDOW >= count;
+        let limit = |k: usize| if is_at_end(k) { AT_END * self.least } else { self.least };
+        (0..count).filter(|&k| self.of_readings[k] > limit(k)).collect()
+    }
 }
 
 /// Replaces values at these places by the line between their good neighbours in time.
@@ -126,6 +166,9 @@ pub(super) fn bridge(times: &[f64], values: &mut [f64], places: &[usize]) {
 mod tests {
     use super::*;
 
+    /// Largest usual speed, m/s.
+    const USUAL: f64 = 0.9;
+
     /// A drive at 50 Hz that speeds up, turns, stops and reverses, with noise of 5 mm/s.
     fn drive() -> Vec<TrackSample> {
         (0_u32..3000)
@@ -147,7 +190,7 @@ mod tests {
     #[test]
     fn what_is_no_spike_stays_to_the_last_digit() {
         let (mut tracks, mut cleanings) = (drive(), Vec::new());
-        mend(&mut tracks, 0, &mut cleanings);
+        mend(&mut tracks, USUAL, 0, &mut cleanings);
         assert_eq!(tracks, drive());
         assert!(cleanings.is_empty());
         // commands that last for one reading are driving, where there are many of them
@@ -158,7 +201,7 @@ mod tests {
             .map(|(k, sample)| TrackSample { v_left: pulses(k), ..*sample })
             .collect();
         let mut tracks = pulsed.clone();
-        mend(&mut tracks, 0, &mut cleanings);
+        mend(&mut tracks, USUAL, 0, &mut cleanings);
         assert_eq!(tracks, pulsed);
     }
 
@@ -173,7 +216,7 @@ mod tests {
             tracks[place].v_left = value;
         }
         let mut cleanings = Vec::new();
-        mend(&mut tracks, 3, &mut cleanings);
+        mend(&mut tracks, USUAL, 3, &mut cleanings);
         for (found, good) in tracks.iter().zip(&good) {
             assert!((found.v_left - good.v_left).abs() < 0.02, "{found:?} {good:?}");
             assert_eq!(found.v_right, good.v_right);

@@ -2,6 +2,7 @@
 
 use super::finding::Cleaning;
 use crate::doubt::Doubt;
+use std::f64::consts::TAU;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -80,6 +81,16 @@ pub enum Warning {
         /// How many.
         count: u64,
     },
+    /// Messages without a stamp by the clock of another topic, which runs at another rate than that
+    /// of the logger and dates them.
+    ShownTime {
+        /// Their topic.
+        topic: String,
+        /// How many.
+        count: u64,
+        /// The topic of the clock.
+        clock: String,
+    },
     /// Clocks of two topics that differ by more than messages are late.
     ClocksDiffer {
         /// The topics.
@@ -95,6 +106,12 @@ pub enum Warning {
         /// The topic.
         topic: String,
     },
+    /// Stamps that most readings share with the one before: all messages were dated by their
+    /// logging.
+    CoarseStamps {
+        /// The topic.
+        topic: String,
+    },
     /// Stamps that step back and go on from there, as a simulation does that is reset.
     ClockReset {
         /// The topic.
@@ -102,12 +119,14 @@ pub enum Warning {
         /// Runs that come of it.
         runs: usize,
     },
-    /// A joint that is reported modulo a turn: whole turns were added.
+    /// A joint whose position wraps: what it lacks was added.
     TurnsAdded {
         /// The joint.
         joint: String,
         /// Places at which its position wraps.
         count: usize,
+        /// Modulo what it is reported, rad: a whole turn, or what its jumps show.
+        modulus: f64,
     },
     /// Jumps in the position of a joint that are no wraps: they stay, as speeds that no wheel has.
     JointJumps {
@@ -194,41 +213,31 @@ impl fmt::Display for Warning {
             Self::LogTime { topic, count } => {
                 write!(f, "{topic}: {count} messages without a stamp, dated by their logging")
             }
-            Self::ClocksDiffer { topics: [first, second], offset, by_log } => {
-                let order = if *offset < 0.0 { "earlier" } else { "later" };
-                write!(
-                    f,
-                    "clocks: by the log, stamps of {second} are {:.3} s {order} than those of \
-                     {first}: ",
-                    offset.abs()
-                )?;
-                if *by_log {
-                    write!(
-                        f,
-                        "clocks of their own, so all is dated by its logging (--dated-by header \
-                         keeps the stamps)"
-                    )
-                } else {
-                    write!(
-                        f,
-                        "taken for a delay, so the stamps are kept (--dated-by log, or --tau, if \
-                         the clocks differ)"
-                    )
-                }
+            Self::ShownTime { topic, count, clock } => write!(
+                f,
+                "{topic}: {count} messages are dated by what the clock of {clock} shows at their \
+                 logging, for it runs at another rate, as in a simulation, and does not stamp them \
+                 (--dated-by log dates all by logging)"
+            ),
+            Self::ClocksDiffer { topics, offset, by_log } => {
+                clocks_differ(f, topics, *offset, *by_log)
             }
             Self::ClockSet { topic } => write!(
                 f,
                 "{topic}: its clock was set while it was logged, so all is dated by its logging \
                  (--dated-by header keeps the stamps)"
             ),
+            Self::CoarseStamps { topic } => write!(
+                f,
+                "{topic}: most of its readings share their stamp with another one, so all is dated \
+                 by its logging (--dated-by header keeps the stamps)"
+            ),
             Self::ClockReset { topic, runs } => write!(
                 f,
                 "{topic}: stamps step back and go on from there, as after the reset of a \
                  simulation: {runs} runs"
             ),
-            Self::TurnsAdded { joint, count } => {
-                write!(f, "{joint}: its position wraps ({count} times), whole turns added")
-            }
+            Self::TurnsAdded { joint, count, modulus } => turns_added(f, joint, *count, *modulus),
             Self::JointJumps { joint, count, t } => write!(
                 f,
                 "{joint}: {count} jumps of its position by more than half a turn that are no \
@@ -275,4 +284,41 @@ fn positions_unknown(f: &mut fmt::Formatter<'_>, runs: usize, of: usize) -> fmt:
                  positions are not known, {}",
         if runs == of { "only yaw counts" } else { "and these runs are left out" }
     )
+}
+
+fn turns_added(f: &mut fmt::Formatter<'_>, joint: &str, count: usize, modulus: f64) -> fmt::Result {
+    if modulus == TAU {
+        return write!(f, "{joint}: its position wraps ({count} times), whole turns added");
+    }
+    write!(
+        f,
+        "{joint}: its position wraps at {modulus:.4} rad, as its jumps show ({count} times): added"
+    )
+}
+
+fn clocks_differ(
+    f: &mut fmt::Formatter<'_>,
+    [first, second]: &[String; 2],
+    offset: f64,
+    by_log: bool,
+) -> fmt::Result {
+    let order = if offset < 0.0 { "earlier" } else { "later" };
+    write!(
+        f,
+        "clocks: by the log, stamps of {second} are {:.3} s {order} than those of {first}: ",
+        offset.abs()
+    )?;
+    if by_log {
+        write!(
+            f,
+            "clocks of their own, so all is dated by its logging (--dated-by header keeps the \
+             stamps)"
+        )
+    } else {
+        write!(
+            f,
+            "taken for a delay, so the stamps are kept (--dated-by log, or --tau, if the clocks \
+             differ)"
+        )
+    }
 }

@@ -2,8 +2,16 @@
 //!
 //! # Law
 //! A message is logged shortly after its stamp. Two topics have one clock where the medians of
-//! stamp − logging differ by no more than a sensor may be late. Where they differ by more while
-//! both were logged over one time, their stamps cannot be compared, and logging dates both.
+//! stamp − logging differ by no more than a sensor may be late, or those of the messages that are
+//! logged soonest: a driver that logs in bursts keeps the others back. Where both differ by more
+//! while both topics were logged over one time, their stamps cannot be compared, and logging dates
+//! both.
+//!
+//! Messages without stamps are dated by their logging; where the clock of the tracks runs at
+//! another [rate], by what that shows then.
+//!
+//! Stamps that most readings share with the one before, though they differ from it, are too coarse
+//! to date them: logging does it then, if it tells the readings apart.
 //!
 //! A stamp that steps back and stays back while logging goes on is a clock that was set anew, as by
 //! the reset of a simulation: what follows is another run.
@@ -12,10 +20,19 @@ use super::date::{Received, seconds};
 use super::options::Dating;
 use crate::far::{self, Parts};
 use crate::recording::Warning;
-use trackdyn_core::robust::median;
+use trackdyn_core::robust::{median, quantile};
+
+mod coarse;
+mod rate;
+
+use coarse::{Reading, are_coarse};
+use rate::Rate;
 
 /// Latest that a stamped message may be logged after those of other topics, s: a slow SLAM.
 const MAX_LATENESS: f64 = 2.0;
+
+/// Share of the messages of a topic that are logged later after their stamps than the soonest.
+const SOON_SHARE: f64 = 0.95;
 
 /// Smallest difference of two clocks that is told, s.
 const MIN_TOLD: f64 = 0.2;
@@ -55,18 +72,27 @@ pub(super) struct Clock {
     broken: bool,
     /// Median of stamp − logging, s.
     ahead: f64,
+    /// Stamp − logging of the messages that are logged soonest, s.
+    soonest: f64,
+    /// Most stamps are those of another reading.
+    coarse: bool,
     /// Time covered by the stamps, and by their logging, s.
     covered: [f64; 2],
     /// First and last logging, ns.
     logged: [i64; 2],
     /// Loggings at which the stamps begin anew, ns.
     resets: Vec<i64>,
+    /// What its stamps show at a logging, where they run at another rate.
+    rate: Option<Rate>,
+    /// The topic whose clock dates messages without stamps, and what that shows.
+    shown: Option<(String, Rate)>,
 }
 
 impl Clock {
     /// The clock of a topic by all its messages.
-    pub(super) fn of<T>(topic: &str, received: &[Received<T>]) -> Self {
+    pub(super) fn of<T: Reading>(topic: &str, received: &[Received<T>]) -> Self {
         let count = received.len();
+        let coarse = are_coarse(received);
         let mut pairs: Vec<(i64, i64)> =
             received.iter().filter_map(|one| Some((one.log_ns, one.stamp_ns?))).collect();
         let undated = count - pairs.len();
@@ -83,7 +109,8 @@ impl Clock {
             covered[0] += seconds(first, last);
             covered[1] += seconds(pairs[0].0, pairs[pairs.len() - 1].0);
         }
-        let ahead = pairs.iter().map(|(logged, stamp)| seconds(*logged, *stamp));
+        let mut ahead: Vec<f64> =
+            pairs.iter().map(|(logged, stamp)| seconds(*logged, *stamp)).collect();
         let logged = received.iter().map(|one| one.log_ns);
         Self {
             topic: topic.to_owned(),
@@ -92,9 +119,13 @@ impl Clock {
             right,
             wrong: dated - pairs.len(),
             broken,
-            ahead: median(&mut ahead.collect::<Vec<_>>()).unwrap_or_default(),
+            ahead: median(&mut ahead).unwrap_or_default(),
+            soonest: quantile(&mut ahead, SOON_SHARE).unwrap_or_default(),
+            coarse,
             covered,
             logged: [logged.clone().min().unwrap_or_default(), logged.max().unwrap_or_default()],
+            rate: Rate::of(&pairs).filter(|_| !broken && resets.is_empty()),
+            shown: None,
             resets,
         }
     }
@@ -110,7 +141,13 @@ impl Clock {
 
     /// When a message was measured; none where that is not known.
     pub(super) fn date<T>(&self, by: By, one: &Received<T>) -> Option<i64> {
-        if by == By::Log || !self.is_stamped() {
+        if by == By::Log {
+            return Some(one.log_ns);
+        }
+        if let Some((_, rate)) = &self.shown {
+            return rate.at(one.log_ns);
+        }
+        if !self.is_stamped() {
             return Some(one.log_ns);
         }
         one.stamp_ns.filter(|stamp| (self.right[0]..=self.right[1]).contains(stamp))
@@ -122,6 +159,10 @@ impl Clock {
             let (topic, reason) = (self.topic.clone(), reason.to_owned());
             (count > 0).then_some(Warning::MessagesSkipped { topic, count: count as u64, reason })
         };
+        if let Some((clock, _)) = self.shown.as_ref().filter(|_| by == By::Header) {
+            let (topic, count, clock) = (self.topic.clone(), self.count as u64, clock.clone());
+            return vec![Warning::ShownTime { topic, count, clock }];
+        }
         match by {
             By::Header if self.is_stamped() => [
                 skipped(self.undated, "it has no stamp, as others have"),
@@ -147,7 +188,13 @@ impl Clock {
 
     /// Whether the stamps of two topics differ by more than a delay explains.
     pub(super) fn is_apart_from(&self, other: &Self) -> bool {
-        self.broken || (self.ahead - other.ahead).abs() > MAX_LATENESS
+        self.broken || self.differs_from(other)
+    }
+
+    /// Whether the stamps of two topics differ by more than a delay or bursts explain.
+    fn differs_from(&self, other: &Self) -> bool {
+        let differ = |a: f64, b: f64| (a - b).abs() > MAX_LATENESS;
+        differ(self.ahead, other.ahead) && differ(self.soonest, other.soonest)
     }
 
     /// Whether two topics were logged over one time, at least half of the shorter one.
@@ -156,6 +203,17 @@ impl Clock {
         let start = self.logged[0].max(other.logged[0]);
         let end = self.logged[1].min(other.logged[1]);
         2.0 * seconds(start, end) >= length(self).min(length(other))
+    }
+}
+
+/// Dates messages without stamps, or with those of another clock, by the clock of the first topic,
+/// where that runs at another rate than logging.
+pub(super) fn share_rate(clocks: &mut [Clock]) {
+    let Some((first, others)) = clocks.split_first_mut() else { return };
+    let Some(rate) = &first.rate else { return };
+    let has_other_clock = |other: &Clock| !other.is_stamped() || other.differs_from(first);
+    for other in others.iter_mut().filter(|other| other.count > 0 && has_other_clock(other)) {
+        other.shown = Some((first.topic.clone(), rate.clone()));
     }
 }
 
@@ -178,16 +236,21 @@ fn by_evidence(clocks: &[Clock], warnings: &mut Vec<Warning>) -> By {
         warnings.push(Warning::ClockSet { topic: broken.topic.clone() });
         by = By::Log;
     }
+    if let Some(coarse) = clocks.iter().find(|clock| clock.coarse && by == By::Header) {
+        warnings.push(Warning::CoarseStamps { topic: coarse.topic.clone() });
+        by = By::Log;
+    }
     for other in &clocks[1.min(clocks.len())..] {
         let offset = other.ahead - first.ahead;
-        if offset.abs() <= MIN_TOLD || by == By::Log || other.count == 0 {
+        let is_shown = other.shown.is_some();
+        if offset.abs() <= MIN_TOLD || by == By::Log || other.count == 0 || is_shown {
             continue;
         }
         let is_as_logged = first.is_as_logged() && other.is_as_logged() && can_log(other);
         // What is logged before its stamp has another clock than the logger.
         let is_ahead = first.ahead.max(other.ahead) > MAX_AHEAD
             && first.ahead.min(other.ahead).abs() <= MAX_AHEAD;
-        let differ = is_as_logged && (is_ahead || offset.abs() > MAX_LATENESS);
+        let differ = is_as_logged && (is_ahead || other.differs_from(first));
         if differ {
             by = By::Log;
         }
@@ -239,88 +302,4 @@ fn resets(pairs: &[(i64, i64)]) -> Vec<i64> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const S: i64 = 1_000_000_000;
-
-    /// A message every 0.1 s, stamped by a clock.
-    fn clock(topic: &str, count: i64, stamp: impl Fn(i64) -> i64) -> (Clock, Vec<Received<()>>) {
-        let all = (0..count).map(|k| Received {
-            stamp_ns: Some(stamp(k * S / 10)).filter(|stamp| *stamp != 0),
-            log_ns: 1_700_000_000 * S + k * S / 10,
-            value: (),
-        });
-        let all: Vec<_> = all.collect();
-        (Clock::of(topic, &all), all)
-    }
-
-    const UNIX: i64 = 1_700_000_000 * S;
-
-    #[test]
-    fn clocks_of_another_epoch_or_ahead_of_the_log_give_way_to_it() {
-        let tracks = clock("tracks", 600, |t| UNIX + t - S / 100).0;
-        for (what, ahead, by) in [
-            ("slam, 0.3 s late", -3 * S / 10, By::Header),
-            ("ahead", 3 * S / 2, By::Log),
-            ("leap seconds", 37 * S, By::Log),
-            ("leap seconds", -37 * S, By::Log),
-            ("since boot", 500 * S - UNIX, By::Log),
-            ("equal", 0, By::Header),
-        ] {
-            let poses = clock("poses", 600, |t| UNIX + t + ahead).0;
-            let clocks = [tracks.clone(), poses];
-            let (found, warnings) = decide(&clocks, Dating::Any);
-            assert_eq!(found, by, "{what}");
-            let is_told = ahead.abs() > S / 5;
-            assert_eq!(warnings.len(), usize::from(is_told), "{what}: {warnings:?}");
-            assert_eq!(decide(&clocks, Dating::Header).0, By::Header);
-        }
-    }
-
-    #[test]
-    fn a_bag_that_was_logged_at_another_time_keeps_its_stamps() {
-        let tracks = clock("tracks", 600, |t| UNIX + t).0;
-        let (_, mut all) = clock("poses", 600, |t| UNIX + t);
-        for one in &mut all {
-            one.log_ns += 86_400 * S;
-        }
-        let poses = Clock::of("poses", &all);
-        assert_eq!(decide(&[tracks, poses], Dating::Any).0, By::Header);
-    }
-
-    #[test]
-    fn stamps_before_the_clock_was_set_are_dropped_and_said() {
-        let (clock, all) = clock("tracks", 600, |t| if t < S / 2 { t } else { UNIX + t });
-        let right = all.iter().filter(|one| clock.date(By::Header, one).is_some()).count();
-        assert_eq!(right, 595);
-        // one of the five is no stamp at all
-        let told: Vec<u64> = clock
-            .warnings(By::Header)
-            .iter()
-            .map(|warning| match warning {
-                Warning::MessagesSkipped { count, .. } => *count,
-                other => panic!("{other}"),
-            })
-            .collect();
-        assert_eq!(told, [1, 4]);
-        assert_eq!(decide(&[clock], Dating::Any).0, By::Header);
-    }
-
-    #[test]
-    fn a_clock_that_is_set_in_the_middle_gives_way_to_the_log() {
-        let (clock, all) = clock("tracks", 600, |t| if t < 20 * S { t + S } else { UNIX + t });
-        assert_eq!(decide(std::slice::from_ref(&clock), Dating::Any).0, By::Log);
-        assert!(all.iter().all(|one| clock.date(By::Log, one) == Some(one.log_ns)));
-    }
-
-    #[test]
-    fn a_reset_begins_another_run_and_a_late_message_does_not() {
-        let (reset, all) = clock("tracks", 600, |t| if t < 30 * S { t + S } else { t - 29 * S });
-        assert_eq!(reset.resets(), [UNIX + 30 * S]);
-        assert_eq!(segment(reset.resets(), all[299].log_ns), 0);
-        assert_eq!(segment(reset.resets(), all[300].log_ns), 1);
-        let late = clock("tracks", 600, |t| if t == 30 * S { S } else { t + S }).0;
-        assert_eq!(late.resets(), [0_i64; 0]);
-    }
-}
+mod tests;

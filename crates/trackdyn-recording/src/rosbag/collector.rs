@@ -1,15 +1,15 @@
 //! From messages to a run.
 
 use super::chain;
-use super::clock::{Clock, decide};
+use super::clock::{Clock, decide, share_rate};
 use super::date::{Received, Stamped};
 use super::fixes::{Fix, Yaw};
-use super::frames::Frames;
+use super::frames::{Frames, Hop, is_of_odometry};
 use super::joints::Joints;
 use super::options::RosbagOptions;
 use super::path::Trajectory;
 use super::signals::Signals;
-use super::topic::{Topic, list};
+use super::topic::{Layout, Topic, list};
 use crate::Error;
 use crate::attitude::Attitude;
 use crate::doubt::{Doubt, DoubtKind};
@@ -17,11 +17,13 @@ use crate::recording::{BagNames, UncheckedRun, Warning};
 use std::collections::BTreeMap;
 use std::path::Path;
 
+mod agreement;
 mod alike;
 mod choice;
 mod gyro;
 mod joint;
 mod merge;
+mod mount;
 mod others;
 mod poses;
 mod publishers;
@@ -33,6 +35,7 @@ mod upright;
 mod visit;
 
 use choice::Sources;
+use mount::{Mounts, move_to_body};
 use speeds::Streams;
 use upright::{Inertial, upright};
 
@@ -56,6 +59,8 @@ pub(super) struct Collector<'a> {
     paths: BTreeMap<PoseKey, Trajectory>,
     /// What the transforms of all topics link.
     frames: Frames,
+    /// Those that hold at all times.
+    mounts: Mounts,
     /// Per topic: messages that were skipped, and why the first was.
     skipped: BTreeMap<String, (u64, String)>,
 }
@@ -104,6 +109,7 @@ impl<'a> Collector<'a> {
             fixes: BTreeMap::new(),
             paths: BTreeMap::new(),
             frames: Frames::default(),
+            mounts: Mounts::new(),
             skipped: BTreeMap::new(),
         }
     }
@@ -121,14 +127,21 @@ impl<'a> Collector<'a> {
             warnings.push(Warning::MessagesSkipped { topic, count: *count, reason });
         }
         let sources = Sources { path, options: self.options, seen: &self.seen };
-        let is_dynamic = !self.joints.has_any() && self.dynamic_joints.has_any();
+        let usual_chain = self.usual_chain();
+        let is_dynamic = self.takes_dynamic_joints(&mut warnings);
         let joints = if is_dynamic { self.dynamic_joints } else { self.joints };
         let chosen = sources.tracks(joints.into_sources(), &self.skipped, &mut warnings)?;
+        let gyroscopes: Vec<String> = self.imu.keys().cloned().collect();
         let (imu_topic, imu) = sources.imu(self.imu, &mut warnings)?;
+        let is_gyroscope = self.options.pose_topic.as_ref() == Some(&imu_topic);
         let imu = upright(&imu_topic, imu, &mut warnings);
         let is_free = !self.options.names_poses();
         let named = |frame: &str| Some(frame.to_owned()).filter(|frame| !frame.is_empty());
-        let mut frames = self.options.frames().map_or([None, None], |both| both.map(named));
+        let given = self.options.frames().filter(|_| self.poses.is_empty());
+        let usual = usual_chain.as_ref().map(|ends| ends.each_ref().map(String::as_str));
+        let ends = given.or(usual).filter(|_| !self.frames.is_empty());
+        let mut frames =
+            self.options.frames().or(ends).map_or([None, None], |both| both.map(named));
         // Clocks of the tracks come first: others are compared with them.
         let mut clocks: Vec<Clock> = Vec::new();
         for joint in &chosen.joints {
@@ -140,21 +153,23 @@ impl<'a> Collector<'a> {
         }
         let mut attitude = None;
         let mut chain_by = None;
-        let (poses, pose_topic, chained) = match (self.options.frames(), self.poses.is_empty()) {
-            (Some(ends), true) if !self.frames.is_empty() => {
+        let (poses, pose_topic, chained) = match ends {
+            Some(ends) => {
                 let chain = chain::read(path, self.options, &self.frames, ends, &clocks)?;
                 warnings.extend(chain.warnings);
                 (attitude, chain_by) = (Some(chain.attitude), Some(chain.by));
                 (Vec::new(), String::new(), Some(chain.poses))
             }
-            _ if self.poses.is_empty() && is_free && !imu.is_empty() => {
+            _ if self.poses.is_empty() && (is_free || is_gyroscope) && !imu.is_empty() => {
                 let taken = format!("the yaw of the gyroscope {imu_topic}, without positions");
                 warnings.push(Warning::Chosen { what: "poses", taken });
                 (gyro::headings(&imu), imu_topic.clone(), None)
             }
             _ => {
-                let (key, poses) = sources.poses(self.poses, &self.skipped, &mut warnings)?;
+                let (key, mut poses) =
+                    sources.poses(self.poses, &gyroscopes, &self.skipped, &mut warnings)?;
                 attitude = self.attitudes.get(&key).copied();
+                move_to_body(&key, &mut poses, &self.frames, &self.mounts, &mut warnings);
                 frames = [named(&key.parent), named(&key.child)];
                 (poses, key.topic, None)
             }
@@ -168,6 +183,7 @@ impl<'a> Collector<'a> {
         }
         clocks.push(Clock::of(&pose_topic, &poses));
         clocks.push(Clock::of(&imu_topic, &imu));
+        share_rate(&mut clocks);
         // Poses of a chain are dated already, by the clocks of its links.
         let (by, told) = match chain_by {
             Some(by) => (by, Vec::new()),
@@ -177,6 +193,51 @@ impl<'a> Collector<'a> {
         warnings.extend(clocks.iter().flat_map(|clock| clock.warnings(by)));
         let streams = Streams { chosen, poses, pose_topic, frames, chained, imu, imu_topic };
         speeds::runs(path, self.options, &clocks, by, streams, warnings)
+    }
+}
+
+impl Collector<'_> {
+    /// The ends of the usual chain of transforms from a map over odometry to the body, where poses
+    /// are needed and all that there are belong to it.
+    fn usual_chain(&self) -> Option<[String; 2]> {
+        if self.options.parent_frame.is_some() || self.options.child_frame.is_some() {
+            return None;
+        }
+        let body = self.frames.body()?;
+        let root = self.frames.root_of(body);
+        let is_transform = |key: &PoseKey| {
+            let mut topics = self.seen.iter().filter(|topic| topic.name == key.topic);
+            topics.any(|topic| topic.layout() == Some(Layout::Transforms))
+        };
+        let moves = |hop: &Hop| {
+            let mut keys = self.poses.keys().filter(|key| is_transform(key));
+            keys.any(|key| hop.link.is(&key.parent, &key.child))
+        };
+        let hops = self.frames.way(root, body)?;
+        let moving = hops.iter().filter(|hop| moves(hop)).count();
+        let are_of_it =
+            self.poses.keys().all(|key| is_transform(key) || is_of_odometry(&key.parent));
+        let is_chain = moving >= 2 && hops.first().is_some_and(moves) && !is_of_odometry(root);
+        (is_chain && are_of_it).then(|| [root.to_owned(), body.to_owned()])
+    }
+
+    /// Whether the joints of `DynamicJointState` are taken: where those of other messages are none,
+    /// or never move as these do.
+    fn takes_dynamic_joints(&self, warnings: &mut Vec<Warning>) -> bool {
+        if !self.dynamic_joints.has_any() || !self.joints.has_any() {
+            return self.dynamic_joints.has_any();
+        }
+        let moves = |joints: &Joints| joints.columns().any(publishers::moves);
+        let is_dynamic = moves(&self.dynamic_joints) && !moves(&self.joints);
+        if is_dynamic {
+            let idle = self.joints.messages_by_topic().into_iter();
+            warnings.extend(idle.map(|(topic, count)| Warning::MessagesSkipped {
+                topic,
+                count,
+                reason: "its joints never move, as those of DynamicJointState do".to_owned(),
+            }));
+        }
+        is_dynamic
     }
 }
 

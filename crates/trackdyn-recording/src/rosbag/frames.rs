@@ -36,6 +36,14 @@ pub(super) fn same_frame(a: &str, b: &str) -> bool {
 /// The frame that wheel odometry moves the robot in (REP-105).
 const ODOMETRY: &str = "odom";
 
+/// Usual names of the body of a robot, without a prefix (REP-105).
+const BODIES: [&str; 2] = ["base_link", "base_footprint"];
+
+/// Whether a frame is the body of a robot by its name.
+pub(super) fn is_body(frame: &str) -> bool {
+    bare(frame).rsplit('/').next().is_some_and(|name| BODIES.contains(&name))
+}
+
 /// Whether poses in this frame are usually the odometry of the tracks.
 pub(super) fn is_of_odometry(parent: &str) -> bool {
     same_frame(parent, ODOMETRY)
@@ -120,9 +128,10 @@ impl Frames {
 
     /// The frame of a robot's body by its usual name, whatever the prefix (REP-105).
     pub(super) fn body(&self) -> Option<&str> {
-        ["base_link", "base_footprint"].into_iter().find_map(|usual| {
-            let mut children = self.links.iter().map(|link| link.child.as_str());
-            children.find(|child| child.rsplit('/').next() == Some(usual))
+        BODIES.into_iter().find_map(|usual| {
+            let frames = self.links.iter().flat_map(|link| [&*link.child, &*link.parent]);
+            let mut frames = frames.filter(|frame| frame.rsplit('/').next() == Some(usual));
+            frames.next()
         })
     }
 }

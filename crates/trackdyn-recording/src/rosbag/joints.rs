@@ -8,6 +8,7 @@ use super::names::{self, Part};
 use super::options::RosbagOptions;
 use super::payload::{Payload, PayloadError};
 use crate::unit::SpeedUnit;
+use std::collections::BTreeMap;
 use std::convert::Infallible;
 use trackdyn_core::{PerSide, Side};
 
@@ -71,8 +72,21 @@ impl Joints {
 
     /// Whether a joint may turn a track by its name, or by the options.
     pub(super) fn has_any(&self) -> bool {
-        let mut columns = self.sources.iter().flat_map(|source| &source.columns);
-        columns.any(|column| column.part != Part::Other)
+        self.columns().any(|column| column.part != Part::Other)
+    }
+
+    /// All joints that may turn a track.
+    pub(super) fn columns(&self) -> impl Iterator<Item = &Column> {
+        self.sources.iter().flat_map(|source| &source.columns)
+    }
+
+    /// How many messages each topic has.
+    pub(super) fn messages_by_topic(&self) -> BTreeMap<String, u64> {
+        let mut messages = BTreeMap::new();
+        for source in &self.sources {
+            *messages.entry(source.topic.clone()).or_insert(0) += source.messages;
+        }
+        messages
     }
 
     /// What all messages told.

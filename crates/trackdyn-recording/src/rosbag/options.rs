@@ -21,7 +21,7 @@ pub struct RosbagOptions {
     pub joint_signal: JointSignal,
     /// Belt speed per joint speed, m: the radius of wheel or sprocket, with any gear.
     pub wheel_radius: Option<f64>,
-    /// Topic of the poses.
+    /// Topic of the poses; one of a `sensor_msgs/Imu` gives the yaw of its gyroscope alone.
     pub pose_topic: Option<String>,
     /// Which pose of a `geometry_msgs/PoseArray` is that of the robot, from 0; needed where its
     /// messages have several.
@@ -31,7 +31,7 @@ pub struct RosbagOptions {
     pub parent_frame: Option<String>,
     /// Frame whose poses they are.
     pub child_frame: Option<String>,
-    /// Topic of the `sensor_msgs/Imu`, whose axes must be those of the body.
+    /// Topic of the `sensor_msgs/Imu`.
     pub imu_topic: Option<String>,
     /// Topic of the speeds of the body (`nav_msgs/Odometry`, `geometry_msgs/Twist`, `TwistStamped`
     /// or `TwistWithCovarianceStamped`) that track speeds are made of, in place of joints:

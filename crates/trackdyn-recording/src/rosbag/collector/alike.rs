@@ -24,6 +24,9 @@ const MIN_READINGS: usize = 5;
 /// Largest speed that counts, in 90 % quantiles of the speeds that are not zero.
 const LIMIT: f64 = 1.5;
 
+/// Correlation about zero of joints that go by a fixed ratio.
+const MIN_CORRELATION: f64 = 0.98;
+
 /// How two joints move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Likeness {
@@ -44,7 +47,7 @@ pub(super) fn speeds(signals: &[Received<[f64; 2]>], are_positions: bool) -> Vec
         return finite.map(|one| (one.log_ns, value(one))).collect();
     }
     let mut finite: Vec<(i64, f64)> = finite.map(|one| (one.log_ns, value(one))).collect();
-    // What is to be said of wraps is said when the positions are used.
+    // What is to be said of wraps is said when the positions are used, also why they cannot be.
     let _ = turns::unwrap("", &mut finite, |_| 0.0);
     let steps = finite.windows(2).filter(|pair| pair[1].0 > pair[0].0);
     steps
@@ -102,4 +105,12 @@ pub(super) fn likeness(a: &[f64], b: &[f64]) -> Likeness {
     } else {
         Likeness::Apart
     }
+}
+
+/// Speed of a joint per speed of another by their means, where they go by a fixed ratio.
+pub(super) fn ratio(a: &[f64], b: &[f64]) -> Option<f64> {
+    let both = || a.iter().zip(b).filter(|(a, b)| a.is_finite() && b.is_finite());
+    let sum = |of: fn(f64, f64) -> f64| both().map(|(a, b)| of(*a, *b)).sum::<f64>();
+    let (aa, bb, ab) = (sum(|a, _| a * a), sum(|_, b| b * b), sum(|a, b| a * b));
+    (ab > MIN_CORRELATION * (aa * bb).sqrt() && bb > 0.0).then(|| (aa / bb).sqrt())
 }

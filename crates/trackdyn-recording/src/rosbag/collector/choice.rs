@@ -59,6 +59,7 @@ impl Sources<'_> {
     pub(super) fn poses(
         &self,
         poses: BTreeMap<PoseKey, Rows>,
+        gyroscopes: &[String],
         skipped: &BTreeMap<String, (u64, String)>,
         warnings: &mut Vec<Warning>,
     ) -> Result<(PoseKey, Rows), Error> {
@@ -74,6 +75,12 @@ impl Sources<'_> {
         kinds.extend(of_poses.map(|(topic, (count, reason))| {
             format!("{topic}: {count} messages skipped, because {reason}")
         }));
+        if gyroscopes.len() > 1 {
+            kinds.push(format!(
+                "the yaw of a gyroscope would do, but several could be it: {}; choose by --imu-topic",
+                gyroscopes.join(", ")
+            ));
+        }
         let kind = kinds.join("; ");
         let wanted = Wanted {
             what: "poses",
@@ -88,7 +95,13 @@ impl Sources<'_> {
         let odometry = poses.keys().find(|key| self.may_be_odometry(key)).map(name);
         let chosen = self.only(&wanted, poses, warnings, name)?;
         self.check_index(&chosen.0.topic)?;
-        warnings.extend(odometry.map(|poses| Warning::OwnOdometry { poses }));
+        if let Some(poses) = odometry {
+            warnings.extend(gyroscopes.first().map(|imu| Warning::Chosen {
+                what: "poses",
+                taken: format!("{poses}; --pose-topic {imu} takes the yaw of its gyroscope alone"),
+            }));
+            warnings.push(Warning::OwnOdometry { poses });
+        }
         Ok(chosen)
     }
 
@@ -108,23 +121,31 @@ impl Sources<'_> {
         topics.any(|topic| may_be_odometry(&topic.kind, std::iter::once(&*key.parent)))
     }
 
-    /// An IMU is welcome and not needed: where several could be it, none is taken.
+    /// An IMU is welcome and not needed: where several could be it, none is taken. One that stands
+    /// for the poses is it.
     pub(super) fn imu(
         &self,
-        imu: BTreeMap<String, Vec<Received<Inertial>>>,
+        mut imu: BTreeMap<String, Vec<Received<Inertial>>>,
         warnings: &mut Vec<Warning>,
     ) -> Result<(String, Vec<Received<Inertial>>), Error> {
+        let of_poses = self.options.pose_topic.as_ref();
+        if let Some(found) = of_poses.and_then(|topic| imu.remove_entry(topic)) {
+            return Ok(found);
+        }
         match (&self.options.imu_topic, imu.len()) {
             (None, 0) => Ok((String::new(), Vec::new())),
             (None, 2..) => {
                 let names: Vec<&str> = imu.keys().map(String::as_str).collect();
-                let taken = format!("none of {}, each of which could be it", names.join(", "));
+                let taken = format!(
+                    "none of {}, each of which could be it; choose by --imu-topic",
+                    names.join(", ")
+                );
                 warnings.push(Warning::Chosen { what: "imu", taken });
                 Ok((String::new(), Vec::new()))
             }
             (named, _) => {
                 let (kind, named) = ("no sensor_msgs/Imu", named.as_deref());
-                let wanted = Wanted { what: "imu", kind, named, options: "imu_topic" };
+                let wanted = Wanted { what: "imu", kind, named, options: "--imu-topic" };
                 self.only(&wanted, imu, warnings, Clone::clone)
             }
         }

@@ -2,8 +2,8 @@
 
 use super::{Collector, PoseKey};
 use crate::rosbag::date::Received;
-use crate::rosbag::frames::same_frame;
-use crate::rosbag::message::{header, oriented_pose};
+use crate::rosbag::frames::{Link, same_frame};
+use crate::rosbag::message::{header, oriented_pose, rigid};
 use crate::rosbag::payload::{Payload, PayloadError};
 use crate::rosbag::topic::{Layout, Topic};
 
@@ -42,6 +42,11 @@ impl Collector<'_> {
     ) -> Result<(), PayloadError> {
         let header = header(payload)?;
         let child = if has_child { payload.text()? } else { "" };
+        if topic.is_static()
+            && let Some(transform) = rigid(&mut payload.clone())?
+        {
+            self.mounts.insert(Link::new(header.frame, child), transform);
+        }
         let (value, quaternion) = oriented_pose(payload)?;
         if topic.layout() == Some(Layout::Transforms) {
             self.frames.note(header.frame, child);

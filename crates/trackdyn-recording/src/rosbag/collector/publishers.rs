@@ -144,7 +144,7 @@ fn is_within(source: &Source, other: &Source) -> bool {
 }
 
 /// Whether a joint moves at all.
-fn moves(column: &Column) -> bool {
+pub(super) fn moves(column: &Column) -> bool {
     let steps = |values: &[f64]| {
         let mut finite = values.iter().filter(|value| value.is_finite());
         let first = finite.next().copied();

@@ -96,6 +96,11 @@ fn problem(joints: &[Joint], signal: Signal) -> Option<String> {
     Some(format!("the {name} of {joint} {still} while its {other} moves"))
 }
 
+/// Whether most messages have neither signal of a joint.
+pub(super) fn is_silent(joint: &Joint) -> bool {
+    [Signal::Position, Signal::Velocity].iter().all(|signal| state(joint, *signal) == State::Absent)
+}
+
 fn state(joint: &Joint, signal: Signal) -> State {
     let values =
         || joint.signals.iter().map(|one| one.value[usize::from(signal == Signal::Velocity)]);

@@ -111,7 +111,8 @@ pub(super) fn runs(
             if chosen.signal == Signal::Position {
                 values.sort_by_key(|(time, _)| *time);
                 let at = |stamp| seconds(epoch_ns, stamp);
-                warnings.extend(turns::unwrap(&joint.name, &mut values, at));
+                let told = turns::unwrap(&joint.name, &mut values, at);
+                warnings.extend(told.map_err(|problem| refuse(&problem))?);
             }
             for (_, value) in &mut values {
                 *value *= joint.sign;

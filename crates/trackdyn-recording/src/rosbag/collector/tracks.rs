@@ -3,7 +3,7 @@
 //! Joints that are not named are chosen by the words of their names, then by their motion: those of
 //! a side have to move alike.
 
-use super::alike::{Likeness, edges, likeness, means, speeds};
+use super::agreement::{keep_alike, told_apart};
 use super::joint::{Joint, listed};
 use super::publishers::{drop_idle, drop_repeated, without_zeros};
 use super::signal::{self, Signal};
@@ -42,6 +42,7 @@ pub(super) fn choose(
     sources.retain(|source| taken.contains(&source.topic));
     drop_repeated(&mut sources, warnings);
     let (mut joints, left_out) = joints(sources);
+    drop_silent(&mut joints, options, warnings);
     let signal = signal::choose(&joints, options.joint_signal, warnings)?;
     for side in Side::BOTH {
         let named = match side {
@@ -57,6 +58,8 @@ pub(super) fn choose(
                 out => format!("{taken}; {out} left out, by the name no wheel or track"),
             };
             warnings.push(Warning::Chosen { what, taken });
+        } else {
+            warnings.extend(told_apart(&joints, side, signal));
         }
     }
     Ok(Chosen { joints, signal })
@@ -175,64 +178,18 @@ fn joints(sources: Vec<Source>) -> (Vec<Joint>, PerSide<Vec<String>>) {
     (joints, left_out)
 }
 
-/// Keeps the joints of a side that move, which have to move alike.
-fn keep_alike(
-    joints: &mut Vec<Joint>,
-    side: Side,
-    signal: Signal,
-    warnings: &mut Vec<Warning>,
-) -> Result<(), String> {
-    let motions: Vec<Vec<(i64, f64)>> = joints
-        .iter()
-        .map(|joint| {
-            if joint.side == side {
-                speeds(&joint.signals, signal == Signal::Position)
-            } else {
-                Vec::new()
-            }
-        })
-        .collect();
-    let moves: Vec<bool> =
-        motions.iter().map(|motion| motion.iter().any(|(_, speed)| *speed != 0.0)).collect();
-    if joints.iter().zip(&moves).any(|(joint, moves)| joint.side == side && *moves) {
-        let stays = |joint: &Joint, moves: bool| joint.side != side || moves;
-        let idle = joints.iter().zip(&moves).filter(|(joint, moves)| !stays(joint, **moves));
-        let idle = listed(idle.map(|(joint, _)| joint));
-        if !idle.is_empty() {
-            let (word, what) = (word(side), "joints");
-            let taken = format!("all {word} ones but {idle}, which never move");
-            warnings.push(Warning::Chosen { what, taken });
-        }
-        let mut stay = joints.iter().zip(&moves).map(|(joint, moves)| stays(joint, *moves));
-        let stay: Vec<bool> = stay.by_ref().collect();
-        let mut stay = stay.into_iter();
-        joints.retain(|_| stay.next().unwrap_or(true));
+/// Leaves out joints without numbers beside others of their side; those that the options name stay.
+fn drop_silent(joints: &mut Vec<Joint>, options: &RosbagOptions, warnings: &mut Vec<Warning>) {
+    let is_named = PerSide::new(!options.left_joints.is_empty(), !options.right_joints.is_empty());
+    let speaks = PerSide::from_fn(|side| {
+        joints.iter().any(|joint| joint.side == side && !signal::is_silent(joint))
+    });
+    let is_left_out =
+        |joint: &Joint| signal::is_silent(joint) && speaks[joint.side] && !is_named[joint.side];
+    let silent = listed(joints.iter().filter(|joint| is_left_out(joint)));
+    joints.retain(|joint| !is_left_out(joint));
+    if !silent.is_empty() {
+        let taken = format!("all but {silent}, which have no number in most messages");
+        warnings.push(Warning::Chosen { what: "joints", taken });
     }
-    let edges = edges(motions.iter());
-    let mut moving = motions.iter().zip(&moves).filter(|(_, moves)| **moves);
-    let means: Vec<Vec<f64>> = moving.by_ref().map(|(motion, _)| means(motion, &edges)).collect();
-    let names: Vec<&str> =
-        joints.iter().filter(|joint| joint.side == side).map(|joint| joint.name.as_str()).collect();
-    let word = word(side);
-    for (place, motion) in means.iter().enumerate().skip(1) {
-        let how = match likeness(&means[0], motion) {
-            Likeness::Alike => continue,
-            Likeness::Reversed => format!(
-                "{} counts backwards beside {}; a - before a name reverses a joint",
-                names[place], names[0]
-            ),
-            Likeness::Apart => format!(
-                "{} and {} do not move alike: one of them may be no wheel or track",
-                names[0], names[place]
-            ),
-        };
-        let options: Vec<String> =
-            names.iter().map(|name| format!("--{word}-joint {name}")).collect();
-        return Err(format!(
-            "{how}. Name the joints of the tracks by --left-joint and --right-joint; those of the \
-             {word} side are {}",
-            options.join(" ")
-        ));
-    }
-    Ok(())
 }

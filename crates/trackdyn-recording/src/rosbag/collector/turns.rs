@@ -1,49 +1,68 @@
-//! Positions of joints that are reported modulo a turn.
+//! Positions of joints that wrap.
 //!
 //! # Law
-//! A joint whose positions all lie within one turn and that steps by more than half a turn has
-//! wrapped where the shortest way goes on as the step before did, to a quarter turn. Whole turns
-//! are added from there on.
+//! Where the jumps of a joint tell [modulo what](modulus) it is reported, it has wrapped where the
+//! shortest way goes on as the step before or after does, to a quarter of the modulus. Where they
+//! are too few to tell, a joint whose positions all lie within one turn wraps after a whole turn if
+//! the steps beside a jump agree. What it lacks is added from there on.
 //!
 //! # Assumes
-//! A wheel turns by less than half a turn between two readings. Any other step by more than half a
-//! turn, such as that of an encoder that starts anew, is left as it is and told: what happened is
-//! not known.
+//! A joint turns by less than half of the modulus between two readings. Any other jump, such as
+//! that of an encoder that starts anew, is left as it is and told: what happened is not known.
 
 use crate::recording::Warning;
 use crate::rosbag::date::Stamped;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use modulus::Modulus;
+use std::f64::consts::TAU;
+
+mod modulus;
 
 /// Largest span beyond a turn of positions that are modulo a turn, rad: single precision and coarse
 /// encoders round them.
 const POSITION_ROUNDING: f64 = 1e-3;
 
-/// Adds whole turns to the positions of a joint that wraps, in the order of time. `seconds` is the
-/// time of a stamp.
+/// Adds what is lacking to the positions of a joint that wraps, in the order of time. `seconds` is
+/// the time of a stamp.
+///
+/// # Errors
+/// Why the positions cannot be used, where the joint turns too far between two readings.
 pub(super) fn unwrap(
     joint: &str,
     angles: &mut [Stamped<f64>],
     seconds: impl Fn(i64) -> f64,
-) -> Vec<Warning> {
-    let values: Vec<(usize, f64)> = angles.iter().map(|(_, angle)| *angle).enumerate().collect();
-    let steps = Steps::of(&values);
+) -> Result<Vec<Warning>, String> {
+    let values: Vec<f64> = angles.iter().map(|(_, angle)| *angle).collect();
+    let modulus = match Modulus::of(&values) {
+        Modulus::Of(modulus) => Some(modulus),
+        Modulus::Unknown => None,
+        Modulus::Unclear(range) => {
+            return Err(format!(
+                "{joint}: its position wraps within a range of {range:.4} rad, and steps by about \
+                 half of it or more between two readings: which way it turned is not known; \
+                 expected more readings a second, or velocities (--joint-signal velocity)"
+            ));
+        }
+    };
+    let steps = Steps::of(&values, modulus);
     let mut warnings = Vec::new();
     if steps.wraps > 0 {
+        let modulus = modulus.unwrap_or(TAU);
         for ((_, angle), turns) in angles.iter_mut().zip(&steps.turns) {
-            *angle += TAU * turns;
+            *angle += modulus * turns;
         }
-        warnings.push(Warning::TurnsAdded { joint: joint.to_owned(), count: steps.wraps });
+        let (joint, count) = (joint.to_owned(), steps.wraps);
+        warnings.push(Warning::TurnsAdded { joint, count, modulus });
     }
     if let Some(&first) = steps.jumps.first() {
         let (t, count) = (seconds(angles[first].0), steps.jumps.len());
         warnings.push(Warning::JointJumps { joint: joint.to_owned(), count, t });
     }
-    warnings
+    Ok(warnings)
 }
 
 /// The steps of one joint.
 struct Steps {
-    /// Whole turns that each position lacks.
+    /// How many moduli each position lacks.
     turns: Vec<f64>,
     wraps: usize,
     /// Places after jumps that are no wraps.
@@ -51,28 +70,43 @@ struct Steps {
 }
 
 impl Steps {
-    fn of(angles: &[(usize, f64)]) -> Self {
-        let values = || angles.iter().map(|&(_, angle)| angle);
+    fn of(positions: &[f64], known: Option<f64>) -> Self {
+        let values = || positions.iter().copied();
         let span =
             values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
+        let modulus = known.unwrap_or(TAU);
         let within_a_turn = span <= TAU + POSITION_ROUNDING;
+        let step_after = |place: usize| match positions.get(place + 1..place + 3) {
+            Some([first, second]) => Some(second - first),
+            _ => None,
+        };
         let mut steps = Self { turns: Vec::new(), wraps: 0, jumps: Vec::new() };
-        let (mut turns, mut before) = (0.0, 0.0);
+        let (mut turns, mut before) = (0.0, None);
         steps.turns.extend(values().take(1).map(|_| 0.0));
-        for (place, pair) in angles.windows(2).enumerate() {
-            let mut step = pair[1].1 - pair[0].1;
-            if step.abs() > PI {
-                let shortest = step - TAU * step.signum();
-                if within_a_turn && (shortest - before).abs() <= FRAC_PI_2 {
+        for (place, pair) in positions.windows(2).enumerate() {
+            let mut step = pair[1] - pair[0];
+            if step.abs() > 0.5 * modulus {
+                let shortest = step - modulus * step.signum();
+                let last = before.unwrap_or(0.0);
+                let goes_on = |other: f64| (shortest - other).abs() <= 0.25 * modulus;
+                let after = step_after(place);
+                let is_wrap = if known.is_some() {
+                    goes_on(last) || after.is_some_and(goes_on)
+                } else {
+                    let first = before.or(after).unwrap_or(shortest);
+                    let is_turn = modulus::is_of_a_turn(step, first, after.unwrap_or(first));
+                    within_a_turn && goes_on(last) && is_turn
+                };
+                if is_wrap {
                     turns -= step.signum();
                     step = shortest;
                     steps.wraps += 1;
-                } else if (step - before).abs() > PI {
+                } else if (step - last).abs() > 0.5 * modulus {
                     steps.jumps.push(place + 1);
                 }
             }
             steps.turns.push(turns);
-            before = step;
+            before = Some(step);
         }
         steps
     }
@@ -81,9 +115,17 @@ impl Steps {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     fn steps(angles: &[f64]) -> Steps {
-        Steps::of(&angles.iter().copied().enumerate().collect::<Vec<_>>())
+        let Modulus::Unclear(range) = Modulus::of(angles) else {
+            let modulus = match Modulus::of(angles) {
+                Modulus::Of(modulus) => Some(modulus),
+                _ => None,
+            };
+            return Steps::of(angles, modulus);
+        };
+        panic!("unclear within {range}")
     }
 
     #[test]

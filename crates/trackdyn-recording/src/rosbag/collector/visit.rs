@@ -19,6 +19,7 @@ impl Collector<'_> {
             Role::Twist => return is_twist,
             Role::Tracks if self.signals.are_wanted() => return false,
             Role::Tracks => &self.options.tracks_topic,
+            Role::Imu if self.options.pose_topic.as_ref() == Some(&topic.name) => return true,
             Role::Imu => &self.options.imu_topic,
         };
         named.as_ref().is_none_or(|name| *name == topic.name)

@@ -259,8 +259,9 @@ impl std::fmt::Display for Contradiction {
                 match mount {
                     Some(mount) => write!(
                         f,
-                        "the sensor is turned on the robot, by {0:.0} degrees: --mount-yaw {0:.0} \
-                         takes it back, --fit sensor-yaw finds the rest",
+                        "the sensor is turned on the robot by some {0:.0} degrees (--mount-yaw \
+                         {0:.0} takes it back, --fit sensor-yaw finds the rest), or its yaw is not \
+                         that of the robot",
                         mount.to_degrees()
                     ),
                     None => f.write_str(

@@ -204,7 +204,7 @@ fn forces_of_a_lifted_contact_have_exact_derivatives() {
 /// shift as they turn.
 fn solve_lifted(count: usize, seed: u64) {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let (mut lifted, mut tipped, mut without) = (0, 0, 0);
+    let (mut lifted, mut tipped) = (0, 0);
     let mut unsolved = Vec::new();
     for case in 0..count {
         let share = uniform(&mut random, -0.5, 1.0);
@@ -221,8 +221,6 @@ fn solve_lifted(count: usize, seed: u64) {
         let model = Model::new(vehicle, effects);
         let solution = Stationary::new(&model, &Circumstance::default()).solve(speeds);
         match solution.status {
-            // A load that shifts may leave no balance on this side of tipping.
-            Status::NotConverged if case % 2 == 1 => without += 1,
             Status::NotConverged => unsolved.push((case, share, speeds)),
             Status::Tips => tipped += 1,
             Status::Turning => {
@@ -247,8 +245,8 @@ fn solve_lifted(count: usize, seed: u64) {
             Status::Straight | Status::Holds(_) => {}
         }
     }
-    println!("of {count}: {lifted} lifted, {tipped} tipped, {without} without a balance");
-    assert!(lifted > count / 10 && without < count / 50, "{lifted}, {without} of {count}");
+    println!("of {count}: {lifted} lifted, {tipped} tipped");
+    assert!(lifted > count / 10, "{lifted} of {count}");
     assert!(unsolved.is_empty(), "{} unsolved: {unsolved:?}", unsolved.len());
 }
 

@@ -7,9 +7,9 @@
 //!
 //! The correlation of Δψ and D (b removed) is searched for its peak: first where offsets usually
 //! are, from there on uphill, and where no clear peak is found, as far as it takes. The peak itself
-//! is not the estimate: encoder noise averages better where D cuts readings in two, which pulls the peak by up
-//! to half a reading. From there on, the residual is made orthogonal to D before and after the
-//! interval (lead minus lag for τ, lead plus lag for k, Δt for b). These instruments share no
+//! is not the estimate: encoder noise averages better where D cuts readings in two, which pulls the
+//! peak by up to half a reading. From there on, the residual is made orthogonal to D before and
+//! after the interval (lead minus lag for τ, lead plus lag for k, Δt for b). These instruments share no
 //! reading with Dᵢ, so that white encoder noise drops out.
 //!
 //! # Assumes

@@ -265,7 +265,8 @@ fn by_evidence(clocks: &[Clock], warnings: &mut Vec<Warning>) -> By {
 }
 
 /// Quartiles over time of stamp − logging of the message that is logged soonest, s: a clock that
-/// was set has others for a part of the time. Pairs of logging and stamp are in the order of logging.
+/// was set has others for a part of the time. Pairs of logging and stamp are in the order of
+/// logging.
 fn soonest(pairs: &[(i64, i64)]) -> [f64; 2] {
     let Some(&(first, _)) = pairs.first() else { return [0.0; 2] };
     let time = |pair: &(i64, i64)| (seconds(first, pair.0) / BURSTS).floor();

@@ -100,8 +100,8 @@ pub struct RecordingOptions {
     /// One table of track speeds and poses (.csv): its columns by key, with a unit after a colon
     /// and a `-` before a sign that is wrong, such as
     /// t=Time:ms,v_l=left:rpm,v_r=-right:rpm,x=px:mm,y=py:mm,yaw=heading:deg. Units: s, ms, us, ns,
-    /// min, h, d; those of --speed-unit; m, cm, mm, km, ft; rad, deg, compass (clockwise from north, x
-    /// east). qx, qy, qz, qw may stand for yaw; run parts the table into runs
+    /// min, h, d; those of --speed-unit; m, cm, mm, km, ft; rad, deg, compass (clockwise from
+    /// north, x east). qx, qy, qz, qw may stand for yaw; run parts the table into runs
     #[arg(long, value_name = "KEY=COLUMN,...")]
     columns: Option<Columns>,
     /// Bag: topic of the joint states
@@ -132,8 +132,8 @@ pub struct RecordingOptions {
     /// Bag: frame whose poses they are
     #[arg(long, value_name = "FRAME")]
     child_frame: Option<String>,
-    /// Bag: topic of the IMU, where it has several; --pose-topic with that of an IMU takes the yaw of
-    /// its gyroscope in place of poses
+    /// Bag: topic of the IMU, where it has several; --pose-topic with that of an IMU takes the yaw
+    /// of its gyroscope in place of poses
     #[arg(long, value_name = "TOPIC")]
     imu_topic: Option<String>,
     /// Bag without joints: topic of a twist (Odometry, Twist, TwistStamped) that track speeds are

@@ -6,11 +6,11 @@
 //! constant yaw rate.
 //!
 //! The correlation of Δψ and D (b removed) is searched for its peak: first where offsets usually
-//! are, from there on uphill, and where no clear peak is found, as far as it takes. The peak itself is not the
-//! estimate: encoder noise averages better where D cuts readings in two, which pulls the peak by up
-//! to half a reading. From there on, the residual is made orthogonal to D before and after the
-//! interval (lead minus lag for τ, lead plus lag for k, Δt for b). These instruments share no
-//! reading with Dᵢ, so that white encoder noise drops out.
+//! are, from there on uphill, and where no clear peak is found, as far as it takes. The peak itself
+//! is not the estimate: encoder noise averages better where D cuts readings in two, which pulls the
+//! peak by up to half a reading. From there on, the residual is made orthogonal to D before and
+//! after the interval (lead minus lag for τ, lead plus lag for k, Δt for b). These instruments
+//! share no reading with Dᵢ, so that white encoder noise drops out.
 //!
 //! # Assumes
 //! k may be any constant: no kinematic model is needed. A belt that lags behind its encoder shows

@@ -77,8 +77,8 @@ pub enum Error {
     #[error(
         "the clocks of poses and tracks differ by {farthest} s or more: the best clock offset lies \
          at an end of the search, at {tau:.2} s. Expected stamps by one clock: see what `inspect` \
-         says of the stamps, give the offset with --tau, or of a bag take the times of logging with \
-         --dated-by log"
+         says of the stamps, give the offset with --tau, or of a bag take the times of logging \
+         with --dated-by log"
     )]
     ClockFar {
         /// The best of those that were tried, s.
@@ -90,9 +90,9 @@ pub enum Error {
     #[error(
         "yaw falls where the right track is faster (correlation {correlation:.2}): left and right \
          are swapped, a side counts backwards, or the sign of yaw is another: give the joints with \
-         --left-joint and --right-joint (-NAME reverses one). Or the clocks differ by more than the \
-         {farthest} s that were tried: --tau gives the offset, and of a bag --dated-by chooses the \
-         clock"
+         --left-joint and --right-joint (-NAME reverses one). Or the clocks differ by more than \
+         the {farthest} s that were tried: --tau gives the offset, and of a bag --dated-by chooses \
+         the clock"
     )]
     Swapped {
         /// Correlation of yaw increments and encoders.

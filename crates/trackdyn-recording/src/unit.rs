@@ -188,12 +188,12 @@ pub(crate) fn of_tracks(ratio: f64, radius: f64) -> Option<(&'static str, String
     if unit > MIN_CONTRAST * off {
         return Some(("metres of the tracks in place of radians of the wheels", of_tracks));
     }
-    let both = "metres of the tracks in place of radians of the wheels, and as well of other units, \
-                too near to tell";
+    let both = "metres of the tracks in place of radians of the wheels, and as well of other \
+                units, too near to tell";
     let is_of_turns = ratio < 1.0 && mixed_up(ratio) == Some(MIXED[6].1);
     if is_of_turns {
-        let both = "metres of the tracks in place of radians of the wheels, and as well of turns in \
-                    place of radians, too near to tell";
+        let both = "metres of the tracks in place of radians of the wheels, and as well of turns \
+                    in place of radians, too near to tell";
         let turns = SpeedUnit::TurnsPerSecond;
         return Some((both, format!("{of_tracks}, --speed-unit {turns} reads turns")));
     }

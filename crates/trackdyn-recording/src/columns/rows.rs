@@ -14,8 +14,8 @@ use std::path::Path;
 use trackdyn_core::Pose;
 
 /// What a time may be.
-const TIME: &str = "a number, a date such as 2024-03-31T00:59:30.05 or 31.03.2024 00:59:30.05, or a \
-                    time of day such as 00:59:30.05";
+const TIME: &str = "a number, a date such as 2024-03-31T00:59:30.05 or 31.03.2024 00:59:30.05, or \
+                    a time of day such as 00:59:30.05";
 
 /// Reads a table of these columns.
 ///

@@ -31,8 +31,8 @@ use rate::Rate;
 /// Latest that a stamped message may be logged after those of other topics, s: a slow SLAM.
 const MAX_LATENESS: f64 = 2.0;
 
-/// Share of the messages of a topic that are logged later after their stamps than the soonest.
-const SOON_SHARE: f64 = 0.95;
+/// Time of logging within which a driver that logs in bursts logs some message at once, s.
+const BURSTS: f64 = 15.0;
 
 /// Smallest difference of two clocks that is told, s.
 const MIN_TOLD: f64 = 0.2;
@@ -72,8 +72,8 @@ pub(super) struct Clock {
     broken: bool,
     /// Median of stamp − logging, s.
     ahead: f64,
-    /// Stamp − logging of the messages that are logged soonest, s.
-    soonest: f64,
+    /// Stamp − logging of the messages that are logged soonest, s: quartiles over time.
+    soonest: [f64; 2],
     /// Most stamps are those of another reading.
     coarse: bool,
     /// Time covered by the stamps, and by their logging, s.
@@ -120,7 +120,7 @@ impl Clock {
             wrong: dated - pairs.len(),
             broken,
             ahead: median(&mut ahead).unwrap_or_default(),
-            soonest: quantile(&mut ahead, SOON_SHARE).unwrap_or_default(),
+            soonest: soonest(&pairs),
             coarse,
             covered,
             logged: [logged.clone().min().unwrap_or_default(), logged.max().unwrap_or_default()],
@@ -194,7 +194,8 @@ impl Clock {
     /// Whether the stamps of two topics differ by more than a delay or bursts explain.
     fn differs_from(&self, other: &Self) -> bool {
         let differ = |a: f64, b: f64| (a - b).abs() > MAX_LATENESS;
-        differ(self.ahead, other.ahead) && differ(self.soonest, other.soonest)
+        differ(self.ahead, other.ahead)
+            && (0..2).any(|quartile| differ(self.soonest[quartile], other.soonest[quartile]))
     }
 
     /// Whether two topics were logged over one time, at least half of the shorter one.
@@ -261,6 +262,19 @@ fn by_evidence(clocks: &[Clock], warnings: &mut Vec<Warning>) -> By {
         });
     }
     by
+}
+
+/// Quartiles over time of stamp − logging of the message that is logged soonest, s: a clock that
+/// was set has others for a part of the time. Pairs of logging and stamp are in the order of
+/// logging.
+fn soonest(pairs: &[(i64, i64)]) -> [f64; 2] {
+    let Some(&(first, _)) = pairs.first() else { return [0.0; 2] };
+    let time = |pair: &(i64, i64)| (seconds(first, pair.0) / BURSTS).floor();
+    let ahead = |pair: &(i64, i64)| seconds(pair.0, pair.1);
+    let parts = pairs.chunk_by(|a, b| time(a) == time(b));
+    let largest = parts.map(|part| part.iter().map(ahead).fold(f64::NEG_INFINITY, f64::max));
+    let mut largest: Vec<f64> = largest.collect();
+    [0.25, 0.75].map(|share| quantile(&mut largest, share).unwrap_or_default())
 }
 
 /// The run that a message belongs to, by the loggings at which the clock begins anew.

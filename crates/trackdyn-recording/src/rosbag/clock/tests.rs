@@ -51,6 +51,13 @@ fn a_driver_that_logs_in_bursts_keeps_its_stamps() {
 }
 
 #[test]
+fn a_clock_that_is_set_by_seconds_is_no_burst() {
+    let tracks = clock("tracks", 600, |t| UNIX + t).0;
+    let poses = clock("poses", 600, |t| UNIX + t - if t > 25 * S { 4 * S } else { 0 }).0;
+    assert_eq!(decide(&[tracks, poses], Dating::Any).0, By::Log);
+}
+
+#[test]
 fn stamps_of_whole_seconds_give_way_to_the_log_and_repeats_do_not() {
     let coarse = |topic: &str, changes: bool| {
         let readings = (0..600).map(|k: i32| Received {

@@ -109,8 +109,8 @@ fn refusal(joints: &[Joint], side: Side, means: &[Vec<f64>]) -> Option<String> {
 fn apart_from(first: &str, second: &str, a: &[f64], b: &[f64]) -> String {
     match ratio(a, b) {
         Some(ratio) => format!(
-            "{first} and {second} do not move alike: the first turns {ratio:.2} times as far (a gear \
-             or another unit)"
+            "{first} and {second} do not move alike: the first turns {ratio:.2} times as far (a \
+             gear or another unit)"
         ),
         None => format!("{first} and {second} do not move alike"),
     }

@@ -77,7 +77,8 @@ impl Sources<'_> {
         }));
         if gyroscopes.len() > 1 {
             kinds.push(format!(
-                "the yaw of a gyroscope would do, but several could be it: {}; choose by --imu-topic",
+                "the yaw of a gyroscope would do, but several could be it: {}; choose by \
+                 --imu-topic",
                 gyroscopes.join(", ")
             ));
         }

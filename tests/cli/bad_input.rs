@@ -89,15 +89,15 @@ fn nan_and_infinity() {
 }
 
 #[test]
-fn centre_of_gravity_that_lifts_an_end_or_a_side() {
+fn centre_of_gravity_beside_the_contact() {
     let at = |cog| vehicle("cog_m = [-0.015, 0.04]", &format!("cog_m = {cog}"));
     refused(
-        &at("[0.0, 0.12]"),
-        &["robot.toml:7: cog_m", "-0.1167 and 0.1167", "the rear end lifts"],
+        &at("[0.0, 0.36]"),
+        &["robot.toml:7: cog_m", "-0.3500 and 0.3500", "tips over its front end"],
     );
-    refused(&at("[0.0, -0.12]"), &["the front end lifts"]);
-    refused(&at("[0.3, 0.0]"), &["-0.2100 and 0.2100", "the left side lifts"]);
-    refused(&at("[-0.3, 0.0]"), &["the right side lifts"]);
+    refused(&at("[0.0, -0.36]"), &["tips over its rear end"]);
+    refused(&at("[0.3, 0.0]"), &["-0.2100 and 0.2100", "tips over its right side"]);
+    refused(&at("[-0.3, 0.0]"), &["tips over its left side"]);
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn options_of_the_command_line() {
         ("map --fastest 0", "--fastest = 0: expected a positive largest track speed"),
         ("map --speed nan", "--fastest = NaN"),
         ("map --fastest 1e308", "at most 1000"),
-        ("map --cog 0.3,0", "the left side lifts"),
+        ("map --cog 0.3,0", "tips over its right side"),
         ("map --cog nan,0", "two numbers separated by a comma"),
         ("map --cog 0.1", "two numbers separated by a comma"),
         ("map --effect centripedal", "such as \"centripetal\""),

@@ -222,7 +222,7 @@ fn contradicted_parameters_are_written_only_by_force() {
     place.write("wide.toml", &vehicle.replace(gauge, "gauge_m = 1.3"));
     let run = place.run("identify drive --vehicle wide.toml");
     assert_eq!(run.status, 2, "{}", run.stdout);
-    assert!(run.stdout.contains("friction cannot do"), "{}", run.stdout);
+    assert!(run.stdout.contains("friction cannot put them"), "{}", run.stdout);
     assert!(!place.path().join("out/kinematics.toml").exists());
     let run = place.run("identify drive --vehicle wide.toml --force");
     assert_eq!(run.status, 0, "{}", run.stdout);

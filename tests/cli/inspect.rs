@@ -153,7 +153,7 @@ fn what_looks_wrong_is_told() {
             .replace("gauge_m = 0.42", "gauge_m = 1.3"),
     );
     let run = place.run("inspect faults --vehicle wide.toml");
-    assert!(run.stdout.contains("friction cannot do"), "{}", run.stdout);
+    assert!(run.stdout.contains("friction cannot put them"), "{}", run.stdout);
     assert!(!run.stdout.contains("trackdyn identify"), "{}", run.stdout);
 }
 

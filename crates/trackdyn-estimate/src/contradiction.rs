@@ -93,12 +93,12 @@ pub enum Contradiction {
     },
     /// The fit explains hardly any turning.
     Turning {
-        /// Part of the turning that it leaves, of the segments that turn most.
+        /// Part of the turning that it leaves, of the segments that should turn most.
         left: f64,
     },
     /// The poses move where the tracks do not drive.
     Way {
-        /// Part of the way that the fit leaves, of the segments in which the poses move furthest.
+        /// Part of the way that the fit leaves, of the segments that should lead furthest.
         left: f64,
         /// Heading of the sensor on the robot that would explain it, rad.
         mount: Option<f64>,
@@ -116,7 +116,8 @@ impl Contradiction {
         fit: &Estimate,
         genetic: &Estimate,
         spin_test: Option<&SpinTest>,
-        (observations, noise): (&Observations, Option<&SegmentNoise>),
+        observations: &Observations,
+        noise: Option<&SegmentNoise>,
         gauge: f64,
     ) -> Vec<Self> {
         let left = LeftOver::of(&fit.parameters, observations, noise);

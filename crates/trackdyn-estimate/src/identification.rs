@@ -140,8 +140,8 @@ pub fn identify_unless_stopped(
             least_squares.as_ref().map_or(Vec::new(), |estimate| doubts(estimate, options.gauge));
         let contradictions = least_squares.as_ref().map_or(Vec::new(), |estimate| {
             let spin = spin_test.as_ref().ok();
-            let seen = (observations, seen.weighting.noise());
-            Contradiction::of_motions(estimate, &genetic_estimate, spin, seen, gauge)
+            let noise = seen.weighting.noise();
+            Contradiction::of_motions(estimate, &genetic_estimate, spin, observations, noise, gauge)
         });
         Some(Fit {
             free,

@@ -8,11 +8,9 @@ use crate::observations::{Observation, Observations};
 use crate::parameters::Parameters;
 use crate::prediction::{Lanes, Prediction};
 use crate::weighting::SegmentNoise;
-use trackdyn_core::robust::median;
+use trackdyn_core::robust::{NORMAL_FROM_MAD, median};
 
-/// Median of |z| of a standard normal number.
-const HALF_NORMAL_MEDIAN: f64 = 0.674_489_750_196_082;
-/// Median of the length of two of them, √(2 ln 2).
+/// Median of the length of two standard normal numbers, √(2 ln 2).
 const RAYLEIGH_MEDIAN: f64 = 1.177_410_022_515_475;
 
 /// Parts of the motion that parameters leave.
@@ -36,34 +34,28 @@ impl LeftOver {
     ) -> Self {
         let [x_l, x_r, ..] = parameters.0;
         let predictions = Lanes::new(observations).predict(parameters);
-        let segments = || observations.segments().iter().zip(&predictions);
-        let off =
-            |(segment, by): (&Observation, &Prediction), k: usize| segment.motion[k] - by.motion[k];
         let variance = |segment: &Observation, k: usize| {
             noise.map_or(0.0, |noise| 2.0 * noise.pose[k] + noise.walk[k] * segment.duration)
         };
-        let turns: Vec<[f64; 3]> = segments()
-            .map(|(segment, by)| {
-                [by.motion[2].abs(), off((segment, by), 2).abs(), variance(segment, 2)]
-            })
-            .collect();
-        let ways: Vec<[f64; 3]> = segments()
-            .map(|(segment, by)| {
-                let [x, y, _] = by.motion;
-                let variance = f64::midpoint(variance(segment, 0), variance(segment, 1));
-                [x.hypot(y), off((segment, by), 0).hypot(off((segment, by), 1)), variance]
-            })
-            .collect();
-        let sides: Vec<[f64; 3]> = segments()
-            .map(|(segment, by)| {
-                let turned = by.motion[2].abs() * (x_r - x_l);
-                [turned, off((segment, by), 1).abs(), 0.0]
-            })
-            .collect();
+        // Of each segment, its prediction and what that leaves: forward, left, yaw.
+        let rows = |row: &dyn Fn(&Observation, [f64; 3], [f64; 3]) -> [f64; 3]| -> Vec<[f64; 3]> {
+            let segments = observations.segments().iter().zip(&predictions);
+            let rows = segments.map(|(segment, Prediction { motion, .. })| {
+                row(segment, *motion, [0, 1, 2].map(|k| segment.motion[k] - motion[k]))
+            });
+            rows.collect()
+        };
+        let turns =
+            rows(&|segment, [.., yaw], [.., off]| [yaw.abs(), off.abs(), variance(segment, 2)]);
+        let ways = rows(&|segment, [x, y, _], [forward, left, _]| {
+            let variance = f64::midpoint(variance(segment, 0), variance(segment, 1));
+            [x.hypot(y), forward.hypot(left), variance]
+        });
+        let sides = rows(&|_, [.., yaw], [_, left, _]| [yaw.abs() * (x_r - x_l), left.abs(), 0.0]);
         Self {
-            turning: left(turns, HALF_NORMAL_MEDIAN),
+            turning: left(turns, 1.0 / NORMAL_FROM_MAD),
             way: left(ways, RAYLEIGH_MEDIAN),
-            sideways: left(sides, HALF_NORMAL_MEDIAN),
+            sideways: left(sides, 1.0 / NORMAL_FROM_MAD),
         }
     }
 

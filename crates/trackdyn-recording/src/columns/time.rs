@@ -1,7 +1,15 @@
 //! Times that are written as dates or as the time of day.
 
+use chrono::{DateTime, Datelike, NaiveDateTime, NaiveTime, Timelike};
+
 /// Seconds of a day.
 const DAY: f64 = 86_400.0;
+
+/// Dates as tables have them, with points for commas in seconds.
+const DATES: [&str; 3] = ["%Y-%m-%d %H:%M:%S%.f", "%Y/%m/%d %H:%M:%S%.f", "%d.%m.%Y %H:%M:%S%.f"];
+
+/// Years that a robot may have been driven in; others are no dates.
+const YEARS: std::ops::Range<i32> = 1900..3000;
 
 /// Reads times in the order of a table: the time of day goes on over midnight.
 #[derive(Clone, Copy, Debug, Default)]
@@ -16,12 +24,13 @@ impl Times {
     /// `2024-03-31 00:59:30`, `31.03.2024 00:59:30` or `00:59:30.050`. None of others: a date
     /// between slashes may be of the day or of the month first.
     pub(super) fn read(&mut self, text: &[u8]) -> Option<f64> {
-        let text = std::str::from_utf8(text).ok()?;
+        let text = std::str::from_utf8(text).ok()?.replace(',', ".");
         if let Some((date, time)) = text.split_once(['T', ' ']) {
-            let (time, zone) = zone(time.trim())?;
-            return Some(DAY * days(date)? + clock(time)? - zone);
+            return unix(&format!("{date} {}", time.trim()));
         }
-        let time = clock(text)?;
+        let time = NaiveTime::parse_from_str(&text, "%H:%M:%S%.f").ok()?;
+        let time =
+            f64::from(time.num_seconds_from_midnight()) + 1e-9 * f64::from(time.nanosecond());
         // A robot drives for less than half a day between two readings.
         if time < self.last - 0.5 * DAY {
             self.midnights += DAY;
@@ -31,49 +40,19 @@ impl Times {
     }
 }
 
-/// Seconds since midnight of `hh:mm:ss`, with or without a fraction.
-fn clock(text: &str) -> Option<f64> {
-    let mut parts = text.split(':');
-    let (hours, minutes, seconds) = (parts.next()?, parts.next()?, parts.next()?);
-    let (hours, minutes): (u8, u8) = (hours.parse().ok()?, minutes.parse().ok()?);
-    let is_plain = seconds.bytes().all(|byte| byte.is_ascii_digit() || b".,".contains(&byte));
-    let seconds: f64 = seconds.replace(',', ".").parse().ok().filter(|_| is_plain)?;
-    let is_time = parts.next().is_none() && hours < 24 && minutes < 60 && seconds < 61.0;
-    is_time.then(|| 3600.0 * f64::from(hours) + 60.0 * f64::from(minutes) + seconds)
-}
-
-/// A time without its zone, and how much later than Greenwich that is, s.
-fn zone(text: &str) -> Option<(&str, f64)> {
-    if let Some(time) = text.strip_suffix(['Z', 'z']) {
-        return Some((time, 0.0));
-    }
-    let Some(at) = text.rfind(['+', '-']) else { return Some((text, 0.0)) };
-    let (time, zone) = text.split_at(at);
-    let digits = zone.get(1..)?.replace(':', "");
-    let hours: u8 = digits.get(..2)?.parse().ok()?;
-    let minutes: u8 =
-        digits.get(2..).filter(|text| !text.is_empty()).map_or(Ok(0), str::parse).ok()?;
-    let offset = 3600.0 * f64::from(hours) + 60.0 * f64::from(minutes);
-    Some((time, if zone.starts_with('-') { -offset } else { offset }))
-}
-
-/// Days from 1970-01-01 to a date of the Gregorian calendar, year first or with points.
-fn days(date: &str) -> Option<f64> {
-    let parts = |separator: char| -> Option<[i32; 3]> {
-        let parts: Result<Vec<i32>, _> = date.split(separator).map(str::parse).collect();
-        parts.ok()?.try_into().ok()
-    };
-    let with_points = || parts('.').map(|[day, month, year]| [year, month, day]);
-    let [year, month, day] = parts('-').or_else(|| parts('/')).or_else(with_points)?;
-    if !(1900..3000).contains(&year) || !(1..=12).contains(&month) || !(1..=31).contains(&day) {
-        return None;
-    }
-    // Years begin in March, so that the leap day is the last of them.
-    let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
-    let of_years = 365 * year + year / 4 - year / 100 + year / 400;
-    let of_months = (153 * month + 2) / 5;
-    // 719468 days lead from the first of March of the year 0 to 1970.
-    Some(f64::from(of_years + of_months + day - 1 - 719_468))
+/// Unix time of a date and time, s; without a zone, that of Greenwich.
+fn unix(text: &str) -> Option<f64> {
+    let text =
+        text.strip_suffix(['Z', 'z']).map_or_else(|| text.to_owned(), |text| format!("{text}+00"));
+    let parsed = DATES.iter().find_map(|form| {
+        let in_zone = DateTime::parse_from_str(&text, &format!("{form}%#z"));
+        let in_greenwich =
+            |_| NaiveDateTime::parse_from_str(&text, form).map(|time| time.and_utc().into());
+        in_zone.or_else(in_greenwich).ok()
+    })?;
+    #[expect(clippy::cast_precision_loss, reason = "seconds of the third millennium")]
+    let seconds = parsed.timestamp() as f64;
+    YEARS.contains(&parsed.year()).then(|| seconds + 1e-9 * f64::from(parsed.nanosecond()))
 }
 
 #[cfg(test)]
@@ -93,6 +72,8 @@ mod tests {
         {
             assert_eq!(read(text), None, "{text}");
         }
+        // a day that no calendar has
+        assert_eq!(read("2023-02-29 00:00:00"), None);
         let mut times = Times::default();
         let read: Vec<_> =
             ["23:59:59,5", "00:00:00.5"].map(|text| times.read(text.as_bytes())).into();

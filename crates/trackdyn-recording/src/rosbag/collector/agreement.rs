@@ -30,9 +30,8 @@ pub(super) fn keep_alike(
             let taken = format!("all {word} ones but {idle}, which never move");
             warnings.push(Warning::Chosen { what, taken });
         }
-        let mut stay = joints.iter().zip(&moves).map(|(joint, moves)| stays(joint, *moves));
-        let stay: Vec<bool> = stay.by_ref().collect();
-        let mut stay = stay.into_iter();
+        let stay = joints.iter().zip(&moves).map(|(joint, moves)| stays(joint, *moves));
+        let mut stay = stay.collect::<Vec<bool>>().into_iter();
         joints.retain(|_| stay.next().unwrap_or(true));
     }
     let edges = edges(motions.iter());

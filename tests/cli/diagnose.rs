@@ -55,9 +55,40 @@ fn centripetal_force_of_the_independent_ground_is_named_and_sized() {
     let fit = |key: &str| file["fit"][key].as_float().expect("a number");
     assert!(fit("held_out_after") < fit("held_out_before"));
     assert!(fit("excess_explained") > 0.9, "{file}");
-    // The corrected vehicle runs where vehicles run.
-    let run = place.run("map --vehicle found/vehicle.corrected.toml --grid 5 --out map");
-    assert_eq!(run.status, 0, "{}", run.stderr);
+    the_corrected_vehicle_runs_where_vehicles_run(&place);
+}
+
+fn the_corrected_vehicle_runs_where_vehicles_run(place: &Workplace) {
+    let run = |command: &str| {
+        let run = place.run(&format!("{command} --vehicle found/vehicle.corrected.toml"));
+        assert_eq!(run.status, 0, "{command}: {}", run.stderr);
+        run
+    };
+    run("map --grid 5 --out map");
+    run("simulate --run-count 1 --duration 5 --out again");
+    let driven = run("drive --forces --out driven");
+    assert!(driven.stdout.contains("forces on Auriga-alpha"), "{}", driven.stdout);
+    run("export table --out table");
+    run("plan --diagnosis found/diagnosis.toml --out plan");
+    // Dead reckoning by its forces, on runs that it was fitted to and on others.
+    let physics = |command: &str, is_held_out: bool| {
+        let run = run(command);
+        let text = String::from_utf8(place.read("replay/odometry.toml")).expect("text");
+        let file: toml::Table = text.parse().expect("TOML");
+        let sets = file["set"].as_array().expect("sets");
+        let [ideal, physics] = &sets[..] else { panic!("{sets:?}") };
+        assert_eq!(physics["name"].as_str(), Some("physics"));
+        assert_eq!(physics["held_out"].as_bool(), Some(is_held_out), "{}", run.stderr);
+        assert!(physics.get("x_icr_left_m").is_none(), "forces have no constant ICRs");
+        let end = |set: &toml::Value| set["end_position_rms_m"].as_float().expect("a number");
+        assert!(end(physics) < 0.05 * end(ideal), "{} of {} m", end(physics), end(ideal));
+        run
+    };
+    let run = physics("odometry drive --out replay", false);
+    assert!(run.stderr.contains("was corrected by some of these runs"), "{}", run.stderr);
+    assert!(run.stdout.contains("take  not decided"), "{}", run.stdout);
+    let run = physics("odometry drive --runs 3,7 --out replay", true);
+    assert!(run.stdout.contains("take  the forces on Auriga-alpha"), "{}", run.stdout);
 }
 
 #[test]

@@ -62,11 +62,11 @@ fn true_parameters_win_by_all_that_is_not_noise() {
     for part in ["4 of 4 runs, 159 s", "clock offset 0.15", "gauge 0.42 m", "fit-no-alpha"] {
         assert!(run.stdout.contains(part), "{part} is not in:\n{}", run.stdout);
     }
-    assert!(run.stdout.lines().count() <= 26, "{}", run.stdout);
+    assert!(run.stdout.lines().count() <= 30, "{}", run.stdout);
     let files = place.files();
     let trajectories = files.iter().filter(|file| file.starts_with("out/trajectories")).count();
-    // Recorded, ideal, fit, fit without alpha, other.
-    assert_eq!(trajectories, 4 * 5);
+    // Recorded, ideal, fit, fit without alpha, other, physics.
+    assert_eq!(trajectories, 4 * 6);
     for name in ["out/odometry.png", "out/odometry.toml", "out/runs.csv"] {
         assert!(files.iter().any(|file| file.as_os_str() == name), "{name}");
     }
@@ -76,12 +76,12 @@ fn true_parameters_win_by_all_that_is_not_noise() {
     assert_eq!(document["clock"]["origin"].as_str(), Some("estimated"));
     let names: Vec<_> =
         document["set"].as_array().expect("sets").iter().map(|set| set["name"].as_str()).collect();
-    assert_eq!(names, ["ideal", "fit", "fit-no-alpha", "other"].map(Some));
+    assert_eq!(names, ["ideal", "fit", "fit-no-alpha", "other", "physics"].map(Some));
     // Two poses each with 0.002 rad and 0.003 m; 10 %: 480 segments, and the clock offset.
     for (component, noise) in [("yaw_rad", 0.002), ("along_m", 0.003), ("across_m", 0.003)] {
         let ratio = rms(&document, 1, component) / (noise * 2.0_f64.sqrt());
         assert!((ratio - 1.0).abs() < 0.1, "{component}: {ratio}");
-        for set in [0, 2, 3] {
+        for set in [0, 2, 3, 4] {
             assert!(rms(&document, set, component) > rms(&document, 1, component), "{component}");
         }
     }
@@ -127,16 +127,22 @@ fn what_to_take_is_said_at_the_end() {
     let place = workplace(&synthetic());
     let run = place.run(COMMAND);
     let (_, end) = run.stdout.split_once("\ntake  fit.toml\n").expect("an advice");
-    assert_eq!(end.lines().count(), 2, "{end}");
+    assert_eq!(end.lines().count(), 3, "{end}");
     assert!(end.contains("as shares of ideal's: place") && end.contains("as shares of other's"));
     assert_eq!(document(&place)["advice"]["take"].as_str(), Some("fit.toml"));
     for (options, part) in [
-        ("", "the ideal drive was replayed alone: give parameter files by --kinematics"),
-        ("--kinematics out/kinematics.toml", "kinematics: fitted to this driving"),
+        (
+            "--gauge 0.42",
+            "the ideal drive was replayed alone: give parameter files by --kinematics",
+        ),
+        (
+            "--vehicle robot.toml --kinematics out/kinematics.toml",
+            "kinematics: fitted to this driving",
+        ),
     ] {
         let fit = "identify recording --vehicle robot.toml --generations 1";
         assert_eq!(place.run(fit).status, 0);
-        let run = place.run(&format!("odometry recording --vehicle robot.toml {options}"));
+        let run = place.run(&format!("odometry recording {options}"));
         let (_, end) = run.stdout.split_once("\ntake  not decided: ").expect("an advice");
         assert!(end.starts_with(part), "{options}: {end}");
     }

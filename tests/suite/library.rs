@@ -4,6 +4,7 @@ mod advice;
 mod examples;
 mod exports;
 mod observer;
+mod physics;
 mod recordings;
 mod settings;
 

@@ -89,7 +89,7 @@ pub fn typical_size(parameter: &Parameter) -> f64 {
 impl Hypothesis {
     /// The hypothesis of a vehicle file.
     pub fn filed(file: &VehicleFile, settings: &settings::Prior) -> Self {
-        let VehicleFile { vehicle, effects } = file.clone();
+        let VehicleFile { vehicle, effects, .. } = file.clone();
         let settings::Prior { max_friction_change, .. } = *settings;
         let (offset, cog_moved) = ([0.0; 3], [0.0; 2]);
         Self { vehicle, effects, offset, friction_level: 0.0, cog_moved, max_friction_change }

@@ -1,7 +1,9 @@
 //! Dead reckoning: where the robot would be if its parameters were true, against where it was.
 //!
-//! - [`parameter_set`]: what turns track speeds into motion: a kinematics file, or the ideal drive.
+//! - [`parameter_set`]: what turns track speeds into motion: a kinematics file, the ideal drive, or
+//!   the forces on a vehicle.
 //! - [`replay()`]: the path that a parameter set predicts from the track speeds of a run.
+//! - [`in_time`]: the same by the forces on a vehicle.
 //! - [`stretch`]: pieces of a run over a distance or a time, and what was seen in them.
 //! - [`residual`]: observed minus predicted motion.
 //! - [`intervals`]: confidence intervals that know that neighbouring residuals are related.
@@ -12,7 +14,9 @@
 //! Axes are those of REP-103 (x forward, y left), units SI, angles in radians.
 
 pub mod comparison;
+mod covered;
 mod error;
+pub mod in_time;
 pub mod intervals;
 pub mod parameter_set;
 pub mod pose_error;

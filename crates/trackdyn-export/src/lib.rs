@@ -4,6 +4,7 @@
 //! - [`covariance`]: how wrong its odometry is, from the residuals of a replay.
 //! - [`frames`]: the frame at that point, and the robot's own.
 //! - [`ros2`], [`urdf`], [`gz`]: the files, one module per program.
+//! - [`motion_table`]: steady motion by the forces on a vehicle, as a table and as C.
 //! - [`viewer`]: paths, markers and curves of a drive for Foxglove, Rerun and PlotJuggler.
 //!
 //! Derivation, signs and direction of the transform: `docs/theory/export.md`.
@@ -13,6 +14,7 @@ pub mod drive;
 pub mod error;
 pub mod frames;
 pub mod gz;
+pub mod motion_table;
 pub mod name;
 pub mod provenance;
 pub mod ros2;
@@ -25,6 +27,7 @@ pub use covariance::Residuals;
 pub use drive::EquivalentDrive;
 pub use error::Error;
 pub use frames::Frames;
+pub use motion_table::LeftOut;
 pub use name::{Name, NodeName};
 pub use provenance::Provenance;
 

@@ -35,6 +35,15 @@ impl Provenance {
         format!("<!--\n{apart}-->\n")
     }
 
+    /// The header and further lines of text as a comment of C.
+    pub(crate) fn c_comment(&self, notes: &str) -> String {
+        let lines: String = self
+            .lines(notes)
+            .map(|line| format!(" * {}", line.replace("*/", "* /")).trim_end().to_owned() + "\n")
+            .collect();
+        format!("/*\n{lines} */\n")
+    }
+
     fn lines(&self, notes: &str) -> impl Iterator<Item = String> {
         let header = [
             format!("Written by trackdyn {}", self.version),

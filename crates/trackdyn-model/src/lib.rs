@@ -13,6 +13,7 @@
 //! - [`newton`]: Newton's and Broyden's method for the balance of forces.
 //! - [`stationary`]: the motion at constant track speeds; [`transient`]: the motion over time.
 //! - [`map`]: the stationary motion over a grid of speeds, its means, spreads and sectors.
+//! - [`motion_table`]: the stationary motion as polynomials, for a robot's computer.
 //! - [`kinematics`]: constant ICRs, equations (7)-(13).
 //!
 //! Laws are generic over one scalar type, so each has exact derivatives. The modules of forces do
@@ -28,6 +29,7 @@ pub mod icr;
 pub mod kinematics;
 pub mod map;
 pub mod model;
+pub mod motion_table;
 pub mod newton;
 pub mod pipeline;
 pub mod stationary;
@@ -41,6 +43,7 @@ pub use icr::Icrs;
 pub use kinematics::Kinematics;
 pub use map::{Grid, IcrMap};
 pub use model::{Balance, Model, Support};
+pub use motion_table::MotionTable;
 pub use pipeline::{Circumstance, Drive, Ground, Motion, Sensor};
 pub use stationary::{Linearised, Near, Solution, Stationary, Status};
 pub use transient::Transient;

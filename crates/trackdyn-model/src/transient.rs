@@ -29,7 +29,7 @@ mod tangent;
 pub(crate) use stage::gripping;
 pub use tangent::tangents;
 
-use crate::{Circumstance, Model, Motion, Support};
+use crate::{Circumstance, Model, Motion, Solution, Stationary, Status, Support};
 use stage::{Balanced, Inverse, Stage, Start};
 use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{Moment, PerSide, Plant, Pose, Stopped, Trajectory, Twist};
@@ -180,6 +180,20 @@ impl<'m> Transient<'m> {
     /// Sets the twist (paper's frame).
     pub fn with_twist(mut self, twist: Twist) -> Self {
         self.state.twist = twist;
+        self
+    }
+
+    /// Starts in the stationary motion at these encoder speeds (m/s) instead of at rest, with belts
+    /// that have caught up; at rest where no motion is stationary.
+    pub fn moving_at(mut self, shown: PerSide<f64>) -> Self {
+        let State { t, pose, .. } = self.state;
+        let circumstance = Circumstance { position: [pose.x, pose.y], heading: pose.yaw, time: t };
+        let Solution { status, twist, belt_speed, .. } =
+            Stationary::new(self.model, &circumstance).solve(shown);
+        if !matches!(status, Status::NotConverged | Status::Tips) {
+            let driven = self.model.drive().driven(shown);
+            self.state = State { twist, driven, belt_speed, ..self.state };
+        }
         self
     }
 

@@ -2,6 +2,7 @@
 
 use crate::contact::Friction;
 use crate::effects::{ActiveEffect, EffectError, Effects};
+use crate::kinematics::Source;
 use crate::vehicle::{FrictionUncertainty, RunningGear, Uncertainty, Vehicle};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -18,6 +19,8 @@ pub struct VehicleFile {
     pub vehicle: Vehicle,
     /// The `[effect.<id>]` tables.
     pub effects: Effects,
+    /// The driving that it was corrected by; none of a vehicle that was measured or assumed.
+    pub source: Option<Source>,
 }
 
 impl VehicleFile {
@@ -49,7 +52,7 @@ impl VehicleFile {
             ));
         }
         let effects = tables.effects(document)?;
-        Ok(Self { vehicle, effects })
+        Ok(Self { vehicle, effects, source: tables.source })
     }
 
     /// The file as text, with keys in a fixed order: equal vehicles have equal texts.
@@ -106,6 +109,7 @@ impl VehicleFile {
                     (unplaced(effect.card().id.to_owned()), table)
                 })
                 .collect(),
+            source: self.source.clone(),
         };
         toml::to_string(&tables).expect("numbers, texts and tables are TOML")
     }
@@ -127,6 +131,8 @@ struct Tables {
     friction: FrictionTable,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     effect: BTreeMap<Spanned<String>, BTreeMap<Spanned<String>, Spanned<f64>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    source: Option<Source>,
 }
 
 #[derive(Deserialize, Serialize)]

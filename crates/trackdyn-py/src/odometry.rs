@@ -80,10 +80,8 @@ impl Odometry {
     /// Which parameters to take: the file, `ideal`, or none with the reason.
     fn advice(&self) -> (Option<String>, Option<String>) {
         match self.inner.advice() {
-            Advice::File { file, .. } => (Some(file), None),
-            Advice::Ideal { .. } => (Some("ideal".to_owned()), None),
             Advice::Undecided { reason } => (None, Some(reason)),
-            _ => (None, None),
+            other => (other.choice().map(str::to_owned), None),
         }
     }
 

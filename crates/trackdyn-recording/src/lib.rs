@@ -24,6 +24,7 @@ pub mod recording;
 pub mod rosbag;
 pub mod sample;
 pub mod selection;
+mod smoothed;
 pub mod table;
 mod table_options;
 pub mod tum;
@@ -39,5 +40,6 @@ pub use recording::{
 };
 pub use sample::{ImuSample, PoseSample, Series, TrackSample};
 pub use selection::RunList;
+pub use smoothed::smoothed;
 pub use table_options::TableOptions;
 pub use unit::SpeedUnit;

@@ -253,6 +253,12 @@ impl Recording {
         &self.pose_fingerprint
     }
 
+    /// Start in whole seconds of its clock. Laws of time count from it.
+    pub fn begin(&self) -> f64 {
+        let readings = self.runs.iter().flat_map(Run::tracks);
+        readings.fold(f64::INFINITY, |first, track| first.min(track.t)).floor()
+    }
+
     /// Time covered by the readings, summed over the runs, s.
     pub fn duration(&self) -> f64 {
         self.runs.iter().map(Run::duration).sum()

@@ -15,7 +15,9 @@ use crate::{
 };
 use std::path::{Path, PathBuf};
 use trackdyn_diagnose::{DiagnosisFile, Evidence, Options, Resampling, Status};
+use trackdyn_model::VehicleFile;
 use trackdyn_model::kinematics::Source;
+use trackdyn_recording::RunList;
 use trackdyn_report::{Figure, Subject, diagnosis_figures, diagnosis_html};
 
 /// Name of the report.
@@ -59,6 +61,9 @@ pub struct Prepared {
     name: String,
     place: String,
     fingerprint: String,
+    /// Fingerprint of its poses, and those of the recordings that were joined.
+    poses: Option<String>,
+    joined: Vec<String>,
     runs: Option<String>,
     /// The time of each run that counts, s.
     time: Option<[f64; 2]>,
@@ -101,7 +106,11 @@ impl Prepared {
             }
             (None, None) => return Err(Error::NoRecording),
         };
+        let of_poses = |one: &Recording| Some(one.motion()?.pose_fingerprint().to_owned());
+        let joined = if recordings.len() > 1 { recordings } else { &[] };
         Ok(Self {
+            poses: of_poses(&recording),
+            joined: joined.iter().filter_map(of_poses).collect(),
             evidence,
             options: Options { held_out, resampling: settings.resampling },
             vehicle: vehicle.clone(),
@@ -144,8 +153,27 @@ impl Prepared {
             trackdyn_diagnose::Error::Cancelled => Error::Cancelled,
             cause => Error::Diagnose { recording: self.place.clone(), cause },
         })?;
-        let corrected = found.answer.corrected.clone().into();
+        let source = Some(self.source_of_correction());
+        let corrected = VehicleFile { source, ..found.answer.corrected.clone() }.into();
         Ok(Diagnosis { found, corrected, of: self })
+    }
+
+    /// What a corrected vehicle was fitted to: all that is not held out.
+    fn source_of_correction(&self) -> Source {
+        let runs = self.evidence.runs().iter().enumerate();
+        let fitted = runs.filter(|(index, _)| !self.options.held_out.contains(index));
+        let fitted = RunList::new(fitted.map(|(_, run)| *run));
+        Source {
+            version: crate::VERSION.to_owned(),
+            vehicle: self.vehicle.name().to_owned(),
+            fingerprint: self.fingerprint.clone(),
+            pose_fingerprint: self.poses.clone(),
+            joined: self.joined.clone(),
+            recording: Some(self.name.clone()),
+            runs: self.runs.is_some().then(|| fitted.to_string()),
+            time_s: self.time,
+            ..Source::default()
+        }
     }
 }
 
@@ -219,7 +247,12 @@ impl Diagnosis {
         );
         // a name may hold a line break, which would end the comment
         let head = head.replace(char::is_control, " ");
-        format!("# {head}\n{}", self.corrected.to_toml())
+        let mut file = self.corrected.file().clone();
+        if let Some(source) = &mut file.source {
+            (source.command, source.version) =
+                (provenance.command.clone(), provenance.version.clone());
+        }
+        format!("# {head}\n{}", file.to_toml())
     }
 
     /// The figures, and the page that carries them.

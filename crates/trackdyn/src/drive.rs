@@ -9,7 +9,7 @@ use std::path::Path as FilePath;
 use trackdyn_core::{Moment, PerSide, Plant, Stopped, Trajectory};
 use trackdyn_drive::tracking::{DriveOptions, Estimate};
 use trackdyn_drive::{Ending, Journey, Path, Steering, Tracker};
-use trackdyn_model::{Kinematics, Transient};
+use trackdyn_model::{Kinematics, MotionTable, Transient};
 use trackdyn_report::{TrackedDrive, path_tracking};
 
 /// Name of the document that every drive writes.
@@ -27,16 +27,19 @@ pub struct DriveSettings {
     /// Whether the robot has inertia; without, it is at its stationary motion at once. Default: it
     /// has.
     pub inertia: bool,
+    /// Whether to drive by the steady motion of the vehicle's own forces, too. Default: no.
+    pub forces: bool,
 }
 
 impl Default for DriveSettings {
     fn default() -> Self {
         let Tracker { speed, look_ahead, .. } = Tracker::default();
-        Self { speed, look_ahead, estimate: Estimate::Truth, inertia: true }
+        Self { speed, look_ahead, estimate: Estimate::Truth, inertia: true, forces: false }
     }
 }
 
-/// Follows a path with the ideal drive of the vehicle's gauge, and with each of these parameters.
+/// Follows a path with the ideal drive of the vehicle's gauge, with each of these parameters, and
+/// by the vehicle's own forces where the settings say so.
 /// The point whose error counts is where the robot turns about by the first of them.
 ///
 /// # Errors
@@ -56,6 +59,7 @@ pub struct Prepared {
     vehicle: Vehicle,
     path: Path,
     parameters: Vec<Parameters>,
+    forces: Option<MotionTable>,
     tracker: Tracker,
     estimate: Estimate,
 }
@@ -81,7 +85,7 @@ impl Prepared {
                 return Err(Error::IcrTooFar { file, y: point[0], most });
             }
         }
-        let DriveSettings { speed, look_ahead, estimate, inertia } = *settings;
+        let DriveSettings { speed, look_ahead, estimate, inertia, forces } = *settings;
         let tracker = Tracker { speed, look_ahead, point, ..Tracker::default() };
         if tracker.speed > tracker.belt_speed {
             return Err(Error::TooFast { speed, most: tracker.belt_speed });
@@ -90,6 +94,7 @@ impl Prepared {
             vehicle: vehicle.clone().with_inertia(inertia),
             path: path.clone(),
             parameters: parameters.to_vec(),
+            forces: forces.then(|| MotionTable::of(&vehicle.model(), tracker.belt_speed)),
             tracker,
             estimate,
         })
@@ -116,6 +121,13 @@ impl Prepared {
                 name: parameters.name().to_owned(),
                 fingerprint: Some(parameters.fingerprint()),
                 journey: self.follow(parameters.file(), observer)?,
+            });
+        }
+        if let Some(forces) = &self.forces {
+            drives.push(Drive {
+                name: format!("forces on {}", self.vehicle.name()),
+                fingerprint: Some(self.vehicle.fingerprint()),
+                journey: self.follow(forces, observer)?,
             });
         }
         Ok(Drives { drives, of: self })
@@ -176,13 +188,14 @@ impl Plant for Watched<'_> {
 pub struct Drive {
     /// Name of the kinematics.
     pub name: String,
-    /// Fingerprint of the kinematics file; none of the ideal drive.
+    /// Fingerprint of the kinematics file, or of the vehicle; none of the ideal drive.
     pub fingerprint: Option<String>,
     /// What came of it.
     pub journey: Journey,
 }
 
-/// Drives along a path: the ideal drive, then one for each set of parameters.
+/// Drives along a path: the ideal drive, then one for each set of parameters, and one by forces
+/// where the settings say so.
 #[derive(Clone, Debug)]
 pub struct Drives {
     drives: Vec<Drive>,

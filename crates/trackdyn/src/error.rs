@@ -309,6 +309,15 @@ pub enum Error {
         most: f64,
     },
 
+    /// A largest speed that no robot has.
+    #[error("fastest {fastest}: expected a track speed in m/s above 0, up to {most}")]
+    FastestSpeed {
+        /// What was given, m/s.
+        fastest: f64,
+        /// The largest that is accepted, m/s.
+        most: f64,
+    },
+
     /// A setting that an export cannot be made with.
     #[error("{0}")]
     Export(#[from] trackdyn_export::Error),
@@ -358,6 +367,7 @@ impl Error {
             Self::NotSimulated { .. } | Self::OtherOrigin { .. } => Some("out"),
             Self::TooFast { .. } => Some("speed"),
             Self::Gauge { .. } => Some("gauge"),
+            Self::FastestSpeed { .. } => Some("fastest"),
             Self::NoWheelRadius { .. } => Some("wheel_radius"),
             Self::NoVehicle { .. } => Some("vehicle"),
             _ => None,

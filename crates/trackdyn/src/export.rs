@@ -1,4 +1,4 @@
-//! Kinematic parameters as files of other programs: ROS 2, URDF, Gazebo.
+//! Kinematic parameters as files of other programs: ROS 2, URDF, Gazebo; forces as a table.
 
 mod robot;
 
@@ -6,14 +6,16 @@ pub use robot::{BaseFrame, RobotWheels, WheelChoices};
 
 use crate::change::Folder;
 use crate::kinematics::source_of;
-use crate::{Change, Error, Parameters, Provenance};
+use crate::{Change, Error, Parameters, Provenance, Vehicle};
 use std::path::Path;
 use trackdyn_core::Side;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::output::fingerprint;
 use trackdyn_export::ros2::{Published, Wheels};
-use trackdyn_export::{EquivalentDrive, Frames, Name, NodeName, Residuals, TextFile};
+use trackdyn_export::{EquivalentDrive, Frames, LeftOut, Name, NodeName, Residuals, TextFile};
+use trackdyn_model::effect::Symmetry;
 use trackdyn_model::kinematics::BagSource;
+use trackdyn_model::{ActiveEffect, MotionTable};
 
 /// The frames of a robot, and where its ICRs are measured from.
 #[derive(Clone, Debug, PartialEq)]
@@ -228,6 +230,51 @@ impl Export {
         Ok(vec![trackdyn_export::urdf::fragment(&self.drive, &frames, &self.provenance)])
     }
 }
+
+/// Steady motion by the forces on a vehicle, for encoder speeds up to `fastest`, m/s: as
+/// `motion_table.toml`, and as a C header for the robot's computer.
+///
+/// ```
+/// let robot = trackdyn::Vehicle::auriga_alpha();
+/// let (table, _) = trackdyn::export::motion_table(&robot, 1.0, &Default::default())?;
+/// assert!(table.error < 1e-6);
+/// # Ok::<(), trackdyn::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::FastestSpeed`] for what is no speed of a robot.
+pub fn motion_table(
+    vehicle: &Vehicle,
+    fastest: f64,
+    provenance: &Provenance,
+) -> Result<(MotionTable, [TextFile; 2]), Error> {
+    if !(fastest > 0.0 && fastest <= FASTEST) {
+        return Err(Error::FastestSpeed { fastest, most: FASTEST });
+    }
+    let model = vehicle.model();
+    let table = MotionTable::of(&model, fastest);
+    let others = [Symmetry::Heading, Symmetry::Place, Symmetry::Time, Symmetry::Transient];
+    let is_left_out = |effect: &&ActiveEffect| {
+        effect.card().breaks.iter().any(|symmetry| others.contains(symmetry))
+    };
+    let left_out = LeftOut {
+        effects: vehicle.effects().iter().filter(is_left_out).map(ToString::to_string).collect(),
+        lag: model.drive().time_constant,
+    };
+    let Provenance { command, version } = provenance.clone();
+    let provenance = trackdyn_export::Provenance {
+        source: format!("vehicle {}", vehicle.name()),
+        vehicle: vehicle.name().to_owned(),
+        fingerprint: vehicle.fingerprint(),
+        version,
+        command,
+    };
+    let files = trackdyn_export::motion_table::files(&table, &left_out, &provenance);
+    Ok((table, files))
+}
+
+/// Largest speed of a table, m/s.
+const FASTEST: f64 = 100.0;
 
 /// Writes exported files into a folder.
 ///

@@ -1,7 +1,8 @@
-//! The gauge of a vehicle, which is all that identification and replay need of it.
+//! The gauge of a vehicle, which is all that identification needs of it.
 
 use crate::{Error, Vehicle};
 use trackdyn_core::output::fingerprint;
+use trackdyn_model::VehicleFile;
 
 /// Name of the vehicle of a gauge alone.
 const NOT_GIVEN: &str = "vehicle not given";
@@ -23,6 +24,7 @@ pub struct Gauge {
     metres: f64,
     vehicle: String,
     fingerprint: String,
+    file: Option<Box<VehicleFile>>,
 }
 
 impl Gauge {
@@ -35,7 +37,7 @@ impl Gauge {
             return Err(Error::Gauge { metres, most: LARGEST });
         }
         let fingerprint = fingerprint(format!("gauge_m = {metres:?}\n").as_bytes());
-        Ok(Self { metres, vehicle: NOT_GIVEN.to_owned(), fingerprint })
+        Ok(Self { metres, vehicle: NOT_GIVEN.to_owned(), fingerprint, file: None })
     }
 
     /// Its length, m.
@@ -51,6 +53,11 @@ impl Gauge {
     /// Fingerprint of the vehicle file, or of the gauge alone.
     pub fn fingerprint(&self) -> &str {
         &self.fingerprint
+    }
+
+    /// The vehicle with its effects; none of a gauge alone.
+    pub fn file(&self) -> Option<&VehicleFile> {
+        self.file.as_deref()
     }
 
     /// The vehicle for a caption.
@@ -69,6 +76,7 @@ impl From<&Vehicle> for Gauge {
             metres: vehicle.gauge(),
             vehicle: vehicle.name().to_owned(),
             fingerprint: vehicle.fingerprint(),
+            file: Some(Box::new(vehicle.file().clone())),
         }
     }
 }

@@ -14,8 +14,9 @@ use crate::{Change, Error, Figure, Gauge, Parameters, Part, Provenance, Recordin
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use trackdyn_estimate::Clock;
-use trackdyn_estimate::odometry::{Comparison, ParameterSet, tum};
-use trackdyn_model::Kinematics;
+use trackdyn_estimate::odometry::{self, Comparison, ParameterSet, tum};
+use trackdyn_model::kinematics::Source;
+use trackdyn_model::{Kinematics, VehicleFile};
 use trackdyn_recording::RunList;
 
 /// Name of the document that every replay writes.
@@ -47,6 +48,7 @@ pub struct Odometry {
     /// The clock offset, and where it comes from.
     pub clock: Clock,
     replayed: Vec<Replayed>,
+    physics_stopped: Option<String>,
     recording: Recording,
     gauge: Gauge,
     part: Part,
@@ -60,8 +62,9 @@ struct Replayed {
     set: ParameterSet,
 }
 
-/// Replays a recording with the ideal drive of the gauge, be it that of a `&Vehicle` or alone, and
-/// with each of these parameters, as they are and without their factors on the track speeds.
+/// Replays a recording with the ideal drive of the gauge, be it that of a `&Vehicle` or alone; with
+/// each of these parameters, as they are and without their factors on the track speeds; and with
+/// the forces on the vehicle, where there is one.
 ///
 /// # Errors
 /// [`Error::NoMotion`] for a table of steady operating points, [`Error::TooLarge`] for parameters
@@ -88,14 +91,26 @@ pub fn odometry(
         .map_err(|cause| Error::Identify { recording: recording.place(), cause })?;
     let of_file = |one: &Replayed| [Some(one.set.clone()), one.set.without_alpha()];
     let sets = replayed.iter().flat_map(of_file).flatten();
-    let sets = std::iter::once(ParameterSet::ideal(gauge.metres())).chain(sets).collect();
-    let comparison = Comparison::new(part.expect_motion()?, sets, clock.tau());
+    let sets: Vec<_> = std::iter::once(ParameterSet::ideal(gauge.metres())).chain(sets).collect();
+    let physics = gauge.file().map(|vehicle| {
+        let delay = odometry::in_time::delay(motion, vehicle, &clock);
+        ParameterSet::of_vehicle(ParameterSet::PHYSICS, vehicle, delay)
+    });
+    let driven = part.expect_motion()?;
+    let compared = |physics: Option<ParameterSet>| {
+        Comparison::new(driven, sets.iter().cloned().chain(physics).collect(), clock.tau())
+    };
+    let (comparison, physics_stopped) = match compared(physics) {
+        Err(error @ odometry::Error::Stopped { .. }) => (compared(None), Some(error.to_string())),
+        comparison => (comparison, None),
+    };
     let comparison =
         comparison.map_err(|cause| Error::Odometry { recording: recording.place(), cause })?;
     Ok(Odometry {
         comparison,
         clock,
         replayed,
+        physics_stopped,
         recording: corrected.into_owned(),
         gauge,
         part: settings.part.clone(),
@@ -117,7 +132,26 @@ impl Odometry {
     /// Parameters that were fitted to some of the driving that is replayed here, which makes their
     /// errors look smaller.
     pub fn fitted_to_it(&self) -> impl Iterator<Item = &Parameters> {
-        self.replayed.iter().filter(|one| !self.is_held_out(one)).map(|one| &one.parameters)
+        let fitted = |one: &&Replayed| !self.is_held_out(one.parameters.source());
+        self.replayed.iter().filter(fitted).map(|one| &one.parameters)
+    }
+
+    /// Why the forces on the vehicle are not among the sets, though there is a vehicle: they do not
+    /// move it as its tracks were driven.
+    pub fn physics_stopped(&self) -> Option<&str> {
+        self.physics_stopped.as_deref()
+    }
+
+    /// The vehicle whose forces are replayed.
+    fn physics(&self) -> Option<&VehicleFile> {
+        self.comparison.sets.last()?.vehicle()
+    }
+
+    /// Whether the vehicle whose forces are replayed was corrected by some of the driving that is
+    /// replayed here, which makes its errors look smaller.
+    pub fn is_physics_fitted_to_it(&self) -> bool {
+        let source = self.physics().and_then(|vehicle| vehicle.source.as_ref());
+        source.is_some_and(|source| !self.is_held_out(source))
     }
 
     /// Which of the parameters to take.
@@ -226,14 +260,17 @@ impl Odometry {
 
     /// Whether the numbers of parameters were fitted to other runs, or another time of them, than
     /// are replayed.
-    fn is_held_out(&self, replayed: &Replayed) -> bool {
+    fn is_held_out(&self, source: &Source) -> bool {
         const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-        let source = replayed.parameters.source();
         let here = RunList::new(self.comparison.paths.iter().map(|path| path.run));
         let fitted = source.runs.as_ref().and_then(|runs| runs.parse::<RunList>().ok());
         let [from, until] = self.time.unwrap_or(ALL);
         let [fitted_from, fitted_until] = source.time_s.unwrap_or(ALL);
         let poses = self.recording.motion().map(trackdyn_recording::Recording::pose_fingerprint);
+        // Numbers of runs change where recordings are joined.
+        if poses.is_some_and(|poses| source.joined.iter().any(|of_fit| of_fit == poses)) {
+            return false;
+        }
         let is_other = match source.pose_fingerprint.as_deref() {
             Some(of_fit) => poses != Some(of_fit),
             None => source.fingerprint != self.recording.fingerprint(),
@@ -249,9 +286,13 @@ impl Odometry {
 const TRAJECTORIES: &str = "trajectories";
 
 impl Replayed {
+    fn name(&self) -> &str {
+        self.set.name()
+    }
+
     fn new(parameters: &Parameters, name: String) -> Result<Self, Error> {
         let set = ParameterSet::of_file(name, parameters.file());
-        let Kinematics { icrs, alpha } = set.kinematics();
+        let Kinematics { icrs, alpha } = parameters.file().kinematics();
         let numbers = [
             ("x_icr_left_m", icrs.x_left),
             ("x_icr_right_m", icrs.x_right),

@@ -69,7 +69,7 @@ impl VehicleSketch {
             let expected = "what outputs call the vehicle".to_owned();
             return Err(Error::Vehicle(VehicleError { key, value, expected }));
         }
-        Ok(VehicleFile { vehicle, effects: Effects::default() }.into())
+        Ok(VehicleFile { vehicle, effects: Effects::default(), source: None }.into())
     }
 
     /// The text of its file (schema `trackdyn.vehicle/1`), with remarks.

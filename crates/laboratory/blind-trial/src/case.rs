@@ -121,6 +121,7 @@ impl Draw<'_> {
             vehicle: VehicleFile {
                 vehicle: machine.vehicle.clone(),
                 effects: trackdyn_model::Effects::none(),
+                source: None,
             }
             .to_toml(),
             concealed: concealed.into_iter().map(|(_, answer)| answer).collect(),
@@ -161,7 +162,7 @@ impl Draw<'_> {
             let settings: Vec<_> = keys.zip(known.values().iter().copied()).collect();
             ActiveEffect::new(known.sheet().id, &settings)
         });
-        Ok(VehicleFile { vehicle, effects: effects.collect::<Result<_, _>>()? })
+        Ok(VehicleFile { vehicle, effects: effects.collect::<Result<_, _>>()?, source: None })
     }
 
     /// What is concealed, at its size, with what could be found of it.

@@ -27,6 +27,9 @@ pub struct Options {
     /// Parameters to drive with beside the ideal drive (schema trackdyn.kinematics/1); repeatable
     #[arg(long, value_name = "FILE")]
     kinematics: Vec<PathBuf>,
+    /// Drive by the vehicle's own forces, too: what the best model of it could do
+    #[arg(long)]
+    forces: bool,
     /// How the robot knows its pose
     #[arg(long, value_enum, default_value_t = Knows::Truth)]
     estimate: Knows,
@@ -68,6 +71,7 @@ pub fn run(options: &Options) -> Outcome {
             Knows::Odometry => Estimate::Odometry,
         },
         inertia: !options.quasi_static,
+        forces: options.forces,
     };
     note_what_no_sensor_reports(vehicle.effects());
     let path = match &options.path {

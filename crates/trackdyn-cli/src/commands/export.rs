@@ -3,7 +3,7 @@
 use crate::changes::{say_doubtful, say_written, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
-use crate::options::{ReplayOptions, pair};
+use crate::options::{ModelOptions, ReplayOptions, pair};
 use crate::provenance::provenance;
 use crate::stderr::{note, say, warn};
 use clap::{Args, Subcommand};
@@ -12,8 +12,10 @@ use trackdyn::crates::core::PerSide;
 use trackdyn::crates::core::document::Document;
 use trackdyn::crates::export::ros2::Published;
 use trackdyn::crates::export::{Name, NodeName, Residuals, TextFile};
-use trackdyn::export::{FrameSettings, GzSettings, Ros2Settings, WheelChoices, write};
-use trackdyn::{Error, Export};
+use trackdyn::export::{
+    FrameSettings, GzSettings, Ros2Settings, WheelChoices, motion_table, write,
+};
+use trackdyn::{Error, Export, Grid};
 
 /// Options of `trackdyn export`.
 #[derive(Args)]
@@ -32,6 +34,9 @@ enum Target {
     Gz(GzOptions),
     /// The frame at which the robot is an ideal differential drive, as a URDF/xacro fragment
     UrdfFrames(UrdfOptions),
+    /// Steady motion by the forces on a vehicle, with derivatives, for the robot's computer: a
+    /// table and a C header
+    Table(TableOptions),
     /// A drive for Foxglove, Rerun and PlotJuggler: its path, those of the ideal drive and of
     /// kinematics files, ICRs, speeds and residuals, as messages of ROS 2
     Mcap(Box<McapOptions>),
@@ -125,6 +130,32 @@ struct UrdfOptions {
 }
 
 #[derive(Args)]
+struct TableOptions {
+    #[command(flatten)]
+    model: ModelOptions,
+    /// Largest track speed in m/s
+    #[arg(long, value_name = "SPEED", default_value_t = Grid::PAPER_SPEED)]
+    fastest: f64,
+    /// Folder for motion_table.toml and trackdyn_motion.h
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+}
+
+impl TableOptions {
+    fn run(&self) -> Outcome {
+        let vehicle = self.model.vehicle()?;
+        let (table, files) = motion_table(&vehicle, self.fastest, &provenance())?;
+        say_written(&write(&files, &self.out)?);
+        let (error, [sizes, angles]) = (table.error, table.orders);
+        note(format_args!(
+            "{} polynomials a sector; largest difference from the model {error:.1e} m/s",
+            sizes * angles
+        ));
+        Ok(Exit::Done)
+    }
+}
+
+#[derive(Args)]
 struct McapOptions {
     /// Folder for odometry.mcap, odometry.foxglove.json and odometry.plotjuggler.xml
     #[arg(long, value_name = "DIR", default_value = "out")]
@@ -200,6 +231,7 @@ pub fn run(options: &Options) -> Outcome {
         Target::UrdfFrames(options) => {
             export(&options.files, |export| export.urdf(&options.frames.settings(export)?))
         }
+        Target::Table(options) => options.run(),
         Target::Mcap(options) => {
             let replay = options.replay.replay()?;
             say_written(&replay.write_layers(&options.out, &provenance())?);

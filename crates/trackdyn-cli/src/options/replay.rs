@@ -55,6 +55,15 @@ impl ReplayOptions {
                 fitted.name()
             ));
         }
+        if found.is_physics_fitted_to_it() {
+            note(format_args!(
+                "the vehicle was corrected by some of these runs, which makes the errors of its \
+                 physics look smaller (choose others with --runs or --time)"
+            ));
+        }
+        if let Some(reason) = found.physics_stopped() {
+            note(format_args!("{reason}; the forces on the vehicle are not replayed"));
+        }
         let left_out = found.comparison.left_out.len();
         if left_out > 0 {
             note(format_args!(

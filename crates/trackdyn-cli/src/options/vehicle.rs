@@ -68,8 +68,8 @@ pub fn say_default() {
 #[derive(Args)]
 #[command(next_help_heading = VEHICLE)]
 pub struct GaugeOptions {
-    /// Vehicle, of which the gauge alone counts: a file (schema trackdyn.vehicle/1), or a name such
-    /// as husky-a200
+    /// Vehicle: a file (schema trackdyn.vehicle/1), or a name such as husky-a200. To identify, its
+    /// gauge alone counts; a replay has its forces too
     #[arg(long, value_name = "FILE|NAME", conflicts_with = "gauge")]
     vehicle: Option<PathBuf>,
     /// Gauge alone, in place of a vehicle: distance in m between the middles of the left and the

@@ -50,7 +50,7 @@ impl Evidence {
         let noise = noise_of_segments(&recording, &measured, &observations, gap, gauge)?;
         let blocks = observations.blocks();
         let has_world = share_a_frame(&recording);
-        let begin = begin(&recording);
+        let begin = recording.begin();
         let samples = samples(&recording, &observations, &blocks, begin);
         Ok(Self {
             tracks: tracks(&recording, &samples, begin),
@@ -119,13 +119,6 @@ fn noise_of_segments(
     let stated = || recording.stated_noise().map(SegmentNoise::stated);
     let remaining = || residual_noise(observations, gauge);
     SegmentNoise::measured(measured, gap).or_else(stated).or_else(remaining).ok_or(Error::NoNoise)
-}
-
-/// Start of the recording in whole seconds of its clock. Sample times count from it, so that laws
-/// of time start with the recording.
-fn begin(recording: &Recording) -> f64 {
-    let readings = recording.runs().iter().flat_map(Run::tracks);
-    readings.fold(f64::INFINITY, |first, track| first.min(track.t)).floor()
 }
 
 /// One sample for each segment, with times since `begin`.

@@ -3,22 +3,6 @@
 use std::borrow::Cow;
 use trackdyn_recording::TrackSample;
 
-/// Readings smoothed by v'_k = (v_{k−1} + 2 v_k + v_{k+1})/4.
-///
-/// Encoder ticks make speeds alternate by more than a robot's speed changes between two readings.
-/// Stationary motion averages that out. A mass on dry friction would not: shaken like that, it
-/// slides more easily than it should.
-pub fn smooth(run: &[TrackSample]) -> Vec<TrackSample> {
-    (0..run.len())
-        .map(|k| {
-            let [before, here, after] =
-                [run[k.saturating_sub(1)], run[k], run[(k + 1).min(run.len() - 1)]];
-            let mean = |v: fn(&TrackSample) -> f64| (v(&before) + 2.0 * v(&here) + v(&after)) / 4.0;
-            TrackSample { t: here.t, v_left: mean(|s| s.v_left), v_right: mean(|s| s.v_right) }
-        })
-        .collect()
-}
-
 /// Readings of belts with a first-order lag (s), each averaged over the time that it holds.
 pub fn lagging(tracks: &[Vec<TrackSample>], time_constant: f64) -> Cow<'_, [Vec<TrackSample>]> {
     if time_constant <= 0.0 {

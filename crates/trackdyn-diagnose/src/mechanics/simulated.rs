@@ -1,6 +1,6 @@
 //! A simulated inertial departure: transient minus stationary motion of one robot.
 
-use super::belts::{lagging, smooth};
+use super::belts::lagging;
 use super::motion_over;
 use super::sheared::{self, Without};
 use crate::evidence::{Evidence, Sample};
@@ -16,8 +16,8 @@ use trackdyn_model::contact::Resolution;
 use trackdyn_model::transient::{Step, mean_of_stages, tangents};
 use trackdyn_model::{ActiveEffect, Circumstance, Drive, EffectId, Effects, Model, Vehicle};
 use trackdyn_model::{Forces, Transient};
-use trackdyn_recording::TrackSample;
 use trackdyn_recording::hold::pieces;
+use trackdyn_recording::{TrackSample, smoothed};
 
 /// Step control of the transient simulation.
 #[derive(Clone, Copy)]
@@ -109,7 +109,7 @@ impl Inertia {
         };
         let belts: Vec<Vec<TrackSample>> = lagging(evidence.tracks(), drive.time_constant)
             .iter()
-            .map(|run| smooth(run).iter().map(gained).collect())
+            .map(|run| smoothed(run).iter().map(gained).collect())
             .collect();
         let (paths, steps) = fine(model, &surface, &belts, &settings)?.into_iter().unzip();
         let steady = belts.iter().map(|run| stationary(&surface, run)).collect();

@@ -2,10 +2,11 @@
 
 use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{PerSide, Twist};
-use trackdyn_model::Kinematics;
 use trackdyn_model::kinematics::KinematicsFile;
+use trackdyn_model::motion_table::Tabulated;
+use trackdyn_model::{Icrs, Kinematics, MotionTable};
 
-/// A kinematic model, both ways.
+/// What relates track speeds and steady motion, both ways.
 pub trait Steering {
     /// Track speeds as encoders show them, m/s, for a forward speed (m/s) and a yaw rate (rad/s),
     /// eqs (10)-(11); and the constants that give them.
@@ -33,5 +34,89 @@ impl Steering for KinematicsFile {
 
     fn twist(&self, measured: PerSide<f64>) -> Twist {
         ros_twist_from_paper(&self.kinematics_at(measured).twist(measured))
+    }
+}
+
+/// Newton steps towards the track speeds of a motion.
+const MAX_STEPS: usize = 20;
+
+/// Difference from a motion that counts as none, m/s and rad/s.
+const CLOSE: f64 = 1e-9;
+
+/// Speed of a slow spin, m/s.
+const SPIN: f64 = 1e-6;
+
+/// The forces on a vehicle: the constants of a motion are the ICRs that it has.
+impl Steering for MotionTable {
+    /// The speeds follow from Newton's method, from those by the ICRs of a slow spin. Where no
+    /// speeds give the motion, as where a track holds the robot, they are the nearest that were
+    /// found.
+    fn track_speeds(&self, forward: f64, yaw_rate: f64) -> (PerSide<f64>, Kinematics) {
+        let spin = PerSide::new(-SPIN, SPIN);
+        let start = constants(self, spin, &self.at(spin).twist);
+        let off = |at: &Tabulated| [forward - at.twist.v_x, yaw_rate - at.twist.w];
+        let size = |off: [f64; 2]| off[0].hypot(off[1]);
+        let mut speeds = start.track_speeds(forward, yaw_rate);
+        let mut at = self.at(speeds);
+        for _ in 0..MAX_STEPS {
+            let [ahead, turn] = off(&at);
+            let [[a, b], _, [c, d]] = at.by_speed;
+            let step =
+                [(d * ahead - b * turn), (a * turn - c * ahead)].map(|part| part / (a * d - b * c));
+            if size([ahead, turn]) < CLOSE || !step.iter().all(|part| part.is_finite()) {
+                break;
+            }
+            let moved = |share: f64| {
+                PerSide::new(speeds.left + share * step[0], speeds.right + share * step[1])
+            };
+            let nearer = [1.0, 0.5, 0.25, 0.125].map(moved).into_iter().find_map(|speeds| {
+                let at = self.at(speeds);
+                (size(off(&at)) < size([ahead, turn])).then_some((speeds, at))
+            });
+            let Some(next) = nearer else { break };
+            (speeds, at) = next;
+        }
+        let turns = at.twist.w.abs() > CLOSE;
+        (speeds, if turns { constants(self, speeds, &at.twist) } else { start })
+    }
+
+    fn twist(&self, measured: PerSide<f64>) -> Twist {
+        self.at(measured).twist
+    }
+}
+
+/// The constants that a turning motion (ROS axes) has at these encoder speeds.
+fn constants(table: &MotionTable, speeds: PerSide<f64>, twist: &Twist) -> Kinematics {
+    let Twist { v_x, v_y, w } = *twist;
+    // V_l = v_y + x_l ω and V_r = v_y + x_r ω, eqs (10)-(11), with v_y forward; v_x = ω y, eq. (7),
+    // with v_x to the right
+    let [x_left, x_right] =
+        [(table.gain.left * speeds.left - v_x) / w, (table.gain.right * speeds.right - v_x) / w];
+    Kinematics { icrs: Icrs { x_left, x_right, y: -v_y / w }, alpha: table.gain }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trackdyn_model::{Effects, Model, VehicleFile};
+
+    #[test]
+    fn forces_are_steered_both_ways() {
+        let effects: Effects = ["centripetal", "motion-resistance", "encoder-scale:left=1.03"]
+            .into_iter()
+            .map(|text| text.parse().expect("an effect"))
+            .collect();
+        let table = MotionTable::of(&Model::new(VehicleFile::auriga_alpha().vehicle, effects), 1.0);
+        for k in 0..200_u32 {
+            let (a, b) = (f64::from(k) * 0.618_034, f64::from(k) * 0.414_214);
+            let (forward, yaw_rate) = (a.fract() - 0.5, 1.2 * b.fract() - 0.6);
+            let (speeds, constants) = table.track_speeds(forward, yaw_rate);
+            let twist = Steering::twist(&table, speeds);
+            assert!((twist.v_x - forward).abs() < 1e-6, "{forward} {yaw_rate}: {twist:?}");
+            assert!((twist.w - yaw_rate).abs() < 1e-6, "{forward} {yaw_rate}: {twist:?}");
+            let of_constants = Steering::twist(&constants, speeds) - twist;
+            let off = of_constants.v_x.hypot(of_constants.v_y).hypot(of_constants.w);
+            assert!(off < 1e-6, "{forward} {yaw_rate}: {off:.1e}");
+        }
     }
 }

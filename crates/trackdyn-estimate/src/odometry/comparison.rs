@@ -33,15 +33,18 @@ impl Comparison {
     /// Replays all runs with every parameter set at clock offset `tau`, s.
     ///
     /// # Errors
-    /// [`Error::NotCovered`] when no run can be replayed, [`Error::NoSegments`],
-    /// [`Error::Standing`].
+    /// [`Error::NotCovered`] when no run can be replayed, [`Error::Stopped`] when the forces of a
+    /// set do not move the robot through all of them, [`Error::NoSegments`], [`Error::Standing`].
     pub fn new(recording: &Recording, sets: Vec<ParameterSet>, tau: f64) -> Result<Self, Error> {
         let mut paths = Vec::new();
         let mut left_out = Vec::new();
         let mut first_error = None;
+        let begin = recording.begin();
         for (index, run) in recording.runs().iter().enumerate() {
-            match sets.iter().map(|set| replay(run, set, tau)).collect::<Result<Vec<_>, _>>() {
+            match sets.iter().map(|set| replay(run, set, tau, begin)).collect::<Result<Vec<_>, _>>()
+            {
                 Ok(trajectories) => paths.push(Path::new(index, run, &trajectories, tau)),
+                Err(error @ Error::Stopped { .. }) => return Err(error),
                 Err(error) => {
                     left_out.push(run.id());
                     first_error.get_or_insert(error);

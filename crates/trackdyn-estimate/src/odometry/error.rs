@@ -19,6 +19,14 @@ pub enum Error {
         /// Clock offset, s.
         tau: f64,
     },
+    /// The forces on a vehicle do not move it as its tracks were driven.
+    #[error("run {run}: {cause}")]
+    Stopped {
+        /// Number of the run.
+        run: i64,
+        /// Why, and when by the clock of the track speeds.
+        cause: trackdyn_core::Stopped,
+    },
     /// No piece of the runs can be compared.
     #[error(
         "none of {runs} runs has a segment: a piece of {duration} s or more between two poses, \

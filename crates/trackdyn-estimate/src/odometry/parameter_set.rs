@@ -2,8 +2,8 @@
 
 use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{PerSide, Twist};
-use trackdyn_model::Kinematics;
 use trackdyn_model::kinematics::KinematicsFile;
+use trackdyn_model::{Circumstance, Icrs, Kinematics, Model, Stationary, VehicleFile};
 
 /// The parameters of a replay, under a name.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,11 +16,23 @@ pub struct ParameterSet {
 enum Parameters {
     Constant(Kinematics),
     File(Box<KinematicsFile>),
+    Vehicle(Box<Forces>),
+}
+
+/// The forces on a vehicle, as a replay takes them.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Forces {
+    pub(super) file: VehicleFile,
+    /// Delay of the poses, s.
+    pub(super) delay: f64,
 }
 
 impl ParameterSet {
     /// Name of the ideal differential drive.
     pub const IDEAL: &'static str = "ideal";
+
+    /// Name of the forces on a vehicle.
+    pub const PHYSICS: &'static str = "physics";
 
     /// Constant parameters.
     pub fn new(name: impl Into<String>, kinematics: Kinematics) -> Self {
@@ -37,10 +49,17 @@ impl ParameterSet {
         Self { name: name.into(), parameters: Parameters::File(Box::new(file.clone())) }
     }
 
-    /// The set with its ICRs and α = 1; none where α is 1 already.
+    /// The forces on a vehicle, which move it in time, for poses that come late by
+    /// [`delay`](crate::odometry::in_time::delay), s.
+    pub fn of_vehicle(name: impl Into<String>, file: &VehicleFile, delay: f64) -> Self {
+        let forces = Forces { file: file.clone(), delay };
+        Self { name: name.into(), parameters: Parameters::Vehicle(Box::new(forces)) }
+    }
+
+    /// The set with its ICRs and α = 1; none where α is 1 already, and of forces.
     pub fn without_alpha(&self) -> Option<Self> {
         let ones = PerSide::new(1.0, 1.0);
-        if self.kinematics().alpha == ones {
+        if self.kinematics()?.alpha == ones {
             return None;
         }
         let parameters = match &self.parameters {
@@ -52,6 +71,7 @@ impl ParameterSet {
                 (file.alpha_left, file.alpha_right) = (None, None);
                 Parameters::File(file)
             }
+            Parameters::Vehicle(_) => return None,
         };
         Some(Self { name: format!("{}-no-alpha", self.name), parameters })
     }
@@ -61,26 +81,44 @@ impl ParameterSet {
         &self.name
     }
 
-    /// The parameters of the whole map.
-    pub fn kinematics(&self) -> Kinematics {
+    /// The vehicle whose forces it is; none of constant parameters.
+    pub fn vehicle(&self) -> Option<&VehicleFile> {
+        self.forces().map(|forces| &forces.file)
+    }
+
+    pub(super) fn forces(&self) -> Option<&Forces> {
         match &self.parameters {
-            Parameters::Constant(kinematics) => *kinematics,
-            Parameters::File(file) => file.kinematics(),
+            Parameters::Vehicle(forces) => Some(forces),
+            Parameters::Constant(_) | Parameters::File(_) => None,
         }
     }
 
-    /// The parameters at measured track speeds, m/s: those of their sector.
-    pub fn kinematics_at(&self, measured: PerSide<f64>) -> Kinematics {
+    /// The parameters of the whole map; none of forces, whose ICRs depend on the motion.
+    pub fn kinematics(&self) -> Option<Kinematics> {
         match &self.parameters {
+            Parameters::Constant(kinematics) => Some(*kinematics),
+            Parameters::File(file) => Some(file.kinematics()),
+            Parameters::Vehicle(_) => None,
+        }
+    }
+
+    /// ICRs and twist (ROS axes) of steady driving at measured track speeds, m/s: of parameters
+    /// those of their sector. ICRs are none of forces that do not turn the robot.
+    pub fn steady(&self, measured: PerSide<f64>) -> (Option<Icrs>, Twist) {
+        let kinematics = match &self.parameters {
             Parameters::Constant(kinematics) => *kinematics,
             Parameters::File(file) => file.kinematics_at(measured),
-        }
+            Parameters::Vehicle(forces) => return by_forces(&forces.file, measured),
+        };
+        (Some(kinematics.icrs), ros_twist_from_paper(&kinematics.twist(measured)))
     }
+}
 
-    /// Twist in ROS axes at measured track speeds, m/s.
-    pub fn twist(&self, measured: PerSide<f64>) -> Twist {
-        ros_twist_from_paper(&self.kinematics_at(measured).twist(measured))
-    }
+/// ICRs and twist (ROS axes, of the pose sensor) of a vehicle's stationary motion.
+fn by_forces(file: &VehicleFile, measured: PerSide<f64>) -> (Option<Icrs>, Twist) {
+    let model = Model::new(file.vehicle.clone(), file.effects.clone());
+    let found = Stationary::new(&model, &Circumstance::default()).solve(measured);
+    (found.icrs, ros_twist_from_paper(&model.sensor().reported(&found.twist)))
 }
 
 #[cfg(test)]
@@ -91,7 +129,7 @@ mod tests {
     #[test]
     fn forward_is_along_x_and_left_is_y() {
         let ideal = ParameterSet::ideal(0.5);
-        let Twist { v_x, v_y, w } = ideal.twist(PerSide::new(0.4, 0.6));
+        let (_, Twist { v_x, v_y, w }) = ideal.steady(PerSide::new(0.4, 0.6));
         assert!((v_x - 0.5).abs() < 1e-15 && v_y == 0.0 && (w - 0.4).abs() < 1e-15);
         assert_eq!(ideal.without_alpha(), None);
     }
@@ -102,7 +140,17 @@ mod tests {
         let alpha = PerSide::new(0.9, 1.1);
         let set = ParameterSet::new("fit", Kinematics { icrs, alpha });
         let without = set.without_alpha().expect("it has alphas");
-        assert_eq!(without.kinematics(), Kinematics::new(icrs));
+        assert_eq!(without.kinematics(), Some(Kinematics::new(icrs)));
         assert_eq!(without.name(), "fit-no-alpha");
+    }
+
+    #[test]
+    fn forces_have_icrs_where_they_turn_the_robot() {
+        let file = VehicleFile::auriga_alpha();
+        let forces = ParameterSet::of_vehicle(ParameterSet::PHYSICS, &file, 0.0);
+        let (icrs, twist) = forces.steady(PerSide::new(0.4, 0.6));
+        let icrs = icrs.expect("it turns");
+        assert!((0.2 / (icrs.x_right - icrs.x_left) - twist.w).abs() < 1e-9);
+        assert!(forces.kinematics().is_none() && forces.without_alpha().is_none());
     }
 }

@@ -1,7 +1,7 @@
 //! The path that a parameter set predicts.
 
-use crate::odometry::{Error, ParameterSet};
-use std::ops::Range;
+use crate::odometry::covered::covered;
+use crate::odometry::{Error, ParameterSet, in_time};
 use trackdyn_core::Pose;
 use trackdyn_recording::{Run, hold};
 
@@ -16,36 +16,32 @@ pub struct DeadReckoning {
     pub poses: Vec<Pose>,
 }
 
-/// Largest difference of stamps by rounding, s.
-const STAMP_ROUNDING: f64 = 1e-9;
-
-/// Indices of the poses whose motion the readings of the tracks cover: a reading holds until the
-/// next one, and the last one was measured until its stamp only.
-pub(crate) fn covered(run: &Run, tau: f64) -> Range<usize> {
-    let (tracks, poses) = (run.tracks(), run.poses());
-    let [first, .., last] = tracks else { return 0..0 };
-    let from = poses.partition_point(|pose| pose.t - tau < first.t - STAMP_ROUNDING);
-    let until = poses.partition_point(|pose| pose.t - tau <= last.t + STAMP_ROUNDING);
-    from..until.max(from)
-}
-
 /// Dead reckoning over a run, from its first recorded pose that the readings of the tracks cover at
-/// clock offset `tau`, s, to the last one.
+/// the clock offset `tau`, s, to the last one; the recording begins at `begin`, s.
 ///
 /// # Law
-/// pₖ₊₁ = pₖ exp(twist Δt), one factor for each time over which the track speeds are held.
+/// pₖ₊₁ = pₖ exp(twist Δt), one factor for each time over which the track speeds are held; see
+/// [`in_time`] for forces.
 ///
 /// # Assumes
 /// A reading holds until the next one ([`hold`]), also over a gap: a run is continuous.
 ///
 /// # Errors
-/// [`Error::NotCovered`].
-pub fn replay(run: &Run, set: &ParameterSet, tau: f64) -> Result<DeadReckoning, Error> {
+/// [`Error::NotCovered`]; of forces [`Error::Stopped`].
+pub fn replay(run: &Run, set: &ParameterSet, tau: f64, begin: f64) -> Result<DeadReckoning, Error> {
     let range = covered(run, tau);
     let [start, .., _] = &run.poses()[range.clone()] else {
         let (poses, all) = (range.len(), run.poses().len());
         return Err(Error::NotCovered { run: run.id(), poses, all, tau });
     };
+    if let Some(forces) = set.forces() {
+        let seen = &run.poses()[range.clone()];
+        let stopped = |cause| Error::Stopped { run: run.id(), cause };
+        let poses = in_time::poses(run, seen, &forces.file, forces.delay, begin);
+        let poses = poses.map_err(stopped)?;
+        let stamps = seen.iter().map(|pose| pose.t).collect();
+        return Ok(DeadReckoning { first: range.start, stamps, poses });
+    }
     let mut trajectory = DeadReckoning {
         first: range.start,
         stamps: Vec::with_capacity(range.len()),
@@ -53,7 +49,7 @@ pub fn replay(run: &Run, set: &ParameterSet, tau: f64) -> Result<DeadReckoning, 
     };
     let (mut t, mut pose) = (start.t, start.pose);
     for sample in &run.poses()[range] {
-        let step = hold::integrate(run.tracks(), t, sample.t, tau, |speed| set.twist(speed));
+        let step = hold::integrate(run.tracks(), t, sample.t, tau, |speed| set.steady(speed).1);
         (t, pose) = (sample.t, pose.compose(&step));
         trajectory.stamps.push(t);
         trajectory.poses.push(pose);
@@ -79,7 +75,7 @@ mod tests {
     #[test]
     fn a_straight_line_is_as_long_as_speed_times_time() {
         let run = &recording(PerSide::new(0.7, 0.7), 0.0).runs()[0].clone();
-        let path = replay(run, &ParameterSet::ideal(0.5), 0.0).expect("covered");
+        let path = replay(run, &ParameterSet::ideal(0.5), 0.0, 0.0).expect("covered");
         let end = path.poses[path.poses.len() - 1];
         // 0.7 m/s over 8 s; 1e-12 m is rounding.
         assert!((end.x - 5.6).abs() < 1e-12 && end.y.abs() < 1e-12 && end.yaw == 0.0, "{end:?}");
@@ -90,7 +86,7 @@ mod tests {
     fn a_circle_closes() {
         // ω = (0.6 − 0.4)/0.5 = 0.4 rad/s, radius 0.5/0.4 = 1.25 m
         let run = &recording(PerSide::new(0.4, 0.6), 0.0).runs()[0].clone();
-        let path = replay(run, &ParameterSet::ideal(0.5), 0.0).expect("covered");
+        let path = replay(run, &ParameterSet::ideal(0.5), 0.0, 0.0).expect("covered");
         for (t, pose) in path.stamps.iter().zip(&path.poses) {
             let angle: f64 = 0.4 * t;
             let (x, y) = (1.25 * angle.sin(), 1.25 * (1.0 - angle.cos()));
@@ -103,12 +99,13 @@ mod tests {
     fn poses_without_readings_are_left_out() {
         let run = &recording(PerSide::new(0.4, 0.6), 0.0).runs()[0].clone();
         let all = run.poses().len();
-        let late = replay(run, &ParameterSet::ideal(0.5), 1.0).expect("covered");
+        let late = replay(run, &ParameterSet::ideal(0.5), 1.0, 0.0).expect("covered");
         assert_eq!((late.first, late.poses.len()), (10, all - 10));
         assert_eq!(late.poses[0], run.poses()[10].pose);
-        let early = replay(run, &ParameterSet::ideal(0.5), -1.0).expect("covered");
+        let early = replay(run, &ParameterSet::ideal(0.5), -1.0, 0.0).expect("covered");
         assert_eq!((early.first, early.poses.len()), (0, all - 10));
-        let error = replay(run, &ParameterSet::ideal(0.5), 99.0).expect_err("nothing in common");
+        let error =
+            replay(run, &ParameterSet::ideal(0.5), 99.0, 0.0).expect_err("nothing in common");
         assert_eq!(error, Error::NotCovered { run: 0, poses: 0, all, tau: 99.0 });
     }
 }

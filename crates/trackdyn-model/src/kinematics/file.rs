@@ -31,6 +31,9 @@ pub struct Source {
     /// Fingerprint of the recorded poses, which identifies the fitted drive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose_fingerprint: Option<String>,
+    /// Those of each recording, where several were joined.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joined: Vec<String>,
     /// Name of the recording; none for a map.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<String>,

@@ -25,7 +25,8 @@ class Odometry:
     """Where the robot would be if parameters were true, against where it was.
 
     Sets of parameters are the ideal drive, then those given, each as it is and, where it has
-    factors on the track speeds, without them.
+    factors on the track speeds, without them. Last comes ``"physics"``: the forces on the vehicle,
+    where a vehicle was given and they move it through all runs.
     """
 
     __slots__ = ("_inner",)
@@ -53,7 +54,7 @@ class Odometry:
 
     @property
     def advice(self) -> str | None:
-        """The file to take, or ``"ideal"``; None where this replay does not tell."""
+        """The file to take, ``"ideal"`` or ``"physics"``; None where this replay does not tell."""
         return self._inner.advice()[0]
 
     @property
@@ -114,7 +115,8 @@ def odometry(
     recording : Recording
         Track speeds and poses with positions.
     vehicle : Vehicle, str, path, mapping or float
-        The vehicle, or its gauge in m: the ideal drive has it.
+        The vehicle, whose forces are replayed too, or its gauge in m alone, which is that of the
+        ideal drive.
     parameters : Parameters or several
         What to compare.
     runs : str, int or sequence of int, optional

@@ -2,6 +2,7 @@
 
 use super::{Odometry, Replayed};
 use trackdyn_estimate::odometry::{Estimate, ParameterSet};
+use trackdyn_model::VehicleFile;
 
 /// Errors of the set that is taken, as a share of those of another on the same pieces.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +31,13 @@ pub enum Advice {
         /// How it compares with the others.
         compared: Vec<Compared>,
     },
+    /// The forces on the vehicle.
+    Physics {
+        /// Name of the vehicle.
+        vehicle: String,
+        /// How they compare with the others.
+        compared: Vec<Compared>,
+    },
     /// The gauge alone: no file is surely better than the ideal drive.
     Ideal {
         /// How the ideal drive compares with the others.
@@ -42,25 +50,33 @@ pub enum Advice {
     },
 }
 
-/// A set that may be taken: its place among the sets, and its file; none of the ideal drive.
+/// A set that may be taken.
+#[derive(Clone, Copy)]
 struct Candidate<'a> {
+    /// Its place among the sets.
     set: usize,
-    replayed: Option<&'a Replayed>,
+    kind: Kind<'a>,
+}
+
+#[derive(Clone, Copy)]
+enum Kind<'a> {
+    Ideal,
+    File(&'a Replayed),
+    Physics(&'a VehicleFile),
 }
 
 /// The advice of a replay.
 pub(super) fn of(odometry: &Odometry) -> Advice {
     let undecided = |reason: String| Advice::Undecided { reason };
-    if odometry.replayed.is_empty() {
-        let reason = "the ideal drive was replayed alone: give parameter files by --kinematics";
+    if odometry.replayed.is_empty() && odometry.physics().is_none() {
+        let reason = "the ideal drive was replayed alone: give parameter files by --kinematics, or \
+                      a vehicle";
         return undecided(reason.to_owned());
     }
-    let fitted: Vec<&str> = odometry
-        .replayed
-        .iter()
-        .filter(|one| !odometry.is_held_out(one))
-        .map(|one| one.set.name())
-        .collect();
+    let is_fitted = |one: &&Replayed| !odometry.is_held_out(one.parameters.source());
+    let files = odometry.replayed.iter().filter(is_fitted).map(Replayed::name);
+    let physics = odometry.is_physics_fitted_to_it().then_some(ParameterSet::PHYSICS);
+    let fitted: Vec<&str> = files.chain(physics).collect();
     if !fitted.is_empty() {
         return undecided(format!(
             "{}: fitted to this driving, which makes errors look smaller: replay other driving, by \
@@ -68,42 +84,54 @@ pub(super) fn of(odometry: &Odometry) -> Advice {
             fitted.join(", ")
         ));
     }
-    let sound = odometry.replayed.iter().filter(|one| !one.parameters.is_doubtful());
-    let mut sound: Vec<&Replayed> = sound.collect();
-    if sound.is_empty() {
+    let candidates = candidates(odometry);
+    if candidates.is_empty() {
         return undecided("all parameters are doubtful".to_owned());
     }
-    // fewer parameters first; the order of the files else
-    sound.sort_by_key(|one| one.set.without_alpha().is_some());
-    match chosen(odometry, &sound) {
-        Some((best, compared)) => match best.replayed {
-            Some(one) => Advice::File { file: one.parameters.name().to_owned(), compared },
-            None => Advice::Ideal { compared },
+    match chosen(odometry, &candidates) {
+        Some((best, compared)) => match best.kind {
+            Kind::File(one) => Advice::File { file: one.parameters.name().to_owned(), compared },
+            Kind::Physics(file) => Advice::Physics { vehicle: file.vehicle.name.clone(), compared },
+            Kind::Ideal => Advice::Ideal { compared },
         },
         None => undecided("too little driving for intervals: replay more of it".to_owned()),
     }
 }
 
+/// Sound sets beside the ideal drive: those with fewer parameters first, files in their order, the
+/// forces last.
+fn candidates(odometry: &Odometry) -> Vec<Candidate<'_>> {
+    let sets = &odometry.comparison.sets;
+    let sound = odometry.replayed.iter().filter(|one| !one.parameters.is_doubtful());
+    let mut sound: Vec<&Replayed> = sound.collect();
+    sound.sort_by_key(|one| one.set.without_alpha().is_some());
+    let of_file = |one| {
+        let set = sets.iter().position(|set| set.name() == Replayed::name(one))?;
+        Some(Candidate { set, kind: Kind::File(one) })
+    };
+    let physics = odometry.physics().map(Kind::Physics);
+    let physics = physics.map(|kind| Candidate { set: sets.len() - 1, kind });
+    sound.into_iter().filter_map(of_file).chain(physics).collect()
+}
+
 /// The set to take, and how it compares with the others; none where no intervals are known.
 fn chosen<'a>(
     odometry: &Odometry,
-    sound: &[&'a Replayed],
+    candidates: &[Candidate<'a>],
 ) -> Option<(Candidate<'a>, Vec<Compared>)> {
-    let sets = &odometry.comparison.sets;
-    let place_of = |one: &Replayed| sets.iter().position(|set| set.name() == one.set.name());
     let span = odometry.comparison.drift()?;
-    let mut best = Candidate { set: 0, replayed: None };
-    for one in sound {
-        let set = place_of(one)?;
-        if is_surely_better(span.ratio(set, best.set)?)? {
-            best = Candidate { set, replayed: Some(one) };
+    let ideal = Candidate { set: 0, kind: Kind::Ideal };
+    let mut best = ideal;
+    for one in candidates {
+        if is_surely_better(span.ratio(one.set, best.set)?)? {
+            best = *one;
         }
     }
-    let others = std::iter::once(Some(0)).chain(sound.iter().map(|one| place_of(one)));
-    let others = others.flatten().filter(|other| *other != best.set);
+    let others = std::iter::once(&ideal).chain(candidates).filter(|other| other.set != best.set);
     let compared = others.map(|other| {
-        let [place, yaw] = span.ratio(best.set, other)?;
-        Some(Compared { with: sets[other].name().to_owned(), place, yaw })
+        let [place, yaw] = span.ratio(best.set, other.set)?;
+        let with = odometry.comparison.sets[other.set].name().to_owned();
+        Some(Compared { with, place, yaw })
     });
     let compared = compared.collect::<Option<Vec<_>>>()?;
     Some((best, compared))
@@ -117,10 +145,11 @@ fn is_surely_better([place, yaw]: [Estimate; 2]) -> Option<bool> {
 }
 
 impl Advice {
-    /// What to take, in words: a file, or the ideal drive; none where it is not decided.
+    /// What to take, in words: a file, `ideal` or `physics`; none where it is not decided.
     pub fn choice(&self) -> Option<&str> {
         match self {
             Self::File { file, .. } => Some(file),
+            Self::Physics { .. } => Some(ParameterSet::PHYSICS),
             Self::Ideal { .. } => Some(ParameterSet::IDEAL),
             Self::Undecided { .. } => None,
         }
@@ -129,7 +158,9 @@ impl Advice {
     /// How the choice compares with the others.
     pub fn compared(&self) -> &[Compared] {
         match self {
-            Self::File { compared, .. } | Self::Ideal { compared } => compared,
+            Self::File { compared, .. }
+            | Self::Physics { compared, .. }
+            | Self::Ideal { compared } => compared,
             Self::Undecided { .. } => &[],
         }
     }

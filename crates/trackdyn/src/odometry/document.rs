@@ -6,6 +6,7 @@ use crate::document::{ClockTable, GyroscopeTable, Rounded, to_toml};
 use serde::Serialize;
 use trackdyn_estimate::odometry::comparison::{Component, SpanErrors};
 use trackdyn_estimate::odometry::{Comparison, Estimate, ParameterSet, Span};
+use trackdyn_model::Kinematics;
 
 #[derive(Serialize)]
 struct File<'a> {
@@ -16,6 +17,9 @@ struct File<'a> {
     duration_s: Rounded,
     distance_m: Rounded,
     confidence: String,
+    /// Why the forces on the vehicle are not replayed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    physics_stopped: Option<&'a str>,
     source: Source<'a>,
     clock: ClockTable<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -68,13 +72,20 @@ struct SetTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     fingerprint: Option<String>,
     held_out: bool,
+    /// None of forces.
+    #[serde(flatten)]
+    constants: Option<ConstantsTable>,
+    end_position_rms_m: Rounded,
+    end_yaw_rms_rad: Rounded,
+}
+
+#[derive(Serialize)]
+struct ConstantsTable {
     x_icr_left_m: f64,
     x_icr_right_m: f64,
     y_icr_m: f64,
     alpha_left: f64,
     alpha_right: f64,
-    end_position_rms_m: Rounded,
-    end_yaw_rms_rad: Rounded,
 }
 
 #[derive(Serialize)]
@@ -140,6 +151,7 @@ pub(super) fn text(odometry: &Odometry, provenance: &Provenance) -> String {
             vehicle_fingerprint: gauge.fingerprint(),
             gauge_m: gauge.metres(),
         },
+        physics_stopped: odometry.physics_stopped(),
         clock: ClockTable::of(clock),
         gyroscope: recording.gyroscope().map(GyroscopeTable::of),
         advice: of_advice(&odometry.advice()),
@@ -170,7 +182,6 @@ fn of_advice(advice: &Advice) -> AdviceTable {
 }
 
 fn of_set(odometry: &Odometry, index: usize, set: &ParameterSet) -> SetTable {
-    let kinematics = set.kinematics();
     // A set without its alphas is of the file that has them.
     let replayed = odometry.replayed.iter().find(|one| {
         let without = one.set.without_alpha();
@@ -181,12 +192,20 @@ fn of_set(odometry: &Odometry, index: usize, set: &ParameterSet) -> SetTable {
         name: set.name().to_owned(),
         file: replayed.map(|one| one.parameters.name().to_owned()),
         fingerprint: replayed.map(|one| one.parameters.fingerprint()),
-        held_out: replayed.is_none_or(|one| odometry.is_held_out(one)),
-        x_icr_left_m: kinematics.icrs.x_left,
-        x_icr_right_m: kinematics.icrs.x_right,
-        y_icr_m: kinematics.icrs.y,
-        alpha_left: kinematics.alpha.left,
-        alpha_right: kinematics.alpha.right,
+        held_out: match (replayed, set.vehicle()) {
+            (Some(one), _) => odometry.is_held_out(one.parameters.source()),
+            (None, Some(vehicle)) => {
+                vehicle.source.as_ref().is_none_or(|source| odometry.is_held_out(source))
+            }
+            (None, None) => true,
+        },
+        constants: set.kinematics().map(|Kinematics { icrs, alpha }| ConstantsTable {
+            x_icr_left_m: icrs.x_left,
+            x_icr_right_m: icrs.x_right,
+            y_icr_m: icrs.y,
+            alpha_left: alpha.left,
+            alpha_right: alpha.right,
+        }),
         end_position_rms_m: Rounded(place),
         end_yaw_rms_rad: Rounded(yaw),
     }

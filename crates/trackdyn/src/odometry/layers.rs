@@ -46,9 +46,10 @@ pub(super) fn of(odometry: &Odometry, provenance: &Provenance) -> Result<Layers,
     let comparison = &odometry.comparison;
     let is_given =
         |set: &ParameterSet| odometry.replayed.iter().any(|one| one.set.name() == set.name());
+    let is_shown = |place: usize, set| place == 0 || is_given(set) || set.vehicle().is_some();
     let sets = comparison.sets.iter().enumerate();
     let sets: Vec<(usize, &ParameterSet)> =
-        sets.filter(|(place, set)| *place == 0 || is_given(set)).collect();
+        sets.filter(|(place, set)| is_shown(*place, set)).collect();
     let (observed, actors) =
         Actor::all(sets.iter().map(|(place, set)| (set.name(), entry_colour(*place))));
     let shown = sets.into_iter().zip(actors);

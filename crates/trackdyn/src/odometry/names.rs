@@ -22,7 +22,7 @@ pub(super) fn names<'a>(paths: impl Iterator<Item = &'a Path>) -> Vec<String> {
         let name =
             if alike && !folder.is_empty() { format!("{folder}-{stem}") } else { stem.clone() };
         let taken = |name: &str| {
-            [ParameterSet::IDEAL, "recorded"].contains(&name)
+            [ParameterSet::IDEAL, ParameterSet::PHYSICS, "recorded"].contains(&name)
                 || name.ends_with("-no-alpha")
                 || names.iter().any(|n| n == name)
         };
@@ -43,5 +43,6 @@ mod tests {
         assert_eq!(of(&["a/fit.toml", "b/map.toml"]), ["fit", "map"]);
         assert_eq!(of(&["a/k.toml", "b/k.toml", "b/k.toml"]), ["a-k", "b-k", "b-k-2"]);
         assert_eq!(of(&["ideal.toml", "my robot.toml"]), ["ideal-2", "my_robot"]);
+        assert_eq!(of(&["physics.toml"]), ["physics-2"]);
     }
 }

@@ -126,7 +126,7 @@ fn odometry(tracks: &[TrackSample], scans: &[Scan], tau: f64) -> Vec<Pose> {
     let mut poses = vec![Pose::default()];
     for (pair, before) in scans.windows(2).zip(0..) {
         let [from, to] = [pair[0].stamp(), pair[1].stamp()];
-        let motion = hold::integrate(tracks, from, to, tau, |speeds| ideal.twist(speeds));
+        let motion = hold::integrate(tracks, from, to, tau, |speeds| ideal.steady(speeds).1);
         poses.push(poses[before].compose(&motion));
     }
     poses

@@ -127,6 +127,7 @@ fn pieces(span: &SpanErrors) -> String {
 fn advice(text: &mut String, advice: &Advice, span: &SpanErrors) {
     let choice = match advice {
         Advice::File { file, .. } => path(Path::new(file)),
+        Advice::Physics { vehicle, .. } => format!("the forces on {vehicle}"),
         Advice::Ideal { .. } => "the ideal drive, its gauge alone: no file is surely better".into(),
         Advice::Undecided { reason } => {
             text.push('\n');

@@ -21,7 +21,9 @@ pub(super) fn tab(drive: &Drive, pieces: &[Stretch]) -> Tab {
                 observed.push(stamp, value(&moment.tracks));
             }
             for (shown, trace) in drive.shown.iter().zip(&mut sets) {
-                trace.push(stamp, value(&shown.set.kinematics_at(speeds).icrs));
+                if let (Some(icrs), _) = shown.set.steady(speeds) {
+                    trace.push(stamp, value(&icrs));
+                }
             }
         }
         let sets = drive.shown.iter().zip(sets);
@@ -68,11 +70,13 @@ impl Drive<'_> {
         way.map(|way| way / stretch.duration)
     }
 
-    /// The ICRs of a set at a time of a run, s of the pose clock; none before its first reading.
+    /// The ICRs of a set at a time of a run, s of the pose clock; none before its first reading,
+    /// and of forces that do not turn the robot.
     fn moment_of(&self, shown: &Shown, run: usize, t: f64) -> Option<Moment> {
         let tracks = self.run(run).tracks();
         let reading = hold::holding(tracks, t - self.odometry.comparison.tau)?;
         let speeds = tracks[reading].speeds();
-        Some(Moment::new(shown.set.kinematics_at(speeds).icrs, &shown.set.twist(speeds)))
+        let (icrs, twist) = shown.set.steady(speeds);
+        Some(Moment::new(icrs?, &twist))
     }
 }

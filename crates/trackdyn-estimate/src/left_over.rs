@@ -8,7 +8,7 @@ use crate::observations::{Observation, Observations};
 use crate::parameters::Parameters;
 use crate::prediction::{Lanes, Prediction};
 use crate::weighting::SegmentNoise;
-use trackdyn_core::robust::median;
+use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, median};
 
 /// Median of |z| of a standard normal number.
 const HALF_NORMAL_MEDIAN: f64 = 0.674_489_750_196_082;
@@ -39,9 +39,21 @@ impl LeftOver {
         let segments = || observations.segments().iter().zip(&predictions);
         let off =
             |(segment, by): (&Observation, &Prediction), k: usize| segment.motion[k] - by.motion[k];
-        let variance = |segment: &Observation, k: usize| {
+        let of_poses = |segment: &Observation, k: usize| {
             noise.map_or(0.0, |noise| 2.0 * noise.pose[k] + noise.walk[k] * segment.duration)
         };
+        let by_stamps = |segment: &Observation, k: usize| {
+            segment.twists.iter().map(|twist| twist[k].powi(2)).sum::<f64>()
+        };
+        // Errors of the stamps turn the robot as well as they move it: what shows in the way alone
+        // is none of theirs.
+        let shown = segments().map(|(segment, by)| {
+            let own = off((segment, by), 2).powi(2) - of_poses(segment, 2);
+            [by.motion[2].abs(), own, by_stamps(segment, 2)]
+        });
+        let stamp = noise.map_or(0.0, |noise| noise.stamp.min(stamps(shown.collect())));
+        let variance =
+            |segment: &Observation, k: usize| of_poses(segment, k) + stamp * by_stamps(segment, k);
         let turns: Vec<[f64; 3]> = segments()
             .map(|(segment, by)| {
                 [by.motion[2].abs(), off((segment, by), 2).abs(), variance(segment, 2)]
@@ -90,6 +102,20 @@ impl LeftOver {
             [along.abs(), off[0].hypot(off[1]), 0.0]
         });
         [-direction, left(beside.collect(), RAYLEIGH_MEDIAN)]
+    }
+}
+
+/// Variance of the stamps (s²) that the turning shows, over the half with most of it. Rows hold how
+/// much it turns, the square that is left less its noise, and that of a variance of 1 s².
+fn stamps(mut rows: Vec<[f64; 3]>) -> f64 {
+    rows.sort_by(|a, b| b[0].total_cmp(&a[0]));
+    rows.truncate(rows.len().div_ceil(2));
+    let of = |k: usize| median(&mut rows.iter().map(|row| row[k]).collect::<Vec<_>>());
+    match (of(1), of(2)) {
+        (Some(left), Some(square)) if square > 0.0 => {
+            (left / MEDIAN_OF_CHI_SQUARE / square).max(0.0)
+        }
+        _ => 0.0,
     }
 }
 

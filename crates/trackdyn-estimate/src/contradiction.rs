@@ -117,6 +117,11 @@ pub enum Contradiction {
         /// Heading of the sensor on the robot that would explain it, rad.
         mount: Option<f64>,
     },
+    /// Poses that follow the track speeds over time, and not as through a filter.
+    Follows {
+        /// Part of the turning that a filter leaves.
+        left: f64,
+    },
     /// Turning over seconds tells another distance of the ICRs than the fit.
     Response {
         /// x_r − x_l by turning over seconds, m.
@@ -187,9 +192,18 @@ impl Contradiction {
         found
     }
 
+    /// What contradicts any distance of the ICRs for poses that follow in this way.
+    pub fn of_following(response: &Response) -> Option<Self> {
+        Some(Self::Follows { left: response.left? })
+    }
+
     /// Whether a fit contradicts the turning over seconds, by which its track speeds are weighted.
     pub fn of_response(fit: &Estimate, response: Option<&Response>) -> Option<Self> {
-        let over = response?.gap;
+        let response = response?;
+        if let Some(found) = Self::of_following(response) {
+            return Some(found);
+        }
+        let over = response.gap;
         let [.., left, right] = fit.parameters.0;
         // Turning alone takes α for 1.
         let gap = fit.gap().value / f64::midpoint(left, right);
@@ -302,6 +316,14 @@ impl std::fmt::Display for Contradiction {
                 }
                 f.write_str(", and the gauge")
             }
+            Self::Follows { left } => write!(
+                f,
+                "the poses follow the track speeds over seconds, and not as through a filter, \
+                 which leaves {:.0} % of the turning: commands that the tracks do not keep up with \
+                 in place of measured speeds? Take what encoders measure (--joint-signal, \
+                 --tracks-topic, --left-signal), or drive steady for longer (--settle)",
+                100.0 * left
+            ),
             Self::Response { gap, fit } => write!(
                 f,
                 "x_r - x_l is {fit:.3} m by the fit and {gap:.3} m by turning over seconds: the \

@@ -35,6 +35,9 @@ pub const DURATION: f64 = 2.0;
 const STEP: f64 = 0.5;
 const REACH: usize = 6;
 
+/// The delays of short logs: every second one.
+const COARSE: usize = 2;
+
 /// Least standard errors of the difference of both distances that shows a response, and of what
 /// the delays gain in blocks that they were not fitted to: by chance, fewer than one log in a
 /// thousand reaches it.
@@ -44,11 +47,22 @@ const MIN_ERRORS: f64 = 4.0;
 /// no harm.
 const MIN_DIFFERENCE: f64 = 0.005;
 
-/// Shortest block, s: twice the times that are compared.
-const MIN_BLOCK: f64 = 2.0 * DURATION;
+/// Part of the squares of the turning that a response may leave: a tenth of the turning. Rough
+/// ground and stamps that jitter leave less; tracks that cannot follow commands leave more, and
+/// then their response is none of a filter.
+const MAX_LEFT: f64 = 0.01;
 
-/// Fewest blocks, for as many unknowns.
-const MIN_BLOCKS: usize = 15;
+/// Standard errors by which delays show where more is left.
+const MIN_ERRORS_WHERE_LEFT: f64 = 2.5;
+
+/// Shortest block, s: longer than the times that are compared.
+const MIN_BLOCK: f64 = 1.5 * DURATION;
+
+/// Fewest blocks: of fewer, the scatter is no error.
+const MIN_BLOCKS: usize = 9;
+
+/// Blocks per unknown from which on all delays are free.
+const BLOCKS_PER_UNKNOWN: usize = 2;
 
 /// How poses follow the track speeds.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,9 +71,12 @@ pub struct Response {
     pub gap: Interval,
     /// x_r − x_l by a delay alone over the times of usual segments, m.
     pub gap_at_once: f64,
-    /// Weights of the delays, from the earliest on, where poses do not follow at once; their sum
-    /// is 1.
-    weights: Option<Vec<f64>>,
+    /// Part of the turning that is left, in its root mean square, where the poses follow in another
+    /// way than through a filter.
+    pub left: Option<f64>,
+    /// Weights of the delays, from the earliest on, where poses do not follow at once, and the step
+    /// of the delays, s; the sum of the weights is 1.
+    weights: Option<(Vec<f64>, f64)>,
 }
 
 impl Response {
@@ -68,12 +85,15 @@ impl Response {
         let blocks = blocks(recording);
         let over = |duration: f64| Rows::of(recording, &blocks, tau, duration);
         let (long, short) = (over(DURATION), over(0.0));
-        let at_once = short.fit(0)?;
-        let [free, half, delay_alone] = [long.fit(REACH)?, long.fit(REACH / 2)?, long.fit(0)?];
-        let by_same_weights = long.fit_weighted(0, &free.weights)?;
-        if free.blocks.len() < MIN_BLOCKS {
+        let at_once = short.fit(0, 1)?;
+        let count = at_once.blocks.len();
+        if count < MIN_BLOCKS {
             return None;
         }
+        let every = if count < BLOCKS_PER_UNKNOWN * (2 * REACH + 2) { COARSE } else { 1 };
+        let free = long.fit(REACH, every)?;
+        let [half, delay_alone] = [long.fit(REACH / 2, every)?, long.fit(0, 1)?];
+        let by_same_weights = long.fit_weighted(0, 1, &free.weights)?;
         let gap_at_once = 1.0 / at_once.sum();
         let differences: Option<Vec<f64>> = free
             .blocks
@@ -82,18 +102,22 @@ impl Response {
             .collect();
         let (gap, of_delay) = (free.gap()?, delay_alone.gap()?);
         let difference = Interval::of_jackknife(gap.value - gap_at_once, &differences?)?;
-        let is_sure = difference.value.abs() > MIN_ERRORS * difference.deviation
-            || gain(&by_same_weights, &free) > MIN_ERRORS;
-        let shows = is_sure && difference.value.abs() > MIN_DIFFERENCE * gap.value;
+        let errors =
+            (difference.value.abs() / difference.deviation).max(gain(&by_same_weights, &free));
+        let left = free.left();
+        let is_left = left > MAX_LEFT && errors > MIN_ERRORS_WHERE_LEFT;
+        let left = is_left.then(|| left.sqrt());
+        let shows = errors > MIN_ERRORS && difference.value.abs() > MIN_DIFFERENCE * gap.value;
         if !shows || gap.low <= 0.0 {
-            return Some(Self { gap: of_delay, gap_at_once, weights: None });
+            return Some(Self { gap: of_delay, gap_at_once, left, weights: None });
         }
         let missed = 1.0 / half.sum() - gap.value;
-        let deviation = gap.deviation.hypot(missed);
+        let weights = free.coefficients.iter().map(|c| c / free.sum()).collect();
         Some(Self {
-            gap: Interval::new(gap.value, deviation, free.blocks.len(), 1),
+            gap: Interval::new(gap.value, gap.deviation.hypot(missed), free.blocks.len(), 1),
             gap_at_once,
-            weights: Some(free.coefficients.iter().map(|c| c / free.sum()).collect()),
+            left,
+            weights: Some((weights, STEP * real(every))),
         })
     }
 
@@ -106,8 +130,8 @@ impl Response {
     /// own. Readings near the ends of a run and near gaps, whose response is not known, are left
     /// out.
     pub fn applied(&self, recording: &Recording) -> Option<Recording> {
-        let weights = self.weights.as_ref()?;
-        let runs = recording.runs().iter().map(|run| smoothed(run, weights, STEP));
+        let (weights, step) = self.weights.as_ref()?;
+        let runs = recording.runs().iter().map(|run| smoothed(run, weights, *step));
         Some(recording.with_runs(runs.filter(|run| run.tracks().len() > 1).collect()))
     }
 
@@ -173,7 +197,8 @@ struct Without {
     /// Its place in the list of blocks.
     index: usize,
     coefficients: Vec<f64>,
-    /// Sum of the weighted squares that this fit leaves in the block.
+    /// Sums of the weighted squares of the block, and of those that this fit leaves.
+    squares: f64,
     left: f64,
 }
 
@@ -199,7 +224,12 @@ impl Fit {
                 // Σ w (y − xᵀc)²
                 let explained = found.dot(&(&part.matrix * &found)) - 2.0 * found.dot(&part.right);
                 let left = part.squares + explained;
-                Some(Without { index: part.block, coefficients: coefficients(&found), left })
+                Some(Without {
+                    index: part.block,
+                    coefficients: coefficients(&found),
+                    squares: part.squares,
+                    left,
+                })
             })
             .collect();
         let fit = Self { coefficients: coefficients(&all), weights, blocks: blocks? };
@@ -208,6 +238,15 @@ impl Fit {
 
     fn sum(&self) -> f64 {
         self.coefficients.iter().sum()
+    }
+
+    /// Part of the squares that is left in blocks that were not fitted.
+    fn left(&self) -> f64 {
+        let [left, all] = self
+            .blocks
+            .iter()
+            .fold([0.0; 2], |[left, all], block| [left + block.left, all + block.squares]);
+        left / all
     }
 
     fn gap(&self) -> Option<Interval> {

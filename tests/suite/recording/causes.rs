@@ -243,6 +243,23 @@ fn speeds_that_are_cut_at_a_limit_are_left_out() {
     }
 }
 
+/// Half a minute of it is enough.
+#[test]
+fn a_limit_shows_in_a_short_log() {
+    for seed in 0..8 {
+        let schedule = random_steps(18, 2.0, 0.8, seed);
+        let runs = change(driven(vec![schedule]), |run| {
+            for reading in &mut run.tracks.samples {
+                reading.v_left = reading.v_left.clamp(-0.4, 0.4);
+                reading.v_right = reading.v_right.clamp(-0.4, 0.4);
+            }
+        });
+        let recording = read(runs).expect("usable");
+        let is_it = |(finding, _): &(Finding, usize)| matches!(finding, Finding::Saturated { .. });
+        assert!(findings(&recording).iter().any(is_it), "{seed}: {:?}", recording.warnings());
+    }
+}
+
 /// A driver at full speed shows one number again and again, and his track runs as it says.
 #[test]
 fn speeds_that_are_driven_at_the_limit_stay() {

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use trackdyn_core::{PerSide, real};
 use trackdyn_estimate::identification::{Options, icrs_alone};
 use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
-use trackdyn_estimate::{Interval, Response};
+use trackdyn_estimate::{Contradiction, Interval, Response};
 use trackdyn_recording::{PoseSample, Recording, Run, TrackSample, UncheckedRun};
 
 /// x_r − x_l, m.
@@ -17,9 +17,13 @@ const GAP: f64 = 1.8;
 /// Time between readings, s.
 const READING: f64 = 0.05;
 
-/// Speeds that a driver asks for, in steps of `seconds`, as readings see them.
+/// Speeds that a driver asks for in five minutes, in steps of `seconds`, as readings see them.
 fn asked(seed: u64, seconds: f64) -> Vec<PerSide<f64>> {
-    let count = (300.0 / seconds).round();
+    asked_for(300.0, seed, seconds)
+}
+
+fn asked_for(duration: f64, seed: u64, seconds: f64) -> Vec<PerSide<f64>> {
+    let count = (duration / seconds).round();
     let readings = (seconds / READING).round();
     let steps = (0..).map_while(|k: u32| (f64::from(k) < count).then_some(u64::from(k)));
     let schedule: Vec<Stretch> =
@@ -168,6 +172,26 @@ fn commands_in_place_of_speeds_tell_the_right_distance() {
         let asked = asked(seed, 4.0);
         with_commands(&drive(&limited(&asked, 1.0), 0.1, seed), &asked)
     });
+}
+
+#[test]
+fn fifty_seconds_of_filtered_poses_or_speeds_are_enough() {
+    let short = |seed: u64| drive(&limited(&asked_for(50.0, seed, 2.5), 2.0), 0.1, seed);
+    check("filtered poses", 0.02, |seed| with_filtered_poses(&short(seed)));
+    check("filtered speeds", 0.04, |seed| with_filtered_speeds(&short(seed)));
+}
+
+/// Tracks that reach what is asked for in a second or two, and then something else is asked for.
+#[test]
+fn commands_that_the_tracks_do_not_keep_up_with_are_refused() {
+    for seed in SEEDS {
+        let asked = asked(seed, 2.0);
+        let recording = with_commands(&drive(&limited(&asked, 0.5), 0.1, seed), &asked);
+        let tau = trackdyn_estimate::Clock::of(&recording, None).expect("a clock").tau();
+        let response = Response::of(&recording, tau).expect("long enough");
+        let text = Contradiction::of_following(&response).map(|found| found.to_string());
+        assert!(text.is_some_and(|text| text.contains("--joint-signal")), "{response:?}");
+    }
 }
 
 /// Poses that were taken earlier or later than they say, by 0.15 s: what is lost is not made up

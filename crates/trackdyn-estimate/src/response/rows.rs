@@ -91,24 +91,27 @@ impl Rows {
         }
     }
 
-    /// What a turn is fitted by, with delays up to so many steps either way.
-    fn row(&self, k: usize, reach: usize) -> DVector<f64> {
-        let count = 2 * reach + 2;
-        let at = |j: usize| if j + 1 == count { 2 * REACH + 1 } else { REACH - reach + j };
+    /// What a turn is fitted by, with so many delays, of which one in `every` is taken.
+    fn row(&self, k: usize, count: usize, every: usize) -> DVector<f64> {
+        let half = (count - 2) / 2;
+        let at = |j: usize| {
+            if j + 1 == count { 2 * REACH + 1 } else { REACH + j * every - half * every }
+        };
         DVector::from_fn(count, |j, _| self.ways[k][at(j)])
     }
 
     /// Least squares by these weights.
-    pub(super) fn fit_weighted(&self, reach: usize, weights: &[f64]) -> Option<Fit> {
-        let row = |k: usize| self.row(k, reach);
-        Fit::of(&self.parts(2 * reach + 2, &row, weights), weights.to_vec())
+    pub(super) fn fit_weighted(&self, reach: usize, every: usize, weights: &[f64]) -> Option<Fit> {
+        let count = 2 * (reach / every) + 2;
+        let row = |k: usize| self.row(k, count, every);
+        Fit::of(&self.parts(count, &row, weights), weights.to_vec())
     }
 
-    /// Robust least squares with delays up to so many steps either way, with the fits without each
-    /// block; none where rows are few or the delays are not told apart.
-    pub(super) fn fit(&self, reach: usize) -> Option<Fit> {
-        let count = 2 * reach + 2;
-        let row = |k: usize| self.row(k, reach);
+    /// Robust least squares with every so many of the delays up to a number of steps either way,
+    /// with the fits without each block; none where rows are few or the delays are not told apart.
+    pub(super) fn fit(&self, reach: usize, every: usize) -> Option<Fit> {
+        let count = 2 * (reach / every) + 2;
+        let row = |k: usize| self.row(k, count, every);
         if self.turns.len() < 4 * count {
             return None;
         }

@@ -55,13 +55,16 @@ impl Limit {
     fn is_met(&self, speed: f64) -> bool {
         speed / self.speed > 1.0 - ROUNDING
     }
+
+    /// Whether another one is as large.
+    fn is_like(&self, other: &Self) -> bool {
+        (self.speed / other.speed).abs().ln().abs() < ROUNDING
+    }
 }
 
 /// Drops saturated readings; `cleanings` takes what was found.
 pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
-    let sides = Side::BOTH.into_iter().flat_map(|side| [1.0, -1.0].map(|sense| (side, sense)));
-    let limits: Vec<Limit> =
-        sides.filter_map(|(side, sense)| questioned(runs, side, sense)).collect();
+    let limits = questioned(runs);
     if limits.is_empty() {
         return;
     }
@@ -82,8 +85,11 @@ pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
         };
         runs_faster(runs, limits[index], &within[index], &others, &linear)
     };
-    let found: Vec<Limit> =
+    // One limit is that of both sides and senses.
+    let saturated: Vec<Limit> =
         (0..limits.len()).filter(|k| is_saturated(*k)).map(|k| limits[k]).collect();
+    let is_found = |limit: &&Limit| saturated.iter().any(|found| found.is_like(limit));
+    let found: Vec<Limit> = limits.iter().filter(is_found).copied().collect();
     for run in runs.iter_mut().filter(|_| !found.is_empty()) {
         let is_out = |row: &usize| {
             let speeds = run.tracks()[*row].speeds();
@@ -100,19 +106,25 @@ pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
     }
 }
 
-/// The largest speed of a side in one sense, where many readings meet it.
-fn questioned(runs: &[Run], side: Side, sense: f64) -> Option<Limit> {
-    let speeds = || runs.iter().flat_map(Run::tracks).map(|reading| sense * reading.speeds()[side]);
-    let largest = speeds().fold(0.0, f64::max);
-    if largest <= 0.0 {
-        return None;
-    }
-    let limit = Limit { side, speed: sense * largest };
-    let met = speeds().filter(|speed| limit.is_met(sense * speed)).count();
-    let moving = speeds().filter(|speed| *speed > 0.0).count();
-    let times: usize = runs.iter().map(|run| times(run, &limit).len()).sum();
-    let are_many = met >= MIN_READINGS && real(met) >= MIN_SHARE * real(moving);
-    (are_many && times >= MIN_TIMES).then_some(limit)
+/// The largest speeds of sides and senses that many readings meet, those of one size together.
+fn questioned(runs: &[Run]) -> Vec<Limit> {
+    let sides = Side::BOTH.into_iter().flat_map(|side| [1.0, -1.0].map(|sense| (side, sense)));
+    let largest = |(side, sense): (Side, f64)| {
+        let speeds = runs.iter().flat_map(Run::tracks).map(|one| sense * one.speeds()[side]);
+        Limit { side, speed: sense * speeds.fold(0.0, f64::max) }
+    };
+    let all: Vec<Limit> = sides.map(largest).filter(|limit| limit.speed != 0.0).collect();
+    let are_many = |limit: &Limit| {
+        let (mut met, mut moving, mut count) = (0_usize, 0_usize, 0_usize);
+        for like in all.iter().filter(|like| like.is_like(limit)) {
+            let speeds = || runs.iter().flat_map(Run::tracks).map(|one| one.speeds()[like.side]);
+            met += speeds().filter(|speed| like.is_met(*speed)).count();
+            moving += speeds().filter(|speed| speed / like.speed > 0.0).count();
+            count += runs.iter().map(|run| times(run, like).len()).sum::<usize>();
+        }
+        met >= MIN_READINGS && real(met) >= MIN_SHARE * real(moving) && count >= MIN_TIMES
+    };
+    all.iter().filter(|limit| are_many(limit)).copied().collect()
 }
 
 /// The times in which the readings of a run meet a limit, s.

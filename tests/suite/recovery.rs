@@ -5,6 +5,7 @@ mod corrupted;
 mod coverage;
 mod manual;
 mod methods;
+mod responses;
 mod sensor;
 mod steady;
 

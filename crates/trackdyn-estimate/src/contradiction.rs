@@ -5,6 +5,7 @@ use crate::least_squares::Estimate;
 use crate::left_over::LeftOver;
 use crate::observations::Observations;
 use crate::parameters::Parameters;
+use crate::response::Response;
 use crate::spin_test::SpinTest;
 use crate::weighting::SegmentNoise;
 use trackdyn_core::robust::quantile;
@@ -13,6 +14,10 @@ use trackdyn_recording::unit;
 
 /// Standard errors by which two methods may differ.
 const MAX_ERRORS: f64 = 5.0;
+
+/// Part of the distance of the ICRs by which turning over seconds may differ from a fit: intervals
+/// of the fit reach what is less.
+const MAX_OF_RESPONSE: f64 = 0.1;
 
 /// Part of the distance of the ICRs by which the spin test may differ from a fit: it takes the
 /// robot for symmetric and its track speeds for steady.
@@ -26,9 +31,18 @@ const MAX_OF_GENETIC: f64 = 0.25;
 /// tracks' centre-lines. Axles a fifth of the gauge apart, μ_x = μ_y, give 0.96.
 const MAX_EFFICIENCY: f64 = 0.97;
 
-/// χ below which it is the units that are wrong: ten times the gauge is more than any friction
-/// between the tracks' centre-lines gives.
-const MIN_EFFICIENCY: f64 = 0.1;
+/// χ below which it is the units that are wrong. A track of length l at L/2 from the middle slides
+/// aside by y and along by d, the distance of its ICR from it. Where that is far, μ_x d L/2 =
+/// μ_y l²/12, so χ = L/(L + 2d) = 1/(1 + μ_y l²/(3 μ_x L²)): of tracks twice as long as the gauge,
+/// beyond which no robot turns by its tracks, with twice the friction aside, 0.27.
+const MIN_EFFICIENCY: f64 = 0.25;
+
+/// χ of usual robots, by which units of length are named.
+const USUAL_EFFICIENCIES: [f64; 2] = [0.35, 0.95];
+
+/// Units of length, m, that poses and track speeds may share where the gauge is in m.
+const LENGTHS: [(f64, &str); 4] =
+    [(0.3048, "feet"), (0.0254, "inches"), (0.01, "centimetres"), (0.001, "millimetres")];
 
 /// α of encoders and wheel radii that are what their file says, and of tracks that hold.
 const ALPHAS: [f64; 2] = [0.8, 1.25];
@@ -103,6 +117,18 @@ pub enum Contradiction {
         /// Heading of the sensor on the robot that would explain it, rad.
         mount: Option<f64>,
     },
+    /// Poses that follow the track speeds over time, and not as through a filter.
+    Follows {
+        /// Part of the turning that a filter leaves.
+        left: f64,
+    },
+    /// Turning over seconds tells another distance of the ICRs than the fit.
+    Response {
+        /// x_r − x_l by turning over seconds, m.
+        gap: f64,
+        /// x_r − x_l by the fit, m.
+        fit: f64,
+    },
     /// Poses that are computed from the tracks.
     WheelOdometry {
         /// Part of the turning that the fit leaves.
@@ -167,6 +193,26 @@ impl Contradiction {
         found
     }
 
+    /// What contradicts any distance of the ICRs for poses that follow in this way.
+    pub fn of_following(response: &Response) -> Option<Self> {
+        Some(Self::Follows { left: response.left? })
+    }
+
+    /// Whether a fit contradicts the turning over seconds, by which its track speeds are weighted.
+    pub fn of_response(fit: &Estimate, response: Option<&Response>) -> Option<Self> {
+        let response = response?;
+        if let Some(found) = Self::of_following(response) {
+            return Some(found);
+        }
+        let over = response.gap;
+        let [.., left, right] = fit.parameters.0;
+        // Turning alone takes α for 1.
+        let gap = fit.gap().value / f64::midpoint(left, right);
+        let off = (over.value - gap).abs();
+        let is_far = off > MAX_ERRORS * over.deviation && off > MAX_OF_RESPONSE * gap;
+        is_far.then_some(Self::Response { gap: over.value, fit: gap })
+    }
+
     /// What contradicts a distance of the ICRs with this χ.
     pub fn of_efficiency(efficiency: &Interval) -> Option<Self> {
         let chi = efficiency.value;
@@ -180,6 +226,11 @@ impl Contradiction {
     /// Whether it shows that track speeds are not what they seem, whatever else is fitted.
     pub fn is_of_track_speeds(&self) -> bool {
         matches!(self, Self::Alpha { .. })
+    }
+
+    /// Whether it is [`Contradiction::Apart`].
+    pub(crate) fn is_apart(&self) -> bool {
+        matches!(self, Self::Apart { .. })
     }
 
     /// What contradicts parameters whatever they were fitted to.
@@ -244,11 +295,42 @@ impl std::fmt::Display for Contradiction {
                  friction cannot put them: check the gauge, the wheel radius, and which joints \
                  were taken; or these poses or speeds are computed without slip"
             ),
-            Self::Apart { chi } => write!(
+            Self::Apart { chi } => {
+                write!(
+                    f,
+                    "chi = {chi:.3}: the ICRs lie {:.1} gauges from each other, which friction \
+                     cannot do: ",
+                    1.0 / chi
+                )?;
+                let usual = |(unit, _): &&(f64, &str)| {
+                    let [low, high] = USUAL_EFFICIENCIES;
+                    (low..high).contains(&(chi / unit))
+                };
+                f.write_str("check the units of poses and track speeds (--speed-unit)")?;
+                if let Some((unit, name)) = LENGTHS.iter().find(usual) {
+                    write!(
+                        f,
+                        ", which in {name} would make it {:.2} (--columns reads lengths in ft, cm \
+                         and mm)",
+                        chi / unit
+                    )?;
+                }
+                f.write_str(", and the gauge")
+            }
+            Self::Follows { left } => write!(
                 f,
-                "chi = {chi:.3}: the ICRs lie {:.0} gauges from each other, which friction cannot \
-                 do: check the units of poses and track speeds (--speed-unit), and the gauge",
-                1.0 / chi
+                "the poses follow the track speeds over seconds, and not as through a filter, \
+                 which leaves {:.0} % of the turning: commands that the tracks do not keep up with \
+                 in place of measured speeds? Take what encoders measure (--joint-signal, \
+                 --tracks-topic, --left-signal), or drive steady for longer (--settle)",
+                100.0 * left
+            ),
+            Self::Response { gap, fit } => write!(
+                f,
+                "x_r - x_l is {fit:.3} m by the fit and {gap:.3} m by turning over seconds: the \
+                 poses do not follow the track speeds as one robot does: check whether speeds or \
+                 poses are filtered, and whether speeds are commands (--joint-signal, \
+                 --tracks-topic)"
             ),
             Self::Way { left, mount } => {
                 write!(

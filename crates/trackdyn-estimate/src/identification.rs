@@ -11,12 +11,14 @@ use crate::least_squares::{
 use crate::noise::{Noise, noise};
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
+use crate::response::{self, Response};
 use crate::scatter::scatter;
 use crate::sensor::Nuisance;
 use crate::separation::Separation;
 use crate::spin_test::{SpinTest, spin_test};
 use crate::weighting::{SegmentNoise, Weighting};
 use crate::{Clock, SegmentOptions};
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 use trackdyn_model::Kinematics;
 use trackdyn_recording::Recording;
@@ -82,6 +84,9 @@ pub struct Identification {
     pub noise: Noise,
     /// Whether the weights come from that noise; else all segments count alike.
     pub weighted_by_noise: bool,
+    /// How the poses follow the track speeds; none where the recording is too short to tell. Where
+    /// they do not follow at once, all below is of track speeds that are weighted by it.
+    pub response: Option<Response>,
     /// Segments.
     pub segments: usize,
     /// Lever that turns yaw errors into distances in the cost (17): half the gauge, m.
@@ -127,7 +132,7 @@ pub fn identify_unless_stopped(
     progress: &dyn Fn(usize) -> ControlFlow<()>,
 ) -> Result<Identification, Error> {
     let seen = Seen::of(recording, options)?;
-    let Seen { observations, spin_test, .. } = &seen;
+    let Seen { observations, spin_test, response, .. } = &seen;
     let lever = options.gauge / 2.0;
     let fit = |free: Free| -> Option<Fit> {
         let (gauge, genetic) = (options.gauge, &options.genetic);
@@ -141,7 +146,11 @@ pub fn identify_unless_stopped(
         let contradictions = least_squares.as_ref().map_or(Vec::new(), |estimate| {
             let spin = spin_test.as_ref().ok();
             let noise = seen.weighting.noise();
-            Contradiction::of_motions(estimate, &genetic_estimate, spin, observations, noise, gauge)
+            let genetic = &genetic_estimate;
+            let mut found =
+                Contradiction::of_motions(estimate, genetic, spin, observations, noise, gauge);
+            found.extend(Contradiction::of_response(estimate, response.as_ref()));
+            found
         });
         Some(Fit {
             free,
@@ -158,12 +167,17 @@ pub fn identify_unless_stopped(
     let [icrs, with_alphas] = &mut fits;
     if with_alphas.doubts.is_empty() {
         let found = with_alphas.contradictions.iter();
-        icrs.contradictions.extend(found.filter(|found| found.is_of_track_speeds()).copied());
+        let of_speeds: Vec<Contradiction> =
+            found.filter(|found| found.is_of_track_speeds()).copied().collect();
+        // They explain a distance that no friction makes.
+        icrs.contradictions.retain(|one| of_speeds.is_empty() || !one.is_apart());
+        icrs.contradictions.extend(of_speeds);
     }
     let is_open = fits.iter().all(|fit| fit.least_squares.is_err() || !fit.doubts.is_empty());
     let separation = if is_open { Separation::of_motions(observations).ok() } else { None };
     Ok(Identification {
         segments: observations.len(),
+        response: seen.response,
         lever,
         separation,
         fits,
@@ -184,7 +198,8 @@ pub fn icrs_alone(recording: &Recording, options: &Options) -> Result<Estimate, 
 
 /// What a recording shows before anything is fitted to it.
 struct Seen<'a> {
-    recording: &'a Recording,
+    recording: Cow<'a, Recording>,
+    response: Option<Response>,
     options: &'a Options,
     segments: SegmentOptions,
     clock: Clock,
@@ -201,13 +216,23 @@ impl<'a> Seen<'a> {
         let tau_margin =
             if options.nuisances.contains(&Nuisance::TimeOffset) { TAU_MARGIN } else { 0.0 };
         let segments = SegmentOptions { tau, tau_margin, ..SegmentOptions::default() };
-        let observations = cut(recording, &segments, options);
+        let response = Response::of(recording, tau);
+        let applied = response.as_ref().and_then(|response| response.applied(recording));
+        let (recording, segments) = match applied {
+            Some(weighted) => {
+                let minimum_duration = response::DURATION;
+                let segments = SegmentOptions { minimum_duration, ..segments };
+                (Cow::Owned(weighted), segments)
+            }
+            None => (Cow::Borrowed(recording), segments),
+        };
+        let observations = cut(&recording, &segments, options);
         let needed = 4 * Free::IcrsAndAlphas.count();
         if observations.len() < needed {
             let parameters = Free::IcrsAndAlphas.count();
             return Err(Error::TooFewSegments { found: observations.len(), needed, parameters });
         }
-        let noise = noise(recording, tau);
+        let noise = noise(&recording, tau);
         let spin_test = spin_test(&observations, options.gauge);
         // Only the weights of the encoders' noise depend on it, and roughly: its size is enough.
         let gap = spin_test.as_ref().map_or(1.5 * options.gauge, |spin| spin.gap);
@@ -219,7 +244,17 @@ impl<'a> Seen<'a> {
             Weighting::Noise(_) => observations.moving_by(moves(&observations, gap)),
             Weighting::Distance { .. } => observations,
         };
-        Ok(Self { recording, options, segments, clock, observations, noise, spin_test, weighting })
+        Ok(Self {
+            recording,
+            response,
+            options,
+            segments,
+            clock,
+            observations,
+            noise,
+            spin_test,
+            weighting,
+        })
     }
 
     /// Least squares, and why properties of the sensor that were asked for are not fitted.
@@ -248,7 +283,16 @@ impl<'a> Seen<'a> {
             }
             (first, _) => first,
         };
-        (estimate.map(|estimate| estimate.with_yaw_scale(options.yaw_scale)), refused)
+        let scale = |estimate: Estimate| {
+            let (gap, [.., left, right]) = (estimate.gap(), estimate.parameters.0);
+            let alpha = f64::midpoint(left, right);
+            let of_response = |response: &Response| {
+                response.scale_deviation(gap.value / alpha, gap.deviation / alpha)
+            };
+            let open = self.response.as_ref().map_or(0.0, of_response);
+            estimate.with_yaw_scale(options.yaw_scale.hypot(open))
+        };
+        (estimate.map(scale), refused)
     }
 }
 

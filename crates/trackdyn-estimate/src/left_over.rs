@@ -8,7 +8,7 @@ use crate::observations::{Observation, Observations};
 use crate::parameters::Parameters;
 use crate::prediction::{Lanes, Prediction};
 use crate::weighting::SegmentNoise;
-use trackdyn_core::robust::{NORMAL_FROM_MAD, median};
+use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, NORMAL_FROM_MAD, median};
 
 /// Median of the length of two standard normal numbers, √(2 ln 2).
 const RAYLEIGH_MEDIAN: f64 = 1.177_410_022_515_475;
@@ -34,8 +34,11 @@ impl LeftOver {
     ) -> Self {
         let [x_l, x_r, ..] = parameters.0;
         let predictions = Lanes::new(observations).predict(parameters);
-        let variance = |segment: &Observation, k: usize| {
+        let of_poses = |segment: &Observation, k: usize| {
             noise.map_or(0.0, |noise| 2.0 * noise.pose[k] + noise.walk[k] * segment.duration)
+        };
+        let by_stamps = |segment: &Observation, k: usize| {
+            segment.twists.iter().map(|twist| twist[k].powi(2)).sum::<f64>()
         };
         // Of each segment, its prediction and what that leaves: forward, left, yaw.
         let rows = |row: &dyn Fn(&Observation, [f64; 3], [f64; 3]) -> [f64; 3]| -> Vec<[f64; 3]> {
@@ -45,6 +48,14 @@ impl LeftOver {
             });
             rows.collect()
         };
+        // Errors of the stamps turn the robot as well as they move it: what shows in the way alone
+        // is none of theirs.
+        let shown = rows(&|segment, [.., yaw], [.., off]| {
+            [yaw.abs(), off * off - of_poses(segment, 2), by_stamps(segment, 2)]
+        });
+        let stamp = noise.map_or(0.0, |noise| noise.stamp.min(stamps(shown)));
+        let variance =
+            |segment: &Observation, k: usize| of_poses(segment, k) + stamp * by_stamps(segment, k);
         let turns =
             rows(&|segment, [.., yaw], [.., off]| [yaw.abs(), off.abs(), variance(segment, 2)]);
         let ways = rows(&|segment, [x, y, _], [forward, left, _]| {
@@ -82,6 +93,20 @@ impl LeftOver {
             [along.abs(), off[0].hypot(off[1]), 0.0]
         });
         [-direction, left(beside.collect(), RAYLEIGH_MEDIAN)]
+    }
+}
+
+/// Variance of the stamps (s²) that the turning shows, over the half with most of it. Rows hold how
+/// much it turns, the square that is left less its noise, and that of a variance of 1 s².
+fn stamps(mut rows: Vec<[f64; 3]>) -> f64 {
+    rows.sort_by(|a, b| b[0].total_cmp(&a[0]));
+    rows.truncate(rows.len().div_ceil(2));
+    let of = |k: usize| median(&mut rows.iter().map(|row| row[k]).collect::<Vec<_>>());
+    match (of(1), of(2)) {
+        (Some(left), Some(square)) if square > 0.0 => {
+            (left / MEDIAN_OF_CHI_SQUARE / square).max(0.0)
+        }
+        _ => 0.0,
     }
 }
 

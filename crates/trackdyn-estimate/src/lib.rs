@@ -24,6 +24,7 @@
 //! - [`likely_noise`]: the noise that makes residuals most likely; [`variances`]: its steps.
 //! - [`gauss_newton`]: robust least squares, whatever the residuals are of.
 //! - [`mod@spin_test`], [`mod@genetic`], [`mod@least_squares`]: three ways to the parameters.
+//! - [`response`]: how the poses follow the track speeds over time.
 //! - [`separation`]: the distance of the ICRs from turning alone.
 //! - [`steady`]: the parameters from a table of steady operating points.
 //! - [`identification`]: all of them on one recording; [`contradiction`]: where they do not agree.
@@ -54,6 +55,7 @@ pub mod parameters;
 pub mod prediction;
 pub mod regular;
 pub mod residual_noise;
+pub mod response;
 mod scatter;
 pub mod segment;
 pub mod sensor;
@@ -79,6 +81,7 @@ pub use least_squares::{Estimate, Unknowns, least_squares};
 pub use observations::Observations;
 pub use parameters::{Free, Parameters};
 pub use residual_noise::residual_noise;
+pub use response::Response;
 pub use segment::{Segment, SegmentOptions, segments};
 pub use sensor::{Nuisance, Sensor};
 pub use separation::{Separation, Turning};

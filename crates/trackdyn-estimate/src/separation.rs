@@ -12,14 +12,23 @@
 use crate::error::Error;
 use crate::gauss_newton::Loss;
 use crate::observations::Observations;
+use crate::response::Response;
 use crate::{Clock, Interval, SegmentOptions};
 use nalgebra::{Matrix2, Vector2};
 use trackdyn_core::real;
 use trackdyn_core::robust::deviation_about_zero;
 use trackdyn_recording::{OperatingPoint, Recording};
 
-/// Fewest turns, of a drive or of a table.
-const MIN_TURNS: usize = 3;
+/// Fewest turns, of a drive or of a table: two have one degree of freedom left, whose interval is
+/// wide as it should be.
+const MIN_TURNS: usize = 2;
+
+/// Smallest standard error, as share of the distance: two spins that are timed by hand may agree by
+/// chance, and a hand with a watch does not time one to half a percent.
+const MIN_ERROR: f64 = 0.005;
+
+/// Turns from which on their scatter tells their error.
+const ENOUGH_TURNS: usize = 5;
 
 /// Least turning of a drive in all, rad: half a turn.
 const MIN_YAW: f64 = std::f64::consts::PI;
@@ -60,6 +69,8 @@ struct Turn {
 pub struct Turning {
     /// Clock offset.
     pub clock: Clock,
+    /// How the poses follow the track speeds; none where the recording is too short to tell.
+    pub response: Option<Response>,
     /// Segments.
     pub segments: usize,
     /// The distance of the ICRs.
@@ -75,8 +86,12 @@ impl Turning {
         let clock = Clock::of(recording, tau)?;
         let options = SegmentOptions { tau: clock.tau(), ..SegmentOptions::default() };
         let observations = Observations::new(recording, &options);
-        let separation = Separation::of_motions(&observations)?;
-        Ok(Self { clock, segments: observations.len(), separation })
+        let mut separation = Separation::of_motions(&observations)?;
+        let response = Response::of(recording, clock.tau());
+        if let Some(response) = response.as_ref().filter(|response| !response.is_at_once()) {
+            separation.gap = response.gap;
+        }
+        Ok(Self { clock, response, segments: observations.len(), separation })
     }
 }
 
@@ -136,7 +151,12 @@ impl Separation {
             .iter()
             .map(|group| 1.0 / slope(turns.iter().filter(|turn| turn.group != *group)))
             .collect();
-        match Interval::of_jackknife(gap, &without) {
+        let of_scatter = Interval::of_jackknife(gap, &without).map(|found| {
+            let is_told = groups.len() >= ENOUGH_TURNS;
+            let least = if is_told { 0.0 } else { MIN_ERROR * found.value.abs() };
+            Interval::new(found.value, found.deviation.max(least), groups.len(), 1)
+        });
+        match of_scatter {
             Some(gap) if gap.low > 0.0 && gap.half_width() <= MAX_HALF_WIDTH * gap.value => {
                 Ok(Self { gap, turns: turns.len(), groups: groups.len() })
             }
@@ -213,8 +233,12 @@ mod tests {
         let loose = [(0.29, 0.574), (-0.29, -0.263), (0.2, 0.39), (-0.2, -0.196), (0.4, 0.48)];
         let loose = Separation::of_points(&loose.map(point)).expect_err("any distance");
         assert!(loose.to_string().contains("too loosely"), "{loose}");
-        let few = Separation::of_points(&[point(spins[0]), point(spins[1])]);
-        assert!(matches!(few, Err(Error::NotEstimable { .. })));
+        let few = Separation::of_points(&[point(spins[0]), point(spins[1])]).expect("two spins");
+        assert!(few.gap.low < 1.02 && 1.02 < few.gap.high, "{few:?}");
+        // one degree of freedom: t₀.₉₇₅(1) = 12.7
+        assert!(few.gap.half_width() > 0.06, "{few:?}");
+        let one = Separation::of_points(&[point(spins[0])]);
+        assert!(matches!(one, Err(Error::NotEstimable { .. })));
     }
 
     #[test]

@@ -20,7 +20,8 @@ pub enum DoubtKind {
     Orientation,
     /// [`Doubt::OutOfPlane`].
     OutOfPlane,
-    /// [`Doubt::Reversed`], [`Doubt::BothReversed`], [`Doubt::Swapped`], [`Doubt::Backwards`].
+    /// [`Doubt::Reversed`], [`Doubt::BothReversed`], [`Doubt::Swapped`], [`Doubt::Backwards`],
+    /// [`Doubt::NotSides`].
     Signs,
     /// [`Doubt::DeadEncoder`].
     DeadEncoder,
@@ -139,6 +140,14 @@ pub enum Doubt {
     /// Tracks and poses turn alike and drive in opposite senses: a sensor that faces backwards, or
     /// sides that are swapped and count backwards.
     Backwards,
+    /// One column moves the robot and the other one turns it: speed and yaw rate, or mean and
+    /// difference of both sides.
+    NotSides {
+        /// The side for which the column was taken that moves the robot.
+        moving: Side,
+        /// Turn of the poses per unit of way of the other one, rad.
+        per_unit: f64,
+    },
     /// The speed of a side never changes while the poses move as if it did.
     DeadEncoder {
         /// The side; none for both.
@@ -228,6 +237,18 @@ impl fmt::Display for Doubt {
                 "tracks and poses turn alike and drive in opposite senses: the sensor faces \
                  backwards, or the sides are swapped and count backwards"
             ),
+            Self::NotSides { moving, per_unit } => {
+                let [ahead, around] = match moving {
+                    Side::Left => ["v_left", "v_right"],
+                    Side::Right => ["v_right", "v_left"],
+                };
+                write!(
+                    f,
+                    "{ahead} alone moves the robot forward and {around} alone turns it, by \
+                     {per_unit:.2} rad per unit of its way: they hold speed and yaw rate, or mean \
+                     and difference of both sides, and not the speeds of the sides"
+                )
+            }
             Self::DeadEncoder { side, speed } => {
                 let which = match side {
                     Some(Side::Left) => "the left side never changes",
@@ -258,9 +279,11 @@ impl Doubt {
             Self::YawInDegrees | Self::TurnInDegrees { .. } => DoubtKind::YawUnit,
             Self::ConstantOrientation { .. } => DoubtKind::Orientation,
             Self::OutOfPlane { .. } => DoubtKind::OutOfPlane,
-            Self::Reversed(_) | Self::BothReversed | Self::Swapped | Self::Backwards => {
-                DoubtKind::Signs
-            }
+            Self::Reversed(_)
+            | Self::BothReversed
+            | Self::Swapped
+            | Self::Backwards
+            | Self::NotSides { .. } => DoubtKind::Signs,
             Self::DeadEncoder { .. } => DoubtKind::DeadEncoder,
             Self::StuckPoses { .. } => DoubtKind::StuckPoses,
         }
@@ -305,6 +328,11 @@ impl Doubt {
             Self::Backwards => {
                 "expected poses whose x axis points forward (--mount-yaw 180 turns those of a \
                  sensor that faces backwards), and speeds of each side, positive forward"
+            }
+            Self::NotSides { .. } => {
+                "expected the speeds of both sides: of mean and difference, left is mean - \
+                 difference/2 and right is mean + difference/2; speed and yaw rate of a bag are \
+                 read by --twist-topic and --separation"
             }
             Self::DeadEncoder { .. } => {
                 "expected measured speeds of both sides; of a bag, --left-joint, --right-joint and \

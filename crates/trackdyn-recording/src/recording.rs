@@ -4,6 +4,7 @@ use crate::Error;
 use crate::doubt::{Doubt, DoubtKind};
 use std::path::PathBuf;
 
+mod bias;
 mod cleaning;
 mod content;
 mod contradictions;
@@ -14,9 +15,11 @@ mod gyro_unit;
 mod idle;
 mod jumps;
 mod kept;
+mod linear;
 mod motion;
 mod positions;
 mod run;
+mod saturated;
 mod source;
 mod spikes;
 mod stretches;
@@ -137,6 +140,8 @@ impl Recording {
             doubts.extend(contradictions::of_runs(&kept));
             refuse(&path, &mut doubts, accepted, &mut warnings)?;
             frozen::leave_out(&mut kept, &mut cleanings);
+            saturated::leave_out(&mut kept, &mut cleanings);
+            bias::take_off(&mut kept, &mut cleanings);
             warnings.extend(gyro_unit::leave_out(&mut kept));
         }
         dead::leave_out(&mut kept, &mut cleanings);

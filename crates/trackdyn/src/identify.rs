@@ -19,7 +19,7 @@ use sourced::Sourced;
 use std::path::Path;
 use trackdyn_estimate::genetic::GeneticOptions;
 use trackdyn_estimate::identification::Options;
-use trackdyn_estimate::{Contradiction, Nuisance, Turning, identify_unless_stopped};
+use trackdyn_estimate::{Contradiction, Nuisance, Separation, Turning, identify_unless_stopped};
 use trackdyn_model::kinematics::{SeparationFile, Source};
 use trackdyn_recording::Recording as Motion;
 
@@ -228,12 +228,32 @@ impl Identification {
         if has_fit || is_contradicted {
             return None;
         }
-        let (found, sourced) = match self {
+        let (found, sourced) = self.turning()?;
+        let efficiency = found.steering_efficiency(sourced.gauge);
+        let is_possible = Contradiction::of_efficiency(&efficiency).is_none();
+        is_possible.then(|| sourced.separation(found, provenance))
+    }
+
+    /// The distance of the ICRs from turning alone, whatever contradicts it.
+    fn turning(&self) -> Option<(&Separation, &Sourced)> {
+        Some(match self {
             Self::Motion(fit) => (fit.separation()?, &fit.sourced),
-            Self::Points(fit) => (fit.separation()?, &fit.sourced),
+            Self::Points(fit) => (fit.separation.as_ref().ok()?, &fit.sourced),
             Self::Turning(fit) => (&fit.found.separation, &fit.sourced),
-        };
-        Some(sourced.separation(found, provenance))
+        })
+    }
+
+    /// Why a table of steady points, or a recording, does not even determine the distance of the
+    /// ICRs; none where it does, or where a fit says why.
+    pub fn reason_without_separation(&self) -> Option<String> {
+        if let Some((found, sourced)) = self.turning() {
+            let efficiency = found.steering_efficiency(sourced.gauge);
+            return Contradiction::of_efficiency(&efficiency).map(|one| one.to_string());
+        }
+        match self {
+            Self::Points(fit) => fit.separation.as_ref().err().map(ToString::to_string),
+            Self::Motion(_) | Self::Turning(_) => None,
+        }
     }
 
     /// Whether the recording determines the parameters, or the distance of the ICRs at least.

@@ -3,7 +3,9 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
-use trackdyn_core::PerSide;
+use trackdyn_core::{PerSide, Side};
+use trackdyn_estimate::Interval;
+use trackdyn_estimate::identification::{Options, icrs_alone};
 use trackdyn_estimate::synthetic::{ConstantIcr, Stretch, Synthetic, random_steps};
 use trackdyn_recording::recording::Finding;
 use trackdyn_recording::{
@@ -187,6 +189,173 @@ fn poses_that_freeze_for_a_while_are_left_out() {
             && *count == until - from - 1
     };
     assert!(findings(&recording).iter().any(is_it), "{:?}", recording.warnings());
+}
+
+/// Two seconds out of every six: each too short to be told by what lies a second within.
+#[test]
+fn poses_that_freeze_again_and_again_are_left_out() {
+    let runs = change(rows(), |run| {
+        let mut held = run.poses.samples[0].pose;
+        for sample in &mut run.poses.samples {
+            if sample.t % 6.0 < 4.0 {
+                held = sample.pose;
+            }
+            sample.pose = held;
+        }
+    });
+    let recording = read(runs).expect("usable");
+    let frozen = |(finding, _): &(Finding, usize)| matches!(finding, Finding::Frozen { .. });
+    let found = findings(&recording);
+    let (_, count) = found.iter().find(|found| frozen(found)).expect("frozen");
+    // a third of 4 drives of 300 poses, less what the tracks hardly move in
+    assert!((360..=400).contains(count), "{count}");
+}
+
+fn drives(seed: u64) -> Vec<UncheckedRun> {
+    driven((0..4).map(|run| random_steps(30, 2.0, 0.8, 10 * seed + run)).collect())
+}
+
+/// x_r − x_l of the drives, m.
+const GAP: f64 = 0.82;
+
+fn gap(recording: &Recording) -> Interval {
+    icrs_alone(recording, &Options::new(0.5)).expect("it turns").gap()
+}
+
+/// The limit of an encoder, or of the type of a message.
+#[test]
+fn speeds_that_are_cut_at_a_limit_are_left_out() {
+    for limit in [0.6, 0.3] {
+        let runs = change(drives(1), |run| {
+            for reading in &mut run.tracks.samples {
+                reading.v_left = reading.v_left.clamp(-limit, limit);
+                reading.v_right = reading.v_right.clamp(-limit, limit);
+            }
+        });
+        let recording = read(runs).expect("usable");
+        let is_it = |(finding, _): &(Finding, usize)| match finding {
+            Finding::Saturated { limit: found } => (found - limit).abs() < 1e-9,
+            _ => false,
+        };
+        assert!(findings(&recording).iter().any(is_it), "{:?}", recording.warnings());
+        let gap = gap(&recording);
+        assert!(gap.low < GAP && GAP < gap.high && gap.deviation < 0.01, "{limit}: {gap:?}");
+    }
+}
+
+/// Half a minute of it is enough.
+#[test]
+fn a_limit_shows_in_a_short_log() {
+    for seed in 0..8 {
+        let schedule = random_steps(18, 2.0, 0.8, seed);
+        let runs = change(driven(vec![schedule]), |run| {
+            for reading in &mut run.tracks.samples {
+                reading.v_left = reading.v_left.clamp(-0.4, 0.4);
+                reading.v_right = reading.v_right.clamp(-0.4, 0.4);
+            }
+        });
+        let recording = read(runs).expect("usable");
+        let is_it = |(finding, _): &(Finding, usize)| matches!(finding, Finding::Saturated { .. });
+        assert!(findings(&recording).iter().any(is_it), "{seed}: {:?}", recording.warnings());
+    }
+}
+
+/// A driver at full speed shows one number again and again, and his track runs as it says.
+#[test]
+fn speeds_that_are_driven_at_the_limit_stay() {
+    for seed in 0..20 {
+        let at_most = |stretch: Stretch| {
+            let speeds = stretch.speeds.map(|speed| speed.clamp(-0.5, 0.5));
+            Stretch { speeds, ..stretch }
+        };
+        let schedule = |run: u64| -> Vec<Stretch> {
+            random_steps(30, 2.0, 0.8, 10 * seed + run).into_iter().map(at_most).collect()
+        };
+        let runs = change(driven((0..4).map(schedule).collect()), |run| {
+            for reading in &mut run.tracks.samples {
+                let near =
+                    |speed: f64| if speed.abs() > 0.46 { speed.signum() * 0.5 } else { speed };
+                (reading.v_left, reading.v_right) = (near(reading.v_left), near(reading.v_right));
+            }
+        });
+        let recording = read(runs).expect("right");
+        assert!(findings(&recording).is_empty(), "{seed}: {:?}", recording.warnings());
+    }
+}
+
+#[test]
+fn columns_of_mean_and_difference_are_named() {
+    for (by, per_unit) in [(1.0, "1.22 rad"), (0.5, "2.44 rad"), (1.0 / GAP, "1.00 rad")] {
+        for is_turned in [false, true] {
+            let runs = change(drives(2), |run| {
+                for reading in &mut run.tracks.samples {
+                    let mean = f64::midpoint(reading.v_left, reading.v_right);
+                    let difference = by * (reading.v_right - reading.v_left);
+                    (reading.v_left, reading.v_right) =
+                        if is_turned { (difference, mean) } else { (mean, difference) };
+                }
+            });
+            let (doubt, text) = refused(runs);
+            assert!(matches!(doubt, Doubt::NotSides { .. }), "{text}");
+            assert!(text.contains(per_unit) && text.contains("mean - difference/2"), "{text}");
+        }
+    }
+}
+
+#[test]
+fn a_bias_of_a_side_is_taken_off() {
+    for (left, right) in [(0.05, 0.0), (0.0, -0.1), (0.03, 0.06)] {
+        let runs = change(drives(3), |run| {
+            for reading in &mut run.tracks.samples {
+                reading.v_left += left;
+                reading.v_right += right;
+            }
+        });
+        let recording = read(runs).expect("usable");
+        let found = |side: Side| {
+            let of = findings(&recording).into_iter().find_map(|(finding, _)| match finding {
+                Finding::Biased { side: of, speed } if of == side => Some(speed),
+                _ => None,
+            });
+            of.unwrap_or(0.0)
+        };
+        for (side, bias) in [(Side::Left, left), (Side::Right, right)] {
+            assert!((found(side) - bias).abs() < 2e-3, "{left} {right}: {}", found(side));
+        }
+        let gap = gap(&recording);
+        assert!(gap.low < GAP && GAP < gap.high && gap.deviation < 0.005, "{gap:?}");
+    }
+}
+
+/// Nothing is found in drives of robots of many kinds as they were.
+#[test]
+fn drives_as_they_were_are_left_alone() {
+    for seed in 0..100_u64 {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let half = random.random_range(0.25..1.0);
+        let aside = half * random.random_range(-0.3..0.3);
+        let fastest = random.random_range(0.3..2.0);
+        let steps = random.random_range(0.7..4.0);
+        let schedule = |run: u64| random_steps(25, steps, fastest, 100 * seed + run);
+        let alpha = PerSide::new(random.random_range(0.9..1.1), random.random_range(0.9..1.1));
+        let y = half * random.random_range(-0.3..0.3);
+        let kinematics = ConstantIcr { x_left: aside - half, x_right: aside + half, y, alpha };
+        let synthetic = Synthetic {
+            kinematics,
+            schedules: (0..random.random_range(1..6)).map(schedule).collect(),
+            track_interval: [0.02, 0.05, 0.1][random.random_range(0..3)],
+            pose_interval: [0.05, 0.1, 0.2][random.random_range(0..3)],
+            encoder_noise: [0.0, 0.005, 0.02][random.random_range(0..3)],
+            position_noise: random.random_range(0.001..0.02),
+            yaw_noise: random.random_range(0.001..0.01),
+            tau: random.random_range(-0.1..0.3),
+            seed,
+        };
+        let recording = synthetic.recording().expect("long enough");
+        let rows = recording.runs().iter().cloned().map(Run::into_rows).collect();
+        let recording = read(rows).expect("right");
+        assert!(findings(&recording).is_empty(), "{seed}: {:?}", recording.warnings());
+    }
 }
 
 #[test]

@@ -95,6 +95,15 @@ fn one_wrong_unit_of_all_lengths_is_named() {
     assert!(texts(&found).contains("units of poses"), "{}", texts(&found));
 }
 
+/// So do poses in feet and speeds in feet per second, by less.
+#[test]
+fn feet_of_all_lengths_are_named() {
+    let scaled = |pose: Pose| Pose { x: pose.x / 0.3048, y: pose.y / 0.3048, ..pose };
+    let recording = changed(4, scaled, |speeds| speeds.map(|v| v / 0.3048));
+    let found = contradictions(&recording, GAUGE);
+    assert!(texts(&found).contains("which in feet would make it 0.5"), "{}", texts(&found));
+}
+
 /// A sensor that looks to the side shows the turns, and each ICR in the wrong place.
 #[test]
 fn a_turned_sensor_is_named_with_its_angle() {

@@ -13,6 +13,7 @@ use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stderr::note;
 use crate::stdout::show;
+use crate::wrapped::wrapped;
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 use trackdyn::crates::estimate::{GeneticOptions, Nuisance};
@@ -116,6 +117,9 @@ pub fn run(options: &Options) -> Outcome {
     })?;
     if let Some(separation) = found.separation(&provenance()) {
         show(&summary::separation(&separation))?;
+    }
+    if let Some(reason) = found.reason_without_separation().filter(|_| !found.is_determined()) {
+        show(&wrapped("  turning alone: ", &reason))?;
     }
     Ok(if found.is_determined() { Exit::Done } else { Exit::NoResult })
 }

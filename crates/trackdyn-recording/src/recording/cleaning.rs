@@ -2,10 +2,8 @@
 
 use super::finding::{Cleaning, Finding};
 use crate::far::{self, Parts};
-use crate::hold::travelled;
-use crate::sample::{PoseSample, Sample, Series, Stream, TrackSample};
+use crate::sample::{PoseSample, Sample, Series, Stream};
 use std::f64::consts::{PI, TAU};
-use trackdyn_core::PerSide;
 use trackdyn_core::robust::median;
 
 /// Intervals of more than this many medians are gaps: nobody knows what happened within.
@@ -13,9 +11,6 @@ pub const MIN_GAP_RATIO: f64 = 5.0;
 
 /// Smallest interval, in medians, of two separate measurements.
 const MIN_INTERVAL_RATIO: f64 = 0.1;
-
-/// Largest distance of a track, m, that a pose sensor may overlook.
-const MAX_STANDING_DISTANCE: f64 = 0.005;
 
 /// Drops rows that are not finite or far from all others in time, sorts the rest by time, and keeps
 /// the first row of each stamp.
@@ -73,27 +68,6 @@ pub(crate) fn clean<S: Sample>(series: &mut Series<S>, run: i64, cleanings: &mut
     intervals(&series.samples, report);
 }
 
-/// Finds poses that repeat the one before to the last digit while a track moves, as a link does
-/// that sends more often than it measures. They stay: a robot without noise may be stuck.
-pub(super) fn held(
-    poses: &[PoseSample],
-    tracks: &[TrackSample],
-    run: i64,
-    cleanings: &mut Vec<Cleaning>,
-) {
-    let mut repeated = Vec::new();
-    for equal in poses.chunk_by(|a, b| a.pose == b.pose) {
-        let PerSide { left, right } = travelled(tracks, equal[0].t, equal[equal.len() - 1].t, 0.0);
-        if left.abs().max(right.abs()) > MAX_STANDING_DISTANCE {
-            repeated.extend(equal[1..].iter().map(|sample| sample.t));
-        }
-    }
-    if let Some(&t) = repeated.first() {
-        let (stream, finding, count) = (Stream::Poses, Finding::Held, repeated.len());
-        cleanings.push(Cleaning { stream, finding, count, runs: 1, run, t });
-    }
-}
-
 /// Finds gaps and stamps too close to be two measurements; both stay.
 fn intervals<S: Sample>(samples: &[S], mut report: impl FnMut(Finding, usize, f64)) {
     let lengths = || samples.windows(2).map(|pair| pair[1].time() - pair[0].time());
@@ -143,8 +117,7 @@ pub(super) fn unwrap_yaw(poses: &mut [PoseSample], run: i64, cleanings: &mut Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sample::{Cells, Column};
-    use trackdyn_core::Pose;
+    use crate::sample::{Cells, Column, TrackSample};
 
     fn tracks(stamps: &[f64]) -> Series<TrackSample> {
         let samples: Vec<TrackSample> =
@@ -207,26 +180,6 @@ mod tests {
         clean(&mut series, 0, &mut cleanings);
         assert_eq!(series, tracks(&[0.0, 1.0, 2.0]));
         assert!(cleanings.is_empty());
-    }
-
-    #[test]
-    fn poses_that_are_sent_again_while_the_tracks_move_are_said() {
-        // 0.5 m/s from 1 s on; a pose every 20 ms, measured every 60 ms
-        let drive = [(0.0, 0.0), (1.0, 0.5), (2.0, 0.5)];
-        let drive = drive.map(|(t, v)| TrackSample { t, v_left: v, v_right: v });
-        let pose = |step: u32| {
-            let t = 0.02 * f64::from(step);
-            let measured = 0.06 * f64::from(step / 3);
-            let x = 0.5 * (measured - 1.0).max(0.0);
-            PoseSample { t, pose: Pose::new(x, 0.0, 0.0) }
-        };
-        let samples: Vec<PoseSample> = (0..=100).map(pose).collect();
-        let mut cleanings = Vec::new();
-        held(&samples, &drive, 0, &mut cleanings);
-        // a robot that stands may say so again; the poses of step 51 on are told three times, the
-        // last one twice
-        assert_eq!(found(&cleanings), [(Finding::Held, 33)]);
-        assert!((cleanings[0].t - 1.04).abs() < 1e-9, "{}", cleanings[0].t);
     }
 
     #[test]

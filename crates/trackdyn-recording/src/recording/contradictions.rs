@@ -4,6 +4,7 @@
 //! Every finding is a ratio or a correlation over many stretches of a recording, so that neither
 //! slip nor single wrong readings decide. What slip can explain is left alone.
 
+use super::linear::{self, Linear};
 use super::motion::Following;
 use super::stretches::{Stretch, path_extent, stretches};
 use super::{Run, UncheckedRun, idle, jumps, stuck};
@@ -23,6 +24,14 @@ const MIN_CONTRADICTION: f64 = 5.0;
 /// Largest ratio of the upper to the lower quartile of this ratio: units change all stretches
 /// alike, tracks that spin on the spot do not.
 const MAX_QUARTILE_RATIO: f64 = 2.0;
+
+/// Part of what one column does to the turn, or to the way forward, that the other does where the
+/// two are no sides: of sides both turn the robot alike, and within a factor of the α and the ICRs
+/// of any robot.
+const MAX_PART: f64 = 0.3;
+
+/// Standard errors of it that are counted in.
+const MIN_ERRORS: f64 = 3.0;
 
 /// Correlation from which on two motions are one.
 const MIN_CORRELATION: f64 = 0.7;
@@ -141,8 +150,29 @@ pub(super) fn of_runs(runs: &[Run]) -> Vec<Doubt> {
     doubts.extend(turn_in_degrees(runs));
     doubts.extend(idle::dead_encoder(runs, &late));
     doubts.extend(travel(runs, &stretches));
+    doubts.extend(of_columns(runs));
     doubts.extend(signs(&stretches, &late));
     doubts
+}
+
+/// Columns of which one alone moves the robot and the other alone turns it.
+fn of_columns(runs: &[Run]) -> Option<Doubt> {
+    if !runs.iter().all(Run::has_positions) {
+        return None;
+    }
+    let linear = Linear::of(runs, linear::MIN_PIECE, &|_, _, _| false)?;
+    // Whether one number is small beside another one, surely.
+    let is_small = |[small, error]: [f64; 2], [large, _]: [f64; 2]| {
+        small.abs() + MIN_ERRORS * error < MAX_PART * large.abs()
+    };
+    let turn = |column: usize| linear.number(|[turn, _]| turn[column]);
+    let way = |column: usize| linear.number(|[_, forward]| forward[column]);
+    [[0, 1], [1, 0]].into_iter().find_map(|[moving, turning]| {
+        let is_apart = is_small(turn(moving), turn(turning)) && is_small(way(turning), way(moving));
+        let column = if moving == 0 { Side::Left } else { Side::Right };
+        let [per_unit, _] = turn(turning);
+        is_apart.then_some(Doubt::NotSides { moving: column, per_unit })
+    })
 }
 
 /// Yaw in degrees, where it is all that is known.

@@ -5,8 +5,9 @@
 //! and comes back to as much in the same direction, more than a third of the usual one; where they
 //! last for long, one of both is enough. What the track ran then is told twice by the other side:
 //! by the turn of the poses, and by their way forward. The encoder was dead where both agree on a
-//! way of more than a third of the usual speed. A robot that stops stands by its poses as well; on
-//! ice it slides on for a while, which is why a speed has to come back.
+//! way of more than a third of the usual speed, in the second half of the zeros as well: where the
+//! readings are commands, a track rolls out and stands. A robot that stops stands by its poses as
+//! well; on ice it slides on for a while, which is why a speed has to come back.
 //!
 //! A few zeros are replaced by the line between the readings beside them; more are dropped, which
 //! leaves a gap: nobody knows what the track did within.
@@ -19,7 +20,7 @@ use super::spikes::bridge;
 use crate::sample::{PoseSample, Stream};
 use std::ops::Range;
 use trackdyn_core::robust::{median, usual_interval};
-use trackdyn_core::{PerSide, Side};
+use trackdyn_core::{PerSide, Side, real};
 
 /// Fewest zeros in a row; fewer are spikes.
 const MIN_ZEROS: usize = 3;
@@ -158,8 +159,13 @@ fn moved(run: &Run, zeros: &Zeros, following: &Following, usual: f64) -> bool {
         let by_way = by_way.map_or(by_turn, |way| way - read[zeros.side]);
         ways.push([by_turn, by_way]);
     }
-    let missing: f64 = ways.iter().map(|[a, b]| f64::midpoint(*a, *b).abs()).sum();
-    missing > MIN_SHARE * usual * length && agreement(&ways) > MIN_AGREEMENT
+    // A track that rolls out stands in the end.
+    let missing =
+        |ways: &[[f64; 2]]| -> f64 { ways.iter().map(|[a, b]| f64::midpoint(*a, *b).abs()).sum() };
+    let share = MIN_SHARE * usual * length;
+    let last = &ways[ways.len() / 2..];
+    let goes_on = missing(last) > share * real(last.len()) / real(ways.len());
+    missing(&ways) > share && goes_on && agreement(&ways) > MIN_AGREEMENT
 }
 
 /// The pieces between poses, of a least length but for the last.

@@ -2,6 +2,7 @@
 
 use crate::sample::Stream;
 use std::fmt;
+use trackdyn_core::Side;
 
 /// One kind of finding in one series, gathered over the runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,8 +33,6 @@ pub enum Finding {
     Far,
     /// A stamp that stands there already: the first row is kept.
     Repeated,
-    /// A pose that is the one before to the last digit while a track moves: it stays.
-    Held,
     /// Stamps closer than a tenth of the median interval: both stay, but one of them is likely
     /// wrong.
     Crowded,
@@ -56,10 +55,23 @@ pub enum Finding {
         /// The longest time, s.
         longest: f64,
     },
-    /// Poses that repeat the one before for long while the tracks move: they are dropped.
+    /// Poses that repeat the one before while the tracks move: they are dropped.
     Frozen {
         /// The longest time, s.
         longest: f64,
+    },
+    /// Readings of a side at its largest speed while the poses show that its track runs faster:
+    /// they are dropped.
+    Saturated {
+        /// The speed, m/s.
+        limit: f64,
+    },
+    /// Readings of a side that are off by one speed all the time, also at rest: it is taken off.
+    Biased {
+        /// The side.
+        side: Side,
+        /// The speed, m/s.
+        speed: f64,
     },
 }
 
@@ -74,7 +86,19 @@ impl Finding {
                 | Self::Repeated
                 | Self::Dead { .. }
                 | Self::Frozen { .. }
+                | Self::Saturated { .. }
+                | Self::Biased { .. }
         )
+    }
+}
+
+impl Finding {
+    /// Whether another one is gathered with it: of one kind, and of one side where it has one.
+    fn is_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Biased { side, .. }, Self::Biased { side: other, .. }) => side == other,
+            _ => std::mem::discriminant(self) == std::mem::discriminant(other),
+        }
     }
 }
 
@@ -82,10 +106,9 @@ impl Finding {
 pub(super) fn gather(cleanings: Vec<Cleaning>) -> Vec<Cleaning> {
     let mut gathered: Vec<Cleaning> = Vec::new();
     for next in cleanings {
-        let same = gathered.iter_mut().find(|sum| {
-            sum.stream == next.stream
-                && std::mem::discriminant(&sum.finding) == std::mem::discriminant(&next.finding)
-        });
+        let same = gathered
+            .iter_mut()
+            .find(|sum| sum.stream == next.stream && sum.finding.is_like(&next.finding));
         let Some(sum) = same else {
             gathered.push(next);
             continue;
@@ -96,6 +119,7 @@ pub(super) fn gather(cleanings: Vec<Cleaning>) -> Vec<Cleaning> {
             (Finding::Gap { longest: most }, Finding::Gap { longest: other })
             | (Finding::Dead { longest: most }, Finding::Dead { longest: other })
             | (Finding::Frozen { longest: most }, Finding::Frozen { longest: other })
+            | (Finding::Saturated { limit: most }, Finding::Saturated { limit: other })
             | (Finding::Spike { largest: most }, Finding::Spike { largest: other }) => {
                 *most = most.max(other);
             }
@@ -115,12 +139,6 @@ impl fmt::Display for Cleaning {
             Finding::Unsorted => write!(f, "steps back in time, rows sorted")?,
             Finding::Far => write!(f, "rows whose stamp is far from all others dropped")?,
             Finding::Repeated => write!(f, "rows with a repeated stamp dropped, the first kept")?,
-            Finding::Held => {
-                write!(
-                    f,
-                    "rows repeat the one before while the tracks move: sent again, not measured?"
-                )?;
-            }
             Finding::Crowded => {
                 write!(f, "intervals below a tenth of the median: stamps may be wrong")?;
             }
@@ -140,8 +158,22 @@ impl fmt::Display for Cleaning {
             Finding::Frozen { longest } => write!(
                 f,
                 "rows repeat the one before, for up to {longest:.3} s, while the tracks drive (a \
-                 tracker that is stuck), left out"
+                 tracker that is stuck, or poses that are sent again), left out"
             )?,
+            Finding::Saturated { limit } => write!(
+                f,
+                "readings stand at the largest speed of their side, {limit:.3} m/s, while the \
+                 poses show that its track runs faster (a limit of the encoder or of a message), \
+                 left out"
+            )?,
+            Finding::Biased { side, speed } => {
+                let side = if side == Side::Left { "left" } else { "right" };
+                write!(
+                    f,
+                    "readings of the {side} side are {speed:+.3} m/s off all the time, also at \
+                     rest, by what the poses show (a bias), which is taken off"
+                )?;
+            }
         }
         write!(f, " ({runs} runs, first at t = {t} s of run {run})")
     }

@@ -11,7 +11,7 @@ use crate::sample::PoseSample;
 use trackdyn_core::{PerSide, Side};
 
 /// Least time of a piece, s.
-const MIN_PIECE: f64 = 0.25;
+pub(super) const MIN_PIECE: f64 = 0.25;
 
 /// Longest time of a piece, s: a gap of the poses is none.
 const MAX_PIECE: f64 = 5.0;
@@ -23,10 +23,10 @@ const MIN_PIECES: usize = 20;
 const MIN_CORRELATION: f64 = 0.7;
 
 /// Delays of the poses that are tried, in units of [`DELAY_STEP`].
-const DELAYS: std::ops::RangeInclusive<i32> = -10..=20;
+pub(super) const DELAYS: std::ops::RangeInclusive<i32> = -10..=20;
 
 /// Step of the delays, s.
-const DELAY_STEP: f64 = 0.05;
+pub(super) const DELAY_STEP: f64 = 0.05;
 
 /// What poses did between two of them.
 #[derive(Clone, Copy, Debug)]
@@ -48,15 +48,28 @@ impl Piece {
         let (sin, cos) = (start.pose.yaw + 0.5 * turn).sin_cos();
         Self { start: start.t, end: end.t, turn, forward: cos * x + sin * y }
     }
+
+    /// Way along the heading, m: of the arc whose chord the way along the mean heading is.
+    pub(super) fn arc(&self) -> f64 {
+        let half = 0.5 * self.turn;
+        // s = c (φ/2)/sin(φ/2); a turn by more than half of one leaves no chord to tell it by.
+        let is_chord = (1e-6..1.5).contains(&half.abs());
+        if is_chord { self.forward * half / half.sin() } else { self.forward }
+    }
 }
 
 /// The pieces of a run, each between the first poses that are far enough apart.
 pub(super) fn pieces(run: &Run) -> Vec<Piece> {
+    pieces_of(run, MIN_PIECE)
+}
+
+/// The pieces of a run of at least a time, s.
+pub(super) fn pieces_of(run: &Run, least: f64) -> Vec<Piece> {
     let mut pieces = Vec::new();
     let mut poses = run.poses().iter();
     let Some(mut start) = poses.next() else { return pieces };
     for end in poses {
-        if end.t - start.t < MIN_PIECE {
+        if end.t - start.t < least {
             continue;
         }
         if end.t - start.t <= MAX_PIECE {

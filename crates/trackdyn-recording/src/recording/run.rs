@@ -1,6 +1,6 @@
 //! A continuous part of a recording.
 
-use super::cleaning::{clean, held, unwrap_yaw};
+use super::cleaning::{clean, unwrap_yaw};
 use super::finding::Cleaning;
 use super::positions::settle;
 use super::spikes::mend;
@@ -46,7 +46,6 @@ impl Run {
         clean(&mut rows.tracks, rows.id, cleanings);
         clean(&mut rows.poses, rows.id, cleanings);
         clean(&mut rows.imu, rows.id, cleanings);
-        held(&rows.poses.samples, &rows.tracks.samples, rows.id, cleanings);
         unwrap_yaw(&mut rows.poses.samples, rows.id, cleanings);
         Self { id: rows.id, tracks: rows.tracks, poses: rows.poses, imu: rows.imu, has_positions }
     }

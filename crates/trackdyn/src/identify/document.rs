@@ -20,6 +20,8 @@ struct File<'a> {
     clock: ClockTable<'a>,
     noise: NoiseTable,
     #[serde(skip_serializing_if = "Option::is_none")]
+    response: Option<ResponseTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     gyroscope: Option<GyroscopeTable>,
     method: Vec<MethodTable>,
 }
@@ -31,6 +33,15 @@ struct SourceTable<'a> {
     robot: &'a str,
     vehicle_fingerprint: &'a str,
     gauge_m: f64,
+}
+
+/// How the poses follow the track speeds, where they do not follow at once.
+#[derive(Serialize)]
+struct ResponseTable {
+    icr_separation_m: Rounded,
+    low95_m: Rounded,
+    high95_m: Rounded,
+    icr_separation_at_once_m: Rounded,
 }
 
 /// Noise of the recording; keys are absent where it does not show it.
@@ -120,6 +131,14 @@ pub(super) fn text(identified: &MotionFit, source: &Source) -> String {
         },
         clock: ClockTable::of(&found.clock),
         noise: of_noise(found),
+        response: found.response.as_ref().filter(|of| !of.is_at_once()).map(|response| {
+            ResponseTable {
+                icr_separation_m: Rounded(response.gap.value),
+                low95_m: Rounded(response.gap.low),
+                high95_m: Rounded(response.gap.high),
+                icr_separation_at_once_m: Rounded(response.gap_at_once),
+            }
+        }),
         gyroscope: identified.gyroscope.as_ref().map(|of| {
             let without = of.gap_without_it.map(|gap| gap.deviation);
             GyroscopeTable::of(&of.found).with_error_without_it(without)

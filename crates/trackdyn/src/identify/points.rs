@@ -41,11 +41,6 @@ impl PointsFit {
         self.sourced.gauge
     }
 
-    /// The distance of the ICRs from the yaw rates, where they tell it.
-    pub(super) fn separation(&self) -> Option<&Separation> {
-        self.separation.as_ref().ok()
-    }
-
     /// The kinematics files of the fits, where the table determines them and nothing contradicts
     /// them, or where the settings force them.
     pub(super) fn files(&self, provenance: &Provenance) -> [Option<KinematicsFile>; 2] {

@@ -16,6 +16,7 @@ impl TurningFit {
     /// What contradicts the distance.
     pub fn contradictions(&self) -> Vec<Contradiction> {
         let efficiency = self.found.separation.steering_efficiency(self.sourced.gauge);
-        Contradiction::of_efficiency(&efficiency).into_iter().collect()
+        let following = self.found.response.as_ref().and_then(Contradiction::of_following);
+        Contradiction::of_efficiency(&efficiency).into_iter().chain(following).collect()
     }
 }

@@ -4,7 +4,7 @@ use crate::wrapped::wrapped;
 use std::fmt::Write;
 use trackdyn::crates::estimate::identification::Fit;
 use trackdyn::crates::estimate::{
-    Clock, Contradiction, Estimate, Free, Identification, Interval, Nuisance, Parameters,
+    Clock, Contradiction, Estimate, Free, Identification, Interval, Nuisance, Parameters, Response,
 };
 use trackdyn::crates::model::kinematics::SeparationFile;
 use trackdyn::crates::recording::Run;
@@ -30,6 +30,7 @@ pub fn text(recording: &Recording, gauge: &Gauge, fit: &MotionFit) -> String {
     let mut fitted = fits.flat_map(|estimate| &estimate.unknowns.nuisances);
     clock(&mut text, &found.clock, fitted.any(|one| *one == Nuisance::TimeOffset));
     noise(&mut text, found);
+    response(&mut text, found.response.as_ref());
     if let Some(of) = &fit.gyroscope {
         gyroscope(&mut text, of, found);
     }
@@ -90,6 +91,7 @@ pub fn turning(recording: &Recording, gauge: &Gauge, fit: &TurningFit) -> String
         gauge.metres()
     );
     clock(&mut text, &found.clock, false);
+    response(&mut text, found.response.as_ref());
     text += "  poses      their yaw alone is known: it tells the distance of the ICRs, and not \
              where they are\n";
     for contradiction in fit.contradictions() {
@@ -109,6 +111,25 @@ fn clock(text: &mut String, clock: &Clock, is_fitted: bool) {
         ),
         Clock::Unknown(reason) => writeln!(text, "  clock      taken as equal: {reason}"),
     };
+}
+
+/// How the poses follow the track speeds, where they do not follow at once.
+fn response(text: &mut String, response: Option<&Response>) {
+    let Some(response) = response.filter(|response| !response.is_at_once()) else { return };
+    let (at_once, gap) = (response.gap_at_once, response.gap.value);
+    let cause = if at_once > gap {
+        "poses that are filtered or late by turns, or commands in place of speeds"
+    } else {
+        "track speeds that are filtered"
+    };
+    *text += &wrapped(
+        "  response   ",
+        &format!(
+            "the poses do not follow the track speeds at once ({cause}): x_r - x_l would be \
+             {at_once:.3} m by a delay alone, and is {gap:.3} m over seconds. Track speeds are \
+             weighted by the response that the log shows; intervals count what it leaves open"
+        ),
+    );
 }
 
 /// What a gyroscope tells, and how much better the distance of the ICRs is known by it.

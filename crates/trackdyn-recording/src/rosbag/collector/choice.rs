@@ -31,6 +31,11 @@ struct Wanted<'a> {
     options: &'static str,
 }
 
+/// Whether messages of a type are positions without an orientation.
+fn is_of_points(kind: &str) -> bool {
+    matches!(kind.rsplit('/').next(), Some("PointStamped" | "Point" | "Point32"))
+}
+
 impl Sources<'_> {
     pub(super) fn tracks(
         &self,
@@ -74,6 +79,15 @@ impl Sources<'_> {
         });
         kinds.extend(of_poses.map(|(topic, (count, reason))| {
             format!("{topic}: {count} messages skipped, because {reason}")
+        }));
+        let points = self.seen.iter().filter(|topic| is_of_points(&topic.kind));
+        kinds.extend(points.map(|topic| {
+            format!(
+                "{} has positions without a heading, which a robot turns about unseen: expected \
+                 poses with a yaw, or the yaw of an IMU alone (--pose-topic of its topic), which \
+                 tells x_r - x_l",
+                topic.name
+            )
         }));
         if gyroscopes.len() > 1 {
             kinds.push(format!(

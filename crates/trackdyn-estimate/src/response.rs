@@ -1,0 +1,262 @@
+//! How the turning of the poses follows the track speeds over time.
+//!
+//! # Law
+//! Δψᵢ = Σⱼ cⱼ Dᵢ(τ + jδ) + b Δtᵢ + noise over times Δt of two seconds, where Dᵢ(τ) = ∫ (Vᵣ − Vₗ)
+//! dt over the time moved back by τ, and jδ reaches three seconds either way. Whatever stands
+//! between track speeds and poses and keeps a constant speed as it is, leaves Σ cⱼ = 1/(x_r − x_l):
+//! a drivetrain that lags behind commands, a filter of the poses or of the speeds, stamps that
+//! jitter. A fit that knows a delay alone takes what these leave for slip: by one c₀, changes of
+//! speed that the poses show smoothed make x_r − x_l too large, and speeds that are smoothed make
+//! it too small. Where the two disagree, and the delays foretell blocks that they were not fitted
+//! to, the log has such a response. Track speeds that are weighted by it,
+//! Ṽ(t) = Σⱼ cⱼ V(t − jδ)/Σⱼ cⱼ, are those that the poses follow at once; segments are then as long
+//! as the times Δt, over which the response was found.
+//!
+//! # Assumes
+//! The response does not change within the log and hardly with the speed. What lies beyond three
+//! seconds is missed: the interval counts what half the reach misses.
+//!
+//! # Sources
+//! Distributed lags and their long-run multiplier: Greene, Econometric Analysis, 7th ed., chapter
+//! 20; specification tests by two estimates: Hausman, Econometrica 46(6), 1978.
+
+mod rows;
+
+use crate::{Blocks, Extent, Interval};
+use nalgebra::{DMatrix, DVector};
+use rows::{Part, Rows, smoothed};
+use trackdyn_core::real;
+use trackdyn_recording::Recording;
+
+/// Times over which turning is compared, s.
+pub const DURATION: f64 = 2.0;
+
+/// Step of the delays, s, and how many of them lie on either side.
+const STEP: f64 = 0.5;
+const REACH: usize = 6;
+
+/// The delays of short logs: every second one.
+const COARSE: usize = 2;
+
+/// Least standard errors of the difference of both distances that shows a response, and of what
+/// the delays gain in blocks that they were not fitted to: by chance, fewer than one log in a
+/// thousand reaches it.
+const MIN_ERRORS: f64 = 4.0;
+
+/// Smallest difference of both distances, as share of one: a response that moves it by less does
+/// no harm.
+const MIN_DIFFERENCE: f64 = 0.005;
+
+/// Part of the squares of the turning that a response may leave: a tenth of the turning. Rough
+/// ground and stamps that jitter leave less; tracks that cannot follow commands leave more, and
+/// then their response is none of a filter.
+const MAX_LEFT: f64 = 0.01;
+
+/// Standard errors by which delays show where more is left.
+const MIN_ERRORS_WHERE_LEFT: f64 = 2.5;
+
+/// Shortest block, s: longer than the times that are compared.
+const MIN_BLOCK: f64 = 1.5 * DURATION;
+
+/// Fewest blocks: of fewer, the scatter is no error.
+const MIN_BLOCKS: usize = 9;
+
+/// Blocks per unknown from which on all delays are free.
+const BLOCKS_PER_UNKNOWN: usize = 2;
+
+/// How poses follow the track speeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    /// x_r − x_l over seconds, m: whatever the response where there is one, else at once.
+    pub gap: Interval,
+    /// x_r − x_l by a delay alone over the times of usual segments, m.
+    pub gap_at_once: f64,
+    /// Part of the turning that is left, in its root mean square, where the poses follow in another
+    /// way than through a filter.
+    pub left: Option<f64>,
+    /// Weights of the delays, from the earliest on, where poses do not follow at once, and the step
+    /// of the delays, s; the sum of the weights is 1.
+    weights: Option<(Vec<f64>, f64)>,
+}
+
+impl Response {
+    /// How the poses of a recording follow; none where it is too short to tell.
+    pub fn of(recording: &Recording, tau: f64) -> Option<Self> {
+        let blocks = blocks(recording);
+        let over = |duration: f64| Rows::of(recording, &blocks, tau, duration);
+        let (long, short) = (over(DURATION), over(0.0));
+        let at_once = short.fit(0, 1)?;
+        let count = at_once.blocks.len();
+        if count < MIN_BLOCKS {
+            return None;
+        }
+        let every = if count < BLOCKS_PER_UNKNOWN * (2 * REACH + 2) { COARSE } else { 1 };
+        let free = long.fit(REACH, every)?;
+        let [half, delay_alone] = [long.fit(REACH / 2, every)?, long.fit(0, 1)?];
+        let by_same_weights = long.fit_weighted(0, 1, &free.weights)?;
+        let gap_at_once = 1.0 / at_once.sum();
+        let differences: Option<Vec<f64>> = free
+            .blocks
+            .iter()
+            .map(|block| Some(1.0 / block.sum() - 1.0 / at_once.without(block.index)?))
+            .collect();
+        let (gap, of_delay) = (free.gap()?, delay_alone.gap()?);
+        let difference = Interval::of_jackknife(gap.value - gap_at_once, &differences?)?;
+        let errors =
+            (difference.value.abs() / difference.deviation).max(gain(&by_same_weights, &free));
+        let left = free.left();
+        let is_left = left > MAX_LEFT && errors > MIN_ERRORS_WHERE_LEFT;
+        let left = is_left.then(|| left.sqrt());
+        let shows = errors > MIN_ERRORS && difference.value.abs() > MIN_DIFFERENCE * gap.value;
+        if !shows || gap.low <= 0.0 {
+            return Some(Self { gap: of_delay, gap_at_once, left, weights: None });
+        }
+        let missed = 1.0 / half.sum() - gap.value;
+        let weights = free.coefficients.iter().map(|c| c / free.sum()).collect();
+        Some(Self {
+            gap: Interval::new(gap.value, gap.deviation.hypot(missed), free.blocks.len(), 1),
+            gap_at_once,
+            left,
+            weights: Some((weights, STEP * real(every))),
+        })
+    }
+
+    /// Whether the poses follow the track speeds at once, but for a delay.
+    pub fn is_at_once(&self) -> bool {
+        self.weights.is_none()
+    }
+
+    /// The recording with the track speeds that the poses follow at once; none where these are its
+    /// own. Readings near the ends of a run and near gaps, whose response is not known, are left
+    /// out.
+    pub fn applied(&self, recording: &Recording) -> Option<Recording> {
+        let (weights, step) = self.weights.as_ref()?;
+        let runs = recording.runs().iter().map(|run| smoothed(run, weights, *step));
+        Some(recording.with_runs(runs.filter(|run| run.tracks().len() > 1).collect()))
+    }
+
+    /// Standard deviation of an error that all turning shares beside a distance of the ICRs for
+    /// these track speeds as measured, as share of it: the interval of that distance then reaches
+    /// the one over seconds, and is as wide as that of a response.
+    pub fn scale_deviation(&self, gap: f64, deviation: f64) -> f64 {
+        let off = (gap - self.gap.value) / 2.0;
+        let open = if self.is_at_once() { 0.0 } else { self.gap.deviation };
+        let more = (open.powi(2) - deviation.powi(2)).max(0.0).sqrt();
+        off.hypot(more) / gap
+    }
+}
+
+/// What delays gain over one delay in blocks that they were not fitted to, in its standard errors.
+fn gain(one: &Fit, several: &Fit) -> f64 {
+    let pairs = one.blocks.iter().zip(&several.blocks);
+    let gains: Vec<f64> = pairs.map(|(one, several)| one.left - several.left).collect();
+    let count = real(gains.len());
+    let mean = gains.iter().sum::<f64>() / count;
+    let scatter: f64 = gains.iter().map(|gain| (gain - mean).powi(2)).sum();
+    mean / (scatter / (count * (count - 1.0))).sqrt()
+}
+
+/// Parts that count as independent: of many runs these, else pieces that are long against the
+/// times that are compared.
+fn blocks(recording: &Recording) -> Vec<Extent> {
+    let extents = recording.runs().iter().enumerate().filter_map(|(run, of)| {
+        let start = of.poses().first()?.t;
+        let duration = of.poses().last()?.t - start;
+        Some(Extent { run, start, duration })
+    });
+    let extents: Vec<Extent> = extents.collect();
+    let total: f64 = extents.iter().map(|extent| extent.duration).sum();
+    let piece = (total / real(2 * Blocks::MIN_WHOLE_RUNS)).max(MIN_BLOCK);
+    extents
+        .into_iter()
+        .flat_map(|Extent { run, start, duration }| {
+            let pieces = real(whole(duration / piece).max(1));
+            let length = duration / pieces;
+            let starts = (0..whole(pieces)).map(move |k| start + real(k) * length);
+            starts.map(move |start| Extent { run, start, duration: length })
+        })
+        .collect()
+}
+
+/// A number of pieces.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, small")]
+fn whole(pieces: f64) -> usize {
+    pieces.round() as usize
+}
+
+/// Coefficients, and what comes of leaving out each block.
+struct Fit {
+    coefficients: Vec<f64>,
+    /// Weights of the rows.
+    weights: Vec<f64>,
+    blocks: Vec<Without>,
+}
+
+/// A fit without a block.
+struct Without {
+    /// Its place in the list of blocks.
+    index: usize,
+    coefficients: Vec<f64>,
+    /// Sums of the weighted squares of the block, and of those that this fit leaves.
+    squares: f64,
+    left: f64,
+}
+
+impl Without {
+    fn sum(&self) -> f64 {
+        self.coefficients.iter().sum()
+    }
+}
+
+impl Fit {
+    /// The solution of normal equations whose last unknown is b, given those of each block.
+    fn of(parts: &[Part], weights: Vec<f64>) -> Option<Self> {
+        let (matrix, right) = rows::sum(parts)?;
+        let count = right.len();
+        let solved =
+            |matrix: DMatrix<f64>, right: &DVector<f64>| Some(matrix.cholesky()?.solve(right));
+        let coefficients = |of: &DVector<f64>| of.iter().take(count - 1).copied().collect();
+        let all = solved(matrix.clone(), &right)?;
+        let blocks: Option<Vec<Without>> = parts
+            .iter()
+            .map(|part| {
+                let found = solved(&matrix - &part.matrix, &(&right - &part.right))?;
+                // Σ w (y − xᵀc)²
+                let explained = found.dot(&(&part.matrix * &found)) - 2.0 * found.dot(&part.right);
+                let left = part.squares + explained;
+                Some(Without {
+                    index: part.block,
+                    coefficients: coefficients(&found),
+                    squares: part.squares,
+                    left,
+                })
+            })
+            .collect();
+        let fit = Self { coefficients: coefficients(&all), weights, blocks: blocks? };
+        (fit.sum() > 0.0).then_some(fit)
+    }
+
+    fn sum(&self) -> f64 {
+        self.coefficients.iter().sum()
+    }
+
+    /// Part of the squares that is left in blocks that were not fitted.
+    fn left(&self) -> f64 {
+        let [left, all] = self
+            .blocks
+            .iter()
+            .fold([0.0; 2], |[left, all], block| [left + block.left, all + block.squares]);
+        left / all
+    }
+
+    fn gap(&self) -> Option<Interval> {
+        let without: Vec<f64> = self.blocks.iter().map(|block| 1.0 / block.sum()).collect();
+        Interval::of_jackknife(1.0 / self.sum(), &without)
+    }
+
+    /// The sum without a block.
+    fn without(&self, index: usize) -> Option<f64> {
+        let place = self.blocks.binary_search_by_key(&index, |block| block.index).ok()?;
+        Some(self.blocks[place].sum())
+    }
+}

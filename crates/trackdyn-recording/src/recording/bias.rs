@@ -1,0 +1,60 @@
+//! Readings of a side that are off by one speed all the time, also at rest.
+//!
+//! # Law
+//! The offsets of [`linear`](super::linear) are taken off where both the turn and the way forward
+//! tell them: a heading that drifts turns the robot and moves it nowhere. A side that reads zero
+//! while it stands has none.
+
+use super::Run;
+use super::finding::{Cleaning, Finding};
+use super::linear::{Linear, MIN_PIECE, offsets};
+use crate::sample::Stream;
+use trackdyn_core::{Side, real};
+
+/// Fewest standard errors of an offset. Slopes, slip and drifts of real robots, which the errors
+/// take for chance, reach three.
+const MIN_ERRORS: f64 = 6.0;
+
+/// Fewest standard errors of the way that is run per time without either track.
+const MIN_ERRORS_OF_WAY: f64 = 4.0;
+
+/// Smallest offset, as share of the root mean square of the speeds of its side.
+const MIN_SHARE: f64 = 0.01;
+
+/// Largest share of readings at zero.
+const MAX_ZEROS: f64 = 0.01;
+
+/// Takes the biases off; `cleanings` takes what was found.
+pub(super) fn take_off(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
+    if !runs.iter().all(Run::has_positions) {
+        return;
+    }
+    let Some(linear) = Linear::of(runs, MIN_PIECE, &|_, _, _| false) else { return };
+    let [way, error] = linear.number(|[_, forward]| forward.z);
+    if way.abs() < MIN_ERRORS_OF_WAY * error {
+        return;
+    }
+    for (side, place) in [(Side::Left, 0), (Side::Right, 1)] {
+        let [speed, error] = linear.number(|fit| offsets(fit)[place]);
+        let readings = || runs.iter().flat_map(Run::tracks).map(|reading| reading.speeds()[side]);
+        let count = real(readings().count().max(1));
+        let usual = (readings().map(|speed| speed * speed).sum::<f64>() / count).sqrt();
+        let zeros = real(readings().filter(|speed| *speed == 0.0).count()) / count;
+        let shows = speed.abs() > MIN_ERRORS * error && speed.abs() > MIN_SHARE * usual;
+        if !shows || zeros > MAX_ZEROS {
+            continue;
+        }
+        for run in runs.iter_mut() {
+            let (id, t) = (run.id(), run.tracks().first().map_or(0.0, |reading| reading.t));
+            for reading in run.readings_mut() {
+                match side {
+                    Side::Left => reading.v_left -= speed,
+                    Side::Right => reading.v_right -= speed,
+                }
+            }
+            let (stream, finding) = (Stream::Tracks, Finding::Biased { side, speed });
+            let count = run.tracks().len();
+            cleanings.push(Cleaning { stream, finding, count, runs: 1, run: id, t });
+        }
+    }
+}

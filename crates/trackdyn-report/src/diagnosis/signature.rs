@@ -9,6 +9,7 @@ use crate::figure::{
 };
 use crate::text::{Horizontal, Style, TITLE_SIZE, Vertical};
 use crate::ticks::number;
+use std::collections::HashSet;
 use trackdyn_core::real;
 use trackdyn_diagnose::exposure::Exposure;
 
@@ -17,6 +18,10 @@ const PLOT: [i32; 2] = [620, 420];
 const COLUMNS: [i32; 3] = [158, 918, 1678];
 const ROW: i32 = 640;
 const POINT: Rgb = [176, 196, 214];
+/// Radius of a sample, pixels.
+const RADIUS: f64 = 3.0;
+/// Samples that a panel shows at most: a page has dozens of panels.
+const MAX_SHOWN: usize = 700;
 /// Means of about this many groups of samples.
 const GROUPS: f64 = 14.0;
 /// Samples that a group needs.
@@ -40,7 +45,7 @@ pub(super) fn figure(subject: &Subject) -> Figure {
     };
     let mut figure = sheet::sheet("signatures", height, title, explanation, subject.caption);
     let entries = [
-        (Swatch::disc(POINT), "samples"),
+        (Swatch::disc(POINT), "samples, one for those on each other"),
         (Swatch::entry(1), "means of samples of like change, with 95 % intervals"),
         (Swatch::Line(INK, 3.0), "predicted: slope one"),
     ];
@@ -84,7 +89,8 @@ fn show(panel: &mut Panel, points: &[[f64; 2]], groups: &[Group]) {
         let reason = if is_measured { "it changes nothing here" } else { "not measured" };
         return panel.explain_emptiness(reason);
     }
-    panel.show_as("samples", Points::new(points.to_vec(), Marker::disc(3.0, POINT)));
+    let shown = apart(points, panel);
+    panel.show_as("samples", Points::new(shown, Marker::disc(RADIUS, POINT)));
     let ends = vec![[-extent, -extent], [extent, extent]];
     panel.show_as("predicted", Line { points: ends, thickness: 3.0, colour: INK });
     let means =
@@ -103,6 +109,22 @@ fn show(panel: &mut Panel, points: &[[f64; 2]], groups: &[Group]) {
         let corner = [extent, panel.y.range[0]];
         let label = Label::new(format!("beyond the frame: {hidden}"), corner, style);
         panel.labels.push(label.shifted([-12, -12]).on_white());
+    }
+}
+
+/// Points of which one stands for all that lie on it; further ones, too, where many would be left.
+fn apart(points: &[[f64; 2]], panel: &Panel) -> Vec<[f64; 2]> {
+    let mut distance = 2.0 * RADIUS;
+    loop {
+        let mut taken = HashSet::new();
+        #[expect(clippy::cast_possible_truncation, reason = "places on the sheet")]
+        let cell = |point: [f64; 2]| panel.pixel(point).map(|place| (place / distance) as i64);
+        let is_first = |point: &&[f64; 2]| panel.contains(**point) && taken.insert(cell(**point));
+        let shown: Vec<_> = points.iter().filter(is_first).copied().collect();
+        if shown.len() <= MAX_SHOWN {
+            return shown;
+        }
+        distance *= 1.5;
     }
 }
 

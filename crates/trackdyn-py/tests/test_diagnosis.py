@@ -10,28 +10,6 @@ import pytest
 import trackdyn as td
 
 
-@pytest.fixture(scope="module")
-def model(robot):
-    return robot.with_inertia()
-
-
-@pytest.fixture(scope="module")
-def told():
-    return []
-
-
-@pytest.fixture(scope="module")
-def diagnosis(model, told):
-    """A short drive of a robot whose lugs grip better one way than its model knows."""
-    lugs = model.with_effect("directional-lugs", excess=0.15)
-    log = td.simulate(lugs, runs=1, duration=25.0, sensors="perfect", seed=3).recording
-    progress = lambda *at: told.append(at)  # noqa: E731
-    settings = {"verdict": {"max_p": 0.008}}
-    return td.diagnose(
-        log, model, draws=1000, held_out="none", settings=settings, progress=progress
-    )
-
-
 def test_it_names_what_is_missing(diagnosis, told):
     assert diagnosis.status == "explained", repr(diagnosis)
     named = {claim.effect: claim for claim in diagnosis.claims}

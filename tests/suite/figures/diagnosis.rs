@@ -286,7 +286,7 @@ fn check_values(figures: &[Figure], values: &str) {
     for stretches in plane["stretches"].as_sequence().expect("stretches") {
         let ends: Vec<f64> =
             stretches.as_sequence().expect("ends").iter().filter_map(number).collect();
-        assert!(!ends.is_empty() && ends.len() % 2 == 0);
+        assert!(!ends.is_empty() && ends.len().is_multiple_of(2));
         assert!(ends.iter().all(|place| (0.0..=end + 1.0).contains(place)));
         assert!(ends.windows(2).all(|pair| pair[0] <= pair[1]));
     }

@@ -49,17 +49,14 @@ pub(super) fn figure(subject: &Subject) -> Option<Figure> {
     Some(drawn(subject, &replays.replay(chosen, 1)))
 }
 
-/// The whole log in pieces of at most [`MAX_TIME`], each replayed from where it begins, with at
-/// most about so many poses in all.
-pub(super) fn pieces(subject: &Subject, poses: usize) -> Vec<Piece> {
+/// The whole log in pieces of at most [`MAX_TIME`], each replayed from where it begins; of the
+/// poses one in `each`.
+pub(super) fn pieces(subject: &Subject, each: usize) -> Vec<Piece> {
     let mut pieces = Vec::new();
     if matches!(subject.evidence().origin(), Origin::SteadyPoints(_)) {
         return pieces;
     }
-    let views = subject.views();
-    let samples: usize = views.iter().map(|view| view.evidence.samples().len()).sum();
-    let each = samples.div_ceil(poses.max(1)).max(1);
-    for view in views {
+    for view in subject.views() {
         let samples = view.evidence.samples();
         let replays = Replays::of(subject, view);
         let mut first = 0;

@@ -65,14 +65,16 @@ function shade(chart) {
   }
   const stretches = chosen();
   ctx.fillStyle = style("--mark");
+  const { min, max } = chart.scales.x;
   stretches.forEach(([begin, end], k) => {
+    if (end < min || begin > max) return;
     ctx.globalAlpha = k === state.stretch ? 0.5 : 0.22;
     ctx.fillRect(x(begin), bbox.top, Math.max(2, x(end) - x(begin)), bbox.height);
   });
   ctx.globalAlpha = 1;
   ctx.fillStyle = style("--second");
   for (const run of runs.slice(1)) {
-    if (run.at > chart.scales.x.min && run.at < chart.scales.x.max) ctx.fillRect(x(run.at), bbox.top, 1, bbox.height);
+    if (run.at > min && run.at < max) ctx.fillRect(x(run.at), bbox.top, 1, bbox.height);
   }
   ctx.restore();
 }

@@ -219,7 +219,7 @@ fn check_numbers(case: &Case, page: &str) {
             assert!((number - value).abs() <= half, "{text} is not {value}");
         }
     }
-    assert!(count >= 2, "errors before and after at least");
+    assert!(count >= 1, "the error on the log at least");
 }
 
 /// All numbers of a file.

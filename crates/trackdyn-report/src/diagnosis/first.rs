@@ -96,22 +96,19 @@ fn in_words(count: usize) -> String {
 
 /// How sure the answer is, in words.
 fn sure(subject: &Subject) -> String {
-    let fit = &subject.file.fit;
     let runs = subject.evidence().origin().runs();
-    let on = if fit.are_held_out {
-        format!("{runs} that nothing was fitted to")
+    let judged = if subject.file.fit.are_held_out {
+        format!("Costs are those of {runs} that nothing was fitted to.")
     } else {
-        format!("the {runs} of the fit, for none were held out")
+        format!("Costs are those of the very {runs} of the fit, for none were held out.")
     };
-    let errors = format!("predicts {on}");
     match subject.diagnosis.answer.status {
-        Status::NothingMissing => format!(
-            "The model {errors} as well as their noise allows. An effect below its detection limit \
-             may still be there."
-        ),
+        Status::NothingMissing => {
+            format!("No effect is missing that is larger than its detection limit. {judged}")
+        }
         Status::Explained => format!(
-            "Every claim has passed all tests of a claim, each against chance and against its \
-             rivals, and the corrected model {errors}."
+            "Every claim has passed all tests of a claim, against chance and against its rivals. \
+             {judged}"
         ),
         Status::Ambiguous => "That the model is off is sure. Where several causes are named, this \
                               log cannot tell which it is: each would look the same in it."

@@ -184,7 +184,7 @@ fn group(points: &[[f64; 2]]) -> Option<Group> {
 
 #[cfg(test)]
 mod tests {
-    use super::groups;
+    use super::*;
 
     #[test]
     fn the_few_samples_that_feel_an_effect_have_groups_of_their_own() {
@@ -193,5 +193,20 @@ mod tests {
         let groups = groups(&points);
         assert!(groups.iter().any(|group| (group.mean[0] - 5.0).abs() < 1e-9));
         assert!(super::groups(&[]).is_empty());
+    }
+
+    #[test]
+    fn of_many_samples_a_few_stand_for_all() {
+        let axis = || Axis::new("", "", [-1.0, 1.0]);
+        let panel = Panel::new("", Area::new(0, 0, PLOT[0], PLOT[1]), axis(), axis());
+        // Fibonacci's lattice fills the panel evenly
+        let place = |k: i32, step: f64| 2.0 * (f64::from(k) * step).fract() - 1.0;
+        let points: Vec<_> = (0..20_000).map(|k| [place(k, 0.618_034), place(k, 5e-5)]).collect();
+        let shown = apart(&points, &panel);
+        assert!((MAX_SHOWN / 3..=MAX_SHOWN).contains(&shown.len()), "{}", shown.len());
+        assert!(shown.iter().all(|point| points.contains(point)));
+        let few: Vec<_> = points.iter().step_by(1000).copied().collect();
+        assert_eq!(apart(&few, &panel), few);
+        assert!(apart(&[[2.0, 0.0]], &panel).is_empty());
     }
 }

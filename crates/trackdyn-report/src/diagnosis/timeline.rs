@@ -228,4 +228,20 @@ mod tests {
         assert_eq!(values, [(0.25, Some(5.0)), (0.75, Some(-2.0)), (1.5, Some(7.0))]);
         assert!(thinned.iter().all(|(_, values)| values[1].is_none()));
     }
+    #[test]
+    fn a_long_log_has_two_points_in_a_column() {
+        let rest = [None; 7];
+        let values = |value: f64| {
+            let mut values = [Some(value); 8];
+            values[1..].copy_from_slice(&rest);
+            values
+        };
+        let row: Row =
+            (0..100_000).map(|k| (0.1 * f64::from(k), values(f64::from(k).sin()))).collect();
+        let thinned = thinner(&row, 1e4 / real(COLUMNS));
+        assert_eq!(thinned.len(), 2 * COLUMNS);
+        assert!(thinned.windows(2).all(|pair| pair[0].0 < pair[1].0));
+        let most = thinned.iter().filter_map(|(_, values)| values[0]).fold(0.0, f64::max);
+        assert!(most > 0.999, "{most}");
+    }
 }

@@ -49,7 +49,13 @@ pub(super) fn of(subject: &Subject) -> Vec<Cost> {
     } else {
         "constant ICRs, clock and sensor"
     };
-    let rows = [("before", fit.held_out_before), ("after", fit.held_out_after)];
+    // where nothing is missing there is nothing to correct
+    let rows = match subject.file.missing.as_slice() {
+        [] if fit.held_out_before == fit.held_out_after => {
+            vec![("as filed", fit.held_out_before)]
+        }
+        _ => vec![("before", fit.held_out_before), ("after", fit.held_out_after)],
+    };
     let most = fit.held_out_before.max(fit.held_out_after);
     let row = |(when, value): (&'static str, f64)| Row {
         when,
@@ -65,7 +71,7 @@ pub(super) fn of(subject: &Subject) -> Vec<Cost> {
             number(fit.noise_floor, 3)
         ),
         noise: None,
-        rows: rows.map(row).into(),
+        rows: rows.into_iter().map(row).collect(),
     };
     yaw.into_iter().chain(place).chain([departure]).collect()
 }

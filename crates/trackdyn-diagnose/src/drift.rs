@@ -60,7 +60,7 @@ pub struct Compared {
 impl Drift {
     /// Drift over all runs of evidence; none of a table of steady points.
     ///
-    /// A piece crosses no gap and no sample that is lost. Pieces are as long as ten of them allow.
+    /// A piece crosses no gap, and no sample that is lost or has no motion. Pieces are as long as ten of them allow.
     pub fn of(evidence: &Weighted, filed: &VehicleFile, corrected: &VehicleFile) -> Self {
         if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
             return Self::default();
@@ -72,7 +72,8 @@ impl Drift {
         };
         // noise of the poses would turn a robot that drives straight ahead
         let turned = |_: &Sample, index: usize| motions[1][index].yaw.abs();
-        let replayed = Replayed { samples, motions: &motions, stretches: stretches(evidence) };
+        let stretches = stretches(evidence, &motions);
+        let replayed = Replayed { samples, motions: &motions, stretches };
         let [forward, left, yaw] = evidence.noise().map_or([0.0; 3], |noise| noise.pose);
         let place_noise = |observed: &Pose| place_noise([forward, left, yaw], observed);
         // E|e| = √(2/π) σ of the difference of two yaws, σ² = 2 σ_yaw²
@@ -98,12 +99,16 @@ fn place_noise([forward, left, yaw]: [f64; 3], observed: &Pose) -> f64 {
     (FRAC_PI_2 * f64::midpoint(2.0 * forward, across)).sqrt()
 }
 
-/// Samples in a row, without gaps and lost ones.
-fn stretches(evidence: &Weighted) -> Vec<Range<usize>> {
+/// Samples in a row, without gaps, lost ones, and ones in which a vehicle has no motion.
+fn stretches(evidence: &Weighted, motions: &[Vec<Pose>; 2]) -> Vec<Range<usize>> {
     let samples = evidence.samples();
+    let moves = |index: usize| {
+        let all = motions.iter().map(|motions| motions[index]);
+        all.flat_map(|of| [of.x, of.y, of.yaw]).all(f64::is_finite)
+    };
     let mut stretches: Vec<Range<usize>> = Vec::new();
     for (index, seen) in evidence.motions().iter().enumerate() {
-        if seen.is_lost {
+        if seen.is_lost || !moves(index) {
             continue;
         }
         match stretches.last_mut() {

@@ -52,6 +52,18 @@ def test_it_writes_what_the_program_reads(diagnosis, program, tmp_path):
     assert repr(by_file) == repr(by_value)
 
 
+def test_it_says_what_dead_reckoning_loses(recording, robot):
+    """A drive that is long enough; the short one says nothing of it."""
+    turned = robot.with_effect("encoder-scale", left=0.9)
+    driven = td.diagnose(recording, turned, draws=1000)
+    assert set(driven.drift) == {"place_m_per_100_m", "yaw_deg_per_turn"}
+    for of in driven.drift.values():
+        assert of["after95"][0] <= of["after"] <= of["after95"][1]
+        assert of["pose_noise"] < of["before"] and of["pieces"] >= 10
+        assert of["after"] < 0.5 * of["before"]
+    assert "dead reckoning" in driven._repr_html_()
+
+
 def test_settings_count(diagnosis, recording, model):
     assert diagnosis.to_dict()["settings"] == {"verdict": {"max_p": 0.008}}
     with pytest.raises(td.DocumentError, match="min_ln_bayes_factor"):

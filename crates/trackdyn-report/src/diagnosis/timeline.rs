@@ -16,7 +16,7 @@ const LEFT: i32 = 158;
 const WIDTH: i32 = 2182;
 const TOP: i32 = sheet::TOP + 130;
 /// Height of a panel, and distance of their tops.
-const ROW: [i32; 2] = [270, 340];
+const ROW: [i32; 2] = [260, 376];
 const HEIGHT: i32 = TOP + 3 * ROW[1] + ROW[0] + 100 + sheet::FOOT;
 
 /// Columns of time that a log is cut into where it has more samples: about one for each pixel at
@@ -100,9 +100,11 @@ fn panel(
     let quantity_of_time = quantities[usize::from(log.runs.len() > 1)];
     let end = log.duration().max(1e-3);
     let x = Axis { is_labelled: last, ..Axis::new(quantity_of_time, "s", [0.0, end]) };
-    let mut panel = Panel::new(title, place, x, Axis::new(quantity, unit, [-extent, extent]));
+    // the first panel has room for the numbers of the runs
+    let top = if row == 0 { 1.4 * extent } else { extent };
+    let mut panel = Panel::new(title, place, x, Axis::new(quantity, unit, [-extent, top]));
     let held_out = log.runs.iter().filter(|run| run.is_held_out);
-    let held_out = held_out.map(|run| [[run.at, -extent], [run.at + run.duration, extent]]);
+    let held_out = held_out.map(|run| [[run.at, -extent], [run.at + run.duration, top]]);
     let held_out: Vec<_> = held_out.collect();
     if !held_out.is_empty() {
         panel.show_as("held out", Boxes::new(held_out, Paint::One(HELD_OUT)));

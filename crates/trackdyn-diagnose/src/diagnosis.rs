@@ -14,6 +14,7 @@ pub use limits::Limits;
 pub use pipeline::{STAGES, diagnose};
 
 use crate::base::Base;
+use crate::drift::Drift;
 use crate::exposure::Exposure;
 use crate::fit::Fit;
 use crate::locate::Location;
@@ -88,6 +89,8 @@ pub struct Examined {
     pub exposures: Vec<Exposure>,
     /// Prediction errors before and after, on held-out runs where there are any.
     pub errors: HeldOut,
+    /// Drift of dead reckoning before and after, on the same runs.
+    pub drift: Drift,
 }
 
 /// Models before and after the diagnosis.

@@ -1,8 +1,10 @@
 //! The diagnosis as a file, schema `trackdyn.diagnosis/1`.
 
+mod drift;
 mod noise;
 mod proposed;
 
+pub use drift::{ComparedTable, DriftTable};
 pub use noise::NoiseTable;
 pub use proposed::{ProposalTable, ProposedTable};
 
@@ -43,6 +45,9 @@ pub struct DiagnosisFile {
     pub friction_by_inertia: Option<FactorTable>,
     /// Errors on held-out runs.
     pub fit: FitTable,
+    /// Drift of dead reckoning on the same runs; absent in older files.
+    #[serde(default, skip_serializing_if = "DriftTable::is_empty")]
+    pub drift: DriftTable,
     /// Noise of the poses; absent in older files, and of tables of steady points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub noise: Option<NoiseTable>,
@@ -199,6 +204,7 @@ impl DiagnosisFile {
                 noise_floor: rounded(held_out.noise_floor),
                 excess_explained: rounded(held_out.excess_explained().unwrap_or(1.0)),
             },
+            drift: DriftTable::of(&diagnosis.evidence.drift),
             noise: diagnosis.evidence.seen.noise().map(NoiseTable::of),
             detectable: sizes,
             settings: diagnosis.evidence.seen.settings().clone(),

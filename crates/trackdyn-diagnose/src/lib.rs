@@ -17,7 +17,7 @@
 //! - [`verdict`], [`uncertainty`], [`isolability`]: claims, intervals, and which effects can be
 //!   told apart.
 //! - [`proposal`]: an empirical force law for what no effect explains.
-//! - [`replay`]: dead reckoning with a vehicle file.
+//! - [`replay`]: dead reckoning with a vehicle file; [`drift`]: its errors before and after.
 //! - [`answer`], [`held_out`]: the status, and errors on runs that were not fitted.
 //! - [`mod@diagnosis`]: all stages in order and their result; [`document`]: the result as a file;
 //!   [`exposure`]: series for figures.
@@ -31,6 +31,7 @@ pub mod candidate;
 mod corrected;
 pub mod diagnosis;
 pub mod document;
+pub mod drift;
 pub mod equations;
 pub mod error;
 pub mod evidence;

@@ -9,7 +9,7 @@ use trackdyn_core::Pose;
 use trackdyn_model::VehicleFile;
 
 /// Samples further apart leave a gap, s.
-const GAP: f64 = 1e-6;
+pub(crate) const GAP: f64 = 1e-6;
 
 /// The motion of every sample with a vehicle file, moved by the recording's clock where the file
 /// says nothing of it, seen from its beginning.

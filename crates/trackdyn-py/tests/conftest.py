@@ -34,6 +34,28 @@ def recording(drive: td.Simulation) -> td.Recording:
 
 
 @pytest.fixture(scope="session")
+def model(robot):
+    return robot.with_inertia()
+
+
+@pytest.fixture(scope="session")
+def told():
+    return []
+
+
+@pytest.fixture(scope="session")
+def diagnosis(model, told):
+    """A short drive of a robot whose lugs grip better one way than its model knows."""
+    lugs = model.with_effect("directional-lugs", excess=0.15)
+    log = td.simulate(lugs, runs=1, duration=25.0, sensors="perfect", seed=3).recording
+    progress = lambda *at: told.append(at)  # noqa: E731
+    settings = {"verdict": {"max_p": 0.008}}
+    return td.diagnose(
+        log, model, draws=1000, held_out="none", settings=settings, progress=progress
+    )
+
+
+@pytest.fixture(scope="session")
 def program() -> Callable[..., subprocess.CompletedProcess[str]]:
     """The program trackdyn that the wheel installed; TRACKDYN_PROGRAM stands for another."""
     scripts = Path(sysconfig.get_path("scripts"))

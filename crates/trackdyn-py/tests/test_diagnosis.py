@@ -10,28 +10,6 @@ import pytest
 import trackdyn as td
 
 
-@pytest.fixture(scope="module")
-def model(robot):
-    return robot.with_inertia()
-
-
-@pytest.fixture(scope="module")
-def told():
-    return []
-
-
-@pytest.fixture(scope="module")
-def diagnosis(model, told):
-    """A short drive of a robot whose lugs grip better one way than its model knows."""
-    lugs = model.with_effect("directional-lugs", excess=0.15)
-    log = td.simulate(lugs, runs=1, duration=25.0, sensors="perfect", seed=3).recording
-    progress = lambda *at: told.append(at)  # noqa: E731
-    settings = {"verdict": {"max_p": 0.008}}
-    return td.diagnose(
-        log, model, draws=1000, held_out="none", settings=settings, progress=progress
-    )
-
-
 def test_it_names_what_is_missing(diagnosis, told):
     assert diagnosis.status == "explained", repr(diagnosis)
     named = {claim.effect: claim for claim in diagnosis.claims}
@@ -72,6 +50,18 @@ def test_it_writes_what_the_program_reads(diagnosis, program, tmp_path):
     assert done.returncode == 0, done.stderr
     by_file, by_value = td.plan(tmp_path / "diagnosis.toml"), td.plan(diagnosis)
     assert repr(by_file) == repr(by_value)
+
+
+def test_it_says_what_dead_reckoning_loses(recording, robot):
+    """A drive that is long enough; the short one says nothing of it."""
+    turned = robot.with_effect("encoder-scale", left=0.9)
+    driven = td.diagnose(recording, turned, draws=1000)
+    assert set(driven.drift) == {"place_m_per_100_m", "yaw_deg_per_turn"}
+    for of in driven.drift.values():
+        assert of["after95"][0] <= of["after"] <= of["after95"][1]
+        assert of["pose_noise"] < of["before"] and of["pieces"] >= 10
+        assert of["after"] < 0.5 * of["before"]
+    assert "dead reckoning" in driven._repr_html_()
 
 
 def test_settings_count(diagnosis, recording, model):

@@ -20,6 +20,11 @@ pub const GRID: Rgb = [226, 226, 226];
 /// colour.
 pub const LAST: u8 = 254;
 
+/// A colour as pages write it.
+pub(crate) fn hex([r, g, b]: Rgb) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
 /// A map from 0..1 to colours, readable with any kind of colour vision.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ColourMap {

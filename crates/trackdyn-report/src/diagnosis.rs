@@ -5,12 +5,16 @@ mod candidates;
 mod cells;
 mod errors;
 mod evidence;
+mod first;
 mod html;
 mod isolability;
+mod live;
+mod log;
 mod parity;
 mod path;
 mod plane;
 mod signature;
+mod timeline;
 mod words;
 
 use crate::figure::Figure;
@@ -97,15 +101,22 @@ impl<'a> Subject<'a> {
 /// All figures of a diagnosis, in the order of the report. A table of steady motions has no paths.
 pub fn diagnosis_figures(subject: &Subject) -> Vec<Figure> {
     let candidates = candidates::candidates(subject);
-    let mut figures = vec![
-        plane::figure(subject).explained(
-            "Where observation and model differ",
-            "Each spot is a pair of track speeds: left track to the right, right track upwards, so \
+    let mut figures = vec![plane::figure(subject).explained(
+        "Where observation and model differ",
+        "Each spot is a pair of track speeds: left track to the right, right track upwards, so \
              that straight driving lies on the rising diagonal and spins on the falling one. Red: \
              the robot moved further forward, further to the left or turned further to the left \
              than predicted; blue: less far. What the model lacks shows as a pattern; noise has \
              none.",
-        ),
+    )];
+    figures.extend(timeline::figure(subject).map(|figure| {
+        figure.explained(
+            "When observation and model differ",
+            "What the model lacks comes back whenever the robot drives alike; a residual that \
+             stands out once has a cause of that moment, such as a pose that jumped.",
+        )
+    }));
+    figures.extend([
         cells::figure(subject).explained(
             "How the centres of rotation move",
             "Every row is a way of driving. Marks away from zero mean that the robot turns about \
@@ -139,7 +150,7 @@ pub fn diagnosis_figures(subject: &Subject) -> Vec<Figure> {
             "After the correction the error should lie on the floor, on every channel and in every \
              run. What stays above it is unexplained.",
         ),
-    ];
+    ]);
     figures.extend(path::figure(subject).map(|figure| {
         figure.explained(
             "One run replayed",

@@ -16,6 +16,9 @@ pub enum Error {
     /// The report could not be filled in.
     #[error("the report cannot be filled in: {0}")]
     Template(#[from] minijinja::Error),
+    /// The values of figures could not be written.
+    #[error("the values of the figures cannot be written: {0}")]
+    Values(#[from] serde_json::Error),
 }
 
 impl From<DrawingAreaErrorKind<Infallible>> for Error {

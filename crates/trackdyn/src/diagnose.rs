@@ -26,8 +26,8 @@ const REPORT: &str = "report.html";
 /// Name of the files for viewers, without extension.
 const LAYERS: &str = "diagnosis";
 
-/// The one figure that not every diagnosis has: points have no path.
-const PATH: &str = "path.png";
+/// The figures that not every diagnosis has: points have no time and no path.
+const OF_DRIVES: [&str; 2] = ["time.png", "path.png"];
 
 /// How to diagnose.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -320,10 +320,10 @@ impl Diagnosis {
             folder.write(&figure.file(), &figure.to_small_png()?)?;
         }
         viewer::remove_earlier(&mut folder, REPORT, LAYERS)?;
-        if figures.iter().all(|figure| figure.file() != PATH) {
-            let path = folder.file(PATH);
-            folder.remove_earlier(REPORT, [path])?;
-        }
+        let is_drawn = |file: &str| figures.iter().any(|figure| figure.file() == file);
+        let earlier = OF_DRIVES.into_iter().filter(|file| !is_drawn(file));
+        let earlier: Vec<_> = earlier.map(|file| folder.file(file)).collect();
+        folder.remove_earlier(REPORT, earlier)?;
         folder.write(REPORT, html.as_bytes())?;
         Ok(folder.changes())
     }

@@ -12,7 +12,7 @@ use trackdyn_model::Stationary;
 use trackdyn_model::kinematics::Source;
 use trackdyn_model::{Circumstance, Effects, Model, VehicleFile};
 use trackdyn_recording::OperatingPoint;
-use trackdyn_report::figure::{Boxes, Paint, Panel, Series, Sign};
+use trackdyn_report::figure::{Boxes, Paint, Panel, Points, Series, Sign};
 use trackdyn_report::{Figure, Subject, diagnosis_figures, diagnosis_html};
 
 /// Pixels that stay white at the left, the right and the top of every figure.
@@ -106,17 +106,35 @@ impl Case {
     }
 }
 
+/// A page without the insides of its style and its scripts, and these.
+fn parts(html: &str) -> (String, Vec<&str>) {
+    let (mut page, mut rest, mut insides) = (String::new(), html, Vec::new());
+    while let Some((element, start)) = ["<style>", "<script"]
+        .into_iter()
+        .filter_map(|element| Some((element, rest.find(element)?)))
+        .min_by_key(|(_, start)| *start)
+    {
+        let inside = start + rest[start..].find('>').expect("every tag ends") + 1;
+        let end = element.replace('<', "</").replace('>', "");
+        let end = inside + rest[inside..].find(&end).expect("its end");
+        page.push_str(&rest[..inside]);
+        insides.push(&rest[inside..end]);
+        rest = &rest[end..];
+    }
+    page.push_str(rest);
+    (page, insides)
+}
+
 /// Names of the elements that are open at the end of a page, or the first that is closed out of
 /// turn.
 fn unclosed(html: &str) -> Vec<String> {
-    const EMPTY: [&str; 3] = ["meta", "br", "!DOCTYPE"];
-    let style = html.find("<style>").expect("a style")..html.find("</style>").expect("its end");
+    const EMPTY: [&str; 4] = ["meta", "br", "!DOCTYPE", "input"];
     let mut open: Vec<String> = Vec::new();
-    for (start, _) in html.match_indices('<').filter(|(place, _)| !style.contains(place)) {
+    for (start, _) in html.match_indices('<') {
         let tag = &html[start + 1..];
         let tag = &tag[..tag.find('>').expect("every tag ends")];
         if let Some(name) = tag.strip_prefix('/') {
-            if name != "style" && open.pop().as_deref() != Some(name) {
+            if open.pop().as_deref() != Some(name) {
                 return vec![name.to_owned()];
             }
         } else if !tag.ends_with('/') {
@@ -147,14 +165,28 @@ fn check(case: &Case, expected: &[&str]) {
     }
     assert_eq!(html.matches("<svg role=\"img\"").count(), figures.len());
     assert_eq!(html.matches("<img ").count(), 0);
+    assert!(html.len() < 1_000_000, "{} bytes", html.len());
+    let (page, insides) = parts(&html);
+    let [style, values, script] = insides.as_slice() else { panic!("a style, values, a script") };
     // Colours of a picture are named in it
-    let without_own = html.replace("url(#", "");
-    for outside in ["http:", "https:", "//", "<link", "<script", "@import", "url(", "data:"] {
+    let without_own = page.replace("url(#", "");
+    for outside in ["http:", "https:", "//", "<link", "@import", "url(", "data:", " src="] {
         assert!(!without_own.contains(outside), "{outside}");
     }
-    assert!(html.contains("&lt;script&gt;") && html.contains("a &amp; b"));
-    assert!(html.contains("prefers-color-scheme: dark"));
-    assert_eq!(unclosed(&html), Vec::<String>::new());
+    for outside in ["@import", "url(", "fetch(", "XMLHttpRequest", "WebSocket", "import(", "eval("]
+    {
+        assert!(![style, script].iter().any(|of| of.contains(outside)), "{outside}");
+    }
+    assert!(page.contains("content=\"default-src 'none';"), "a browser refuses what is outside");
+    assert!(script.contains("Permission is hereby granted"), "the library with its licence");
+    assert!(!values.contains('<'));
+    assert!(page.contains("&lt;script&gt;") && page.contains("a &amp; b"));
+    assert!(style.contains("prefers-color-scheme: dark"));
+    assert_eq!(unclosed(&page), Vec::<String>::new());
+    assert_eq!(page.matches("<h1").count(), 1);
+    check_numbers(case, &page);
+    check_values(&figures, values);
+    let html = page;
     let ids: Vec<&str> =
         html.split("id=\"").skip(1).filter_map(|id| id.split('"').next()).collect();
     assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len());
@@ -165,7 +197,108 @@ fn check(case: &Case, expected: &[&str]) {
         assert!(ids.contains(&target), "{target}");
     }
     let (again, same) = case.report();
-    assert!(same == html && again == figures);
+    assert!(parts(&same).0 == html && again == figures);
+}
+
+/// Checks that the numbers of the first screen are those of the file, rounded.
+fn check_numbers(case: &Case, page: &str) {
+    let file: toml::Value = toml::from_str(&case.file.to_toml()).expect("a file");
+    let mut known = Vec::new();
+    collect(&file, &mut known);
+    let shown = page.split("<data value=\"").skip(1);
+    let mut count = 0;
+    for shown in shown.filter_map(|rest| rest.split_once("</data>")).map(|(of, _)| of) {
+        let (value, text) = shown.split_once("\">").expect("a value and its text");
+        let value: f64 = value.parse().expect("a number");
+        assert!(known.contains(&value), "{value} is not in the file");
+        count += 1;
+        if let Ok(number) = text.replace('\u{2212}', "-").parse::<f64>() {
+            let digits = text.split('e').next().map_or("", |mantissa| mantissa);
+            let decimals = digits.split_once('.').map_or(0, |(_, after)| after.len());
+            let half = 0.500_001 * 10.0_f64.powi(-i32::try_from(decimals).expect("few digits"));
+            assert!((number - value).abs() <= half, "{text} is not {value}");
+        }
+    }
+    assert!(count >= 1, "the error on the log at least");
+}
+
+/// All numbers of a file.
+fn collect(value: &toml::Value, into: &mut Vec<f64>) {
+    match value {
+        toml::Value::Float(number) => into.push(*number),
+        toml::Value::Array(all) => all.iter().for_each(|one| collect(one, into)),
+        toml::Value::Table(all) => all.iter().for_each(|(_, one)| collect(one, into)),
+        _ => {}
+    }
+}
+
+/// Checks that what a reader looks at closely is what the figures hold. JSON is YAML, too.
+fn check_values(figures: &[Figure], values: &str) {
+    let values: serde_yaml_ng::Value = serde_yaml_ng::from_str(values).expect("JSON");
+    let number = |value: &serde_yaml_ng::Value| value.as_f64();
+    let plane = &values["plane"];
+    let shown = plane["panels"].as_sequence().expect("panels");
+    let drawn = figures.iter().find(|figure| figure.name == "plane").expect("a plane");
+    for panel in shown {
+        let title = panel["title"].as_str().expect("a title");
+        let of = drawn.panels.iter().find(|of| of.title == title).expect("its panel");
+        let (Sign::Boxes(Boxes { paint: Some(Paint::Values { values, .. }), .. })
+        | Sign::Points(Points { paint: Paint::Values { values, .. }, .. })) = &of.series[0].sign
+        else {
+            panic!("{title}: no values");
+        };
+        let step = panel["step"].as_f64().expect("a step");
+        let all = panel["v"].as_sequence().expect("values");
+        let mut steps: Vec<f64> = all.iter().filter_map(number).collect();
+        let mut expected: Vec<f64> = values.iter().map(|value| (value / step).round()).collect();
+        for all in [&mut steps, &mut expected] {
+            all.sort_by(f64::total_cmp);
+        }
+        assert!(steps == expected, "{title}");
+        assert_eq!(all.len(), plane["cells"].as_sequence().expect("cells").len());
+    }
+    let Some(time) = figures.iter().find(|figure| figure.name == "time") else {
+        assert!(
+            values["time"].is_null() && values["paths"].as_sequence().expect("paths").is_empty()
+        );
+        return;
+    };
+    let times = values["time"]["t"].as_sequence().expect("times");
+    assert!(times.windows(2).all(|pair| number(&pair[0]) <= number(&pair[1])));
+    for (panel, of) in
+        values["time"]["panels"].as_sequence().expect("panels").iter().zip(&time.panels)
+    {
+        let drawn: usize = of
+            .series
+            .iter()
+            .filter_map(|series| match &series.sign {
+                Sign::Line(line) => Some(line.points.len()),
+                _ => None,
+            })
+            .sum();
+        let lines = panel["lines"].as_sequence().expect("lines");
+        let lines = lines.iter().map(|line| line["v"].as_sequence().expect("values"));
+        assert!(lines.clone().all(|values| values.len() == times.len()));
+        let shown = lines.flatten().filter(|value| !value.is_null()).count();
+        assert_eq!(shown, drawn, "{}", of.title);
+    }
+    let end = values["time"]["end"].as_f64().expect("an end") / 0.01;
+    for stretches in plane["stretches"].as_sequence().expect("stretches") {
+        let ends: Vec<f64> =
+            stretches.as_sequence().expect("ends").iter().filter_map(number).collect();
+        assert!(!ends.is_empty() && ends.len().is_multiple_of(2));
+        assert!(ends.iter().all(|place| (0.0..=end + 1.0).contains(place)));
+        assert!(ends.windows(2).all(|pair| pair[0] <= pair[1]));
+    }
+    for path in values["paths"].as_sequence().expect("paths") {
+        let count = path["t"].as_sequence().expect("times").len();
+        assert!(count >= 2);
+        for line in path["lines"].as_sequence().expect("lines") {
+            for along in ["x", "y"] {
+                assert_eq!(line[along].as_sequence().expect("places").len(), count);
+            }
+        }
+    }
 }
 
 /// Checks that a picture is well-formed, and that every text of its figure is text in it.
@@ -218,9 +351,10 @@ fn ink_in_margin(bytes: &[u8]) -> bool {
     })
 }
 
-/// Figures of a report, the last one of recordings only.
-const FIGURES: [&str; 8] = [
+/// Figures of a report; time and path are those of recordings only.
+const FIGURES: [&str; 9] = [
     "plane.png",
+    "time.png",
     "cells.png",
     "symmetries.png",
     "signatures.png",
@@ -287,7 +421,9 @@ fn figures_are_plain_data() {
 
 #[test]
 fn steady_points_have_a_report_without_paths() {
-    check(&Case::steady_points(), &FIGURES[..7]);
+    let of_drives = ["time.png", "path.png"];
+    let expected = FIGURES.into_iter().filter(|name| !of_drives.contains(name));
+    check(&Case::steady_points(), &expected.collect::<Vec<_>>());
 }
 
 #[test]

@@ -7,6 +7,7 @@ use super::searched::{self, Searched};
 use super::tested::Tested;
 use super::{Answer, Diagnosis, Examined, Limits, Models, Options};
 use crate::corrected::corrected;
+use crate::drift::Drift;
 use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::progress::{Observer, Stage, Watch};
@@ -95,6 +96,11 @@ pub fn diagnose(
 
     let corrected =
         corrected(file, &judged.best, judged.friction_level, &judged.missing, proposed.as_ref());
+
+    // Drift: errors of dead reckoning, in units of driving.
+    let judging = tested.unseen.as_ref().map_or(&judged.search.evidence, |unseen| &unseen.evidence);
+    let drift = Drift::of(judging, file, &corrected);
+
     let Judged { search, screened: _, constants: _, best, friction_level, missing, refused } =
         judged;
     let place = located.sentence(&search);
@@ -119,6 +125,7 @@ pub fn diagnose(
             cells,
             exposures,
             errors: tested.errors,
+            drift,
         },
         models: Models { base: search.base, best, friction_level },
         limits,

@@ -26,7 +26,7 @@ impl Estimate {
 }
 
 /// Sums of one block, of which statistics are functions.
-pub(crate) type Sums<const N: usize> = [f64; N];
+pub type Sums<const N: usize> = [f64; N];
 
 /// A statistic of the sums over all blocks, with its interval; blocks without samples are left out
 /// before.
@@ -52,10 +52,7 @@ pub(crate) fn estimate<const N: usize>(
 }
 
 /// The estimate of a statistic that is never below zero.
-pub(crate) fn size<const N: usize>(
-    blocks: &[Sums<N>],
-    statistic: impl Fn(&Sums<N>) -> f64,
-) -> Estimate {
+pub fn size<const N: usize>(blocks: &[Sums<N>], statistic: impl Fn(&Sums<N>) -> f64) -> Estimate {
     Estimate { is_size: true, ..estimate(blocks, statistic) }
 }
 

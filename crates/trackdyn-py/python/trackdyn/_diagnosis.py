@@ -85,6 +85,15 @@ class Diagnosis:
         return dict(self.to_dict()["fit"])
 
     @property
+    def drift(self) -> dict[str, dict[str, Any]]:
+        """Errors of dead reckoning before and after, on the same runs, where enough was driven.
+
+        ``"place_m_per_100_m"`` and ``"yaw_deg_per_turn"``, each with ``"before"``, ``"after"``,
+        their 95 % intervals, and what ``"pose_noise"`` alone makes of them.
+        """
+        return dict(self.to_dict().get("drift", {}))
+
+    @property
     def detectable(self) -> dict[str, dict[str, float]]:
         """Smallest size of each effect that would have been seen, by the keys of its sizes."""
         return dict(self.to_dict().get("detectable", {}))
@@ -179,6 +188,11 @@ class Diagnosis:
             ("where", self.where),
             ("error before", f"{fit['held_out_before']:.3f} times the noise"),
             ("error after", f"{fit['held_out_after']:.3f}, of {fit['noise_floor']:.3f} at least"),
+        ]
+        units = {"yaw_deg_per_turn": "° of yaw per turn", "place_m_per_100_m": " m per 100 m"}
+        rows += [
+            ("dead reckoning", f"{of['before']:.3g}{units[key]} before, {of['after']:.3g} after")
+            for key, of in self.drift.items()
         ]
         claims = [
             (

@@ -1,6 +1,8 @@
 //! The report: one page that needs nothing beside itself.
 
 use super::candidates::{Outcome, candidates};
+use super::first::First;
+use super::live::Live;
 use super::words::{id, ids, probability, significant, with_interval};
 use super::{Subject, answer};
 use crate::Error;
@@ -16,7 +18,24 @@ use trackdyn_diagnose::document::separate_by;
 use trackdyn_diagnose::evidence::Origin;
 use trackdyn_diagnose::verdict::{Refusal, Rule};
 
-const NAME: &str = "report.html";
+const NAME: &str = "page.html";
+
+/// How the page looks.
+const STYLE: &str = concat!(
+    include_str!("../../assets/uPlot/uPlot.min.css"),
+    "\n",
+    include_str!("report/page.css")
+);
+
+/// What lets a reader look closely: uPlot with its licence, and what uses it.
+const SCRIPT: &str = concat!(
+    "/*\n",
+    include_str!("../../assets/uPlot/LICENSE"),
+    "*/\n",
+    include_str!("../../assets/uPlot/uPlot.iife.min.js"),
+    "\n",
+    include_str!("report/page.js")
+);
 
 /// What the template is given.
 #[derive(Serialize)]
@@ -26,6 +45,7 @@ struct Page<'a> {
     status: &'a str,
     status_id: &'a str,
     tone: &'a str,
+    first: First,
     answer: Vec<[String; 2]>,
     missing: Vec<Missing>,
     classes: Vec<Class>,
@@ -38,6 +58,9 @@ struct Page<'a> {
     noise: String,
     source: Option<&'a toml::Table>,
     caption: &'a str,
+    style: &'static str,
+    script: &'static str,
+    live: Live,
 }
 
 #[derive(Serialize)]
@@ -75,6 +98,7 @@ struct Class {
 
 #[derive(Serialize)]
 struct Picture<'a> {
+    name: &'a str,
     file: String,
     title: &'a str,
     reading: &'a str,
@@ -108,7 +132,7 @@ struct Limit {
 /// [`Error`] where a figure cannot be drawn or the page cannot be filled in.
 pub fn diagnosis_html(subject: &Subject, figures: &[Figure]) -> Result<String, Error> {
     let mut environment = Environment::new();
-    environment.add_template(NAME, include_str!("report.html"))?;
+    environment.add_template(NAME, include_str!("report/page.html"))?;
     Ok(environment.get_template(NAME)?.render(Serde(page(subject, figures)?))?)
 }
 
@@ -119,10 +143,16 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Result<Page<'a>, Er
         name: ids(&verdict.one_of, " or "),
         text: verdict.refused.as_ref().map_or_else(String::new, Refusal::to_string),
     });
+    let live = Live::of(subject, figures)?;
     let figures = figures.iter().map(|figure| {
         let svg = figure.to_svg_element()?;
-        let (file, title, reading) = (figure.file(), &figure.title, &figure.reading);
-        Ok(Picture { file, title, reading, svg })
+        Ok(Picture {
+            name: &figure.name,
+            file: figure.file(),
+            title: &figure.title,
+            reading: &figure.reading,
+            svg,
+        })
     });
     let unit = match evidence.origin() {
         Origin::Drive(_) => "segments of driving",
@@ -142,6 +172,7 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Result<Page<'a>, Er
         status,
         status_id: diagnosis.answer.status.name(),
         tone,
+        first: First::of(subject),
         answer: answer::parts(subject),
         missing: missing(subject),
         classes: classes(subject),
@@ -154,6 +185,9 @@ fn page<'a>(subject: &Subject<'a>, figures: &'a [Figure]) -> Result<Page<'a>, Er
         noise: noise(subject),
         source: subject.file.source.as_ref(),
         caption: subject.caption,
+        style: STYLE,
+        script: SCRIPT,
+        live,
     })
 }
 

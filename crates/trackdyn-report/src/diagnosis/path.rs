@@ -6,8 +6,9 @@ use crate::colour::INK;
 use crate::figure::{Area, Axis, Figure, Legend, Line, Panel, Swatch, around, entry_colour};
 use crate::paths::{self, Named};
 use crate::ticks::number;
+use std::ops::Range;
 use trackdyn_core::Pose;
-use trackdyn_diagnose::evidence::Origin;
+use trackdyn_diagnose::evidence::{Origin, Sample};
 use trackdyn_diagnose::replay;
 
 const HEIGHT: i32 = 1380;
@@ -20,7 +21,7 @@ const MAX_TIME: f64 = 60.0;
 /// What is replayed.
 const NAMES: [&str; 2] = ["as filed", "corrected"];
 
-/// A run, as observed and as replayed, from one start.
+/// A run, or a piece of one, as observed and as replayed, from one start.
 struct Replay {
     run: i64,
     is_held_out: bool,
@@ -30,9 +31,110 @@ struct Replay {
     replayed: [Vec<Pose>; 2],
 }
 
+/// A piece of the log, replayed.
+pub(super) struct Piece {
+    /// Index of its run in the evidence.
+    pub run: usize,
+    /// When it begins, s since the recording began.
+    pub start: f64,
+    /// Its paths.
+    pub figure: Figure,
+}
+
 /// The paths and their errors; none where there are no paths.
 pub(super) fn figure(subject: &Subject) -> Option<Figure> {
-    let replay = replayed(subject)?;
+    let view = subject.judging();
+    let chosen = longest(&view)?;
+    let replays = Replays::of(subject, view);
+    Some(drawn(subject, &replays.replay(chosen, 1)))
+}
+
+/// The whole log in pieces of at most [`MAX_TIME`], each replayed from where it begins; of the
+/// poses one in `each`.
+pub(super) fn pieces(subject: &Subject, each: usize) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    if matches!(subject.evidence().origin(), Origin::SteadyPoints(_)) {
+        return pieces;
+    }
+    for view in subject.views() {
+        let samples = view.evidence.samples();
+        let replays = Replays::of(subject, view);
+        let mut first = 0;
+        while first < samples.len() {
+            let chosen = piece(samples, first);
+            let Sample { run, start, .. } = samples[first];
+            first = chosen.end;
+            let figure = drawn(subject, &replays.replay(chosen, each));
+            pieces.push(Piece { run, start, figure });
+        }
+    }
+    pieces.sort_by(|a, b| a.run.cmp(&b.run).then(a.start.total_cmp(&b.start)));
+    pieces
+}
+
+/// The samples from one on that are of its run and not too late to be replayed with it.
+fn piece(samples: &[Sample], first: usize) -> Range<usize> {
+    let Sample { run, start, .. } = samples[first];
+    let inside = |sample: &&Sample| sample.run == run && sample.start - start < MAX_TIME;
+    first..first + samples[first..].iter().take_while(inside).count().max(1)
+}
+
+/// The first piece of the longest of the held-out runs, or of all where none was held out.
+fn longest(view: &View) -> Option<Range<usize>> {
+    let evidence = view.evidence;
+    if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
+        return None;
+    }
+    let samples = evidence.samples();
+    let time = |run: usize| -> f64 {
+        samples.iter().filter(|sample| sample.run == run).map(|sample| sample.duration).sum()
+    };
+    let run =
+        (0..evidence.runs().len()).max_by(|&a, &b| time(a).total_cmp(&time(b)).then(b.cmp(&a)))?;
+    let first = samples.iter().position(|sample| sample.run == run)?;
+    Some(piece(samples, first))
+}
+
+/// Evidence with the motions that both vehicle files predict.
+struct Replays<'a> {
+    view: View<'a>,
+    motions: [Vec<Pose>; 2],
+}
+
+impl<'a> Replays<'a> {
+    fn of(subject: &Subject, view: View<'a>) -> Self {
+        let motions = [subject.vehicle, &subject.diagnosis.answer.corrected]
+            .map(|file| replay::motions(view.evidence, file));
+        Self { view, motions }
+    }
+
+    /// Some samples in a row, every so many of their poses.
+    fn replay(&self, chosen: Range<usize>, each: usize) -> Replay {
+        let View { evidence, is_held_out, .. } = self.view;
+        let first = &evidence.samples()[chosen.start];
+        let times = replay::times(evidence, chosen.clone());
+        let times: Vec<f64> = times.iter().map(|time| time - first.start).collect();
+        let observed = replay::observed(evidence, chosen.clone());
+        let replayed = self.motions.each_ref();
+        let replayed = replayed.map(|motions| replay::chained(evidence, chosen.clone(), motions));
+        Replay {
+            run: evidence.runs()[first.run],
+            is_held_out,
+            times: every(&times, each),
+            observed: every(&observed, each),
+            replayed: replayed.map(|path| every(&path, each)),
+        }
+    }
+}
+
+/// Every so many of some values, and the last one.
+fn every<T: Copy>(values: &[T], each: usize) -> Vec<T> {
+    let last = values.len().saturating_sub(1);
+    let kept = values.iter().enumerate().filter(|(k, _)| k % each == 0 || *k == last);
+    kept.map(|(_, value)| *value).collect()
+}
+
+fn drawn(subject: &Subject, replay: &Replay) -> Figure {
     let held_out = if replay.is_held_out { ", held out of the fit" } else { "" };
     let title = format!("Dead reckoning of run {}{held_out}", replay.run);
     let explanation = "Where the recorded track speeds alone lead, from the first observed pose \
@@ -47,38 +149,12 @@ pub(super) fn figure(subject: &Subject) -> Option<Figure> {
         (Swatch::ring(), "start"),
     ];
     figure.legends.push(Legend::of_marks([158, sheet::TOP + 20], sheet::RIGHT, entries));
-    figure.panels.push(paths(&replay));
+    figure.panels.push(paths(replay));
     let distance = |a: &Pose, b: &Pose| (a.x - b.x).hypot(a.y - b.y);
     let turn = |a: &Pose, b: &Pose| a.relative(b).yaw.to_degrees();
-    figure.panels.push(errors(ERRORS[0], ["Error of place", "m"], &replay, distance));
-    figure.panels.push(errors(ERRORS[1], ["Error of heading", "°"], &replay, turn));
-    Some(figure)
-}
-
-/// The longest of the held-out runs, or of all where none was held out.
-fn replayed(subject: &Subject) -> Option<Replay> {
-    let View { evidence, is_held_out, .. } = subject.judging();
-    if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
-        return None;
-    }
-    let samples = evidence.samples();
-    let time = |run: usize| -> f64 {
-        samples.iter().filter(|sample| sample.run == run).map(|sample| sample.duration).sum()
-    };
-    let run =
-        (0..evidence.runs().len()).max_by(|&a, &b| time(a).total_cmp(&time(b)).then(b.cmp(&a)))?;
-    let first = samples.iter().position(|sample| sample.run == run)?;
-    let start = samples[first].start;
-    let count = samples[first..]
-        .iter()
-        .take_while(|sample| sample.run == run && sample.start - start <= MAX_TIME)
-        .count();
-    let chosen = first..first + count;
-    let observed = replay::observed(evidence, chosen.clone());
-    let replayed = [subject.vehicle, &subject.diagnosis.answer.corrected]
-        .map(|file| replay::chained(evidence, chosen.clone(), &replay::motions(evidence, file)));
-    let times = replay::times(evidence, chosen).iter().map(|time| time - start).collect();
-    Some(Replay { run: evidence.runs()[run], is_held_out, times, observed, replayed })
+    figure.panels.push(errors(ERRORS[0], ["Error of place", "m"], replay, distance));
+    figure.panels.push(errors(ERRORS[1], ["Error of heading", "°"], replay, turn));
+    figure
 }
 
 fn paths(replay: &Replay) -> Panel {

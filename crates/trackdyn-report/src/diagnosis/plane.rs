@@ -1,5 +1,6 @@
 //! Residuals over the plane of both track speeds.
 
+use super::log::Log;
 use super::sheet::{self, quantile};
 use super::words::CHANNELS;
 use super::{Subject, View};
@@ -19,6 +20,11 @@ const BARS: [i32; 2] = [1606, 2270];
 /// Cells along each axis; odd, so that a track at rest is in the middle of a cell.
 const CELLS: usize = 17;
 
+/// Pixels of the log as a page shows it.
+const PIXELS: f64 = 1000.0;
+/// Stretches of a cell at most.
+const MAX_STRETCHES: usize = 40;
+
 /// Radius of a steady point, pixels.
 const POINT: f64 = 6.0;
 
@@ -33,14 +39,16 @@ enum Stands {
 struct Spot {
     at: [f64; 2],
     value: f64,
+    /// The cell that it stands for.
+    cell: usize,
 }
 
 /// The mean residual of each channel and the size of all, before and after.
 pub(super) fn figure(subject: &Subject) -> Figure {
     let explanation = "What the model leaves unexplained of the motion, by the speeds of the left \
                        and the right track, in standard deviations of the noise; the same scale \
-                       above and below. White: nothing, or not driven. Of all cells the largest 2 \
-                       % share the last colour.";
+                       above and below. Without colour: nothing, or not driven. Of all cells the \
+                       largest 2 % share the last colour.";
     let title = "Where observation and model differ";
     let mut figure = sheet::sheet("plane", HEIGHT, title, explanation, subject.caption);
     let views = subject.views();
@@ -73,6 +81,10 @@ pub(super) fn figure(subject: &Subject) -> Figure {
         }
         spots
     });
+    let stretches = match shape {
+        Stands::Cell => stretches(subject, extent),
+        Stands::Point => Vec::new(),
+    };
     let limit = |values: &mut dyn Iterator<Item = f64>, least: f64| {
         quantile(values, 0.98).unwrap_or(0.0).max(least)
     };
@@ -90,7 +102,9 @@ pub(super) fn figure(subject: &Subject) -> Figure {
             if spots.is_empty() {
                 panel.explain_emptiness("not measured");
             } else {
-                panel.show_as(&title, shapes(spots, scale, extent, shape));
+                let of = |spot: &Spot| stretches.get(spot.cell).cloned();
+                let seen = spots.iter().map_while(of).collect();
+                panel.show_as(&title, shapes(spots, scale, extent, shape).from_stretches(seen));
             }
             let bar = |column: usize| Area::new(BARS[column], ROWS[row], 26, SIDE);
             if let Some(k) = [2, 3].iter().position(|last| *last == column) {
@@ -122,19 +136,14 @@ fn spots(
     });
     let values = samples.filter_map(|(view, index, sample)| {
         let value = of(view, index).filter(|value| value.is_finite())?;
-        Some(Spot { at: [sample.speeds.left, sample.speeds.right], value })
+        Some(Spot { at: [sample.speeds.left, sample.speeds.right], value, cell: 0 })
     });
     if let Stands::Point = shape {
         return values.collect();
     }
     let mut sums = vec![(0.0, 0.0); CELLS * CELLS];
-    let place = |speed: f64| {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
-        let cell = (f64::midpoint(speed / extent, 1.0) * real(CELLS)) as usize;
-        cell.min(CELLS - 1)
-    };
-    for Spot { at: [left, right], value } in values {
-        let (sum, count) = &mut sums[place(right) * CELLS + place(left)];
+    for Spot { at, value, .. } in values {
+        let (sum, count) = &mut sums[cell(at, extent)];
         *sum += value;
         *count += 1.0;
     }
@@ -143,8 +152,45 @@ fn spots(
     sums.map(|(index, (sum, count))| Spot {
         at: [middle(index % CELLS), middle(index / CELLS)],
         value: sum / count,
+        cell: index,
     })
     .collect()
+}
+
+/// The cell that holds both track speeds.
+fn cell([left, right]: [f64; 2], extent: f64) -> usize {
+    let place = |speed: f64| {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an index")]
+        let cell = (f64::midpoint(speed / extent, 1.0) * real(CELLS)) as usize;
+        cell.min(CELLS - 1)
+    };
+    place(right) * CELLS + place(left)
+}
+
+/// Stretches of the log in which the tracks run as in each cell, the longest ones in the order of
+/// time; those less than a pixel of the log apart are one.
+fn stretches(subject: &Subject, extent: f64) -> Vec<Vec<[f64; 2]>> {
+    let mut stretches: Vec<Vec<[f64; 2]>> = vec![Vec::new(); CELLS * CELLS];
+    let Some(log) = Log::of(subject) else { return stretches };
+    let pixel = log.duration() / PIXELS;
+    let mut runs = vec![None; CELLS * CELLS];
+    for entry in &log.entries {
+        let speeds = entry.sample.speeds;
+        let cell = cell([speeds.left, speeds.right], extent);
+        let run = Some(entry.sample.run);
+        let is_same = std::mem::replace(&mut runs[cell], run) == run;
+        match stretches[cell].last_mut() {
+            Some(last) if is_same && entry.span[0] - last[1] < pixel => last[1] = entry.span[1],
+            _ => stretches[cell].push(entry.span),
+        }
+    }
+    for of_cell in &mut stretches {
+        let length = |[start, end]: &[f64; 2]| end - start;
+        of_cell.sort_by(|a, b| length(b).total_cmp(&length(a)));
+        of_cell.truncate(MAX_STRETCHES);
+        of_cell.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    }
+    stretches
 }
 
 /// An empty plane.

@@ -9,6 +9,7 @@ use crate::figure::{
 };
 use crate::text::{Horizontal, Style, TITLE_SIZE, Vertical};
 use crate::ticks::number;
+use std::collections::HashSet;
 use trackdyn_core::real;
 use trackdyn_diagnose::exposure::Exposure;
 
@@ -17,6 +18,10 @@ const PLOT: [i32; 2] = [620, 420];
 const COLUMNS: [i32; 3] = [158, 918, 1678];
 const ROW: i32 = 640;
 const POINT: Rgb = [176, 196, 214];
+/// Radius of a sample, pixels.
+const RADIUS: f64 = 3.0;
+/// Samples that a panel shows at most: a page has dozens of panels.
+const MAX_SHOWN: usize = 700;
 /// Means of about this many groups of samples.
 const GROUPS: f64 = 14.0;
 /// Samples that a group needs.
@@ -40,7 +45,7 @@ pub(super) fn figure(subject: &Subject) -> Figure {
     };
     let mut figure = sheet::sheet("signatures", height, title, explanation, subject.caption);
     let entries = [
-        (Swatch::disc(POINT), "samples"),
+        (Swatch::disc(POINT), "samples, one for those on each other"),
         (Swatch::entry(1), "means of samples of like change, with 95 % intervals"),
         (Swatch::Line(INK, 3.0), "predicted: slope one"),
     ];
@@ -84,7 +89,8 @@ fn show(panel: &mut Panel, points: &[[f64; 2]], groups: &[Group]) {
         let reason = if is_measured { "it changes nothing here" } else { "not measured" };
         return panel.explain_emptiness(reason);
     }
-    panel.show_as("samples", Points::new(points.to_vec(), Marker::disc(3.0, POINT)));
+    let shown = apart(points, panel);
+    panel.show_as("samples", Points::new(shown, Marker::disc(RADIUS, POINT)));
     let ends = vec![[-extent, -extent], [extent, extent]];
     panel.show_as("predicted", Line { points: ends, thickness: 3.0, colour: INK });
     let means =
@@ -103,6 +109,22 @@ fn show(panel: &mut Panel, points: &[[f64; 2]], groups: &[Group]) {
         let corner = [extent, panel.y.range[0]];
         let label = Label::new(format!("beyond the frame: {hidden}"), corner, style);
         panel.labels.push(label.shifted([-12, -12]).on_white());
+    }
+}
+
+/// Points of which one stands for all that lie on it; further ones, too, where many would be left.
+fn apart(points: &[[f64; 2]], panel: &Panel) -> Vec<[f64; 2]> {
+    let mut distance = 2.0 * RADIUS;
+    loop {
+        let mut taken = HashSet::new();
+        #[expect(clippy::cast_possible_truncation, reason = "places on the sheet")]
+        let cell = |point: [f64; 2]| panel.pixel(point).map(|place| (place / distance) as i64);
+        let is_first = |point: &&[f64; 2]| panel.contains(**point) && taken.insert(cell(**point));
+        let shown: Vec<_> = points.iter().filter(is_first).copied().collect();
+        if shown.len() <= MAX_SHOWN {
+            return shown;
+        }
+        distance *= 1.5;
     }
 }
 
@@ -162,7 +184,7 @@ fn group(points: &[[f64; 2]]) -> Option<Group> {
 
 #[cfg(test)]
 mod tests {
-    use super::groups;
+    use super::*;
 
     #[test]
     fn the_few_samples_that_feel_an_effect_have_groups_of_their_own() {
@@ -171,5 +193,20 @@ mod tests {
         let groups = groups(&points);
         assert!(groups.iter().any(|group| (group.mean[0] - 5.0).abs() < 1e-9));
         assert!(super::groups(&[]).is_empty());
+    }
+
+    #[test]
+    fn of_many_samples_a_few_stand_for_all() {
+        let axis = || Axis::new("", "", [-1.0, 1.0]);
+        let panel = Panel::new("", Area::new(0, 0, PLOT[0], PLOT[1]), axis(), axis());
+        // Fibonacci's lattice fills the panel evenly
+        let place = |k: i32, step: f64| 2.0 * (f64::from(k) * step).fract() - 1.0;
+        let points: Vec<_> = (0..20_000).map(|k| [place(k, 0.618_034), place(k, 5e-5)]).collect();
+        let shown = apart(&points, &panel);
+        assert!((MAX_SHOWN / 3..=MAX_SHOWN).contains(&shown.len()), "{}", shown.len());
+        assert!(shown.iter().all(|point| points.contains(point)));
+        let few: Vec<_> = points.iter().step_by(1000).copied().collect();
+        assert_eq!(apart(&few, &panel), few);
+        assert!(apart(&[[2.0, 0.0]], &panel).is_empty());
     }
 }

@@ -53,10 +53,14 @@ pub(super) fn significant(value: f64, digits: i32) -> String {
 /// An estimate and the ends of its interval, to two digits of half of it: a gain that is 1.0023 is
 /// not 1.
 pub(super) fn with_interval(interval: &Interval) -> [String; 3] {
+    sized([interval.value, interval.low, interval.high])
+}
+
+/// A value and the ends of its interval.
+pub(super) fn sized(numbers: [f64; 3]) -> [String; 3] {
     /// Smaller ones are read as powers of ten.
     const MIN_HALF_WIDTH: f64 = 1e-6;
-    let numbers = [interval.value, interval.low, interval.high];
-    let half = (interval.high - interval.low) / 2.0;
+    let half = (numbers[2] - numbers[1]) / 2.0;
     if half >= MIN_HALF_WIDTH && numbers.iter().all(|value| value.is_finite()) {
         numbers.map(|value| number(value, decimals(half)))
     } else {

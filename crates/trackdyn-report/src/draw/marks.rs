@@ -155,14 +155,16 @@ fn whisker(paper: &mut impl Paper, at: [f64; 2], ends: [f64; 2], is_across: bool
     }
 }
 
+/// Boxes, then their outlines: outlines of one look are one element of a picture.
 fn boxes(of: &Boxes, panel: &Panel, paper: &mut impl Paper) {
-    for (member, corners) in of.boxes.iter().enumerate() {
-        let area = panel.area(*corners);
-        if let Some(paint) = &of.paint {
-            paper.fill(area, paint.colour(member));
+    if let Some(paint) = &of.paint {
+        for (member, corners) in of.boxes.iter().enumerate() {
+            paper.fill(panel.area(*corners), paint.colour(member));
         }
-        if let Some((thickness, colour)) = of.edge {
-            paper.outline(area, thickness, colour);
+    }
+    if let Some((thickness, colour)) = of.edge {
+        for corners in &of.boxes {
+            paper.outline(panel.area(*corners), thickness, colour);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Scalable pictures: SVG with text as text.
 
 use super::paper::Paper;
-use crate::colour::{ColourMap, Rgb};
+use crate::colour::{ColourMap, Rgb, hex};
 use crate::figure::{Area, Cell, Hatch, Scale};
 use crate::text::{Horizontal, SUBSCRIPT_DROP, SUBSCRIPT_SIZE, Style, subscript};
 use std::collections::HashSet;
@@ -162,6 +162,18 @@ impl Paper for Svg {
         }
         self.begin(Look::Fill(hex(colour)));
         self.area(area);
+    }
+
+    /// One stroke in place of four rectangles.
+    fn outline(&mut self, area: Area, thickness: i32, colour: Rgb) {
+        let Area { left, top, width, height } = area;
+        if width <= thickness || height <= thickness {
+            return self.fill(area, colour);
+        }
+        let thickness = i64::from(thickness);
+        self.begin(Look::Stroke(colour, 10 * thickness));
+        let corner = [left, top].map(|place| 10 * i64::from(place) - 5 + 5 * thickness);
+        self.rectangle(corner, [width, height].map(|size| 10 * (i64::from(size) - thickness)));
     }
 
     fn line(&mut self, from: [f64; 2], to: [f64; 2], thickness: f64, colour: Rgb) {
@@ -340,10 +352,6 @@ fn escaped(text: &str) -> String {
     safe.replace('"', "&quot;").replace('\'', "&#39;")
 }
 
-fn hex([r, g, b]: Rgb) -> String {
-    format!("#{r:02x}{g:02x}{b:02x}")
-}
-
 /// The nearest tenth of a pixel; places far outside the sheet stay outside.
 #[expect(clippy::cast_possible_truncation, reason = "places on the sheet")]
 fn tenths(place: f64) -> i64 {
@@ -386,6 +394,16 @@ mod tests {
             body,
             "<path stroke=\"#1a1a1a\" stroke-width=\"3\" d=\"m0 0l10 .5l-1-2.8m-4 7.3h0\"/>\
              <path fill=\"#1a1a1a\" d=\"m.5 1.5h3v4h-3z\"/>"
+        );
+    }
+
+    #[test]
+    fn an_outline_lies_inside_its_rectangle() {
+        let body = body(|svg| svg.outline(Area::new(10, 20, 30, 40), 2, INK));
+        // From half a pixel before the first row, one pixel inside
+        assert_eq!(
+            body,
+            "<path stroke=\"#1a1a1a\" stroke-width=\"2\" d=\"m10.5 20.5h28v38h-28z\"/>"
         );
     }
 

@@ -298,13 +298,24 @@ pub struct Series {
     pub name: String,
     /// What is drawn.
     pub sign: Sign,
+    /// Stretches of the log that each member stands for, s on the axis of time of the figure
+    /// `time`; empty where members stand for none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stretches: Vec<Vec<[f64; 2]>>,
+}
+
+impl Series {
+    /// The series, each of whose members stands for these stretches of the log.
+    pub fn from_stretches(self, stretches: Vec<Vec<[f64; 2]>>) -> Self {
+        Self { stretches, ..self }
+    }
 }
 
 macro_rules! series_of {
     ($($sign:ident),*) => {$(
         impl From<$sign> for Series {
             fn from(sign: $sign) -> Self {
-                Self { name: String::new(), sign: Sign::$sign(sign) }
+                Self { name: String::new(), sign: Sign::$sign(sign), stretches: Vec::new() }
             }
         }
     )*};

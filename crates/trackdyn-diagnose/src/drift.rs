@@ -60,7 +60,8 @@ pub struct Compared {
 impl Drift {
     /// Drift over all runs of evidence; none of a table of steady points.
     ///
-    /// A piece crosses no gap, and no sample that is lost or has no motion. Pieces are as long as ten of them allow.
+    /// A piece crosses no gap, and no sample that is lost or has no motion. Pieces are as long as
+    /// ten of them allow.
     pub fn of(evidence: &Weighted, filed: &VehicleFile, corrected: &VehicleFile) -> Self {
         if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
             return Self::default();

@@ -321,8 +321,8 @@ impl std::fmt::Display for Contradiction {
                 f,
                 "the poses follow the track speeds over seconds, and not as through a filter, \
                  which leaves {:.0} % of the turning: commands that the tracks do not keep up with \
-                 in place of measured speeds? Take what encoders measure (--joint-signal, \
-                 --tracks-topic, --left-signal), or drive steady for longer (--settle)",
+                 in place of measured speeds? Expected what encoders measure (--joint-signal, \
+                 --tracks-topic, --left-signal), or each command held until the robot follows",
                 100.0 * left
             ),
             Self::Response { gap, fit } => write!(

@@ -11,7 +11,7 @@ use crate::least_squares::{
 use crate::noise::{Noise, noise};
 use crate::observations::Observations;
 use crate::parameters::{Free, Parameters};
-use crate::response::{self, Response};
+use crate::response::Response;
 use crate::scatter::scatter;
 use crate::sensor::Nuisance;
 use crate::separation::Separation;
@@ -220,7 +220,8 @@ impl<'a> Seen<'a> {
         let applied = response.as_ref().and_then(|response| response.applied(recording));
         let (recording, segments) = match applied {
             Some(weighted) => {
-                let minimum_duration = response::DURATION;
+                let minimum_duration =
+                    response.as_ref().map_or(segments.minimum_duration, Response::segment_duration);
                 let segments = SegmentOptions { minimum_duration, ..segments };
                 (Cow::Owned(weighted), segments)
             }

@@ -107,6 +107,11 @@ impl fmt::Display for Method {
     }
 }
 
+/// Noise of the encoder of a side; none where its speeds are commands, or too few.
+pub(crate) fn of_encoder(recording: &Recording, side: Side) -> Option<EncoderNoise> {
+    encoder::noise(recording, side)
+}
+
 /// Measures the noise; `tau` is the clock offset of the poses, s ([`clock`](crate::clock)).
 pub fn noise(recording: &Recording, tau: f64) -> Noise {
     let encoders = PerSide::from_fn(|side| encoder::noise(recording, side));

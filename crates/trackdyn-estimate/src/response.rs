@@ -14,7 +14,9 @@
 //!
 //! # Assumes
 //! The response does not change within the log and hardly with the speed. What lies beyond three
-//! seconds is missed: the interval counts what half the reach misses.
+//! seconds is missed: the interval counts what half the reach misses. What a response leaves beyond
+//! noise is no filter's, as of tracks whose acceleration is limited: the interval counts it, and
+//! where it is large nothing is given.
 //!
 //! # Sources
 //! Distributed lags and their long-run multiplier: Greene, Econometric Analysis, 7th ed., chapter
@@ -24,8 +26,8 @@ mod rows;
 
 use crate::{Blocks, Extent, Interval};
 use nalgebra::{DMatrix, DVector};
-use rows::{Part, Rows, smoothed};
-use trackdyn_core::real;
+use rows::{Delays, Part, Rows, smoothed};
+use trackdyn_core::{Side, real};
 use trackdyn_recording::Recording;
 
 /// Times over which turning is compared, s.
@@ -47,13 +49,19 @@ const MIN_ERRORS: f64 = 4.0;
 /// no harm.
 const MIN_DIFFERENCE: f64 = 0.005;
 
-/// Part of the squares of the turning that a response may leave: a tenth of the turning. Rough
-/// ground and stamps that jitter leave less; tracks that cannot follow commands leave more, and
-/// then their response is none of a filter.
+/// Part of the squares of the turning that a response may leave beyond the noise of poses and
+/// stamps: a tenth of the turning. Rough ground leaves less; a robot that follows in another way
+/// than through a filter leaves more.
 const MAX_LEFT: f64 = 0.01;
 
-/// Standard errors by which delays show where more is left.
+/// This where the speeds are commands and delays gain by so many standard errors: tracks whose
+/// acceleration is limited leave it, and then x_r − x_l is off by some percent.
+const MAX_LEFT_BY_COMMANDS: f64 = 0.002;
 const MIN_ERRORS_WHERE_LEFT: f64 = 2.5;
+
+/// Least standard error of a distance by commands, as share of it: the response to steps of all
+/// sizes, which limits of acceleration make one for each size, leaves some tenths of a percent.
+const ERROR_BY_COMMANDS: f64 = 0.002;
 
 /// Shortest block, s: longer than the times that are compared.
 const MIN_BLOCK: f64 = 1.5 * DURATION;
@@ -67,7 +75,7 @@ const BLOCKS_PER_UNKNOWN: usize = 2;
 /// How poses follow the track speeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
-    /// x_r − x_l over seconds, m: whatever the response where there is one, else at once.
+    /// x_r − x_l over seconds, m: whatever the response where delays gain, else at once.
     pub gap: Interval,
     /// x_r − x_l by a delay alone over the times of usual segments, m.
     pub gap_at_once: f64,
@@ -85,15 +93,15 @@ impl Response {
         let blocks = blocks(recording);
         let over = |duration: f64| Rows::of(recording, &blocks, tau, duration);
         let (long, short) = (over(DURATION), over(0.0));
-        let at_once = short.fit(0, 1)?;
+        let at_once = short.fit(Delays::ONE)?;
         let count = at_once.blocks.len();
         if count < MIN_BLOCKS {
             return None;
         }
-        let every = if count < BLOCKS_PER_UNKNOWN * (2 * REACH + 2) { COARSE } else { 1 };
-        let free = long.fit(REACH, every)?;
-        let [half, delay_alone] = [long.fit(REACH / 2, every)?, long.fit(0, 1)?];
-        let by_same_weights = long.fit_weighted(0, 1, &free.weights)?;
+        let step = if count < BLOCKS_PER_UNKNOWN * (2 * REACH + 2) { COARSE } else { 1 };
+        let within = |reach: usize| long.fit(Delays::Every { half: reach / step, step });
+        let [free, half, delay_alone] = [within(REACH)?, within(REACH / 2)?, within(0)?];
+        let shifted = long.fit_weighted(Delays::Shifted, &free.weights)?;
         let gap_at_once = 1.0 / at_once.sum();
         let differences: Option<Vec<f64>> = free
             .blocks
@@ -102,23 +110,40 @@ impl Response {
             .collect();
         let (gap, of_delay) = (free.gap()?, delay_alone.gap()?);
         let difference = Interval::of_jackknife(gap.value - gap_at_once, &differences?)?;
-        let errors =
-            (difference.value.abs() / difference.deviation).max(gain(&by_same_weights, &free));
-        let left = free.left();
-        let is_left = left > MAX_LEFT && errors > MIN_ERRORS_WHERE_LEFT;
-        let left = is_left.then(|| left.sqrt());
-        let shows = errors > MIN_ERRORS && difference.value.abs() > MIN_DIFFERENCE * gap.value;
+        let off = difference.value.abs();
+        let (gain, by_noise) = (gain(&shifted, &free), at_once.mean_left()[0]);
+        let [all_left, turning] = free.mean_left();
+        // The noise of poses and of their stamps is as large over a short time.
+        let beyond = ((all_left - by_noise) / turning).max(0.0);
+        let gains = gain > MIN_ERRORS_WHERE_LEFT;
+        let are_held = are_held(recording);
+        let is_left = beyond > MAX_LEFT && (gains || are_held)
+            || beyond > MAX_LEFT_BY_COMMANDS && gains && are_held;
+        let left = is_left.then(|| beyond.sqrt());
+        let is_sure = off > MIN_ERRORS * difference.deviation
+            || gain > MIN_ERRORS && off > difference.deviation;
+        let shows = is_sure && off > MIN_DIFFERENCE * gap.value;
         if !shows || gap.low <= 0.0 {
-            return Some(Self { gap: of_delay, gap_at_once, left, weights: None });
+            let gap = if gain > MIN_ERRORS && gap.low > 0.0 { gap } else { of_delay };
+            return Some(Self { gap, gap_at_once, left, weights: None });
         }
         let missed = 1.0 / half.sum() - gap.value;
+        // What is left may go with the turning.
+        let share = beyond.max(if are_held { ERROR_BY_COMMANDS } else { 0.0 });
+        let deviation = gap.deviation.hypot(missed).hypot(share * gap.value);
         let weights = free.coefficients.iter().map(|c| c / free.sum()).collect();
         Some(Self {
-            gap: Interval::new(gap.value, gap.deviation.hypot(missed), free.blocks.len(), 1),
+            gap: Interval::new(gap.value, deviation, free.blocks.len(), 1),
             gap_at_once,
             left,
-            weights: Some((weights, STEP * real(every))),
+            weights: Some((weights, STEP * real(step))),
         })
+    }
+
+    /// Time over which segments show what this response foretells, s.
+    pub fn segment_duration(&self) -> f64 {
+        let step = self.weights.as_ref().map_or(STEP, |(_, step)| *step);
+        DURATION * STEP / step
     }
 
     /// Whether the poses follow the track speeds at once, but for a delay.
@@ -146,14 +171,24 @@ impl Response {
     }
 }
 
-/// What delays gain over one delay in blocks that they were not fitted to, in its standard errors.
+/// What delays gain over one that is shifted in blocks that they were not fitted to, by the
+/// logarithm of what is left, in its standard errors.
 fn gain(one: &Fit, several: &Fit) -> f64 {
     let pairs = one.blocks.iter().zip(&several.blocks);
-    let gains: Vec<f64> = pairs.map(|(one, several)| one.left - several.left).collect();
+    let gains: Vec<f64> = pairs
+        .filter(|(one, several)| one.left > 0.0 && several.left > 0.0)
+        .map(|(one, several)| (one.left / several.left).ln())
+        .collect();
     let count = real(gains.len());
     let mean = gains.iter().sum::<f64>() / count;
     let scatter: f64 = gains.iter().map(|gain| (gain - mean).powi(2)).sum();
     mean / (scatter / (count * (count - 1.0))).sqrt()
+}
+
+/// Whether the speeds of both sides are commands: they are held for longer than a measured speed.
+fn are_held(recording: &Recording) -> bool {
+    let noise = Side::BOTH.map(|side| crate::noise::of_encoder(recording, side));
+    noise.iter().all(Option::is_none)
 }
 
 /// Parts that count as independent: of many runs these, else pieces that are long against the
@@ -240,13 +275,15 @@ impl Fit {
         self.coefficients.iter().sum()
     }
 
-    /// Part of the squares that is left in blocks that were not fitted.
-    fn left(&self) -> f64 {
-        let [left, all] = self
+    /// Means of the weighted squares that are left in blocks that were not fitted, and of those of
+    /// the turns, rad².
+    fn mean_left(&self) -> [f64; 2] {
+        let rows: f64 = self.weights.iter().sum();
+        let sums = self
             .blocks
             .iter()
             .fold([0.0; 2], |[left, all], block| [left + block.left, all + block.squares]);
-        left / all
+        sums.map(|sum| sum / rows)
     }
 
     fn gap(&self) -> Option<Interval> {

@@ -25,6 +25,28 @@ const ROUNDS: usize = 10;
 /// Most rows: a long log says enough by a part of them.
 const MAX_ROWS: usize = 30_000;
 
+/// By which delays turns are fitted.
+#[derive(Clone, Copy)]
+pub(super) enum Delays {
+    /// By one, and by how it is shifted.
+    Shifted,
+    /// By so many steps either way, each of so many of the steps of rows.
+    Every { half: usize, step: usize },
+}
+
+impl Delays {
+    /// One delay.
+    pub(super) const ONE: Self = Self::Every { half: 0, step: 1 };
+
+    /// Number of unknowns, the last of which is b.
+    fn count(self) -> usize {
+        match self {
+            Self::Shifted => 3,
+            Self::Every { half, .. } => 2 * half + 2,
+        }
+    }
+}
+
 /// Turns over times of one length.
 pub(super) struct Rows {
     /// Δψ, rad.
@@ -91,27 +113,33 @@ impl Rows {
         }
     }
 
-    /// What a turn is fitted by, with so many delays, of which one in `every` is taken.
-    fn row(&self, k: usize, count: usize, every: usize) -> DVector<f64> {
-        let half = (count - 2) / 2;
-        let at = |j: usize| {
-            if j + 1 == count { 2 * REACH + 1 } else { REACH + j * every - half * every }
-        };
-        DVector::from_fn(count, |j, _| self.ways[k][at(j)])
+    /// What a turn is fitted by.
+    fn row(&self, k: usize, delays: Delays) -> DVector<f64> {
+        let ways = &self.ways[k];
+        let time = ways[2 * REACH + 1];
+        match delays {
+            Delays::Shifted => {
+                DVector::from_vec(vec![ways[REACH], ways[REACH + 1] - ways[REACH - 1], time])
+            }
+            Delays::Every { half, step } => {
+                let at = |j: usize| ways[REACH + j * step - half * step];
+                let count = delays.count();
+                DVector::from_fn(count, |j, _| if j + 1 == count { time } else { at(j) })
+            }
+        }
     }
 
     /// Least squares by these weights.
-    pub(super) fn fit_weighted(&self, reach: usize, every: usize, weights: &[f64]) -> Option<Fit> {
-        let count = 2 * (reach / every) + 2;
-        let row = |k: usize| self.row(k, count, every);
-        Fit::of(&self.parts(count, &row, weights), weights.to_vec())
+    pub(super) fn fit_weighted(&self, delays: Delays, weights: &[f64]) -> Option<Fit> {
+        let row = |k: usize| self.row(k, delays);
+        Fit::of(&self.parts(delays.count(), &row, weights), weights.to_vec())
     }
 
-    /// Robust least squares with every so many of the delays up to a number of steps either way,
-    /// with the fits without each block; none where rows are few or the delays are not told apart.
-    pub(super) fn fit(&self, reach: usize, every: usize) -> Option<Fit> {
-        let count = 2 * (reach / every) + 2;
-        let row = |k: usize| self.row(k, count, every);
+    /// Robust least squares, with the fits without each block; none where rows are few or the
+    /// delays are not told apart.
+    pub(super) fn fit(&self, delays: Delays) -> Option<Fit> {
+        let count = delays.count();
+        let row = |k: usize| self.row(k, delays);
         if self.turns.len() < 4 * count {
             return None;
         }

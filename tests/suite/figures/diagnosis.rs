@@ -259,7 +259,8 @@ fn check_values(figures: &[Figure], values: &str) {
     }
     let Some(time) = figures.iter().find(|figure| figure.name == "time") else {
         assert!(
-            values["time"].is_null() && values["paths"].as_sequence().expect("paths").is_empty()
+            values["time"].is_null()
+                && values["paths"]["pieces"].as_sequence().expect("paths").is_empty()
         );
         return;
     };
@@ -290,13 +291,17 @@ fn check_values(figures: &[Figure], values: &str) {
         assert!(ends.iter().all(|place| (0.0..=end + 1.0).contains(place)));
         assert!(ends.windows(2).all(|pair| pair[0] <= pair[1]));
     }
-    for path in values["paths"].as_sequence().expect("paths") {
-        let count = path["t"].as_sequence().expect("times").len();
+    let names = values["paths"]["names"].as_sequence().expect("names").len();
+    for piece in values["paths"]["pieces"].as_sequence().expect("paths") {
+        let count = piece["t"].as_sequence().expect("times").len();
         assert!(count >= 2);
-        for line in path["lines"].as_sequence().expect("lines") {
-            for along in ["x", "y"] {
-                assert_eq!(line[along].as_sequence().expect("places").len(), count);
-            }
+        for along in ["x", "y"] {
+            let paths = piece[along].as_sequence().expect("paths");
+            assert_eq!(paths.len(), names);
+            assert!(paths.iter().all(|path| path.as_sequence().expect("places").len() == count));
+        }
+        for error in piece["errors"].as_sequence().expect("errors") {
+            assert_eq!(error.as_sequence().expect("paths").len(), names - 1);
         }
     }
 }

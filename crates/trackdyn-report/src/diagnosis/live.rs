@@ -29,7 +29,7 @@ struct All {
     #[serde(skip_serializing_if = "Option::is_none")]
     time: Option<Times>,
     plane: Plane,
-    paths: Vec<Paths>,
+    paths: Paths,
 }
 
 /// A run on the axis of time.
@@ -62,12 +62,11 @@ impl Live {
         let samples = log.as_ref().map_or(0, |log| log.entries.len());
         let each = samples.div_ceil(POSES).max(1);
         let pieces = path::pieces(subject, each);
-        let pieces = log.iter().flat_map(|log| pieces.iter().filter_map(|piece| paths(log, piece)));
         let all = All {
             runs: log.as_ref().map_or_else(Vec::new, |log| runs(log, subject.evidence().begin())),
             time: named("time").map(times),
             plane: named("plane").map(plane).unwrap_or_default(),
-            paths: pieces.collect(),
+            paths: log.as_ref().map_or_else(Paths::default, |log| paths(log, &pieces)),
         };
         Ok(Self {
             // a name that holds the end of the element would end it

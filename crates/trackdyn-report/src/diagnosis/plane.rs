@@ -27,6 +27,8 @@ const MAX_STRETCHES: usize = 40;
 
 /// Radius of a steady point, pixels.
 const POINT: f64 = 6.0;
+/// Steady points at most that are shown one by one: more lie on each other.
+const MAX_POINTS: usize = 1500;
 
 /// What a spot of the plane stands for: the samples of a cell, or one steady point.
 #[derive(Clone, Copy)]
@@ -57,9 +59,10 @@ pub(super) fn figure(subject: &Subject) -> Figure {
         .flat_map(|view| view.evidence.samples())
         .map(|sample| sample.speeds.left.abs().max(sample.speeds.right.abs()))
         .fold(0.0, f64::max);
+    let count: usize = views.iter().map(|view| view.evidence.samples().len()).sum();
     let shape = match subject.evidence().origin() {
-        Origin::Drive(_) => Stands::Cell,
-        Origin::SteadyPoints(_) => Stands::Point,
+        Origin::SteadyPoints(_) if count <= MAX_POINTS => Stands::Point,
+        Origin::SteadyPoints(_) | Origin::Drive(_) => Stands::Cell,
     };
     let room = match shape {
         Stands::Cell => 1.03,
@@ -171,7 +174,7 @@ fn cell([left, right]: [f64; 2], extent: f64) -> usize {
 /// time; those less than a pixel of the log apart are one.
 fn stretches(subject: &Subject, extent: f64) -> Vec<Vec<[f64; 2]>> {
     let mut stretches: Vec<Vec<[f64; 2]>> = vec![Vec::new(); CELLS * CELLS];
-    let Some(log) = Log::of(subject) else { return stretches };
+    let Some(log) = Log::of(subject) else { return Vec::new() };
     let pixel = log.duration() / PIXELS;
     let mut runs = vec![None; CELLS * CELLS];
     for entry in &log.entries {

@@ -20,8 +20,8 @@ const ROW: i32 = 640;
 const POINT: Rgb = [176, 196, 214];
 /// Radius of a sample, pixels.
 const RADIUS: f64 = 3.0;
-/// Samples that a panel shows at most: a page has dozens of panels.
-const MAX_SHOWN: usize = 700;
+/// Samples that the figure shows at most, and those of a panel: the page carries them all.
+const MAX_SHOWN: [usize; 2] = [8400, 700];
 /// Means of about this many groups of samples.
 const GROUPS: f64 = 14.0;
 /// Samples that a group needs.
@@ -54,13 +54,14 @@ pub(super) fn figure(subject: &Subject) -> Figure {
         let text = "No effect of the catalogue changes anything that this evidence can see.";
         figure.write(text, [158, TOP + 40], Style::new(TITLE_SIZE));
     }
+    let most = (MAX_SHOWN[0] / (3 * exposures.len().max(1))).min(MAX_SHOWN[1]);
     for (row, exposure) in exposures.iter().enumerate() {
-        figure.panels.extend(effect(subject, exposure, TOP + rows(row) * ROW));
+        figure.panels.extend(effect(subject, exposure, TOP + rows(row) * ROW, most));
     }
     figure
 }
 
-fn effect(subject: &Subject, exposure: &Exposure, top: i32) -> [Panel; 3] {
+fn effect(subject: &Subject, exposure: &Exposure, top: i32, most: usize) -> [Panel; 3] {
     let changes = exposure.predicted.iter().flat_map(|change| change.iter().copied());
     let extent = 1.1 * quantile(changes.map(f64::abs), 0.997).unwrap_or(0.0);
     let extent = if extent > 0.0 { extent } else { 1.0 };
@@ -75,13 +76,13 @@ fn effect(subject: &Subject, exposure: &Exposure, top: i32) -> [Panel; 3] {
         let y = Axis { is_labelled: channel == 0, ..y };
         let title = format!("{}: {}", id(exposure.effect), CHANNELS[channel]);
         let mut panel = Panel::new(&title, place, x, y);
-        show(&mut panel, &all[channel], &groups[channel]);
+        show(&mut panel, &all[channel], &groups[channel], most);
         panel
     })
 }
 
 /// Samples and their means in a panel.
-fn show(panel: &mut Panel, points: &[[f64; 2]], groups: &[Group]) {
+fn show(panel: &mut Panel, points: &[[f64; 2]], groups: &[Group], most: usize) {
     let extent = panel.x.range[1];
     let largest = points.iter().fold(0.0_f64, |most, point| most.max(point[0].abs()));
     if largest < MIN_CHANGE * extent {
@@ -89,7 +90,7 @@ fn show(panel: &mut Panel, points: &[[f64; 2]], groups: &[Group]) {
         let reason = if is_measured { "it changes nothing here" } else { "not measured" };
         return panel.explain_emptiness(reason);
     }
-    let shown = apart(points, panel);
+    let shown = apart(points, panel, most);
     panel.show_as("samples", Points::new(shown, Marker::disc(RADIUS, POINT)));
     let ends = vec![[-extent, -extent], [extent, extent]];
     panel.show_as("predicted", Line { points: ends, thickness: 3.0, colour: INK });
@@ -112,8 +113,9 @@ fn show(panel: &mut Panel, points: &[[f64; 2]], groups: &[Group]) {
     }
 }
 
-/// Points of which one stands for all that lie on it; further ones, too, where many would be left.
-fn apart(points: &[[f64; 2]], panel: &Panel) -> Vec<[f64; 2]> {
+/// Points of which one stands for all that lie on it; for further ones, too, where more than
+/// `most` would be left.
+fn apart(points: &[[f64; 2]], panel: &Panel, most: usize) -> Vec<[f64; 2]> {
     let mut distance = 2.0 * RADIUS;
     loop {
         let mut taken = HashSet::new();
@@ -121,7 +123,7 @@ fn apart(points: &[[f64; 2]], panel: &Panel) -> Vec<[f64; 2]> {
         let cell = |point: [f64; 2]| panel.pixel(point).map(|place| (place / distance) as i64);
         let is_first = |point: &&[f64; 2]| panel.contains(**point) && taken.insert(cell(**point));
         let shown: Vec<_> = points.iter().filter(is_first).copied().collect();
-        if shown.len() <= MAX_SHOWN {
+        if shown.len() <= most {
             return shown;
         }
         distance *= 1.5;
@@ -202,11 +204,12 @@ mod tests {
         // Fibonacci's lattice fills the panel evenly
         let place = |k: i32, step: f64| 2.0 * (f64::from(k) * step).fract() - 1.0;
         let points: Vec<_> = (0..20_000).map(|k| [place(k, 0.618_034), place(k, 5e-5)]).collect();
-        let shown = apart(&points, &panel);
-        assert!((MAX_SHOWN / 3..=MAX_SHOWN).contains(&shown.len()), "{}", shown.len());
+        let most = MAX_SHOWN[1];
+        let shown = apart(&points, &panel, most);
+        assert!((most / 3..=most).contains(&shown.len()), "{}", shown.len());
         assert!(shown.iter().all(|point| points.contains(point)));
         let few: Vec<_> = points.iter().step_by(1000).copied().collect();
-        assert_eq!(apart(&few, &panel), few);
-        assert!(apart(&[[2.0, 0.0]], &panel).is_empty());
+        assert_eq!(apart(&few, &panel, most), few);
+        assert!(apart(&[[2.0, 0.0]], &panel, most).is_empty());
     }
 }

@@ -113,13 +113,19 @@ fn rule(rule: &Rule, panel: &Panel, paper: &mut impl Paper) {
     }
 }
 
+/// Points, edges of all below: neighbours that look alike are one element of a picture. Among
+/// discs with edges those of a colour follow each other.
 fn points(of: &Points, panel: &Panel, paper: &mut impl Paper) {
-    for (member, &point) in of.points.iter().enumerate() {
-        let at = panel.pixel(point);
-        if let (Some(edge), Shape::Disc(radius)) = (of.edge, of.shape) {
-            paper.disc(at, radius + 1.0, edge);
+    let mut members: Vec<usize> = (0..of.points.len()).collect();
+    if let (Some(edge), Shape::Disc(radius)) = (of.edge, of.shape) {
+        for &point in &of.points {
+            paper.disc(panel.pixel(point), radius + 1.0, edge);
         }
-        marker(paper, Marker { shape: of.shape, colour: of.paint.colour(member) }, at);
+        members.sort_by_key(|&member| of.paint.colour(member));
+    }
+    for member in members {
+        let marker = Marker { shape: of.shape, colour: of.paint.colour(member) };
+        self::marker(paper, marker, panel.pixel(of.points[member]));
     }
 }
 

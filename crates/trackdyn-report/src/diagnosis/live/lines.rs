@@ -8,23 +8,23 @@ use serde::Serialize;
 #[derive(Serialize)]
 pub(super) struct Lines {
     pub title: String,
-    pub label: String,
     pub unit: String,
     pub range: [f64; 2],
     pub step: f64,
     pub lines: Vec<Named>,
 }
 
+/// A line, by its name.
 #[derive(Serialize)]
 pub(super) struct Named {
     pub name: String,
     pub v: Steps,
 }
 
+/// A panel without its lines.
 pub(super) fn head(panel: &Panel, step: f64) -> Lines {
     Lines {
         title: panel.title.clone(),
-        label: panel.y.label(),
         unit: panel.y.unit.clone(),
         range: panel.y.range,
         step,
@@ -32,6 +32,7 @@ pub(super) fn head(panel: &Panel, step: f64) -> Lines {
     }
 }
 
+/// The line of a series that is one.
 pub(super) fn line(series: &Series) -> Option<&Line> {
     match &series.sign {
         Sign::Line(line) => Some(line),

@@ -1,65 +1,102 @@
 //! Pieces of the log, replayed.
 
-use super::lines::{Lines, Named, head, line, named, names};
-use super::steps::{ANGLE, PLACE, TIME, near, steps, whole};
+use super::lines::{line, names};
+use super::steps::{ANGLE, PLACE, TIME, near, whole};
 use crate::diagnosis::log::Log;
-use crate::diagnosis::path::Piece;
+use crate::diagnosis::path;
 use crate::figure::{Line, Panel};
 use serde::Serialize;
 
+/// Paths of all pieces, and what their numbers are.
+#[derive(Default, Serialize)]
+pub(super) struct Paths {
+    /// Names of the paths: the observed one first.
+    names: Vec<String>,
+    /// Step of places, m.
+    step: f64,
+    /// Errors of all paths but the first.
+    errors: Vec<Errors>,
+    pieces: Vec<Piece>,
+}
+
+/// What an error is of.
+#[derive(Serialize)]
+struct Errors {
+    title: String,
+    unit: String,
+    step: f64,
+}
+
 /// A piece of the log, replayed.
 #[derive(Serialize)]
-pub(super) struct Paths {
+struct Piece {
     /// Place of its run in the list of runs.
     run: usize,
     /// Where it begins on the axis of time, s.
     at: f64,
     /// What places are counted from, m.
     origin: [f64; 2],
-    step: f64,
     t: Vec<i64>,
-    lines: Vec<Way>,
-    errors: Vec<Lines>,
+    /// Places of each path.
+    x: Vec<Vec<i64>>,
+    y: Vec<Vec<i64>>,
+    /// Of each error, its values for each path.
+    errors: Vec<Vec<Vec<i64>>>,
 }
 
-#[derive(Serialize)]
-struct Way {
-    name: String,
-    x: Vec<i64>,
-    y: Vec<i64>,
+/// All pieces.
+pub(super) fn paths(log: &Log, pieces: &[path::Piece]) -> Paths {
+    let first = pieces.first().map(|piece| piece.figure.panels.as_slice());
+    let Some([paths, errors @ ..]) = first else { return Paths::default() };
+    let head = |panel: &Panel| Errors {
+        title: panel.title.clone(),
+        unit: panel.y.unit.clone(),
+        step: error_step(panel),
+    };
+    Paths {
+        names: names(paths).into_iter().map(str::to_owned).collect(),
+        step: PLACE,
+        errors: errors.iter().map(head).collect(),
+        pieces: pieces.iter().filter_map(|of| piece(log, of)).collect(),
+    }
 }
 
-/// A replayed piece; none of a run that is not in the log.
-pub(super) fn paths(log: &Log, piece: &Piece) -> Option<Paths> {
+/// A piece; none of a run that is not in the log.
+fn piece(log: &Log, piece: &path::Piece) -> Option<Piece> {
     let run = log.runs.iter().position(|run| run.index == piece.run)?;
     let [paths, errors @ ..] = piece.figure.panels.as_slice() else { return None };
     let at = log.runs[run].at + piece.start - log.runs[run].start;
-    let ways: Vec<(&str, &Line)> = names(paths)
-        .into_iter()
-        .filter_map(|name| Some((name, named(paths, name).next()?)))
-        .collect();
-    let origin = ways.first().and_then(|(_, line)| line.points.first())?.map(f64::round);
-    let along =
-        |line: &Line, k: usize| whole(line.points.iter().map(|point| point[k] - origin[k]), PLACE);
-    let of_error = |panel: &Panel| {
-        let step = if panel.y.unit == "m" { PLACE } else { ANGLE };
-        let of = |name: &str| {
-            let values = named(panel, name).flat_map(|line| &line.points);
-            Named { name: name.to_owned(), v: steps(values.map(|point| Some(point[1])), step) }
-        };
-        Lines { lines: names(panel).into_iter().map(of).collect(), ..head(panel, step) }
+    let ways = lines(paths);
+    let origin = ways.first().and_then(|line| line.points.first())?.map(f64::round);
+    let along = |k: usize| {
+        let places =
+            |line: &&Line| whole(line.points.iter().map(|point| point[k] - origin[k]), PLACE);
+        ways.iter().map(places).collect()
+    };
+    let values = |panel: &Panel| {
+        let step = error_step(panel);
+        let values = |line: &Line| whole(line.points.iter().map(|point| point[1]), step);
+        lines(panel).into_iter().map(values).collect()
     };
     let times = errors.first().and_then(|panel| panel.series.iter().find_map(line))?;
-    Some(Paths {
+    Some(Piece {
         run,
         at: near(at, TIME),
         origin,
-        step: PLACE,
         t: whole(times.points.iter().map(|point| point[0]), TIME),
-        lines: ways
-            .into_iter()
-            .map(|(name, line)| Way { name: name.to_owned(), x: along(line, 0), y: along(line, 1) })
-            .collect(),
-        errors: errors.iter().map(of_error).collect(),
+        x: along(0),
+        y: along(1),
+        errors: errors.iter().map(values).collect(),
     })
+}
+
+/// The line of each name.
+fn lines(panel: &Panel) -> Vec<&Line> {
+    let all = names(panel).into_iter();
+    all.filter_map(|name| panel.series.iter().filter(|of| of.name == name).find_map(line)).collect()
+}
+
+/// Step of an error of place or heading.
+fn error_step(panel: &Panel) -> f64 {
+    if panel.y.unit == "m" { PLACE } else { ANGLE }
 }

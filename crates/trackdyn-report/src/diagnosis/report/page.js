@@ -270,19 +270,19 @@ function showStretch() {
 // Paths.
 
 function pieceAt(at) {
-  let found = paths[0];
-  for (const piece of paths) if (piece.at <= at) found = piece;
+  let found = paths.pieces[0];
+  for (const piece of paths.pieces) if (piece.at <= at) found = piece;
   return found;
 }
 function drawPath() {
-  if (!paths.length) return;
+  if (!paths.pieces.length) return;
   const svg = id("way"), width = svg.clientWidth || 400, height = Math.min(width, 448);
   const at = state.at == null ? 0 : T[state.at], piece = pieceAt(at);
   const t = piece.t.map(steps => piece.at + steps * time.step);
   const [low, high] = state.view;
   const inside = t.map(one => one >= low && one <= high);
   const isPart = inside.filter(Boolean).length >= 2 && !inside.every(Boolean);
-  const points = piece.lines.map(line => line.x.map((x, k) => [x * piece.step, line.y[k] * piece.step]));
+  const points = paths.names.map((_, which) => piece.x[which].map((x, k) => [x * paths.step, piece.y[which][k] * paths.step]));
   // the observed path, and the others as far as they are not far away
   const box = [Infinity, -Infinity, Infinity, -Infinity];
   const take = ([x, y]) => { box[0] = Math.min(box[0], x); box[1] = Math.max(box[1], x); box[2] = Math.min(box[2], y); box[3] = Math.max(box[3], y); };
@@ -315,9 +315,9 @@ function drawPath() {
     make("svg:text", { transform: `translate(12 ${edge.top + inner[1] / 2}) rotate(-90)`, "text-anchor": "middle" }, `y (m)${counted(1)}`));
   const clip = make("svg:svg", { x: edge.left, y: edge.top, width: inner[0], height: inner[1], viewBox: `${edge.left} ${edge.top} ${inner[0]} ${inner[1]}` });
   const trace = line => line.map(([px, py], k) => `${k ? "L" : "M"}${x(px).toFixed(1)} ${y(py).toFixed(1)}`).join("");
-  piece.lines.forEach((line, which) => {
-    const stroke = `var(${COLOURS[line.name]})`;
-    const name = line.name === "observed" ? "way observed" : "way";
+  paths.names.forEach((of, which) => {
+    const stroke = `var(${COLOURS[of]})`;
+    const name = which ? "way" : "way observed";
     const all = make("svg:path", { class: isPart ? name : `${name} now`, d: trace(points[which]), stroke });
     clip.append(all);
     if (isPart) clip.append(make("svg:path", { class: `${name} now`, d: trace(points[which].filter((_, k) => inside[k])), stroke }));
@@ -325,12 +325,13 @@ function drawPath() {
   clip.append(make("svg:circle", { cx: x(points[0][0][0]), cy: y(points[0][0][1]), r: 6, fill: "var(--paper)", stroke: "var(--ink)", "stroke-width": 2 }));
   let near = 0;
   t.forEach((one, k) => { if (Math.abs(one - at) < Math.abs(t[near] - at)) near = k; });
-  piece.lines.forEach((line, which) => clip.append(make("svg:circle", { cx: x(points[which][near][0]), cy: y(points[which][near][1]), r: 5,
-    fill: `var(${COLOURS[line.name]})`, stroke: "var(--paper)", "stroke-width": 1.5 })));
+  paths.names.forEach((of, which) => clip.append(make("svg:circle", { cx: x(points[which][near][0]), cy: y(points[which][near][1]), r: 5,
+    fill: `var(${COLOURS[of]})`, stroke: "var(--paper)", "stroke-width": 1.5 })));
   svg.append(clip, make("svg:rect", { class: "frame", x: edge.left, y: edge.top, width: inner[0], height: inner[1] }));
   const run = runs[piece.run];
   id("way-title").textContent = `Path of ${named(run)} from ${stamp(run, piece.at)} on`;
-  const said = piece.errors.map(error => `${error.title.toLowerCase()} ${error.lines.map(line => `${text(line.v[near], error.step)} ${error.unit} ${line.name}`).join(", ")}`);
+  const said = paths.errors.map((error, of) => `${error.title.toLowerCase()} ${piece.errors[of].map((values, k) =>
+    `${text(values[near], error.step)} ${error.unit} ${paths.names[k + 1]}`).join(", ")}`);
   id("way-said").textContent = `At ${stamp(run, t[near])}: ${said.join("; ")}`;
   svg.onpointermove = svg.onpointerdown = event => {
     const to = svg.getBoundingClientRect(), px = (event.clientX - to.left) * width / to.width, py = (event.clientY - to.top) * height / to.height;

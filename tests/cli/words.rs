@@ -10,7 +10,7 @@ use trackdyn_recording::folder;
 const WIDTH: usize = 120;
 
 /// All commands, with those that have commands of their own.
-const COMMANDS: [&str; 24] = [
+const COMMANDS: [&str; 25] = [
     "map",
     "kinematics",
     "simulate",
@@ -21,6 +21,7 @@ const COMMANDS: [&str; 24] = [
     "export ros2",
     "export gz",
     "export urdf-frames",
+    "export table",
     "export mcap",
     "effects",
     "init",

@@ -295,28 +295,7 @@ impl std::fmt::Display for Contradiction {
                  friction cannot put them: check the gauge, the wheel radius, and which joints \
                  were taken; or these poses or speeds are computed without slip"
             ),
-            Self::Apart { chi } => {
-                write!(
-                    f,
-                    "chi = {chi:.3}: the ICRs lie {:.1} gauges from each other, which friction \
-                     cannot do: ",
-                    1.0 / chi
-                )?;
-                let usual = |(unit, _): &&(f64, &str)| {
-                    let [low, high] = USUAL_EFFICIENCIES;
-                    (low..high).contains(&(chi / unit))
-                };
-                f.write_str("check the units of poses and track speeds (--speed-unit)")?;
-                if let Some((unit, name)) = LENGTHS.iter().find(usual) {
-                    write!(
-                        f,
-                        ", which in {name} would make it {:.2} (--columns reads lengths in ft, cm \
-                         and mm)",
-                        chi / unit
-                    )?;
-                }
-                f.write_str(", and the gauge")
-            }
+            Self::Apart { chi } => apart(f, chi),
             Self::Follows { left } => write!(
                 f,
                 "the poses follow the track speeds over seconds, and not as through a filter, \
@@ -390,4 +369,28 @@ impl std::fmt::Display for Contradiction {
             ),
         }
     }
+}
+
+/// Writes that the ICRs lie too far from each other, and which unit of length would explain it.
+fn apart(f: &mut std::fmt::Formatter<'_>, chi: f64) -> std::fmt::Result {
+    write!(
+        f,
+        "chi = {chi:.3}: the ICRs lie {:.1} gauges from each other, which friction \
+         cannot do: ",
+        1.0 / chi
+    )?;
+    let usual = |(unit, _): &&(f64, &str)| {
+        let [low, high] = USUAL_EFFICIENCIES;
+        (low..high).contains(&(chi / unit))
+    };
+    f.write_str("check the units of poses and track speeds (--speed-unit)")?;
+    if let Some((unit, name)) = LENGTHS.iter().find(usual) {
+        write!(
+            f,
+            ", which in {name} would make it {:.2} (--columns reads lengths in ft, cm \
+             and mm)",
+            chi / unit
+        )?;
+    }
+    f.write_str(", and the gauge")
 }

@@ -34,35 +34,31 @@ impl LeftOver {
     ) -> Self {
         let [x_l, x_r, ..] = parameters.0;
         let predictions = Lanes::new(observations).predict(parameters);
+        let segments = || observations.segments().iter().zip(&predictions);
         let of_poses = |segment: &Observation, k: usize| {
             noise.map_or(0.0, |noise| 2.0 * noise.pose[k] + noise.walk[k] * segment.duration)
         };
         let by_stamps = |segment: &Observation, k: usize| {
             segment.twists.iter().map(|twist| twist[k].powi(2)).sum::<f64>()
         };
-        // Of each segment, its prediction and what that leaves: forward, left, yaw.
-        let rows = |row: &dyn Fn(&Observation, [f64; 3], [f64; 3]) -> [f64; 3]| -> Vec<[f64; 3]> {
-            let segments = observations.segments().iter().zip(&predictions);
-            let rows = segments.map(|(segment, Prediction { motion, .. })| {
-                row(segment, *motion, [0, 1, 2].map(|k| segment.motion[k] - motion[k]))
-            });
-            rows.collect()
-        };
         // Errors of the stamps turn the robot as well as they move it: what shows in the way alone
         // is none of theirs.
-        let shown = rows(&|segment, [.., yaw], [.., off]| {
+        let shown = rows(segments(), |segment, [.., yaw], [.., off]| {
             [yaw.abs(), off * off - of_poses(segment, 2), by_stamps(segment, 2)]
         });
         let stamp = noise.map_or(0.0, |noise| noise.stamp.min(stamps(shown)));
         let variance =
             |segment: &Observation, k: usize| of_poses(segment, k) + stamp * by_stamps(segment, k);
-        let turns =
-            rows(&|segment, [.., yaw], [.., off]| [yaw.abs(), off.abs(), variance(segment, 2)]);
-        let ways = rows(&|segment, [x, y, _], [forward, left, _]| {
+        let turns = rows(segments(), |segment, [.., yaw], [.., off]| {
+            [yaw.abs(), off.abs(), variance(segment, 2)]
+        });
+        let ways = rows(segments(), |segment, [x, y, _], [forward, left, _]| {
             let variance = f64::midpoint(variance(segment, 0), variance(segment, 1));
             [x.hypot(y), forward.hypot(left), variance]
         });
-        let sides = rows(&|_, [.., yaw], [_, left, _]| [yaw.abs() * (x_r - x_l), left.abs(), 0.0]);
+        let sides = rows(segments(), |_, [.., yaw], [_, left, _]| {
+            [yaw.abs() * (x_r - x_l), left.abs(), 0.0]
+        });
         Self {
             turning: left(turns, 1.0 / NORMAL_FROM_MAD),
             way: left(ways, RAYLEIGH_MEDIAN),
@@ -94,6 +90,17 @@ impl LeftOver {
         });
         [-direction, left(beside.collect(), RAYLEIGH_MEDIAN)]
     }
+}
+
+/// A row of each segment, from its prediction and what that leaves: forward, left, yaw.
+fn rows<'a>(
+    segments: impl Iterator<Item = (&'a Observation, &'a Prediction)>,
+    row: impl Fn(&Observation, [f64; 3], [f64; 3]) -> [f64; 3],
+) -> Vec<[f64; 3]> {
+    let rows = segments.map(|(segment, Prediction { motion, .. })| {
+        row(segment, *motion, [0, 1, 2].map(|k| segment.motion[k] - motion[k]))
+    });
+    rows.collect()
 }
 
 /// Variance of the stamps (s²) that the turning shows, over the half with most of it. Rows hold how

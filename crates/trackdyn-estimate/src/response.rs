@@ -1,10 +1,11 @@
 //! How the turning of the poses follows the track speeds over time.
 //!
 //! # Law
-//! Δψᵢ = Σⱼ cⱼ Dᵢ(τ + jδ) + b Δtᵢ + noise over times Δt of two seconds, where Dᵢ(τ) = ∫ (Vᵣ − Vₗ)
-//! dt over the time moved back by τ, and jδ reaches three seconds either way. Whatever stands
-//! between track speeds and poses and keeps a constant speed as it is, leaves Σ cⱼ = 1/(x_r − x_l):
-//! a drivetrain that lags behind commands, a filter of the poses or of the speeds, stamps that
+//! Δψᵢ = Σⱼ cⱼ Dᵢ(τ + jδ) + a Sᵢ + b Δtᵢ + noise over times Δt of two seconds, where Dᵢ(τ) =
+//! ∫ (Vᵣ − Vₗ) dt over the time moved back by τ, and jδ reaches three seconds either way. S is the
+//! sum of both ways: sides with different factors α turn the robot straight ahead, too. Whatever
+//! stands between track speeds and poses and keeps a constant speed as it is, leaves Σ cⱼ =
+//! 1/(x_r − x_l): a drivetrain that lags behind commands, a filter of the poses or of the speeds, stamps that
 //! jitter. A fit that knows a delay alone takes what these leave for slip: by one c₀, changes of
 //! speed that the poses show smoothed make x_r − x_l too large, and speeds that are smoothed make
 //! it too small. Where the two disagree, and the delays foretell blocks that they were not fitted
@@ -244,13 +245,13 @@ impl Without {
 }
 
 impl Fit {
-    /// The solution of normal equations whose last unknown is b, given those of each block.
+    /// The solution of normal equations whose last unknowns are a and b, given those of each block.
     fn of(parts: &[Part], weights: Vec<f64>) -> Option<Self> {
         let (matrix, right) = rows::sum(parts)?;
         let count = right.len();
         let solved =
             |matrix: DMatrix<f64>, right: &DVector<f64>| Some(matrix.cholesky()?.solve(right));
-        let coefficients = |of: &DVector<f64>| of.iter().take(count - 1).copied().collect();
+        let coefficients = |of: &DVector<f64>| of.iter().take(count - 2).copied().collect();
         let all = solved(matrix.clone(), &right)?;
         let blocks: Option<Vec<Without>> = parts
             .iter()

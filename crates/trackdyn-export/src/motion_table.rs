@@ -3,7 +3,6 @@
 use crate::{Provenance, TextFile};
 use serde::Serialize;
 use std::fmt::Write;
-use trackdyn_core::PerSide;
 use trackdyn_core::rounding::Digits;
 use trackdyn_model::MotionTable;
 use trackdyn_model::motion_table::TOLERANCE;
@@ -87,23 +86,18 @@ pub fn files(table: &MotionTable, left_out: &LeftOut, provenance: &Provenance) -
     ]
 }
 
-/// The table as a function of C99, or of C++.
-fn header(
-    table: &MotionTable,
-    coefficients: &[[f64; 3]],
-    left_out: &LeftOut,
-    provenance: &Provenance,
-) -> String {
-    let MotionTable { gain, largest, range, slips, orders: [sizes, angles], error, .. } = table;
-    let PerSide { left, right } = gain;
-    let mut notes = String::from(
-        "Steady motion of the robot at the speeds that its encoders show, and its derivatives.\n",
+/// The header with places for its numbers.
+const HEADER: &str = include_str!("motion_table/trackdyn_motion.h");
+
+/// What a user of the table has to know of it.
+fn notes(table: &MotionTable, left_out: &LeftOut) -> String {
+    let error = table.error;
+    let mut notes = format!(
+        "Steady motion of the robot at the speeds that its encoders show, and its derivatives.\n\
+         Largest difference from the model: {error:.1e} m/s; the yaw rate counts as a track \
+         speed.\n"
     );
-    let _ = writeln!(
-        notes,
-        "Largest difference from the model: {error:.1e} m/s; the yaw rate counts as a track speed."
-    );
-    if *error > TOLERANCE {
+    if error > TOLERANCE {
         notes += "That is more than rounding: the model has a kink, as where a track starts to \
                   stick.\n";
     }
@@ -125,104 +119,48 @@ fn header(
             left_out.lag
         );
     }
-    let mut text = provenance.c_comment(&notes);
-    let place = range.map_or_else(
+    notes
+}
+
+/// The table as a function of C99, or of C++.
+fn header(
+    table: &MotionTable,
+    coefficients: &[[f64; 3]],
+    left_out: &LeftOut,
+    provenance: &Provenance,
+) -> String {
+    let MotionTable { gain, largest, range, slips, orders: [sizes, angles], .. } = table;
+    let ln_range = range.map(|range| format!("{:?}", range.ln()));
+    let size = ln_range.as_ref().map_or_else(
         || "norm / largest".to_owned(),
-        |range| format!("norm > 0.0 ? 1.0 + log(norm / largest) / {:?} : 0.0", range.ln()),
+        |ln_range| format!("norm > 0.0 ? 1.0 + log(norm / largest) / {ln_range} : 0.0"),
     );
-    let by_norm = range
-        .map_or_else(|| "1.0 / largest".to_owned(), |range| format!("per_norm / {:?}", range.ln()));
-    let (scale, scale_by_left, scale_by_right) = if *slips {
-        ("norm", "belt[0] * per_norm", "belt[1] * per_norm")
+    let size_by_norm = ln_range
+        .as_ref()
+        .map_or_else(|| "1.0 / largest".to_owned(), |ln_range| format!("per_norm / {ln_range}"));
+    let [scale, scale_by_left, scale_by_right] = if *slips {
+        ["norm", "belt[0] * per_norm", "belt[1] * per_norm"]
     } else {
-        ("belt[1] - belt[0]", "-1.0", "1.0")
+        ["belt[1] - belt[0]", "-1.0", "1.0"]
     };
-    let _ = write!(
-        text,
-        "#ifndef TRACKDYN_MOTION_H\n#define TRACKDYN_MOTION_H\n\n#include <math.h>\n\n\
-         #define TRACKDYN_SIZES {sizes}\n#define TRACKDYN_ANGLES {angles}\n\n\
-         /* Of each sector, of each polynomial in the speed, of each in the direction: forward, \
-         left, yaw. */\n\
-         static const double trackdyn_coefficients[8 * TRACKDYN_SIZES * TRACKDYN_ANGLES][3] = {{\n"
-    );
-    for line in coefficients.chunks(IN_A_LINE) {
+    let line = |line: &[[f64; 3]]| {
         let numbers = line.iter().map(|[a, b, c]| format!("{{{a:?}, {b:?}, {c:?}}},"));
-        let _ = writeln!(text, "    {}", numbers.collect::<Vec<_>>().join(" "));
-    }
-    let _ = write!(
-        text,
-        r"}};
-
-/* Chebyshev's polynomials at 2 x - 1, and their derivatives by x. */
-static inline void trackdyn_chebyshev(int count, double x, double *value, double *slope)
-{{
-    double z = 2.0 * x - 1.0;
-    value[0] = 1.0;
-    slope[0] = 0.0;
-    if (count > 1) {{
-        value[1] = z;
-        slope[1] = 2.0;
-    }}
-    for (int k = 2; k < count; ++k) {{
-        value[k] = 2.0 * z * value[k - 1] - value[k - 2];
-        slope[k] = 4.0 * value[k - 1] + 2.0 * z * slope[k - 1] - slope[k - 2];
-    }}
-}}
-
-/* Twist in ROS axes (forward m/s, left m/s, yaw rad/s) at the speeds of the left and the right
-   encoder, m/s, and its derivatives by these two speeds. */
-static inline void trackdyn_motion(double v_left, double v_right, double twist[3],
-                                   double by_speed[3][2])
-{{
-    const double gain[2] = {{{left:?}, {right:?}}};
-    const double largest = {largest:?};
-    const double eighth = 0.78539816339744830962;
-    double belt[2] = {{gain[0] * v_left, gain[1] * v_right}};
-    double norm = sqrt(belt[0] * belt[0] + belt[1] * belt[1]);
-    double per_norm = norm > 0.0 ? 1.0 / norm : 0.0;
-    double size = {place};
-    double size_by_norm = size >= 0.0 && size <= 1.0 ? {by_norm} : 0.0;
-    size = size < 0.0 ? 0.0 : size > 1.0 ? 1.0 : size;
-    double turn = atan2(belt[1], belt[0]) / eighth;
-    turn = turn < 0.0 ? turn + 8.0 : turn;
-    int sector = (int)turn;
-    sector = sector > 7 ? 7 : sector;
-
-    double t_s[TRACKDYN_SIZES + 1], d_s[TRACKDYN_SIZES + 1];
-    double t_a[TRACKDYN_ANGLES + 1], d_a[TRACKDYN_ANGLES + 1];
-    trackdyn_chebyshev(TRACKDYN_SIZES, size, t_s, d_s);
-    trackdyn_chebyshev(TRACKDYN_ANGLES, turn - sector, t_a, d_a);
-    double value[3] = {{0.0}}, by_size[3] = {{0.0}}, by_angle[3] = {{0.0}};
-    for (int j = 0; j < TRACKDYN_SIZES; ++j) {{
-        for (int k = 0; k < TRACKDYN_ANGLES; ++k) {{
-            const double *c =
-                trackdyn_coefficients[(sector * TRACKDYN_SIZES + j) * TRACKDYN_ANGLES + k];
-            for (int i = 0; i < 3; ++i) {{
-                value[i] += t_s[j] * t_a[k] * c[i];
-                by_size[i] += d_s[j] * t_a[k] * c[i];
-                by_angle[i] += t_s[j] * d_a[k] * c[i];
-            }}
-        }}
-    }}
-
-    double scale = {scale};
-    const double scale_by[2] = {{{scale_by_left}, {scale_by_right}}};
-    const double size_by[2] = {{size_by_norm * belt[0] * per_norm,
-                               size_by_norm * belt[1] * per_norm}};
-    double per_angle = per_norm * per_norm / eighth;
-    const double angle_by[2] = {{-belt[1] * per_angle, belt[0] * per_angle}};
-    for (int i = 0; i < 3; ++i) {{
-        twist[i] = value[i] * scale + (i == 0 ? 0.5 * (belt[0] + belt[1]) : 0.0);
-        for (int side = 0; side < 2; ++side) {{
-            double by_place = by_size[i] * size_by[side] + by_angle[i] * angle_by[side];
-            by_speed[i][side] = gain[side] * (by_place * scale + value[i] * scale_by[side]
-                                              + (i == 0 ? 0.5 : 0.0));
-        }}
-    }}
-}}
-
-#endif
-"
-    );
-    text
+        format!("    {}\n", numbers.collect::<Vec<_>>().join(" "))
+    };
+    let values = [
+        ("@SIZES@", sizes.to_string()),
+        ("@ANGLES@", angles.to_string()),
+        ("@COEFFICIENTS@", coefficients.chunks(IN_A_LINE).map(line).collect()),
+        ("@GAIN_LEFT@", format!("{:?}", gain.left)),
+        ("@GAIN_RIGHT@", format!("{:?}", gain.right)),
+        ("@LARGEST@", format!("{largest:?}")),
+        ("@SIZE@", size),
+        ("@SIZE_BY_NORM@", size_by_norm),
+        ("@SCALE@", scale.to_owned()),
+        ("@SCALE_BY_LEFT@", scale_by_left.to_owned()),
+        ("@SCALE_BY_RIGHT@", scale_by_right.to_owned()),
+    ];
+    let code = HEADER.to_owned();
+    let code = values.iter().fold(code, |code, (place, value)| code.replace(place, value));
+    provenance.c_comment(&notes(table, left_out)) + &code
 }

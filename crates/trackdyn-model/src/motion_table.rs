@@ -97,6 +97,9 @@ impl MotionTable {
     /// The table of a model, for encoder speeds up to `fastest`, m/s, with the fewest polynomials
     /// that are as accurate as [`TOLERANCE`]; the most accurate one where none is. Laws of place,
     /// heading and time count as at the origin.
+    ///
+    /// # Panics
+    /// Never: several orders are tried.
     pub fn of(model: &Model, fastest: f64) -> Self {
         let breaks_scale = |shears_alone: bool| {
             model.effects().iter().any(|effect| {

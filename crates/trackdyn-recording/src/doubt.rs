@@ -249,18 +249,16 @@ impl fmt::Display for Doubt {
                      and difference of both sides, and not the speeds of the sides"
                 )
             }
-            Self::DeadEncoder { side, speed } => {
-                let which = match side {
-                    Some(Side::Left) => "the left side never changes",
-                    Some(Side::Right) => "the right side never changes",
-                    None => "both sides never changes",
-                };
-                write!(
-                    f,
-                    "the speed of {which} ({speed:.3} m/s all the time), while the poses move as \
-                     if it did: a dead encoder, or a number that is no measured speed"
-                )
-            }
+            Self::DeadEncoder { side, speed } => write!(
+                f,
+                "the speed of {} never changes ({speed:.3} m/s all the time), while the poses move \
+                 as if it did: a dead encoder, or a number that is no measured speed",
+                match side {
+                    Some(Side::Left) => "the left side",
+                    Some(Side::Right) => "the right side",
+                    None => "both sides",
+                }
+            ),
             Self::StuckPoses { travelled, extent } => write!(
                 f,
                 "the poses stay within {extent:.3} m and do not turn, while the tracks run \

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 use trackdyn::crates::core::PerSide;
-use trackdyn::crates::estimate::odometry::Comparison;
+use trackdyn::crates::estimate::odometry::{Comparison, ParameterSet};
 use trackdyn::export::motion_table;
 use trackdyn::odometry::Advice;
 use trackdyn::simulate::Driving;
@@ -49,7 +49,7 @@ fn the_forces_on_the_vehicle_leave_noise_where_constant_icrs_leave_more() {
     let fitted = [fit.parameters().expect("determined")];
     let found = odometry(&seen, &robot, &fitted, &of_runs("4,5")).expect("replayed");
     assert_eq!(found.physics_stopped(), None);
-    let names: Vec<&str> = found.comparison.sets.iter().map(|set| set.name()).collect();
+    let names: Vec<&str> = found.comparison.sets.iter().map(ParameterSet::name).collect();
     assert_eq!((names[0], names[names.len() - 1]), ("ideal", "physics"));
     let errors = yaw_errors(&found.comparison);
     let (icrs, physics) = (errors[1], errors[errors.len() - 1]);

@@ -42,9 +42,9 @@ pub(super) fn of(subject: &Subject) -> Vec<Step> {
         }
         Status::Explained => {
             steps.push(step(
-                "Take vehicle.corrected.toml in place of the vehicle file: to simulate, to map, to \
-                 replay.",
-                "trackdyn map --vehicle vehicle.corrected.toml",
+                "Take vehicle.corrected.toml in place of the vehicle file: to replay, to simulate, \
+                 to map.",
+                "trackdyn odometry NEW_LOG --vehicle vehicle.corrected.toml",
             ));
             if answer.missing.iter().any(|missing| missing.kind == Kind::Instrument) {
                 steps.push(step(

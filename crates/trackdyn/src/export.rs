@@ -232,7 +232,8 @@ impl Export {
 }
 
 /// Steady motion by the forces on a vehicle, for encoder speeds up to `fastest`, m/s: as
-/// `motion_table.toml`, and as a C header for the robot's computer.
+/// `motion_table.toml`, and as a C header for the robot's computer. Effects of heading, place or
+/// time are left out, which both say.
 ///
 /// ```
 /// let robot = trackdyn::Vehicle::auriga_alpha();
@@ -251,14 +252,19 @@ pub fn motion_table(
     if !(fastest > 0.0 && fastest <= FASTEST) {
         return Err(Error::FastestSpeed { fastest, most: FASTEST });
     }
-    let model = vehicle.model();
-    let table = MotionTable::of(&model, fastest);
-    let others = [Symmetry::Heading, Symmetry::Place, Symmetry::Time, Symmetry::Transient];
-    let is_left_out = |effect: &&ActiveEffect| {
-        effect.card().breaks.iter().any(|symmetry| others.contains(symmetry))
+    // A table of speeds knows no heading, place or time; of the others it has what is steady.
+    let breaks = |effect: &ActiveEffect, any: &[Symmetry]| {
+        effect.card().breaks.iter().any(|symmetry| any.contains(symmetry))
     };
+    let world = [Symmetry::Heading, Symmetry::Place, Symmetry::Time];
+    let is_left_out =
+        |effect: &&ActiveEffect| breaks(effect, &world) || breaks(effect, &[Symmetry::Transient]);
+    let effects = vehicle.effects().iter();
+    let of_speeds = effects.clone().filter(|effect| !breaks(effect, &world)).cloned();
+    let model = vehicle.clone().with_effects(of_speeds.collect()).model();
+    let table = MotionTable::of(&model, fastest);
     let left_out = LeftOut {
-        effects: vehicle.effects().iter().filter(is_left_out).map(ToString::to_string).collect(),
+        effects: effects.filter(is_left_out).map(ToString::to_string).collect(),
         lag: model.drive().time_constant,
     };
     let Provenance { command, version } = provenance.clone();

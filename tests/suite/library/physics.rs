@@ -155,6 +155,17 @@ fn the_header_for_a_robots_computer_is_the_model() {
     }
 }
 
+/// What knows a heading has no part in a table of speeds, and is named.
+#[test]
+fn a_slope_is_left_out_of_a_table() {
+    let level = Vehicle::auriga_alpha();
+    let slope = level.clone().with_effect("slope:angle_deg=5").expect("an effect");
+    let of = |robot: &Vehicle| motion_table(robot, 1.0, &Provenance::default()).expect("a table");
+    let ((of_level, _), (of_slope, [_, header])) = (of(&level), of(&slope));
+    assert_eq!(of_level, of_slope);
+    assert!(header.text.contains("leaves out: slope:angle_deg=5"), "{}", header.text);
+}
+
 #[test]
 fn a_table_needs_a_speed_of_a_robot() {
     for fastest in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9] {

@@ -1,8 +1,9 @@
 //! How the turning of the poses follows the track speeds over time.
 //!
 //! # Law
-//! Δψᵢ = Σⱼ cⱼ Dᵢ(τ + jδ) + b Δtᵢ + noise over times Δt of two seconds, where Dᵢ(τ) = ∫ (Vᵣ − Vₗ)
-//! dt over the time moved back by τ, and jδ reaches three seconds either way. Whatever stands
+//! Δψᵢ = Σⱼ cⱼ Dᵢ(τ + jδ) + a Fᵢ(τ) + b Δtᵢ + noise over times Δt of two seconds, where Dᵢ(τ) =
+//! ∫ (Vᵣ − Vₗ) dt and Fᵢ(τ) = ∫ (Vᵣ + Vₗ)/2 dt over the time moved back by τ, and jδ reaches three
+//! seconds either way; a takes up sides whose α differ. Whatever stands
 //! between track speeds and poses and keeps a constant speed as it is, leaves Σ cⱼ = 1/(x_r − x_l):
 //! a drivetrain that lags behind commands, a filter of the poses or of the speeds, stamps that
 //! jitter. A fit that knows a delay alone takes what these leave for slip: by one c₀, changes of
@@ -244,13 +245,13 @@ impl Without {
 }
 
 impl Fit {
-    /// The solution of normal equations whose last unknown is b, given those of each block.
+    /// The solution of normal equations whose last unknowns are a and b, given those of each block.
     fn of(parts: &[Part], weights: Vec<f64>) -> Option<Self> {
         let (matrix, right) = rows::sum(parts)?;
         let count = right.len();
         let solved =
             |matrix: DMatrix<f64>, right: &DVector<f64>| Some(matrix.cholesky()?.solve(right));
-        let coefficients = |of: &DVector<f64>| of.iter().take(count - 1).copied().collect();
+        let coefficients = |of: &DVector<f64>| of.iter().take(count - 2).copied().collect();
         let all = solved(matrix.clone(), &right)?;
         let blocks: Option<Vec<Without>> = parts
             .iter()

@@ -1,5 +1,7 @@
 //! What contradicts a fit: other parts of the same answer, and what no track does.
 
+mod text;
+
 use crate::Interval;
 use crate::least_squares::Estimate;
 use crate::left_over::LeftOver;
@@ -10,7 +12,6 @@ use crate::spin_test::SpinTest;
 use crate::weighting::SegmentNoise;
 use trackdyn_core::robust::quantile;
 use trackdyn_core::{PerSide, Side};
-use trackdyn_recording::unit;
 
 /// Standard errors by which two methods may differ.
 const MAX_ERRORS: f64 = 5.0;
@@ -36,13 +37,6 @@ const MAX_EFFICIENCY: f64 = 0.97;
 /// μ_y l²/12, so χ = L/(L + 2d) = 1/(1 + μ_y l²/(3 μ_x L²)): of tracks twice as long as the gauge,
 /// beyond which no robot turns by its tracks, with twice the friction aside, 0.27.
 const MIN_EFFICIENCY: f64 = 0.25;
-
-/// χ of usual robots, by which units of length are named.
-const USUAL_EFFICIENCIES: [f64; 2] = [0.35, 0.95];
-
-/// Units of length, m, that poses and track speeds may share where the gauge is in m.
-const LENGTHS: [(f64, &str); 4] =
-    [(0.3048, "feet"), (0.0254, "inches"), (0.01, "centimetres"), (0.001, "millimetres")];
 
 /// α of encoders and wheel radii that are what their file says, and of tracks that hold.
 const ALPHAS: [f64; 2] = [0.8, 1.25];
@@ -116,6 +110,9 @@ pub enum Contradiction {
         left: f64,
         /// Heading of the sensor on the robot that would explain it, rad.
         mount: Option<f64>,
+        /// Part of a run where it happens, where elsewhere hardly any is left: s from its first
+        /// reading.
+        during: Option<[f64; 2]>,
     },
     /// Poses that follow the track speeds over time, and not as through a filter.
     Follows {
@@ -188,7 +185,8 @@ impl Contradiction {
         if left.way > MAX_WAY_LEFT {
             let [mount, beside] = LeftOver::mount(observations);
             let shows = mount.abs() > MIN_MOUNT && beside < MAX_WAY_LEFT;
-            found.push(Self::Way { left: left.way, mount: shows.then_some(mount) });
+            let during = LeftOver::where_most(&fit.parameters, observations, MAX_WAY_LEFT);
+            found.push(Self::Way { left: left.way, mount: shows.then_some(mount), during });
         }
         found
     }
@@ -279,118 +277,4 @@ fn is_computed(parameters: &Parameters, left: &LeftOver, gauge: f64) -> bool {
     is_ideal
         || is_level && is_even && left.turning < COMPUTED
         || is_level && left.sideways < COMPUTED
-}
-
-impl std::fmt::Display for Contradiction {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match *self {
-            Self::Method { method, found, fit } => write!(
-                f,
-                "x_r - x_l is {fit:.3} m by least squares and {found:.3} m by {method}: clocks, \
-                 units or track speeds of a part of the drive may be wrong"
-            ),
-            Self::Efficiency { chi } => write!(
-                f,
-                "chi = {chi:.2}: the ICRs lie on the tracks' centre-lines or between them, where \
-                 friction cannot put them: check the gauge, the wheel radius, and which joints \
-                 were taken; or these poses or speeds are computed without slip"
-            ),
-            Self::Apart { chi } => apart(f, chi),
-            Self::Follows { left } => write!(
-                f,
-                "the poses follow the track speeds over seconds, and not as through a filter, \
-                 which leaves {:.0} % of the turning: commands that the tracks do not keep up with \
-                 in place of measured speeds? Expected what encoders measure (--joint-signal, \
-                 --tracks-topic, --left-signal), or each command held until the robot follows",
-                100.0 * left
-            ),
-            Self::Response { gap, fit } => write!(
-                f,
-                "x_r - x_l is {fit:.3} m by the fit and {gap:.3} m by turning over seconds: the \
-                 poses do not follow the track speeds as one robot does: check whether speeds or \
-                 poses are filtered, and whether speeds are commands (--joint-signal, \
-                 --tracks-topic)"
-            ),
-            Self::Way { left, mount } => {
-                write!(
-                    f,
-                    "the fit leaves {:.0} % of the way: the poses move where the tracks do not \
-                     drive: ",
-                    100.0 * left
-                )?;
-                match mount {
-                    Some(mount) => write!(
-                        f,
-                        "the sensor is turned on the robot by some {0:.0} degrees (--mount-yaw \
-                         {0:.0} takes it back, --fit sensor-yaw finds the rest), or its yaw is not \
-                         that of the robot",
-                        mount.to_degrees()
-                    ),
-                    None => f.write_str(
-                        "check the wheel radius and the units, whether x and y are swapped or \
-                         mirrored, and whether these poses measure positions at all",
-                    ),
-                }
-            }
-            Self::Alpha { side, alpha, ratio } => {
-                let side = if side == Side::Left { "l" } else { "r" };
-                let more = if alpha < 1.0 { "less" } else { "more" };
-                write!(
-                    f,
-                    "alpha_{side} = {alpha:.2}: a track hardly moves that much {more} than its \
-                     encoder says: "
-                )?;
-                match ratio.and_then(|ratio| Some((ratio, unit::mixed_up(ratio)?))) {
-                    Some((ratio, units)) => write!(
-                        f,
-                        "the track speeds are {ratio:.3} times what the poses show, as {units} \
-                         would be: {}",
-                        unit::remedy(ratio)
-                    ),
-                    None => f.write_str(
-                        "check the wheel radius, the unit (--speed-unit) and the joints, or drive \
-                         more straight stretches",
-                    ),
-                }
-            }
-            Self::Turning { left } => write!(
-                f,
-                "the fit leaves {:.0} % of the turning: tracks and poses do not tell of one drive: \
-                 check clocks, units, and which joints were taken",
-                100.0 * left
-            ),
-            Self::WheelOdometry { left } => write!(
-                f,
-                "the fit leaves {:.2} % of the turning, and the ICRs are those of an ideal drive: \
-                 these poses are wheel odometry, computed from the tracks, and show no slip (or \
-                 the gauge is not the distance between the tracks' centre-lines). Poses have to \
-                 come from something else: lidar, GNSS, motion capture",
-                100.0 * left
-            ),
-        }
-    }
-}
-
-/// Writes that the ICRs lie too far from each other, and which unit of length would explain it.
-fn apart(f: &mut std::fmt::Formatter<'_>, chi: f64) -> std::fmt::Result {
-    write!(
-        f,
-        "chi = {chi:.3}: the ICRs lie {:.1} gauges from each other, which friction \
-         cannot do: ",
-        1.0 / chi
-    )?;
-    let usual = |(unit, _): &&(f64, &str)| {
-        let [low, high] = USUAL_EFFICIENCIES;
-        (low..high).contains(&(chi / unit))
-    };
-    f.write_str("check the units of poses and track speeds (--speed-unit)")?;
-    if let Some((unit, name)) = LENGTHS.iter().find(usual) {
-        write!(
-            f,
-            ", which in {name} would make it {:.2} (--columns reads lengths in ft, cm \
-             and mm)",
-            chi / unit
-        )?;
-    }
-    f.write_str(", and the gauge")
 }

@@ -8,10 +8,13 @@ use crate::observations::{Observation, Observations};
 use crate::parameters::Parameters;
 use crate::prediction::{Lanes, Prediction};
 use crate::weighting::SegmentNoise;
-use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, NORMAL_FROM_MAD, median};
+use trackdyn_core::robust::{MEDIAN_OF_CHI_SQUARE, NORMAL_FROM_MAD, median, quantile};
 
 /// Median of the length of two standard normal numbers, √(2 ln 2).
 const RAYLEIGH_MEDIAN: f64 = 1.177_410_022_515_475;
+
+/// Part of what may be left of the way that is left of a block where nothing is wrong.
+const QUIET: f64 = 0.5;
 
 /// Parts of the motion that parameters leave.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +67,40 @@ impl LeftOver {
             way: left(ways, RAYLEIGH_MEDIAN),
             sideways: left(sides, 1.0 / NORMAL_FROM_MAD),
         }
+    }
+
+    /// The time of a part of a run (s from its first reading) to which all blocks with more of
+    /// their way left than `most` belong, where hardly any is left of a third of the blocks or
+    /// more.
+    pub fn where_most(
+        parameters: &Parameters,
+        observations: &Observations,
+        most: f64,
+    ) -> Option<[f64; 2]> {
+        let predictions = Lanes::new(observations).predict(parameters);
+        let segments = observations.segments();
+        let ranges = observations.ranges(&observations.blocks());
+        let mut ways: Vec<f64> = predictions.iter().map(|by| by.motion[0].abs()).collect();
+        let usual = quantile(&mut ways, 0.75)?;
+        let lefts: Vec<f64> = ranges
+            .iter()
+            .map(|range| {
+                let off = |k: usize| {
+                    let off = |axis: usize| segments[k].motion[axis] - predictions[k].motion[axis];
+                    off(0).hypot(off(1))
+                };
+                median(&mut range.clone().map(off).collect::<Vec<_>>()).unwrap_or(0.0) / usual
+            })
+            .collect();
+        let quiet = lefts.iter().filter(|left| **left < QUIET * most).count();
+        let first = lefts.iter().position(|left| *left > most)?;
+        let last = lefts.iter().rposition(|left| *left > most)?;
+        let (from, to) = (&segments[ranges[first].start], &segments[ranges[last].end - 1]);
+        let others = lefts.len() - (last + 1 - first);
+        let is_part = 3 * quiet >= lefts.len() && 3 * others >= lefts.len();
+        let begins = observations.first_reading(from.run)?;
+        let time = [from.start - begins, to.start + to.duration - begins];
+        (is_part && from.run == to.run).then_some(time)
     }
 
     /// Heading of the sensor on the robot (rad) by the direction of its way against that of the

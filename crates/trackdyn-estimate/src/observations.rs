@@ -224,6 +224,11 @@ impl Observations {
         ranges.collect()
     }
 
+    /// Stamp of the first reading of a run, s.
+    pub(crate) fn first_reading(&self, run: usize) -> Option<f64> {
+        Some(self.tracks.get(run)?.first()?.t)
+    }
+
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.segments.is_empty()

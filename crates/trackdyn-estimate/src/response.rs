@@ -1,11 +1,11 @@
 //! How the turning of the poses follows the track speeds over time.
 //!
 //! # Law
-//! Δψᵢ = Σⱼ cⱼ Dᵢ(τ + jδ) + a Sᵢ + b Δtᵢ + noise over times Δt of two seconds, where Dᵢ(τ) =
-//! ∫ (Vᵣ − Vₗ) dt over the time moved back by τ, and jδ reaches three seconds either way. S is the
-//! sum of both ways: sides with different factors α turn the robot straight ahead, too. Whatever
-//! stands between track speeds and poses and keeps a constant speed as it is, leaves Σ cⱼ =
-//! 1/(x_r − x_l): a drivetrain that lags behind commands, a filter of the poses or of the speeds, stamps that
+//! Δψᵢ = Σⱼ cⱼ Dᵢ(τ + jδ) + a Fᵢ(τ) + b Δtᵢ + noise over times Δt of two seconds, where Dᵢ(τ) =
+//! ∫ (Vᵣ − Vₗ) dt and Fᵢ(τ) = ∫ (Vᵣ + Vₗ)/2 dt over the time moved back by τ, and jδ reaches three
+//! seconds either way; a takes up sides whose α differ. Whatever stands
+//! between track speeds and poses and keeps a constant speed as it is, leaves Σ cⱼ = 1/(x_r − x_l):
+//! a drivetrain that lags behind commands, a filter of the poses or of the speeds, stamps that
 //! jitter. A fit that knows a delay alone takes what these leave for slip: by one c₀, changes of
 //! speed that the poses show smoothed make x_r − x_l too large, and speeds that are smoothed make
 //! it too small. Where the two disagree, and the delays foretell blocks that they were not fitted

@@ -237,28 +237,19 @@ impl fmt::Display for Doubt {
                 "tracks and poses turn alike and drive in opposite senses: the sensor faces \
                  backwards, or the sides are swapped and count backwards"
             ),
-            Self::NotSides { moving, per_unit } => {
-                let [ahead, around] = match moving {
-                    Side::Left => ["v_left", "v_right"],
-                    Side::Right => ["v_right", "v_left"],
+            Self::NotSides { moving, per_unit } => not_sides(f, *moving, *per_unit),
+            Self::DeadEncoder { side, speed } => {
+                let which = match side {
+                    Some(Side::Left) => "the left side never changes",
+                    Some(Side::Right) => "the right side never changes",
+                    None => "both sides never changes",
                 };
                 write!(
                     f,
-                    "{ahead} alone moves the robot forward and {around} alone turns it, by \
-                     {per_unit:.2} rad per unit of its way: they hold speed and yaw rate, or mean \
-                     and difference of both sides, and not the speeds of the sides"
+                    "the speed of {which} ({speed:.3} m/s all the time), while the poses move as \
+                     if it did: a dead encoder, or a number that is no measured speed"
                 )
             }
-            Self::DeadEncoder { side, speed } => write!(
-                f,
-                "the speed of {} never changes ({speed:.3} m/s all the time), while the poses move \
-                 as if it did: a dead encoder, or a number that is no measured speed",
-                match side {
-                    Some(Side::Left) => "the left side",
-                    Some(Side::Right) => "the right side",
-                    None => "both sides",
-                }
-            ),
             Self::StuckPoses { travelled, extent } => write!(
                 f,
                 "the poses stay within {extent:.3} m and do not turn, while the tracks run \
@@ -266,6 +257,20 @@ impl fmt::Display for Doubt {
             ),
         }
     }
+}
+
+/// What is said of columns that are no speeds of sides.
+fn not_sides(f: &mut fmt::Formatter<'_>, moving: Side, per_unit: f64) -> fmt::Result {
+    let [ahead, around] = match moving {
+        Side::Left => ["v_left", "v_right"],
+        Side::Right => ["v_right", "v_left"],
+    };
+    write!(
+        f,
+        "{ahead} alone moves the robot forward and {around} alone turns it, by {per_unit:.2} rad \
+         per unit of its way: they hold speed and yaw rate, or mean and difference of both sides, \
+         and not the speeds of the sides"
+    )
 }
 
 impl Doubt {

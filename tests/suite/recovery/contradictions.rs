@@ -1,6 +1,6 @@
 //! What contradicts a fit is said, and what does not is left alone.
 
-use crate::recovery::{GAUGE, drive};
+use crate::recovery::{GAUGE, drive, record};
 use rayon::prelude::*;
 use trackdyn_core::{PerSide, Pose};
 use trackdyn_estimate::Contradiction;
@@ -118,6 +118,24 @@ fn a_turned_sensor_is_named_with_its_angle() {
         assert!((mount.to_degrees() - degrees).abs() < 5.0, "{mount} rad for {degrees} degrees");
         assert!(texts(&found).contains("--mount-yaw"), "{}", texts(&found));
     }
+}
+
+/// A tracker that loses itself for more than half of a log.
+#[test]
+fn the_time_in_which_poses_go_astray_is_named() {
+    let schedule = random_steps(60, 1.98, 0.8, 8);
+    let recording = record(vec![schedule], 8);
+    let mut runs: Vec<_> = recording.runs().iter().cloned().map(Run::into_rows).collect();
+    for sample in &mut runs[0].poses.samples {
+        if (20.0..95.0).contains(&sample.t) {
+            let wild = (1e3 * sample.t).sin();
+            sample.pose.x += 0.3 * wild;
+            sample.pose.y += 0.3 * (777.0 * sample.t).sin();
+        }
+    }
+    let recording = Recording::new("astray", "robot", runs, Source::computed(), Vec::new());
+    let text = texts(&contradictions(&recording.expect("long enough"), GAUGE));
+    assert!(text.contains("from 20 s to 9") && text.contains("--time"), "{text}");
 }
 
 /// Positions that a filter made up beside a heading that is right.

@@ -51,7 +51,7 @@ impl Delays {
 pub(super) struct Rows {
     /// Δψ, rad.
     turns: Vec<f64>,
-    /// D at the delays −`REACH` to `REACH`, m, then S, m, and Δt, s.
+    /// D at the delays −`REACH` to `REACH`, m, F, m, and Δt, s.
     ways: Vec<[f64; 2 * REACH + 3]>,
     /// Block of each row, ascending.
     blocks: Vec<usize>,
@@ -100,9 +100,9 @@ impl Rows {
             if !is_covered || end.t - pose.t > longest {
                 continue;
             }
-            let both = ways.between(pose.t - tau, end.t - tau);
             let mut row = [end.t - pose.t; 2 * REACH + 3];
-            row[2 * REACH + 1] = both.left + both.right;
+            let both = ways.between(pose.t - tau, end.t - tau);
+            row[2 * REACH + 1] = f64::midpoint(both.left, both.right);
             for (k, way) in row.iter_mut().take(2 * REACH + 1).enumerate() {
                 let delay = tau + STEP * (real(k) - real(REACH));
                 let both = ways.between(pose.t - delay, end.t - delay);
@@ -118,21 +118,14 @@ impl Rows {
     /// What a turn is fitted by.
     fn row(&self, k: usize, delays: Delays) -> DVector<f64> {
         let ways = &self.ways[k];
-        let [both, time] = [ways[2 * REACH + 1], ways[2 * REACH + 2]];
-        match delays {
-            Delays::Shifted => {
-                DVector::from_vec(vec![ways[REACH], ways[REACH + 1] - ways[REACH - 1], both, time])
-            }
+        let beside = &ways[2 * REACH + 1..];
+        let by_delays: Vec<f64> = match delays {
+            Delays::Shifted => vec![ways[REACH], ways[REACH + 1] - ways[REACH - 1]],
             Delays::Every { half, step } => {
-                let at = |j: usize| ways[REACH + j * step - half * step];
-                let count = delays.count();
-                DVector::from_fn(count, |j, _| match count - j {
-                    1 => time,
-                    2 => both,
-                    _ => at(j),
-                })
+                (0..=2 * half).map(|j| ways[REACH + j * step - half * step]).collect()
             }
-        }
+        };
+        DVector::from_iterator(delays.count(), by_delays.iter().chain(beside).copied())
     }
 
     /// Least squares by these weights.

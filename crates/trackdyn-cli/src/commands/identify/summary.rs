@@ -118,9 +118,9 @@ fn response(text: &mut String, response: Option<&Response>) {
     let Some(response) = response.filter(|response| !response.is_at_once()) else { return };
     let (at_once, gap) = (response.gap_at_once, response.gap.value);
     let cause = if at_once > gap {
-        "poses that are filtered or late by turns, or commands in place of speeds"
+        "poses that are filtered, commands in place of speeds, or a robot that takes time to turn"
     } else {
-        "track speeds that are filtered"
+        "track speeds that are filtered, or slip while they change"
     };
     *text += &wrapped(
         "  response   ",

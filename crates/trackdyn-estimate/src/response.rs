@@ -64,6 +64,9 @@ const MIN_ERRORS_WHERE_LEFT: f64 = 2.5;
 /// sizes, which limits of acceleration make one for each size, leaves some tenths of a percent.
 const ERROR_BY_COMMANDS: f64 = 0.002;
 
+/// Least part of the squares of D that is its own: with less, noise counts tenfold.
+const MIN_OWN_SHARE: f64 = 0.01;
+
 /// Shortest block, s: longer than the times that are compared.
 const MIN_BLOCK: f64 = 1.5 * DURATION;
 
@@ -89,11 +92,15 @@ pub struct Response {
 }
 
 impl Response {
-    /// How the poses of a recording follow; none where it is too short to tell.
+    /// How the poses of a recording follow; none where it is too short to tell, or turns so alike
+    /// all the time that sides with different factors would turn it as well.
     pub fn of(recording: &Recording, tau: f64) -> Option<Self> {
         let blocks = blocks(recording);
         let over = |duration: f64| Rows::of(recording, &blocks, tau, duration);
         let (long, short) = (over(DURATION), over(0.0));
+        if long.own_share() < MIN_OWN_SHARE {
+            return None;
+        }
         let at_once = short.fit(Delays::ONE)?;
         let count = at_once.blocks.len();
         if count < MIN_BLOCKS {

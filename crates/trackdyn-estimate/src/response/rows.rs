@@ -4,7 +4,7 @@ use super::{DURATION, Fit, REACH, STEP};
 use crate::Extent;
 use crate::gaps::Gaps;
 use crate::gauss_newton::Loss;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use trackdyn_core::robust::{deviation_about_zero, usual_interval};
 use trackdyn_core::{PerSide, Side, real};
 use trackdyn_recording::hold::holding;
@@ -113,6 +113,22 @@ impl Rows {
             self.ways.push(row);
             self.blocks.push(begins + block);
         }
+    }
+
+    /// Part of the squares of D that neither the mean way of both tracks nor time explains: what
+    /// tells turning from sides with different factors.
+    pub(super) fn own_share(&self) -> f64 {
+        let columns = self.ways.iter().map(|row| {
+            let [.., both, time] = *row;
+            Vector3::new(row[REACH], both, time)
+        });
+        let products = columns.fold(Matrix3::zeros(), |sum, row| sum + row * row.transpose());
+        let others = products.fixed_view::<2, 2>(1, 1).into_owned();
+        let beside = products.fixed_view::<2, 1>(1, 0).into_owned();
+        let Some(inverse) = others.try_inverse() else { return 0.0 };
+        // 1 − dᵀX (XᵀX)⁻¹ Xᵀd/(dᵀd)
+        let explained = (beside.transpose() * inverse * beside)[0] / products[(0, 0)];
+        if explained.is_finite() { (1.0 - explained).max(0.0) } else { 0.0 }
     }
 
     /// What a turn is fitted by.

@@ -12,8 +12,8 @@ use trackdyn_core::document::{Document, DocumentError};
 
 const SCHEMA: &str = "trackdyn.vehicle/1";
 
-/// A vehicle and the active effects of its file.
-#[derive(Clone, Debug, PartialEq)]
+/// A vehicle and the active effects of its file. Two are equal wherever their numbers come from.
+#[derive(Clone, Debug)]
 pub struct VehicleFile {
     /// The vehicle.
     pub vehicle: Vehicle,
@@ -21,6 +21,12 @@ pub struct VehicleFile {
     pub effects: Effects,
     /// The driving that it was corrected by; none of a vehicle that was measured or assumed.
     pub source: Option<Source>,
+}
+
+impl PartialEq for VehicleFile {
+    fn eq(&self, other: &Self) -> bool {
+        self.vehicle == other.vehicle && self.effects == other.effects
+    }
 }
 
 impl VehicleFile {
@@ -55,7 +61,7 @@ impl VehicleFile {
         Ok(Self { vehicle, effects, source: tables.source })
     }
 
-    /// The file as text, with keys in a fixed order: equal vehicles have equal texts.
+    /// The file as text, with keys in a fixed order: equal vehicles of one source have equal texts.
     ///
     /// # Panics
     /// Never: all values can be written as TOML.

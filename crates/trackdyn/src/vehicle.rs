@@ -140,14 +140,15 @@ impl Vehicle {
         Model::new(self.file.vehicle.clone(), self.file.effects.clone())
     }
 
-    /// The text of its file: equal vehicles have equal texts.
+    /// The text of its file: equal vehicles of one source have equal texts.
     pub fn to_toml(&self) -> String {
         self.file.to_toml()
     }
 
-    /// The fingerprint of that text.
+    /// The fingerprint of that text without its source: equal vehicles have the same.
     pub fn fingerprint(&self) -> String {
-        fingerprint(self.to_toml().as_bytes())
+        let file = VehicleFile { source: None, ..self.file.clone() };
+        fingerprint(file.to_toml().as_bytes())
     }
 
     /// Writes its file.

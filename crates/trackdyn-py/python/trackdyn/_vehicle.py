@@ -135,6 +135,15 @@ class Vehicle(Document):
         """The effects that its model has, with their parameters."""
         return self._inner.effects
 
+    def __eq__(self, other: object) -> bool:
+        """Whether both are the same, wherever their numbers come from."""
+        if not isinstance(other, Vehicle):
+            return NotImplemented
+        return self.fingerprint == other.fingerprint
+
+    def __hash__(self) -> int:
+        return hash(self.fingerprint)
+
     @property
     def fingerprint(self) -> str:
         """Fingerprint of the text of its file: equal vehicles have equal ones."""

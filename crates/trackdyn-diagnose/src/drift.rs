@@ -113,19 +113,11 @@ fn stretches(evidence: &Weighted, motions: &[Vec<Pose>; 2]) -> Vec<Range<usize>>
             continue;
         }
         match stretches.last_mut() {
-            Some(last) if last.end == index && follows(&samples[index - 1], &samples[index]) => {
-                last.end = index + 1;
-            }
+            Some(last) if last.end == index && samples[index].follows => last.end = index + 1,
             _ => stretches.push(index..index + 1),
         }
     }
     stretches
-}
-
-/// Whether a sample begins in the same run where the one before it ends.
-fn follows(before: &Sample, sample: &Sample) -> bool {
-    let gap = sample.start - (before.start + before.duration);
-    before.run == sample.run && gap.abs() <= replay::GAP
 }
 
 /// Samples with the motions that two vehicles predict.

@@ -28,7 +28,7 @@ use trackdyn_core::{Command, PerSide, Pose, Schedule, real};
 use trackdyn_estimate::weighting::SegmentNoise;
 use trackdyn_model::EffectId;
 use trackdyn_model::Stationary;
-use trackdyn_model::{Circumstance, Model, VehicleFile};
+use trackdyn_model::{Circumstance, VehicleFile};
 use trackdyn_recording::TrackSample;
 
 /// Options of a plan.
@@ -173,7 +173,7 @@ pub const STAGES: [&str; 3] = ["rivals", "choice", "separation"];
 /// Distance between the ICRs in a slow spin, m.
 fn gap(file: &VehicleFile, settings: &settings::Plan) -> Result<f64, Error> {
     const SPIN_SPEED: f64 = 0.1;
-    let model = Model::new(file.vehicle.clone(), file.effects.clone());
+    let model = file.model();
     let speeds = PerSide::new(-SPIN_SPEED, SPIN_SPEED);
     let solution = Stationary::new(&model, &Circumstance::default()).solve(speeds);
     let gap = 2.0 * SPIN_SPEED / solution.twist.w;

@@ -8,9 +8,6 @@ use std::ops::Range;
 use trackdyn_core::Pose;
 use trackdyn_model::VehicleFile;
 
-/// Samples further apart leave a gap, s.
-pub(crate) const GAP: f64 = 1e-6;
-
 /// The motion of every sample with a vehicle file, moved by the recording's clock where the file
 /// says nothing of it, seen from its beginning.
 pub fn motions(evidence: &Evidence, file: &VehicleFile) -> Vec<Pose> {
@@ -53,9 +50,7 @@ pub fn chained(evidence: &Evidence, chosen: Range<usize>, motions: &[Pose]) -> V
     for index in chosen.clone() {
         at = at.compose(&motions[index]);
         let next = index + 1;
-        if chosen.contains(&next)
-            && samples[next].start > samples[index].start + samples[index].duration + GAP
-        {
+        if chosen.contains(&next) && !samples[next].follows {
             let end = samples[index].pose.compose(&pose(&samples[index].motion));
             at = at.compose(&end.relative(&samples[next].pose));
         }

@@ -13,9 +13,9 @@ mod table;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::sync::Arc;
-use table::{Grid, Spacing, Table};
+use table::{Grid, Table};
 use trackdyn_core::{PerSide, Side, Twist, real};
-use trackdyn_model::effect::Symmetry;
+use trackdyn_model::sectors::Spacing;
 use trackdyn_model::{Circumstance, Model};
 use trackdyn_model::{Icrs, Near, Stationary, Status};
 
@@ -55,9 +55,7 @@ impl Surface {
     /// Where friction depends on slip speed, nodes are even in the logarithm of the speed over the
     /// ratio `range`. `before` is the table of a similar model, from which solves start.
     pub fn new(model: &Model, largest: f64, range: f64, before: Option<&Self>) -> Self {
-        let spacing =
-            if depends_on_slip_speed(model) { Spacing::logarithmic(range) } else { Spacing::Even };
-        let grid = Grid::new(largest, spacing);
+        let grid = Grid::new(largest, Spacing::of(model, range));
         let slips = model.drive().slip_per_traction != 0.0;
         let scale = if slips { Scale::Size } else { Scale::Difference };
         let solver = Stationary::new(model, &Circumstance::default());
@@ -126,14 +124,6 @@ impl Steady {
         let [across, along, turn] = moved(beyond, offset);
         Twist { v_x: across * difference, v_y: along * difference + mean, w: turn * difference }
     }
-}
-
-/// Whether friction depends on the slip speed.
-fn depends_on_slip_speed(model: &Model) -> bool {
-    model.effects().iter().any(|effect| {
-        let card = effect.card();
-        card.shears() && card.breaks.contains(&Symmetry::SpeedScale)
-    })
 }
 
 /// Twist minus the mean belt speed, (v_x, v_y − V̄, w).

@@ -142,14 +142,9 @@ fn rows<'a>(
 
 /// Variance of the stamps (s²) that the turning shows, over the half with most of it. Rows hold how
 /// much it turns, the square that is left less its noise, and that of a variance of 1 s².
-fn stamps(mut rows: Vec<[f64; 3]>) -> f64 {
-    rows.sort_by(|a, b| b[0].total_cmp(&a[0]));
-    rows.truncate(rows.len().div_ceil(2));
-    let of = |k: usize| median(&mut rows.iter().map(|row| row[k]).collect::<Vec<_>>());
-    match (of(1), of(2)) {
-        (Some(left), Some(square)) if square > 0.0 => {
-            (left / MEDIAN_OF_CHI_SQUARE / square).max(0.0)
-        }
+fn stamps(rows: Vec<[f64; 3]>) -> f64 {
+    match medians(rows) {
+        Some([_, left, square]) if square > 0.0 => (left / MEDIAN_OF_CHI_SQUARE / square).max(0.0),
         _ => 0.0,
     }
 }
@@ -157,15 +152,20 @@ fn stamps(mut rows: Vec<[f64; 3]>) -> f64 {
 /// Median of what is left over the median of what is there, over the half with most of it. Rows
 /// hold how much is there, how much is left, and the variance of its noise, whose median is
 /// `of_noise` standard deviations.
-fn left(mut rows: Vec<[f64; 3]>, of_noise: f64) -> f64 {
-    rows.sort_by(|a, b| b[0].total_cmp(&a[0]));
-    rows.truncate(rows.len().div_ceil(2));
-    let of = |k: usize| median(&mut rows.iter().map(|row| row[k]).collect::<Vec<_>>());
-    match (of(0), of(1), of(2)) {
-        (Some(there), Some(left), Some(variance)) if there > 0.0 => {
+fn left(rows: Vec<[f64; 3]>, of_noise: f64) -> f64 {
+    match medians(rows) {
+        Some([there, left, variance]) if there > 0.0 => {
             let by_noise = of_noise * of_noise * variance;
             (left * left - by_noise).max(0.0).sqrt() / there
         }
         _ => 0.0,
     }
+}
+
+/// Medians of the columns over the half of the rows with most in the first one; none of none.
+fn medians(mut rows: Vec<[f64; 3]>) -> Option<[f64; 3]> {
+    rows.sort_by(|a, b| b[0].total_cmp(&a[0]));
+    rows.truncate(rows.len().div_ceil(2));
+    let of = |k: usize| median(&mut rows.iter().map(|row| row[k]).collect::<Vec<_>>());
+    Some([of(0)?, of(1)?, of(2)?])
 }

@@ -3,9 +3,9 @@
 //! # Law
 //! Δψᵢ = Σⱼ cⱼ Dᵢ(τ + jδ) + a Fᵢ(τ) + b Δtᵢ + noise over times Δt of two seconds, where Dᵢ(τ) =
 //! ∫ (Vᵣ − Vₗ) dt and Fᵢ(τ) = ∫ (Vᵣ + Vₗ)/2 dt over the time moved back by τ, and jδ reaches three
-//! seconds either way; a takes up sides whose α differ. Whatever stands
-//! between track speeds and poses and keeps a constant speed as it is, leaves Σ cⱼ = 1/(x_r − x_l):
-//! a drivetrain that lags behind commands, a filter of the poses or of the speeds, stamps that
+//! seconds either way; a takes up sides whose α differ. Whatever stands between track speeds and
+//! poses and keeps a constant speed as it is, leaves Σ cⱼ = 1/(x_r − x_l): a drivetrain that lags
+//! behind commands, a filter of the poses or of the speeds, stamps that
 //! jitter. A fit that knows a delay alone takes what these leave for slip: by one c₀, changes of
 //! speed that the poses show smoothed make x_r − x_l too large, and speeds that are smoothed make
 //! it too small. Where the two disagree, and the delays foretell blocks that they were not fitted
@@ -27,7 +27,7 @@ mod rows;
 
 use crate::{Blocks, Extent, Interval};
 use nalgebra::{DMatrix, DVector};
-use rows::{Delays, Part, Rows, smoothed};
+use rows::{Delays, Part, Rows, weighted};
 use trackdyn_core::{Side, real};
 use trackdyn_recording::Recording;
 
@@ -164,7 +164,7 @@ impl Response {
     /// out.
     pub fn applied(&self, recording: &Recording) -> Option<Recording> {
         let (weights, step) = self.weights.as_ref()?;
-        let runs = recording.runs().iter().map(|run| smoothed(run, weights, *step));
+        let runs = recording.runs().iter().map(|run| weighted(run, weights, *step));
         Some(recording.with_runs(runs.filter(|run| run.tracks().len() > 1).collect()))
     }
 

@@ -64,7 +64,7 @@ pub fn files(table: &MotionTable, left_out: &LeftOut, provenance: &Provenance) -
         gain_left: table.gain.left,
         gain_right: table.gain.right,
         largest_m_per_s: table.largest,
-        logarithmic_range: table.range,
+        logarithmic_range: table.spacing.range(),
         scale: if table.slips { "norm" } else { "difference" },
         error_m_per_s: Digits::Significant(3).round(table.error),
         unsolved: Digits::Significant(3).round(table.unsolved),
@@ -129,8 +129,8 @@ fn header(
     left_out: &LeftOut,
     provenance: &Provenance,
 ) -> String {
-    let MotionTable { gain, largest, range, slips, orders: [sizes, angles], .. } = table;
-    let ln_range = range.map(|range| format!("{:?}", range.ln()));
+    let MotionTable { gain, largest, spacing, slips, orders: [sizes, angles], .. } = table;
+    let ln_range = spacing.range().map(|range| format!("{:?}", range.ln()));
     let size = ln_range.as_ref().map_or_else(
         || "norm / largest".to_owned(),
         |ln_range| format!("norm > 0.0 ? 1.0 + log(norm / largest) / {ln_range} : 0.0"),

@@ -13,6 +13,7 @@
 //! - [`newton`]: Newton's and Broyden's method for the balance of forces.
 //! - [`stationary`]: the motion at constant track speeds; [`transient`]: the motion over time.
 //! - [`map`]: the stationary motion over a grid of speeds, its means, spreads and sectors.
+//! - [`sectors`]: the plane of belt speeds in parts where that motion is smooth.
 //! - [`motion_table`]: the stationary motion as polynomials, for a robot's computer.
 //! - [`kinematics`]: constant ICRs, equations (7)-(13).
 //!
@@ -32,6 +33,7 @@ pub mod model;
 pub mod motion_table;
 pub mod newton;
 pub mod pipeline;
+pub mod sectors;
 pub mod stationary;
 pub mod transient;
 pub mod vehicle;

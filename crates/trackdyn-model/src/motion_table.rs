@@ -1,33 +1,30 @@
 //! The stationary motion over both track speeds as polynomials, for a robot's computer.
 //!
-//! Within a sector (signs of V_l, V_r, V_r − V_l and V_r + V_l of the belts) the motion is smooth
-//! in the direction φ and the norm ρ of (V_l, V_r); between sectors it may jump. Expanded is
+//! Expanded is, in each of the [sectors] of the plane of both belt speeds,
 //!
 //! ```text
 //! b = (v_x − V̄, v_y, w)/D,   D = V_r − V_l,   V̄ = (V_l + V_r)/2
 //! ```
 //!
 //! in ROS axes, which stays finite where the robot is held straight. Where belts slip on their
-//! sprockets a load costs speed even without a difference: there D = ρ. In each sector
+//! sprockets a load costs speed even without a difference: there D = ρ. With (s, a) the place in
+//! the sector,
 //!
 //! ```text
 //! b(V_l, V_r) = Σ c_jk T_j(2 s − 1) T_k(2 a − 1),   0 ≤ a, s ≤ 1
 //! ```
 //!
-//! with Chebyshev's polynomials T, a the part of the sector's 45° and s that of the largest speed;
-//! where friction depends on the slip speed, s = 1 + ln(ρ/ρ_max)/ln R. The coefficients follow
-//! from the motions at Chebyshev's nodes. There are as many as the accuracy takes, from a single
-//! one: all motions without effects share their ICRs (the constancy theorem).
+//! with Chebyshev's polynomials T. The coefficients follow from the motions at Chebyshev's nodes.
+//! There are as many as the accuracy takes, from a single one: all motions without effects share
+//! their ICRs (the constancy theorem).
 
 use crate::effect::Symmetry;
+use crate::sectors::{self, SECTORS, Spacing, node};
 use crate::{Circumstance, Model, Stationary, Status};
 use rayon::prelude::*;
-use std::f64::consts::{FRAC_PI_4, PI};
+use std::f64::consts::FRAC_PI_4;
 use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{PerSide, Twist, real};
-
-/// Number of sectors.
-pub const SECTORS: usize = 8;
 
 /// Numbers of polynomials in s and in a that are tried, fewest first.
 const ORDERS: [[usize; 2]; 8] =
@@ -39,7 +36,8 @@ pub const TOLERANCE: f64 = 1e-6;
 /// Points each way of a sector at which a table is compared with the model, none of them a node.
 const CHECKED: usize = 15;
 
-/// Ratio R of the largest to the smallest speed where the table is even in ln ρ.
+/// Ratio R of the largest to the smallest speed where the table is even in ln ρ: motion at smaller
+/// speeds is in proportion.
 const RANGE: f64 = 30.0;
 
 /// The stationary motion of a model over both track speeds.
@@ -49,8 +47,8 @@ pub struct MotionTable {
     pub gain: PerSide<f64>,
     /// ρ_max, the largest norm of both belt speeds, m/s: beyond, ICRs stay as they are there.
     pub largest: f64,
-    /// R where the table is even in ln ρ; none where it is even in ρ.
-    pub range: Option<f64>,
+    /// Spacing in ρ.
+    pub spacing: Spacing,
     /// Whether D = ρ: belts slip on their sprockets.
     pub slips: bool,
     /// Numbers of polynomials in s and in a.
@@ -80,7 +78,7 @@ pub struct Tabulated {
 #[derive(Clone, Copy)]
 struct Shape {
     largest: f64,
-    range: Option<f64>,
+    spacing: Spacing,
     slips: bool,
 }
 
@@ -101,16 +99,14 @@ impl MotionTable {
     /// # Panics
     /// Never: several orders are tried.
     pub fn of(model: &Model, fastest: f64) -> Self {
-        let breaks_scale = |shears_alone: bool| {
-            model.effects().iter().any(|effect| {
-                let card = effect.card();
-                (card.shears() || !shears_alone) && card.breaks.contains(&Symmetry::SpeedScale)
-            })
-        };
+        let breaks_scale = model
+            .effects()
+            .iter()
+            .any(|effect| effect.card().breaks.contains(&Symmetry::SpeedScale));
         let gain = model.drive().gain;
         let shape = Shape {
             largest: std::f64::consts::SQRT_2 * fastest * gain.left.abs().max(gain.right.abs()),
-            range: breaks_scale(true).then_some(RANGE),
+            spacing: Spacing::of(model, RANGE),
             slips: model.drive().slip_per_traction != 0.0,
         };
         let solver = Stationary::new(model, &Circumstance::default());
@@ -123,27 +119,24 @@ impl MotionTable {
         let checked: Vec<(PerSide<f64>, Option<[f64; 3]>)> = shape
             .points([CHECKED; 2], |k, _| (real(k) + 0.5) / real(CHECKED))
             .into_par_iter()
-            .map(|(_, belts)| (belts, solved(belts)))
+            .map(|belts| (belts, solved(belts)))
             .collect();
         let unsolved = checked.iter().filter(|(_, motion)| motion.is_none()).count();
         let mut best: Option<Self> = None;
         for orders in ORDERS {
             // One speed stands for all only where ratios of speeds alone count.
-            if orders[0] == 1 && breaks_scale(false) {
+            if orders[0] == 1 && breaks_scale {
                 continue;
             }
-            let nodes: Vec<Option<[f64; 3]>> = shape
-                .points(orders, node)
-                .into_par_iter()
-                .map(|(_, belts)| solved(belts))
-                .collect();
+            let nodes: Vec<Option<[f64; 3]>> =
+                shape.points(orders, node).into_par_iter().map(solved).collect();
             let mut table = Self {
                 gain,
                 largest: shape.largest,
-                range: shape.range,
+                spacing: shape.spacing,
                 slips: shape.slips,
                 orders,
-                coefficients: coefficients(&filled(&nodes, orders), orders),
+                coefficients: coefficients(&sectors::filled(&nodes, orders), orders),
                 error: 0.0,
                 unsolved: real(unsolved) / real(checked.len()),
             };
@@ -165,10 +158,15 @@ impl MotionTable {
         best.expect("several orders were tried")
     }
 
+    /// Belt speeds at encoder speeds, m/s.
+    pub fn belts(&self, speeds: PerSide<f64>) -> PerSide<f64> {
+        PerSide::from_fn(|side| self.gain[side] * speeds[side])
+    }
+
     /// The motion at encoder speeds, m/s.
     pub fn at(&self, speeds: PerSide<f64>) -> Tabulated {
-        let belts = PerSide::from_fn(|side| self.gain[side] * speeds[side]);
-        let shape = Shape { largest: self.largest, range: self.range, slips: self.slips };
+        let belts = self.belts(speeds);
+        let shape = Shape { largest: self.largest, spacing: self.spacing, slips: self.slips };
         let place = shape.place(belts);
         let [value, by_s, by_a] = self.expanded(&place);
         let scale = shape.scale(belts);
@@ -227,24 +225,18 @@ impl Shape {
         [twist.v_x - mean, twist.v_y, twist.w].map(|value| value / self.scale(belts))
     }
 
-    /// Points of all sectors with their belt speeds, `at(k, n)` the places in both directions.
+    /// Belt speeds at points of all sectors, `at(k, n)` the places in both directions.
     fn points(
         self,
-        orders: [usize; 2],
+        [sizes, angles]: [usize; 2],
         at: impl Fn(usize, usize) -> f64,
-    ) -> Vec<(usize, PerSide<f64>)> {
-        let [sizes, angles] = orders;
-        let mut points = Vec::with_capacity(SECTORS * sizes * angles);
-        for index in 0..SECTORS * sizes * angles {
+    ) -> Vec<PerSide<f64>> {
+        let point = |index: usize| {
             let (sector, rest) = (index / (sizes * angles), index % (sizes * angles));
-            let (s, a) = (at(rest / angles, sizes), at(rest % angles, angles));
-            // ρ = s ρ_max, or ρ_max R^(s − 1)
-            let part = self.range.map_or(s, |range| range.powf(s - 1.0));
-            let phi = (real(sector) + a) * FRAC_PI_4;
-            let rho = self.largest * part;
-            points.push((sector, PerSide::new(rho * phi.cos(), rho * phi.sin())));
-        }
-        points
+            let place = [at(rest / angles, sizes), at(rest % angles, angles)];
+            sectors::speeds(self.largest, self.spacing, sector, place)
+        };
+        (0..SECTORS * sizes * angles).map(point).collect()
     }
 
     fn place(self, belts: PerSide<f64>) -> Place {
@@ -253,31 +245,24 @@ impl Shape {
         if squared == 0.0 {
             return Place { sector: 0, at: [0.0; 2], by_speed: [[0.0; 2]; 2] };
         }
-        let rho = squared.sqrt();
-        let (s, by_rho) = match self.range {
-            None => (rho / self.largest, self.largest.recip()),
-            Some(range) => {
-                (1.0 + (rho / self.largest).ln() / range.ln(), (rho * range.ln()).recip())
-            }
+        let part = squared / (self.largest * self.largest);
+        let s = self.spacing.place(part);
+        // ∂s/∂V = V/ρ ds/dρ
+        let by_speed = match self.spacing {
+            _ if part > 1.0 || s == 0.0 => 0.0,
+            Spacing::Even => (squared.sqrt() * self.largest).recip(),
+            Spacing::Logarithmic { scale, .. } => 2.0 * scale / squared,
         };
-        let by_rho = if (0.0..=1.0).contains(&s) { by_rho } else { 0.0 };
-        let eighths = right.atan2(left).rem_euclid(2.0 * PI) / FRAC_PI_4;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 8")]
-        let sector = (eighths as usize).min(SECTORS - 1);
+        let (sector, a) = sectors::direction(belts);
         Place {
             sector,
-            at: [s.clamp(0.0, 1.0), eighths - real(sector)],
+            at: [s, a],
             by_speed: [
-                [left / rho * by_rho, right / rho * by_rho],
+                [left * by_speed, right * by_speed],
                 [-right / (squared * FRAC_PI_4), left / (squared * FRAC_PI_4)],
             ],
         }
     }
-}
-
-/// Chebyshev's node k of n of the first kind, on [0, 1].
-fn node(k: usize, n: usize) -> f64 {
-    0.5 - 0.5 * ((2.0 * real(k) + 1.0) * PI / (2.0 * real(n))).cos()
 }
 
 /// T_0 to T_(n−1) at 2 x − 1, and their derivatives by x.
@@ -316,23 +301,6 @@ fn coefficients(values: &[[f64; 3]], [sizes, angles]: [usize; 2]) -> Vec<[f64; 3
         (0..sizes * angles).map(coefficient).collect()
     };
     values.chunks_exact(sizes * angles).flat_map(of_sector).collect()
-}
-
-/// Values with missing ones replaced by the nearest of their sector; zero where it has none.
-fn filled(values: &[Option<[f64; 3]>], [sizes, angles]: [usize; 2]) -> Vec<[f64; 3]> {
-    let count = sizes * angles;
-    let place = |index: usize| (index % count / angles, index % angles);
-    let fill = |index: usize| {
-        let sector = index / count * count;
-        let (size, angle) = place(index);
-        let known = (sector..sector + count).filter_map(|other| Some((other, values[other]?)));
-        let nearest = known.min_by_key(|(other, _)| {
-            let (other_size, other_angle) = place(*other);
-            (other_size.abs_diff(size) + other_angle.abs_diff(angle), *other)
-        });
-        nearest.map_or([0.0; 3], |(_, value)| value)
-    };
-    values.iter().enumerate().map(|(index, value)| value.unwrap_or_else(|| fill(index))).collect()
 }
 
 #[cfg(test)]

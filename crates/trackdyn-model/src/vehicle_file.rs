@@ -3,6 +3,7 @@
 use crate::contact::Friction;
 use crate::effects::{ActiveEffect, EffectError, Effects};
 use crate::kinematics::Source;
+use crate::model::Model;
 use crate::vehicle::{FrictionUncertainty, RunningGear, Uncertainty, Vehicle};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -59,6 +60,11 @@ impl VehicleFile {
         }
         let effects = tables.effects(document)?;
         Ok(Self { vehicle, effects, source: tables.source })
+    }
+
+    /// The balance of forces on it.
+    pub fn model(&self) -> Model {
+        Model::new(self.vehicle.clone(), self.effects.clone())
     }
 
     /// The file as text, with keys in a fixed order: equal vehicles of one source have equal texts.

@@ -164,15 +164,22 @@ impl Prepared {
         let fitted = runs.filter(|(index, _)| !self.options.held_out.contains(index));
         let fitted = RunList::new(fitted.map(|(_, run)| *run));
         Source {
-            version: crate::VERSION.to_owned(),
-            vehicle: self.vehicle.name().to_owned(),
-            fingerprint: self.fingerprint.clone(),
             pose_fingerprint: self.poses.clone(),
             joined: self.joined.clone(),
-            recording: Some(self.name.clone()),
             runs: self.runs.is_some().then(|| fitted.to_string()),
+            ..self.source(&Provenance::default())
+        }
+    }
+
+    /// What was seen.
+    fn source(&self, provenance: &Provenance) -> Source {
+        Source {
+            vehicle: self.vehicle.name().to_owned(),
+            fingerprint: self.fingerprint.clone(),
+            recording: Some(self.name.clone()),
+            runs: self.runs.clone(),
             time_s: self.time,
-            ..Source::default()
+            ..provenance.source()
         }
     }
 }
@@ -222,15 +229,8 @@ impl Diagnosis {
 
     /// The diagnosis as a file (schema `trackdyn.diagnosis/1`).
     pub fn file(&self, provenance: &Provenance) -> DiagnosisFile {
-        let source = Source {
-            vehicle: self.of.vehicle.name().to_owned(),
-            fingerprint: self.of.fingerprint.clone(),
-            recording: Some(self.of.name.clone()),
-            runs: self.of.runs.clone(),
-            time_s: self.of.time,
-            seed: Some(self.of.options.resampling.seed),
-            ..provenance.source()
-        };
+        let seed = Some(self.of.options.resampling.seed);
+        let source = Source { seed, ..self.of.source(provenance) };
         DiagnosisFile::new(&self.found, &source)
     }
 

@@ -137,7 +137,7 @@ impl Vehicle {
 
     /// The balance of forces on it.
     pub fn model(&self) -> Model {
-        Model::new(self.file.vehicle.clone(), self.file.effects.clone())
+        self.file.model()
     }
 
     /// The text of its file: equal vehicles of one source have equal texts.

@@ -1,6 +1,6 @@
 //! What turns set-points into track speeds, and track speeds into motion.
 
-use trackdyn_core::frames::ros_twist_from_paper;
+use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
 use trackdyn_core::{PerSide, Twist};
 use trackdyn_model::kinematics::KinematicsFile;
 use trackdyn_model::motion_table::Tabulated;
@@ -53,7 +53,9 @@ impl Steering for MotionTable {
     /// found.
     fn track_speeds(&self, forward: f64, yaw_rate: f64) -> (PerSide<f64>, Kinematics) {
         let spin = PerSide::new(-SPIN, SPIN);
+        // Where a track holds the robot even in a spin, any start does.
         let start = constants(self, spin, &self.at(spin).twist);
+        let start = start.unwrap_or_else(|| Kinematics::ideal(1.0));
         let off = |at: &Tabulated| [forward - at.twist.v_x, yaw_rate - at.twist.w];
         let size = |off: [f64; 2]| off[0].hypot(off[1]);
         let mut speeds = start.track_speeds(forward, yaw_rate);
@@ -76,8 +78,9 @@ impl Steering for MotionTable {
             let Some(next) = nearer else { break };
             (speeds, at) = next;
         }
-        let turns = at.twist.w.abs() > CLOSE;
-        (speeds, if turns { constants(self, speeds, &at.twist) } else { start })
+        let turning = Some(at.twist).filter(|twist| twist.w.abs() > CLOSE);
+        let found = turning.and_then(|twist| constants(self, speeds, &twist));
+        (speeds, found.unwrap_or(start))
     }
 
     fn twist(&self, measured: PerSide<f64>) -> Twist {
@@ -85,14 +88,10 @@ impl Steering for MotionTable {
     }
 }
 
-/// The constants that a turning motion (ROS axes) has at these encoder speeds.
-fn constants(table: &MotionTable, speeds: PerSide<f64>, twist: &Twist) -> Kinematics {
-    let Twist { v_x, v_y, w } = *twist;
-    // V_l = v_y + x_l ω and V_r = v_y + x_r ω, eqs (10)-(11), with v_y forward; v_x = ω y, eq. (7),
-    // with v_x to the right
-    let [x_left, x_right] =
-        [(table.gain.left * speeds.left - v_x) / w, (table.gain.right * speeds.right - v_x) / w];
-    Kinematics { icrs: Icrs { x_left, x_right, y: -v_y / w }, alpha: table.gain }
+/// The constants that a motion (ROS axes) has at these encoder speeds; none without turning.
+fn constants(table: &MotionTable, speeds: PerSide<f64>, twist: &Twist) -> Option<Kinematics> {
+    let icrs = Icrs::of_motion(table.belts(speeds), &paper_twist_from_ros(twist))?;
+    Some(Kinematics { icrs, alpha: table.gain })
 }
 
 #[cfg(test)]

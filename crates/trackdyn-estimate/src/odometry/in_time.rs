@@ -54,8 +54,7 @@ fn answer(recording: &Recording, file: &VehicleFile) -> Option<f64> {
 }
 
 fn model(file: &VehicleFile) -> Model {
-    let model = Model::new(file.vehicle.clone(), file.effects.clone());
-    model.with_resolution(Resolution::Coarse)
+    file.model().with_resolution(Resolution::Coarse)
 }
 
 /// The poses at the stamps of these poses of a run, from the first of them on, with poses that come

@@ -3,7 +3,7 @@
 use trackdyn_core::frames::ros_twist_from_paper;
 use trackdyn_core::{PerSide, Twist};
 use trackdyn_model::kinematics::KinematicsFile;
-use trackdyn_model::{Circumstance, Icrs, Kinematics, Model, Stationary, VehicleFile};
+use trackdyn_model::{Circumstance, Icrs, Kinematics, Stationary, VehicleFile};
 
 /// The parameters of a replay, under a name.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,7 +116,7 @@ impl ParameterSet {
 
 /// ICRs and twist (ROS axes, of the pose sensor) of a vehicle's stationary motion.
 fn by_forces(file: &VehicleFile, measured: PerSide<f64>) -> (Option<Icrs>, Twist) {
-    let model = Model::new(file.vehicle.clone(), file.effects.clone());
+    let model = file.model();
     let found = Stationary::new(&model, &Circumstance::default()).solve(measured);
     (found.icrs, ros_twist_from_paper(&model.sensor().reported(&found.twist)))
 }

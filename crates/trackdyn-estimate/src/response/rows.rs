@@ -246,7 +246,7 @@ impl<'a> Ways<'a> {
 }
 
 /// A run with the track speeds Σⱼ wⱼ V(t − jδ), over the time that each reading holds.
-pub(super) fn smoothed(run: &Run, weights: &[f64], step: f64) -> Run {
+pub(super) fn weighted(run: &Run, weights: &[f64], step: f64) -> Run {
     let tracks = run.tracks();
     let (ways, gaps) = (Ways::of(tracks), Gaps::of(tracks));
     let half = real(weights.len() / 2);

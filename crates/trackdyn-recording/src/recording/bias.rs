@@ -29,19 +29,22 @@ pub(super) fn take_off(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
     if !runs.iter().all(Run::has_positions) {
         return;
     }
+    let moving = [(Side::Left, 0), (Side::Right, 1)];
+    let moving: Vec<_> = moving.into_iter().filter(|(side, _)| !stands(runs, *side)).collect();
+    if moving.is_empty() {
+        return;
+    }
     let Some(linear) = Linear::of(runs, MIN_PIECE, &|_, _, _| false) else { return };
     let [way, error] = linear.number(|[_, forward]| forward.z);
     if way.abs() < MIN_ERRORS_OF_WAY * error {
         return;
     }
-    for (side, place) in [(Side::Left, 0), (Side::Right, 1)] {
+    for (side, place) in moving {
         let [speed, error] = linear.number(|fit| offsets(fit)[place]);
-        let readings = || runs.iter().flat_map(Run::tracks).map(|reading| reading.speeds()[side]);
-        let count = real(readings().count().max(1));
-        let usual = (readings().map(|speed| speed * speed).sum::<f64>() / count).sqrt();
-        let zeros = real(readings().filter(|speed| *speed == 0.0).count()) / count;
+        let count = real(speeds(runs, side).count().max(1));
+        let usual = (speeds(runs, side).map(|speed| speed * speed).sum::<f64>() / count).sqrt();
         let shows = speed.abs() > MIN_ERRORS * error && speed.abs() > MIN_SHARE * usual;
-        if !shows || zeros > MAX_ZEROS {
+        if !shows {
             continue;
         }
         for run in runs.iter_mut() {
@@ -57,4 +60,15 @@ pub(super) fn take_off(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
             cleanings.push(Cleaning { stream, finding, count, runs: 1, run: id, t });
         }
     }
+}
+
+/// Speeds of a side, m/s.
+fn speeds(runs: &[Run], side: Side) -> impl Iterator<Item = f64> + '_ {
+    runs.iter().flat_map(Run::tracks).map(move |reading| reading.speeds()[side])
+}
+
+/// Whether a side reads zero while it stands.
+fn stands(runs: &[Run], side: Side) -> bool {
+    let zeros = speeds(runs, side).filter(|speed| *speed == 0.0).count();
+    real(zeros) / real(speeds(runs, side).count().max(1)) > MAX_ZEROS
 }

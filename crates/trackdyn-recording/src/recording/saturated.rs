@@ -64,6 +64,9 @@ impl Limit {
 
 /// Drops saturated readings; `cleanings` takes what was found.
 pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
+    if !runs.iter().all(Run::has_positions) {
+        return;
+    }
     let limits = questioned(runs);
     if limits.is_empty() {
         return;
@@ -73,9 +76,6 @@ pub(super) fn leave_out(runs: &mut [Run], cleanings: &mut Vec<Cleaning>) {
     let meets = |run: usize, piece: &Piece, delay: f64| {
         within.iter().any(|limit| overlap(&limit[run], piece, delay) > 0.0)
     };
-    if !runs.iter().all(Run::has_positions) {
-        return;
-    }
     let Some(linear) = Linear::of(runs, MIN_PIECE, &meets) else { return };
     let is_saturated = |index: usize| {
         let others = |run: usize, piece: &Piece| {

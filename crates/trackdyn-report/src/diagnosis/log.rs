@@ -3,9 +3,6 @@
 use super::{Subject, View};
 use trackdyn_diagnose::evidence::{Origin, Sample};
 
-/// Rounding of times, s.
-const ROUNDING: f64 = 1e-6;
-
 /// A run on the axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Run {
@@ -87,8 +84,9 @@ impl<'a> Log<'a> {
         self.runs.last().map_or(0.0, |run| run.at + run.duration)
     }
 
-    /// Whether an entry begins where the one before it ends, in the same run.
+    /// Whether an entry is the one after another, and begins at the pose where that one ends.
     pub fn follows(before: &Entry, entry: &Entry) -> bool {
-        before.sample.run == entry.sample.run && entry.span[0] <= before.span[1] + ROUNDING
+        let is_next = before.view == entry.view && before.index + 1 == entry.index;
+        is_next && entry.sample.follows
     }
 }

@@ -142,12 +142,7 @@ impl Drive<'_> {
         let mut pieces = Vec::new();
         let mut open: Option<Piece> = None;
         for (index, sample) in samples.iter().enumerate() {
-            let is_next = |open: &Piece| {
-                let last = &samples[open.samples.end - 1];
-                let gap = sample.start - (last.start + last.duration);
-                last.run == sample.run && gap.abs() < ROUNDING
-            };
-            let start = match open.take().filter(is_next) {
+            let start = match open.take().filter(|_| sample.follows) {
                 Some(open) => open,
                 None => Piece { samples: index..index, duration: 0.0 },
             };

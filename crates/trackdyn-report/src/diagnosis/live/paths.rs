@@ -1,6 +1,6 @@
 //! Pieces of the log, replayed.
 
-use super::lines::{line, names};
+use super::lines::{line, named, names};
 use super::steps::{ANGLE, PLACE, TIME, near, whole};
 use crate::diagnosis::log::Log;
 use crate::diagnosis::path;
@@ -93,7 +93,7 @@ fn piece(log: &Log, piece: &path::Piece) -> Option<Piece> {
 /// The line of each name.
 fn lines(panel: &Panel) -> Vec<&Line> {
     let all = names(panel).into_iter();
-    all.filter_map(|name| panel.series.iter().filter(|of| of.name == name).find_map(line)).collect()
+    all.filter_map(|name| named(panel, name).next()).collect()
 }
 
 /// Step of an error of place or heading.

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 use trackdyn_diagnose::base::Base;
-use trackdyn_diagnose::candidate::{Beside, candidates};
+use trackdyn_diagnose::candidate::{Beside, Catalogue, candidates};
 use trackdyn_diagnose::evidence::Evidence;
 use trackdyn_diagnose::noise::with_remaining_noise;
 use trackdyn_diagnose::progress::Watch;
-use trackdyn_diagnose::search::{Catalogue, Search};
+use trackdyn_diagnose::search::Search;
 use trackdyn_diagnose::{Settings, Weighted};
 use trackdyn_drive::sensors::Preset;
 use trackdyn_drive::{ScheduleKind, ScheduleOptions};

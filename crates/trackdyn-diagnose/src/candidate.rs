@@ -28,6 +28,13 @@ pub struct Variant {
     pub values: Vec<f64>,
 }
 
+/// Signatures of all candidates: some variants of each effect.
+#[derive(Default)]
+pub struct Catalogue {
+    /// Each variant with its signatures.
+    pub entries: Vec<(Variant, Vec<Signature>)>,
+}
+
 /// Derivative of the prediction by a size of an effect.
 #[derive(Clone, Debug)]
 pub struct Signature {

@@ -2,6 +2,7 @@
 
 use crate::evidence::Evidence;
 use crate::fit::Fit;
+use crate::form::Forms;
 use crate::locate::{Residual, excess, icr_columns};
 use crate::noise::without_outliers;
 use crate::resampling::Resampling;
@@ -78,7 +79,7 @@ pub(crate) fn errors(
     let [before, instruments, error] =
         [before, instruments, after].map(|fit| excess(evidence, &fit.residual));
     let icrs = icr_columns(evidence, after);
-    let residual = Residual { evidence, fit: after, icrs: &icrs };
+    let residual = Residual { evidence, fit: after, forms: &Forms::default(), icrs: &icrs };
     let flexible = residual.locate(resampling.once());
     let count = real(evidence.measured().max(1));
     let floor = error * error - flexible.explicable.max(0.0) / count;

@@ -42,7 +42,7 @@ impl Isolability {
             screened.iter().filter(|one| !best.effects.contains(&one.effect)).collect();
         order.sort_by_key(|one| one.effect);
         let entries: Vec<usize> = order.iter().map(|one| one.entry).collect();
-        let equations = search.equations(&best.fit, &entries);
+        let equations = search.equations(best, &entries);
         let (projected, groups) = (equations.projected(), &equations.groups);
         // Signature at typical sizes, as one column.
         let typical = |place: usize| -> Vec<f64> {

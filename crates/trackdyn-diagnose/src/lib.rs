@@ -8,7 +8,7 @@
 //! - [`prior`]: prior distributions of the unknowns.
 //! - [`settings`]: all numbers that decide an answer.
 //! - [`fit`], [`normal`], [`equations`]: robust nonlinear least squares, and normal equations
-//!   summed by blocks.
+//!   summed by blocks; [`form`]: what the form of a law leaves.
 //! - [`base`]: what is free in every hypothesis: constant ICRs, encoders and pose sensor.
 //! - [`locate`], [`significance`], [`place`]: tests, without any effect, of where residuals depart
 //!   from zero.
@@ -37,6 +37,7 @@ pub mod error;
 pub mod evidence;
 pub mod exposure;
 pub mod fit;
+pub mod form;
 pub mod held_out;
 pub mod hypothesis;
 pub mod isolability;

@@ -19,6 +19,7 @@ pub use waves::Wave;
 use crate::equations::Stack;
 use crate::evidence::{Evidence, Sample};
 use crate::fit::Fit;
+use crate::form::Forms;
 use crate::mechanics::Instruments;
 use crate::normal::Prior;
 use crate::resampling::Resampling;
@@ -96,6 +97,8 @@ pub struct Residual<'a> {
     pub evidence: &'a Weighted,
     /// The fit that leaves it.
     pub fit: &'a Fit,
+    /// What the form of its laws may leave.
+    pub forms: &'a Forms,
     /// Jacobian of the prediction by x_l, x_r and y, not whitened.
     pub icrs: &'a IcrColumns,
 }
@@ -103,10 +106,12 @@ pub struct Residual<'a> {
 impl Residual<'_> {
     /// Tests all symmetries on the residual.
     pub fn locate(&self, resampling: Resampling) -> Location {
-        let Self { evidence, fit, icrs } = *self;
+        let Self { evidence, fit, forms, icrs } = *self;
         let settings = &evidence.settings().location;
         let Fit { residual, columns: fitted, .. } = fit;
-        let mut stack = Stack::new(fitted.clone(), vec![Prior::flat(); fitted.len()]);
+        let flat = vec![Prior::flat(); fitted.len()];
+        let free = [&fitted[..], &forms.columns].concat();
+        let mut stack = Stack::new(free, [&flat[..], &forms.priors].concat());
         let mut of_groups: Vec<Contrasts> = Vec::new();
         for mut contrasts in contrasts(evidence, icrs) {
             let columns = std::mem::take(&mut contrasts.columns).into_iter();
@@ -149,7 +154,7 @@ impl Residual<'_> {
     /// Tests all symmetries, and waves of the ground as the strictest test of places.
     pub fn locate_in_waves(&self, resampling: Resampling) -> Location {
         let mut location = self.locate(resampling);
-        let Self { evidence, fit, icrs } = *self;
+        let Self { evidence, fit, icrs, .. } = *self;
         let strongest = |beside: &[Vec<Vector3<f64>>]| {
             let wave = strongest_wave(evidence, &fit.residual, beside, icrs, resampling);
             wave.filter(|wave| wave.test.p < location.max_p[0])

@@ -91,6 +91,16 @@ impl Prior {
     }
 }
 
+/// Effective number of parts that make up a sum of squares.
+///
+/// # Law
+/// (Σ q)²/Σ q²: one where a single part has all of it, n where n parts are equal.
+pub fn effective(squares: impl Iterator<Item = f64>) -> f64 {
+    let (sum, of_squares) =
+        squares.fold((0.0, 0.0), |(sum, squares), one| (sum + one, squares + one * one));
+    if of_squares > 0.0 { sum * sum / of_squares } else { 0.0 }
+}
+
 /// Ridge on the scaled diagonal: columns that differ by less, relative to their square, count as
 /// equal.
 const RIDGE: f64 = 1e-10;

@@ -14,6 +14,7 @@ pub mod symmetry;
 pub mod words;
 
 use crate::base::Base;
+use crate::candidate::Catalogue;
 use crate::equations::Stack;
 use crate::fit::{Fit, columns};
 use crate::held_out::{HeldOut, Unseen};
@@ -21,7 +22,7 @@ use crate::hypothesis::Unknown;
 use crate::locate::{Location, Residual, excess, icr_columns};
 use crate::prior::priors;
 use crate::resampling::Resampling;
-use crate::search::{Catalogue, Found, Search};
+use crate::search::{Found, Search};
 use crate::uncertainty::{Interval, Uncertainty};
 use crate::verdict::{Support, tolerated};
 use crate::weighted::Weighted;
@@ -131,7 +132,7 @@ fn law(effect: EffectId, unexplained: &Unexplained, resampling: Resampling) -> O
     }
     let found = refitted(effect, &selected, &library, &search, best);
     let icrs = icr_columns(evidence, &found.fit);
-    let residual = Residual { evidence, fit: &found.fit, icrs: &icrs };
+    let residual = Residual { evidence, fit: &found.fit, forms: &found.forms, icrs: &icrs };
     let after = residual.locate_in_waves(resampling);
     let held_out = judged(unexplained, &found.fit);
     let still = after.left_over(form);
@@ -212,7 +213,7 @@ fn refitted(
     let mut effects = best.effects.clone();
     effects.push(effect);
     effects.sort_unstable();
-    Found { effects, ln_evidence: fit.ln_evidence(), fit }
+    search.found(effects, fit)
 }
 
 /// Errors without and with the law, on held-out runs where there are any.

@@ -10,26 +10,21 @@ mod done;
 mod newton;
 
 use crate::base::{Base, Calibration, with_vehicle};
-use crate::candidate::{Beside, Signature, Variant};
+use crate::candidate::{Beside, Catalogue, Signature, Variant};
 use crate::equations::{Equations, Stack};
 use crate::fit::{Fit, Point};
+use crate::form::Forms;
 use crate::hypothesis::{Hypothesis, Unknown, active, beyond_none, unknowns_of};
-use crate::normal::Prior;
+use crate::normal::{Prior, Solution};
 use crate::prior::{prior, priors};
 use crate::progress::{Cancelled, Watch};
 use crate::settings::Settings;
 use crate::weighted::Weighted;
 use done::{Done, Key, Step};
+use nalgebra::DVector;
 use rayon::prelude::*;
 use std::sync::Arc;
 use trackdyn_model::EffectId;
-
-/// Signatures of all candidates: some variants of each effect.
-#[derive(Default)]
-pub struct Catalogue {
-    /// Each variant with its signatures.
-    pub entries: Vec<(Variant, Vec<Signature>)>,
-}
 
 /// Linear estimate of what a candidate adds to a fit.
 #[derive(Clone, Debug)]
@@ -44,7 +39,7 @@ pub struct Screened {
     pub z: f64,
     /// Estimated sizes, as distances from the neutral size.
     pub sizes: Vec<f64>,
-    /// Whether an estimated size lies outside its physical range.
+    /// Whether the evidence asks for a size beyond its physical range; it is held at the limit.
     pub held: bool,
 }
 
@@ -55,7 +50,9 @@ pub struct Found {
     pub effects: Vec<EffectId>,
     /// The fit.
     pub fit: Fit,
-    /// Its log evidence.
+    /// What the form of its laws leaves.
+    pub forms: Forms,
+    /// Its log evidence, the mean over the forms.
     pub ln_evidence: f64,
 }
 
@@ -100,20 +97,43 @@ impl Search {
 
     /// The base, as a hypothesis without added effects.
     pub fn nothing(&self) -> Found {
-        let fit = self.base.fit.clone();
-        Found { effects: Vec::new(), ln_evidence: fit.ln_evidence(), fit }
+        self.found(Vec::new(), self.base.fit.clone())
     }
 
-    /// Normal equations of a fit, extended by the signatures of these catalogue entries.
-    pub fn equations(&self, fit: &Fit, entries: &[usize]) -> Equations {
+    /// A fit that adds these effects to the base, with what the form of its laws leaves.
+    pub fn found(&self, effects: Vec<EffectId>, fit: Fit) -> Found {
+        let deviations = &self.evidence.settings().prior.form_deviations;
+        let forms = Forms::of(&fit, deviations, &self.catalogue, &self.evidence);
+        Found { effects, ln_evidence: fit.ln_evidence() + forms.gain, fit, forms }
+    }
+
+    /// A hypothesis whose laws differ in form by as much as those of `whole`, which has more
+    /// effects: what is missing would look like other forms.
+    pub fn in_forms_of(&self, whole: &Found, found: Found) -> Found {
+        let deviation = whole.forms.deviation;
+        let forms = if deviation > 0.0 {
+            Forms::at(&found.fit, deviation, &self.catalogue, &self.evidence)
+        } else {
+            Forms::default()
+        };
+        Found { forms, ..found }
+    }
+
+    /// Normal equations of a hypothesis in its forms, extended by the signatures of these catalogue
+    /// entries.
+    pub fn equations(&self, found: &Found, entries: &[usize]) -> Equations {
         let signatures = entries.iter().map(|&entry| &self.catalogue.entries[entry].1[..]);
-        self.equations_with(fit, &signatures.collect::<Vec<_>>())
+        self.equations_with(found, &signatures.collect::<Vec<_>>())
     }
 
-    /// Normal equations of a fit, extended by these signatures; those of an effect form a group.
-    pub fn equations_with(&self, fit: &Fit, beside: &[&[Signature]]) -> Equations {
+    /// Normal equations of a hypothesis in its forms, extended by these signatures; those of an
+    /// effect form a group.
+    pub fn equations_with(&self, found: &Found, beside: &[&[Signature]]) -> Equations {
+        let Found { fit, forms, .. } = found;
         let Fit { hypothesis, unknowns, columns, residual, .. } = fit;
-        let mut stack = Stack::new(columns.clone(), priors(hypothesis, unknowns, &self.evidence));
+        let known = priors(hypothesis, unknowns, &self.evidence);
+        let free = [&columns[..], &forms.columns].concat();
+        let mut stack = Stack::new(free, [&known[..], &forms.priors].concat());
         for &signatures in beside {
             stack.push(signatures.iter().map(|signature| {
                 let known = prior(hypothesis, signature.unknown, &self.evidence);
@@ -128,7 +148,7 @@ impl Search {
         let entries: Vec<usize> = (0..self.catalogue.entries.len())
             .filter(|&entry| !beside.effects.contains(&self.catalogue.entries[entry].0.effect))
             .collect();
-        let equations = self.equations(&beside.fit, &entries);
+        let equations = self.equations(beside, &entries);
         let without = equations.fit_with(&[]);
         let mut best: Vec<Screened> = Vec::new();
         let all: Vec<Screened> = entries
@@ -137,23 +157,29 @@ impl Search {
             .map(|(&entry, group)| {
                 let fit = equations.fit_with(group);
                 let variant = &self.catalogue.entries[entry].0;
-                let sizes: Vec<f64> =
-                    fit.estimate.rows(equations.free.len(), group.len()).iter().copied().collect();
-                let held = !is_physical(&beside.fit.hypothesis, variant, &sizes);
-                let drop = (without.misfit - fit.misfit).max(0.0);
+                let sizes = fit.estimate.rows(equations.free.len(), group.len()).into_owned();
+                let physical = within_range(&beside.fit.hypothesis, variant, &sizes);
+                // Rise of the misfit from the free sizes to those at the limits: dᵀ Σ⁻¹ d.
+                let held = physical != sizes;
+                let rise = if held {
+                    rise(&fit, equations.free.len(), &(&physical - &sizes))
+                } else {
+                    0.0
+                };
+                let drop = (without.misfit - fit.misfit - rise).max(0.0);
                 // An effect that the robot never met has zero signatures.
                 let unseen =
                     group.iter().all(|&column| equations.normal.product(column, column) == 0.0);
                 Screened {
                     entry,
                     effect: variant.effect,
-                    gain: if held || unseen {
+                    gain: if unseen {
                         f64::NEG_INFINITY
                     } else {
-                        fit.ln_evidence - without.ln_evidence
+                        fit.ln_evidence - rise / 2.0 - without.ln_evidence
                     },
                     z: drop.sqrt(),
-                    sizes,
+                    sizes: physical.iter().copied().collect(),
                     held,
                 }
             })
@@ -207,7 +233,7 @@ impl Search {
         let dozen: Vec<&Screened> =
             screened.iter().take(self.settings().search.max_paired).collect();
         let entries: Vec<usize> = dozen.iter().map(|one| one.entry).collect();
-        let equations = self.equations(&beside.fit, &entries);
+        let equations = self.equations(beside, &entries);
         let (groups, free) = (&equations.groups, equations.free.len());
         let without = equations.fit_with(&[]);
         let mut pairs = Vec::new();
@@ -215,22 +241,26 @@ impl Search {
             for b in a + 1..dozen.len() {
                 let both: Vec<usize> = groups[a].iter().chain(&groups[b]).copied().collect();
                 let fit = equations.fit_with(&both);
-                let sizes = |from: usize, count: usize| -> Vec<f64> {
-                    fit.estimate.rows(from, count).iter().copied().collect()
-                };
-                let first = sizes(free, groups[a].len());
-                let second = sizes(free + groups[a].len(), groups[b].len());
                 let hypothesis = &beside.fit.hypothesis;
-                let variant = |one: &Screened| &self.catalogue.entries[one.entry].0;
-                let physical = is_physical(hypothesis, variant(dozen[a]), &first)
-                    && is_physical(hypothesis, variant(dozen[b]), &second);
-                if physical {
-                    // each carries the gain of both: alone, neither may show
-                    let gain = fit.ln_evidence - without.ln_evidence;
-                    let with =
-                        |one: &Screened, sizes: Vec<f64>| Screened { gain, sizes, ..one.clone() };
-                    pairs.push((gain, [with(dozen[a], first), with(dozen[b], second)]));
-                }
+                let of = |one: &Screened, from: usize, count: usize| {
+                    let sizes = fit.estimate.rows(from, count).into_owned();
+                    let variant = &self.catalogue.entries[one.entry].0;
+                    (within_range(hypothesis, variant, &sizes), sizes)
+                };
+                let (first, free_first) = of(dozen[a], free, groups[a].len());
+                let (second, free_second) = of(dozen[b], free + groups[a].len(), groups[b].len());
+                let moved = [first.clone() - free_first, second.clone() - free_second];
+                let moved: Vec<f64> = moved.iter().flatten().copied().collect();
+                let held = moved.iter().any(|by| *by != 0.0);
+                let rise = if held { rise(&fit, free, &DVector::from(moved)) } else { 0.0 };
+                // each carries the gain of both: alone, neither may show
+                let gain = fit.ln_evidence - rise / 2.0 - without.ln_evidence;
+                let with = |one: &Screened, sizes: DVector<f64>| Screened {
+                    gain,
+                    sizes: sizes.iter().copied().collect(),
+                    ..one.clone()
+                };
+                pairs.push((gain, [with(dozen[a], first), with(dozen[b], second)]));
             }
         }
         pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -330,7 +360,7 @@ impl Search {
             }
             fit = again;
         }
-        Found { effects, ln_evidence: fit.ln_evidence(), fit }
+        self.found(effects, fit)
     }
 
     /// Expresses the constant ICRs by another of the vehicle's numbers, where the effects found now
@@ -345,7 +375,7 @@ impl Search {
             let (unknowns, before) = (&best.fit.unknowns, Some(&best.fit.mechanics));
             let fit = Fit::new(hypothesis, unknowns, &self.evidence, before);
             if fit.objective < best.fit.objective - least {
-                best = Found { ln_evidence: fit.ln_evidence(), fit, ..best };
+                best = self.found(best.effects, fit);
             }
         }
         best
@@ -461,12 +491,21 @@ impl Search {
     }
 }
 
-/// Whether sizes, as distances from the present ones, lie within their physical ranges.
-fn is_physical(beside: &Hypothesis, variant: &Variant, sizes: &[f64]) -> bool {
-    variant.sizes().iter().zip(sizes).all(|(&place, size)| {
-        let unknown = Unknown::Effect(variant.effect, place);
-        let [low, high] = beside.range(unknown);
-        let value = beside.get(unknown) + size;
-        (low..=high).contains(&value)
+/// Sizes, as distances from the present ones, moved into their physical ranges.
+fn within_range(beside: &Hypothesis, variant: &Variant, sizes: &DVector<f64>) -> DVector<f64> {
+    let places = variant.sizes();
+    DVector::from_fn(sizes.len(), |k, _| {
+        let unknown = Unknown::Effect(variant.effect, places[k]);
+        let ([low, high], present) = (beside.range(unknown), beside.get(unknown));
+        let value = present + sizes[k];
+        if (low..=high).contains(&value) { sizes[k] } else { value.clamp(low, high) - present }
     })
+}
+
+/// Rise of the least misfit where the factors of columns from `first` on are moved by d from their
+/// estimates and all others follow: dᵀ Σ⁻¹ d, Σ their covariance.
+fn rise(fit: &Solution, first: usize, by: &DVector<f64>) -> f64 {
+    let covariance = fit.covariance.view((first, first), (by.len(), by.len())).into_owned();
+    let solved = covariance.cholesky().map(|factor| factor.solve(by));
+    solved.map_or(f64::INFINITY, |solved| by.dot(&solved))
 }

@@ -4,7 +4,7 @@ use crate::equations::Equations;
 use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::hypothesis::Unknown;
-use crate::normal::Normal;
+use crate::normal::{Normal, Solution, effective};
 use crate::search::{Found, Search};
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -41,9 +41,10 @@ pub struct Level {
 /// 95 % confidence intervals of the unknowns of a hypothesis.
 ///
 /// The largest of three variances counts: that by the noise, and two jackknife variances (B − 1)/B
-/// Σ (θ₋ᵦ − θ)², with blocks or whole runs left out, which need no noise model. An interval ends
-/// where the profile likelihood (all other unknowns refitted) has fallen as far as a parabola with
-/// that variance would at Student's quantile.
+/// Σ (θ₋ᵦ − θ)², with blocks or whole runs left out, which need no noise model. A jackknife counts
+/// where several groups determine the unknown: where one does, it measures its absence, not its
+/// scatter. An interval ends where the profile likelihood (all other unknowns refitted) has fallen
+/// as far as a parabola with that variance would at Student's quantile.
 ///
 /// # Sources
 /// The block jackknife: Bell, McCaffrey, Survey Methodology 28(2), 2002 (CR3). Profile likelihood:
@@ -71,32 +72,61 @@ fn groupings(evidence: &Evidence, counts: impl Fn(usize) -> bool) -> [Vec<Range<
     [blocks, runs]
 }
 
+/// Effective number of groups that determine an unknown, all others being free. `covariance` is its
+/// column of the covariance, of these columns of the normal equations.
+///
+/// # Law
+/// That of I_g = wᵀ J_g w, the information of a group, w the covariance of the unknown with all.
+fn shown_by(
+    normal: &Normal,
+    groups: &[Range<usize>],
+    columns: &[usize],
+    covariance: &DVector<f64>,
+) -> f64 {
+    // I_g = wᵀ J_g w
+    let of_group = |group: &Range<usize>| -> f64 {
+        group.clone().map(|block| normal.change_at(block, columns, covariance)).sum()
+    };
+    effective(groups.iter().map(of_group))
+}
+
 impl<'a> Uncertainty<'a> {
     /// Uncertainty of the best hypothesis.
     pub fn of(search: &'a Search, best: &'a Found) -> Self {
         let fit = &best.fit;
-        let Equations { normal, priors, .. } = search.equations(fit, &[]);
-        let estimate = |normal: &Normal| normal.fit(&fit.free, &priors).estimate;
-        let whole = estimate(&normal);
+        let Equations { normal, priors, .. } = search.equations(best, &[]);
+        // Other forms of the laws are as free as the unknowns.
+        let forms = fit.columns.len()..normal.columns();
+        let free: Vec<usize> = fit.free.iter().copied().chain(forms).collect();
+        let estimate = |normal: &Normal| normal.fit(&free, &priors).estimate;
+        let whole = normal.fit(&free, &priors);
         let last = normal.columns();
         let counts = |block: usize| normal.block(block)[(last, last)] != 0.0;
         let half = |variance: f64, groups: usize| {
             Student::new(0.0, variance.max(0.0).sqrt(), groups, 1).high
         };
         let groupings = groupings(&search.evidence, counts);
-        let noise = fit.solution.covariance.diagonal();
+        let mut noise = fit.solution.covariance.diagonal();
+        for (place, &k) in fit.free.iter().enumerate() {
+            noise[k] = whole.covariance[(place, place)];
+        }
+        let Solution { estimate: whole, covariance, .. } = whole;
         let mut halves: Vec<f64> =
             noise.iter().map(|variance| half(*variance, groupings[0].len())).collect();
-        let min_groups = search.settings().limits.min_groups;
-        for groups in groupings.iter().filter(|groups| groups.len() >= min_groups) {
+        let settings = search.settings();
+        for groups in groupings.iter().filter(|groups| groups.len() >= settings.limits.min_groups) {
             let mut squares = DVector::zeros(whole.len());
             for group in groups {
                 let change = estimate(&normal.without(group)) - &whole;
                 squares += change.component_mul(&change);
             }
             let share = 1.0 - real(groups.len()).recip();
-            for (&k, squares) in fit.free.iter().zip(squares.iter()) {
-                halves[k] = halves[k].max(half(share * squares, groups.len()));
+            for (place, &k) in fit.free.iter().enumerate() {
+                let shown =
+                    shown_by(&normal, groups, &free, &covariance.column(place).into_owned());
+                if shown >= settings.verdict.min_blocks {
+                    halves[k] = halves[k].max(half(share * squares[place], groups.len()));
+                }
             }
         }
         Self { search, fit, halves }

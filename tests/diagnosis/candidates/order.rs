@@ -1,11 +1,11 @@
 //! The order in which candidates stand says nothing.
 
 use trackdyn_diagnose::base::Base;
-use trackdyn_diagnose::candidate::{Beside, candidates};
+use trackdyn_diagnose::candidate::{Beside, Catalogue, candidates};
 use trackdyn_diagnose::evidence::Evidence;
 use trackdyn_diagnose::fit::Fit;
 use trackdyn_diagnose::progress::Watch;
-use trackdyn_diagnose::search::{Catalogue, Found, Search};
+use trackdyn_diagnose::search::{Found, Search};
 use trackdyn_diagnose::{Settings, Weighted};
 
 use trackdyn_estimate::synthetic::{Synthetic, random_steps};

@@ -1,6 +1,7 @@
 //! Where residuals depart from zero, before and after the correction.
 
 use super::judged::Judged;
+use crate::form::Forms;
 use crate::locate::cells::{Cell, cells};
 use crate::locate::{Location, Residual, icr_columns};
 use crate::place::sentence;
@@ -31,9 +32,11 @@ impl Located {
         let (base, best) = (&judged.search.base, &judged.best);
         let [of_filed, of_base, of_best] =
             [&base.as_filed, &base.fit, &best.fit].map(|fit| icr_columns(evidence, fit));
-        let filed = Residual { evidence, fit: &base.as_filed, icrs: &of_filed }.locate(resampling);
-        let before = Residual { evidence, fit: &base.fit, icrs: &of_base }.locate(resampling);
-        let of_corrected = Residual { evidence, fit: &best.fit, icrs: &of_best };
+        let exact = &Forms::default();
+        let of = |fit, forms, icrs| Residual { evidence, fit, forms, icrs };
+        let filed = of(&base.as_filed, exact, &of_filed).locate(resampling);
+        let before = of(&base.fit, exact, &of_base).locate(resampling);
+        let of_corrected = of(&best.fit, &best.forms, &of_best);
         let after = of_corrected.locate_in_waves(resampling);
         let left_over = after.left_over(tolerated(evidence, base, best));
         let cells = [(&base.fit, &of_base), (&best.fit, &of_best)]

@@ -1,10 +1,10 @@
 //! Signatures of all candidates, and the search for the best hypothesis.
 
 use crate::base::Base;
-use crate::candidate::{Beside, candidates};
+use crate::candidate::{Beside, Catalogue, candidates};
 use crate::noise::sharper;
 use crate::progress::{Cancelled, Stage, Watch};
-use crate::search::{Catalogue, Found, Screened, Search};
+use crate::search::{Found, Screened, Search};
 use crate::weighted::Weighted;
 use std::sync::Arc;
 

@@ -45,7 +45,7 @@ impl DriftTable {
     }
 
     /// The table of a drift.
-    pub(super) fn of(drift: &Drift) -> Self {
+    pub fn of(drift: &Drift) -> Self {
         Self {
             place_m_per_100_m: drift.place.map(|place| ComparedTable::of(place, 100.0, 1.0)),
             yaw_deg_per_turn: drift.yaw.map(|yaw| ComparedTable::of(yaw, 360.0, TAU)),

@@ -2,12 +2,12 @@
 
 use super::question::Question;
 use crate::base::{Base, Calibration, OFFSETS};
-use crate::candidate::{Beside, variants};
+use crate::candidate::{Beside, Catalogue, variants};
 use crate::evidence::Evidence;
 use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, active, typical, unknowns_of};
 use crate::mechanics::{Instruments, Mechanics, is_instrument};
-use crate::search::{Catalogue, Search};
+use crate::search::Search;
 use crate::settings::Settings;
 use crate::weighted::Weighted;
 use nalgebra::Vector3;

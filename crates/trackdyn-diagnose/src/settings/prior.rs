@@ -25,6 +25,10 @@ group! {
         shape_deviation: f64 = 1.0, "", [0.01, 1e3],
             "Its order is known.",
             "Lower: other shapes are missed.";
+        /// Deviations of the form of a law, as parts of what it does.
+        form_deviations: [f64; 3] = [0.1, 0.2, 0.4], "", [1e-3, 10.0],
+            "Other laws of friction differ by 10 to 40 %.",
+            "Lower: second laws mend the form of the first; higher: they hide.";
         /// Deviation of a constant ICR.
         icr_offset_deviation: f64 = 0.5, "gauge", [1e-3, 100.0],
             "ICRs lie near the tracks.",

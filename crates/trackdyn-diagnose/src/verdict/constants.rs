@@ -32,7 +32,7 @@ impl Constants {
     pub fn of(search: &Search) -> Self {
         let fit = &search.base.fit;
         let entries: Vec<usize> = (0..search.catalogue.entries.len()).collect();
-        let equations = search.equations(fit, &entries);
+        let equations = search.equations(&search.nothing(), &entries);
         let offsets: Vec<usize> =
             (0..fit.unknowns.len()).filter(|&k| OFFSETS.contains(&fit.unknowns[k])).collect();
         let projected = equations.normal.projected(&offsets, &equations.priors);
@@ -129,9 +129,11 @@ pub fn judge_constants(
     let before = Some(&best.fit.mechanics);
     let dropped = Fit::new(filed.clone(), &fixed, evidence, before);
     let moving: Vec<Unknown> = OFFSETS.iter().chain(&fixed).copied().collect();
-    let free = Fit::new(filed.clone(), &moving, evidence, before);
-    let ln_bayes_factor = free.ln_evidence() - dropped.ln_evidence();
-    let z = (dropped.objective - free.objective).max(0.0).sqrt();
+    let found = |fit: Fit| search.found(best.effects.clone(), fit);
+    let dropped = found(dropped);
+    let free = found(Fit::new(filed.clone(), &moving, evidence, before));
+    let ln_bayes_factor = free.ln_evidence - dropped.ln_evidence;
+    let z = (dropped.fit.objective - free.fit.objective).max(0.0).sqrt();
     let settings::Settings { verdict: rules, answer, .. } = search.settings();
     if ln_bayes_factor < rules.min_ln_bayes_factor {
         return Ok(None);
@@ -139,10 +141,10 @@ pub fn judge_constants(
     let support = Support {
         ln_bayes_factor,
         z,
-        ..Support::of_columns(search, &free, &[0, 1, 2], &free.hypothesis.offset, resampling)
+        ..Support::of_columns(search, &free, &[0, 1, 2], &free.fit.hypothesis.offset, resampling)
     };
-    let refused =
-        refusal(&support, 0.0, rules).or_else(|| as_good_as_filed(&free, rules.min_icr_difference));
+    let refused = refusal(&support, 0.0, rules)
+        .or_else(|| as_good_as_filed(&free.fit, rules.min_icr_difference));
     // A number that the owner measured may move within its uncertainty only: is that enough?
     let can = |effect: &EffectId| -> Result<bool, Cancelled> {
         if unknowns_of(*effect).all(|unknown| measured(&file.vehicle, unknown).is_none()) {
@@ -155,7 +157,7 @@ pub fn judge_constants(
         let fit = Fit::new(start, &unknowns, evidence, before);
         let fewer = OFFSETS.len().saturating_sub(unknowns_of(*effect).count());
         let allowed = answer.max_ln_likelihood_gap + answer.constants_allowance * real(fewer);
-        Ok((fit.objective - free.objective) / 2.0 < allowed)
+        Ok((fit.objective - free.fit.objective) / 2.0 < allowed)
     };
     let mut one_of: Vec<EffectId> = Vec::new();
     for effect in &constants.class {

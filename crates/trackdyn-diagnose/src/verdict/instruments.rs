@@ -59,7 +59,7 @@ pub fn judge_instruments(basis: &Basis, best: &Found) -> Result<Vec<Verdict>, Ca
         let support = Support {
             ln_bayes_factor,
             z,
-            ..Support::of_columns(search, fit, &columns, &parts, resampling)
+            ..Support::of_columns(search, best, &columns, &parts, resampling)
         };
         let refused = refusal(&support, *laws, rules);
         let found = fit.hypothesis.effect(effect).cloned();
@@ -74,7 +74,7 @@ fn without_instrument(search: &Search, best: &Found, effect: EffectId) -> Found 
     let unknowns = best.fit.unknowns_without(effect);
     let before = Some(&best.fit.mechanics);
     let fit = Fit::new(hypothesis, &unknowns, &search.evidence, before);
-    Found { effects: best.effects.clone(), ln_evidence: fit.ln_evidence(), fit }
+    search.found(best.effects.clone(), fit)
 }
 
 /// The best hypothesis without any law of forces, refitted.

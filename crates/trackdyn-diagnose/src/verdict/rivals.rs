@@ -44,7 +44,7 @@ impl Rivals {
         watch.go_on()?;
         let settings = &search.settings().answer;
         let min_ln_bayes_factor = search.settings().verdict.min_ln_bayes_factor;
-        let without = search.without(best, effect);
+        let without = search.in_forms_of(best, search.without(best, effect));
         let screened = search.screen(&without);
         let changed = support::change(effect, &without, best);
         let own = screened.iter().find(|one| one.effect == effect).map_or(0.0, |one| one.gain);
@@ -171,7 +171,7 @@ pub(super) fn separation(
 ) -> f64 {
     let signatures = [&[slice::from_ref(&changed.signature)], rivals].concat();
     let Equations { normal, mut priors, mut free, groups } =
-        search.equations_with(&without.fit, &signatures);
+        search.equations_with(without, &signatures);
     for (&column, signature) in groups[1..].iter().flatten().zip(rivals.iter().copied().flatten()) {
         free.push(column);
         if let Some(deviation) = known(signature.unknown) {

@@ -3,9 +3,8 @@
 use super::Refusal;
 use crate::candidate::{Signature, sizes};
 use crate::equations::Equations;
-use crate::fit::Fit;
 use crate::hypothesis::Unknown;
-use crate::normal::{Normal, Prior};
+use crate::normal::{Normal, Prior, effective};
 use crate::resampling::Resampling;
 use crate::search::{Found, Screened, Search};
 use crate::settings;
@@ -99,7 +98,7 @@ impl Support {
             || &search.catalogue.entries[own.entry].1[..],
             |found| slice::from_ref(&found.signature),
         );
-        let equations = search.equations_with(&without.fit, &[own_signatures]);
+        let equations = search.equations_with(without, &[own_signatures]);
         let p = Self::chance(search, without, own.entry, own_signatures, resampling);
         Self {
             p,
@@ -129,7 +128,7 @@ impl Support {
             .map(|(other, (_, tried))| (other, if other == entry { signatures } else { tried }))
             .collect();
         let all: Vec<&[Signature]> = family.iter().map(|(_, signatures)| *signatures).collect();
-        let equations = search.equations_with(&without.fit, &all);
+        let equations = search.equations_with(without, &all);
         let tests = || {
             test(&equations.projected(), &equations.groups, resampling, &search.settings().location)
         };
@@ -137,22 +136,23 @@ impl Support {
         place.map_or(1.0, |place| tests()[place].p)
     }
 
-    /// Support of columns of a fit, tested on the residual with their part added back; `parts` are
+    /// Support of columns of a hypothesis, tested on the residual with their part added back; `parts` are
     /// their factors.
     pub(super) fn of_columns(
         search: &Search,
-        fit: &Fit,
+        found: &Found,
         columns: &[usize],
         parts: &[f64],
         resampling: Resampling,
     ) -> Self {
-        let mut fit = fit.clone();
+        let mut found = found.clone();
+        let fit = &mut found.fit;
         for (&column, part) in columns.iter().zip(parts) {
             for (value, by) in fit.residual.iter_mut().zip(&fit.columns[column]) {
                 *value += by * *part;
             }
         }
-        let equations = search.equations(&fit, &[]).with_group(columns);
+        let equations = search.equations(&found, &[]).with_group(columns);
         let known = equations.priors.iter().map(|prior| Prior { mean: 0.0, ..*prior }).collect();
         let equations = Equations { priors: known, ..equations };
         let projected = equations.projected();
@@ -193,7 +193,7 @@ pub(super) fn named(
         .map(|(effect, change, gain)| (*effect, slice::from_ref(&change.signature), Some(*gain)));
     let contenders: Vec<(EffectId, &[Signature], Option<f64>)> = screened.chain(changes).collect();
     let signatures: Vec<&[Signature]> = contenders.iter().map(|(_, one, _)| *one).collect();
-    let equations = search.equations_with(&without.fit, &signatures);
+    let equations = search.equations_with(without, &signatures);
     let Equations { normal, groups, .. } = &equations;
     let evidence_with =
         |normal: &Normal, group: &[usize]| equations.fit_of(normal, group).ln_evidence;
@@ -244,19 +244,11 @@ pub(super) fn change(effect: EffectId, without: &Found, with: &Found) -> Option<
     Some(Change { signature: Signature { unknown, column }, size })
 }
 
-/// Effective number of blocks that show the change by columns. All that is free beside them has
-/// been projected out.
-///
-/// # Law
-/// (Σ |s_b|²)²/Σ |s_b|⁴, s_b the change of a block's prediction: one where a single block shows all
-/// of it, n where n blocks show it equally.
+/// Effective number of blocks that show the change by columns: that of |s_b|², s_b the change of a
+/// block's prediction. All that is free beside them has been projected out.
 fn shown_by(projected: &Normal, known: &[Prior], columns: &[usize]) -> f64 {
     let factors = projected.fit(columns, known).estimate;
-    let changes =
-        (0..projected.blocks()).map(|block| projected.change_at(block, columns, &factors));
-    let (sum, squares) = changes
-        .fold((0.0, 0.0), |(sum, squares), change| (sum + change, squares + change * change));
-    if squares > 0.0 { sum * sum / squares } else { 0.0 }
+    effective((0..projected.blocks()).map(|block| projected.change_at(block, columns, &factors)))
 }
 
 /// Cross-validated gain of log-likelihood by columns, each block left out of the fit in turn, and

@@ -135,7 +135,7 @@ fn judged(subject: &Subject, one: &Screened) -> (Outcome, String) {
     if diagnosis.limits.constants.contains(&effect) {
         return (Outcome::Constant, "only moves constant ICRs, which are fitted anyway".to_owned());
     }
-    if one.held {
+    if one.held && one.gain < MIN_GAIN {
         return (Outcome::Out, format!("unphysical: {}", unphysical(subject, one)));
     }
     if !one.gain.is_finite() || one.z == 0.0 {
@@ -216,19 +216,18 @@ fn fitted(subject: &Subject, effect: EffectId) -> String {
     texts.collect::<Vec<_>>().join(", ")
 }
 
+/// Why the evidence asks for a size that cannot be.
 fn unphysical(subject: &Subject, one: &Screened) -> String {
-    let outside = values(subject, one).find_map(|(place, value)| {
+    let limit = values(subject, one).find_map(|(place, value)| {
         let parameter = &one.effect.card().parameters[place];
-        let [low, high] = parameter.range;
-        let shown = shown(parameter, value, 2);
         let Role::Size { neutral: none } = parameter.role else { return None };
-        if (low..=high).contains(&value) {
+        if !parameter.range.contains(&value) {
             None
-        } else if (value < none && low >= none) || (value > none && high <= none) {
-            Some(format!("of the wrong sign ({shown})"))
+        } else if value == none.clamp(parameter.range[0], parameter.range[1]) {
+            Some("its size would have the wrong sign".to_owned())
         } else {
-            Some(format!("{shown}, outside {} to {}", significant(low, 2), significant(high, 2)))
+            Some(format!("its size would lie beyond {}", shown(parameter, value, 2)))
         }
     });
-    outside.unwrap_or_else(|| "its size lies outside its range".to_owned())
+    limit.unwrap_or_else(|| "its size would lie outside its range".to_owned())
 }

@@ -4,7 +4,7 @@ use crate::wrapped::wrapped;
 use std::fmt::Write;
 use trackdyn::Diagnosis;
 use trackdyn::crates::diagnose::diagnosis::{Kind, Missing};
-use trackdyn::crates::diagnose::document::separate_by;
+use trackdyn::crates::diagnose::document::{ComparedTable, DriftTable, separate_by};
 use trackdyn::crates::diagnose::noise;
 use trackdyn::crates::diagnose::place::words;
 use trackdyn::crates::diagnose::proposal::Proposal;
@@ -99,7 +99,29 @@ pub fn text(diagnosis: &Diagnosis) -> String {
     if let Some(sentence) = diagnosis.contradiction() {
         text += &wrapped("         ", &sentence);
     }
+    if let Some(sentence) = driving(&DriftTable::of(&diagnosis.evidence.drift)) {
+        text += &wrapped("driving  ", &sentence);
+    }
     text
+}
+
+/// Errors of dead reckoning with the vehicle as filed and as corrected; none where too little was
+/// driven, or nothing was corrected.
+fn driving(drift: &DriftTable) -> Option<String> {
+    let DriftTable { place_m_per_100_m: place, yaw_deg_per_turn: yaw } = drift;
+    let of = |what: &str, unit: &str, table: &ComparedTable| {
+        let ComparedTable { before, after, pose_noise, .. } = table;
+        let [before, after, noise] =
+            [before, after, pose_noise].map(|value| format!("{value:.*} {unit}", decimals(*value)));
+        format!(
+            "{what} {before} off as filed, {after} as corrected ({noise} is noise of the poses)"
+        )
+    };
+    let is_corrected = |table: &&ComparedTable| table.before != table.after;
+    let place = place.as_ref().filter(is_corrected).map(|table| of("100 m end", "m", table));
+    let yaw = yaw.as_ref().filter(is_corrected).map(|table| of("a full turn ends", "deg", table));
+    let both: Vec<String> = place.into_iter().chain(yaw).collect();
+    (!both.is_empty()).then(|| both.join("; "))
 }
 
 /// By how much both coefficients of friction differ from what was supposed.

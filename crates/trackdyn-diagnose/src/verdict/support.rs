@@ -136,8 +136,8 @@ impl Support {
         place.map_or(1.0, |place| tests()[place].p)
     }
 
-    /// Support of columns of a hypothesis, tested on the residual with their part added back; `parts` are
-    /// their factors.
+    /// Support of columns of a hypothesis, tested on the residual with their part added back;
+    /// `parts` are their factors.
     pub(super) fn of_columns(
         search: &Search,
         found: &Found,

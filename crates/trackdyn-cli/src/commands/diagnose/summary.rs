@@ -118,8 +118,10 @@ fn driving(drift: &DriftTable) -> Option<String> {
         )
     };
     let is_corrected = |table: &&ComparedTable| table.before != table.after;
-    let place = place.as_ref().filter(is_corrected).map(|table| of("100 m end", "m", table));
-    let yaw = yaw.as_ref().filter(is_corrected).map(|table| of("a full turn ends", "deg", table));
+    let place =
+        place.as_ref().filter(is_corrected).map(|table| of("place lost per 100 m", "m", table));
+    let yaw =
+        yaw.as_ref().filter(is_corrected).map(|table| of("heading lost per turn", "deg", table));
     let both: Vec<String> = place.into_iter().chain(yaw).collect();
     (!both.is_empty()).then(|| both.join("; "))
 }

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
 from ._trackdyn import Recording as RawRecording
@@ -72,6 +73,16 @@ def names_of(names: str | Sequence[str] | None) -> list[str]:
     if names is None:
         return []
     return [names] if isinstance(names, str) else [str(name) for name in names]
+
+
+def pair_of(
+    one: ArrayLike, other: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64], tuple[int, ...]]:
+    """Two arrays of one shape, flat, and that shape."""
+    first, second = np.broadcast_arrays(
+        np.asarray(one, dtype=np.float64), np.asarray(other, dtype=np.float64)
+    )
+    return np.ravel(first), np.ravel(second), first.shape
 
 
 def plain(value: Any) -> Any:

@@ -144,12 +144,22 @@ class Diagnosis:
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
         """Write ``diagnosis.toml``, ``vehicle.corrected.toml``, the report and its figures.
 
+        Layers of an earlier diagnosis go: write them after this.
+
         Returns
         -------
         list of path
             The files.
         """
         return list(self._computed().write(folder, COMMAND))
+
+    def write_layers(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
+        """Write ``diagnosis.mcap`` for Foxglove, Rerun and PlotJuggler, and layouts; the files.
+
+        In it are paths and ICRs as observed, by the vehicle as given and as corrected, whitened
+        residuals before and after, and how the robot drives, as messages of ROS 2.
+        """
+        return list(self._computed().write_layers(folder, COMMAND))
 
     def _drawn(self) -> tuple[list[Figure], str]:
         """Figures and page, made once."""

@@ -82,8 +82,19 @@ class Odometry:
         return list(csv.DictReader(io.StringIO(self._inner.runs_csv())))
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write ``odometry.png``, ``runs.csv``, ``odometry.toml`` and trajectories; the files."""
+        """Write ``odometry.png``, ``runs.csv``, ``odometry.toml`` and trajectories; the files.
+
+        Layers of an earlier replay go: write them after this.
+        """
         return list(self._inner.write(folder, COMMAND))
+
+    def write_layers(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
+        """Write ``odometry.mcap`` for Foxglove, Rerun and PlotJuggler, and layouts; the files.
+
+        In it are the recorded path, those of the ideal drive and of each set of parameters, ICRs,
+        track speeds, and residuals by segments, as messages of ROS 2.
+        """
+        return list(self._inner.write_layers(folder, COMMAND))
 
     def __repr__(self) -> str:
         return f"<Odometry of {len(self._inner.paths())} runs: {', '.join(self.sets)}>"

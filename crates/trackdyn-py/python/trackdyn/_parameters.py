@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _trackdyn
+from ._arguments import COMMAND, names_of, pair_of
 from ._document import Document
+from ._errors import Warning  # noqa: A004
+
+if TYPE_CHECKING:
+    from ._odometry import Odometry
 
 
 class Parameters(Document):
@@ -107,7 +115,7 @@ class Parameters(Document):
         ndarray of shape (..., 3)
             Speed forward and to the left (m/s), and yaw rate (rad/s, counter-clockwise).
         """
-        left, right, shape = _pair(v_l, v_r)
+        left, right, shape = pair_of(v_l, v_r)
         return self._inner.twist(left, right).reshape((*shape, 3))
 
     def track_speeds(self, forward: ArrayLike, yaw_rate: ArrayLike) -> NDArray[np.float64]:
@@ -123,8 +131,77 @@ class Parameters(Document):
         ndarray of shape (..., 2)
             Speeds of the left and the right track, m/s.
         """
-        ahead, turn, shape = _pair(forward, yaw_rate)
+        ahead, turn, shape = pair_of(forward, yaw_rate)
         return self._inner.track_speeds(ahead, turn).reshape((*shape, 2))
+
+    def write_ros2(
+        self,
+        folder: str | os.PathLike[str],
+        *,
+        wheel_radius: float | None = None,
+        left_joints: str | Sequence[str] | None = None,
+        right_joints: str | Sequence[str] | None = None,
+        base_frame: str | None = None,
+        odom_frame: str | None = None,
+        icr_frame: str | None = None,
+        contact_centre: Sequence[float] = (0.0, 0.0),
+        controller: str | None = None,
+        residuals: Odometry | str | os.PathLike[str] | None = None,
+        publish_rate: float | None = None,
+    ) -> list[os.PathLike[str]]:
+        """Write the parameters of ros2_control's diff_drive_controller, and a launch file.
+
+        Parameters
+        ----------
+        folder : str or path
+            Where to write.
+        wheel_radius : float, optional
+            Belt travel in m per radian of the wheel joints. Default: that of the log.
+        left_joints, right_joints : str or sequence of str, optional
+            Wheel joints of each side. Default: those of the log, else ``left_wheel_joint`` and
+            ``right_wheel_joint``.
+        base_frame : str, optional
+            Root link of the robot's URDF. Default: the frame whose poses the log has, else
+            ``base_link``.
+        odom_frame, icr_frame : str, optional
+            Frame of the odometry, and the one midway between the ICRs. Default: ``odom``,
+            ``icr_link``.
+        contact_centre : pair of float
+            Origin of the ICRs in the base frame, m forward and left.
+        controller : str, optional
+            Name of the controller. Default: ``diff_drive_controller``.
+        residuals : Odometry or path of its file, optional
+            A replay with these parameters, for the covariances; best of runs that they were not
+            fitted to. Default: none are written.
+        publish_rate : float, optional
+            Rate at which the controller publishes, Hz. Default: 50.
+
+        Returns
+        -------
+        list of path
+            The files.
+        """
+        forward, left = contact_centre
+        keywords = {
+            "wheel_radius": wheel_radius,
+            "left_joints": names_of(left_joints),
+            "right_joints": names_of(right_joints),
+            "odom_frame": odom_frame,
+            "icr_frame": icr_frame,
+            "base_frame": base_frame,
+            "contact_centre": (float(forward), float(left)),
+            "controller": controller,
+            "residuals": _residuals(residuals),
+            "publish_rate": publish_rate,
+        }
+        files, are_fitted = _trackdyn.write_ros2(self._inner, folder, keywords, COMMAND)
+        if are_fitted:
+            text = "residuals of driving that was fitted to: covariances come out too small"
+            warnings.warn(f"{self.name}: {text}", Warning, stacklevel=2)
+        if self.is_doubtful:
+            text = "other parts of the answer that they come from contradict them"
+            warnings.warn(f"{self.name}: {text}", Warning, stacklevel=2)
+        return list(files)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Parameters.from_toml, (self._inner.toml, self.name)
@@ -133,11 +210,10 @@ class Parameters(Document):
         return f"<Parameters x_l {self.x_l:.5f}, x_r {self.x_r:.5f}, y {self.y:.5f} m>"
 
 
-def _pair(
-    one: ArrayLike, other: ArrayLike
-) -> tuple[NDArray[np.float64], NDArray[np.float64], tuple[int, ...]]:
-    """Two arrays of one shape, flat, and that shape."""
-    first, second = np.broadcast_arrays(
-        np.asarray(one, dtype=np.float64), np.asarray(other, dtype=np.float64)
-    )
-    return np.ravel(first), np.ravel(second), first.shape
+def _residuals(of: Odometry | str | os.PathLike[str] | None) -> tuple[str, str] | None:
+    """The name and the text of an odometry file."""
+    if of is None:
+        return None
+    if isinstance(of, (str, os.PathLike)):
+        return os.fspath(of), Path(of).read_text(encoding="utf-8")
+    return "odometry.toml", of._inner.toml(COMMAND)

@@ -54,7 +54,9 @@ def _messages(path):
 def test_layers_of_a_diagnosis(diagnosis, tmp_path):
     diagnosis.write(tmp_path)
     files = diagnosis.write_layers(tmp_path)
-    assert _names(files) == [f"diagnosis.{of}" for of in ("foxglove.json", "mcap", "plotjuggler.xml")]
+    assert _names(files) == [
+        f"diagnosis.{of}" for of in ("foxglove.json", "mcap", "plotjuggler.xml")
+    ]
     topics = {topic for topic, _, _ in _messages(tmp_path / "diagnosis.mcap")}
     assert "/tf" in topics and any("corrected" in topic for topic in topics), topics
     # those of an earlier diagnosis go

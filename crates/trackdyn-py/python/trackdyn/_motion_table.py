@@ -7,8 +7,9 @@ import os
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _trackdyn
-from ._arguments import COMMAND, VehicleLike, pair_of, vehicle_of
+from . import _trackdyn, _values
+from ._arguments import COMMAND, vehicle_of
+from ._vehicle import VehicleLike
 
 
 class MotionTable:
@@ -53,7 +54,7 @@ class MotionTable:
         ndarray of shape (..., 3)
             Speed forward and to the left (m/s), and yaw rate (rad/s, counter-clockwise).
         """
-        left, right, shape = pair_of(v_l, v_r)
+        left, right, shape = _values.pair(("v_l", "v_r"), v_l, v_r)
         return self._inner.twist(left, right).reshape((*shape, 3))
 
     def derivatives(self, v_l: ArrayLike, v_r: ArrayLike) -> NDArray[np.float64]:
@@ -69,12 +70,12 @@ class MotionTable:
         ndarray of shape (..., 3, 2)
             Of speed forward, speed to the left (1) and yaw rate (rad/m), each by `v_l` and `v_r`.
         """
-        left, right, shape = pair_of(v_l, v_r)
+        left, right, shape = _values.pair(("v_l", "v_r"), v_l, v_r)
         return self._inner.by_speed(left, right).reshape((*shape, 3, 2))
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
         """Write ``motion_table.toml`` and ``trackdyn_motion.h``; the files."""
-        return list(self._inner.write(folder))
+        return list(self._inner.write(_values.path("folder", folder)))
 
     def __repr__(self) -> str:
         sizes, angles = self._inner.orders
@@ -99,4 +100,5 @@ def motion_table(vehicle: VehicleLike, *, fastest: float = 1.0) -> MotionTable:
     >>> table.predict(0.3, 0.5).shape, table.error < 1e-6
     ((3,), True)
     """
-    return MotionTable(_trackdyn.motion_table(vehicle_of(vehicle)._inner, float(fastest), COMMAND))
+    speed = _values.number("fastest", fastest)
+    return MotionTable(_trackdyn.motion_table(vehicle_of(vehicle)._inner, speed, COMMAND))

@@ -5,14 +5,13 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _trackdyn
-from ._arguments import COMMAND, names_of, pair_of
+from . import _trackdyn, _values
+from ._arguments import COMMAND, text_of_file
 from ._document import Document
 from ._errors import Warning  # noqa: A004
 
@@ -38,7 +37,7 @@ class Parameters(Document):
     _inner: _trackdyn.Parameters
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        self._inner = _trackdyn.Parameters.open(path)
+        self._inner = _trackdyn.Parameters.open(_values.path("path", path))
 
     @classmethod
     def _of(cls, inner: _trackdyn.Parameters) -> Parameters:
@@ -49,6 +48,7 @@ class Parameters(Document):
     @classmethod
     def from_toml(cls, text: str, name: str = "kinematics.toml") -> Parameters:
         """The parameters of the text of a kinematics file; errors call it `name`."""
+        name, text = _values.text("name", name), _values.text("text", text)
         return cls._of(_trackdyn.Parameters.from_toml(name, text))
 
     @property
@@ -115,7 +115,7 @@ class Parameters(Document):
         ndarray of shape (..., 3)
             Speed forward and to the left (m/s), and yaw rate (rad/s, counter-clockwise).
         """
-        left, right, shape = pair_of(v_l, v_r)
+        left, right, shape = _values.pair(("v_l", "v_r"), v_l, v_r)
         return self._inner.twist(left, right).reshape((*shape, 3))
 
     def track_speeds(self, forward: ArrayLike, yaw_rate: ArrayLike) -> NDArray[np.float64]:
@@ -131,7 +131,7 @@ class Parameters(Document):
         ndarray of shape (..., 2)
             Speeds of the left and the right track, m/s.
         """
-        ahead, turn, shape = pair_of(forward, yaw_rate)
+        ahead, turn, shape = _values.pair(("forward", "yaw_rate"), forward, yaw_rate)
         return self._inner.track_speeds(ahead, turn).reshape((*shape, 2))
 
     def write_ros2(
@@ -181,20 +181,26 @@ class Parameters(Document):
         list of path
             The files.
         """
-        forward, left = contact_centre
-        keywords = {
-            "wheel_radius": wheel_radius,
-            "left_joints": names_of(left_joints),
-            "right_joints": names_of(right_joints),
+        expected = "two numbers in m, forward and left"
+        texts = {
             "odom_frame": odom_frame,
             "icr_frame": icr_frame,
             "base_frame": base_frame,
-            "contact_centre": (float(forward), float(left)),
             "controller": controller,
-            "residuals": _residuals(residuals),
-            "publish_rate": publish_rate,
         }
-        files, are_fitted = _trackdyn.write_ros2(self._inner, folder, keywords, COMMAND)
+        keywords = {
+            **{name: _values.maybe(_values.text, name, text) for name, text in texts.items()},
+            "wheel_radius": _values.maybe(_values.number, "wheel_radius", wheel_radius),
+            "left_joints": _values.texts("left_joints", left_joints),
+            "right_joints": _values.texts("right_joints", right_joints),
+            "contact_centre": tuple(_values.numbers("contact_centre", contact_centre, expected, 2)),
+            "residuals": _residuals(residuals),
+            "publish_rate": _values.maybe(_values.number, "publish_rate", publish_rate),
+        }
+        if publish_rate is not None and residuals is None:
+            raise _values.refused("publish_rate", publish_rate, "residuals, whose covariances need it")
+        place = _values.path("folder", folder)
+        files, are_fitted = _trackdyn.write_ros2(self._inner, place, keywords, COMMAND)
         if are_fitted:
             text = "residuals of driving that was fitted to: covariances come out too small"
             warnings.warn(f"{self.name}: {text}", Warning, stacklevel=2)
@@ -214,6 +220,8 @@ def _residuals(of: Odometry | str | os.PathLike[str] | None) -> tuple[str, str] 
     """The name and the text of an odometry file."""
     if of is None:
         return None
-    if isinstance(of, (str, os.PathLike)):
-        return os.fspath(of), Path(of).read_text(encoding="utf-8")
-    return "odometry.toml", of._inner.toml(COMMAND)
+    from ._odometry import Odometry
+
+    if isinstance(of, Odometry):
+        return "odometry.toml", of._inner.toml(COMMAND)
+    return text_of_file(of, "residuals")

@@ -6,5 +6,6 @@ mod circles;
 mod crates;
 mod literals;
 mod packages;
+mod pages;
 mod parity;
 mod words;

@@ -2,6 +2,7 @@
 
 use crate::errors::{raised, refused};
 use crate::figure::Figure;
+use crate::files::written;
 use crate::options::parsed;
 use crate::recording::Recording;
 use crate::vehicle::Vehicle;
@@ -123,7 +124,16 @@ impl Diagnosis {
 
     /// Writes its files into a folder; those that were written.
     fn write(&self, py: Python<'_>, folder: PathBuf, command: &str) -> PyResult<Vec<PathBuf>> {
-        let changes = py.detach(|| self.inner.write(folder, &Provenance::new(command)));
-        Ok(changes.map_err(raised)?.iter().map(|change| change.path().to_owned()).collect())
+        written(py.detach(|| self.inner.write(folder, &Provenance::new(command))))
+    }
+
+    /// Writes layers for viewers into a folder; the files that were written.
+    fn write_layers(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        command: &str,
+    ) -> PyResult<Vec<PathBuf>> {
+        written(py.detach(|| self.inner.write_layers(folder, &Provenance::new(command))))
     }
 }

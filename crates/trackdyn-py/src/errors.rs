@@ -12,6 +12,7 @@ fn class(error: &Error) -> &'static str {
     match error {
         Error::Document(_) => "DocumentError",
         Error::Output(_)
+        | Error::Figure(_)
         | Error::NotRemoved { .. }
         | Error::NotSimulated { .. }
         | Error::OtherOrigin { .. } => "OutputError",
@@ -38,6 +39,12 @@ fn class(error: &Error) -> &'static str {
             "ParametersError"
         }
         Error::Driving(_) | Error::NoSensors { .. } | Error::GeneratedOnly { .. } => "DrivingError",
+        Error::TooFast { .. }
+        | Error::FastestSpeed { .. }
+        | Error::Export(_)
+        | Error::LogName { .. }
+        | Error::NoWheelRadius { .. } => "SettingError",
+        Error::Case { .. } | Error::Residuals(_) => "InputError",
         Error::Identify { .. } => "IdentifyError",
         Error::Odometry { .. } => "OdometryError",
         Error::Diagnose { .. } => "DiagnoseError",

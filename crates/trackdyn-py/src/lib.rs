@@ -15,11 +15,13 @@ mod files;
 mod identification;
 mod inspection;
 mod map;
+mod motion_table;
 mod odometry;
 mod options;
 mod parameters;
 mod plan;
 mod recording;
+mod ros2;
 mod simulation;
 mod tables;
 mod vehicle;
@@ -42,6 +44,8 @@ mod _trackdyn {
     #[pymodule_export]
     use super::map::{IcrMap, icr_map};
     #[pymodule_export]
+    use super::motion_table::{MotionTable, motion_table};
+    #[pymodule_export]
     use super::odometry::{Odometry, odometry};
     #[pymodule_export]
     use super::parameters::Parameters;
@@ -49,6 +53,8 @@ mod _trackdyn {
     use super::plan::{Plan, plan};
     #[pymodule_export]
     use super::recording::Recording;
+    #[pymodule_export]
+    use super::ros2::write_ros2;
     #[pymodule_export]
     use super::simulation::{Simulation, simulate, simulate_batch};
     #[pymodule_export]

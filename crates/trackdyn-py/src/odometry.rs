@@ -95,6 +95,11 @@ impl Odometry {
         from_toml(py, &self.inner.to_toml(&Provenance::new(command)))
     }
 
+    /// The text of its file.
+    fn toml(&self, command: &str) -> String {
+        self.inner.to_toml(&Provenance::new(command))
+    }
+
     /// The replay as a figure.
     fn figure(&self, command: &str) -> Figure {
         self.inner.figure(&Provenance::new(command)).into()
@@ -103,6 +108,16 @@ impl Odometry {
     /// Writes its files into a folder; those that were written.
     fn write(&self, folder: PathBuf, command: &str) -> PyResult<Vec<PathBuf>> {
         written(self.inner.write(folder, &Provenance::new(command)))
+    }
+
+    /// Writes layers for viewers into a folder; the files that were written.
+    fn write_layers(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        command: &str,
+    ) -> PyResult<Vec<PathBuf>> {
+        written(py.detach(|| self.inner.write_layers(folder, &Provenance::new(command))))
     }
 }
 

@@ -17,8 +17,11 @@ pub fn from_toml<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py, PyAny>
 /// A dict as a TOML text.
 #[pyfunction]
 pub fn to_toml(table: &Bound<'_, PyDict>) -> PyResult<String> {
-    let table: toml::Table = depythonize(table)?;
-    toml::to_string(&table).map_err(|error| said("table", &format!("table: {error}")))
+    let other = |error: &dyn std::fmt::Display| {
+        said("table", &format!("table: {error}: expected what TOML can hold"))
+    };
+    let table: toml::Table = depythonize(table).map_err(|error| other(&error))?;
+    toml::to_string(&table).map_err(|error| other(&error))
 }
 
 /// The catalogue: physics beyond the base model, an effect each.

@@ -4,6 +4,7 @@ import doctest
 import inspect
 import pkgutil
 from importlib import import_module
+from typing import get_type_hints
 
 import trackdyn as td
 
@@ -28,6 +29,13 @@ def test_everything_public_is_documented():
             is_own = inspect.isfunction(value) or isinstance(value, (property, classmethod))
             if is_own and not member.startswith("_"):
                 assert inspect.getdoc(value), f"{name}.{member}"
+
+
+def test_types_of_every_function_resolve():
+    """So tools that read them at run time can: documentation, checkers of arguments."""
+    functions = [td.fleet.run, *(getattr(td, name) for name in td.__all__)]
+    for function in filter(inspect.isfunction, functions):
+        assert get_type_hints(function), function
 
 
 def _modules():

@@ -42,6 +42,7 @@ from ._figure import Figure
 from ._inspection import Inspection, inspect
 from ._kinematics import IcrKinematics
 from ._map import IcrMap, icr_map
+from ._motion_table import MotionTable, motion_table
 from ._odometry import Odometry, odometry
 from ._parameters import Parameters
 from ._plan import Plan, plan
@@ -69,6 +70,7 @@ __all__ = [
     "IdentifyError",
     "InputError",
     "Inspection",
+    "MotionTable",
     "NotDeterminedError",
     "Odometry",
     "OdometryError",
@@ -95,6 +97,7 @@ __all__ = [
     "fleet",
     "icr_map",
     "inspect",
+    "motion_table",
     "odometry",
     "plan",
     "read_recording",

@@ -1,4 +1,4 @@
-"""What functions accept: vehicles, numbers of NumPy, progress; and who asked, for the files."""
+"""What functions accept: vehicles, recordings, parts, progress; and who asked, for the files."""
 
 from __future__ import annotations
 
@@ -6,24 +6,23 @@ import os
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
-from . import _errors
+from . import _errors, _values
+from ._trackdyn import Parameters as RawParameters
 from ._trackdyn import Recording as RawRecording
 
 if TYPE_CHECKING:
-    from ._vehicle import Vehicle
+    from ._vehicle import Vehicle, VehicleLike
 
 #: Stands in every file that is written, as the command that made it.
 COMMAND = "the Python package trackdyn"
 
 #: A function that is called with a stage, finished parts and all parts.
 Progress = Callable[[str, int, int], object]
-
-#: A vehicle, or what makes one: the path of a file, the name of a preset, or a dict.
-VehicleLike = Union["Vehicle", str, "os.PathLike[str]", Mapping[str, Any]]
 
 #: Numbers of runs: a list such as ``"7,8,20-29"``, one number or several.
 RunsLike = Union[str, int, Sequence[int], None]
@@ -33,45 +32,72 @@ def vehicle_of(vehicle: VehicleLike) -> Vehicle:
     """The vehicle that an argument stands for."""
     from ._vehicle import Vehicle
 
-    return vehicle if isinstance(vehicle, Vehicle) else Vehicle(vehicle)
+    if isinstance(vehicle, (Vehicle, str, os.PathLike, Mapping)):
+        return vehicle if isinstance(vehicle, Vehicle) else Vehicle(vehicle)
+    expected = "a Vehicle, the path of a file, the name of a preset, or a dict"
+    raise _values.refused("vehicle", vehicle, expected)
 
 
 def gauge_of(vehicle: VehicleLike | float) -> Any:
     """A gauge in m, or the vehicle that has it."""
     if isinstance(vehicle, (int, float, np.integer, np.floating)):
-        return float(vehicle)
+        return _values.number("vehicle", vehicle)
     return vehicle_of(vehicle)._inner
 
 
-def runs_of(runs: RunsLike) -> str | None:
+def recording_of(recording: Any) -> RawRecording:
+    """The recording that an argument is."""
+    from ._recording import Recording
+
+    if isinstance(recording, Recording):
+        return recording._inner
+    raise _values.refused("recording", recording, "a Recording, as td.read_recording(path) gives it")
+
+
+def parameters_of(parameters: Any) -> RawParameters:
+    """The kinematic parameters that an argument is."""
+    from ._parameters import Parameters
+
+    if isinstance(parameters, Parameters):
+        return parameters._inner
+    expected = "Parameters, such as fitted.parameters_ or td.Parameters(path)"
+    raise _values.refused("parameters", parameters, expected)
+
+
+def runs_of(runs: RunsLike, name: str = "runs") -> str | None:
     """Numbers of runs as the library reads them."""
     if runs is None or isinstance(runs, str):
         return runs
-    numbers = np.atleast_1d(np.asarray(runs))
-    return ",".join(str(int(number)) for number in numbers)
+    if _values.is_single(runs):
+        return str(_values.whole(name, runs))
+    numbers = _values.numbers(name, runs, "a list such as '7,8,20-29', a number, or several")
+    return ",".join(str(_values.whole(name, number)) for number in numbers)
 
 
 def time_of(time: Sequence[float] | None) -> tuple[float, float] | None:
     """A beginning and an end, s."""
     if time is None:
         return None
-    start, end = time
-    return float(start), float(end)
+    start, end = _values.numbers("time", time, "the beginning and the end in s", 2)
+    return start, end
 
 
 def seed_of(seed: Any) -> int:
     """A seed of random numbers."""
-    number = int(seed)
+    number = _values.whole("seed", seed)
     if not 0 <= number < 2**64:
-        raise _errors.SettingError(f"seed {number}: expected 0 to 2^64 - 1", "seed")
+        raise _values.refused("seed", number, "0 to 2^64 - 1")
     return number
 
 
-def names_of(names: str | Sequence[str] | None) -> list[str]:
-    """One name, several or none."""
-    if names is None:
-        return []
-    return [names] if isinstance(names, str) else [str(name) for name in names]
+def text_of_file(path: Any, name: str) -> tuple[str, str]:
+    """The name and the text of a file."""
+    place = _values.path(name, path)
+    try:
+        return place, Path(place).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "it is no text in UTF-8"
+        raise _errors.DocumentError(f"{place}: cannot be read: {reason}") from None
 
 
 def plain(value: Any) -> Any:
@@ -102,6 +128,8 @@ def told(progress: bool | Progress | None, title: str) -> Iterator[Progress | No
     if callable(progress):
         yield progress
         return
+    if progress is not True:
+        raise _values.refused("progress", progress, "True, False, or what can be called")
     try:
         from tqdm.auto import tqdm
     except ImportError:

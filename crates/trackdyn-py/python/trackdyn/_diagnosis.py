@@ -4,26 +4,26 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import _trackdyn
+from . import _trackdyn, _values
 from ._arguments import (
     COMMAND,
     Progress,
     RunsLike,
-    VehicleLike,
     plain,
+    recording_of,
     runs_of,
     seed_of,
+    text_of_file,
     told,
     vehicle_of,
 )
-from ._claims import Claim, Refusal, claim_of
+from ._claims import Refusal, claim_of
 from ._errors import ResultError
 from ._figure import Figure
 from ._recording import Recording
-from ._vehicle import Vehicle
+from ._vehicle import Vehicle, VehicleLike
 
 if TYPE_CHECKING:
     import pandas
@@ -144,12 +144,22 @@ class Diagnosis:
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
         """Write ``diagnosis.toml``, ``vehicle.corrected.toml``, the report and its figures.
 
+        Layers of an earlier diagnosis go: write them after this.
+
         Returns
         -------
         list of path
             The files.
         """
-        return list(self._computed().write(folder, COMMAND))
+        return list(self._computed().write(_values.path("folder", folder), COMMAND))
+
+    def write_layers(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
+        """Write ``diagnosis.mcap`` for Foxglove, Rerun and PlotJuggler, and layouts; the files.
+
+        In it are paths and ICRs as observed, by the vehicle as given and as corrected, whitened
+        residuals before and after, and how the robot drives, as messages of ROS 2.
+        """
+        return list(self._computed().write_layers(_values.path("folder", folder), COMMAND))
 
     def _drawn(self) -> tuple[list[Figure], str]:
         """Figures and page, made once."""
@@ -247,17 +257,17 @@ def diagnose(
     DiagnoseError
         For too little driving, noise that is not known, or a vehicle that cannot move as recorded.
     """
-    several = [recordings] if isinstance(recordings, Recording) else list(recordings)
+    single = isinstance(recordings, Recording) or _values.is_single(recordings)
+    several: Any = [recordings] if single else recordings
     keywords = {
-        "held_out": runs_of(held_out),
-        "draws": draws,
+        "held_out": runs_of(held_out, "held_out"),
+        "draws": _values.count("draws", draws),
         "seed": seed_of(seed),
         "settings": _settings(settings),
     }
     with told(progress, "diagnose") as tell:
-        inner = _trackdyn.diagnose(
-            [one._inner for one in several], vehicle_of(vehicle)._inner, keywords, tell
-        )
+        recorded = [recording_of(one) for one in several]
+        inner = _trackdyn.diagnose(recorded, vehicle_of(vehicle)._inner, keywords, tell)
     return Diagnosis(inner)
 
 
@@ -267,4 +277,4 @@ def _settings(settings: Mapping[str, Any] | str | os.PathLike[str] | None) -> An
         return None
     if isinstance(settings, Mapping):
         return "settings", _trackdyn.to_toml(plain(settings))
-    return os.fspath(settings), Path(settings).read_text(encoding="utf-8")
+    return text_of_file(settings, "settings")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from . import _trackdyn
+from . import _trackdyn, _values
 
 
 class Document:
@@ -24,7 +24,7 @@ class Document:
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the file."""
-        self._inner.write(path)
+        self._inner.write(_values.path("path", path))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, type(self)):

@@ -6,7 +6,8 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import _trackdyn
+from . import _trackdyn, _values
+from ._errors import OutputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,10 +52,14 @@ class Figure:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the picture: SVG where the path ends so, else PNG."""
-        if Path(path).suffix == ".svg":
-            Path(path).write_text(self.to_svg(), encoding="utf-8")
-        else:
-            Path(path).write_bytes(self.to_png())
+        place = Path(_values.path("path", path))
+        is_svg = place.suffix == ".svg"
+        picture = self.to_svg().encode() if is_svg else self.to_png()
+        try:
+            place.write_bytes(picture)
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or error
+            raise OutputError(f"{place}: cannot be written: {reason}") from None
 
     def plot(self, panel: int = 0, ax: Axes | None = None) -> Axes:
         """Draw the series of a panel on axes of matplotlib, which has to be installed.
@@ -68,7 +73,12 @@ class Figure:
         """
         from ._axes import draw
 
-        return draw(self.data["panels"][panel], ax)
+        panels = self.data["panels"]
+        if _values.whole("panel", panel) not in range(-len(panels), len(panels)):
+            raise _values.refused("panel", panel, f"0 to {len(panels) - 1}")
+        if ax is not None and not hasattr(ax, "set_xlim"):
+            raise _values.refused("ax", ax, "axes of matplotlib")
+        return draw(panels[_values.whole("panel", panel)], ax)
 
     def _repr_png_(self) -> bytes:
         return self.to_png()

@@ -6,11 +6,12 @@ import os
 from collections.abc import Sequence
 from typing import Any
 
-from . import _trackdyn
-from ._arguments import RunsLike, VehicleLike, gauge_of, runs_of, time_of
+from . import _trackdyn, _values
+from ._arguments import RunsLike, gauge_of, parameters_of, runs_of, time_of
 from ._figure import Figure
 from ._parameters import Parameters
 from ._reading import reading
+from ._vehicle import VehicleLike
 
 
 class Inspection:
@@ -102,12 +103,12 @@ def inspect(
         found where it can be.
     """
     found = _trackdyn.inspect(
-        path,
+        _values.path("path", path),
         reading(**options),
         None if vehicle is None else gauge_of(vehicle),
-        None if parameters is None else parameters._inner,
+        None if parameters is None else parameters_of(parameters),
         runs_of(runs),
         time_of(time),
-        tau,
+        _values.maybe(_values.finite, "tau", tau),
     )
     return Inspection(found)

@@ -11,12 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _trackdyn
-from ._arguments import COMMAND, Progress, VehicleLike, gauge_of, names_of, seed_of, told
-from ._errors import NotDeterminedError, ResultError, Warning  # noqa: A004
+from . import _trackdyn, _values
+from ._arguments import COMMAND, Progress, gauge_of, recording_of, seed_of, told
+from ._errors import NotDeterminedError, ResultError, SettingError, Warning  # noqa: A004
 from ._odometry import odometry
 from ._parameters import Parameters
 from ._recording import Recording
+from ._vehicle import VehicleLike
 
 
 class IcrKinematics:
@@ -103,7 +104,7 @@ class IcrKinematics:
         known = self.get_params()
         for name, value in params.items():
             if name not in known:
-                raise ValueError(f"{name}: expected one of {', '.join(known)}")
+                raise SettingError(f"{name}: expected one of {', '.join(known)}", name)
             setattr(self, name, value)
         return self
 
@@ -125,26 +126,27 @@ class IcrKinematics:
             Where it has too little in it.
         """
         keywords = {
-            "tau": self.tau,
-            "settle": self.settle,
-            "nuisances": names_of(self.nuisances),
-            "gyroscope": self.gyroscope,
-            "force": self.force,
+            "tau": _values.maybe(_values.finite, "tau", self.tau),
+            "settle": _values.maybe(_values.duration, "settle", self.settle),
+            "nuisances": _values.texts("nuisances", self.nuisances),
+            "gyroscope": _values.flag("gyroscope", self.gyroscope),
+            "force": _values.flag("force", self.force),
             "seed": seed_of(self.seed),
-            "population": self.population,
-            "generations": self.generations,
+            "population": _values.maybe(_values.count, "population", self.population),
+            "generations": _values.maybe(_values.count, "generations", self.generations),
         }
+        place = int(_values.flag("alphas", self.alphas))
+        of = recording_of(recording)
         if self.vehicle is None:
             text = "no vehicle given: taken for auriga-alpha; give a vehicle or its gauge"
-            warnings.warn(f"{recording._inner.place}: {text}", Warning, stacklevel=2)
+            warnings.warn(f"{of.place}: {text}", Warning, stacklevel=2)
         gauge = gauge_of(self._vehicle())
         with told(self.progress, "identify") as progress:
-            found = _trackdyn.identify(recording._inner, gauge, keywords, progress)
-        place = int(self.alphas)
+            found = _trackdyn.identify(of, gauge, keywords, progress)
         fit = found.fits(COMMAND)[place]
         if fit is None:
             reason = found.reasons[place] or "it tells the distance of the ICRs alone"
-            raise NotDeterminedError(f"{recording._inner.place}: {reason}")
+            raise NotDeterminedError(f"{of.place}: {reason}")
         self._found = found
         self.parameters_ = Parameters._of(fit)
         self.x_l_, self.x_r_, self.y_, self.alpha_l_, self.alpha_r_ = fit.values
@@ -155,7 +157,7 @@ class IcrKinematics:
         self.n_features_in_ = 2
         if self.parameters_.is_doubtful:
             reasons = "; ".join(self.contradictions_)
-            warnings.warn(f"{recording._inner.place}: {reasons}", Warning, stacklevel=2)
+            warnings.warn(f"{of.place}: {reasons}", Warning, stacklevel=2)
         return self
 
     def predict(self, v_l: ArrayLike, v_r: ArrayLike | None = None) -> NDArray[np.float64]:
@@ -172,9 +174,10 @@ class IcrKinematics:
             Speed forward and to the left (m/s), and yaw rate (rad/s, counter-clockwise).
         """
         if v_r is None:
-            both = np.asarray(v_l, dtype=np.float64)
+            both = _values.array("v_l", v_l)
             if both.ndim != 2 or both.shape[1] != 2:
-                raise ValueError(f"an array of shape {both.shape}: expected (n, 2): v_l, v_r")
+                found = f"an array of shape {both.shape}"
+                raise SettingError(f"v_l {found}: expected (n, 2): v_l, v_r; or v_r too", "v_l")
             v_l, v_r = both[:, 0], both[:, 1]
         return self._fitted().predict(v_l, v_r)
 
@@ -212,7 +215,7 @@ class IcrKinematics:
         self._fitted()
         if self._found is None:
             raise ResultError("an estimator that was unpickled has its parameters_ alone to write")
-        return list(self._found.write(folder, COMMAND))
+        return list(self._found.write(_values.path("folder", folder), COMMAND))
 
     def _vehicle(self) -> VehicleLike | float:
         return "auriga-alpha" if self.vehicle is None else self.vehicle
@@ -243,7 +246,7 @@ class IcrKinematics:
         changed = [
             f"{name}={value!r}"
             for name, value in self.get_params().items()
-            if value is not usual[name].default and value != usual[name].default
+            if not _is_usual(value, usual[name].default)
         ]
         return f"{type(self).__name__}({', '.join(changed)})"
 
@@ -260,6 +263,11 @@ class IcrKinematics:
                 rows.append((name, f"{value:.5f} ± {1.96 * deviation:.5f}"))
             rows.append(("steering efficiency", self.steering_efficiency_))
         return page(repr(self), rows)
+
+
+def _is_usual(value: object, usual: object) -> bool:
+    """Whether a parameter has its default; arrays compare to arrays."""
+    return value is usual or (type(value) is type(usual) and bool(np.all(value == usual)))
 
 
 def _not_fitted(name: str) -> Exception:

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _trackdyn
-from ._arguments import COMMAND, Progress, VehicleLike, told, vehicle_of
+from . import _trackdyn, _values
+from ._arguments import COMMAND, Progress, told, vehicle_of
 from ._figure import Figure
 from ._parameters import Parameters
 from ._tables import Table
-from ._vehicle import Vehicle
+from ._vehicle import Vehicle, VehicleLike
 
 if TYPE_CHECKING:
     import pandas
@@ -130,7 +130,7 @@ class IcrMap:
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
         """Write ``icr_map.png`` and, where the robot turns, ``kinematics.toml``; the files."""
-        return list(self._inner.write(folder, COMMAND))
+        return list(self._inner.write(_values.path("folder", folder), COMMAND))
 
     def __repr__(self) -> str:
         count = len(self.speeds)
@@ -178,9 +178,9 @@ def icr_map(
     0.45735
     """
     of = vehicle_of(vehicle)
-    x, y = position
+    x, y = _values.numbers("position", position, "x and y in m", 2)
+    numbers = _values.number("heading", heading), _values.number("time", time)
+    grid = _values.count("points", points), _values.number("max_speed", max_speed)
     with told(progress, "map") as tell:
-        inner = _trackdyn.icr_map(
-            of._inner, points, max_speed, (float(x), float(y)), heading, time, tell
-        )
+        inner = _trackdyn.icr_map(of._inner, *grid, (x, y), *numbers, tell)
     return IcrMap(inner, of)

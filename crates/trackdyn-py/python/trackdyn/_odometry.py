@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _trackdyn
-from ._arguments import COMMAND, RunsLike, VehicleLike, gauge_of, runs_of, time_of
+from . import _trackdyn, _values
+from ._arguments import COMMAND, RunsLike, gauge_of, parameters_of, recording_of, runs_of, time_of
 from ._figure import Figure
 from ._parameters import Parameters
 from ._recording import Recording
+from ._vehicle import VehicleLike
 
 if TYPE_CHECKING:
     import pandas
@@ -82,8 +83,19 @@ class Odometry:
         return list(csv.DictReader(io.StringIO(self._inner.runs_csv())))
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
-        """Write ``odometry.png``, ``runs.csv``, ``odometry.toml`` and trajectories; the files."""
-        return list(self._inner.write(folder, COMMAND))
+        """Write ``odometry.png``, ``runs.csv``, ``odometry.toml`` and trajectories; the files.
+
+        Layers of an earlier replay go: write them after this.
+        """
+        return list(self._inner.write(_values.path("folder", folder), COMMAND))
+
+    def write_layers(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
+        """Write ``odometry.mcap`` for Foxglove, Rerun and PlotJuggler, and layouts; the files.
+
+        In it are the recorded path, those of the ideal drive and of each set of parameters, ICRs,
+        track speeds, and residuals by segments, as messages of ROS 2.
+        """
+        return list(self._inner.write_layers(_values.path("folder", folder), COMMAND))
 
     def __repr__(self) -> str:
         return f"<Odometry of {len(self._inner.paths())} runs: {', '.join(self.sets)}>"
@@ -128,14 +140,15 @@ def odometry(
     gyroscope : bool
         Correct the yaw of the poses by the recording's gyroscope.
     """
-    several = [parameters] if isinstance(parameters, Parameters) else list(parameters)
+    single = isinstance(parameters, Parameters) or _values.is_single(parameters)
+    several: Any = [parameters] if single else parameters
     inner = _trackdyn.odometry(
-        recording._inner,
+        recording_of(recording),
         gauge_of(vehicle),
-        [one._inner for one in several],
+        [parameters_of(one) for one in several],
         runs_of(runs),
         time_of(time),
-        tau,
-        gyroscope,
+        _values.maybe(_values.finite, "tau", tau),
+        _values.flag("gyroscope", gyroscope),
     )
     return Odometry(inner)

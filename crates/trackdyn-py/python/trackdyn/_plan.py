@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _trackdyn
-from ._arguments import COMMAND, Progress, VehicleLike, told, vehicle_of
+from . import _trackdyn, _values
+from ._arguments import COMMAND, Progress, text_of_file, told, vehicle_of
 from ._diagnosis import Diagnosis
+from ._vehicle import VehicleLike
 
 
 class Plan:
@@ -33,7 +34,7 @@ class Plan:
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
         """Write ``plan.csv``, a schedule for simulator and robot, and ``plan.toml``; the files."""
-        return list(self._inner.write(folder, COMMAND))
+        return list(self._inner.write(_values.path("folder", folder), COMMAND))
 
     def __repr__(self) -> str:
         schedule = self.schedule
@@ -79,10 +80,14 @@ def plan(
         named = (diagnosis.name, diagnosis.to_toml())
         of = diagnosis.corrected_vehicle if vehicle is None else vehicle_of(vehicle)
     else:
-        path = Path(diagnosis)
-        named = (str(path), path.read_text(encoding="utf-8"))
-        beside = path.with_name("vehicle.corrected.toml")
+        named = text_of_file(diagnosis, "diagnosis")
+        beside = Path(named[0]).with_name("vehicle.corrected.toml")
         of = vehicle_of(beside if vehicle is None else vehicle)
+    limits = _values.number("fastest", fastest), _values.number("duration", duration)
+    noise = (
+        _values.maybe(_values.number, "noise_xy", noise_xy),
+        _values.maybe(_values.number, "noise_yaw", noise_yaw),
+    )
     with told(progress, "plan") as tell:
-        inner = _trackdyn.plan(named, of._inner, fastest, duration, noise_xy, noise_yaw, tell)
+        inner = _trackdyn.plan(named, of._inner, *limits, *noise, tell)
     return Plan(inner)

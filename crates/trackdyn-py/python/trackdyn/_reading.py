@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from . import _trackdyn
-from ._arguments import names_of, warn_of
+from . import _trackdyn, _values
+from ._arguments import warn_of
 from ._recording import Recording
 
 
@@ -39,30 +39,41 @@ def reading(
     """The options of reading, all of them."""
     if isinstance(columns, Mapping):
         columns = ",".join(f"{key}={name}" for key, name in columns.items())
-    return {
-        "tracks": tracks,
-        "columns": columns,
-        "tracks_topic": tracks_topic,
-        "left_joints": names_of(left_joints),
-        "right_joints": names_of(right_joints),
-        "joint_signal": joint_signal,
-        "wheel_radius": wheel_radius,
-        "pose_topic": pose_topic,
-        "pose_index": pose_index,
-        "parent_frame": parent_frame,
-        "child_frame": child_frame,
-        "imu_topic": imu_topic,
-        "twist_topic": twist_topic,
-        "separation": separation,
-        "left_signals": names_of(left_signals),
-        "right_signals": names_of(right_signals),
-        "speed_unit": speed_unit,
-        "msg_dir": msg_dir,
-        "dated_by": dated_by,
-        "mount_yaw": mount_yaw,
-        "gyro_unit": gyro_unit,
-        "accept": names_of(accept),
+    of: dict[Callable[[str, Any], object], dict[str, Any]] = {
+        _values.text: {
+            "columns": columns,
+            "tracks_topic": tracks_topic,
+            "joint_signal": joint_signal,
+            "pose_topic": pose_topic,
+            "parent_frame": parent_frame,
+            "child_frame": child_frame,
+            "imu_topic": imu_topic,
+            "twist_topic": twist_topic,
+            "speed_unit": speed_unit,
+            "dated_by": dated_by,
+            "gyro_unit": gyro_unit,
+        },
+        _values.number: {
+            "wheel_radius": wheel_radius,
+            "separation": separation,
+        },
+        _values.finite: {"mount_yaw": mount_yaw},
+        _values.count: {"pose_index": pose_index},
+        _values.path: {"tracks": tracks, "msg_dir": msg_dir},
     }
+    lists = {
+        "left_joints": left_joints,
+        "right_joints": right_joints,
+        "left_signals": left_signals,
+        "right_signals": right_signals,
+        "accept": accept,
+    }
+    single = {
+        name: _values.maybe(check, name, value)
+        for check, values in of.items()
+        for name, value in values.items()
+    }
+    return {**single, **{name: _values.texts(name, value) for name, value in lists.items()}}
 
 
 def read_recording(path: str | os.PathLike[str], **options: Any) -> Recording:
@@ -124,6 +135,6 @@ def read_recording(path: str | os.PathLike[str], **options: Any) -> Recording:
     SettingError
         For an option whose value is not accepted.
     """
-    inner = _trackdyn.Recording.open(path, reading(**options))
+    inner = _trackdyn.Recording.open(_values.path("path", path), reading(**options))
     warn_of(inner)
     return Recording._of(inner)

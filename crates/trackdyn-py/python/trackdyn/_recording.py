@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _trackdyn
-from ._arguments import RunsLike, names_of, runs_of, time_of, warn_of
+from . import _trackdyn, _values
+from ._arguments import RunsLike, runs_of, time_of, warn_of
 from ._errors import RecordingError
 from ._tables import Table
 
@@ -87,12 +86,15 @@ class Recording:
         pose frame of its own.
         """
         given = {"tracks": tracks, "poses": poses, "imu": imu}
-        split = {name: _split(name, rows) for name, rows in given.items() if rows is not None}
+        for series in ("tracks", "poses"):
+            if given[series] is None:
+                raise RecordingError(f"{series}: None: expected {', '.join(_COLUMNS[series])}")
+        split = {series: _split(series, rows) for series, rows in given.items() if rows is not None}
         if any(numbers for numbers, _ in split.values()):
-            for name, (numbers, _) in split.items():
+            for series, (numbers, _) in split.items():
                 if not numbers:
-                    raise RecordingError(f"{name}: no column run: expected one, as others have it")
-        by_run = {name: rows for name, (_, rows) in split.items()}
+                    raise RecordingError(f"{series}: no column run: expected one, as others have it")
+        by_run = {series: rows for series, (_, rows) in split.items()}
         rows = [
             (
                 number,
@@ -102,7 +104,8 @@ class Recording:
             )
             for number in sorted(by_run["tracks"].keys() | by_run["poses"].keys())
         ]
-        inner = _trackdyn.Recording.of_rows(name, robot, rows, names_of(accept))
+        names = _values.text("name", name), _values.text("robot", robot)
+        inner = _trackdyn.Recording.of_rows(*names, rows, _values.texts("accept", accept))
         warn_of(inner)
         return cls._of(inner)
 
@@ -219,14 +222,22 @@ def _split(series: str, rows: Any) -> tuple[bool, dict[int, NDArray[np.float64]]
             found = ", ".join(map(str, known))
             expected = ", ".join(columns)
             raise RecordingError(f"{series}: columns {found}: expected {expected}")
-        by_name = [np.asarray(rows[name], dtype=np.float64) for name in columns]
+        by_name = [_column(series, name, rows[name]) for name in columns]
         if len({len(column) for column in by_name}) > 1:
             lengths = ", ".join(str(len(column)) for column in by_name)
             raise RecordingError(f"{series}: columns of {lengths} rows: expected one length")
         table = np.column_stack(by_name)
-        numbers = np.asarray(rows["run"]) if "run" in known else None
+        numbers = _column(series, "run", rows["run"]) if "run" in known else None
+        if numbers is not None and len(numbers) != len(table):
+            found = f"{len(numbers)} numbers of {len(table)} rows"
+            raise RecordingError(f"{series}: column run: {found}: expected one length")
+        if numbers is not None and not np.all((numbers == np.rint(numbers)) & (abs(numbers) < 2**53)):
+            raise RecordingError(f"{series}: column run: expected whole numbers")
     else:
-        table = np.ascontiguousarray(rows, dtype=np.float64)
+        array = _values.floats(rows)
+        if array is None:
+            raise RecordingError(f"{series}: not numbers: expected {', '.join(columns)}")
+        table = np.ascontiguousarray(array)
         numbers = None
     if table.ndim != 2 or table.shape[1] != len(columns):
         shape = f"(n, {len(columns)})"
@@ -238,3 +249,12 @@ def _split(series: str, rows: Any) -> tuple[bool, dict[int, NDArray[np.float64]]
     return True, {
         int(number): np.ascontiguousarray(table[numbers == number]) for number in np.unique(numbers)
     }
+
+
+def _column(series: str, name: str, values: Any) -> NDArray[np.float64]:
+    """A column of numbers."""
+    column = _values.floats(values)
+    if column is None or column.ndim != 1:
+        shape = "not numbers" if column is None else f"an array of shape {column.shape}"
+        raise RecordingError(f"{series}: column {name}: {shape}: expected numbers in one dimension")
+    return column

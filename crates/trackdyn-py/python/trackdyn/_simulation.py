@@ -9,12 +9,12 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _trackdyn
-from ._arguments import COMMAND, Progress, VehicleLike, seed_of, told, vehicle_of
+from . import _trackdyn, _values
+from ._arguments import COMMAND, Progress, seed_of, told, vehicle_of
 from ._errors import DrivingError, SettingError
 from ._recording import Recording
 from ._tables import Table
-from ._vehicle import Vehicle
+from ._vehicle import Vehicle, VehicleLike
 
 
 class Simulation:
@@ -47,7 +47,7 @@ class Simulation:
 
     def write(self, folder: str | os.PathLike[str]) -> list[os.PathLike[str]]:
         """Write the recording, ``truth.csv`` and what it was made from; the files."""
-        return list(self._inner.write(folder, COMMAND))
+        return list(self._inner.write(_values.path("folder", folder), COMMAND))
 
     def __repr__(self) -> str:
         return f"<Simulation of {self.vehicle.name}: {self.recording!r}>"
@@ -148,10 +148,12 @@ def simulate_batch(
         In the order of the parameters or vehicles, each as :func:`simulate` gives it.
     """
     vehicles = _vehicles(vehicle, parameters)
-    seeds = np.broadcast_to(np.asarray(seed), (len(vehicles),)) if np.ndim(seed) == 0 else seed
+    seeds: Any = [seed] * len(vehicles) if _values.is_single(seed) else seed
     keywords = _keywords(schedule, runs, duration, fastest, sensors, start, inertia, longest_step)
     inner = [one._inner for one in vehicles]
-    numbers = [seed_of(number) for number in np.asarray(seeds)]
+    numbers = [seed_of(number) for number in seeds]
+    if _values.text("errors", errors) not in ("raise", "none"):
+        raise _values.refused("errors", errors, "'raise' or 'none'")
     with told(progress, "simulate") as tell:
         found = _trackdyn.simulate_batch(inner, keywords, numbers, tell)
     simulated: list[Simulation | None] = []
@@ -171,7 +173,11 @@ def _vehicles(
     if not isinstance(vehicle, (Vehicle, str, os.PathLike, Mapping)):
         if parameters is not None:
             raise SettingError("parameters: expected with one vehicle, and there are several")
-        return [vehicle_of(one) for one in vehicle]
+        several: Any = [vehicle] if _values.is_single(vehicle) else vehicle
+        return [vehicle_of(one) for one in several]
+    expected = "values by their place in the vehicle file, such as {'friction.mu_x': [0.6, 0.7]}"
+    if parameters is not None:
+        parameters = _values.mapping("parameters", parameters, expected)
     if not parameters:
         raise SettingError("parameters: expected one value or more, or several vehicles")
     base = vehicle_of(vehicle)
@@ -194,16 +200,16 @@ def _keywords(
     inertia: bool,
     longest_step: float | None,
 ) -> dict[str, Any]:
-    x, y, yaw = start
+    expected = "x, y (m) and yaw (rad)"
     return {
         "schedule": _commands(schedule),
-        "runs": runs,
-        "duration": duration,
-        "fastest": fastest,
-        "sensors": os.fspath(sensors),
-        "start": (float(x), float(y), float(yaw)),
-        "inertia": inertia,
-        "longest_step": longest_step,
+        "runs": _values.maybe(_values.count, "runs", runs),
+        "duration": _values.maybe(_values.number, "duration", duration),
+        "fastest": _values.maybe(_values.number, "fastest", fastest),
+        "sensors": _values.path("sensors", sensors),
+        "start": tuple(_values.numbers("start", start, expected, 3)),
+        "inertia": _values.flag("inertia", inertia),
+        "longest_step": _values.maybe(_values.number, "longest_step", longest_step),
     }
 
 
@@ -212,9 +218,15 @@ def _commands(schedule: Any) -> Any:
     if isinstance(schedule, (str, os.PathLike)):
         return os.fspath(schedule)
     runs = schedule.items() if isinstance(schedule, Mapping) else [(0, schedule)]
-    tables = [(int(run), np.ascontiguousarray(rows, dtype=np.float64)) for run, rows in runs]
+    expected = "the name of a schedule, a file, or rows of t, v_left, v_right"
+    tables = [
+        (_values.whole("schedule", run), _values.array("schedule", rows, expected))
+        for run, rows in runs
+    ]
     for run, rows in tables:
+        if abs(run) >= 2**63:
+            raise _values.refused("schedule", run, "numbers of runs within 64 bits")
         if rows.ndim != 2 or rows.shape[1] != 3:
             expected = "expected (n, 3): t, v_left, v_right"
             raise DrivingError(f"schedule: run {run}: an array of shape {rows.shape}: {expected}")
-    return tables
+    return [(run, np.ascontiguousarray(rows)) for run, rows in tables]

@@ -39,6 +39,9 @@ class Table(dict[str, NDArray[Any]]):
         -------
         ndarray of shape (rows, columns)
         """
+        for name in columns:
+            if name not in self:
+                raise KeyError(f"column {name!r}: expected one of {', '.join(self)}")
         chosen = [self[name] for name in columns or self]
         return np.column_stack(chosen) if chosen else np.empty((0, 0))
 

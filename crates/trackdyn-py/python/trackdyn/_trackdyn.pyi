@@ -12,6 +12,7 @@ __all__ = [
     "Figure",
     "Identification",
     "IcrMap",
+    "MotionTable",
     "Odometry",
     "Parameters",
     "Plan",
@@ -26,11 +27,13 @@ __all__ = [
     "icr_map",
     "identify",
     "inspect",
+    "motion_table",
     "odometry",
     "plan",
     "simulate",
     "simulate_batch",
     "to_toml",
+    "write_ros2",
 ]
 
 VERSION: Final[str]
@@ -179,8 +182,10 @@ class Odometry:
     def advice(self) -> tuple[str | None, str | None]: ...
     def runs_csv(self) -> str: ...
     def document(self, command: str) -> dict[str, Any]: ...
+    def toml(self, command: str) -> str: ...
     def figure(self, command: str) -> Figure: ...
     def write(self, folder: _Path, command: str) -> list[os.PathLike[str]]: ...
+    def write_layers(self, folder: _Path, command: str) -> list[os.PathLike[str]]: ...
 
 @final
 class Diagnosis:
@@ -197,6 +202,25 @@ class Diagnosis:
     def is_decided(self) -> bool: ...
     def report(self, command: str) -> tuple[list[Figure], str]: ...
     def write(self, folder: _Path, command: str) -> list[os.PathLike[str]]: ...
+    def write_layers(self, folder: _Path, command: str) -> list[os.PathLike[str]]: ...
+
+@final
+class MotionTable:
+    @property
+    def error(self) -> float: ...
+    @property
+    def unsolved(self) -> float: ...
+    @property
+    def orders(self) -> list[int]: ...
+    @property
+    def files(self) -> list[tuple[str, str]]: ...
+    def twist(
+        self, left: NDArray[np.float64], right: NDArray[np.float64]
+    ) -> NDArray[np.float64]: ...
+    def by_speed(
+        self, left: NDArray[np.float64], right: NDArray[np.float64]
+    ) -> NDArray[np.float64]: ...
+    def write(self, folder: _Path) -> list[os.PathLike[str]]: ...
 
 @final
 class Plan:
@@ -241,6 +265,7 @@ def simulate_batch(
     seeds: Sequence[int],
     progress: _Progress,
 ) -> list[Simulation | BaseException]: ...
+def motion_table(vehicle: Vehicle, fastest: float, command: str) -> MotionTable: ...
 def odometry(
     recording: Recording,
     gauge: _Gauge,
@@ -274,3 +299,6 @@ def inspect(
     time: tuple[float, float] | None,
     tau: float | None,
 ) -> dict[str, Any]: ...
+def write_ros2(
+    parameters: Parameters, folder: _Path, keywords: Mapping[str, Any], command: str
+) -> tuple[list[os.PathLike[str]], bool]: ...

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, Union
 
-from . import _trackdyn
+from . import _trackdyn, _values
 from ._arguments import plain
 from ._document import Document
-from ._errors import VehicleError
+from ._errors import SettingError, VehicleError
 
 
 class Vehicle(Document):
@@ -76,6 +76,9 @@ class Vehicle(Document):
             text = _trackdyn.to_toml(plain({"schema": "trackdyn.vehicle/1", **source}))
             inner = _trackdyn.Vehicle.from_toml("vehicle", text)
         elif source is not None:
+            expected = "the path of a file, the name of a preset, or a dict"
+            if not isinstance(source, (str, os.PathLike)):
+                raise _values.refused("vehicle", source, expected)
             inner = _trackdyn.Vehicle.choose(source)
         else:
             if gauge is None or mass is None or contact_length is None or width is None:
@@ -83,16 +86,16 @@ class Vehicle(Document):
                 expected = "expected a file, a name, a dict, or numbers"
                 raise VehicleError(f"{missing}: not given: {expected}")
             inner = _trackdyn.Vehicle.of_numbers(
-                name,
-                float(gauge),
-                float(mass),
-                float(contact_length),
-                float(width),
-                None if axles is None else [float(one) for one in axles],
-                None if cog is None else (float(cog[0]), float(cog[1])),
-                None if friction is None else (float(friction[0]), float(friction[1])),
+                _values.text("name", name),
+                _values.number("gauge", gauge),
+                _values.number("mass", mass),
+                _values.number("contact_length", contact_length),
+                _values.number("width", width),
+                _values.maybe(_axles, "axles", axles),
+                _values.maybe(_pair, "cog", cog),
+                _values.maybe(_pair, "friction", friction),
             )
-        for effect in effects:
+        for effect in _values.texts("effects", effects):
             inner = inner.with_effect(effect)
         self._inner = inner
 
@@ -113,6 +116,7 @@ class Vehicle(Document):
         name : str
             What errors call it.
         """
+        name, text = _values.text("name", name), _values.text("text", text)
         return cls._of(_trackdyn.Vehicle.from_toml(name, text))
 
     @staticmethod
@@ -159,18 +163,21 @@ class Vehicle(Document):
         **parameters : float
             Parameters of the effect by their keys, in the unit that the key ends in.
         """
+        effect = _values.text("effect", effect)
         if parameters:
-            settings = ",".join(f"{key}={float(value)!r}" for key, value in parameters.items())
+            numbers = {key: _values.number(key, value) for key, value in parameters.items()}
+            settings = ",".join(f"{key}={value!r}" for key, value in numbers.items())
             effect = f"{effect}{',' if ':' in effect else ':'}{settings}"
         return self._of(self._inner.with_effect(effect))
 
     def with_cog(self, right: float, forward: float) -> Vehicle:
         """The vehicle with another centre of gravity, m right and forward of the contact's centre."""
-        return self._of(self._inner.with_cog((float(right), float(forward))))
+        cog = _values.number("right", right), _values.number("forward", forward)
+        return self._of(self._inner.with_cog(cog))
 
     def with_inertia(self, inertia: bool = True) -> Vehicle:
         """The vehicle with its inertia in the model, or without."""
-        return self._of(self._inner.with_inertia(inertia))
+        return self._of(self._inner.with_inertia(_values.flag("inertia", inertia)))
 
     def with_values(self, values: Mapping[str, Any]) -> Vehicle:
         """The vehicle with other values in its file.
@@ -182,11 +189,14 @@ class Vehicle(Document):
             "effect.load-transfer.cog_height_m": 0.3}``.
         """
         tables = self.to_dict()
-        for place, value in values.items():
-            *path, key = place.split(".")
+        expected = "values by their place in the file, such as {'mass_kg': 80.0}"
+        for place, value in _values.mapping("values", values, expected).items():
+            *path, key = _values.text("values", place).split(".")
             table = tables
             for step in path:
                 table = table.setdefault(step, {})
+                if not isinstance(table, dict):
+                    raise SettingError(f"values {place}: {step} is no table: expected a key", "values")
             table[key] = value
         return Vehicle(tables)
 
@@ -196,3 +206,16 @@ class Vehicle(Document):
     def __repr__(self) -> str:
         effects = "".join(f", {effect}" for effect in self.effects)
         return f"<Vehicle {self.name}, gauge {self.gauge} m{effects}>"
+
+
+#: A vehicle, or what makes one: the path of a file, the name of a preset, or a dict.
+VehicleLike = Union[Vehicle, str, "os.PathLike[str]", Mapping[str, Any]]
+
+
+def _axles(name: str, axles: Any) -> list[float]:
+    return _values.numbers(name, axles, "places in m forward of the middle")
+
+
+def _pair(name: str, pair: Any) -> tuple[float, float]:
+    one, other = _values.numbers(name, pair, "two numbers", 2)
+    return one, other

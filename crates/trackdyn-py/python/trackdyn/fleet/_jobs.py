@@ -9,13 +9,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Union
 
-from .. import _trackdyn
-from .._arguments import VehicleLike, plain, vehicle_of
+from .. import _trackdyn, _values
+from .._arguments import plain, runs_of, seed_of, vehicle_of
 from .._diagnosis import _settings
-from .._errors import RecordingError, SettingError
+from .._errors import DocumentError, RecordingError, SettingError
 from .._kinematics import IcrKinematics
 from .._reading import reading as reading_of
-from .._vehicle import Vehicle
+from .._vehicle import Vehicle, VehicleLike
 from ._logs import Log
 
 #: A vehicle for all robots; or a path or name with ``{robot}`` where the name of a robot stands.
@@ -65,9 +65,9 @@ def options_of(
     DocumentError
         For settings of the diagnosis that are not.
     """
-    if not timeout > 0.0:
+    if not _values.number("timeout", timeout) > 0.0:
         raise SettingError(f"timeout {timeout}: expected seconds above zero", "timeout")
-    if memory is not None and not memory > 0.0:
+    if memory is not None and not _values.number("memory", memory) > 0.0:
         raise SettingError(f"memory {memory}: expected bytes above zero", "memory")
     if memory is not None and os.name == "nt":
         raise SettingError(f"memory {memory}: Windows bounds no process: expected none", "memory")
@@ -79,7 +79,7 @@ def options_of(
         pass
     return Options(
         reading={key: _carried(value) for key, value in read.items() if value not in (None, [])},
-        identify=_identify(identify or {}),
+        identify=_identify({} if identify is None else identify),
         diagnose=_diagnose(diagnose),
         timeout=float(timeout),
         memory=None if memory is None else int(memory),
@@ -92,7 +92,7 @@ def _carried(value: Any) -> Any:
 
 def _identify(keywords: Mapping[str, Any]) -> dict[str, Any]:
     known = [name for name in IcrKinematics().get_params() if name not in _NOT_IDENTIFY]
-    for name in keywords:
+    for name in _values.mapping("identify", keywords, "keywords of IcrKinematics as a dict"):
         if name not in known:
             expected = f"expected one of {', '.join(known)}"
             raise SettingError(f"identify {name}: {expected}", "identify")
@@ -102,14 +102,20 @@ def _identify(keywords: Mapping[str, Any]) -> dict[str, Any]:
 def _diagnose(diagnose: DiagnoseLike) -> dict[str, Any] | None:
     if diagnose is False:
         return None
-    keywords = {} if diagnose is True else dict(diagnose)
+    expected = "True, False, or keywords of diagnose as a dict"
+    given = {} if diagnose is True else _values.mapping("diagnose", diagnose, expected)
+    keywords = dict(given)
     for name in keywords:
         if name not in _DIAGNOSE:
             expected = f"expected one of {', '.join(_DIAGNOSE)}"
             raise SettingError(f"diagnose {name}: {expected}", "diagnose")
     settings = _read(keywords.get("settings"))
-    held_out = keywords.get("held_out")
-    full = {"held_out": held_out, "draws": 2000, "seed": 1, **keywords, "settings": settings}
+    full = {
+        "held_out": runs_of(keywords.get("held_out"), "held_out"),
+        "draws": _values.count("draws", keywords.get("draws", 2000)),
+        "seed": seed_of(keywords.get("seed", 1)),
+        "settings": settings,
+    }
     try:
         _trackdyn.diagnose([], Vehicle(Vehicle.names()[0])._inner, full, None)
     # all but the recordings is well
@@ -124,9 +130,8 @@ def _read(settings: Any) -> Any:
     """The name and the text of settings."""
     try:
         return _settings(settings)
-    except OSError as error:
-        text = f"settings {settings}: cannot be read: {error.strerror}"
-        raise SettingError(text, "settings") from None
+    except DocumentError as error:
+        raise SettingError(f"settings {error}", "settings") from None
 
 
 def vehicles_of(vehicle: FleetVehicle, robots: Iterable[str]) -> dict[str, Vehicle]:

@@ -11,6 +11,7 @@ from datetime import datetime, timezone
 from pathlib import Path, PurePath
 from typing import Union
 
+from .. import _values
 from .._errors import SettingError
 
 #: A regular expression with the group ``robot``, or a function from a path to a name.
@@ -41,9 +42,10 @@ class Log:
 
 def find(logs: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> list[str]:
     """Paths of all logs, sorted, each once. Patterns have ``*``, ``?``, ``[...]`` and ``**``."""
-    patterns = [logs] if isinstance(logs, (str, os.PathLike)) else list(logs)
+    is_one = isinstance(logs, (str, os.PathLike)) or _values.is_single(logs)
+    patterns: list[object] = [logs] if is_one else list(logs)  # type: ignore[arg-type]
     found: set[str] = set()
-    for pattern in [os.fspath(one) for one in patterns]:
+    for pattern in [_values.path("logs", one) for one in patterns]:
         paths = [pattern] if os.path.exists(pattern) else glob.glob(pattern, recursive=True)
         if not paths:
             raise SettingError(f"logs {pattern}: no such file: expected paths or patterns", "logs")
@@ -66,7 +68,9 @@ def name_all(paths: Iterable[str], robot: RobotLike, time: TimeLike) -> list[Log
         pattern = None
     else:
         of_robot = None
-        pattern = None if robot is None else _compiled(robot)
+        pattern = None if robot is None else _compiled(_values.text("robot", robot))
+    if time is not None and not callable(time):
+        _values.text("time", time)
     if isinstance(time, str) and (pattern is None or "time" not in pattern.groupindex):
         raise SettingError(f"time {time}: expected a group (?P<time>...) in robot", "time")
     paths = list(paths)

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 from typing import Any
 
+from .. import _values
 from .._errors import InputError
 from . import _table
 
@@ -27,8 +28,10 @@ def rows_of(table: Any) -> Any:
         if read is None:
             raise InputError(f"{table}: no such file: expected a table of trackdyn.fleet")
         rows = read.to_pandas()
-    else:
+    elif isinstance(table, pandas.DataFrame):
         rows = table.copy()
+    else:
+        raise _values.refused("table", table, "the path of a table, or a frame of pandas")
     missing = ", ".join(name for name in _COLUMNS if name not in rows.columns)
     if missing:
         raise InputError(f"table: no column {missing}: expected those of a table of a fleet")

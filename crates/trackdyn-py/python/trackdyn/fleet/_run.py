@@ -9,6 +9,7 @@ from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
+from .. import _values
 from .._arguments import Progress, told
 from .._errors import OutputError, SettingError
 from . import _executors
@@ -106,7 +107,7 @@ def run(
     ResultError
         Where the executor broke. Rows that were done are kept.
     """
-    if workers is not None and workers < 1:
+    if workers is not None and _values.whole("workers", workers) < 1:
         raise SettingError(f"workers {workers}: expected 1 or more", "workers")
     named = name_all(find(logs), robot, time)
     vehicles = vehicles_of(vehicle, sorted({log.robot for log in named}))
@@ -141,7 +142,7 @@ def _entered(
 
 
 def _path(out: str | os.PathLike[str]) -> Path:
-    path = Path(out)
+    path = Path(_values.path("out", out))
     if path.suffix != ".parquet":
         raise SettingError(f"out {path}: expected a name that ends in .parquet", "out")
     try:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import _values
 from .._errors import InputError, SettingError
 from ._appear import Appearance, appearances
 from ._beside import differences, drifts_beside
@@ -177,7 +178,7 @@ def trends(
     ground that changes for one robot: whatever all robots see is told by `drift_beside`.
     """
     for name, value in (("rate", rate), ("matters", matters)):
-        if not 0.0 < value < 1.0:
+        if not 0.0 < _values.number(name, value) < 1.0:
             raise SettingError(f"{name} {value}: expected a number between 0 and 1", name)
     rows = rows_of(table)
     notes = left_out(rows)

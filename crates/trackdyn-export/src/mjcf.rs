@@ -245,7 +245,8 @@ fn notes(robot: &Robot, rollers: &[Roller], factor: f64, is_unmatched: bool) -> 
             .to_owned(),
         "Friction of different size across and along: MuJoCo opposes slip as much as the ellipse \
          of friction allows (force as mu_i^2 s_i), and equation (22) of the vehicle does not \
-         (force as mu_i s_i/|s|). Pyramids (cone=\"pyramidal\") would resist more along their diagonals."
+         (force as mu_i s_i/|s|). Pyramids (cone=\"pyramidal\") would resist more along their \
+         diagonals."
             .to_owned(),
         format!(
             "Dry friction: it is full above about {:.1} mm/s of slip, and creeps below. A robot at \
@@ -262,8 +263,8 @@ fn notes(robot: &Robot, rollers: &[Roller], factor: f64, is_unmatched: bool) -> 
         "Friction across is the vehicle's; no other value turns with its chi.".to_owned()
     } else {
         format!(
-            "So friction across is {:.4} in the pairs, {factor:.3} times the vehicle's {across:.4}: \
-             with it the rollers turn with its chi. Along it is the vehicle's {along:.4}. Forces \
+            "So friction across is {:.4} in the pairs, {factor:.3} times the vehicle's \
+             {across:.4}: with it the rollers turn with its chi. Along it is the vehicle's {along:.4}. Forces \
              across are wrong by that factor.",
             factor * across
         )

@@ -17,6 +17,7 @@ mod proposal;
 mod recordings;
 mod sealed_trial;
 mod simulate;
+mod simulators;
 mod stdout;
 mod tables;
 mod trial;

@@ -10,7 +10,7 @@ use trackdyn_recording::folder;
 const WIDTH: usize = 120;
 
 /// All commands, with those that have commands of their own.
-const COMMANDS: [&str; 25] = [
+const COMMANDS: [&str; 29] = [
     "map",
     "kinematics",
     "simulate",
@@ -22,6 +22,10 @@ const COMMANDS: [&str; 25] = [
     "export gz",
     "export urdf-frames",
     "export table",
+    "export sdf",
+    "export mjcf",
+    "export usd",
+    "export chrono",
     "export mcap",
     "effects",
     "init",

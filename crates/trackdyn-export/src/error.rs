@@ -49,6 +49,15 @@ pub enum Error {
         /// Fingerprint of the kinematics file.
         fingerprint: String,
     },
+    /// A vehicle whose forces do not let it turn.
+    #[error(
+        "vehicle {vehicle}: by its forces it does not turn in place, or tips over: expected one \
+         that turns (see `trackdyn map --vehicle`)"
+    )]
+    DoesNotTurn {
+        /// Name of the vehicle.
+        vehicle: String,
+    },
     /// Nothing that a viewer could show.
     #[error("no poses: expected a path of one or more")]
     NoPoses,

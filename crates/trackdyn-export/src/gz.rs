@@ -47,16 +47,31 @@ pub fn plugin(
         );
     }
     let mut text = provenance.xml_comment(&notes);
-    text += "<plugin filename=\"gz-sim-tracked-vehicle-system\" \
-             name=\"gz::sim::systems::TrackedVehicle\">\n";
+    text += &element(drive, left, right, "");
+    Ok(TextFile { name: "tracked_vehicle.sdf", text })
+}
+
+/// The plugin element, each line behind an indent.
+pub(crate) fn element(
+    drive: &EquivalentDrive,
+    left: &[Name],
+    right: &[Name],
+    indent: &str,
+) -> String {
+    let mut text = format!(
+        "{indent}<plugin filename=\"gz-sim-tracked-vehicle-system\" \
+         name=\"gz::sim::systems::TrackedVehicle\">\n"
+    );
     for (element, names) in [("left_track", left), ("right_track", right)] {
         for name in names {
-            let _ = writeln!(text, "  <{element}>\n    <link>{name}</link>\n  </{element}>");
+            let _ = writeln!(
+                text,
+                "{indent}  <{element}>\n{indent}    <link>{name}</link>\n{indent}  </{element}>"
+            );
         }
     }
     let (gauge, efficiency) = (number(drive.gauge), number(drive.steering_efficiency()));
-    let _ = writeln!(text, "  <tracks_separation>{gauge}</tracks_separation>");
-    let _ = writeln!(text, "  <steering_efficiency>{efficiency}</steering_efficiency>");
-    text += "</plugin>\n";
-    Ok(TextFile { name: "tracked_vehicle.sdf", text })
+    let _ = writeln!(text, "{indent}  <tracks_separation>{gauge}</tracks_separation>");
+    let _ = writeln!(text, "{indent}  <steering_efficiency>{efficiency}</steering_efficiency>");
+    text + indent + "</plugin>\n"
 }

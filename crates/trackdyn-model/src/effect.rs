@@ -8,7 +8,7 @@ mod term;
 pub use term::{Nature, Pairing, Term};
 
 use crate::contact::ShearStress;
-use crate::pipeline::{Drive, Ground, Sensor, Site, Situation};
+use crate::pipeline::{Drive, Ground, RigidBody, Sensor, Site, Situation};
 use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Wrench};
 
@@ -61,6 +61,10 @@ pub trait Effect: Copy + Sized {
 
     /// Stage `sense`: what the pose sensor reports of the motion.
     fn sense(&self, _sensor: &mut Sensor) {}
+
+    /// Beside the stages: what a simulator of rigid bodies is told, where the other hooks do not
+    /// say it.
+    fn rigid_body(&self, _body: &mut RigidBody) {}
 }
 
 /// Catalogue entry of an effect.

@@ -13,7 +13,7 @@ pub use id::EffectId;
 
 use crate::contact::ShearStress;
 use crate::effect::{Card, Effect, Nature, Term};
-use crate::pipeline::{Drive, Ground, Sensor, Site, Situation};
+use crate::pipeline::{Drive, Ground, RigidBody, Sensor, Site, Situation};
 use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Wrench};
 

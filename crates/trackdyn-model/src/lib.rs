@@ -46,7 +46,7 @@ pub use kinematics::Kinematics;
 pub use map::{Grid, IcrMap};
 pub use model::{Balance, Model, Support};
 pub use motion_table::MotionTable;
-pub use pipeline::{Circumstance, Drive, Ground, Motion, Sensor};
+pub use pipeline::{Circumstance, Drive, Ground, Motion, RigidBody, Sensor};
 pub use stationary::{Linearised, Near, Solution, Stationary, Status};
 pub use transient::Transient;
 pub use vehicle::{RunningGear, Uncertainty, Vehicle, VehicleError};

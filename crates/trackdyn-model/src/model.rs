@@ -4,7 +4,7 @@ use crate::contact::pressure::Footprint;
 use crate::contact::quadrature;
 use crate::contact::{Bearing, Extent, Patch, Pressure, Resolution, ShearStress, friction_wrench};
 use crate::effects::Effects;
-use crate::pipeline::{Circumstance, Drive, Ground, Motion, Sensor, Site, Situation};
+use crate::pipeline::{Circumstance, Drive, Ground, Motion, RigidBody, Sensor, Site, Situation};
 use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Side, Wrench};
 
@@ -140,6 +140,15 @@ impl Model {
     /// Stage `sense`: the reported motion.
     pub fn sensor(&self) -> &Sensor {
         &self.sensor
+    }
+
+    /// What a simulator of rigid bodies is told beside the vehicle.
+    pub fn rigid_body(&self) -> RigidBody {
+        let mut body = RigidBody::default();
+        for effect in &self.effects {
+            effect.rigid_body(&mut body);
+        }
+        body
     }
 
     /// Stage `ground`: friction and gravity in these circumstances.

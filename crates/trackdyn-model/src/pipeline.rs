@@ -9,11 +9,13 @@
 mod drive;
 mod ground;
 mod motion;
+mod rigid_body;
 mod sensor;
 mod situation;
 
 pub use drive::Drive;
 pub use ground::{Circumstance, Ground};
 pub use motion::Motion;
+pub use rigid_body::RigidBody;
 pub use sensor::Sensor;
 pub use situation::{Site, Situation};

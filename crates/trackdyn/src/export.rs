@@ -1,4 +1,5 @@
-//! Kinematic parameters as files of other programs: ROS 2, URDF, Gazebo; forces as a table.
+//! Kinematic parameters as files of other programs: ROS 2, URDF, Gazebo; forces as a table;
+//! vehicles for simulators.
 
 mod robot;
 
@@ -12,7 +13,9 @@ use trackdyn_core::Side;
 use trackdyn_core::document::{Document, DocumentError};
 use trackdyn_core::output::fingerprint;
 use trackdyn_export::ros2::{Published, Wheels};
-use trackdyn_export::{EquivalentDrive, Frames, LeftOut, Name, NodeName, Residuals, TextFile};
+use trackdyn_export::{
+    EquivalentDrive, Frames, LeftOut, Name, NodeName, Residuals, Robot, TextFile,
+};
 use trackdyn_model::effect::Symmetry;
 use trackdyn_model::kinematics::BagSource;
 use trackdyn_model::{ActiveEffect, MotionTable};
@@ -267,16 +270,63 @@ pub fn motion_table(
         effects: effects.filter(is_left_out).map(ToString::to_string).collect(),
         lag: model.drive().time_constant,
     };
+    let provenance = of_vehicle(vehicle, provenance);
+    let files = trackdyn_export::motion_table::files(&table, &left_out, &provenance);
+    Ok((table, files))
+}
+
+/// A simulator of rigid bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Simulator {
+    /// Gazebo's gz-sim: SDF.
+    Gazebo,
+    /// MuJoCo: MJCF.
+    MuJoCo,
+    /// Isaac Sim and other readers of USD.
+    Usd,
+    /// Project Chrono: JSON of Chrono::Vehicle.
+    Chrono,
+}
+
+/// A vehicle with its effects for a simulator. Comments in the file say which effects it has, which
+/// it has not, and by how much it turns otherwise.
+///
+/// ```
+/// use trackdyn::export::{Simulator, simulator};
+///
+/// let robot = trackdyn::Vehicle::auriga_alpha().with_effect("viscous-friction")?;
+/// let file = simulator(&robot, Simulator::MuJoCo, &Default::default())?;
+/// assert!(file.text.contains("Effects of the vehicle that this file does not have"));
+/// # Ok::<(), trackdyn::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Export`] for a vehicle that its forces do not let turn.
+pub fn simulator(
+    vehicle: &Vehicle,
+    simulator: Simulator,
+    provenance: &Provenance,
+) -> Result<TextFile, Error> {
+    let robot = Robot::of(vehicle.file())?;
+    let provenance = of_vehicle(vehicle, provenance);
+    Ok(match simulator {
+        Simulator::Gazebo => trackdyn_export::sdf::model(&robot, &provenance),
+        Simulator::MuJoCo => trackdyn_export::mjcf::model(&robot, &provenance),
+        Simulator::Usd => trackdyn_export::usd::stage(&robot, &provenance),
+        Simulator::Chrono => trackdyn_export::chrono::model(&robot, &provenance),
+    })
+}
+
+/// The origin of a file that is made from a vehicle.
+fn of_vehicle(vehicle: &Vehicle, provenance: &Provenance) -> trackdyn_export::Provenance {
     let Provenance { command, version } = provenance.clone();
-    let provenance = trackdyn_export::Provenance {
+    trackdyn_export::Provenance {
         source: format!("vehicle {}", vehicle.name()),
         vehicle: vehicle.name().to_owned(),
         fingerprint: vehicle.fingerprint(),
         version,
         command,
-    };
-    let files = trackdyn_export::motion_table::files(&table, &left_out, &provenance);
-    Ok((table, files))
+    }
 }
 
 /// Largest speed of a table, m/s.

@@ -55,6 +55,7 @@
 //! | plan the driving that decides what is open | [`plan()`] | [`PlanSettings`] | [`Plan`] |
 //! | follow a path | [`drive()`] | [`DriveSettings`] | [`Drives`] |
 //! | write files of ROS 2, Gazebo, URDF | [`Export`] | [`export`] | text files |
+//! | write a vehicle for a simulator | [`export::simulator`] | [`export::Simulator`] | text |
 //! | look at it in Foxglove or PlotJuggler | [`viewer::write`] | [`viewer::Layers`] | `.mcap` |
 //! | check that ICRs stay as they were | [`check()`] | [`Reference`] | [`check::CheckedCase`] |
 //!

@@ -13,7 +13,8 @@ use trackdyn::crates::core::document::Document;
 use trackdyn::crates::export::ros2::Published;
 use trackdyn::crates::export::{Name, NodeName, Residuals, TextFile};
 use trackdyn::export::{
-    FrameSettings, GzSettings, Ros2Settings, WheelChoices, motion_table, write,
+    FrameSettings, GzSettings, Ros2Settings, Simulator, WheelChoices, motion_table, simulator,
+    write,
 };
 use trackdyn::{Error, Export, Grid};
 
@@ -37,6 +38,14 @@ enum Target {
     /// Steady motion by the forces on a vehicle, with derivatives, for the robot's computer: a
     /// table and a C header
     Table(TableOptions),
+    /// A vehicle with its effects for Gazebo's gz-sim, as SDF
+    Sdf(SimulatorOptions),
+    /// A vehicle with its effects for MuJoCo, as MJCF: rollers that drive
+    Mjcf(SimulatorOptions),
+    /// A vehicle with its effects for Isaac Sim, as USD: an articulation
+    Usd(SimulatorOptions),
+    /// A vehicle's mass properties and contact materials for Project Chrono, as JSON
+    Chrono(SimulatorOptions),
     /// A drive for Foxglove, Rerun and PlotJuggler: its path, those of the ideal drive and of
     /// kinematics files, ICRs, speeds and residuals, as messages of ROS 2
     Mcap(Box<McapOptions>),
@@ -156,6 +165,23 @@ impl TableOptions {
 }
 
 #[derive(Args)]
+struct SimulatorOptions {
+    #[command(flatten)]
+    model: ModelOptions,
+    /// Folder for the file, whose comments say which effects it has and which it has not
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+}
+
+impl SimulatorOptions {
+    fn run(&self, program: Simulator) -> Outcome {
+        let file = simulator(&self.model.vehicle()?, program, &provenance())?;
+        say_written(&write(&[file], &self.out)?);
+        Ok(Exit::Done)
+    }
+}
+
+#[derive(Args)]
 struct McapOptions {
     /// Folder for odometry.mcap, odometry.foxglove.json and odometry.plotjuggler.xml
     #[arg(long, value_name = "DIR", default_value = "out")]
@@ -232,6 +258,10 @@ pub fn run(options: &Options) -> Outcome {
             export(&options.files, |export| export.urdf(&options.frames.settings(export)?))
         }
         Target::Table(options) => options.run(),
+        Target::Sdf(options) => options.run(Simulator::Gazebo),
+        Target::Mjcf(options) => options.run(Simulator::MuJoCo),
+        Target::Usd(options) => options.run(Simulator::Usd),
+        Target::Chrono(options) => options.run(Simulator::Chrono),
         Target::Mcap(options) => {
             let replay = options.replay.replay()?;
             say_written(&replay.write_layers(&options.out, &provenance())?);

@@ -3,7 +3,7 @@
 use super::{CATALOGUE, EffectError, EffectId, Law};
 use crate::contact::ShearStress;
 use crate::effect::{Card, Parameter, Symmetry};
-use crate::pipeline::{Drive, Ground, Sensor, Site, Situation};
+use crate::pipeline::{Drive, Ground, RigidBody, Sensor, Site, Situation};
 use crate::vehicle::Vehicle;
 use trackdyn_core::{PerSide, Scalar, Wrench};
 
@@ -192,6 +192,10 @@ impl ActiveEffect {
 
     pub(crate) fn sense(&self, sensor: &mut Sensor) {
         self.law.sense(sensor);
+    }
+
+    pub(crate) fn rigid_body(&self, body: &mut RigidBody) {
+        self.law.rigid_body(body);
     }
 
     pub(crate) fn ground(&self, ground: &mut Ground) {

@@ -1,7 +1,7 @@
 //! Centripetal force of the turning body.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
-use crate::pipeline::Situation;
+use crate::pipeline::{RigidBody, Situation};
 use trackdyn_core::{PerSide, Scalar, Wrench};
 
 /// The centripetal force on the centre of gravity.
@@ -38,6 +38,10 @@ impl Effect for Centripetal {
 
     fn from_values(values: &[f64]) -> Self {
         Self { strength: values[0] }
+    }
+
+    fn rigid_body(&self, body: &mut RigidBody) {
+        body.steady_inertia = Some(body.steady_inertia.unwrap_or(0.0) + self.strength);
     }
 
     fn wrench<S: Scalar>(

@@ -46,6 +46,10 @@ macro_rules! catalogue {
                 match self { $(Self::$effect(effect) => effect.sense(sensor)),+ }
             }
 
+            fn rigid_body(&self, body: &mut RigidBody) {
+                match self { $(Self::$effect(effect) => effect.rigid_body(body)),+ }
+            }
+
             fn ground(&self, ground: &mut Ground) {
                 match self { $(Self::$effect(effect) => effect.ground(ground)),+ }
             }

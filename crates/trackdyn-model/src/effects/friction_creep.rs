@@ -2,7 +2,7 @@
 
 use crate::contact::ShearStress;
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
-use crate::pipeline::Site;
+use crate::pipeline::{RigidBody, Site};
 use trackdyn_core::Scalar;
 
 /// Rubber or soil that creeps before it slides.
@@ -49,6 +49,11 @@ impl Effect for FrictionCreep {
 
     fn from_values(values: &[f64]) -> Self {
         Self { speed: values[0], sharpness: values[1] }
+    }
+
+    fn rigid_body(&self, body: &mut RigidBody) {
+        // μ p (1 − (1 + |s|/(n v_c))^−n) = μ p |s|/v_c at small slip
+        body.creep_speed += self.speed;
     }
 
     fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {

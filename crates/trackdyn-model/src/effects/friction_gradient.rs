@@ -2,7 +2,7 @@
 
 use crate::contact::ShearStress;
 use crate::effect::{Card, Effect, Parameter, Role, Stage};
-use crate::pipeline::Site;
+use crate::pipeline::{RigidBody, Site};
 use trackdyn_core::Scalar;
 
 /// More friction in front than behind, as with worn belts or cleared ground.
@@ -35,6 +35,10 @@ impl Effect for FrictionGradient {
 
     fn from_values(values: &[f64]) -> Self {
         Self { gradient: values[0] }
+    }
+
+    fn rigid_body(&self, body: &mut RigidBody) {
+        body.friction_gradient += self.gradient;
     }
 
     fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {

@@ -1,7 +1,7 @@
 //! Load transfer by a centre of gravity above the ground.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
-use crate::pipeline::Situation;
+use crate::pipeline::{RigidBody, Situation};
 use trackdyn_core::Scalar;
 
 /// The weight shifts outwards in a turn, and downhill on a slope.
@@ -37,6 +37,10 @@ impl Effect for LoadTransfer {
 
     fn from_values(values: &[f64]) -> Self {
         Self { cog_height: values[0] }
+    }
+
+    fn rigid_body(&self, body: &mut RigidBody) {
+        body.cog_height += self.cog_height;
     }
 
     fn load<S: Scalar>(&self, situation: &Situation<S>, centre_of_pressure: &mut [S; 2]) {

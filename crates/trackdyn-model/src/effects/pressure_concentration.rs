@@ -2,7 +2,7 @@
 
 use crate::contact::{Friction, ShearStress};
 use crate::effect::{Card, Effect, Parameter, Role, Stage};
-use crate::pipeline::Site;
+use crate::pipeline::{RigidBody, Site};
 use trackdyn_core::Scalar;
 
 /// More pressure at the ends of a patch than in its middle, or vice versa.
@@ -39,6 +39,10 @@ impl Effect for PressureConcentration {
 
     fn from_values(values: &[f64]) -> Self {
         Self { concentration: values[0] }
+    }
+
+    fn rigid_body(&self, body: &mut RigidBody) {
+        body.pressure_concentration += self.concentration;
     }
 
     fn shear<S: Scalar>(&self, site: &Site<S>, stress: &mut ShearStress<S>) {

@@ -1,7 +1,7 @@
 //! Inertia of the body against changes of motion.
 
 use crate::effect::{Card, Effect, Parameter, Role, Stage, Symmetry};
-use crate::pipeline::Situation;
+use crate::pipeline::{RigidBody, Situation};
 use trackdyn_core::{PerSide, Scalar, Wrench};
 
 /// Mass and moment of inertia in transients.
@@ -53,6 +53,11 @@ impl Effect for YawInertia {
 
     fn from_values(values: &[f64]) -> Self {
         Self { strength: values[0], gyration: values[1] }
+    }
+
+    fn rigid_body(&self, body: &mut RigidBody) {
+        body.transient_inertia = Some(body.transient_inertia.unwrap_or(0.0) + self.strength);
+        body.gyration = Some(body.gyration.unwrap_or(0.0).hypot(self.gyration));
     }
 
     fn wrench<S: Scalar>(

@@ -1,0 +1,116 @@
+//! What a file says of the effects of a vehicle, and what it cannot say.
+
+use super::{Aspect, Robot};
+use crate::number::number;
+use std::fmt::Write;
+use trackdyn_core::rounding::Digits;
+use trackdyn_model::Icrs;
+
+/// Whether a format has an aspect, and how, or what to do instead.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Expression {
+    /// The part of the file that says it.
+    By(&'static str),
+    /// What the simulator lacks, and what can be done at run time.
+    Lacks(&'static str),
+}
+
+/// Longest line of a note, characters.
+const WIDTH: usize = 92;
+
+/// Both lists: effects that the file has, and those that it has not.
+pub(crate) fn effects(robot: &Robot, express: impl Fn(Aspect) -> Expression) -> String {
+    let (mut said, mut lacking) = (String::new(), String::new());
+    for effect in robot.model.effects() {
+        for aspect in Aspect::of(effect, robot.model.vehicle()) {
+            let (list, how) = match express(aspect) {
+                Expression::By(how) => (&mut said, how),
+                Expression::Lacks(how) => (&mut lacking, how),
+            };
+            let title = effect.card().title;
+            *list += &wrapped(&format!("{effect} ({title}): {how}."), "- ");
+        }
+    }
+    let mut text = String::new();
+    for (list, title) in [
+        (said, "Effects of the vehicle that this file has:"),
+        (lacking, "Effects of the vehicle that this file does not have:"),
+    ] {
+        if !list.is_empty() {
+            let _ = write!(text, "\n{title}\n{list}");
+        }
+    }
+    text
+}
+
+/// What is assumed where the vehicle does not say it.
+pub(crate) fn assumed(robot: &Robot) -> String {
+    let mut text = String::new();
+    if robot.body.cog_height == 0.0 {
+        text += &wrapped(
+            "The height of the centre of gravity is not known. It lies on the ground here, so no \
+             load shifts in turns: the effect load-transfer:cog_height_m=H says it.",
+            "- ",
+        );
+    }
+    if robot.body.gyration.is_none() {
+        text += &wrapped(
+            "The moments of inertia are not known: those of an even box over the contact, half \
+             the gauge high. the effect yaw-inertia:gyration_m=R says the one about the vertical.",
+            "- ",
+        );
+    } else {
+        text += &wrapped(
+            "The moment of inertia about the vertical is the vehicle's, the others go with it as \
+             in an even box over the contact, half the gauge high.",
+            "- ",
+        );
+    }
+    format!("\nAssumed:\n{text}")
+}
+
+/// How the file turns, beside the vehicle.
+pub(crate) fn turning(robot: &Robot, exported: &Icrs, by: &str) -> String {
+    let line = |icrs: &Icrs| {
+        let [left, right, y] = icrs.to_array().map(|value| format!("{value:.4}"));
+        let efficiency = robot.gauge / (icrs.x_right - icrs.x_left);
+        format!("chi {efficiency:.4}, ICRs x_l {left}, x_r {right}, y {y} m")
+    };
+    format!(
+        "\nSteady slow turns (x right, y forward of the centre of the contact):\n- vehicle: \
+         {}\n- {by}: {}\n",
+        line(&robot.icrs),
+        line(exported)
+    )
+}
+
+/// A number with nine digits that count.
+pub(crate) fn digits(value: f64) -> String {
+    number(Digits::Significant(9).round(value))
+}
+
+/// Numbers with nine digits that count, with blanks between.
+pub(crate) fn row(values: &[f64]) -> String {
+    values.iter().map(|value| digits(*value)).collect::<Vec<_>>().join(" ")
+}
+
+/// A text in lines; the first begins with `head`, the others are as far to the right.
+pub(crate) fn wrapped(text: &str, head: &str) -> String {
+    let (mut lines, mut line) = (String::new(), head.to_owned());
+    let indent = " ".repeat(head.len());
+    let mut is_empty = true;
+    for word in text.split_whitespace() {
+        if !is_empty && line.chars().count() + 1 + word.chars().count() > WIDTH {
+            lines += line.trim_end();
+            lines.push('\n');
+            line.clone_from(&indent);
+            is_empty = true;
+        }
+        if !is_empty {
+            line.push(' ');
+        }
+        line += word;
+        is_empty = false;
+    }
+    lines + line.trim_end() + "\n"
+}

@@ -172,7 +172,8 @@ fn every_effect_is_said_or_listed_as_lacking() {
             let place = text[has..].find(&format!("- {id}")).expect("in a list") + has;
             assert_eq!(place < lacks, is_carried, "{format}: {id}");
         }
-        assert!(text.lines().all(|line| line.chars().count() < 400), "{format}");
+        let is_narrow = |line: &str| line.chars().count() < 400 || line.contains("command:");
+        assert!(text.lines().all(is_narrow), "{format}");
     }
 }
 

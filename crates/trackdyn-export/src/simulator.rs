@@ -20,7 +20,7 @@ use trackdyn_core::{PerSide, Side};
 use trackdyn_model::contact::Friction;
 use trackdyn_model::effect::Symmetry;
 use trackdyn_model::{
-    ActiveEffect, Circumstance, Effects, Icrs, Model, RigidBody, Stationary, VehicleFile,
+    ActiveEffect, Circumstance, Effects, Icrs, Model, RigidBody, Stationary, Status, VehicleFile,
 };
 
 /// Track speeds of the turn that tells the ICRs, m/s. Without effects of speed any turn does.
@@ -65,7 +65,9 @@ impl Robot {
         let body = model.rigid_body();
         let constants = with_effects(file, |effect| breaks_only(effect, &[Symmetry::Mirror]));
         let solution = Stationary::new(&constants, &Circumstance::default()).solve(TURN);
-        let icrs = solution.icrs.filter(|icrs| icrs.x_right > icrs.x_left);
+        // An effect may have moved the centre of gravity off the contact.
+        let turns = solution.status == Status::Turning && model.vehicle().check().is_ok();
+        let icrs = solution.icrs.filter(|icrs| turns && icrs.x_right > icrs.x_left);
         let icrs = icrs.ok_or_else(|| Error::DoesNotTurn { vehicle: file.vehicle.name.clone() })?;
 
         let vehicle = model.vehicle();

@@ -6,6 +6,7 @@ mod active;
 
 pub use active::ActiveMechanism;
 
+use crate::form::{Draws, Form};
 use crate::mechanism::{Described, Mechanism};
 use crate::sheet::Sheet;
 

@@ -55,4 +55,9 @@ mechanisms! {
     side_wind::SideWind,
     warm_rubber::WarmRubber,
     drive_backlash::DriveBacklash,
+    stray_force::StrayForce,
+    slow_clutch::SlowClutch,
+    eccentric_sprocket::EccentricSprocket,
+    soft_frames::SoftFrames,
+    soil_pile::SoilPile,
 }

@@ -37,7 +37,7 @@ pub struct Options {
     #[arg(long, value_name = "SECONDS", default_value_t = RUN_TIME, value_parser = run_time)]
     duration: f64,
     /// Forms of the laws: one drawn for each case, or the one that each law had in trials until
-    /// November 2026
+    /// November 2026, with the laws outside the catalogue that those had
     #[arg(long, value_enum, default_value_t = LawForms::Drawn)]
     forms: LawForms,
     /// Folder for the cases and the commitment to the answers
@@ -82,7 +82,7 @@ pub fn run(options: &Options) -> Outcome {
     };
     let draft = Draft::begin(&options.out, &key, &order)?;
     let root = draft.root();
-    let planned = plan(order.cases, &root);
+    let planned = plan(order.cases, &root, order.forms);
     let all = (0_u64..).zip(&planned);
     let open: Vec<_> = all.filter(|(number, _)| !draft.has(*number)).collect();
     let progress = Progress::new(planned.len());

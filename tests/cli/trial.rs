@@ -377,7 +377,8 @@ fn a_trial_is_not_made_twice_and_its_key_not_into_its_folder() {
     // nor is what was begun for one folder put over another trial
     std::fs::create_dir(place.path().join("other.key.making")).expect("a folder");
     let order = format!(
-        "version = \"{}\"\nseed = 1\ncases = 1\nrun_time_s = 54.0\n",
+        "version = \"{}\"\nseed = 1\ncases = 1\nrun_time_s = 54.0\n\
+         forms = \"drawn\"\n",
         env!("CARGO_PKG_VERSION")
     );
     place.write("other.key.making/order.toml", &order);

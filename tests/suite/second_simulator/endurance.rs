@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use std::time::Instant;
 use trackdyn_core::{Command, PerSide, Plant, Schedule};
 use trackdyn_model::{RunningGear, Vehicle};
-use trackdyn_second_simulator::{MECHANISMS, Robot, Setup};
+use trackdyn_second_simulator::{ActiveMechanism, Form, MECHANISMS, Robot, Setup, Sheet};
 
 /// Steps, ramps and standstill as a restless driver makes them, s.
 fn restless(random: &mut ChaCha8Rng, duration: f64) -> Schedule {
@@ -31,13 +31,17 @@ fn restless(random: &mut ChaCha8Rng, duration: f64) -> Schedule {
     Schedule::new(commands).expect("a schedule")
 }
 
-fn drives(vehicle: &Vehicle, ids: &[&str], schedule: &Schedule) -> Result<f64, String> {
+fn drives(
+    vehicle: &Vehicle,
+    active: &[ActiveMechanism],
+    schedule: &Schedule,
+) -> Result<f64, String> {
     let begin = Instant::now();
     let mut robot =
-        Robot::new(vehicle, &typical(ids), &Setup::default()).map_err(|error| error.to_string())?;
+        Robot::new(vehicle, active, &Setup::default()).map_err(|error| error.to_string())?;
     let way = robot.follow(schedule).map_err(|stop| stop.to_string())?;
     let end = way.moments().last().expect("a motion");
-    assert!((end.pose.x + end.pose.y + end.pose.yaw).is_finite(), "{ids:?}");
+    assert!((end.pose.x + end.pose.y + end.pose.yaw).is_finite(), "{active:?}");
     Ok(begin.elapsed().as_secs_f64() / schedule.duration())
 }
 
@@ -56,11 +60,20 @@ fn wheeled() -> Vehicle {
 fn every_mechanism_drives_restlessly_on_tracks_and_wheels() {
     let mut random = ChaCha8Rng::seed_from_u64(1);
     let mut stopped = Vec::new();
-    for sheet in MECHANISMS {
+    let form = |sheet: &Sheet, number| match sheet.family {
+        Some(_) => Form::Drawn(number),
+        None => Form::Plain,
+    };
+    for (number, sheet) in (0..).zip(MECHANISMS) {
+        let plain = typical(&[sheet.id]).remove(0);
+        let drawn = plain.clone().with(form(sheet, number)).expect("a form");
         for (name, vehicle) in [("tracks", auriga([-0.015, 0.04])), ("wheels", wheeled())] {
-            match drives(&vehicle, &[sheet.id], &restless(&mut random, 10.0)) {
-                Ok(cost) => println!("{:24} {name}: {:.3} s for a minute", sheet.id, 60.0 * cost),
-                Err(reason) => stopped.push(format!("{} on {name}: {reason}", sheet.id)),
+            let schedule = restless(&mut random, 10.0);
+            for active in [&plain, &drawn] {
+                match drives(&vehicle, std::slice::from_ref(active), &schedule) {
+                    Ok(cost) => println!("{active} {name}: {:.3} s for a minute", 60.0 * cost),
+                    Err(reason) => stopped.push(format!("{active} on {name}: {reason}")),
+                }
             }
         }
     }
@@ -76,7 +89,7 @@ fn pairs_of_mechanisms_drive_restlessly() {
         let a = random.random_range(0..MECHANISMS.len());
         let b = (a + random.random_range(1..MECHANISMS.len())) % MECHANISMS.len();
         let ids = [MECHANISMS[a].id, MECHANISMS[b].id];
-        if let Err(reason) = drives(&vehicle, &ids, &restless(&mut random, 10.0)) {
+        if let Err(reason) = drives(&vehicle, &typical(&ids), &restless(&mut random, 10.0)) {
             stopped.push(format!("{ids:?}: {reason}"));
         }
     }

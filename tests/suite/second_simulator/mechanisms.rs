@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use trackdyn_model::CATALOGUE;
 use trackdyn_model::effect::{Parameter, Role};
 use trackdyn_second_simulator::{
-    ActiveMechanism, Error, MECHANISMS, Origin, Robot, Setup, sheet_of,
+    ActiveMechanism, Error, Form, MECHANISMS, Origin, Robot, Setup, sheet_of,
 };
 
 use crate::second_simulator::turn::{auriga, typical};
@@ -75,13 +75,35 @@ fn mistakes_are_refused() {
     let twice = typical(&["slope", "slope"]);
     let refused = Robot::new(&auriga([0.0, 0.0]), &twice, &Setup::default());
     assert_eq!(refused.expect_err("a refusal"), Error::Repeated("slope"));
+    let form = |text: &str| text.parse::<ActiveMechanism>();
+    let refused = form("slope:angle_deg=3,form=7").expect_err("a mistake").to_string();
+    assert!(refused.contains("slope has one form of its law"), "{refused}");
+    assert!(form("tether:form=-1").is_err() && form("tether:form=0.5").is_err());
 }
 
 #[test]
-fn the_page_lists_every_mechanism_with_its_law() {
+fn a_drawn_form_is_written_and_read_back() {
+    for sheet in MECHANISMS.iter().filter(|sheet| sheet.family.is_some()) {
+        let drawn = typical(&[sheet.id]).remove(0).with(Form::Drawn(4_000_000_000));
+        let drawn = drawn.expect("a family");
+        assert_eq!(drawn.to_string().parse(), Ok(drawn), "{}", sheet.id);
+    }
+}
+
+#[test]
+fn pages_list_every_mechanism_with_its_law_and_its_family() {
     let page = include_str!("../../../docs/theory/second-simulator.md");
+    let families = include_str!("../../../docs/trials/forms.md");
     for sheet in MECHANISMS {
         let row = format!("| {} | {} |", sheet.id, sheet.law.replace('|', "\\|"));
-        assert!(page.contains(&row), "docs/theory/second-simulator.md lacks {row}");
+        let (of, name) = match sheet.origin {
+            Origin::Catalogue => (page, "theory/second-simulator.md"),
+            Origin::Outside => (families, "trials/forms.md"),
+        };
+        assert!(of.contains(&row), "docs/{name} lacks {row}");
+        let Some(family) = sheet.family else { continue };
+        let [law, size] = [family.law, family.size].map(|text| text.replace('|', "\\|"));
+        let row = format!("| {} | {law} | {size} |", sheet.id);
+        assert!(families.contains(&row), "docs/trials/forms.md lacks {row}");
     }
 }

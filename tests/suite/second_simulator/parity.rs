@@ -3,7 +3,7 @@
 use crate::second_simulator::turn::{Turn, auriga, distance, typical};
 use rayon::prelude::*;
 use trackdyn_core::{PerSide, Plant, Pose, Trajectory};
-use trackdyn_second_simulator::{ActiveMechanism, MECHANISMS, Robot, Setup, Symmetry};
+use trackdyn_second_simulator::{ActiveMechanism, Form, MECHANISMS, Robot, Setup, Sheet, Symmetry};
 
 /// Change of an ICR, m, that breaks a symmetry: what a spin test can see.
 const BROKEN: f64 = 1e-3;
@@ -121,16 +121,29 @@ fn the_base_case_breaks_nothing() {
     assert!(subject.strays() < 1e-5 && subject.lags() < 1e-4);
 }
 
+/// Forms of each family that are measured: the plain one and so many drawn ones.
+const DRAWN_FORMS: u32 = 2;
+
+/// All mechanisms at their typical sizes, in several forms.
+fn subjects() -> Vec<(&'static Sheet, Form)> {
+    let forms = |sheet: &Sheet| if sheet.family.is_some() { 0..=DRAWN_FORMS } else { 0..=0 };
+    let of = |number| if number == 0 { Form::Plain } else { Form::Drawn(number) };
+    let all = MECHANISMS.iter();
+    all.flat_map(|sheet| forms(sheet).map(move |number| (sheet, of(number)))).collect()
+}
+
 #[test]
-fn every_mechanism_breaks_what_its_sheet_says() {
+fn every_mechanism_breaks_what_its_sheet_says_in_all_forms() {
     println!(
         "worst change of an ICR, mm; way off the line in 1 m, mm; belt's way lost at a start, mm"
     );
-    println!("{:24}{}", "", Symmetry::ALL.map(|i| format!("{:>8}", i.letter())).concat());
-    let measured: Vec<[f64; Symmetry::ALL.len()]> = MECHANISMS
+    println!("{:26}{}", "", Symmetry::ALL.map(|i| format!("{:>8}", i.letter())).concat());
+    let subjects = subjects();
+    let measured: Vec<[f64; Symmetry::ALL.len()]> = subjects
         .par_iter()
-        .map(|sheet| {
-            let subject = Subject::new(typical(&[sheet.id]));
+        .map(|(sheet, form)| {
+            let active = typical(&[sheet.id]).remove(0).with(*form).expect("a form");
+            let subject = Subject::new(vec![active]);
             let bases = subject.bases();
             Symmetry::ALL.map(|symmetry| match symmetry {
                 Symmetry::Straight => subject.strays(),
@@ -140,10 +153,11 @@ fn every_mechanism_breaks_what_its_sheet_says() {
         })
         .collect();
     let mut wrong = Vec::new();
-    for (sheet, changes) in MECHANISMS.iter().zip(measured) {
+    for ((sheet, form), changes) in subjects.into_iter().zip(measured) {
+        let number = form.number().map_or_else(String::new, |number| format!(" {number}"));
         println!(
-            "{:24}{}",
-            sheet.id,
+            "{:26}{}",
+            format!("{}{number}", sheet.id),
             changes.map(|change| format!("{:8.2}", 1e3 * change)).concat()
         );
         for (symmetry, change) in Symmetry::ALL.into_iter().zip(changes) {
@@ -154,7 +168,8 @@ fn every_mechanism_breaks_what_its_sheet_says() {
                 .any(|of| sheet.breaks.contains(of));
             let hidden = symmetry == Symmetry::Transient && moves;
             if breaks != (change > BROKEN) && !hidden {
-                wrong.push(format!("{} {}: {change:.2e} m", sheet.id, symmetry.letter()));
+                let letter = symmetry.letter();
+                wrong.push(format!("{}{number} {letter}: {change:.2e} m", sheet.id));
             }
         }
     }

@@ -2,6 +2,7 @@
 //! choices of the places, directions and shapes that their size does not say.
 
 use crate::dose::{Dose, Scene, concealment, polar};
+use crate::forms::Forms;
 use crate::plan::{close, isolable};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::FRAC_PI_2;
@@ -25,16 +26,26 @@ pub(crate) struct Alternative {
     pub(crate) members: Vec<(Dose, f64)>,
 }
 
-/// All alternatives but those of these ids.
+/// All alternatives but those of these ids. Where forms are drawn, each is tried in the plain one
+/// and in another one.
 pub(crate) fn alternatives(
     excluded: &[&str],
+    forms: Forms,
     scene: Scene,
     random: &mut ChaCha8Rng,
 ) -> Vec<Alternative> {
     let confusable = close().filter(|sheet| !isolable().any(|other| other.id == sheet.id));
     let sheets = isolable().chain(confusable).filter(|sheet| !excluded.contains(&sheet.id));
     let all = sheets.flat_map(|sheet| {
-        let choices = choices(sheet, scene, random);
+        let mut choices = choices(sheet, scene, random);
+        if !forms.is_plain() && sheet.family.is_some() {
+            let others = choices.clone().into_iter().map(|members| {
+                let form = forms.draw(sheet, random);
+                let of_form = |(dose, strength): (Dose, f64)| (dose.of_form(form), strength);
+                members.into_iter().map(of_form).collect()
+            });
+            choices.extend(others.collect::<Vec<_>>());
+        }
         choices.into_iter().map(move |members| Alternative { sheet, members })
     });
     all.collect()

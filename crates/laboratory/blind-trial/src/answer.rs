@@ -1,6 +1,7 @@
 //! What was concealed: the answers of a trial.
 
 use crate::difficulty::Difficulty;
+use crate::forms::Forms;
 use crate::key::Root;
 use crate::plan::Stratum;
 use serde::{Deserialize, Serialize};
@@ -31,6 +32,9 @@ pub struct Answers {
     /// Time of a run where it is not the usual one, s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub run_time_s: Option<f64>,
+    /// Which forms laws have.
+    #[serde(default, skip_serializing_if = "Forms::is_plain")]
+    pub forms: Forms,
     /// The cases, in the order of their ids.
     #[serde(rename = "case")]
     pub cases: Vec<Answer>,
@@ -94,6 +98,9 @@ pub struct Concealed {
     pub in_catalogue: bool,
     /// Values by key.
     pub parameters: BTreeMap<String, f64>,
+    /// Number that its form was drawn by; absent where it has the plain one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub form: Option<u32>,
     /// Letters of the invariances that it breaks.
     pub breaks: Vec<String>,
     /// z that was aimed at; absent where the size was drawn.

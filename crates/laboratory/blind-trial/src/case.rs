@@ -177,6 +177,7 @@ impl Draw<'_> {
             return Ok(Vec::new());
         }
         let mut random = self.random(Purpose::Concealed);
+        let forms = self.order.forms;
         let ground = self.ground(machine, known, Fineness::Signature);
         let driven = ground.drive(driving.training())?;
         let noise = instruments.noise(&driven, 2.0 * machine.vehicle.gauge);
@@ -196,11 +197,12 @@ impl Draw<'_> {
         let bench = bench.with_nuisance(&rougher)?;
         let scene = Scene { machine, visited: &visited };
         let (runs, sensors) = (driving.training(), &instruments.sensors);
-        let judge = Judge { bench: &bench, ground: &ground, runs, sensors };
+        let judge = Judge { bench: &bench, ground: &ground, runs, sensors, forms };
         let mut sizes = Vec::new();
         let mut wanted = Vec::new();
         for sheet in &self.planned.concealed {
             let (dose, size) = self.dose(sheet, scene, &mut random);
+            let dose = dose.of_form(forms.draw(sheet, &mut random));
             sizes.push(match size {
                 Size::Z { wanted, otherwise } => judge.sized(dose, wanted, otherwise)?,
                 Size::Strength(strength) => {
@@ -297,6 +299,7 @@ fn answer(sized: &Sized, standing: Standing, wanted: Option<f64>) -> Concealed {
     Concealed {
         mechanism: active.sheet().id.to_owned(),
         in_catalogue: is_in_catalogue(&active),
+        form: active.form().number(),
         parameters: parameters(&active),
         breaks: letters(&active),
         z_wanted: wanted.map(two_digits),

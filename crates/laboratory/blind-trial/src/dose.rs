@@ -6,7 +6,7 @@ use rand::seq::IndexedRandom;
 use rand_chacha::ChaCha8Rng;
 use trackdyn_core::rounding::Digits;
 use trackdyn_second_simulator::sheet::{Anchor, Concealment, Draw, Role, Scale, Trial};
-use trackdyn_second_simulator::{ActiveMechanism, Parameter, Sheet};
+use trackdyn_second_simulator::{ActiveMechanism, Form, Parameter, Sheet};
 
 /// Digits of the values of a mechanism, so that answers read well.
 const DIGITS: Digits = Digits::Significant(6);
@@ -26,6 +26,7 @@ pub(crate) struct Dose {
     sheet: &'static Sheet,
     grows: Vec<(&'static str, Growth)>,
     fixed: Vec<(&'static str, f64)>,
+    form: Form,
 }
 
 /// What a draw of places and directions needs to know.
@@ -67,7 +68,8 @@ impl Dose {
     /// A mechanism with drawn places, directions, shapes and signs. Strength 1 is a size that a
     /// roboticist may meet.
     pub(crate) fn draw(sheet: &'static Sheet, scene: Scene, random: &mut ChaCha8Rng) -> Self {
-        let mut dose = Self { sheet, grows: Vec::new(), fixed: Vec::new() };
+        let form = Form::Plain;
+        let mut dose = Self { sheet, grows: Vec::new(), fixed: Vec::new(), form };
         let mut place = None;
         for parameter in sheet.parameters {
             let Draw { role, scale, is_signed } = parameter.draw;
@@ -123,6 +125,11 @@ impl Dose {
         self
     }
 
+    /// With this form of its law.
+    pub(crate) fn of_form(self, form: Form) -> Self {
+        Self { form, ..self }
+    }
+
     /// Description of the mechanism.
     pub(crate) fn sheet(&self) -> &'static Sheet {
         self.sheet
@@ -148,7 +155,7 @@ impl Dose {
     /// The mechanism at a strength. Values are held within the ranges of the sheet.
     ///
     /// # Panics
-    /// Never: parameters are those of the sheet.
+    /// Never: parameters and forms are those of the sheet.
     pub(crate) fn at(&self, strength: f64) -> ActiveMechanism {
         let grown = self.grows.iter().map(|(key, growth)| {
             let value = match growth {
@@ -166,7 +173,8 @@ impl Dose {
             })
             .collect();
         let active = ActiveMechanism::new(self.sheet.id, &settings);
-        active.expect("keys are those of the sheet, and values within their ranges")
+        let active = active.and_then(|active| active.with(self.form));
+        active.expect("a form, keys and values of the sheet")
     }
 }
 

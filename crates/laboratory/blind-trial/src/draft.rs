@@ -141,6 +141,7 @@ impl Draft {
             seed: self.order.seed,
             root: Some(self.root()),
             run_time_s: self.order.unusual_run_time(),
+            forms: self.order.forms,
             cases: cases.collect::<Result<_, Error>>()?,
         };
         let commitment = folder::write_answers(trial, &answers, &self.key_file)?;

@@ -266,6 +266,7 @@ fn stamp(path: &Path) -> Result<(), Error> {
 mod tests {
     use super::*;
     use crate::answer::SCHEMA;
+    use crate::forms::Forms;
 
     #[test]
     fn trials_open_whose_answers_are_sealed_in_their_folder() {
@@ -288,6 +289,7 @@ mod tests {
             seed,
             root: None,
             run_time_s: None,
+            forms: Forms::Plain,
             cases: Vec::new(),
         };
         // a key that is used twice loses no answers

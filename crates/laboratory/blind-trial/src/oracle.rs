@@ -4,6 +4,7 @@ use crate::alternatives::{Alternative, alternatives};
 use crate::dose::{Dose, Scene};
 use crate::driving::Drive;
 use crate::failure::Failure;
+use crate::forms::Forms;
 use crate::ground::Ground;
 use crate::signature::Bench;
 use crate::subspace::Subspace;
@@ -50,6 +51,8 @@ pub(crate) struct Judge<'a> {
     pub(crate) ground: &'a Ground<'a>,
     pub(crate) runs: &'a [Drive],
     pub(crate) sensors: &'a Sensors,
+    /// Which forms alternatives may have.
+    pub(crate) forms: Forms,
 }
 
 /// An effect at its size, with what it leaves in the recording.
@@ -164,7 +167,7 @@ impl Judge<'_> {
     ) -> Result<Vec<Standing>, Failure> {
         let ids: Vec<&str> = concealed.iter().map(|sized| sized.dose.sheet().id).collect();
         let excluded: Vec<&str> = known.iter().chain(&ids).copied().collect();
-        let others = alternatives(&excluded, scene, random);
+        let others = alternatives(&excluded, self.forms, scene, random);
         let shapes_in = |still: &Still| -> Result<Vec<Vec<f64>>, Failure> {
             concealed.iter().map(|sized| still.column(&sized.dose, sized.strength)).collect()
         };

@@ -1,6 +1,7 @@
 //! What is asked of a trial.
 
 use crate::driving::RUN_TIME;
+use crate::forms::Forms;
 use serde::{Deserialize, Serialize};
 
 /// What is asked of a trial. With the key it determines every byte.
@@ -15,6 +16,9 @@ pub struct Order {
     pub cases: usize,
     /// Time of each run, s.
     pub run_time_s: f64,
+    /// Which forms laws have.
+    #[serde(default, skip_serializing_if = "Forms::is_plain")]
+    pub forms: Forms,
 }
 
 impl Order {
@@ -26,7 +30,8 @@ impl Order {
 
 impl std::fmt::Display for Order {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { version, seed, cases, run_time_s } = self;
-        write!(f, "{cases} cases with seed {seed} and runs of {run_time_s} s, version {version}")
+        let Self { version, seed, cases, run_time_s, forms } = self;
+        write!(f, "{cases} cases with seed {seed}, runs of {run_time_s} s and {forms} forms, ")?;
+        write!(f, "version {version}")
     }
 }

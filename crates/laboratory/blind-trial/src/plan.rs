@@ -2,6 +2,7 @@
 
 use crate::difficulty::Difficulty;
 use crate::dose::concealment;
+use crate::forms::Forms;
 use crate::key::Root;
 use crate::random::{Purpose, stream};
 use rand::seq::{IndexedRandom, SliceRandom};
@@ -36,8 +37,10 @@ fn constants() -> impl Iterator<Item = &'static Sheet> {
 }
 
 /// Laws that no catalogue has.
-fn outside() -> impl Iterator<Item = &'static Sheet> {
-    MECHANISMS.iter().filter(|sheet| sheet.origin == Origin::Outside)
+fn outside(forms: Forms) -> impl Iterator<Item = &'static Sheet> {
+    let laws = MECHANISMS.iter().filter(|sheet| sheet.origin == Origin::Outside);
+    let is_there = move |law: &Concealment| !(law.needs_drawn_forms && forms.is_plain());
+    laws.filter(move |sheet| concealment(sheet).is_some_and(is_there))
 }
 
 /// Laws of the catalogue.
@@ -118,11 +121,11 @@ pub struct PlannedCase {
 
 /// The cases of a trial in shuffled order; every kind comes up as often as the others of its
 /// stratum.
-pub fn plan(cases: usize, root: &Root) -> Vec<PlannedCase> {
+pub fn plan(cases: usize, root: &Root, forms: Forms) -> Vec<PlannedCase> {
     let mut random = stream(root, 0, 0, Purpose::Plan);
     let mut planned = Vec::with_capacity(cases);
     for (stratum, count) in counts(cases) {
-        planned.extend(stratum_cases(stratum, count, &mut random));
+        planned.extend(stratum_cases(stratum, count, forms, &mut random));
     }
     planned.shuffle(&mut random);
     planned
@@ -154,7 +157,12 @@ fn counts(cases: usize) -> Vec<(Stratum, usize)> {
     counts
 }
 
-fn stratum_cases(stratum: Stratum, count: usize, random: &mut ChaCha8Rng) -> Vec<PlannedCase> {
+fn stratum_cases(
+    stratum: Stratum,
+    count: usize,
+    forms: Forms,
+    random: &mut ChaCha8Rng,
+) -> Vec<PlannedCase> {
     let case = |concealed, difficulty| PlannedCase { stratum, concealed, difficulty };
     let isolable: Vec<&'static Sheet> = isolable().collect();
     match stratum {
@@ -164,7 +172,7 @@ fn stratum_cases(stratum: Stratum, count: usize, random: &mut ChaCha8Rng) -> Vec
             .map(|difficulty| case(Vec::new(), Some(difficulty)))
             .collect(),
         Stratum::Single => single(isolable.into_iter(), count, random, case),
-        Stratum::Outside => single(outside(), count, random, case),
+        Stratum::Outside => single(outside(forms), count, random, case),
         Stratum::Equivalence => {
             let half = count / 2;
             let mut cases = single(constants(), count - half, random, case);
@@ -211,11 +219,12 @@ fn in_turn<T: Copy>(of: &[T], count: usize, random: &mut ChaCha8Rng) -> Vec<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trackdyn_second_simulator::sheet::Trial;
 
     #[test]
     fn a_fifth_or_more_are_nulls_and_most_of_them_hard() {
         for cases in [1, 2, 7, 20, 60, 333, 1000] {
-            let planned = plan(cases, &Root::of_seed(3));
+            let planned = plan(cases, &Root::of_seed(3), Forms::Drawn);
             assert_eq!(planned.len(), cases);
             let of = |wanted: &dyn Fn(Stratum) -> bool| {
                 planned.iter().filter(|case| wanted(case.stratum)).count()
@@ -232,17 +241,25 @@ mod tests {
     #[test]
     fn every_mechanism_has_a_place_in_trials() {
         for sheet in MECHANISMS {
-            let lists = isolable().chain(close()).chain(constants()).chain(outside());
-            let is_planned = lists.into_iter().any(|planned| planned.id == sheet.id);
-            assert!(is_planned != sheet.is_instrument(), "{}", sheet.id);
+            let lists = isolable().chain(close()).chain(constants()).chain(outside(Forms::Drawn));
+            let is_concealed = lists.into_iter().any(|planned| planned.id == sheet.id);
+            assert!(is_concealed != sheet.is_instrument(), "{}", sheet.id);
+            // errors of instruments are never concealed; they are large in hard nulls
+            if let Trial::Instrument(error) = sheet.trial {
+                let large = Difficulty::Instruments(error.large_in);
+                assert!(Difficulty::all().contains(&large), "{}", sheet.id);
+            }
         }
-        let counts = [isolable().count(), close().count(), constants().count(), outside().count()];
+        let [few, more] = [Forms::Plain, Forms::Drawn].map(|forms| outside(forms).count());
+        assert_eq!((few, more), (10, 15), "trials of plain forms have the laws that they had");
+        let counts = [isolable().count(), close().count(), constants().count()];
         assert!(counts.iter().all(|count| *count >= 7), "{counts:?}");
     }
 
     #[test]
     fn singles_are_of_all_kinds_and_the_order_says_nothing() {
-        let planned = plan(400, &Root::of_seed(5));
+        let plan = |seed| plan(400, &Root::of_seed(seed), Forms::Drawn);
+        let planned = plan(5);
         for sheet in isolable() {
             let found =
                 |case: &&PlannedCase| case.stratum == Stratum::Single && case.concealed == [sheet];
@@ -251,7 +268,7 @@ mod tests {
         let nulls = |half: &[PlannedCase]| half.iter().filter(|c| c.stratum.is_null()).count();
         // 96 nulls fall into halves as 48 ± 4.3
         assert!(nulls(&planned[..200]).abs_diff(nulls(&planned[200..])) < 30);
-        assert_ne!(planned, plan(400, &Root::of_seed(6)));
-        assert_eq!(planned, plan(400, &Root::of_seed(5)));
+        assert_ne!(planned, plan(6));
+        assert_eq!(planned, plan(5));
     }
 }

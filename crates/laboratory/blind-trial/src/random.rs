@@ -52,6 +52,11 @@ pub(crate) fn normal(random: &mut ChaCha8Rng) -> f64 {
     random.sample(StandardNormal)
 }
 
+/// A whole number.
+pub(crate) fn whole(random: &mut ChaCha8Rng) -> u32 {
+    random.random()
+}
+
 /// Plus or minus one.
 pub(crate) fn sign(random: &mut ChaCha8Rng) -> f64 {
     if random.random::<bool>() { 1.0 } else { -1.0 }

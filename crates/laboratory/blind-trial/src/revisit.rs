@@ -19,7 +19,7 @@ use trackdyn_core::document::Document;
 use trackdyn_core::{Pose, Schedule};
 use trackdyn_model::{Vehicle, VehicleFile};
 use trackdyn_recording::Recording;
-use trackdyn_second_simulator::ActiveMechanism;
+use trackdyn_second_simulator::{ActiveMechanism, Form};
 
 /// The recording of a case that follows a schedule from the origin, heading along x: everything is
 /// as it was in the case but for the noise, which is drawn anew.
@@ -62,13 +62,16 @@ fn attempt(root: &Root, number: u64, vehicle: &Vehicle) -> Option<(u64, Machine)
 
 /// All that acts in a case.
 fn active(answer: &Answer) -> Result<Vec<ActiveMechanism>, Failure> {
-    let of = |id: &str, parameters: &BTreeMap<String, f64>| {
+    let of = |id: &str, parameters: &BTreeMap<String, f64>| -> Result<_, Failure> {
         let settings: Vec<_> =
             parameters.iter().map(|(key, value)| (key.as_str(), *value)).collect();
         Ok(ActiveMechanism::new(id, &settings)?)
     };
     let known = answer.known.iter().map(|text| Ok(text.parse()?));
-    let concealed = answer.concealed.iter().map(|one| of(&one.mechanism, &one.parameters));
+    let concealed = answer.concealed.iter().map(|one| {
+        let form = one.form.map_or(Form::Plain, Form::Drawn);
+        Ok(of(&one.mechanism, &one.parameters)?.with(form)?)
+    });
     let errors = answer.instruments.iter().map(|one| of(&one.mechanism, &one.parameters));
     known.chain(concealed).chain(errors).collect()
 }
@@ -78,6 +81,7 @@ mod tests {
     use super::*;
     use crate::answer::{Concealed, SCHEMA};
     use crate::case::Case;
+    use crate::forms::Forms;
     use crate::order::Order;
     use crate::plan::PlannedCase;
     use trackdyn_core::{Command, PerSide};
@@ -86,7 +90,8 @@ mod tests {
     fn null() -> Answers {
         let planned =
             PlannedCase { stratum: Stratum::PlainNull, concealed: Vec::new(), difficulty: None };
-        let order = Order { version: String::new(), seed: 8, cases: 1, run_time_s: 10.0 };
+        let (version, forms) = (String::new(), Forms::Drawn);
+        let order = Order { version, seed: 8, cases: 1, run_time_s: 10.0, forms };
         let case = Case::make(&planned, 0, &order, &Root::of_seed(8)).expect("a case");
         let version = String::new();
         let (schema, cases) = (SCHEMA.to_owned(), vec![case.answer]);
@@ -97,6 +102,7 @@ mod tests {
             seed: order.seed,
             root: None,
             run_time_s: Some(10.0),
+            forms,
             cases,
         }
     }
@@ -121,6 +127,7 @@ mod tests {
         sloped.cases[0].concealed = vec![Concealed {
             mechanism: "slope".to_owned(),
             in_catalogue: true,
+            form: None,
             parameters: slope.map(|(key, value)| (key.to_owned(), value)).into(),
             breaks: Vec::new(),
             z_wanted: None,

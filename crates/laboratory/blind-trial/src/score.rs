@@ -5,6 +5,7 @@
 //! whether the manoeuvre that is planned for an ambiguous diagnosis resolves it is known after
 //! driving it only.
 
+mod by_law;
 mod confusion;
 pub mod coverage;
 pub mod interval;
@@ -18,6 +19,7 @@ pub mod resolution;
 mod tables;
 mod verdict;
 
+pub use by_law::ByLaw;
 pub use confusion::Confusion;
 pub use means::Mean;
 pub use power::PowerBin;
@@ -47,6 +49,8 @@ pub struct Score {
     pub power: Vec<PowerBin>,
     /// What rules could reach at best.
     pub reach: Vec<Reach>,
+    /// What is found of each law of the catalogue.
+    pub by_law: Vec<ByLaw>,
     /// What was taken for what.
     pub confusion: Confusion,
 }
@@ -64,6 +68,7 @@ impl Score {
             means: means::means(&judged),
             power: power::power(&judged),
             reach: reach::reach(&judged),
+            by_law: by_law::by_law(&judged),
             confusion: Confusion::of(&judged),
             absent: absent.len(),
             judged,

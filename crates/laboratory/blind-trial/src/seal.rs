@@ -65,6 +65,7 @@ pub(crate) fn check(
 mod tests {
     use super::*;
     use crate::answer::SCHEMA;
+    use crate::forms::Forms;
     use crate::key::Key;
 
     fn answers(salt: String) -> Answers {
@@ -75,6 +76,7 @@ mod tests {
             seed: 77,
             root: None,
             run_time_s: None,
+            forms: Forms::Plain,
             cases: Vec::new(),
         }
     }

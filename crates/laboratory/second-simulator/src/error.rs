@@ -45,8 +45,14 @@ pub enum Error {
         parameter: &'static Parameter,
     },
     /// Text that does not name a mechanism.
-    #[error("\"{0}\": expected ID or ID:PARAMETER=VALUE,...")]
+    #[error("\"{0}\": expected ID or ID:PARAMETER=VALUE,..., of which form=NUMBER draws a form")]
     Malformed(String),
+    /// A drawn form of a mechanism that has one law only.
+    #[error("{} has one form of its law: expected no form=NUMBER", sheet.id)]
+    NoFamily {
+        /// The mechanism.
+        sheet: &'static Sheet,
+    },
     /// A mechanism that is switched on twice.
     #[error("{0} is switched on twice")]
     Repeated(&'static str),

@@ -10,11 +10,13 @@
 //! - [`mechanism`]: what a mechanism can touch; [`mechanisms`]: all of them, one file each, with
 //!   other functional forms than the catalogue's where there are any, and some that no catalogue
 //!   has.
+//! - [`form`]: which member of its family a law is.
 //! - [`gear`]: belts as moving shoes, and what each of them carries.
 //!
 //! Bodies are described in the paper's frame (x right, y forward), the world in REP-103.
 
 pub mod error;
+pub mod form;
 pub mod gear;
 pub mod mechanism;
 pub mod mechanisms;
@@ -22,6 +24,7 @@ pub mod robot;
 pub mod sheet;
 
 pub use error::Error;
+pub use form::Form;
 pub use mechanisms::{ActiveMechanism, MECHANISMS, sheet_of};
 pub use robot::{Robot, Setup};
-pub use sheet::{Origin, Parameter, Sheet, Symmetry};
+pub use sheet::{Family, Origin, Parameter, Sheet, Symmetry};

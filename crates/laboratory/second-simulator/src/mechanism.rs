@@ -3,6 +3,7 @@
 use trackdyn_core::{Moment, PerSide, Pose, Side, Twist, Wrench, frames};
 use trackdyn_model::Vehicle;
 
+use crate::form::Draws;
 use crate::sheet::Sheet;
 
 /// Physics of the simulated robot, its ground or its sensors, that may be switched on.
@@ -81,6 +82,12 @@ pub trait Described: Mechanism + Sized + 'static {
 
     /// The mechanism with its parameters in the order of the sheet, each within its range.
     fn from_values(values: &[f64]) -> Self;
+
+    /// The same in a form that is drawn from its family ([`Sheet::family`]); the plain one where
+    /// there is no family.
+    fn drawn(values: &[f64], _random: &mut Draws) -> Self {
+        Self::from_values(values)
+    }
 }
 
 /// What acts on a shoe.
@@ -234,6 +241,12 @@ pub struct Step<'a> {
     pub traction: PerSide<f64>,
     /// Power that slip turned into heat on each side, W.
     pub heat: PerSide<f64>,
+}
+
+/// Multiplies the ratio μ_x/μ_y by a factor, of which this power goes to μ_x and the rest to μ_y.
+pub fn share_ratio(mu: &mut [f64; 2], factor: f64, across: f64) {
+    mu[0] *= factor.powf(across);
+    mu[1] *= factor.powf(across - 1.0);
 }
 
 /// Multiplies the ratio μ_x/μ_y and keeps the product.

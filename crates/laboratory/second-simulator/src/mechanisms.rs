@@ -6,6 +6,7 @@ mod active;
 
 pub use active::ActiveMechanism;
 
+use crate::form::{Draws, Form};
 use crate::mechanism::{Described, Mechanism};
 use crate::sheet::Sheet;
 
@@ -54,4 +55,9 @@ mechanisms! {
     side_wind::SideWind,
     warm_rubber::WarmRubber,
     drive_backlash::DriveBacklash,
+    stray_force::StrayForce,
+    slow_clutch::SlowClutch,
+    eccentric_sprocket::EccentricSprocket,
+    soft_frames::SoftFrames,
+    soil_pile::SoilPile,
 }

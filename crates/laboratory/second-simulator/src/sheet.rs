@@ -21,6 +21,8 @@ pub struct Sheet {
     /// Whether its parameters mean what those of the catalogue's law mean, so that an estimate by
     /// the one can be compared with the value of the other.
     pub shares_size: bool,
+    /// The other laws under this name, where nature has more than one.
+    pub family: Option<Family>,
     /// Symmetries of the ICR triple that it breaks.
     pub breaks: &'static [Symmetry],
     /// What a blind trial does with it.
@@ -51,6 +53,18 @@ impl Sheet {
     pub fn is_instrument(&self) -> bool {
         matches!(self.trial, Trial::Instrument(_))
     }
+}
+
+/// A family of laws under one name, of which a number draws one. All have the symmetries and the
+/// parameters of the sheet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Family {
+    /// What is drawn.
+    pub law: &'static str,
+    /// What a size means in all of them.
+    pub size: &'static str,
+    /// Whether that is what it means in the catalogue, as [`Sheet::shares_size`].
+    pub shares_size: bool,
 }
 
 /// Whether a diagnosis can name a mechanism.

@@ -54,7 +54,8 @@ impl Stage {
     fn with<T>(&self, ask: impl FnOnce(&Judge, Scene) -> T) -> T {
         let ground = ground(&self.machine);
         let runs = self.driving.training();
-        let judge = Judge { bench: &self.bench, ground: &ground, runs, sensors: &self.sensors };
+        let (bench, sensors, forms) = (&self.bench, &self.sensors, Forms::Plain);
+        let judge = Judge { bench, ground: &ground, runs, sensors, forms };
         let poses = self.driven.iter().flat_map(|run| run.body.moments().iter().step_by(50));
         let visited = places(poses.map(|moment| &moment.pose));
         ask(&judge, Scene { machine: &self.machine, visited: &visited })

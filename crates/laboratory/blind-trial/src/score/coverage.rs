@@ -33,11 +33,11 @@ pub(super) fn of_case(case: &Judged) -> Vec<(&str, bool)> {
 
 fn covered(case: &Judged, claim: &Missing) -> Vec<bool> {
     let concealed = case.answer.concealed.iter().filter(|c| c.in_catalogue);
-    let concealed = concealed.map(|c| (&c.mechanism, &c.parameters));
+    let concealed = concealed.map(|c| (&c.mechanism, &c.parameters, c.form));
     let shown = case.answer.shown_errors();
-    let instruments = shown.iter().map(|i| (&i.mechanism, &i.parameters));
-    let truth = concealed.chain(instruments).find(|(id, _)| **id == claim.effect);
-    let Some((id, parameters)) = truth.filter(|(id, _)| shares_size(id)) else {
+    let instruments = shown.iter().map(|i| (&i.mechanism, &i.parameters, None));
+    let truth = concealed.chain(instruments).find(|(id, ..)| **id == claim.effect);
+    let Some((id, parameters, _)) = truth.filter(|(id, _, form)| shares_size(id, *form)) else {
         return Vec::new();
     };
     let inside = |size: &Size| {
@@ -50,9 +50,12 @@ fn covered(case: &Judged, claim: &Missing) -> Vec<bool> {
     claim.parameters.iter().filter_map(inside).collect()
 }
 
-/// Whether a size of the second simulator is that of the catalogue.
-fn shares_size(id: &str) -> bool {
-    sheet_of(id).is_some_and(|sheet| sheet.shares_size)
+/// Whether a size of the second simulator is that of the catalogue, in the form that it has.
+fn shares_size(id: &str, form: Option<u32>) -> bool {
+    sheet_of(id).is_some_and(|sheet| match (form, sheet.family) {
+        (Some(_), Some(family)) => family.shares_size,
+        _ => sheet.shares_size,
+    })
 }
 
 /// Whether a parameter is an angle that comes back after a whole turn.

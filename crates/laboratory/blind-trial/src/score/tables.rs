@@ -1,6 +1,7 @@
 //! Scores as tables: Markdown to read, CSV to work with.
 
 use super::Score;
+use super::by_law::ByLaw;
 use super::coverage;
 use super::interval::clopper_pearson;
 use super::means::Mean;
@@ -48,6 +49,7 @@ pub fn markdown(score: &Score) -> String {
         );
     }
     reach_table(&mut text, score);
+    by_law_table(&mut text, score);
     text.push_str("\n## What was taken for what\n\n");
     let columns = score.confusion.columns();
     let _ = writeln!(text, "| concealed | {} |", columns.join(" | "));
@@ -60,6 +62,18 @@ pub fn markdown(score: &Score) -> String {
         let _ = writeln!(text, "| {row} | {} |", cells.collect::<Vec<_>>().join(" | "));
     }
     text
+}
+
+/// Every law of the catalogue, with what is found of it.
+fn by_law_table(text: &mut String, score: &Score) {
+    text.push_str("\n## Law by law\n\n");
+    text.push_str(
+        "Where it is concealed by itself and detectable, or a large error of a hard null.\n\n",
+    );
+    text.push_str("| law | cases | in a set | alone |\n|---|---|---|---|\n");
+    for ByLaw { law, cases, in_set, alone } in &score.by_law {
+        let _ = writeln!(text, "| {law} | {cases} | {in_set} | {alone} |");
+    }
 }
 
 /// What a rule would name alone that sees separations with an error of one standard deviation.

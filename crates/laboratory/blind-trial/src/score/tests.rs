@@ -9,6 +9,7 @@ fn concealed(id: &str, z_det: f64, z_iso: f64) -> Concealed {
     Concealed {
         mechanism: id.to_owned(),
         in_catalogue: trackdyn_model::CATALOGUE.iter().any(|card| card.id == id),
+        form: None,
         parameters: [("coefficient".to_owned(), 0.05)].into(),
         breaks: vec!["P".to_owned()],
         z_wanted: None,

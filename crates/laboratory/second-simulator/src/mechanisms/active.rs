@@ -2,14 +2,19 @@
 
 use super::{MECHANISMS, from_values};
 use crate::error::Error;
+use crate::form::Form;
 use crate::mechanism::Mechanism;
 use crate::sheet::Sheet;
+
+/// Key of the number of a drawn form, beside those of the parameters.
+const FORM: &str = "form";
 
 /// A mechanism with the values of its parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ActiveMechanism {
     index: usize,
     values: Vec<f64>,
+    form: Form,
 }
 
 impl ActiveMechanism {
@@ -41,7 +46,23 @@ impl ActiveMechanism {
         }
         let values = values.into_iter().zip(sheet.parameters);
         let values = values.map(|(value, parameter)| value.unwrap_or(parameter.typical)).collect();
-        Ok(Self { index, values })
+        Ok(Self { index, values, form: Form::Plain })
+    }
+
+    /// With this form of its law.
+    ///
+    /// # Errors
+    /// A drawn form of a mechanism that has one law only.
+    pub fn with(self, form: Form) -> Result<Self, Error> {
+        if form != Form::Plain && self.sheet().family.is_none() {
+            return Err(Error::NoFamily { sheet: self.sheet() });
+        }
+        Ok(Self { form, ..self })
+    }
+
+    /// Which form of its law it is.
+    pub fn form(&self) -> Form {
+        self.form
     }
 
     /// Its sheet.
@@ -61,7 +82,7 @@ impl ActiveMechanism {
 
     /// The mechanism itself, at rest.
     pub(crate) fn mechanism(&self) -> Box<dyn Mechanism> {
-        from_values(self.index, &self.values)
+        from_values(self.index, &self.values, self.form)
     }
 }
 
@@ -70,24 +91,27 @@ fn ids() -> String {
     MECHANISMS.iter().map(|sheet| sheet.id).collect::<Vec<_>>().join(", ")
 }
 
-/// Reads `id` or `id:key=value,key=value`.
+/// Reads `id` or `id:key=value,key=value`; `form=NUMBER` among them draws the form of the law.
 impl std::str::FromStr for ActiveMechanism {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Error> {
+        let malformed = || Error::Malformed(text.to_owned());
         let (id, settings) = match text.split_once(':') {
             Some((id, settings)) => (id, settings.split(',').collect()),
             None => (text, Vec::new()),
         };
-        let settings = settings
-            .into_iter()
-            .map(|setting| {
-                let (key, value) = setting.split_once('=')?;
-                Some((key.trim(), value.trim().parse().ok()?))
-            })
-            .collect::<Option<Vec<(&str, f64)>>>();
-        let settings = settings.ok_or_else(|| Error::Malformed(text.to_owned()))?;
-        Self::new(id.trim(), &settings)
+        let (mut form, mut values) = (Form::Plain, Vec::new());
+        for setting in settings {
+            let (key, value) = setting.split_once('=').ok_or_else(malformed)?;
+            let (key, value) = (key.trim(), value.trim());
+            if key == FORM {
+                form = Form::Drawn(value.parse().map_err(|_| malformed())?);
+            } else {
+                values.push((key, value.parse().map_err(|_| malformed())?));
+            }
+        }
+        Self::new(id.trim(), &values)?.with(form)
     }
 }
 
@@ -99,6 +123,9 @@ impl std::fmt::Display for ActiveMechanism {
         {
             write!(f, "{}{}={value}", if k == 0 { ':' } else { ',' }, parameter.key)?;
         }
-        Ok(())
+        match self.form.number() {
+            Some(number) => write!(f, ",{FORM}={number}"),
+            None => Ok(()),
+        }
     }
 }

@@ -17,6 +17,7 @@ impl Described for BrushedGround {
         law: "μ (1 + a sin² φ), φ between slip and grain",
         size: "a is the excess across the grain; 0.3 is a guess, for want of a published figure",
         shares_size: false,
+        family: None,
         breaks: &[Symmetry::Mirror, Symmetry::Heading],
         trial: Trial::law(Identifiability::Distinct, 10.0),
         parameters: &[

@@ -1,12 +1,14 @@
 //! Soil that a track pushes aside.
 
+use crate::form::Draws;
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Trial};
+use crate::sheet::{Family, Draw, Identifiability, Origin, Parameter, Sheet, Trial};
 
 /// A wedge of soil on the side to which a shoe moves.
 #[derive(Clone, Copy, Debug)]
 pub struct Bulldozing {
     coefficient: f64,
+    steepness: f64,
 }
 
 impl Described for Bulldozing {
@@ -17,6 +19,12 @@ impl Described for Bulldozing {
         size: "the law −c N sign(s_x), with a wedge that changes sides while the slip turns \
                through ±3°",
         shares_size: false,
+        family: Some(Family {
+            law: "F_x = −c N tanh(k z_x/z₀), k from 5 to 40",
+            size: "the law −c N sign(s_x), with a wedge that changes sides while the slip turns \
+                   through 1 to 11 degrees",
+            shares_size: false,
+        }),
         breaks: &[],
         trial: Trial::law(Identifiability::Indistinct, 5.0),
         parameters: &[Parameter {
@@ -29,12 +37,17 @@ impl Described for Bulldozing {
     };
 
     fn from_values(values: &[f64]) -> Self {
-        Self { coefficient: values[0] }
+        Self { coefficient: values[0], steepness: 20.0 }
+    }
+
+    fn drawn(values: &[f64], random: &mut Draws) -> Self {
+        Self { coefficient: values[0], steepness: random.log_between(5.0, 40.0) }
     }
 }
 
 impl Mechanism for Bulldozing {
     fn traction(&self, contact: &Contact, force: &mut [f64; 2]) {
-        force[0] -= self.coefficient * contact.load * (20.0 * contact.deflection[0]).tanh();
+        let side = (self.steepness * contact.deflection[0]).tanh();
+        force[0] -= self.coefficient * contact.load * side;
     }
 }

@@ -16,6 +16,7 @@ impl Described for Centripetal {
         law: "m k ω × v",
         size: "the same",
         shares_size: true,
+        family: None,
         breaks: &[Symmetry::SpeedScale, Symmetry::Reversal, Symmetry::Manoeuvre],
         trial: Trial::law(Identifiability::Distinct, 4.0),
         parameters: &[Parameter {

@@ -19,6 +19,7 @@ impl Described for CogShift {
         law: "(x_c, y_c) + (x, y)",
         size: "the same: the weight and the inertia move together",
         shares_size: true,
+        family: None,
         breaks: &[Symmetry::Mirror],
         trial: Trial::law(Identifiability::Indistinct, 2.0).filed(Filed::CentreOfGravity),
         parameters: &[

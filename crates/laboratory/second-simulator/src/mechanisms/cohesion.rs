@@ -16,6 +16,7 @@ impl Described for Cohesion {
         law: "F = −c A z/z₀ beside friction",
         size: "the same; adhesion has the elastic range of friction",
         shares_size: true,
+        family: None,
         breaks: &[],
         trial: Trial::law(Identifiability::Indistinct, 4.0),
         parameters: &[Parameter {

@@ -18,6 +18,7 @@ impl Described for DriveBacklash {
         law: "V = 0 while the encoder's way is inside the play, else V_shown",
         size: "a worn final drive; nothing shows until the sense changes",
         shares_size: false,
+        family: None,
         breaks: &[Symmetry::Transient],
         trial: Trial::law(Identifiability::Distinct, 10.0),
         parameters: &[Parameter {

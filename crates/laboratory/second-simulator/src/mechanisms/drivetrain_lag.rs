@@ -1,15 +1,20 @@
 //! Belts that follow the encoders late.
 
+mod chain;
+
+use chain::Chain;
+use crate::form::Draws;
 use crate::mechanism::{Described, Mechanism, Scene, Step};
-use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
+use crate::sheet::{Family, Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 use trackdyn_core::{PerSide, Side};
 
 /// Two lags in a row: the motor's and the belt's.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct DrivetrainLag {
     half: f64,
     motor: PerSide<f64>,
     belt: PerSide<f64>,
+    chain: Option<PerSide<Chain>>,
 }
 
 impl Described for DrivetrainLag {
@@ -19,6 +24,12 @@ impl Described for DrivetrainLag {
         law: "u' = (V_shown − u)/(T/2), V' = (u − V)/(T/2)",
         size: "two lags of T/2 delay a ramp by T, as one lag of T does",
         shares_size: false,
+        family: Some(Family {
+            law: "one to three lags in a row, after a dead time of 0.1 to 0.6 T where there is one \
+                  lag, in half of the others none",
+            size: "lags and dead time are T together: so much do they delay a ramp",
+            shares_size: false,
+        }),
         breaks: &[Symmetry::Transient],
         trial: Trial::law(Identifiability::Indistinct, 4.0),
         parameters: &[Parameter {
@@ -32,17 +43,30 @@ impl Described for DrivetrainLag {
 
     fn from_values(values: &[f64]) -> Self {
         let rest = PerSide::new(0.0, 0.0);
-        Self { half: values[0] / 2.0, motor: rest, belt: rest }
+        Self { half: values[0] / 2.0, motor: rest, belt: rest, chain: None }
+    }
+
+    fn drawn(values: &[f64], random: &mut Draws) -> Self {
+        let chain = Chain::draw(values[0], random);
+        let chain = PerSide::from_fn(|_| chain.clone());
+        Self { chain: Some(chain), ..Self::from_values(values) }
     }
 }
 
 impl Mechanism for DrivetrainLag {
     fn drive(&self, _scene: &Scene, dt: f64, belt: &mut PerSide<f64>) {
-        *belt = PerSide::from_fn(|side| self.mean(side, belt[side], dt));
+        *belt = PerSide::from_fn(|side| match &self.chain {
+            None => self.mean(side, belt[side], dt),
+            Some(chain) => chain[side].clone().pass(belt[side], dt),
+        });
     }
 
     fn advance(&mut self, step: &Step) {
         for side in Side::BOTH {
+            if let Some(chain) = &mut self.chain {
+                chain[side].pass(step.fed[side], step.dt);
+                continue;
+            }
             let [motor, belt] = self.follow(side, step.fed[side], step.dt);
             self.motor[side] = motor;
             self.belt[side] = belt;

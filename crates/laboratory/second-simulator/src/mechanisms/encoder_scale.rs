@@ -17,6 +17,7 @@ impl Described for EncoderScale {
         law: "V = α V_shown",
         size: "the same",
         shares_size: true,
+        family: None,
         breaks: &[Symmetry::Manoeuvre, Symmetry::Mirror, Symmetry::Straight],
         trial: Trial::instrument("encoder-scale", 0.35),
         parameters: &[

@@ -1,12 +1,15 @@
 //! Another ratio of friction across to along the tracks.
 
-use crate::mechanism::{Contact, Described, Mechanism, scale_ratio};
-use crate::sheet::{Draw, Filed, Identifiability, Origin, Parameter, Sheet, Trial};
+use crate::form::Draws;
+use crate::mechanism::{Contact, Described, Mechanism, scale_ratio, share_ratio};
+use crate::sheet::{Family, Draw, Filed, Identifiability, Origin, Parameter, Sheet, Trial};
 
 /// Both coefficients change, their product does not.
 #[derive(Clone, Copy, Debug)]
 pub struct FrictionAnisotropy {
     factor: f64,
+    /// Power of the factor that goes to μ_x, where it is not one half.
+    across: Option<f64>,
 }
 
 impl Described for FrictionAnisotropy {
@@ -16,6 +19,11 @@ impl Described for FrictionAnisotropy {
         law: "μ_x √f, μ_y/√f",
         size: "the same: f multiplies μ_x/μ_y",
         shares_size: true,
+        family: Some(Family {
+            law: "μ_x f^p, μ_y f^(p − 1), p from 0 to 1",
+            size: "f multiplies μ_x/μ_y",
+            shares_size: true,
+        }),
         breaks: &[],
         trial: Trial::law(Identifiability::Indistinct, 3.0).filed(Filed::FrictionRatio),
         parameters: &[Parameter {
@@ -28,12 +36,19 @@ impl Described for FrictionAnisotropy {
     };
 
     fn from_values(values: &[f64]) -> Self {
-        Self { factor: values[0] }
+        Self { factor: values[0], across: None }
+    }
+
+    fn drawn(values: &[f64], random: &mut Draws) -> Self {
+        Self { factor: values[0], across: Some(random.between(0.0, 1.0)) }
     }
 }
 
 impl Mechanism for FrictionAnisotropy {
     fn friction(&self, _contact: &Contact, mu: &mut [f64; 2]) {
-        scale_ratio(mu, self.factor);
+        match self.across {
+            None => scale_ratio(mu, self.factor),
+            Some(across) => share_ratio(mu, self.factor, across),
+        }
     }
 }

@@ -17,6 +17,7 @@ impl Described for HeadingDrift {
         law: "yaw_reported = yaw + r t, and the way from moment to moment in that heading",
         size: "the same",
         shares_size: true,
+        family: None,
         breaks: &[
             Symmetry::SpeedScale,
             Symmetry::Reversal,

@@ -1,7 +1,9 @@
 //! Load transfer of a hull that leans on its springs.
 
+use crate::form::Draws;
 use crate::mechanism::{Described, Load, Mechanism, Scene, Step};
-use crate::sheet::{Draw, Identifiability, Origin, Parameter, Scale, Sheet, Symmetry, Trial};
+use crate::sheet::{Family, Draw, Identifiability, Origin, Parameter, Scale, Sheet, Symmetry, Trial};
+use std::f64::consts::TAU;
 
 /// Time that the hull takes to lean, s.
 const LEAN_TIME: f64 = 0.06;
@@ -12,6 +14,17 @@ const LEAN_TIME: f64 = 0.06;
 pub struct LoadTransfer {
     height: f64,
     lean: [f64; 2],
+    springs: Option<Springs>,
+}
+
+/// A hull with a mass of its own on springs.
+#[derive(Clone, Copy, Debug)]
+struct Springs {
+    /// Natural frequency, rad/s.
+    frequency: f64,
+    damping_ratio: f64,
+    /// How fast it leans, m/s.
+    rate: [f64; 2],
 }
 
 impl Described for LoadTransfer {
@@ -24,6 +37,12 @@ impl Described for LoadTransfer {
         size: "in steady turns the same; the hull takes 0.06 s to lean, the period of a \
                suspension of 2.7 Hz over 2π",
         shares_size: false,
+        family: Some(Family {
+            law: "q'' = (2π f)² (h (g_along − a)/g_normal − q) − 2 ζ 2π f q', f from 1.2 to 4 Hz, \
+                  ζ from 0.35 to 1.2",
+            size: "in steady turns the same",
+            shares_size: false,
+        }),
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
         trial: Trial::law(Identifiability::Distinct, 3.0),
         parameters: &[Parameter {
@@ -36,7 +55,16 @@ impl Described for LoadTransfer {
     };
 
     fn from_values(values: &[f64]) -> Self {
-        Self { height: values[0], lean: [0.0, 0.0] }
+        Self { height: values[0], lean: [0.0, 0.0], springs: None }
+    }
+
+    fn drawn(values: &[f64], random: &mut Draws) -> Self {
+        let springs = Springs {
+            frequency: TAU * random.log_between(1.2, 4.0),
+            damping_ratio: random.between(0.35, 1.2),
+            rate: [0.0, 0.0],
+        };
+        Self { springs: Some(springs), ..Self::from_values(values) }
     }
 }
 
@@ -56,6 +84,15 @@ impl Mechanism for LoadTransfer {
         for (k, lean) in self.lean.iter_mut().enumerate() {
             // a = ω × v + k v'
             let a = turning[k] + step.inertia.transient * (after[k] - before[k]) / step.dt;
+            if let Some(Springs { frequency, damping_ratio, rate }) = &mut self.springs {
+                // q'' = ω² (h (g_along − a)/g_normal − q) − 2 ζ ω q', the rate at the step's end
+                let settled = self.height * (gravity.along[k] - a) / gravity.normal;
+                let pull = rate[k] + step.dt * frequency.powi(2) * (settled - *lean);
+                let stiff = step.dt * *frequency * (2.0 * *damping_ratio + step.dt * *frequency);
+                rate[k] = pull / (1.0 + stiff);
+                *lean += step.dt * rate[k];
+                continue;
+            }
             // q' = (h (g_along − a)/g_normal − q)/T
             *lean += share * (self.height * (gravity.along[k] - a) / gravity.normal - *lean);
         }

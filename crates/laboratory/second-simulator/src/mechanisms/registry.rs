@@ -9,10 +9,13 @@ macro_rules! mechanisms {
         pub const MECHANISMS: &[Sheet] = &[$(<$module::$mechanism as Described>::SHEET),+];
 
         /// The mechanism of `MECHANISMS[index]`.
-        fn from_values(index: usize, values: &[f64]) -> Box<dyn Mechanism> {
-            let constructors: &[fn(&[f64]) -> Box<dyn Mechanism>] =
-                &[$(|values| Box::new($module::$mechanism::from_values(values))),+];
-            constructors[index](values)
+        fn from_values(index: usize, values: &[f64], form: Form) -> Box<dyn Mechanism> {
+            let constructors: &[fn(&[f64], Option<Draws>) -> Box<dyn Mechanism>] =
+                &[$(|values, draws| Box::new(match draws {
+                    None => $module::$mechanism::from_values(values),
+                    Some(mut draws) => $module::$mechanism::drawn(values, &mut draws),
+                })),+];
+            constructors[index](values, form.draws())
         }
     };
 }

@@ -1,14 +1,16 @@
 //! Ground that holds one track back more than the other.
 
+use crate::form::Draws;
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
+use crate::sheet::{Family, Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
-use super::motion_resistance::resistance;
+use super::motion_resistance::Rolling;
 
 /// Half the difference on the left, minus half of it on the right.
 #[derive(Clone, Copy, Debug)]
 pub struct ResistanceSplit {
     difference: f64,
+    rolling: Rolling,
 }
 
 impl Described for ResistanceSplit {
@@ -18,6 +20,11 @@ impl Described for ResistanceSplit {
         law: "c_left = +Δc/2, c_right = −Δc/2, as motion-resistance",
         size: "the same above 2 cm/s",
         shares_size: true,
+        family: Some(Family {
+            law: "c_left = +Δc/2, c_right = −Δc/2, as motion-resistance",
+            size: "the same straight ahead; where the tracks slip they sink in deeper",
+            shares_size: false,
+        }),
         breaks: &[Symmetry::Manoeuvre, Symmetry::Mirror],
         trial: Trial::law(Identifiability::Distinct, 6.0),
         parameters: &[Parameter {
@@ -30,13 +37,17 @@ impl Described for ResistanceSplit {
     };
 
     fn from_values(values: &[f64]) -> Self {
-        Self { difference: values[0] }
+        Self { difference: values[0], rolling: Rolling::PLAIN }
+    }
+
+    fn drawn(values: &[f64], random: &mut Draws) -> Self {
+        Self { difference: values[0], rolling: Rolling::draw(random) }
     }
 }
 
 impl Mechanism for ResistanceSplit {
     fn resistance(&self, contact: &Contact, force: &mut f64) {
         let coefficient = -contact.side.sign() * self.difference / 2.0;
-        *force += resistance(coefficient, contact);
+        *force += self.rolling.resistance(coefficient, contact);
     }
 }

@@ -17,6 +17,7 @@ impl Described for SensorLeverArm {
         law: "world_from_sensor = world_from_body · (x, y)",
         size: "the same",
         shares_size: true,
+        family: None,
         breaks: &[Symmetry::Mirror],
         trial: Trial::instrument("lever-arm", 0.3),
         parameters: &[

@@ -17,6 +17,7 @@ impl Described for SensorYaw {
         law: "world_from_sensor = world_from_body · rotation(ψ)",
         size: "the same",
         shares_size: true,
+        family: None,
         breaks: &[Symmetry::Manoeuvre, Symmetry::Mirror, Symmetry::Straight],
         trial: Trial::instrument("clock-and-yaw", 0.2),
         parameters: &[Parameter {

@@ -1,7 +1,8 @@
 //! Soil that must be sheared before it resists, and resists less when it has been.
 
+use crate::form::{Curve, Draws};
 use crate::mechanism::{Contact, Described, Mechanism};
-use crate::sheet::{Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
+use crate::sheet::{Family, Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
 
 use std::f64::consts::E;
 
@@ -21,9 +22,12 @@ fn hump(ratio: f64) -> f64 {
 }
 
 /// Wong's law with a hump.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct ShearDisplacement {
-    peak: f64,
+    /// Displacement in which the law is counted, m.
+    scale: f64,
+    /// Part of the friction over displacement by scale, where it is not Wong's.
+    rise: Option<Curve>,
 }
 
 impl Described for ShearDisplacement {
@@ -35,6 +39,13 @@ impl Described for ShearDisplacement {
         size: "K_w = 3.1 K: then both this and 1 − exp(−j/K) of Janosi and Hanamoto are at 63 % \
                where j = K",
         shares_size: false,
+        family: Some(Family {
+            law: "μ k(j/K), k = (1 − exp(−(x/a)^p)) (1 + H exp(−ln²(x/b)/(2 w²))), p from 0.6 to \
+                  1.6, hump H from 0 to 0.35 at b from 1 to 5 K, w from 0.3 to 0.9, a such that \
+                  k(1) = 1 − 1/e",
+            size: "63 % where j = K, as Janosi's 1 − exp(−j/K)",
+            shares_size: false,
+        }),
         breaks: &[Symmetry::Reversal, Symmetry::Manoeuvre, Symmetry::Transient],
         trial: Trial::law(Identifiability::Distinct, 15.0),
         parameters: &[Parameter {
@@ -47,13 +58,29 @@ impl Described for ShearDisplacement {
     };
 
     fn from_values(values: &[f64]) -> Self {
-        Self { peak: PEAK_PER_MODULUS * values[0] }
+        Self { scale: PEAK_PER_MODULUS * values[0], rise: None }
+    }
+
+    fn drawn(values: &[f64], random: &mut Draws) -> Self {
+        let power = random.between(0.6, 1.6);
+        let (height, place) = (random.between(0.0, 0.35), random.log_between(1.0, 5.0));
+        let width = random.between(0.3, 0.9);
+        let hump = |x: f64| 1.0 + height * (-((x / place).ln() / width).powi(2) / 2.0).exp();
+        // 1 − exp(−a^−p) times the hump is 1 − 1/e at x = 1
+        let stretch = -(-(1.0 - 1.0 / E) / hump(1.0)).ln_1p();
+        let rise = |x: f64| -(-stretch * x.powf(power)).exp_m1() * hump(x);
+        let rise = Curve::of(|x| if x > 0.0 { rise(x) } else { 0.0 });
+        Self { scale: values[0], rise: Some(rise) }
     }
 }
 
 impl Mechanism for ShearDisplacement {
     fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
-        let factor = hump(contact.slid / self.peak);
+        let ratio = contact.slid / self.scale;
+        let factor = match &self.rise {
+            None => hump(ratio),
+            Some(curve) => curve.at(ratio),
+        };
         *mu = mu.map(|mu| mu * factor);
     }
 }

@@ -20,6 +20,7 @@ impl Described for SideWind {
         size: "constant in the world like slope, but with the heading's second harmonic and a \
                moment",
         shares_size: false,
+        family: None,
         breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading],
         trial: Trial::law(Identifiability::Distinct, 7.0),
         parameters: &[

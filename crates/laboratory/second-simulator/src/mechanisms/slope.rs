@@ -17,6 +17,7 @@ impl Described for Slope {
         law: "g_along = −g sin β uphill, g_normal = g cos β",
         size: "the same",
         shares_size: true,
+        family: None,
         breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading],
         trial: Trial::law(Identifiability::Distinct, 7.0),
         parameters: &[

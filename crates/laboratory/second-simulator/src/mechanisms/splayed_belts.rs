@@ -17,6 +17,7 @@ impl Described for SplayedBelts {
         law: "belt velocity V (± sin δ, cos δ), δ = c V",
         size: "3 degrees at 1 m/s; the belts walk outwards whichever way they run",
         shares_size: false,
+        family: None,
         breaks: &[Symmetry::SpeedScale, Symmetry::Reversal, Symmetry::Manoeuvre],
         trial: Trial::law(Identifiability::Distinct, 5.0),
         parameters: &[Parameter {

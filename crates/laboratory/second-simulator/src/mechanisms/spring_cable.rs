@@ -22,6 +22,7 @@ impl Described for SpringCable {
         size: "a bungee: 2 m beyond its length it pulls with a twentieth \
                of Auriga-alpha's weight",
         shares_size: false,
+        family: None,
         breaks: &[Symmetry::Reversal, Symmetry::Mirror, Symmetry::Heading, Symmetry::Place],
         trial: Trial::law(Identifiability::Distinct, 2.5),
         parameters: &[

@@ -18,6 +18,7 @@ impl Described for SteeringGrip {
         law: "μ_y/(1 + c |V_r − V_l|)",
         size: "depends on the commands and on no slip: a speed law of another argument",
         shares_size: false,
+        family: None,
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
         trial: Trial::law(Identifiability::Distinct, 13.0),
         parameters: &[Parameter {

@@ -18,6 +18,7 @@ impl Described for StiffHull {
         size: "acts only where the centre of gravity is off the middle both ways, and then \
                statically",
         shares_size: false,
+        family: None,
         breaks: &[],
         trial: Trial::law(Identifiability::Distinct, 1.0),
         parameters: &[Parameter {

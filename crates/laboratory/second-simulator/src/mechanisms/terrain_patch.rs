@@ -1,7 +1,13 @@
 //! A patch of other ground.
 
-use crate::mechanism::{Contact, Described, Mechanism, scale_ratio};
-use crate::sheet::{Anchor, Draw, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial};
+mod border;
+
+use border::Border;
+use crate::form::Draws;
+use crate::mechanism::{Contact, Described, Mechanism, scale_ratio, share_ratio};
+use crate::sheet::{
+    Anchor, Draw, Family, Identifiability, Origin, Parameter, Sheet, Symmetry, Trial,
+};
 
 use std::f64::consts::PI;
 
@@ -11,11 +17,20 @@ const SIN_60: f64 = 0.866_025_403_784_438_6;
 const SIDE_NORMALS: [[f64; 2]; 3] = [[1.0, 0.0], [0.5, SIN_60], [-0.5, SIN_60]];
 
 /// A hexagon, each shoe on its own side of the border.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct TerrainPatch {
     factor: f64,
     centre: [f64; 2],
-    apothem: f64,
+    outline: Outline,
+}
+
+/// Where the patch ends.
+#[derive(Clone, Debug)]
+enum Outline {
+    /// A regular hexagon.
+    Hexagon { apothem: f64 },
+    /// Another one.
+    Drawn { border: Border, across: f64 },
 }
 
 impl Described for TerrainPatch {
@@ -25,6 +40,12 @@ impl Described for TerrainPatch {
         law: "μ_x √f, μ_y/√f inside a regular hexagon",
         size: "the hexagon has the area of a disc of the radius",
         shares_size: false,
+        family: Some(Family {
+            law: "μ_x f^(q w), μ_y f^((q − 1) w), w from 1 inside to 0 outside within 0 to 12 % of \
+                  the radius, of an ellipse up to 1 : 2.5 or a random smooth star, q from 0 to 1",
+            size: "all outlines have the area of a disc of the radius",
+            shares_size: false,
+        }),
         breaks: &[Symmetry::Place],
         trial: Trial::law(Identifiability::Distinct, 4.0),
         parameters: &[
@@ -62,7 +83,14 @@ impl Described for TerrainPatch {
     fn from_values(values: &[f64]) -> Self {
         // π r² = 2 √3 a²
         let apothem = values[2] * (PI / (2.0 * 3.0_f64.sqrt())).sqrt();
-        Self { factor: values[3], centre: [values[0], values[1]], apothem }
+        let outline = Outline::Hexagon { apothem };
+        Self { factor: values[3], centre: [values[0], values[1]], outline }
+    }
+
+    fn drawn(values: &[f64], random: &mut Draws) -> Self {
+        let across = random.between(0.0, 1.0);
+        let outline = Outline::Drawn { border: Border::draw(values[2], random), across };
+        Self { outline, ..Self::from_values(values) }
     }
 }
 
@@ -70,9 +98,19 @@ impl Mechanism for TerrainPatch {
     fn friction(&self, contact: &Contact, mu: &mut [f64; 2]) {
         let [x, y] = contact.world();
         let (x, y) = (x - self.centre[0], y - self.centre[1]);
-        let inside = SIDE_NORMALS.iter().all(|[cos, sin]| (cos * x + sin * y).abs() < self.apothem);
-        if inside {
-            scale_ratio(mu, self.factor);
+        match &self.outline {
+            Outline::Hexagon { apothem } => {
+                let inside = |[cos, sin]: &[f64; 2]| (cos * x + sin * y).abs() < *apothem;
+                if SIDE_NORMALS.iter().all(inside) {
+                    scale_ratio(mu, self.factor);
+                }
+            }
+            Outline::Drawn { border, across } => {
+                let weight = border.weight([x, y]);
+                if weight > 0.0 {
+                    share_ratio(mu, self.factor.powf(weight), *across);
+                }
+            }
         }
     }
 }

@@ -17,6 +17,7 @@ impl Described for TimeOffset {
         law: "t_reported = t + τ",
         size: "the same",
         shares_size: true,
+        family: None,
         breaks: &[Symmetry::Transient],
         trial: Trial::clock_offset("clock-and-yaw"),
         parameters: &[Parameter {

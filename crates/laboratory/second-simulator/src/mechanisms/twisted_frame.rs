@@ -16,6 +16,7 @@ impl Described for TwistedFrame {
         law: "centre of pressure at y + d on the left, y − d on the right",
         size: "static, and odd in the sides as friction-split is",
         shares_size: false,
+        family: None,
         breaks: &[Symmetry::Mirror],
         trial: Trial::law(Identifiability::Distinct, 2.5),
         parameters: &[Parameter {

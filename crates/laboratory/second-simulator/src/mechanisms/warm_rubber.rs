@@ -22,6 +22,7 @@ impl Described for WarmRubber {
         size: "history: the same command gives other ICRs after hard work than after rest, so a \
                recording shows it as a drift; in the end it acts as slip speed does",
         shares_size: false,
+        family: None,
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre, Symmetry::Transient],
         trial: Trial::law(Identifiability::Distinct, 5.0),
         parameters: &[Parameter {

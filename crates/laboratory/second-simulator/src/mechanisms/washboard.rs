@@ -17,6 +17,7 @@ impl Described for Washboard {
         law: "μ_x/μ_y (1 + a sin(2π x/λ)), x along the world",
         size: "waves of a gravel road are 0.5 to 1 m long",
         shares_size: false,
+        family: None,
         breaks: &[Symmetry::Mirror, Symmetry::Heading, Symmetry::Place],
         trial: Trial::law(Identifiability::Distinct, 2.8),
         parameters: &[

@@ -18,6 +18,7 @@ impl Described for YawInertia {
         size: "the same; here it is the mass of the equations of motion themselves. The way lost \
                at a start grows with the square of the speed; steady turns do not change",
         shares_size: true,
+        family: None,
         breaks: &[Symmetry::Transient],
         trial: Trial::law(Identifiability::Distinct, 4.0),
         parameters: &[

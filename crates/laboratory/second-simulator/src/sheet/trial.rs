@@ -32,6 +32,8 @@ pub struct Concealment {
     pub compared_at: &'static [f64],
     /// What an owner's vehicle file states wrongly where it is there.
     pub filed: Option<Filed>,
+    /// Whether trials of plain forms do without it, as those did that were made before it.
+    pub needs_drawn_forms: bool,
 }
 
 /// Whether a recording can name a law of the catalogue. Laws outside the catalogue are distinct.
@@ -57,7 +59,9 @@ pub enum Filed {
 impl Trial {
     /// A law that can be concealed with strengths up to the largest one.
     pub const fn law(identifiability: Identifiability, largest: f64) -> Self {
-        Self::Law(Concealment { identifiability, largest, compared_at: &[1.0], filed: None })
+        let (compared_at, filed): (&[f64], _) = (&[1.0], None);
+        let needs_drawn_forms = false;
+        Self::Law(Concealment { identifiability, largest, compared_at, filed, needs_drawn_forms })
     }
 
     /// With the strengths at which it is compared with another mechanism, where its trace changes
@@ -66,6 +70,15 @@ impl Trial {
     pub const fn compared_at(self, strengths: &'static [f64]) -> Self {
         match self {
             Self::Law(law) => Self::Law(Concealment { compared_at: strengths, ..law }),
+            Self::Instrument(_) => self,
+        }
+    }
+
+    /// Not in trials of plain forms.
+    #[must_use]
+    pub const fn with_drawn_forms_only(self) -> Self {
+        match self {
+            Self::Law(law) => Self::Law(Concealment { needs_drawn_forms: true, ..law }),
             Self::Instrument(_) => self,
         }
     }

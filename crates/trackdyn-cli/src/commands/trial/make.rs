@@ -7,12 +7,12 @@ use crate::options::finite;
 use crate::progress::Progress;
 use crate::stderr::say;
 use crate::stdout::show;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use std::io;
 use std::path::{Path, PathBuf};
 use trackdyn_blind_trial::driving::RUN_TIME;
-use trackdyn_blind_trial::{Case, Draft, Error, Order, PlannedCase, Stratum, folder, plan};
+use trackdyn_blind_trial::{Case, Draft, Error, Forms, Order, PlannedCase, Stratum, folder, plan};
 
 /// Largest number of cases.
 const MAX_CASES: i64 = 9999;
@@ -36,14 +36,37 @@ pub struct Options {
     /// effects for the same z
     #[arg(long, value_name = "SECONDS", default_value_t = RUN_TIME, value_parser = run_time)]
     duration: f64,
+    /// Forms of the laws: one drawn for each case, or the one that each law had in trials until
+    /// November 2026, with the laws outside the catalogue that those had
+    #[arg(long, value_enum, default_value_t = LawForms::Drawn)]
+    forms: LawForms,
     /// Folder for the cases and the commitment to the answers
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// File for the key, beside which the answers are put; one that is there is taken, and with the
-    /// number, the seed and the duration that it was used with the same trial is made once more
+    /// number, the seed, the duration and the forms that it was used with the same trial is made
+    /// once more
     /// [default: beside DIR, NAME.key]
     #[arg(long, value_name = "FILE")]
     key: Option<PathBuf>,
+}
+
+/// Which forms the laws of a trial have.
+#[derive(Clone, Copy, ValueEnum)]
+enum LawForms {
+    /// One for each law
+    Plain,
+    /// One for each case, drawn from the family of the law
+    Drawn,
+}
+
+impl From<LawForms> for Forms {
+    fn from(forms: LawForms) -> Self {
+        match forms {
+            LawForms::Plain => Self::Plain,
+            LawForms::Drawn => Self::Drawn,
+        }
+    }
 }
 
 /// Makes the cases that are not there yet, and commits to the answers when all are.
@@ -55,10 +78,11 @@ pub fn run(options: &Options) -> Outcome {
         seed: options.seed,
         cases: options.cases as usize,
         run_time_s: options.duration,
+        forms: options.forms.into(),
     };
     let draft = Draft::begin(&options.out, &key, &order)?;
     let root = draft.root();
-    let planned = plan(order.cases, &root);
+    let planned = plan(order.cases, &root, order.forms);
     let all = (0_u64..).zip(&planned);
     let open: Vec<_> = all.filter(|(number, _)| !draft.has(*number)).collect();
     let progress = Progress::new(planned.len());

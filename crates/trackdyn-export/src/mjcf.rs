@@ -264,8 +264,8 @@ fn notes(robot: &Robot, rollers: &[Roller], factor: f64, is_unmatched: bool) -> 
     } else {
         format!(
             "So friction across is {:.4} in the pairs, {factor:.3} times the vehicle's \
-             {across:.4}: with it the rollers turn with its chi. Along it is the vehicle's {along:.4}. Forces \
-             across are wrong by that factor.",
+             {across:.4}: with it the rollers turn with its chi. Along it is the vehicle's \
+             {along:.4}. Forces across are wrong by that factor.",
             factor * across
         )
     });

@@ -160,7 +160,7 @@ fn notes(robot: &Robot) -> String {
     let [x, y] = drive.point;
     let [length, ..] = robot.hull();
     let half = length / 2.0;
-    let distance = |side: f64| half.hypot((robot.gauge + side * robot.width) / 2.0);
+    let distance = |side: f64| half.hypot(f64::midpoint(robot.gauge, side * robot.width));
     let [outer, inner] = [distance(1.0), distance(-1.0)].map(|r| robot.gauge / (2.0 * r));
     let spin = format!(
         "How it turns: TrackController lays the first friction direction along the circle about \

@@ -129,7 +129,8 @@ fn said(notebook: &str) -> String {
     let cells = notebook["cells"].as_array().expect("cells").iter();
     let texts = cells.filter(|cell| cell["cell_type"] == "markdown");
     let lines = texts.flat_map(|cell| cell["source"].as_array().expect("lines"));
-    lines.map(|line| format!("{}\n", line.as_str().expect("a line").trim_end())).collect()
+    let lines = lines.map(|line| line.as_str().expect("a line").trim_end());
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 fn all() -> (PathBuf, BTreeMap<PathBuf, Page>) {

@@ -7,4 +7,5 @@ mod crates;
 mod literals;
 mod packages;
 mod parity;
+mod scores;
 mod words;

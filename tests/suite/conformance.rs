@@ -8,4 +8,5 @@ mod literals;
 mod packages;
 mod pages;
 mod parity;
+mod scores;
 mod words;

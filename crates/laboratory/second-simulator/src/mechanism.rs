@@ -83,8 +83,8 @@ pub trait Described: Mechanism + Sized + 'static {
     /// The mechanism with its parameters in the order of the sheet, each within its range.
     fn from_values(values: &[f64]) -> Self;
 
-    /// The same in a form that is drawn from its family ([`Sheet::family`]); the plain one where
-    /// there is no family.
+    /// The mechanism in a form that is drawn from its family ([`Sheet::family`]); the plain one
+    /// where there is no family.
     fn drawn(values: &[f64], _random: &mut Draws) -> Self {
         Self::from_values(values)
     }

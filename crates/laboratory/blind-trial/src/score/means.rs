@@ -94,6 +94,10 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
     let isolable = singles.filter(|truth| truth.is_isolable());
     [
         Mean::of(
+            "members of the reported set with the truth in it, but constants",
+            with_truth().filter(|(truth, _)| !truth.is_constant()).map(|(_, set)| real(set.len())),
+        ),
+        Mean::of(
             "members of the reported set with the truth in it",
             with_truth().map(|(_, set)| real(set.len())),
         ),
@@ -102,12 +106,21 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
             with_truth().map(|(truth, _)| real(truth.smallest_set())),
         ),
         Mean::of(
-            "members of the reported set with the truth in it, but constants",
-            with_truth().filter(|(truth, _)| !truth.is_constant()).map(|(_, set)| real(set.len())),
+            "most to expect of exact isolation: chance that noise allows it",
+            isolable.map(|truth| told_apart(truth.z_iso)),
         ),
+        Mean::of(
+            "most to expect of isolable pairs: chance that noise allows both",
+            isolable_pairs.map(|pair| pair.iter().map(|truth| told_apart(truth.z_iso)).product()),
+        ),
+        // last, for they prove no answer: they are as good where the truth was missed
         Mean::of(
             "share of the held-out excess explained",
             fits().filter_map(|fit| fit.excess_explained),
+        ),
+        Mean::of(
+            "share of the held-out excess explained beyond constants and instruments",
+            fits().filter_map(beyond_instruments),
         ),
         Mean::of(
             "held-out rms over the noise floor, before",
@@ -115,24 +128,12 @@ pub fn means(judged: &[Judged]) -> Vec<Mean> {
         ),
         Mean::of("held-out rms over the noise floor, after", over_floor(|fit| fit.held_out_after)),
         Mean::of(
-            "share of the held-out excess explained beyond constants and instruments",
-            fits().filter_map(beyond_instruments),
-        ),
-        Mean::of(
             "share of the held-out excess explained, where the truth is in no set",
             missed().filter_map(|fit| fit.excess_explained),
         ),
         Mean::of(
             "held-out rms over the noise floor, after, where the truth is in no set",
             missed().filter_map(|fit| Some(fit.held_out_after? / fit.noise_floor?)),
-        ),
-        Mean::of(
-            "most to expect of exact isolation: chance that noise allows it",
-            isolable.map(|truth| told_apart(truth.z_iso)),
-        ),
-        Mean::of(
-            "most to expect of isolable pairs: chance that noise allows both",
-            isolable_pairs.map(|pair| pair.iter().map(|truth| told_apart(truth.z_iso)).product()),
         ),
     ]
     .into_iter()

@@ -8,18 +8,19 @@ use crate::diagnosis::Status;
 use crate::difficulty::Difficulty;
 use crate::plan::Stratum;
 
-/// All rates of a trial. A process that failed has found nothing; it does not count where false
-/// claims and over-claims are counted.
+/// All rates of a trial, strict ones first. A process that failed has found nothing; it does not
+/// count where false claims and wrong names are counted.
 pub fn rates(judged: &[Judged]) -> Vec<Rate> {
-    let mut rates = nulls(judged);
-    rates.extend(singles(judged));
+    let mut rates = singles(judged);
+    rates.extend(wrong_names(judged));
+    rates.extend(nulls(judged));
     rates.extend(pairs(judged));
-    rates.extend(beside(judged));
     rates.push(Rate::of(
         "95 % interval holds the true size",
         coverage::outcomes(judged).into_iter().map(|(_, holds)| holds),
     ));
     rates.extend(outside(judged));
+    rates.extend(beside(judged));
     let failed = judged.iter().map(|case| case.diagnosis().is_none());
     rates.push(Rate::of("process failed", failed));
     rates
@@ -50,22 +51,15 @@ fn beside(judged: &[Judged]) -> Vec<Rate> {
         let answered = judged.iter().filter(|case| case.diagnosis().is_some() && counts(case));
         Rate::of(name, answered.map(is))
     };
-    let found = |name: &str, counts: &dyn Fn(&Judged) -> bool, is: &dyn Fn(&Judged) -> bool| {
-        Rate::of(name, judged.iter().filter(|case| counts(case)).map(is))
-    };
     let is_null = |case: &Judged| case.answer.stratum.is_null();
+    let is_single = |case: &Judged| case.only().is_some();
     let is_pair = |case: &Judged| case.is_of(&[Stratum::Pair]);
     let is_outside = |case: &Judged| case.is_of(&[Stratum::Outside]);
     let of_catalogue = |case: &Judged| !is_null(case) && !is_outside(case);
     let unexplained = |case: &Judged| case.says(Status::Unexplained);
     let nothing = |case: &Judged| case.says(Status::NothingMissing);
-    let strictly =
-        |case: &Judged| case.only().is_some_and(|truth| case.names_strictly(&truth.mechanism));
-    let is_isolable = |case: &Judged| case.only().is_some_and(Concealed::is_isolable);
-    let is_split =
-        |case: &Judged| case.only().is_some_and(|t| t.is_detectable() && !t.is_constant());
-    let in_set = |case: &Judged| case.only().is_some_and(|t| case.set_with(&t.mechanism).is_some());
     vec![
+        of("false claim: singles", &is_single, &Judged::claims_falsely),
         of("false claim: pairs", &is_pair, &Judged::claims_falsely),
         of("false claim: outside the catalogue", &is_outside, &Judged::claims_falsely),
         of(
@@ -73,41 +67,53 @@ fn beside(judged: &[Judged]) -> Vec<Rate> {
             &is_null,
             &Judged::names_absent_law,
         ),
-        found(
-            "exact isolation, and no absent law in any set: isolable singles",
-            &is_isolable,
-            &strictly,
-        ),
-        found("truth in the reported set: detectable singles but constants", &is_split, &in_set),
         of("nothing missing: nulls", &is_null, &nothing),
         of("flagged as unexplained: nulls", &is_null, &unexplained),
         of("flagged as unexplained: effects of the catalogue", &of_catalogue, &unexplained),
     ]
 }
 
+/// Singles: what is found. Members of the class of constants are one answer of eight, right
+/// whichever of them it is: they say nothing of what is told apart.
 fn singles(judged: &[Judged]) -> Vec<Rate> {
-    let one: Vec<(&Judged, &Concealed)> =
-        judged.iter().filter_map(|case| Some((case, case.only()?))).collect();
     let of = |name: &str,
               counts: &dyn Fn(&Concealed) -> bool,
               succeeds: &dyn Fn(&Judged, &Concealed) -> bool| {
-        let cases = one.iter().filter(|(_, truth)| counts(truth));
+        let one = judged.iter().filter_map(|case| Some((case, case.only()?)));
+        let cases = one.filter(|(_, truth)| counts(truth));
         Rate::of(name, cases.map(|(case, truth)| succeeds(case, truth)))
     };
-    let answered = || one.iter().filter(|(case, _)| case.diagnosis().is_some());
+    let is_split = |truth: &Concealed| truth.is_detectable() && !truth.is_constant();
+    let is_constant = |truth: &Concealed| truth.is_detectable() && truth.is_constant();
     let in_set = |case: &Judged, truth: &Concealed| case.set_with(&truth.mechanism).is_some();
     vec![
-        of("exact isolation: isolable singles", &Concealed::is_isolable, &|case, truth| {
-            case.names_exactly(&[&truth.mechanism])
-        }),
-        of("truth in the reported set: detectable singles", &Concealed::is_detectable, &in_set),
-        Rate::of(
-            "over-claim: one effect named where none is isolable",
-            answered()
-                .filter(|(_, truth)| !truth.is_isolable())
-                .map(|(case, _)| case.names_one_alone()),
+        of(
+            "strict isolation, named alone and no absent law in any set: isolable singles",
+            &Concealed::is_isolable,
+            &|case, truth| case.names_strictly(&truth.mechanism),
         ),
-        Rate::of("false claim: singles", answered().map(|(case, _)| case.claims_falsely())),
+        of(
+            "exact isolation, absent laws beside what is true allowed: isolable singles",
+            &Concealed::is_isolable,
+            &|case, truth| case.names_exactly(&[&truth.mechanism]),
+        ),
+        of("truth in the reported set: detectable singles but constants", &is_split, &in_set),
+        of("truth in the reported set: detectable constants", &is_constant, &in_set),
+    ]
+}
+
+/// An answer of one law that is not there: what costs an owner most.
+fn wrong_names(judged: &[Judged]) -> Vec<Rate> {
+    let of = |name: &str, counts: &dyn Fn(&Judged) -> bool| {
+        let answered = judged.iter().filter(|case| case.diagnosis().is_some() && counts(case));
+        Rate::of(name, answered.map(Judged::names_absent_law_alone))
+    };
+    let is_outside = |case: &Judged| case.is_of(&[Stratum::Outside]);
+    vec![
+        of("wrong single name, an absent law alone: cases of the catalogue", &|case| {
+            !is_outside(case)
+        }),
+        of("wrong single name, an absent law alone: outside the catalogue", &is_outside),
     ]
 }
 

@@ -76,6 +76,12 @@ impl Judged {
         self.claims().iter().any(|claim| self.has_absent_law(claim))
     }
 
+    /// Whether one law of forces or of the drive that is not there is named by itself.
+    pub fn names_absent_law_alone(&self) -> bool {
+        let mut alone = self.claims().into_iter().filter(|claim| claim.members().len() == 1);
+        alone.any(|claim| self.has_absent_law(claim))
+    }
+
     fn has_absent_law(&self, claim: &Missing) -> bool {
         let is_law = |id: &str| {
             sheet_of(id).is_none_or(|sheet| !sheet.is_constant() && !sheet.is_instrument())

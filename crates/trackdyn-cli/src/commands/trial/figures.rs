@@ -76,7 +76,7 @@ struct Texts {
 
 const RATES: Texts = Texts {
     title: "Rates",
-    explanation: "What each row counts stands in docs/trials.md. Of false claims, over-claims and \
+    explanation: "What each row counts stands in docs/trials.md. Of false claims, wrong names and \
                   failures less is better, of all others more; files have to tell nulls in half of \
                   the cases.",
     of: "cases",

@@ -95,11 +95,13 @@ impl<'a> Uncertainty<'a> {
     pub fn of(search: &'a Search, best: &'a Found) -> Self {
         let fit = &best.fit;
         let Equations { normal, priors, .. } = search.equations(best, &[]);
-        // Other forms of the laws are as free as the unknowns.
+        let of_laws = &fit.free;
+        let estimate = |normal: &Normal| normal.fit(of_laws, &priors).estimate;
+        let Solution { estimate: whole, covariance, .. } = normal.fit(of_laws, &priors);
+        // Other forms of the laws are as free as the unknowns; what scatters has the form as it is.
         let forms = fit.columns.len()..normal.columns();
-        let free: Vec<usize> = fit.free.iter().copied().chain(forms).collect();
-        let estimate = |normal: &Normal| normal.fit(&free, &priors).estimate;
-        let whole = normal.fit(&free, &priors);
+        let free: Vec<usize> = of_laws.iter().copied().chain(forms).collect();
+        let in_forms = normal.fit(&free, &priors).covariance;
         let last = normal.columns();
         let counts = |block: usize| normal.block(block)[(last, last)] != 0.0;
         let half = |variance: f64, groups: usize| {
@@ -108,9 +110,8 @@ impl<'a> Uncertainty<'a> {
         let groupings = groupings(&search.evidence, counts);
         let mut noise = fit.solution.covariance.diagonal();
         for (place, &k) in fit.free.iter().enumerate() {
-            noise[k] = whole.covariance[(place, place)];
+            noise[k] = in_forms[(place, place)];
         }
-        let Solution { estimate: whole, covariance, .. } = whole;
         let mut halves: Vec<f64> =
             noise.iter().map(|variance| half(*variance, groupings[0].len())).collect();
         let settings = search.settings();
@@ -123,7 +124,7 @@ impl<'a> Uncertainty<'a> {
             let share = 1.0 - real(groups.len()).recip();
             for (place, &k) in fit.free.iter().enumerate() {
                 let shown =
-                    shown_by(&normal, groups, &free, &covariance.column(place).into_owned());
+                    shown_by(&normal, groups, of_laws, &covariance.column(place).into_owned());
                 if shown >= settings.verdict.min_blocks {
                     halves[k] = halves[k].max(half(share * squares[place], groups.len()));
                 }

@@ -113,9 +113,7 @@ fn driving(drift: &DriftTable) -> Option<String> {
         let ComparedTable { before, after, pose_noise, .. } = table;
         let [before, after, noise] =
             [before, after, pose_noise].map(|value| format!("{value:.*} {unit}", decimals(*value)));
-        format!(
-            "{what} {before} off as filed, {after} as corrected ({noise} is noise of the poses)"
-        )
+        format!("{what} {before} as filed, {after} as corrected ({noise} is noise of the poses)")
     };
     let is_corrected = |table: &&ComparedTable| table.before != table.after;
     let place =

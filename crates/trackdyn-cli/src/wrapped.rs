@@ -1,33 +1,13 @@
 //! Lines that a terminal shows whole.
 
+use trackdyn::crates::core::lines;
+
 /// Most characters in a line.
 pub const WIDTH: usize = 116;
 
-/// A text behind a label, its further lines below its first. A text that fits stays as it is. Words
-/// that are longer than a line stay whole, for they are paths to be copied.
+/// A text behind a label, in lines that a terminal shows whole.
 pub fn wrapped(label: &str, text: &str) -> String {
-    let indent = label.chars().count();
-    if !text.contains('\n') && indent + text.chars().count() <= WIDTH {
-        return format!("{label}{text}").trim_end().to_owned() + "\n";
-    }
-    let mut lines = vec![label.to_owned()];
-    let mut used = indent;
-    for word in text.split_whitespace() {
-        let length = word.chars().count();
-        if used > indent && used + 1 + length > WIDTH {
-            lines.push(" ".repeat(indent));
-            used = indent;
-        }
-        if let Some(line) = lines.last_mut() {
-            if used > indent {
-                line.push(' ');
-                used += 1;
-            }
-            line.push_str(word);
-            used += length;
-        }
-    }
-    lines.join("\n").trim_end().to_owned() + "\n"
+    lines::wrapped(label, text, WIDTH)
 }
 
 #[cfg(test)]

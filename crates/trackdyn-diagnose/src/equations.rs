@@ -23,6 +23,13 @@ impl Stack {
         Self { columns, priors, groups: Vec::new() }
     }
 
+    /// The stack with more free columns, before any group.
+    pub fn with_free(mut self, columns: &[Column], priors: &[Prior]) -> Self {
+        self.columns.extend_from_slice(columns);
+        self.priors.extend_from_slice(priors);
+        self
+    }
+
     /// Appends a group of columns.
     pub fn push(&mut self, group: impl IntoIterator<Item = (Column, Prior)>) {
         let first = self.columns.len();

@@ -5,11 +5,10 @@
 //! motion then differs by a part that varies smoothly with the driving.
 //!
 //! # Law
-//! Where a fitted law changes the motion of a sample by d, nature changes it by d (1 + ε), in
-//! each channel. ε = Σ c_j b_j with b_j a constant and smooth functions of the driving, each of
-//! unit mean square, and c_j normal with variance τ²/n. A law that breaks neither S nor P has
-//! no other form at other speeds; ε varies with direction, side and time only where the law
-//! itself does.
+//! Where a fitted law changes the motion of a sample by d, nature changes it by d (1 + ε), in each
+//! channel. ε = Σ c_j b_j with b_j a constant and smooth functions of the driving, each of unit
+//! mean square, and c_j normal with variance τ²/n. A law that breaks neither S nor P has no other
+//! form at other speeds; ε varies with direction, side and time only where the law itself does.
 //!
 //! The c_j are factors of columns d b_j beside those of the unknowns. τ is none or one of a few
 //! values, all equally probable: the evidence is the mean over them, and the most probable value
@@ -106,6 +105,7 @@ fn columns(
     let mut columns: Vec<(Column, f64)> = Vec::new();
     for law in fit.hypothesis.effects.iter().map(ActiveEffect::effect) {
         let Some(change) = change(fit, catalogue, law) else { continue };
+        let change = evidence.raw(change);
         let smooth = functions.of_law(law);
         let share = real(smooth.len()).sqrt().recip();
         for function in smooth {
@@ -153,20 +153,14 @@ fn change(fit: &Fit, catalogue: &Catalogue, law: EffectId) -> Option<Column> {
     change
 }
 
-/// A change times a function, in each channel by itself.
+/// A change times a function, in each channel by itself, whitened and scaled.
 fn products<'a>(
-    change: &Column,
+    change: &'a Column,
     function: &'a [f64],
     evidence: &'a Weighted,
 ) -> impl Iterator<Item = Column> + use<'a> {
-    let mut coloured = change.clone();
-    for (value, scale) in coloured.iter_mut().map(|value| (value, Vector3::from(evidence.scale())))
-    {
-        value.component_mul_assign(&scale);
-    }
-    evidence.colour(&mut coloured);
     (0..3).map(move |channel| {
-        let of_channel = coloured.iter().zip(function).map(|(value, by)| {
+        let of_channel = change.iter().zip(function).map(|(value, by)| {
             let mut only = Vector3::zeros();
             only[channel] = value[channel] * by;
             only

@@ -109,9 +109,8 @@ impl Residual<'_> {
         let Self { evidence, fit, forms, icrs } = *self;
         let settings = &evidence.settings().location;
         let Fit { residual, columns: fitted, .. } = fit;
-        let flat = vec![Prior::flat(); fitted.len()];
-        let free = [&fitted[..], &forms.columns].concat();
-        let mut stack = Stack::new(free, [&flat[..], &forms.priors].concat());
+        let mut stack = Stack::new(fitted.clone(), vec![Prior::flat(); fitted.len()])
+            .with_free(&forms.columns, &forms.priors);
         let mut of_groups: Vec<Contrasts> = Vec::new();
         for mut contrasts in contrasts(evidence, icrs) {
             let columns = std::mem::take(&mut contrasts.columns).into_iter();

@@ -132,8 +132,7 @@ impl Search {
         let Found { fit, forms, .. } = found;
         let Fit { hypothesis, unknowns, columns, residual, .. } = fit;
         let known = priors(hypothesis, unknowns, &self.evidence);
-        let free = [&columns[..], &forms.columns].concat();
-        let mut stack = Stack::new(free, [&known[..], &forms.priors].concat());
+        let mut stack = Stack::new(columns.clone(), known).with_free(&forms.columns, &forms.priors);
         for &signatures in beside {
             stack.push(signatures.iter().map(|signature| {
                 let known = prior(hypothesis, signature.unknown, &self.evidence);
@@ -157,15 +156,8 @@ impl Search {
             .map(|(&entry, group)| {
                 let fit = equations.fit_with(group);
                 let variant = &self.catalogue.entries[entry].0;
-                let sizes = fit.estimate.rows(equations.free.len(), group.len()).into_owned();
-                let physical = within_range(&beside.fit.hypothesis, variant, &sizes);
-                // Rise of the misfit from the free sizes to those at the limits: dᵀ Σ⁻¹ d.
-                let held = physical != sizes;
-                let rise = if held {
-                    rise(&fit, equations.free.len(), &(&physical - &sizes))
-                } else {
-                    0.0
-                };
+                let Held { sizes, rise } =
+                    Held::of(&fit, equations.free.len(), &beside.fit.hypothesis, &[variant]);
                 let drop = (without.misfit - fit.misfit - rise).max(0.0);
                 // An effect that the robot never met has zero signatures.
                 let unseen =
@@ -179,8 +171,8 @@ impl Search {
                         fit.ln_evidence - rise / 2.0 - without.ln_evidence
                     },
                     z: drop.sqrt(),
-                    sizes: physical.iter().copied().collect(),
-                    held,
+                    sizes: sizes.concat(),
+                    held: rise > 0.0,
                 }
             })
             .collect();
@@ -241,26 +233,14 @@ impl Search {
             for b in a + 1..dozen.len() {
                 let both: Vec<usize> = groups[a].iter().chain(&groups[b]).copied().collect();
                 let fit = equations.fit_with(&both);
-                let hypothesis = &beside.fit.hypothesis;
-                let of = |one: &Screened, from: usize, count: usize| {
-                    let sizes = fit.estimate.rows(from, count).into_owned();
-                    let variant = &self.catalogue.entries[one.entry].0;
-                    (within_range(hypothesis, variant, &sizes), sizes)
-                };
-                let (first, free_first) = of(dozen[a], free, groups[a].len());
-                let (second, free_second) = of(dozen[b], free + groups[a].len(), groups[b].len());
-                let moved = [first.clone() - free_first, second.clone() - free_second];
-                let moved: Vec<f64> = moved.iter().flatten().copied().collect();
-                let held = moved.iter().any(|by| *by != 0.0);
-                let rise = if held { rise(&fit, free, &DVector::from(moved)) } else { 0.0 };
+                let members = [dozen[a], dozen[b]];
+                let variants = members.map(|one| &self.catalogue.entries[one.entry].0);
+                let Held { sizes, rise } = Held::of(&fit, free, &beside.fit.hypothesis, &variants);
                 // each carries the gain of both: alone, neither may show
                 let gain = fit.ln_evidence - rise / 2.0 - without.ln_evidence;
-                let with = |one: &Screened, sizes: DVector<f64>| Screened {
-                    gain,
-                    sizes: sizes.iter().copied().collect(),
-                    ..one.clone()
-                };
-                pairs.push((gain, [with(dozen[a], first), with(dozen[b], second)]));
+                let with =
+                    |k: usize| Screened { gain, sizes: sizes[k].clone(), ..members[k].clone() };
+                pairs.push((gain, [with(0), with(1)]));
             }
         }
         pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -491,21 +471,44 @@ impl Search {
     }
 }
 
-/// Sizes, as distances from the present ones, moved into their physical ranges.
-fn within_range(beside: &Hypothesis, variant: &Variant, sizes: &DVector<f64>) -> DVector<f64> {
-    let places = variant.sizes();
-    DVector::from_fn(sizes.len(), |k, _| {
-        let unknown = Unknown::Effect(variant.effect, places[k]);
-        let ([low, high], present) = (beside.range(unknown), beside.get(unknown));
-        let value = present + sizes[k];
-        if (low..=high).contains(&value) { sizes[k] } else { value.clamp(low, high) - present }
-    })
+/// Estimated sizes of variants, held within their physical ranges.
+struct Held {
+    /// Sizes of each variant, as distances from the present ones.
+    sizes: Vec<Vec<f64>>,
+    /// Rise of the least misfit by that; zero where none is held.
+    rise: f64,
 }
 
-/// Rise of the least misfit where the factors of columns from `first` on are moved by d from their
-/// estimates and all others follow: dᵀ Σ⁻¹ d, Σ their covariance.
-fn rise(fit: &Solution, first: usize, by: &DVector<f64>) -> f64 {
-    let covariance = fit.covariance.view((first, first), (by.len(), by.len())).into_owned();
-    let solved = covariance.cholesky().map(|factor| factor.solve(by));
-    solved.map_or(f64::INFINITY, |solved| by.dot(&solved))
+impl Held {
+    /// Sizes whose columns begin at `first` of a fit beside a hypothesis.
+    ///
+    /// # Law
+    /// Moved by d from their estimates, while all others follow, they raise the misfit by
+    /// dᵀ Σ⁻¹ d, Σ their covariance.
+    fn of(fit: &Solution, first: usize, beside: &Hypothesis, variants: &[&Variant]) -> Self {
+        let mut estimates = fit.estimate.iter().skip(first);
+        let mut moved = Vec::new();
+        let of_variant = |variant: &&Variant| -> Vec<f64> {
+            let unknowns = variant.sizes().into_iter().map(|k| Unknown::Effect(variant.effect, k));
+            unknowns
+                .zip(&mut estimates)
+                .map(|(unknown, &size)| {
+                    let ([low, high], present) = (beside.range(unknown), beside.get(unknown));
+                    let value = present + size;
+                    let is_within = (low..=high).contains(&value);
+                    let held = if is_within { size } else { value.clamp(low, high) - present };
+                    moved.push(held - size);
+                    held
+                })
+                .collect()
+        };
+        let sizes = variants.iter().map(of_variant).collect();
+        if moved.iter().all(|by| *by == 0.0) {
+            return Self { sizes, rise: 0.0 };
+        }
+        let by = DVector::from(moved);
+        let covariance = fit.covariance.view((first, first), (by.len(), by.len())).into_owned();
+        let solved = covariance.cholesky().map(|factor| factor.solve(&by));
+        Self { sizes, rise: solved.map_or(f64::INFINITY, |solved| by.dot(&solved)) }
+    }
 }

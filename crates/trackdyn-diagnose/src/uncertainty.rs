@@ -95,13 +95,13 @@ impl<'a> Uncertainty<'a> {
     pub fn of(search: &'a Search, best: &'a Found) -> Self {
         let fit = &best.fit;
         let Equations { normal, priors, .. } = search.equations(best, &[]);
-        let of_laws = &fit.free;
-        let estimate = |normal: &Normal| normal.fit(of_laws, &priors).estimate;
-        let Solution { estimate: whole, covariance, .. } = normal.fit(of_laws, &priors);
-        // Other forms of the laws are as free as the unknowns; what scatters has the form as it is.
+        let estimate = |normal: &Normal| normal.fit(&fit.free, &priors).estimate;
+        let Solution { estimate: whole, covariance, .. } = normal.fit(&fit.free, &priors);
+        // Beside noise, other forms of the laws are as free as the unknowns. The jackknife is of
+        // the laws as they stand.
         let forms = fit.columns.len()..normal.columns();
-        let free: Vec<usize> = of_laws.iter().copied().chain(forms).collect();
-        let in_forms = normal.fit(&free, &priors).covariance;
+        let with_forms: Vec<usize> = fit.free.iter().copied().chain(forms).collect();
+        let in_forms = normal.fit(&with_forms, &priors).covariance;
         let last = normal.columns();
         let counts = |block: usize| normal.block(block)[(last, last)] != 0.0;
         let half = |variance: f64, groups: usize| {
@@ -124,7 +124,7 @@ impl<'a> Uncertainty<'a> {
             let share = 1.0 - real(groups.len()).recip();
             for (place, &k) in fit.free.iter().enumerate() {
                 let shown =
-                    shown_by(&normal, groups, of_laws, &covariance.column(place).into_owned());
+                    shown_by(&normal, groups, &fit.free, &covariance.column(place).into_owned());
                 if shown >= settings.verdict.min_blocks {
                     halves[k] = halves[k].max(half(share * squares[place], groups.len()));
                 }

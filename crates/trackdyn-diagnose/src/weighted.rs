@@ -201,6 +201,16 @@ impl Weighted {
         column
     }
 
+    /// A whitened and scaled column as it was before: the inverse of [`Weighted::white`].
+    pub fn raw(&self, mut column: Vec<Vector3<f64>>) -> Vec<Vector3<f64>> {
+        let scale = Vector3::from(self.scale);
+        for value in &mut column {
+            value.component_mul_assign(&scale);
+        }
+        self.colour(&mut column);
+        column
+    }
+
     /// Whitened and scaled residual, observed minus predicted.
     pub fn residual(&self, prediction: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         let samples = self.samples().iter().zip(prediction);

@@ -1,8 +1,9 @@
 //! Columns of numbers as arrays of NumPy.
 
-use numpy::{Element, PyArray1, PyArrayMethods};
+use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use trackdyn::crates::core::PerSide;
 
 /// A table: columns by name, of one length.
 pub struct Table<'py> {
@@ -32,6 +33,15 @@ pub fn array<T: Element>(py: Python<'_>, values: Vec<T>) -> PyResult<Bound<'_, P
     let array = PyArray1::from_vec(py, values);
     array.getattr("flags")?.setattr("writeable", false)?;
     Ok(array)
+}
+
+/// Pairs of speeds of the left and the right track.
+pub fn speeds(
+    left: &PyReadonlyArray1<'_, f64>,
+    right: &PyReadonlyArray1<'_, f64>,
+) -> Vec<PerSide<f64>> {
+    let (left, right) = (left.as_array(), right.as_array());
+    left.iter().zip(right.iter()).map(|(&left, &right)| PerSide::new(left, right)).collect()
 }
 
 /// An array of these rows, that can be written to.

@@ -1,6 +1,6 @@
 //! Forces as a table, for the computer of a robot.
 
-use crate::arrays::rows;
+use crate::arrays::{rows, speeds};
 use crate::files::written;
 use crate::vehicle::Vehicle;
 use crate::work::run;
@@ -9,7 +9,6 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
 use trackdyn::Provenance;
-use trackdyn::crates::core::PerSide;
 use trackdyn::crates::export::TextFile;
 use trackdyn::crates::model::{MotionTable as Table, motion_table::Tabulated};
 
@@ -98,8 +97,6 @@ impl MotionTable {
         left: &PyReadonlyArray1<'_, f64>,
         right: &PyReadonlyArray1<'_, f64>,
     ) -> Vec<Tabulated> {
-        let (left, right) = (left.as_array(), right.as_array());
-        let speeds = left.iter().zip(right.iter()).map(|(&left, &right)| PerSide::new(left, right));
-        speeds.map(|speeds| self.table.at(speeds)).collect()
+        speeds(left, right).into_iter().map(|speeds| self.table.at(speeds)).collect()
     }
 }

@@ -1,6 +1,6 @@
 //! Kinematic parameters.
 
-use crate::arrays::rows;
+use crate::arrays::{rows, speeds};
 use crate::errors::raised;
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
@@ -98,16 +98,12 @@ impl Parameters {
         left: PyReadonlyArray1<'py, f64>,
         right: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (left, right) = (left.as_array(), right.as_array());
-        let speeds = left.iter().zip(right.iter()).map(|(&left, &right)| PerSide::new(left, right));
-        let twists: Vec<[f64; 3]> = speeds
-            .map(|speed| {
-                let twist = self.inner.kinematics_at(speed).twist(speed);
-                let twist = ros_twist_from_paper(&twist);
-                [twist.v_x, twist.v_y, twist.w]
-            })
-            .collect();
-        rows(py, twists.into_iter())
+        let twist = |speeds: PerSide<f64>| {
+            let twist = self.inner.kinematics_at(speeds).twist(speeds);
+            let twist = ros_twist_from_paper(&twist);
+            [twist.v_x, twist.v_y, twist.w]
+        };
+        rows(py, speeds(&left, &right).into_iter().map(twist))
     }
 
     /// Track speeds, m/s, for a forward speed, m/s, and a yaw rate, rad/s.

@@ -3,6 +3,7 @@
 use super::{Aspect, Robot};
 use crate::number::number;
 use std::fmt::Write;
+use trackdyn_core::lines;
 use trackdyn_core::rounding::Digits;
 use trackdyn_model::Icrs;
 
@@ -56,7 +57,7 @@ pub(crate) fn assumed(robot: &Robot) -> String {
     if robot.body.gyration.is_none() {
         text += &wrapped(
             "The moments of inertia are not known: those of an even box over the contact, half \
-             the gauge high. the effect yaw-inertia:gyration_m=R says the one about the vertical.",
+             the gauge high. The effect yaw-inertia:gyration_m=R says the one about the vertical.",
             "- ",
         );
     } else {
@@ -96,21 +97,5 @@ pub(crate) fn row(values: &[f64]) -> String {
 
 /// A text in lines; the first begins with `head`, the others are as far to the right.
 pub(crate) fn wrapped(text: &str, head: &str) -> String {
-    let (mut lines, mut line) = (String::new(), head.to_owned());
-    let indent = " ".repeat(head.len());
-    let mut is_empty = true;
-    for word in text.split_whitespace() {
-        if !is_empty && line.chars().count() + 1 + word.chars().count() > WIDTH {
-            lines += line.trim_end();
-            lines.push('\n');
-            line.clone_from(&indent);
-            is_empty = true;
-        }
-        if !is_empty {
-            line.push(' ');
-        }
-        line += word;
-        is_empty = false;
-    }
-    lines + line.trim_end() + "\n"
+    lines::wrapped(head, text, WIDTH)
 }

@@ -184,6 +184,10 @@ fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
             angles.map(inside).collect()
         }
         Role::Shape => shapes(parameter, settings.shape_ratio),
+        Role::Time => {
+            let [middle, half] = area(evidence, parameter.role);
+            settings.times.map(|time| inside(middle + time * half)).to_vec()
+        }
         Role::Place { .. } if of.has_extent() => vec![parameter.typical],
         Role::Place { .. } => {
             let [middle, _] = area(evidence, parameter.role);
@@ -214,6 +218,10 @@ fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f
         Role::Size { .. } => 0.0,
         Role::Direction => evidence.settings().candidates.direction_step,
         Role::Shape => evidence.settings().candidates.shape_ratio.ln(),
+        Role::Time => {
+            let [earlier, later, ..] = evidence.settings().candidates.times;
+            (later - earlier) * area(evidence, parameter.role)[1]
+        }
         Role::Place { .. } => extent.unwrap_or_else(|| area(evidence, parameter.role)[1]),
     }
 }

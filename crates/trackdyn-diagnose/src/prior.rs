@@ -1,6 +1,6 @@
 //! Priors of all unknowns.
 
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, typical_size};
 use crate::normal::Prior;
 use crate::settings;
@@ -37,6 +37,10 @@ pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> 
                         settings.place_deviation
                     };
                     Prior::normal(middle, far * spread.max(settings.min_area))
+                }
+                Role::Time => {
+                    let [middle, spread] = area(evidence, parameter.role);
+                    Prior::normal(middle, settings.time_deviation * spread)
                 }
                 // uniform, wherever it stands
                 Role::Direction => return Prior::even(hypothesis.get(unknown), 360.0),
@@ -100,11 +104,21 @@ pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
     None
 }
 
-/// Middle and half range of the recorded positions along an axis of the world, m.
+/// Middle and half range of the recorded positions along an axis of the world, m, or of the times,
+/// s.
 pub fn area(evidence: &Evidence, role: Role) -> [f64; 2] {
-    let Role::Place { axis } = role else { return [0.0, 1.0] };
-    let coordinates = evidence.samples().iter().map(|sample| [sample.pose.x, sample.pose.y][axis]);
-    let (low, high) = coordinates
+    let coordinate = |sample: &Sample| match role {
+        Role::Place { axis } => Some([sample.pose.x, sample.pose.y][axis]),
+        Role::Time => Some(sample.start),
+        Role::Size { .. } | Role::Direction | Role::Shape => None,
+    };
+    if evidence.samples().iter().find_map(coordinate).is_none() {
+        return [0.0, 1.0];
+    }
+    let (low, high) = evidence
+        .samples()
+        .iter()
+        .filter_map(coordinate)
         .fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
     [f64::midpoint(low, high), (high - low) / 2.0]
 }

@@ -210,8 +210,8 @@ fn actuator(robot: &Robot, roller: &Roller, suspension: &Suspension, count: usiz
     // F = k_v (α V − V_belt)
     let gain = across.max(along) * robot.mass * STANDARD_GRAVITY / real(count) / DROOP;
     let drive = robot.model.drive();
-    let lag = if drive.time_constant > 0.0 {
-        format!(" dyntype=\"filterexact\" dynprm=\"{}\"", digits(drive.time_constant))
+    let lag = if drive.mean_lag() > 0.0 {
+        format!(" dyntype=\"filterexact\" dynprm=\"{}\"", digits(drive.mean_lag()))
     } else {
         String::new()
     };
@@ -298,6 +298,7 @@ fn express(aspect: Aspect) -> Expression {
         Aspect::Friction => By("friction of the pairs of each side"),
         Aspect::Gravity => By("gravity, which is inclined to the plane of the ground"),
         Aspect::BeltGain => By("gain of the actuators"),
+        Aspect::BeltGainVaries => Lacks("change the controls by direction and time"),
         Aspect::BeltLag => By("filter of the actuators"),
         Aspect::BeltSlip => Lacks("lower ctrl by the traction, from actuator_force, at each step"),
         Aspect::Mount => By("site pose_sensor"),

@@ -47,5 +47,6 @@ catalogue! {
     tether::Tether,
     terrain_patch::TerrainPatch,
     friction_drift::FrictionDrift,
+    friction_pyramid::FrictionPyramid,
     force_law::ForceLaw,
 }

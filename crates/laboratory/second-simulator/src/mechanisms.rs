@@ -45,6 +45,7 @@ mechanisms! {
     tether::Tether,
     terrain_patch::TerrainPatch,
     friction_drift::FrictionDrift,
+    friction_pyramid::FrictionPyramid,
     brushed_ground::BrushedGround,
     spring_cable::SpringCable,
     steering_grip::SteeringGrip,

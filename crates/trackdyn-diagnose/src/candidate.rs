@@ -186,7 +186,11 @@ fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
         Role::Shape => shapes(parameter, settings.shape_ratio),
         Role::Time => {
             let [middle, half] = area(evidence, parameter.role);
-            settings.times.map(|time| inside(middle + time * half)).to_vec()
+            // A single change before or after the recording changes nothing in it.
+            let times = of.parameters.iter().filter(|one| one.role == Role::Time).count();
+            let is_tried = |time: &f64| times > 1 || time.abs() < 1.0;
+            let tried = settings.times.into_iter().filter(is_tried);
+            tried.map(|time| inside(middle + time * half)).collect()
         }
         Role::Place { .. } if of.has_extent() => vec![parameter.typical],
         Role::Place { .. } => {

@@ -136,7 +136,6 @@ fn express(aspect: Aspect) -> Expression {
         Aspect::FrictionAlong => Lacks("shoes move along the track, and so does their friction"),
         Aspect::Pressure => Lacks("suspensions and shoes share the load"),
         Aspect::Creep => Lacks("SMC: Tangential Stiffness and Damping of Coefficients come near"),
-        Aspect::Pyramid => Lacks("Chrono bounds friction by a circle"),
         Aspect::Constant => Lacks("no coefficient for it; a terrain of SCM has cohesion"),
         Aspect::ShearLaw => Lacks("rigid terrain has Coulomb friction; SCM has Janosi's law"),
         Aspect::Force => Lacks("ChBody::AccumulateForce of the chassis, at each step"),

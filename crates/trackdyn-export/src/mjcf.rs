@@ -321,9 +321,6 @@ fn express(aspect: Aspect) -> Expression {
         Aspect::FrictionAlong => By("friction of the pairs, roller by roller"),
         Aspect::Pressure => By("springref of the rollers"),
         Aspect::Creep => By("impratio, as far as the creep above"),
-        Aspect::Pyramid => Lacks(
-            "axes of friction are those of the rollers: spheres with cone=\"pyramidal\" have it",
-        ),
         Aspect::Constant => By("friction across, in the chi that it is chosen for"),
         Aspect::ShearLaw => Lacks("set pair_friction of the model from the slip, at each step"),
         Aspect::Force => Lacks("set xfrc_applied of base_link, at each step"),

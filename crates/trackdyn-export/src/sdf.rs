@@ -216,9 +216,6 @@ fn express(aspect: Aspect) -> Expression {
         Aspect::FrictionAlong => Lacks("one friction for a collision: cut the boxes in pieces"),
         Aspect::Pressure => Lacks("the solver shares the load"),
         Aspect::Creep => By("slip1 and slip2, the slope of friction at small slip"),
-        Aspect::Pyramid => {
-            Lacks("TrackController turns fdir1, and the pyramid with it, at a contact")
-        }
         Aspect::Constant => By("steering_efficiency of the commands, not as a force"),
         Aspect::ShearLaw => Lacks("Coulomb friction is all there is"),
         Aspect::Force => Lacks("the system ApplyLinkWrench or one of your own"),

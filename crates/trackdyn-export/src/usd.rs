@@ -304,7 +304,6 @@ fn express(aspect: Aspect) -> Expression {
         Aspect::FrictionAlong => Lacks("bind a material of its own to each ball"),
         Aspect::Pressure => By("target positions of the springs"),
         Aspect::Creep => Lacks("PhysX has dry friction"),
-        Aspect::Pyramid => Lacks("PhysX bounds friction by a circle"),
         Aspect::Constant => Lacks("one coefficient of friction cannot turn as the vehicle does"),
         Aspect::ShearLaw => Lacks("Coulomb friction is all there is"),
         Aspect::Force => Lacks("apply a force to base_link at each step"),

@@ -51,6 +51,5 @@ catalogue! {
     late_gain::LateGain,
     split_lag::SplitLag,
     ground_change::GroundChange,
-    friction_pyramid::FrictionPyramid,
     force_law::ForceLaw,
 }

@@ -49,7 +49,6 @@ mechanisms! {
     late_gain::LateGain,
     split_lag::SplitLag,
     ground_change::GroundChange,
-    friction_pyramid::FrictionPyramid,
     brushed_ground::BrushedGround,
     spring_cable::SpringCable,
     steering_grip::SteeringGrip,

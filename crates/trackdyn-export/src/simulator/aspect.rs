@@ -39,8 +39,6 @@ pub enum Aspect {
     Pressure,
     /// Slip in proportion to the force before friction is full.
     Creep,
-    /// Friction bounded by a box in axes of the world.
-    Pyramid,
     /// A law of shear stress that moves the constant ICRs, and nothing else.
     Constant,
     /// Another law of shear stress.
@@ -75,9 +73,8 @@ impl Aspect {
         let is_friction_along = body.friction_gradient != none.friction_gradient;
         let is_pressure = body.pressure_concentration != none.pressure_concentration;
         let is_creep = body.creep_speed != none.creep_speed;
-        let is_pyramid = body.friction_pyramid != none.friction_pyramid;
         let is_other_shear =
-            acts_at(Stage::Shear) && !(is_friction_along || is_pressure || is_creep || is_pyramid);
+            acts_at(Stage::Shear) && !(is_friction_along || is_pressure || is_creep);
         let is_constant = effect.card().breaks.is_empty();
         [
             (Self::Body, model.vehicle() != base.vehicle()),
@@ -95,7 +92,6 @@ impl Aspect {
             (Self::FrictionAlong, is_friction_along),
             (Self::Pressure, is_pressure),
             (Self::Creep, is_creep),
-            (Self::Pyramid, is_pyramid),
             (Self::Constant, is_other_shear && is_constant),
             (Self::ShearLaw, is_other_shear && !is_constant),
             (Self::Force, acts_at(Stage::Wrench) && !is_inertia),
@@ -140,8 +136,6 @@ mod tests {
             ("friction-gradient", vec![Aspect::FrictionAlong]),
             ("cohesion", vec![Aspect::Constant]),
             ("viscous-friction", vec![Aspect::ShearLaw]),
-            ("friction-creep", vec![Aspect::Creep]),
-            ("friction-pyramid", vec![Aspect::Pyramid]),
             ("tether", vec![Aspect::Force]),
             ("terrain-patch:x_m=0,y_m=0", vec![Aspect::Place]),
             ("friction-drift", vec![Aspect::Time]),

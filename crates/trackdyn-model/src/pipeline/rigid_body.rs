@@ -18,8 +18,6 @@ pub struct RigidBody {
     pub pressure_concentration: f64,
     /// Slip speed v_c by which friction at small slip is μ p s/v_c, m/s; zero for dry friction.
     pub creep_speed: f64,
-    /// Boxes that bound friction along the axes of the world, and at 22.5° to them, 1.
-    pub friction_pyramid: [f64; 2],
 }
 
 impl RigidBody {

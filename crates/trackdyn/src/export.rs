@@ -252,7 +252,7 @@ pub fn motion_table(
     fastest: f64,
     provenance: &Provenance,
 ) -> Result<(MotionTable, [TextFile; 2]), Error> {
-    if !(fastest > 0.0 && fastest <= FASTEST) {
+    if !(SLOWEST..=FASTEST).contains(&fastest) {
         return Err(Error::FastestSpeed { fastest, most: FASTEST });
     }
     // A table of speeds knows no heading, place or time; of the others it has what is steady.
@@ -333,6 +333,9 @@ fn of_vehicle(vehicle: &Vehicle, provenance: &Provenance) -> trackdyn_export::Pr
         command,
     }
 }
+
+/// Smallest largest speed of a table, m/s, as of a map.
+const SLOWEST: f64 = trackdyn_model::Grid::MIN_SPEED;
 
 /// Largest speed of a table, m/s.
 const FASTEST: f64 = 100.0;

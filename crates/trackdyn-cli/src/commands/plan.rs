@@ -74,7 +74,9 @@ pub fn run(options: &Options) -> Outcome {
             other => other.into(),
         }
     })?;
-    prepare_folder(&options.out)?;
+    if plan.schedule().is_some() {
+        prepare_folder(&options.out)?;
+    }
     let changes = plan.write(&options.out, &provenance())?;
     say_written(&changes);
     let place = Place {

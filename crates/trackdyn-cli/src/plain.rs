@@ -33,14 +33,18 @@ fn push_word(word: &str, plain: &mut String) {
         let number = &rest[start..end];
         match number.trim_end_matches('.').parse::<f64>() {
             // such as 1e308, which stands with all its zeros otherwise
-            Ok(value) if number.len() > MAX_DIGITS => *plain += &format!("{value:e}"),
+            Ok(value) if number.len() > MAX_DIGITS => {
+                let shown = format!("{value:e}");
+                plain.push_str(&shown);
+            }
             _ => plain.push_str(number),
         }
         rest = &rest[end..];
     }
     push_visible(rest, plain);
     if kept.len() < word.len() {
-        *plain += &format!("… ({} characters)", word.chars().count());
+        let length = format!("… ({} characters)", word.chars().count());
+        plain.push_str(&length);
     }
 }
 

@@ -27,7 +27,7 @@ pub fn text(path: &Path) -> io::Result<String> {
     let bytes = bytes(path, MAX_TEXT_SIZE)?;
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        let line = 1 + error.as_bytes()[..at].iter().filter(|byte| **byte == b'\n').count();
+        let line = error.as_bytes()[..at].split(|byte| *byte == b'\n').count();
         io::Error::new(ErrorKind::InvalidData, format!("line {line}: expected text in UTF-8"))
     })
 }

@@ -103,12 +103,11 @@ fn averaged(poses: &[PoseSample], usual: f64, count: usize) -> Vec<(usize, PoseS
     let mut rows = Vec::new();
     let mut first = 0;
     while let Some(row) = poses.get(first..first + count) {
-        match row.windows(2).rposition(is_gap) {
-            Some(before) => first += before + 1,
-            None => {
-                rows.push((first, mean(row)));
-                first += count;
-            }
+        if let Some(before) = row.windows(2).rposition(is_gap) {
+            first += before + 1;
+        } else {
+            rows.push((first, mean(row)));
+            first += count;
         }
     }
     rows

@@ -24,7 +24,7 @@ pub(crate) fn read_rows<S: Sample>(path: &Path) -> Result<Rows<S>, Error> {
         match attempt(path, &texts)? {
             Attempt::Done(rows) => return Ok(rows),
             Attempt::AreTexts(columns) => texts.extend(columns),
-        };
+        }
     }
 }
 

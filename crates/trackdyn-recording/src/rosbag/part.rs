@@ -142,17 +142,15 @@ struct AtMost<R> {
 impl<R: Read> Read for AtMost<R> {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
         let count = self.content.read(buffer)?;
-        match self.left.checked_sub(count as u64) {
-            Some(left) => self.left = left,
-            None => {
-                let most = self.most >> 20;
-                let expected = format!(
-                    "it unpacks to more than {most} MiB, far more than its size: expected less, \
-                     or the file unpacked (zstd -d)"
-                );
-                return Err(std::io::Error::new(ErrorKind::FileTooLarge, expected));
-            }
-        }
+        let Some(left) = self.left.checked_sub(count as u64) else {
+            let most = self.most >> 20;
+            let expected = format!(
+                "it unpacks to more than {most} MiB, far more than its size: expected less, or the \
+                 file unpacked (zstd -d)"
+            );
+            return Err(std::io::Error::new(ErrorKind::FileTooLarge, expected));
+        };
+        self.left = left;
         Ok(count)
     }
 }

@@ -39,8 +39,8 @@ impl Grid {
     /// Most points per track: four million pairs.
     pub const MAX_POINTS: usize = 2001;
 
-    /// Smallest largest speed of a grid, m/s: a metre in twelve days. Squares of speeds that are far
-    /// smaller are zero in the memory of a computer.
+    /// Smallest largest speed of a grid, m/s: a metre in twelve days. Squares of far smaller speeds
+    /// are zero in the memory of a computer.
     pub const MIN_SPEED: f64 = 1e-6;
 
     /// Largest speed of a grid, m/s.

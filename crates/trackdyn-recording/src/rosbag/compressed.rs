@@ -4,8 +4,9 @@
 //! without the metadata of the bag, which a file alone may lack.
 
 use super::payload::is_zstd;
-use super::stream::{MAX_SIZE, max_unpacked};
+use super::stream::MAX_SIZE;
 use super::topic::Topic;
+use super::unpacked::max_unpacked;
 use super::visitor::Visitor;
 use crate::table::MAX_ROWS;
 use std::io::Read;

@@ -1,6 +1,7 @@
 //! Chunks of `.mcap` files: checked as a whole before any of their records is used.
 
-use super::stream::{Dropped, MAX_SIZE, max_unpacked};
+use super::stream::{Dropped, MAX_SIZE};
+use super::unpacked::max_unpacked;
 use std::io::Read;
 use zstd::bulk::Decompressor;
 

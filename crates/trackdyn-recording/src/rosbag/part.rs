@@ -1,6 +1,6 @@
 //! A file of a bag: what it holds, and whether it is packed.
 
-use super::stream::max_unpacked;
+use super::unpacked::max_unpacked;
 use crate::Error;
 use crate::table::unreadable;
 use std::fs::File;

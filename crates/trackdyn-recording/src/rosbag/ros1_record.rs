@@ -6,7 +6,8 @@
 //! # Sources
 //! ROS wiki, "Bags/Format/2.0".
 
-use super::stream::{MAX_SIZE, max_unpacked};
+use super::stream::MAX_SIZE;
+use super::unpacked::max_unpacked;
 use std::io::Read;
 
 /// Operation codes of the records that are read.

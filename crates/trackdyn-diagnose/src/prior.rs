@@ -107,20 +107,17 @@ pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
 /// Middle and half range of the recorded positions along an axis of the world, m, or of the times,
 /// s.
 pub fn area(evidence: &Evidence, role: Role) -> [f64; 2] {
-    let coordinate = |sample: &Sample| match role {
-        Role::Place { axis } => Some([sample.pose.x, sample.pose.y][axis]),
-        Role::Time => Some(sample.start),
-        Role::Size { .. } | Role::Direction | Role::Shape => None,
+    let over = |coordinate: &dyn Fn(&Sample) -> f64| {
+        let coordinates = evidence.samples().iter().map(coordinate);
+        let (low, high) = coordinates
+            .fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
+        [f64::midpoint(low, high), (high - low) / 2.0]
     };
-    if evidence.samples().iter().find_map(coordinate).is_none() {
-        return [0.0, 1.0];
+    match role {
+        Role::Place { axis } => over(&|sample| [sample.pose.x, sample.pose.y][axis]),
+        Role::Time => over(&|sample| sample.start),
+        Role::Size { .. } | Role::Direction | Role::Shape => [0.0, 1.0],
     }
-    let (low, high) = evidence
-        .samples()
-        .iter()
-        .filter_map(coordinate)
-        .fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
-    [f64::midpoint(low, high), (high - low) / 2.0]
 }
 
 /// Priors of steps from the present values of a hypothesis.

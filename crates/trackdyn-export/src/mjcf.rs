@@ -211,10 +211,9 @@ fn actuator(robot: &Robot, roller: &Roller, suspension: &Suspension, count: usiz
     // F = k_v (α V − V_belt)
     let gain = across.max(along) * robot.mass * STANDARD_GRAVITY / real(count) / DROOP;
     let drive = robot.model.drive();
-    let lag = if drive.mean_lag() > 0.0 {
-        format!(" dyntype=\"filterexact\" dynprm=\"{}\"", digits(drive.mean_lag()))
-    } else {
-        String::new()
+    let lag = match drive.time_constant[roller.side] {
+        lag if lag > 0.0 => format!(" dyntype=\"filterexact\" dynprm=\"{}\"", digits(lag)),
+        _ => String::new(),
     };
     format!(
         "    <general name=\"{name}\" joint=\"{name}_drive\" gear=\"{radius}\"{lag} \

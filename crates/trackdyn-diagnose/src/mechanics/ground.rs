@@ -43,15 +43,15 @@ pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Ac
     let model = single(vehicle, effect);
     let samples = evidence.samples();
     // A place may be crossed, and a time may lie, between any two samples.
-    let is_local = |role: Role| matches!(role, Role::Place { .. } | Role::Time);
-    let has_place = effect.card().parameters.iter().any(|parameter| is_local(parameter.role));
-    let step = if has_place { 1 } else { (samples.len() / probes).max(1) };
+    let is_somewhere = |role: Role| matches!(role, Role::Place { .. } | Role::Time);
+    let is_local = effect.card().parameters.iter().any(|one| is_somewhere(one.role));
+    let step = if is_local { 1 } else { (samples.len() / probes).max(1) };
     let there = forces(&model, &level);
     if samples.iter().step_by(step).any(|sample| forces(&model, &circumstance(sample)) != there) {
         return Acts::Varying;
     }
     let is_absent = || there == forces(&coarse(vehicle, Effects::none()), &level);
-    if has_place && is_absent() { Acts::Nowhere } else { Acts::Alike }
+    if is_local && is_absent() { Acts::Nowhere } else { Acts::Alike }
 }
 
 /// Forces in a turn at these belt speeds: friction of each side, and all others.

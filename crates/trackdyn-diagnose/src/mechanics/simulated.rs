@@ -304,8 +304,8 @@ impl Inertia {
         found.map(|(_, steps)| steps).unwrap_or_default()
     }
 
-    /// Transient minus stationary motion, as a twist (paper's frame) over each sample, at a delay of
-    /// the poses, s. Most predictions of a fit ask for the same ones, so they are kept.
+    /// Transient minus stationary motion, as a twist (paper's frame) over each sample, at a delay
+    /// of the poses, s. Most predictions of a fit ask for the same ones, so they are kept.
     pub fn departures(&self, samples: &Arc<[Sample]>, delay: f64) -> Arc<[Twist]> {
         let kept = || self.departures.lock().unwrap_or_else(PoisonError::into_inner);
         let is_asked = |one: &&Departures| one.delay == delay && Arc::ptr_eq(&one.samples, samples);

@@ -1,0 +1,51 @@
+//! A comparison in one screen.
+
+use crate::wrapped::wrapped;
+use trackdyn::Comparison;
+use trackdyn::crates::diagnose::compare::{Status, words};
+
+/// The text of a comparison.
+pub fn text(comparison: &Comparison) -> String {
+    let [sim, real] = comparison.names();
+    let found = comparison.found();
+    let mut text = wrapped("SIM      ", sim);
+    text += &wrapped("REAL     ", real);
+    text += &wrapped("vehicle  ", comparison.vehicle().name());
+    text +=
+        &wrapped("\nstatus   ", &format!("{}: {}", found.status().name(), words::headline(found)));
+    text += &wrapped("where    ", &found.place());
+    if found.differences.is_empty() {
+        let nothing = if found.status() == Status::Unexplained {
+            "something outside the catalogue".to_owned()
+        } else {
+            format!("nothing; {}", words::smallest(found))
+        };
+        text += &wrapped("differs  ", &nothing);
+    }
+    for one in &found.differences {
+        let support = &one.support;
+        let sentence = format!(
+            "{}; ln Bayes factor {:.1}, p = {:.4}",
+            words::sentence(one),
+            support.ln_bayes_factor,
+            support.p
+        );
+        text += &wrapped("differs  ", &sentence);
+        for setting in words::settings(one) {
+            text += &wrapped("  set    ", &setting);
+        }
+    }
+    for one in words::not_shown(found) {
+        text += &wrapped("unknown  ", &one);
+    }
+    for (head, line) in [
+        ("closer   ", words::closer(found)),
+        ("alike    ", words::common(found)),
+        ("sensors  ", words::instruments(found)),
+    ] {
+        if let Some(line) = line {
+            text += &wrapped(head, &line);
+        }
+    }
+    text
+}

@@ -1,0 +1,241 @@
+//! What differs between two sets of recordings of nominally the same robot: a simulator's and the
+//! robot's.
+//!
+//! Each set is diagnosed against the same vehicle file, with its own noise, clock, instruments and
+//! constants. All effects that either has are then fitted to both, and a claim is about the
+//! difference of their sizes: what both have alike is none, even if the file lacks it.
+
+mod bayes;
+mod choice;
+mod closer;
+mod constants;
+mod difference;
+pub mod document;
+mod joint;
+mod quantity;
+mod remainder;
+mod spread;
+pub mod words;
+
+pub use bayes::Alternatives;
+pub use closer::Closer;
+pub use constants::Member;
+pub use difference::{Difference, NoDifference, Which};
+pub use quantity::{Estimate, Group, Number, Quantity, Subject};
+pub use remainder::Remainder;
+
+use crate::diagnosis::{Diagnosis, Examination};
+use crate::locate::cells::Cell;
+use crate::place::plain_words;
+use crate::progress::{Cancelled, Stage, Watch};
+use crate::resampling::Resampling;
+use choice::Choice;
+use std::collections::BTreeMap;
+use trackdyn_model::effect::Symmetry;
+use trackdyn_model::{EffectId, VehicleFile};
+
+/// Stages of a comparison, after the diagnoses of both sets.
+pub const STAGES: usize = 3;
+
+/// What a comparison says in a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Nothing differs that these recordings could have shown.
+    NothingDiffers,
+    /// What differs is named.
+    Explained,
+    /// Something differs, and more than one effect explains it.
+    Ambiguous,
+    /// They differ in a way outside the catalogue; what was named stays named.
+    Unexplained,
+}
+
+impl Status {
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NothingDiffers => "nothing-differs",
+            Self::Explained => "explained",
+            Self::Ambiguous => "ambiguous",
+            Self::Unexplained => "unexplained",
+        }
+    }
+}
+
+/// Smallest difference of a size that both sets together would have shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Smallest {
+    /// The effect.
+    pub effect: EffectId,
+    /// Index of the size among its parameters.
+    pub parameter: usize,
+    /// The difference, in the parameter's unit; none where one set can show no physical size.
+    pub size: Option<f64>,
+}
+
+/// What differs between two sets of recordings.
+pub struct Comparison {
+    /// The diagnosis of each set.
+    pub diagnoses: [Diagnosis; 2],
+    /// Effects that either set has.
+    pub effects: Vec<EffectId>,
+    /// What differs.
+    pub differences: Vec<Difference>,
+    /// What was compared and is not claimed to differ.
+    pub alike: Vec<Difference>,
+    /// Effects of one set that the other (0 or 1) cannot show.
+    pub not_shown: Vec<(EffectId, usize)>,
+    /// Encoders and pose sensor in each set: instruments, not physics.
+    pub instruments: Vec<Group>,
+    /// Where they differ, whatever the reason: with all sizes in common.
+    pub before: Remainder,
+    /// Where they differ in a way that no size explains.
+    pub after: Remainder,
+    /// ICRs by cells of driving in each set, against what both have in common.
+    pub cells: [Vec<Cell>; 2],
+    /// How much closer the first set's model comes to the second set.
+    pub closer: Closer,
+    /// Smallest differences that would have shown.
+    pub smallest: Vec<Smallest>,
+}
+
+/// Compares two examined sets of recordings: the first is the simulator's.
+///
+/// # Errors
+/// [`Cancelled`], by the observer of the watch.
+pub fn compare(
+    both: [&Examination; 2],
+    file: &VehicleFile,
+    resampling: Resampling,
+    watch: &Watch,
+) -> Result<Comparison, Cancelled> {
+    let choice = watch.try_stage(Stage::Differences, || Choice::best(both, watch))?;
+    let (groups, judged) = watch.stage(Stage::Differences, || {
+        let groups = quantity::groups(both, &choice);
+        (groups.clone(), difference::judge(both, &choice, groups, resampling))
+    })?;
+    let (differences, alike): (Vec<_>, Vec<_>) =
+        judged.into_iter().partition(|one| one.refused.is_none());
+    watch.stage(Stage::Differences, || ())?;
+    let icrs = remainder::icrs(both, &choice);
+    let of =
+        |joint, is_strict| remainder::remainder(both, &choice, joint, &icrs, is_strict, resampling);
+    let before = of(difference::joint(both, &choice, &groups), false);
+    let after = of(remainder::apart(both, &choice), true);
+    let left = difference::left_in_common(both, &choice, &groups);
+    let cells = remainder::cells(both, &icrs, &left);
+    let closer = Closer::of(both, &choice, &differences, file);
+    let not_shown = choice.effects.iter().flat_map(|&effect| {
+        let lacking = [0, 1].into_iter();
+        let lacking = lacking.filter(|&k| !choice.fits[k].effects.contains(&effect));
+        lacking.map(|k| (effect, k)).collect::<Vec<_>>()
+    });
+    let not_shown = not_shown.collect();
+    let instruments = quantity::instruments(both, &choice);
+    let diagnoses = both.map(|set| set.diagnosis.clone());
+    Ok(Comparison {
+        smallest: smallest(&diagnoses),
+        effects: choice.effects,
+        diagnoses,
+        differences,
+        alike,
+        not_shown,
+        instruments,
+        before,
+        after,
+        cells,
+        closer,
+    })
+}
+
+/// Smallest differences of each size: the variances of both sets add.
+fn smallest(diagnoses: &[Diagnosis; 2]) -> Vec<Smallest> {
+    let of = |diagnosis: &Diagnosis| -> BTreeMap<(EffectId, usize), Option<f64>> {
+        let detectable = diagnosis.limits.detectable.iter();
+        detectable.map(|one| ((one.effect, one.parameter), one.size)).collect()
+    };
+    let [first, second] = [0, 1].map(|k| of(&diagnoses[k]));
+    let both = first.into_iter().filter_map(|(key, a)| Some((key, a, *second.get(&key)?)));
+    both.map(|((effect, parameter), a, b)| Smallest {
+        effect,
+        parameter,
+        size: a.zip(b).map(|(a, b)| a.hypot(b)),
+    })
+    .collect()
+}
+
+impl Comparison {
+    /// What it says in a word.
+    pub fn status(&self) -> Status {
+        if !self.after.broken().is_empty() {
+            Status::Unexplained
+        } else if self.differences.iter().any(|one| one.one_of.len() > 1) {
+            Status::Ambiguous
+        } else if self.differences.is_empty() {
+            Status::NothingDiffers
+        } else {
+            Status::Explained
+        }
+    }
+
+    /// Effects that both sets have alike and the vehicle file lacks.
+    pub fn common(&self) -> impl Iterator<Item = EffectId> {
+        self.alike.iter().filter_map(|one| match one.group.subject {
+            Subject::Effect(effect) => {
+                let has = |k: usize| {
+                    one.group.numbers.iter().any(|number| !number.each[k].holds(number.prior.mean))
+                };
+                (has(0) && has(1)).then_some(effect)
+            }
+            Subject::Constants | Subject::FrictionLevel | Subject::CentreOfGravity => None,
+        })
+    }
+
+    /// Symmetries in which the sets differ, ascending.
+    pub fn broken(&self) -> Vec<Symmetry> {
+        let mut broken = [self.before.broken(), self.after.broken()].concat();
+        broken.sort_unstable();
+        broken.dedup();
+        broken
+    }
+
+    /// One sentence on where they differ: driving, symmetries.
+    pub fn place(&self) -> String {
+        let mut parts = Vec::new();
+        if !self.differences.is_empty() || !self.broken().is_empty() {
+            parts.extend(self.largest());
+        }
+        parts.extend(self.broken().into_iter().map(|one| plain_words(one).to_owned()));
+        if parts.is_empty() {
+            return "nowhere: one model with the instruments of each explains both".to_owned();
+        }
+        parts.join("; ")
+    }
+
+    /// The cell of driving whose ICRs differ most surely, in words.
+    fn largest(&self) -> Option<String> {
+        let [first, second] = &self.cells;
+        let mut best: Option<(f64, String)> = None;
+        for cell in first {
+            let is_same = |other: &&Cell| {
+                (other.manoeuvre, other.speed, other.forward)
+                    == (cell.manoeuvre, cell.speed, cell.forward)
+            };
+            let Some(other) = second.iter().find(is_same) else { continue };
+            for ((a, s), (b, t)) in cell.departure.into_iter().zip(other.departure) {
+                let z = (b - a).abs() / s.hypot(t);
+                if best.as_ref().is_none_or(|(most, _)| z > *most) && z.is_finite() {
+                    let direction = if cell.forward { "forward" } else { "backward" };
+                    let words = format!(
+                        "largest in {} {direction} at {:.2} m/s, where the ICRs differ by {:.0} mm",
+                        cell.manoeuvre.name(),
+                        cell.mean_speed,
+                        1e3 * (b - a).abs()
+                    );
+                    best = Some((z, words));
+                }
+            }
+        }
+        best.map(|(_, words)| words)
+    }
+}

@@ -86,9 +86,10 @@ impl Estimate {
         Self { value, low: value - half, high: value + half }
     }
 
-    /// Standard deviation, as if the interval were that of a normal number.
+    /// Standard deviation, as if the interval were that of a normal number; by its longer half,
+    /// since the other may end at the limit of what is physical.
     pub fn deviation(&self) -> f64 {
-        (self.high - self.low) / (2.0 * HALF)
+        (self.high - self.value).max(self.value - self.low) / HALF
     }
 
     /// This less another estimate that is independent of it.

@@ -1,16 +1,16 @@
 //! Comparisons of two sets of drives on the second simulator, with other schedules.
 
 use std::sync::LazyLock;
+use trackdyn_diagnose::Resampling;
 use trackdyn_diagnose::compare::document::ComparisonFile;
 use trackdyn_diagnose::compare::{Comparison, Status, Subject, Which, compare};
-use trackdyn_diagnose::diagnosis::{Examination, examine};
+use trackdyn_diagnose::diagnosis::Examination;
 use trackdyn_diagnose::progress::Watch;
-use trackdyn_diagnose::{Evidence, Options, Resampling, Settings, unobserved};
 use trackdyn_drive::sensors::Preset;
 use trackdyn_drive::{ScheduleKind, ScheduleOptions};
 use trackdyn_model::kinematics::Source;
 use trackdyn_model::{EffectId, Vehicle};
-use trackdyn_tests::concealed::{Drive, owned, sensors};
+use trackdyn_tests::concealed::{Drive, examined, owned, sensors};
 
 const RUNS: usize = 6;
 const RUN_TIME: f64 = 15.0;
@@ -30,9 +30,7 @@ fn set(concealed: &[&str], seed: u64, change: impl FnOnce(&mut Vehicle)) -> Exam
     change(&mut vehicle);
     let drive = Drive::new(&vehicle, concealed, &runs, seed).expect("it drives");
     let recording = drive.recording(&sensors(Preset::Laboratory), seed);
-    let evidence = Evidence::of_recording(&recording, file.vehicle.gauge, &Settings::default());
-    let evidence = evidence.expect("evidence");
-    examine(&evidence, &file, &Options::default(), &unobserved).expect("an answer")
+    examined(&recording, &file).expect("an answer")
 }
 
 static PLAIN: LazyLock<Examination> = LazyLock::new(|| set(&[], 3, |_| ()));

@@ -53,21 +53,21 @@ impl Closer {
         let own = instruments(first.clone());
         let mut closer = own.clone();
         for one in claimed {
-            match one.group.subject {
-                Subject::Effect(effect) => closer = closer.with_effect_of(second, effect),
-                Subject::FrictionLevel => {
-                    closer = closer.with(Unknown::FrictionLevel, second.friction_level);
-                }
-                Subject::Constants | Subject::CentreOfGravity => {}
+            if let Subject::Effect(effect) = one.group.subject {
+                closer = closer.with_effect_of(second, effect);
             }
         }
+        let is_claimed = |subject: Subject| claimed.iter().any(|one| one.group.subject == subject);
         let constants = if with_constants { second } else { first };
         let mut moved = Hypothesis {
             vehicle: constants.vehicle.clone(),
             offset: constants.offset,
             cog_moved: constants.cog_moved,
-            ..closer.clone()
+            friction_level: constants.friction_level,
+            ..closer
         };
+        let level = if is_claimed(Subject::FrictionLevel) { second } else { first };
+        moved = moved.with(Unknown::FrictionLevel, level.friction_level);
         if with_constants {
             for stays in &choice.fits[1].effects {
                 if !choice.effects.contains(stays) {

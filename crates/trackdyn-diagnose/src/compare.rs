@@ -110,19 +110,18 @@ pub fn compare(
     watch: &Watch,
 ) -> Result<Comparison, Cancelled> {
     let choice = watch.try_stage(Stage::Differences, || Choice::best(both, watch))?;
-    let (groups, judged) = watch.stage(Stage::Differences, || {
-        let groups = quantity::groups(both, &choice);
-        (groups.clone(), difference::judge(both, &choice, groups, resampling))
-    })?;
+    let (groups, moved) = watch.stage(Stage::Differences, || quantity::groups(both, &choice))?;
+    let moved = moved.as_ref();
+    let judged = difference::judge(both, &choice, groups.clone(), moved, resampling);
     let (differences, alike): (Vec<_>, Vec<_>) =
         judged.into_iter().partition(|one| one.refused.is_none());
     watch.stage(Stage::Differences, || ())?;
     let icrs = remainder::icrs(both, &choice);
     let of =
         |joint, is_strict| remainder::remainder(both, &choice, joint, &icrs, is_strict, resampling);
-    let before = of(difference::joint(both, &choice, &groups), false);
+    let before = of(difference::joint(both, &choice, &groups, moved), false);
     let after = of(remainder::apart(both, &choice), true);
-    let left = difference::left_in_common(both, &choice, &groups);
+    let left = difference::left_in_common(both, &choice, &groups, moved);
     let cells = remainder::cells(both, &icrs, &left);
     let closer = Closer::of(both, &choice, &differences, file);
     let not_shown = choice.effects.iter().flat_map(|&effect| {

@@ -4,7 +4,7 @@ use super::bayes::Alternatives;
 use super::choice::{Choice, Claimed, claimed};
 use super::constants::{Member, members};
 use super::joint::Joint;
-use super::quantity::{Estimate, Group, Number, Quantity, Subject};
+use super::quantity::{Estimate, Gradients, Group, Number, Quantity, Subject};
 use crate::base::OFFSETS;
 use crate::diagnosis::Examination;
 use crate::equations::Column;
@@ -90,6 +90,46 @@ pub struct Difference {
     pub refused: Option<NoDifference>,
 }
 
+/// Both fits in terms of their constant ICRs.
+#[derive(Clone, Copy)]
+pub(super) struct Fits<'a> {
+    /// The fits.
+    pub fits: [&'a Fit; 2],
+    /// By how much each unknown moves the constant ICRs.
+    pub moved: Option<&'a [Gradients; 2]>,
+}
+
+impl Fits<'_> {
+    /// Column of an unknown of a set, whitened, at constant ICRs that stay where they are.
+    ///
+    /// # Law
+    /// ∂p/∂θ at these ICRs is ∂p/∂θ − Σ ∂p/∂n ∂n/∂θ, n their middle, half distance and y.
+    fn column(&self, set: usize, place: usize) -> Column {
+        let fit = self.fits[set];
+        let mut column = fit.columns[place].clone();
+        let is_offset = OFFSETS.contains(&fit.unknowns[place]);
+        let Some(moved) = self.moved.filter(|_| !is_offset) else { return column };
+        for (n, by) in moved[set][place].into_iter().enumerate().filter(|(_, by)| *by != 0.0) {
+            let Some(of_icr) = columns(fit, Number::Icr(n)) else { continue };
+            for (value, change) in column.iter_mut().zip(&of_icr) {
+                *value -= change * by;
+            }
+        }
+        column
+    }
+
+    /// Column of a number of a set, whitened.
+    fn of(&self, set: usize, number: Number) -> Option<Column> {
+        match number {
+            Number::Unknown(unknown) => {
+                let place = self.fits[set].unknowns.iter().position(|one| *one == unknown)?;
+                Some(self.column(set, place))
+            }
+            Number::Icr(_) => columns(self.fits[set], number),
+        }
+    }
+}
+
 /// Column of a number in a fit, whitened.
 fn columns<'a>(fit: &'a Fit, number: Number) -> Option<Column> {
     let of = |unknown: Unknown| {
@@ -131,16 +171,18 @@ pub(super) fn joint<'a>(
     sets: [&'a Examination; 2],
     choice: &'a Choice,
     groups: &[Group],
+    moved: Option<&[Gradients; 2]>,
 ) -> Joint<'a> {
     let fits = [&choice.fits[0].fit, &choice.fits[1].fit];
+    let in_icrs = Fits { fits, moved };
     let evidence = sets.map(|set| &set.search.evidence);
     let mut joint = Joint::new(evidence, fits.map(|fit| &fit.residual[..]));
     let taken = taken(groups);
     for (k, fit) in fits.into_iter().enumerate() {
         let known = priors(&fit.hypothesis, &fit.unknowns, evidence[k]);
-        for ((unknown, column), prior) in fit.unknowns.iter().zip(&fit.columns).zip(known) {
+        for (place, (unknown, prior)) in fit.unknowns.iter().zip(known).enumerate() {
             if !taken.contains(unknown) {
-                joint.free_in(k, column, prior);
+                joint.free_in(k, &in_icrs.column(k, place), prior);
             }
         }
         let forms = &choice.fits[k].forms;
@@ -149,7 +191,7 @@ pub(super) fn joint<'a>(
         }
     }
     for quantity in groups.iter().flat_map(|group| &group.numbers) {
-        let of = fits.map(|fit| columns(fit, quantity.number));
+        let of = [0, 1].map(|k| in_icrs.of(k, quantity.number));
         let [Some(first), Some(second)] = of else { continue };
         let common = quantity.common();
         let factors = quantity.each.map(|one| one.value - common);
@@ -162,9 +204,9 @@ pub(super) fn joint<'a>(
 }
 
 /// Columns of what the second set has more, a group each.
-fn more(joint: &Joint, second: &Fit, groups: &[Group]) -> Vec<Vec<(Column, Prior)>> {
+fn more(joint: &Joint, fits: Fits, groups: &[Group]) -> Vec<Vec<(Column, Prior)>> {
     let of = |quantity: &Quantity| {
-        let column = joint.alone(1, &columns(second, quantity.number)?);
+        let column = joint.alone(1, &fits.of(1, quantity.number)?);
         let width = 2.0_f64.sqrt() * quantity.prior.deviation;
         Some((column, Prior::normal(0.0, width)))
     };
@@ -176,10 +218,12 @@ pub(super) fn judge(
     sets: [&Examination; 2],
     choice: &Choice,
     groups: Vec<Group>,
+    moved: Option<&[Gradients; 2]>,
     resampling: Resampling,
 ) -> Vec<Difference> {
-    let joint = joint(sets, choice, &groups);
-    let equations = joint.equations(more(&joint, &choice.fits[1].fit, &groups));
+    let joint = joint(sets, choice, &groups, moved);
+    let fits = Fits { fits: [&choice.fits[0].fit, &choice.fits[1].fit], moved };
+    let equations = joint.equations(more(&joint, fits, &groups));
     let all: Vec<usize> = equations.groups.concat();
     let misfit = |columns: &[usize]| equations.fit_with(columns).misfit;
     let whole_misfit = misfit(&all);
@@ -329,6 +373,7 @@ pub(super) fn left_in_common(
     sets: [&Examination; 2],
     choice: &Choice,
     groups: &[Group],
+    moved: Option<&[Gradients; 2]>,
 ) -> [Vec<Vector3<f64>>; 2] {
-    joint(sets, choice, groups).left()
+    joint(sets, choice, groups, moved).left()
 }

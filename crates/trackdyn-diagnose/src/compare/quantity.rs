@@ -156,8 +156,15 @@ pub struct Group {
     pub numbers: Vec<Quantity>,
 }
 
-/// All groups that both fits have: effects, constants, and what inertia shows.
-pub(super) fn groups(sets: [&Examination; 2], choice: &Choice) -> Vec<Group> {
+/// Change of the middle, the half distance and y of the constant ICRs by each unknown of a fit.
+pub(super) type Gradients = Vec<[f64; 3]>;
+
+/// All groups that both fits have: effects, constants, and what inertia shows; and by how much the
+/// unknowns of each fit move its constant ICRs.
+pub(super) fn groups(
+    sets: [&Examination; 2],
+    choice: &Choice,
+) -> (Vec<Group>, Option<[Gradients; 2]>) {
     let fits = [&choice.fits[0], &choice.fits[1]];
     let spreads = [0, 1].map(|k| Spread::of(&sets[k].search, fits[k]));
     let shown = |effect: &&EffectId| fits.iter().all(|fit| fit.effects.contains(effect));
@@ -180,7 +187,8 @@ pub(super) fn groups(sets: [&Examination; 2], choice: &Choice) -> Vec<Group> {
         });
         groups.push(Group { subject: Subject::Effect(effect), numbers: numbers.collect() });
     }
-    groups.extend(constants(sets, choice, &spreads));
+    let (constants, gradients) = constants(sets, choice, &spreads).unzip();
+    groups.extend(constants);
     for (subject, unknowns) in [
         (Subject::FrictionLevel, &[Unknown::FrictionLevel][..]),
         (Subject::CentreOfGravity, &[Unknown::Cog(0), Unknown::Cog(1)]),
@@ -194,7 +202,7 @@ pub(super) fn groups(sets: [&Examination; 2], choice: &Choice) -> Vec<Group> {
         groups.push(Group { subject, numbers: numbers.collect() });
     }
     groups.retain(|group| !group.numbers.is_empty());
-    groups
+    (groups, gradients)
 }
 
 /// Estimate of an unknown; none where it is not free.
@@ -219,35 +227,37 @@ fn icrs(hypothesis: &Hypothesis, beside: &[EffectId]) -> Option<[f64; 3]> {
     Some(middle_half_y(std::array::from_fn(|k| spin[k] + hypothesis.offset[k])))
 }
 
-/// The constant ICRs of both sets; none where a vehicle has no slow spin.
-fn constants(sets: [&Examination; 2], choice: &Choice, spreads: &[Spread; 2]) -> Option<Group> {
-    let of = |k: usize| -> Option<[Estimate; 3]> {
+/// The constant ICRs of both sets, and by how much the unknowns move them; none where a vehicle has
+/// no slow spin.
+fn constants(
+    sets: [&Examination; 2],
+    choice: &Choice,
+    spreads: &[Spread; 2],
+) -> Option<(Group, [Gradients; 2])> {
+    let of = |k: usize| -> Option<([Estimate; 3], Gradients)> {
         let Found { fit, effects, .. } = &choice.fits[k];
         let is_beside = |effect: &&EffectId| {
             !choice.effects.contains(effect) && sets[k].constants.mostly.contains(effect)
         };
         let beside: Vec<EffectId> = effects.iter().filter(is_beside).copied().collect();
         let here = icrs(&fit.hypothesis, &beside)?;
-        let mut gradients = [const { Vec::new() }; 3];
-        for &unknown in &fit.unknowns {
-            let step = step(&fit.hypothesis, unknown, &beside);
-            let there = match step {
-                Some(step) => {
-                    let value = fit.hypothesis.get(unknown) + step;
-                    let moved = fit.hypothesis.with(unknown, value);
-                    let step = moved.get(unknown) - fit.hypothesis.get(unknown);
-                    let there = icrs(&moved, &beside)?;
-                    [0, 1, 2].map(|n| if step == 0.0 { 0.0 } else { (there[n] - here[n]) / step })
-                }
-                None => [0.0; 3],
+        let by = |&unknown: &Unknown| -> Option<[f64; 3]> {
+            let Some(step) = step(&fit.hypothesis, unknown, &beside) else {
+                return Some([0.0; 3]);
             };
-            for (gradient, by) in gradients.iter_mut().zip(there) {
-                gradient.push(by);
-            }
-        }
-        Some([0, 1, 2].map(|n| Estimate::around(here[n], spreads[k].half(&gradients[n]))))
+            let moved = fit.hypothesis.with(unknown, fit.hypothesis.get(unknown) + step);
+            let step = moved.get(unknown) - fit.hypothesis.get(unknown);
+            let there = icrs(&moved, &beside)?;
+            Some([0, 1, 2].map(|n| if step == 0.0 { 0.0 } else { (there[n] - here[n]) / step }))
+        };
+        let gradients: Gradients = fit.unknowns.iter().map(by).collect::<Option<_>>()?;
+        let estimate = |n: usize| {
+            let own: Vec<f64> = gradients.iter().map(|by| by[n]).collect();
+            Estimate::around(here[n], spreads[k].half(&own))
+        };
+        Some(([0, 1, 2].map(estimate), gradients))
     };
-    let [first, second] = [of(0)?, of(1)?];
+    let [(first, of_first), (second, of_second)] = [of(0)?, of(1)?];
     let filed = &sets[0].search.base.as_filed.hypothesis;
     let mean = icrs(&Hypothesis { offset: [0.0; 3], ..filed.clone() }, &[])?;
     let gauge = filed.vehicle.gauge;
@@ -257,7 +267,8 @@ fn constants(sets: [&Examination; 2], choice: &Choice, spreads: &[Spread; 2]) ->
         let known = Prior::normal(mean[n], deviation);
         Quantity::new(Number::Icr(n), [first[n], second[n]], known, 0.1 * gauge)
     });
-    Some(Group { subject: Subject::Constants, numbers: numbers.collect() })
+    let group = Group { subject: Subject::Constants, numbers: numbers.collect() };
+    Some((group, [of_first, of_second]))
 }
 
 /// A step of an unknown that moves constant ICRs; none for one that does not.

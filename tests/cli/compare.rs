@@ -6,7 +6,8 @@ use crate::Workplace;
 fn drives(place: &Workplace, more: &str) {
     for (seed, out, effects) in [(1, "sim", ""), (2, "real", more)] {
         let run = place.run(&format!(
-            "simulate --quasi-static --run-count 6 --duration 15 --seed {seed} {effects} --out {out}"
+            "simulate --quasi-static --run-count 6 --duration 15 --seed {seed} {effects} \
+             --out {out}"
         ));
         assert_eq!(run.status, 0, "{}", run.stderr);
     }

@@ -139,7 +139,7 @@ fn a_recording_with_too_little_in_it_is_refused_with_what_is_missing() {
     for (options, held_out) in [
         ("--runs 1 --duration 3", ""),
         ("--runs 1 --duration 2", ""),
-        ("--runs 2 --duration 10", "--held-out 0"),
+        ("--runs 2 --duration 6", "--held-out 0"),
     ] {
         let place = Workplace::new();
         drive(&place, options);

@@ -153,6 +153,27 @@ fn usd_has_the_masses_of_the_vehicle() {
     expect_vehicle(&bodies);
 }
 
+/// Contacts slip in proportion to a force below friction, at the speed that the vehicle says.
+#[test]
+fn softness_is_carried_by_gazebo_and_mujoco() {
+    let number = |format: &str, effect: &str, name: &str| -> Option<f64> {
+        let (_, text) = exported(format, effect);
+        let behind = text.split(name).nth(1)?;
+        numbers(behind).first().copied()
+    };
+    let creep = |speed: f64| format!("--effect friction-creep:speed_m_per_s={speed}");
+    assert_eq!(number("sdf", "", "<slip1>"), None);
+    let [slow, fast] =
+        [0.02, 0.04].map(|speed| number("sdf", &creep(speed), "<slip1>").expect("slip"));
+    assert!((fast / slow - 2.0).abs() < 1e-6, "{slow} {fast}");
+    let ratio = |effect: &str| number("mjcf", effect, "impratio=\"").expect("a ratio");
+    assert_eq!(ratio(""), 10_000.0);
+    // less softness than the contacts have anyway cannot be told
+    assert_eq!(ratio(&creep(1e-4)), 10_000.0);
+    let [slow, fast] = [0.02, 0.04].map(|speed| ratio(&creep(speed)));
+    assert!((slow / fast - 2.0).abs() < 1e-6 && slow < 1500.0, "{slow} {fast}");
+}
+
 /// No effect is silently lost, in any format.
 #[test]
 fn every_effect_is_said_or_listed_as_lacking() {

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use trackdyn_core::document::Document;
-use trackdyn_diagnose::diagnosis::{Kind, STAGES};
+use trackdyn_diagnose::diagnosis::{Kind, Missing, STAGES};
 use trackdyn_diagnose::verdict::Refusal;
 use trackdyn_diagnose::{
     Diagnosis, DiagnosisFile, Error, Evidence, Options, Progress, Resampling, Settings, Stage,
@@ -91,6 +91,36 @@ fn is_named(concealed: &str) {
     );
     let errors = &found.evidence.errors;
     assert!(errors.after < errors.before, "{} to {}", errors.before, errors.after);
+}
+
+/// Instruments that few robots have wrong are looked for, and named with their sizes.
+#[test]
+fn a_side_that_follows_late_or_turns_less_backward_is_named() {
+    for (concealed, size) in
+        [("backward-gain:left=0.96,right=1", 0.96), ("split-lag:left_s=0.1", 0.1)]
+    {
+        let found = diagnosis(&[concealed]);
+        let id = concealed.split(':').next().expect("an id");
+        let missing = found.answer.missing.iter();
+        let of = |missing: &&Missing| missing.verdict.effect.card().id == id;
+        let one = missing.clone().find(of).unwrap_or_else(|| panic!("{:?}", named(&found)));
+        assert_eq!((one.kind, one.verdict.one_of.len()), (Kind::Instrument, 1), "{concealed}");
+        let [low, high] = [one.parameters[0].low, one.parameters[0].high];
+        assert!((low..=high).contains(&size), "{concealed}: {low} to {high}");
+        assert!(physics(&found).is_empty(), "{concealed}: {:?}", named(&found));
+    }
+}
+
+/// Runs on grass among runs on asphalt, or rain that begins.
+#[test]
+fn another_ground_between_two_times_is_named_with_its_times() {
+    let found = diagnosis(&["ground-change:across_factor=1.3,from_s=4,until_s=10"]);
+    assert_eq!(physics(&found), [BTreeSet::from(["ground-change"])], "{:?}", named(&found));
+    let parameters = &found.answer.missing[0].parameters;
+    for (interval, truth) in parameters.iter().zip([1.3, 4.0, 10.0]) {
+        let off = (interval.value / truth).ln().abs();
+        assert!(off < 0.06, "{interval:?} for {truth}");
+    }
 }
 
 #[test]

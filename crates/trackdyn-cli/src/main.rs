@@ -8,9 +8,11 @@ mod arguments;
 mod changes;
 mod commands;
 mod exit;
+mod folder;
 mod gyroscope;
 mod interrupt;
 mod options;
+mod plain;
 mod progress;
 mod provenance;
 mod shell;
@@ -21,6 +23,8 @@ mod wrapped;
 
 use arguments::Arguments;
 use exit::Exit;
+use plain::plain;
+use std::io::{Write, stderr, stdout};
 use std::process::ExitCode;
 use stderr::fail;
 
@@ -29,8 +33,13 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(message) => {
             let exit = if message.use_stderr() { Exit::BadInput } else { Exit::Done };
+            let text = message.render().to_string();
             // Nothing is left to do where even the message cannot be printed.
-            let _ = message.print();
+            let _ = match plain(&text) {
+                plain if plain == text => message.print(),
+                plain if message.use_stderr() => write!(stderr(), "{plain}"),
+                plain => write!(stdout(), "{plain}"),
+            };
             return exit.into();
         }
     };

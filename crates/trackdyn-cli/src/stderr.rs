@@ -1,5 +1,6 @@
 //! Talk goes to stderr.
 
+use crate::plain::plain;
 use crate::wrapped::{WIDTH, wrapped};
 use std::collections::BTreeSet;
 use std::fmt::Arguments;
@@ -14,7 +15,7 @@ static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
 /// Where it cannot be written, as on a full disk or where nobody reads any more, it is dropped:
 /// results, files and the exit status are the same.
 pub fn say(line: Arguments) {
-    let _ = writeln!(stderr().lock(), "{line}");
+    let _ = writeln!(stderr().lock(), "{}", plain(&line.to_string()));
 }
 
 /// Says what a user should know, once, however often it comes up, in lines that a terminal shows
@@ -31,7 +32,7 @@ pub fn warn(text: Arguments) {
 /// Says why the program ends without a result, in lines that a terminal shows whole.
 pub fn fail(reason: &str) {
     let mut text = String::new();
-    for line in format!("error: {reason}").lines() {
+    for line in plain(&format!("error: {reason}")).lines() {
         if line.chars().count() <= WIDTH {
             // such as a line of a file with a mark below it
             text += line;
@@ -45,7 +46,7 @@ pub fn fail(reason: &str) {
 }
 
 fn once(label: &str, text: Arguments) {
-    let text = wrapped(label, &text.to_string());
+    let text = wrapped(label, &plain(&text.to_string()));
     let mut said = SAID.lock().unwrap_or_else(PoisonError::into_inner);
     if said.insert(text.clone()) {
         let _ = stderr().lock().write_all(text.as_bytes());

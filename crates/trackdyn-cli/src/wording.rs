@@ -13,6 +13,7 @@ pub fn message(error: &(dyn StdError + 'static)) -> String {
 fn of_library(error: &Error) -> String {
     match error {
         Error::Driving(drive::Error::Option { name, value, expected }) => {
+            let name = if *name == "runs" { "run_count" } else { name };
             format!("{} {value}: expected {expected}", option(name))
         }
         Error::GeneratedOnly { setting: "runs", .. } => {

@@ -1,10 +1,15 @@
 //! TOML files that users write, and errors that point into them.
 
+use crate::input;
+use crate::lines::shortened;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
+
+/// Most characters of a key, a value, a line of a file or a message about them in an error.
+const MAX_SHOWN: usize = 1000;
 
 /// A TOML text and the name under which errors mention it.
 #[derive(Clone, Debug)]
@@ -63,7 +68,7 @@ impl Document {
     /// # Errors
     /// [`DocumentError::Unreadable`].
     pub fn read(path: &Path) -> Result<Self, DocumentError> {
-        let text = std::fs::read_to_string(path).map_err(|cause| DocumentError::Unreadable {
+        let text = input::text(path).map_err(|cause| DocumentError::Unreadable {
             path: path.display().to_string(),
             cause,
         })?;
@@ -97,7 +102,7 @@ impl Document {
                 name: self.name.clone(),
                 line,
                 column,
-                message: error.message().to_owned(),
+                message: shortened(error.message(), MAX_SHOWN),
                 excerpt: self.excerpt(line),
             }
         })
@@ -140,8 +145,8 @@ impl Document {
         DocumentError::Value {
             name: self.name.clone(),
             line,
-            key: key.into(),
-            value: self.text.get(span).unwrap_or_default().to_owned(),
+            key: shortened(&key.into(), MAX_SHOWN),
+            value: shortened(self.text.get(span).unwrap_or_default(), MAX_SHOWN),
             expected: expected.into(),
             excerpt: self.excerpt(line),
         }
@@ -156,7 +161,7 @@ impl Document {
     }
 
     fn excerpt(&self, line: usize) -> String {
-        let text = self.text.lines().nth(line - 1).unwrap_or_default();
+        let text = shortened(self.text.lines().nth(line - 1).unwrap_or_default(), MAX_SHOWN);
         format!("  |\n{line} | {text}\n  |")
     }
 }

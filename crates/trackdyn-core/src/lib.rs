@@ -6,6 +6,7 @@
 pub mod document;
 pub mod dual;
 pub mod frames;
+pub mod input;
 pub mod lines;
 pub mod output;
 pub mod plant;

@@ -1,5 +1,13 @@
 //! Text in lines.
 
+/// A text of at most so many characters; where it has more, its beginning and how many it has.
+pub fn shortened(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        None => text.to_owned(),
+        Some((end, _)) => format!("{}… ({} characters)", &text[..end], text.chars().count()),
+    }
+}
+
 /// A text behind a label in lines of at most `width` characters, its further lines below its first.
 /// A text that fits stays as it is. Words that are longer than a line stay whole, for they are
 /// paths to be copied.
@@ -26,4 +34,15 @@ pub fn wrapped(label: &str, text: &str, width: usize) -> String {
         }
     }
     lines.join("\n").trim_end().to_owned() + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_text_is_shortened_and_counted() {
+        assert_eq!(shortened("übel", 4), "übel");
+        assert_eq!(shortened("übler", 4), "üble… (5 characters)");
+    }
 }

@@ -9,6 +9,9 @@ use std::sync::{PoisonError, RwLock, RwLockWriteGuard};
 /// Read-locked by each writer of a file, and write-locked by who is about to end the program.
 static WRITING: RwLock<()> = RwLock::new(());
 
+/// What names of temporary files begin with.
+pub const TEMPORARY: &str = ".trackdyn-";
+
 /// A file that could not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: cannot be written: {cause}", path.display())]
@@ -72,7 +75,7 @@ fn replace(
     };
     let _writing = WRITING.read().unwrap_or_else(PoisonError::into_inner);
     let put = || -> io::Result<()> {
-        let mut temporary = builder.prefix(".trackdyn-").tempfile_in(folder)?;
+        let mut temporary = builder.prefix(TEMPORARY).tempfile_in(folder)?;
         fill(temporary.as_file_mut())?;
         temporary.persist(path).map_err(|failure| failure.error)?;
         Ok(())

@@ -127,7 +127,7 @@ fn free_instruments(
     let mut unknowns = OFFSETS.to_vec();
     let mut chosen = Vec::new();
     for effect in EffectId::all() {
-        if !is_instrument(&hypothesis.vehicle, &typical(effect)) {
+        if effect.card().is_rare() || !is_instrument(&hypothesis.vehicle, &typical(effect)) {
             continue;
         }
         watch.go_on()?;

@@ -184,6 +184,14 @@ fn choices(parameter: &Parameter, of: &Card, evidence: &Evidence) -> Vec<f64> {
             angles.map(inside).collect()
         }
         Role::Shape => shapes(parameter, settings.shape_ratio),
+        Role::Time => {
+            let [middle, half] = area(evidence, parameter.role);
+            // A single change before or after the recording changes nothing in it.
+            let times = of.parameters.iter().filter(|one| one.role == Role::Time).count();
+            let is_tried = |time: &f64| times > 1 || time.abs() < 1.0;
+            let tried = settings.times.into_iter().filter(is_tried);
+            tried.map(|time| inside(middle + time * half)).collect()
+        }
         Role::Place { .. } if of.has_extent() => vec![parameter.typical],
         Role::Place { .. } => {
             let [middle, _] = area(evidence, parameter.role);
@@ -214,6 +222,10 @@ fn spacing(parameter: &Parameter, extent: Option<f64>, evidence: &Evidence) -> f
         Role::Size { .. } => 0.0,
         Role::Direction => evidence.settings().candidates.direction_step,
         Role::Shape => evidence.settings().candidates.shape_ratio.ln(),
+        Role::Time => {
+            let [earlier, later, ..] = evidence.settings().candidates.times;
+            (later - earlier) * area(evidence, parameter.role)[1]
+        }
         Role::Place { .. } => extent.unwrap_or_else(|| area(evidence, parameter.role)[1]),
     }
 }

@@ -92,8 +92,8 @@ impl From<Cancelled> for Error {
 impl Error {
     /// Error for segments with these durations, s.
     pub(crate) fn too_few_segments(durations: impl Iterator<Item = f64>, needed: usize) -> Self {
-        // Segment duration for readings and poses at 10 Hz.
-        const USUAL_DURATION: f64 = 0.3;
+        // Segment duration for poses at 10 Hz.
+        const USUAL_DURATION: f64 = 0.1;
         let durations: Vec<f64> = durations.collect();
         let found = durations.len();
         let mean = durations.iter().sum::<f64>() / real(found);

@@ -56,6 +56,7 @@ fn step(hypothesis: &Hypothesis, unknown: Unknown, settings: &settings::Fit) -> 
                     (settings.size_difference * distance).clamp(low * typical, high * typical)
                 }
                 Role::Place { .. } => settings.place_difference,
+                Role::Time => settings.time_difference,
                 Role::Direction => settings.direction_difference,
                 Role::Shape => {
                     let part = settings.shape_difference;

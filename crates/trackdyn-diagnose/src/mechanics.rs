@@ -362,7 +362,7 @@ fn unbalanced(surface: &Surface, most: f64) -> Option<String> {
 /// Stationary motion at each reading of each run.
 fn steady(surface: &Surface, drive: &Drive, tracks: &[Vec<TrackSample>]) -> Vec<Vec<Steady>> {
     let belts = lagging(tracks, drive.time_constant);
-    let motion = |reading: &TrackSample| surface.motion(drive.driven(reading.speeds()));
+    let motion = |reading: &TrackSample| surface.motion(drive.driven(reading.speeds(), reading.t));
     belts.par_iter().map(|run| run.iter().map(motion).collect()).collect()
 }
 

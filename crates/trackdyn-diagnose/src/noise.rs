@@ -63,7 +63,8 @@ fn remaining(
         watch.go_on()?;
         let left = flexible.left(&evidence);
         let taken = flexible.taken(&evidence, &noise, &left.columns);
-        noise = search.most_likely(&evidence.motions(), &left.residual, noise, &taken);
+        let likely = search.most_likely(&evidence.motions(), &left.residual, noise, &taken);
+        noise = likely.at_least(settings.min_deviations);
         evidence = evidence.with_noise(noise);
         evidence = evidence.without(&outliers(&evidence, &noise, &left.residual));
     }

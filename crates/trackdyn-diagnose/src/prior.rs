@@ -1,6 +1,6 @@
 //! Priors of all unknowns.
 
-use crate::evidence::Evidence;
+use crate::evidence::{Evidence, Sample};
 use crate::hypothesis::{Hypothesis, Unknown, active, neutral, typical_size};
 use crate::normal::Prior;
 use crate::settings;
@@ -37,6 +37,10 @@ pub fn prior(hypothesis: &Hypothesis, unknown: Unknown, evidence: &Evidence) -> 
                         settings.place_deviation
                     };
                     Prior::normal(middle, far * spread.max(settings.min_area))
+                }
+                Role::Time => {
+                    let [middle, spread] = area(evidence, parameter.role);
+                    Prior::normal(middle, settings.time_deviation * spread)
                 }
                 // uniform, wherever it stands
                 Role::Direction => return Prior::even(hypothesis.get(unknown), 360.0),
@@ -100,13 +104,20 @@ pub fn measured(vehicle: &Vehicle, unknown: Unknown) -> Option<f64> {
     None
 }
 
-/// Middle and half range of the recorded positions along an axis of the world, m.
+/// Middle and half range of the recorded positions along an axis of the world, m, or of the times,
+/// s.
 pub fn area(evidence: &Evidence, role: Role) -> [f64; 2] {
-    let Role::Place { axis } = role else { return [0.0, 1.0] };
-    let coordinates = evidence.samples().iter().map(|sample| [sample.pose.x, sample.pose.y][axis]);
-    let (low, high) = coordinates
-        .fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
-    [f64::midpoint(low, high), (high - low) / 2.0]
+    let over = |coordinate: &dyn Fn(&Sample) -> f64| {
+        let coordinates = evidence.samples().iter().map(coordinate);
+        let (low, high) = coordinates
+            .fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
+        [f64::midpoint(low, high), (high - low) / 2.0]
+    };
+    match role {
+        Role::Place { axis } => over(&|sample| [sample.pose.x, sample.pose.y][axis]),
+        Role::Time => over(&|sample| sample.start),
+        Role::Size { .. } | Role::Direction | Role::Shape => [0.0, 1.0],
+    }
 }
 
 /// Priors of steps from the present values of a hypothesis.

@@ -179,7 +179,7 @@ pub fn unless_unsure(verdict: Verdict, intervals: &[Interval], evidence: &Eviden
     let unsure = || is_unsure.then_some(Refusal::MayBeNone);
     let is_anywhere = |interval: &Interval| {
         let role = interval.unknown.parameter().map(|parameter| parameter.role);
-        let place = role.filter(|role| matches!(role, Role::Place { .. }));
+        let place = role.filter(|role| matches!(role, Role::Place { .. } | Role::Time));
         place.is_some_and(|role| (interval.high - interval.low) / 2.0 > area(evidence, role)[1])
     };
     let mut own = intervals.iter().filter(|interval| interval.unknown.is_of(verdict.effect));

@@ -8,6 +8,7 @@ mod ramp;
 mod square;
 
 pub use file::{read, text, write};
+use options::MAX_COMMANDS;
 pub use options::ScheduleOptions;
 
 use crate::Error;
@@ -121,7 +122,21 @@ impl ScheduleKind {
             };
             ScheduledRun { id, schedule }
         };
-        Ok((first..first.saturating_add(runs)).map(run).collect())
+        let mut generated = Vec::new();
+        let mut commands = 0;
+        for id in first..first.saturating_add(runs) {
+            let run = run(id);
+            commands += run.schedule.commands().len();
+            if commands > MAX_COMMANDS {
+                let expected = format!(
+                    "runs of {MAX_COMMANDS} commands together, which memory holds; run {id} goes \
+                     beyond"
+                );
+                return Err(Error::option("runs", &runs, expected));
+            }
+            generated.push(run);
+        }
+        Ok(generated)
     }
 }
 

@@ -25,9 +25,12 @@ pub fn residual_noise(observations: &Observations, gauge: f64) -> Option<Segment
         let segments = observations.segments().iter().zip(&predictions);
         let residual = segments.map(|(segment, by)| segment.motion[channel] - by.motion[channel]);
         let deviation = deviation_about_zero(&mut residual.collect::<Vec<_>>()).unwrap_or(0.0);
-        (deviation * deviation / 2.0).max(MIN_POSE_NOISE * MIN_POSE_NOISE)
+        deviation * deviation / 2.0
     });
-    Some(SegmentNoise { pose, walk: [0.0; 3], heading: 0.0, stamp: 0.0 })
+    Some(
+        SegmentNoise { pose, walk: [0.0; 3], heading: 0.0, stamp: 0.0 }
+            .at_least([MIN_POSE_NOISE, 0.0]),
+    )
 }
 
 #[cfg(test)]

@@ -52,9 +52,17 @@ pub const MIN_POSE_NOISE: f64 = 1e-4;
 impl SegmentNoise {
     /// From the noise that the maker of the recording states for its poses.
     pub fn stated(stated: StatedNoise) -> Self {
-        let position = stated.position.max(MIN_POSE_NOISE).powi(2);
-        let pose = [position, position, stated.yaw.max(MIN_POSE_NOISE).powi(2)];
-        Self { pose, walk: [0.0; 3], heading: 0.0, stamp: 0.0 }
+        let pose =
+            [stated.position, stated.position, stated.yaw].map(|deviation| deviation.powi(2));
+        Self { pose, walk: [0.0; 3], heading: 0.0, stamp: 0.0 }.at_least([MIN_POSE_NOISE, 0.0])
+    }
+
+    /// The noise with at least these standard deviations of a pose (m and rad) and of the walk in a
+    /// second.
+    pub fn at_least(self, [of_pose, of_walk]: [f64; 2]) -> Self {
+        let pose = self.pose.map(|variance| variance.max(of_pose * of_pose));
+        let walk = self.walk.map(|variance| variance.max(of_walk * of_walk));
+        Self { pose, walk, ..self }
     }
 
     /// From the noise that was measured without a model: that of the poses while moving, or at
@@ -72,8 +80,11 @@ impl SegmentNoise {
         let encoders = [both / 4.0, 0.0, both / gap.powi(2)];
         let mut walk = components.map(|component| component.walk.powi(2));
         walk.iter_mut().zip(encoders).for_each(|(walk, encoder)| *walk += encoder);
-        let pose = components.map(|component| component.white.max(MIN_POSE_NOISE).powi(2));
-        Some(Self { pose, walk, heading: 0.0, stamp: poses.stamp.powi(2) })
+        let pose = components.map(|component| component.white.powi(2));
+        Some(
+            Self { pose, walk, heading: 0.0, stamp: poses.stamp.powi(2) }
+                .at_least([MIN_POSE_NOISE, 0.0]),
+        )
     }
 }
 

@@ -125,6 +125,7 @@ fn express(aspect: Aspect) -> Expression {
         Aspect::Friction => By("Coefficient of Friction of each side, along the track"),
         Aspect::Gravity => By("Gravity, for ChSystem::SetGravitationalAcceleration"),
         Aspect::BeltGain => Lacks("multiply the sprocket speeds"),
+        Aspect::BeltGainVaries => Lacks("change the sprocket speeds by direction and time"),
         Aspect::BeltLag => Lacks("filter the sprocket speeds"),
         Aspect::BeltSlip => Lacks("lower the sprocket speeds by the traction"),
         Aspect::Mount => Lacks("put the sensor there"),

@@ -38,7 +38,8 @@ const IMPEDANCE: f64 = 0.3;
 /// Damping of a contact, 1/s.
 const DAMPING: f64 = 100.0;
 
-/// Ratio of the impedances of friction and normal force: it keeps the creep of friction small.
+/// Largest ratio of the impedances of friction and normal force: it keeps the creep of dry friction
+/// small.
 const IMPEDANCE_RATIO: f64 = 10_000.0;
 
 /// Product of the time step and the natural frequency of a contact.
@@ -132,7 +133,7 @@ pub fn model(robot: &Robot, provenance: &Provenance) -> TextFile {
 ",
         name = robot.name,
         timestep = digits(timestep),
-        ratio = digits(IMPEDANCE_RATIO),
+        ratio = digits(impedance_ratio(robot)),
         gravity = row(&robot.gravity),
         cog = row(&[x, y, z]),
         chassis = digits(chassis),
@@ -210,10 +211,9 @@ fn actuator(robot: &Robot, roller: &Roller, suspension: &Suspension, count: usiz
     // F = k_v (α V − V_belt)
     let gain = across.max(along) * robot.mass * STANDARD_GRAVITY / real(count) / DROOP;
     let drive = robot.model.drive();
-    let lag = if drive.time_constant > 0.0 {
-        format!(" dyntype=\"filterexact\" dynprm=\"{}\"", digits(drive.time_constant))
-    } else {
-        String::new()
+    let lag = match drive.time_constant[roller.side] {
+        lag if lag > 0.0 => format!(" dyntype=\"filterexact\" dynprm=\"{}\"", digits(lag)),
+        _ => String::new(),
     };
     format!(
         "    <general name=\"{name}\" joint=\"{name}_drive\" gear=\"{radius}\"{lag} \
@@ -238,7 +238,7 @@ fn notes(robot: &Robot, rollers: &[Roller], factor: f64, is_unmatched: bool) -> 
     }
     text += "\nWhat MuJoCo cannot say:\n";
     let Friction { across, along } = robot.friction.left;
-    let [pushed_off, creep] = slip_limits(robot);
+    let [pushed_off, creep] = slip_limits(robot, impedance_ratio(robot));
     let mut limits = vec![
         "A contact has no belt speed: a track is a row of rollers. Pairs with other geoms than \
          the ground need a line each in <contact>."
@@ -276,18 +276,27 @@ fn notes(robot: &Robot, rollers: &[Roller], factor: f64, is_unmatched: bool) -> 
     text + &notes::effects(robot, express)
 }
 
-/// Slip at which a contact pushes itself off with its own load, and that at which friction is full,
-/// m/s.
+/// Ratio of the impedances of friction and normal force by which friction is full at the slip speed
+/// at which that of the vehicle would be if it rose on as from rest; none larger than for dry
+/// friction.
+fn impedance_ratio(robot: &Robot) -> f64 {
+    let [_, of_dry_friction] = slip_limits(robot, IMPEDANCE_RATIO);
+    let creep = robot.body.creep_speed.max(of_dry_friction);
+    (IMPEDANCE_RATIO * of_dry_friction / creep).max(1.0)
+}
+
+/// Slip at which a contact pushes itself off with its own load, and that at which friction is full
+/// by a ratio of impedances, m/s.
 ///
 /// # Law
 /// μ b v = N/m_c (1 − d)/d, with half a roller's load N and the mass m_c that its contact sees;
 /// b v times the ratio of impedances is μ times that.
-fn slip_limits(robot: &Robot) -> [f64; 2] {
+fn slip_limits(robot: &Robot, impedance_ratio: f64) -> [f64; 2] {
     let Friction { across, along } = robot.friction.left;
     let friction = across.max(along);
     let push =
         STANDARD_GRAVITY / (2.0 * ROLLER_SHARE) * CONTACT_INERTIA * (1.0 - IMPEDANCE) / IMPEDANCE;
-    [push / (DAMPING * friction), push * friction / (DAMPING * IMPEDANCE_RATIO)]
+    [push / (DAMPING * friction), push * friction / (DAMPING * impedance_ratio)]
 }
 
 /// Which aspects MuJoCo has.
@@ -298,6 +307,7 @@ fn express(aspect: Aspect) -> Expression {
         Aspect::Friction => By("friction of the pairs of each side"),
         Aspect::Gravity => By("gravity, which is inclined to the plane of the ground"),
         Aspect::BeltGain => By("gain of the actuators"),
+        Aspect::BeltGainVaries => Lacks("change the controls by direction and time"),
         Aspect::BeltLag => By("filter of the actuators"),
         Aspect::BeltSlip => Lacks("lower ctrl by the traction, from actuator_force, at each step"),
         Aspect::Mount => By("site pose_sensor"),
@@ -309,7 +319,7 @@ fn express(aspect: Aspect) -> Expression {
         Aspect::Inertia => By("a rigid body has it; friction is divided by the strength"),
         Aspect::FrictionAlong => By("friction of the pairs, roller by roller"),
         Aspect::Pressure => By("springref of the rollers"),
-        Aspect::Creep => Lacks("friction creeps by the solver's law alone"),
+        Aspect::Creep => By("impratio, as far as the creep above"),
         Aspect::Constant => By("friction across, in the chi that it is chosen for"),
         Aspect::ShearLaw => Lacks("set pair_friction of the model from the slip, at each step"),
         Aspect::Force => Lacks("set xfrc_applied of base_link, at each step"),

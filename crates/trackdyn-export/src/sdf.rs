@@ -205,6 +205,7 @@ fn express(aspect: Aspect) -> Expression {
         Aspect::Friction => By("mu along and mu2 across, of each track"),
         Aspect::Gravity => Lacks("write the world's gravity, as above"),
         Aspect::BeltGain => Lacks("multiply the commands of the tracks"),
+        Aspect::BeltGainVaries => Lacks("change the commands of the tracks by direction and time"),
         Aspect::BeltLag => Lacks("filter the commands of the tracks"),
         Aspect::BeltSlip => Lacks("a system of your own has to lower the tracks' speeds"),
         Aspect::Mount => Lacks("put the sensor there"),

@@ -293,6 +293,7 @@ fn express(aspect: Aspect) -> Expression {
         Aspect::Friction => By("friction of the material of each side, along the track"),
         Aspect::Gravity => By("direction of gravity of the scene"),
         Aspect::BeltGain => Lacks("multiply the target velocities"),
+        Aspect::BeltGainVaries => Lacks("change the target velocities by direction and time"),
         Aspect::BeltLag => Lacks("filter the target velocities"),
         Aspect::BeltSlip => Lacks("lower the target velocities by the traction"),
         Aspect::Mount => Lacks("put the sensor there"),

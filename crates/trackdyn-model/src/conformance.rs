@@ -180,12 +180,14 @@ fn behaviour(effects: Effects) -> Vec<f64> {
     let model = Model::new(vehicle, effects);
     let wrench = total(&model, &model.ground(&ELSEWHERE), &changing_turn());
     let [force_x, force_y, moment] = wrench.map(|component| component / weight);
-    let &Drive { gain, slip_per_traction, time_constant } = model.drive();
+    let drive = model.drive();
+    let backward = drive.driven(PerSide::new(-1.0, -1.0), ELSEWHERE.time);
     let &Sensor { lever: [x, y], yaw, yaw_rate_bias, delay } = model.sensor();
     [
         [force_x, force_y, moment],
-        [gain.left, gain.right, slip_per_traction],
-        [time_constant, x, y],
+        [drive.gain.left, drive.gain.right, drive.slip_per_traction],
+        [backward.left, backward.right, drive.time_constant.left],
+        [drive.time_constant.right, x, y],
         [yaw, yaw_rate_bias, delay],
     ]
     .concat()
@@ -205,7 +207,7 @@ fn neutral(parameter: &Parameter) -> Option<f64> {
     let [low, high] = parameter.range;
     match parameter.role {
         Role::Size { neutral } => Some(neutral.clamp(low, high)),
-        Role::Place { .. } | Role::Direction | Role::Shape => None,
+        Role::Place { .. } | Role::Direction | Role::Time | Role::Shape => None,
     }
 }
 

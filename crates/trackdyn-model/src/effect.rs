@@ -27,6 +27,10 @@ pub trait Effect: Copy + Sized {
     /// Whether it is a term of Newton's second law; all of these together are the complete law.
     const IS_INERTIA: bool = false;
 
+    /// Whether it is an error of instruments that few robots have: it is looked for where others
+    /// are free from the start.
+    const IS_RARE: bool = false;
+
     /// Terms of a form; empty for a mechanism.
     fn terms() -> Vec<Term> {
         Vec::new()
@@ -147,6 +151,8 @@ pub enum Role {
     },
     /// A direction in the world, counter-clockwise from its x axis.
     Direction,
+    /// A time since the start of the recording, s.
+    Time,
     /// Another constant of the law, without influence where the sizes are neutral.
     Shape,
 }
@@ -158,6 +164,7 @@ impl Role {
             Self::Size { .. } => "size",
             Self::Place { .. } => "place",
             Self::Direction => "direction",
+            Self::Time => "time",
             Self::Shape => "shape",
         }
     }

@@ -47,5 +47,9 @@ catalogue! {
     tether::Tether,
     terrain_patch::TerrainPatch,
     friction_drift::FrictionDrift,
+    backward_gain::BackwardGain,
+    late_gain::LateGain,
+    split_lag::SplitLag,
+    ground_change::GroundChange,
     force_law::ForceLaw,
 }

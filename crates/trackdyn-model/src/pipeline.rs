@@ -6,6 +6,7 @@
 //!   -> motion of the body -> sense -> reported motion
 //! ```
 
+mod change;
 mod drive;
 mod ground;
 mod motion;
@@ -13,6 +14,7 @@ mod rigid_body;
 mod sensor;
 mod situation;
 
+pub use change::done_at;
 pub use drive::Drive;
 pub use ground::{Circumstance, Ground};
 pub use motion::Motion;

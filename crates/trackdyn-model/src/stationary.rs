@@ -113,7 +113,7 @@ impl<'m> Stationary<'m> {
     /// Where belts slip on their sprockets, speeds and traction are iterated in turn: Coulomb
     /// friction depends on ratios of speeds only, so traction hardly changes.
     pub fn solve(&self, track_speed: PerSide<f64>) -> Solution {
-        let driven = self.model.drive().driven(track_speed);
+        let driven = self.model.drive().driven(track_speed, self.ground.circumstance.time);
         let mut solution = self.solve_belts(driven);
         if self.model.drive().slip_per_traction != 0.0 {
             solution = self.slipping(driven, solution);

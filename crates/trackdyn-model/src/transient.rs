@@ -191,7 +191,7 @@ impl<'m> Transient<'m> {
         let Solution { status, twist, belt_speed, .. } =
             Stationary::new(self.model, &circumstance).solve(shown);
         if !matches!(status, Status::NotConverged | Status::Tips) {
-            let driven = self.model.drive().driven(shown);
+            let driven = self.model.drive().driven(shown, t);
             self.state = State { twist, driven, belt_speed, ..self.state };
         }
         self
@@ -259,11 +259,11 @@ impl<'m> Transient<'m> {
         guess: Twist,
     ) -> Option<State> {
         let drive = self.model.drive();
-        let target = drive.driven(shown);
-        let lag = drive.time_constant;
-        // T dV/dt = V_e − V at constant V_e
-        let remaining = if lag > 0.0 { (-after / lag).exp() } else { 0.0 };
+        let target = drive.driven(shown, self.state.t + after);
         let driven = PerSide::from_fn(|side| {
+            let lag = drive.time_constant[side];
+            // T dV/dt = V_e − V at constant V_e
+            let remaining = if lag > 0.0 { (-after / lag).exp() } else { 0.0 };
             target[side] + remaining * (self.state.driven[side] - target[side])
         });
         let step = Pose::exp(&ros_twist_from_paper(&guess), after);

@@ -93,7 +93,7 @@ impl VehicleFile {
         };
         let tables = Tables {
             schema: unplaced(SCHEMA.to_owned()),
-            name: vehicle.name.clone(),
+            name: unplaced(vehicle.name.clone()),
             mass_kg: unplaced(vehicle.mass),
             mass_kg_sd: uncertainty.mass.map(unplaced),
             gauge_m: unplaced(vehicle.gauge),
@@ -131,7 +131,7 @@ impl VehicleFile {
 #[serde(deny_unknown_fields)]
 struct Tables {
     schema: Spanned<String>,
-    name: String,
+    name: Spanned<String>,
     mass_kg: Spanned<f64>,
     mass_kg_sd: Option<Spanned<f64>>,
     gauge_m: Spanned<f64>,
@@ -205,7 +205,7 @@ impl Tables {
         };
         let cog_sd = self.cog_m_sd.as_ref().map(|list| document.numbers("cog_m_sd", list));
         Ok(Vehicle {
-            name: self.name.clone(),
+            name: self.name.get_ref().clone(),
             mass: *self.mass_kg.get_ref(),
             gauge: *self.gauge_m.get_ref(),
             cog: document.numbers("cog_m", &self.cog_m)?,
@@ -259,6 +259,7 @@ impl Tables {
     fn span_of(&self, key: &str) -> Range<usize> {
         let (table, name) = key.split_once('.').unwrap_or(("", key));
         let span = match (table, name) {
+            ("", "name") => Some(self.name.span()),
             ("", "mass_kg") => Some(self.mass_kg.span()),
             ("", "mass_kg_sd") => self.mass_kg_sd.as_ref().map(Spanned::span),
             ("", "gauge_m") => Some(self.gauge_m.span()),

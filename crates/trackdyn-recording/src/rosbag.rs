@@ -48,6 +48,7 @@ mod storage;
 mod stream;
 mod topic;
 mod twist;
+mod unpacked;
 mod visitor;
 mod words;
 

@@ -3,9 +3,13 @@
 use crate::Error;
 use csv::{ByteRecord, ErrorKind, Reader, ReaderBuilder};
 use std::cell::Cell;
-use std::fs::File;
+use std::collections::HashSet;
 use std::io::{Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use trackdyn_core::input;
+use trackdyn_core::lines::shortened;
 
 mod number;
 mod opening;
@@ -14,10 +18,23 @@ pub(crate) use number::number;
 use number::{shows_decimal_comma, with_commas};
 use opening::Text;
 
+/// Most rows of a table, and messages of a bag, that are kept: a day at 100 Hz. A reading takes 24
+/// to 48 bytes, and there are two copies of all of them for a moment.
+pub(crate) const MAX_ROWS: u64 = 10_000_000;
+
+/// Longest row, bytes: ten thousand columns take a tenth of it.
+pub(crate) const MAX_ROW_SIZE: u64 = 1 << 20;
+
+/// Most characters of a header or a cell in an error.
+const MAX_SHOWN: usize = 1000;
+
 /// A table that is being read, one row at a time.
 pub struct Table {
     path: PathBuf,
-    reader: Reader<Box<dyn Read + Send>>,
+    reader: Reader<Bounded>,
+    /// Bytes read since the row began.
+    since_row: Arc<AtomicU64>,
+    rows: u64,
     header: Vec<String>,
     row: ByteRecord,
     /// Whether numbers are written with a decimal comma: beside semicolons, and where a cell before
@@ -57,25 +74,27 @@ impl Table {
     fn open_with(path: &Path, required: &[&str], is_any: bool) -> Result<Self, Error> {
         let Text { reader, delimiter, lines, bytes } = opening::open(path, required)?;
         let above = Above { lines, bytes };
+        let since_row = Arc::new(AtomicU64::new(0));
+        let reader = Bounded { content: reader, since_row: since_row.clone() };
         let mut builder = ReaderBuilder::new();
         let mut reader = builder.buffer_capacity(1 << 18).delimiter(delimiter).from_reader(reader);
-        let header = reader.byte_headers().map_err(|error| csv_error(path, above, error))?;
+        let header = reader.byte_headers().map_err(|error| csv_error(path, above, 1, error))?;
         let line = header.position().map_or(1, csv::Position::line) + lines;
         let header: Vec<String> =
             header.iter().map(|name| opening::text(name.trim_ascii())).collect();
         let counts = |name: &String| !is_any || required.contains(&name.as_str());
-        let mut twice = header.iter().enumerate().filter(|(_, name)| counts(name));
-        let twice = twice.any(|(at, name)| header[..at].contains(name));
+        let mut names = HashSet::new();
+        let twice = header.iter().filter(|name| counts(name)).any(|name| !names.insert(name));
         let lacks = required.iter().any(|name| !header.iter().any(|column| column == name));
         if twice || lacks {
             let expected = format!("{}, each name once", required.join(","));
-            let found = header.join(",");
+            let found = shortened(&header.join(","), MAX_SHOWN);
             let found = if found.is_empty() { "(none)".to_owned() } else { found };
             return Err(Error::Header { path: path.to_owned(), line, found, expected });
         }
         let (path, row, has_commas) =
             (path.to_owned(), ByteRecord::new(), Cell::new(delimiter == b';'));
-        Ok(Self { path, reader, header, row, has_commas, above })
+        Ok(Self { path, reader, since_row, rows: 0, header, row, has_commas, above })
     }
 
     /// Names of the columns.
@@ -93,8 +112,14 @@ impl Table {
     /// # Errors
     /// [`Error::Row`] where the number of cells is wrong, [`Error::Unreadable`].
     pub fn advance(&mut self) -> Result<bool, Error> {
+        self.since_row.store(0, Ordering::Relaxed);
+        self.rows += 1;
+        if self.rows > MAX_ROWS {
+            return Err(out_of_bounds(&self.path, self.above.lines + self.rows));
+        }
+        let begin = self.reader.position().line();
         let read = self.reader.read_byte_record(&mut self.row);
-        read.map_err(|error| csv_error(&self.path, self.above, error))
+        read.map_err(|error| csv_error(&self.path, self.above, begin, error))
     }
 
     /// The cell of the current row without the blanks around it.
@@ -149,11 +174,46 @@ impl Table {
             path: self.path.clone(),
             line: self.row.position().map_or(0, |position| line(&self.path, self.above, position)),
             column: column + 1,
-            name: self.header[column].clone(),
-            value: String::from_utf8_lossy(self.cell(column)).into(),
+            name: shortened(&self.header[column], MAX_SHOWN),
+            value: shortened(&String::from_utf8_lossy(self.cell(column)), MAX_SHOWN),
             expected,
         }
     }
+}
+
+/// A text whose rows end: more bytes than a row may have, read since a row began, are an error.
+struct Bounded {
+    content: Box<dyn Read + Send>,
+    since_row: Arc<AtomicU64>,
+}
+
+impl Read for Bounded {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let count = self.content.read(buffer)?;
+        // What is read ahead of the row that follows counts for none.
+        if self.since_row.fetch_add(count as u64, Ordering::Relaxed) > MAX_ROW_SIZE {
+            return Err(input::too_large(MAX_ROW_SIZE));
+        }
+        Ok(count)
+    }
+}
+
+/// The error of a table whose rows are too long or too many.
+pub(crate) fn out_of_bounds(path: &Path, line: u64) -> Error {
+    let message = if line > MAX_ROWS {
+        too_many("rows")
+    } else {
+        format!("line {line} has more than {} KiB: expected a row of numbers", MAX_ROW_SIZE >> 10)
+    };
+    Error::Empty { path: path.to_owned(), message }
+}
+
+/// What is said of more readings than memory holds.
+pub(crate) fn too_many(what: &str) -> String {
+    format!(
+        "more than {MAX_ROWS} {what}, which would take more than 1 GB of memory: expected a part \
+         of it, or readings at a lower rate"
+    )
 }
 
 /// The error of a file that the system does not let us read.
@@ -164,7 +224,7 @@ pub(crate) fn unreadable(path: &Path, cause: std::io::Error) -> Error {
 /// The line of a row. Of lines that end in CR LF a row seems to begin at the LF before it.
 fn line(path: &Path, above: Above, position: &csv::Position) -> u64 {
     let first = |bytes: u64| -> std::io::Result<u8> {
-        let mut file = File::open(path)?;
+        let mut file = input::open(path)?;
         file.seek(SeekFrom::Start(bytes + position.byte()))?;
         let mut byte = [0];
         file.read_exact(&mut byte)?;
@@ -174,9 +234,19 @@ fn line(path: &Path, above: Above, position: &csv::Position) -> u64 {
     above.lines + position.line() + u64::from(is_before)
 }
 
-fn csv_error(path: &Path, above: Above, error: csv::Error) -> Error {
+/// The error of a row that begins at a line below what stands above the header.
+fn csv_error(path: &Path, above: Above, begin: u64, error: csv::Error) -> Error {
     let path = path.to_owned();
     match error.into_kind() {
+        ErrorKind::Io(cause) if cause.kind() == std::io::ErrorKind::FileTooLarge => {
+            let message = format!(
+                "line {}: a row of more than {} KiB: expected cells between commas and an end of \
+                 the line",
+                above.lines + begin,
+                MAX_ROW_SIZE >> 10
+            );
+            Error::Empty { path, message }
+        }
         ErrorKind::Io(cause) => Error::Unreadable { path, cause },
         ErrorKind::UnequalLengths { pos, expected_len, len } => Error::Row {
             line: pos.map_or(0, |position| line(&path, above, &position)),

@@ -9,12 +9,11 @@ use crate::doubt::{Axes, Doubt, DoubtKind};
 use crate::recording::{Recording, Source, UncheckedRun, Warning};
 use crate::rosbag::yaw_of_quaternion;
 use crate::sample::{PoseSample, Series};
-use crate::table::{number, unreadable};
+use crate::table::{MAX_ROW_SIZE, MAX_ROWS, number, out_of_bounds, unreadable};
 use crate::{Error, Format, TableOptions, folder};
-use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
-use trackdyn_core::Pose;
+use trackdyn_core::{Pose, input};
 
 const COLUMNS: [&str; 8] = ["t", "x", "y", "z", "qx", "qy", "qz", "qw"];
 
@@ -66,11 +65,11 @@ pub fn read_poses(path: &Path) -> Result<Series<PoseSample>, Error> {
 }
 
 /// Poses, and how many of them no robot has.
-type Read = (Series<PoseSample>, Option<(u64, Axes)>);
+type Poses = (Series<PoseSample>, Option<(u64, Axes)>);
 
 /// The poses of a file, and how many of them no robot has, where these are too many.
-fn poses(path: &Path) -> Result<Read, Error> {
-    let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
+fn poses(path: &Path) -> Result<Poses, Error> {
+    let file = input::open(path).map_err(|cause| unreadable(path, cause))?;
     let mut reader = BufReader::with_capacity(1 << 18, file);
     let mut poses = Vec::new();
     let mut attitude = Attitude::default();
@@ -78,10 +77,14 @@ fn poses(path: &Path) -> Result<Read, Error> {
     let mut line = 0;
     loop {
         text.clear();
-        if reader.read_until(b'\n', &mut text).map_err(|cause| unreadable(path, cause))? == 0 {
+        let mut row = (&mut reader).take(MAX_ROW_SIZE + 1);
+        if row.read_until(b'\n', &mut text).map_err(|cause| unreadable(path, cause))? == 0 {
             break;
         }
         line += 1;
+        if text.len() as u64 > MAX_ROW_SIZE || line > MAX_ROWS {
+            return Err(out_of_bounds(path, line));
+        }
         let marked = text.strip_prefix(b"\xef\xbb\xbf").filter(|_| line == 1);
         let row = marked.unwrap_or(&text).trim_ascii();
         if !row.is_empty() && row[0] != b'#' {

@@ -252,7 +252,7 @@ pub fn motion_table(
     fastest: f64,
     provenance: &Provenance,
 ) -> Result<(MotionTable, [TextFile; 2]), Error> {
-    if !(fastest > 0.0 && fastest <= FASTEST) {
+    if !(SLOWEST..=FASTEST).contains(&fastest) {
         return Err(Error::FastestSpeed { fastest, most: FASTEST });
     }
     // A table of speeds knows no heading, place or time; of the others it has what is steady.
@@ -260,15 +260,20 @@ pub fn motion_table(
         effect.card().breaks.iter().any(|symmetry| any.contains(symmetry))
     };
     let world = [Symmetry::Heading, Symmetry::Place, Symmetry::Time];
+    // Nor has it two gains for one belt.
+    let is_alone = |effect: &ActiveEffect| {
+        let alone = vehicle.clone().with_effects([effect.clone()].into_iter().collect());
+        !breaks(effect, &world) && alone.model().drive().has_one_gain()
+    };
     let is_left_out =
-        |effect: &&ActiveEffect| breaks(effect, &world) || breaks(effect, &[Symmetry::Transient]);
+        |effect: &&ActiveEffect| !is_alone(effect) || breaks(effect, &[Symmetry::Transient]);
     let effects = vehicle.effects().iter();
-    let of_speeds = effects.clone().filter(|effect| !breaks(effect, &world)).cloned();
+    let of_speeds = effects.clone().filter(|effect| is_alone(effect)).cloned();
     let model = vehicle.clone().with_effects(of_speeds.collect()).model();
     let table = MotionTable::of(&model, fastest);
     let left_out = LeftOut {
         effects: effects.filter(is_left_out).map(ToString::to_string).collect(),
-        lag: model.drive().time_constant,
+        lag: model.drive().mean_lag(),
     };
     let provenance = of_vehicle(vehicle, provenance);
     let files = trackdyn_export::motion_table::files(&table, &left_out, &provenance);
@@ -328,6 +333,9 @@ fn of_vehicle(vehicle: &Vehicle, provenance: &Provenance) -> trackdyn_export::Pr
         command,
     }
 }
+
+/// Smallest largest speed of a table, m/s, as of a map.
+const SLOWEST: f64 = trackdyn_model::Grid::MIN_SPEED;
 
 /// Largest speed of a table, m/s.
 const FASTEST: f64 = 100.0;

@@ -7,6 +7,9 @@ use trackdyn_model::VehicleFile;
 /// Name of the vehicle of a gauge alone.
 const NOT_GIVEN: &str = "vehicle not given";
 
+/// Smallest gauge of a vehicle, m.
+const SMALLEST: f64 = 1e-6;
+
 /// Largest gauge of a vehicle, m.
 const LARGEST: f64 = 100.0;
 
@@ -33,7 +36,7 @@ impl Gauge {
     /// # Errors
     /// [`Error::Gauge`] for what is no length of a vehicle.
     pub fn new(metres: f64) -> Result<Self, Error> {
-        if !(metres > 0.0 && metres <= LARGEST) {
+        if !(SMALLEST..=LARGEST).contains(&metres) {
             return Err(Error::Gauge { metres, most: LARGEST });
         }
         let fingerprint = fingerprint(format!("gauge_m = {metres:?}\n").as_bytes());

@@ -17,12 +17,16 @@ use std::path::Path;
 use trackdyn_core::{PerSide, Pose, Trajectory};
 use trackdyn_drive::schedules::{self, ScheduleOptions, ScheduledRun, as_commanded};
 use trackdyn_drive::sensors::{Preset, Sensors, Views};
-use trackdyn_drive::truth;
+use trackdyn_drive::{Error as DrivingError, truth};
 use trackdyn_model::{Circumstance, Stationary, Transient};
 use trackdyn_recording::{Recording as Recorded, Source, UncheckedRun, folder};
 
 /// Name of the document that every simulation writes.
 const FILE: &str = "simulation.toml";
+
+/// Most moments of all runs together. A moment takes 72 bytes, and there are three copies: as the
+/// body moves, as the sensor sees it, and as the encoders do.
+const MAX_MOMENTS: f64 = 4e6;
 
 /// How to simulate.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,6 +93,7 @@ impl Prepared {
     pub fn new(vehicle: &Vehicle, settings: &SimulateSettings) -> Result<Self, Error> {
         let vehicle = vehicle.clone().with_inertia(settings.inertia);
         let schedules = schedules(&vehicle, settings)?;
+        check_duration(&schedules, settings.longest_step)?;
         Ok(Self { vehicle, settings: settings.clone(), schedules })
     }
 
@@ -138,6 +143,26 @@ impl Prepared {
             made_from: self.clone(),
         })
     }
+}
+
+/// Refuses driving whose moments memory would not hold, such as a schedule in which a clock is set.
+fn check_duration(schedules: &[ScheduledRun], longest_step: f64) -> Result<(), Error> {
+    let longest = MAX_MOMENTS * longest_step;
+    let duration: f64 = schedules.iter().map(|run| run.schedule.duration()).sum();
+    if duration <= longest {
+        return Ok(());
+    }
+    let lasting = |run: &ScheduledRun| (run.schedule.duration(), run.id);
+    let by_time = |a: &(f64, i64), b: &(f64, i64)| a.0.total_cmp(&b.0);
+    let (most, id) = schedules.iter().map(lasting).max_by(by_time).unwrap_or_default();
+    Err(Error::Driving(DrivingError::Option {
+        name: "schedule",
+        value: format!("of {duration} s, of which run {id} takes {most} s"),
+        expected: format!(
+            "at most {longest} s in all runs together, whose moments every {longest_step} s take \
+             1 GB of memory: fewer or shorter runs, or a longer step"
+        ),
+    }))
 }
 
 /// The driving that the settings ask for.

@@ -52,7 +52,8 @@ fn crates_for_others_say_what_they_are() {
     let mut count = 0;
     for of in all() {
         let Some(package) = package(&of) else { continue };
-        for key in ["description", "license", "readme", "keywords", "categories"] {
+        let keys = ["description", "license", "documentation", "readme", "keywords", "categories"];
+        for key in keys {
             assert!(package.contains_key(key), "{}: no {key}", of.name);
         }
         let text = |file| fs::read_to_string(of.folder.join(file)).unwrap_or_default();

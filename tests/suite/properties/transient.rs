@@ -56,7 +56,7 @@ fn steady_turns_are_the_stationary_ones() {
             let stationary = Stationary::new(&model, &here).solve(shown);
             assert_eq!(stationary.status, Status::Turning, "{}", card.id);
             let expected = stationary.icrs.expect("a turn has ICRs").to_array();
-            let driven = model.drive().driven(shown);
+            let driven = model.drive().driven(shown, last.t);
             let found = Icrs::of_motion(driven, &paper_twist_from_ros(&last.twist));
             let found = found.expect("a turn").to_array();
             for (found, expected) in found.into_iter().zip(expected) {

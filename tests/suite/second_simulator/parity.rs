@@ -78,11 +78,16 @@ impl Subject {
 
     /// How far equal speeds lead off the line of the start in a way of 1 m, m.
     fn strays(&self) -> f64 {
+        self.strays_at(0.5).max(self.strays_at(-0.5))
+    }
+
+    /// How far a straight run at this speed, m/s, leads astray, m.
+    fn strays_at(&self, speed: f64) -> f64 {
         let robot = Robot::new(&auriga([0.0, 0.04]), &self.active, &self.setup);
         let mut robot = robot.expect("a robot");
         let mut way = Trajectory::default();
         for until in [1.0, 3.0] {
-            robot.drive(PerSide::new(0.5, 0.5), until, &mut way).expect("a motion");
+            robot.drive(PerSide::new(speed, speed), until, &mut way).expect("a motion");
         }
         let reported = robot.report(&way);
         let [_, end] = reported.span().expect("a motion");

@@ -25,9 +25,11 @@ use crate::score::{Judged, Reply};
 use crate::seal::{self, Commitment};
 use std::ffi::OsString;
 use std::fs::{self, File};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 use trackdyn_core::document::Document;
+use trackdyn_core::input;
 use trackdyn_core::output::{fingerprint, write_file, write_private};
 use trackdyn_model::{Vehicle, VehicleFile};
 use trackdyn_recording::folder;
@@ -42,6 +44,8 @@ pub const COMMITMENT: &str = "commitment.txt";
 pub const RECORDING: &str = "recording";
 /// The vehicle of a case.
 pub const VEHICLE: &str = "vehicle.toml";
+/// Largest file of a trial, bytes: the answers of a thousand cases take 2 MB, a recording 3 MB.
+const MAX_FILE_SIZE: u64 = 256 << 20;
 /// Stamp of all files: 1 December 2005, when the paper's issue had appeared, s of Unix time.
 const STAMP: u64 = 1_133_395_200;
 
@@ -117,14 +121,15 @@ pub fn open_answers(trial: &Path, key: &Path) -> Result<(Answers, String), Error
     let commitment = commitment(trial)?;
     let sealed = trial.join(SEALED);
     let text = if sealed.exists() {
-        let bytes = fs::read(&sealed).map_err(Error::file(sealed))?;
+        let bytes = input::bytes(&sealed, MAX_FILE_SIZE).map_err(Error::file(sealed))?;
         old_seal::unseal(&bytes, &Key::read(key)?, &commitment)?
     } else {
         let path = answers_file(key, &commitment);
         if !path.exists() {
             return Err(Error::NoAnswers { path, committed: commitment.answers_sha256 });
         }
-        fs::read_to_string(&path).map_err(Error::file(path))?
+        let bytes = input::bytes(&path, MAX_FILE_SIZE).map_err(Error::file(&path))?;
+        String::from_utf8(bytes).map_err(io::Error::other).map_err(Error::file(path))?
     };
     Ok((commitment.open(&text)?, text))
 }
@@ -202,7 +207,7 @@ fn judge_case(trial: &Path, answer: &Answer, entry: &Entry) -> Result<Judged, Er
         }
     } else if entry.has_failed(&home) {
         let failure = entry.failure(&home);
-        Reply::Failed(fs::read_to_string(&failure).map_err(Error::file(failure))?)
+        Reply::Failed(input::text(&failure).map_err(Error::file(failure))?)
     } else {
         Reply::Absent
     };
@@ -226,7 +231,7 @@ fn files(home: &Path) -> [PathBuf; 4] {
 pub(crate) fn fingerprint_of(home: &Path) -> Result<String, Error> {
     let mut bytes = Vec::new();
     for path in files(home) {
-        bytes.extend(fs::read(&path).map_err(Error::file(path))?);
+        bytes.extend(input::bytes(&path, MAX_FILE_SIZE).map_err(Error::file(path))?);
     }
     Ok(fingerprint(&bytes))
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use std::path::Path;
+use trackdyn_core::input;
 use trackdyn_core::output::write_private;
 
 /// The key of a trial.
@@ -24,7 +25,7 @@ impl Key {
     /// # Errors
     /// [`Error::File`], [`Error::Key`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let text = std::fs::read_to_string(path).map_err(Error::file(path))?;
+        let text = input::text(path).map_err(Error::file(path))?;
         let bytes = bytes(text.trim()).ok_or_else(|| Error::Key { path: path.to_owned() })?;
         Ok(Self(bytes))
     }

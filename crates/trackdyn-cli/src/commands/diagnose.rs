@@ -5,6 +5,7 @@ mod summary;
 use crate::changes::{say_removed, say_written, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::folder::prepare_folder;
 use crate::options::{PartOptions, RecordingOptions, refuse_for_points};
 use crate::progress::Progress;
 use crate::provenance::provenance;
@@ -15,7 +16,6 @@ use std::path::PathBuf;
 use trackdyn::diagnose::Prepared;
 use trackdyn::{
     Change, DiagnoseSettings, Error, HeldOut, MethodSettings, Recording, Resampling, Vehicle,
-    prepare_folder,
 };
 
 /// Heading of options in the help.

@@ -6,6 +6,7 @@ mod summary;
 use crate::changes::say_removed;
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::folder::prepare_folder;
 use crate::options::{ModelOptions, finite, note_what_no_sensor_reports};
 use crate::progress::Progress;
 use crate::provenance::provenance;
@@ -16,7 +17,7 @@ use std::path::PathBuf;
 use trackdyn::crates::drive::Tracker;
 use trackdyn::crates::drive::tracking::Estimate;
 use trackdyn::drive::Prepared;
-use trackdyn::{DriveSettings, Parameters, Path, prepare_folder};
+use trackdyn::{DriveSettings, Parameters, Path};
 
 /// Options of `trackdyn drive`.
 #[derive(Args)]

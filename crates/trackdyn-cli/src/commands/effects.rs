@@ -113,7 +113,8 @@ fn markdown() -> String {
         its members apart.\n\n\
         A parameter's *role* is **size** where it says how large the effect is (an effect whose \
         sizes are all neutral is not there), **place** or **direction** where it says where in \
-        the world it acts, and **shape** where it is a constant of the law.\n\n\
+        the world it acts, **time** where it says when, and **shape** where it is a constant of \
+        the law.\n\n\
         An effect is a mechanism, unless its section has a table of coefficients: then it is a \
         *form*, which describes without a cause. A diagnosis never names a form; it proposes \
         terms of one. Coefficients that are left out are none.\n\n"

@@ -8,6 +8,7 @@ pub use points::lagging_points;
 use crate::changes::{say_undetermined, say_written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::folder::prepare_folder;
 use crate::options::{DrivingOptions, GaugeOptions, not_negative, refuse_for_points};
 use crate::progress::Progress;
 use crate::provenance::provenance;
@@ -18,7 +19,7 @@ use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 use trackdyn::crates::estimate::{GeneticOptions, Nuisance};
 use trackdyn::identify::{Prepared, refuse_other};
-use trackdyn::{Identification, IdentifySettings, prepare_folder};
+use trackdyn::{Identification, IdentifySettings};
 
 /// Heading of options in the help.
 const GENETIC: &str = "Genetic algorithm";

@@ -5,6 +5,7 @@ mod summary;
 use crate::changes::{say_undetermined, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::folder::prepare_folder;
 use crate::options::{CircumstanceOptions, ModelOptions, count, note_what_steady_icrs_leave_out};
 use crate::progress::Progress;
 use crate::provenance::provenance;
@@ -12,7 +13,7 @@ use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
-use trackdyn::{Grid, IcrMap, MapSettings, prepare_folder};
+use trackdyn::{Grid, IcrMap, MapSettings};
 
 /// Options of `trackdyn map`.
 #[derive(Args)]

@@ -5,13 +5,13 @@ mod summary;
 use crate::changes::{say_removed, say_written, written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::folder::prepare_folder;
 use crate::options::ReplayOptions;
 use crate::provenance::provenance;
 use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::PathBuf;
-use trackdyn::prepare_folder;
 
 /// Options of `trackdyn odometry`.
 #[derive(Args)]

@@ -6,6 +6,7 @@ mod summary;
 use crate::changes::{say_removed, say_written};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::folder::prepare_folder;
 use crate::options::finite;
 use crate::progress::Progress;
 use crate::provenance::provenance;
@@ -73,6 +74,9 @@ pub fn run(options: &Options) -> Outcome {
             other => other.into(),
         }
     })?;
+    if plan.schedule().is_some() {
+        prepare_folder(&options.out)?;
+    }
     let changes = plan.write(&options.out, &provenance())?;
     say_written(&changes);
     let place = Place {

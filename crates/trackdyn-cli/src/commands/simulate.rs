@@ -5,6 +5,7 @@ mod summary;
 
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::folder::prepare_folder;
 use crate::options::{ModelOptions, PlaceOptions, count, finite};
 use crate::progress::Progress;
 use crate::provenance::provenance;
@@ -13,9 +14,9 @@ use crate::stdout::show;
 use clap::{Args, ValueEnum};
 use ground::Independent;
 use std::path::PathBuf;
+use trackdyn::SimulateSettings;
 use trackdyn::crates::model::Transient;
 use trackdyn::simulate::{Prepared, refuse_other, sensors};
-use trackdyn::{SimulateSettings, prepare_folder};
 use trackdyn_second_simulator::ActiveMechanism;
 
 /// Options of `trackdyn simulate`.

@@ -3,6 +3,8 @@
 use super::searched::Searched;
 use crate::answer::{Kind, Missing};
 use crate::exposure::Exposure;
+use crate::hypothesis::typical;
+use crate::mechanics::is_instrument;
 use crate::progress::{Cancelled, Watch};
 use crate::resampling::Resampling;
 use crate::search::{Found, Screened, Search};
@@ -54,7 +56,12 @@ impl Judged {
         let of = |effect: EffectId| -> Vec<Interval> {
             intervals.iter().filter(|interval| interval.unknown.is_of(effect)).copied().collect()
         };
-        let physics = verdicts.into_iter().map(|verdict| (Kind::Physics, verdict));
+        let vehicle = &search.base.fit.hypothesis.vehicle;
+        let kind = |effect| {
+            let is_instrument = is_instrument(vehicle, &typical(effect));
+            if is_instrument { Kind::Instrument } else { Kind::Physics }
+        };
+        let physics = verdicts.into_iter().map(|verdict| (kind(verdict.effect), verdict));
         let instruments = instruments.into_iter().map(|verdict| (Kind::Instrument, verdict));
         let wrong = wrong.into_iter().map(|verdict| (Kind::Constant, verdict));
         let mut missing = Vec::new();

@@ -14,7 +14,7 @@ use trackdyn_estimate::observations::{Observation, Observations, Piece};
 use trackdyn_estimate::regular::with_regular_poses;
 use trackdyn_estimate::residual_noise;
 use trackdyn_estimate::spin_test;
-use trackdyn_estimate::thinned::with_readings_every;
+use trackdyn_estimate::thinned::{with_poses_every, with_readings_every};
 use trackdyn_estimate::weighting::{MIN_POSE_NOISE, SegmentNoise};
 use trackdyn_estimate::{Clock, SegmentOptions};
 use trackdyn_recording::{Recording, Run, TrackSample};
@@ -41,6 +41,7 @@ impl Evidence {
         let by = &settings.evidence;
         check_places(recording, by.max_coordinate)?;
         let recording = with_readings_every(recording, by.min_reading_interval);
+        let recording = with_poses_every(&recording, by.min_pose_interval);
         let clock = Clock::of(&recording, None).map_err(Error::Clock)?;
         let tau = clock.tau();
         let (recording, measured) = with_quieter_poses(&recording, tau);
@@ -82,24 +83,21 @@ fn check_places(recording: &Recording, largest: f64) -> Result<(), Error> {
     Ok(())
 }
 
-/// Segments at a clock offset of `tau` (s), cut such that readings cover every offset from zero to
-/// beyond `tau`. Where segments of the usual length are too few, each is as short as its poses and
-/// readings allow.
+/// Segments between neighbouring poses, each with a reading at least, at a clock offset of `tau`
+/// (s); cut such that readings cover every offset from zero to beyond `tau`.
 fn segments(
     recording: &Recording,
     tau: f64,
     settings: &settings::Evidence,
 ) -> Result<Observations, Error> {
-    let usual = SegmentOptions {
+    let options = SegmentOptions {
+        minimum_duration: 0.0,
+        minimum_readings: 1,
         tau: tau / 2.0,
         tau_margin: tau.abs() / 2.0 + settings.clock_margin,
         ..SegmentOptions::default()
     };
-    let mut observations = Observations::new(recording, &usual).at(tau);
-    if observations.len() < settings.min_segments {
-        let shortest = SegmentOptions { minimum_duration: 0.0, ..usual };
-        observations = Observations::new(recording, &shortest).at(tau);
-    }
+    let observations = Observations::new(recording, &options).at(tau);
     if observations.len() < settings.min_segments {
         let durations = observations.segments().iter().map(|segment| segment.duration);
         return Err(Error::too_few_segments(durations, settings.min_segments));

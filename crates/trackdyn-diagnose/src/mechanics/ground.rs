@@ -42,15 +42,16 @@ pub fn acts(vehicle: &Vehicle, effect: &ActiveEffect, evidence: &Evidence) -> Ac
     let level = Circumstance::default();
     let model = single(vehicle, effect);
     let samples = evidence.samples();
-    // A place may be crossed between any two samples.
-    let has_place = effect.card().parameters.iter().any(|p| matches!(p.role, Role::Place { .. }));
-    let step = if has_place { 1 } else { (samples.len() / probes).max(1) };
+    // A place may be crossed, and a time may lie, between any two samples.
+    let is_somewhere = |role: Role| matches!(role, Role::Place { .. } | Role::Time);
+    let is_local = effect.card().parameters.iter().any(|one| is_somewhere(one.role));
+    let step = if is_local { 1 } else { (samples.len() / probes).max(1) };
     let there = forces(&model, &level);
     if samples.iter().step_by(step).any(|sample| forces(&model, &circumstance(sample)) != there) {
         return Acts::Varying;
     }
     let is_absent = || there == forces(&coarse(vehicle, Effects::none()), &level);
-    if has_place && is_absent() { Acts::Nowhere } else { Acts::Alike }
+    if is_local && is_absent() { Acts::Nowhere } else { Acts::Alike }
 }
 
 /// Forces in a turn at these belt speeds: friction of each side, and all others.
@@ -74,7 +75,7 @@ pub fn by_ground(
     let samples = evidence.samples().par_iter().with_min_len(TASK);
     samples
         .map(|sample| {
-            let (speeds, at) = (drive.driven(sample.speeds), circumstance(sample));
+            let (speeds, at) = (drive.driven(sample.speeds, sample.start), circumstance(sample));
             let nothing = Twist::zero();
             // outside a patch forces equal those of level ground
             if probed(with, &at, speeds) == probed(without, &Circumstance::default(), speeds) {

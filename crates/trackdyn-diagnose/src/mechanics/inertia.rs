@@ -101,7 +101,7 @@ impl InertiaNear {
     /// Departure extrapolated to a hypothesis; none where its inertial effects differ, or it is
     /// farther away than `within` allows.
     pub fn moved(&self, inert: &[ActiveEffect], case: &Case, within: Within) -> Option<Self> {
-        let late = self.at.later(case.drive).abs();
+        let late = self.at.lag_change(case.drive);
         if !are_same(&self.at.inert, inert) || !self.at.is_close(case.vehicle) || late > within.late
         {
             return None;

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::sync::OnceLock;
 use trackdyn_core::frames::{paper_twist_from_ros, ros_twist_from_paper};
-use trackdyn_core::{PerSide, Plant, Pose, Trajectory, Twist};
+use trackdyn_core::{PerSide, Plant, Pose, Side, Trajectory, Twist};
 use trackdyn_model::contact::Resolution;
 use trackdyn_model::transient::{Step, mean_of_stages, tangents};
 use trackdyn_model::{ActiveEffect, Circumstance, Drive, EffectId, Effects, Model, Vehicle};
@@ -104,7 +104,7 @@ impl Inertia {
         let settings = case.settings().clone();
         let surface = Surface::new(model, largest, settings.speed_range, None);
         let gained = |reading: &TrackSample| {
-            let PerSide { left, right } = drive.driven(reading.speeds());
+            let PerSide { left, right } = drive.driven(reading.speeds(), reading.t);
             TrackSample { t: reading.t, v_left: left, v_right: right }
         };
         let belts: Vec<Vec<TrackSample>> = lagging(evidence.tracks(), drive.time_constant)
@@ -145,9 +145,16 @@ impl Inertia {
             && self.drive == **drive
     }
 
-    /// Additional belt lag of this drive, s: slow changes are delayed by the time constant.
+    /// Additional belt lag of this drive, s, mean of both sides: slow changes are delayed by the
+    /// time constant.
     pub fn later(&self, drive: &Drive) -> f64 {
-        drive.time_constant - self.drive.time_constant
+        drive.mean_lag() - self.drive.mean_lag()
+    }
+
+    /// Largest change of the lag of a belt to this drive, s.
+    pub fn lag_change(&self, drive: &Drive) -> f64 {
+        let change = |side| (drive.time_constant[side] - self.drive.time_constant[side]).abs();
+        Side::BOTH.map(change).into_iter().fold(0.0, f64::max)
     }
 
     /// Whether the vehicle, without effects, has about this friction ratio.
@@ -178,7 +185,7 @@ impl Inertia {
         let settings = &self.settings;
         let mut changes = self.changes(&other.vehicle, other.model.effects()).into_iter();
         are_same(&self.inert, &other.inert)
-            && self.later(&other.drive).abs() <= settings.max_lag_change
+            && self.lag_change(&other.drive) <= settings.max_lag_change
             && changes.all(|(by, change)| {
                 change.abs() <= settings.reach * size(by, &self.vehicle, settings)
             })

@@ -25,6 +25,10 @@ group! {
         places: [f64; 5] = [-3.0, -1.0, 0.0, 1.0, 3.0], "", [-100.0, 100.0],
             "Anchors lie beside areas too.",
             "Other anchors look like slopes.";
+        /// Times of a change, in half lengths of the recording from its middle.
+        times: [f64; 6] = [-1.1, -0.66, -0.22, 0.22, 0.66, 1.1], "", [-10.0, 10.0],
+            "A quarter of a recording apart; the outer ones are before and after.",
+            "Short changes are missed.";
         /// Most places of an extent.
         max_places: usize = 40, "", [1.0, 1e5],
             "Others are seldom passed.",

@@ -7,7 +7,7 @@ group! {
     Evidence {
         /// Fewest segments of a recording.
         min_segments: usize = 60, "", [2.0, 1e6],
-            "16 s of driving.",
+            "6 s of driving with poses at 10 Hz.",
             "Lower: noise and ICRs are hardly known.";
         /// Fewest points of a table.
         min_points: usize = 30, "", [3.0, 1e6],
@@ -29,6 +29,10 @@ group! {
         min_reading_interval: f64 = 0.01, "s", [0.0, 1.0],
             "Motions in time take no shorter steps.",
             "Higher: quick changes vanish.";
+        /// Poses that come more often are averaged.
+        min_pose_interval: f64 = 0.1, "s", [0.0, 10.0],
+            "Noise of quicker poses is hardly ever white.",
+            "Lower: slow, and one error of a filter counts often; higher: quick changes vanish.";
         /// Distance of the ICRs assumed for a robot that never spins.
         gap_without_spins: f64 = 1.5, "gauge", [0.5, 20.0],
             "Usual on hard ground.",

@@ -44,6 +44,9 @@ group! {
         /// Difference step of a place.
         place_difference: f64 = 0.1, "m", [1e-6, 10.0],
             "Between rounding and curvature.";
+        /// Difference step of a time.
+        time_difference: f64 = 0.5, "s", [1e-3, 10.0],
+            "A quarter of what a change takes.";
         /// Difference step of a direction.
         direction_difference: f64 = 2.0, "deg", [1e-3, 45.0],
             "Between rounding and curvature.";

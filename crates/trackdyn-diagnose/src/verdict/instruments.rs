@@ -6,7 +6,7 @@ use crate::fit::Fit;
 use crate::hypothesis::{Hypothesis, Unknown, typical};
 use crate::mechanics::is_instrument;
 use crate::progress::Cancelled;
-use crate::search::{Found, Search};
+use crate::search::{Found, Screened, Search};
 use crate::settings::Settings;
 use std::cell::LazyCell;
 use trackdyn_model::EffectId;
@@ -36,7 +36,11 @@ pub fn judge_instruments(basis: &Basis, best: &Found) -> Result<Vec<Verdict>, Ca
         }
         let mut one_of = vec![effect];
         let screened = search.screen(&dropped);
-        let rivals = screened.iter().filter(|one| is_rival(one, ln_bayes_factor, best, answer));
+        // An error that few robots have is no rival of a usual one unless it explains more.
+        let is_likely =
+            |one: &&Screened| !one.effect.card().is_rare() || one.gain > ln_bayes_factor;
+        let rivals = screened.iter().filter(is_likely);
+        let rivals = rivals.filter(|one| is_rival(one, ln_bayes_factor, best, answer));
         for rival in rivals.take(answer.max_rivals) {
             watch.go_on()?;
             let exchanged = search.refit(&dropped, std::slice::from_ref(rival));

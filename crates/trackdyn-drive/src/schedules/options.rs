@@ -1,10 +1,11 @@
 //! How schedules are generated.
 
 use crate::Error;
+use trackdyn_core::real;
 use trackdyn_model::Grid;
 
-/// Largest number of commands per run that a duration or a side may ask for.
-const MAX_COMMANDS: f64 = 1e7;
+/// Largest number of commands of all runs together: 50 MB, and 17 h of one command in 0.03 s.
+pub(super) const MAX_COMMANDS: usize = 2_000_000;
 
 /// Smallest speed, m/s: at less, 20 m take hours.
 const MIN_SPEED: f64 = 0.01;
@@ -70,7 +71,7 @@ impl ScheduleOptions {
         if !(self.interval >= 1e-3 && self.interval <= 1.0) {
             return fail("interval", self.interval, "0.001 to 1 s between commands".to_owned());
         }
-        let longest = MAX_COMMANDS * self.interval;
+        let longest = real(MAX_COMMANDS) * self.interval;
         let in_range = |time: &f64| *time >= self.interval && *time <= longest;
         if let Some(time) = self.duration.filter(|time| !in_range(time)) {
             return fail("duration", time, format!("{} to {longest} s", self.interval));
@@ -95,7 +96,7 @@ impl ScheduleOptions {
                 return fail(name, value, format!("a positive length in m, at most {most}"));
             }
         }
-        let longest = MAX_COMMANDS * self.interval;
+        let longest = real(MAX_COMMANDS) * self.interval;
         if 4.0 * self.side / self.fastest > longest {
             return fail("side", self.side, format!("a square driven within {longest} s"));
         }

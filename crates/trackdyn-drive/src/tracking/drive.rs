@@ -12,6 +12,10 @@ use trackdyn_core::{Command, PerSide, Plant, Pose, Trajectory, real};
 /// Time for which the tracks are held still at the end, s: the robot comes to rest within it.
 const SETTLING_TIME: f64 = 0.3;
 
+/// Longest time that a robot is waited for, s: 10 km at 0.5 m/s, and four times that time. Moments
+/// and looks every 0.01 and 0.03 s take 800 MB then.
+const MAX_PATIENCE: f64 = 8e4;
+
 /// What a drive depends on beside robot, path, tracker and kinematics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DriveOptions {
@@ -58,6 +62,14 @@ pub fn drive(
     let start = plant.moment();
     let mut pursuit = Pursuit::new(tracker, path);
     let patience = 4.0 * path.length() / tracker.speed + 30.0 * real(pursuit.legs());
+    if options.time_limit.is_none() && patience > MAX_PATIENCE {
+        let expected = format!(
+            "at most {MAX_PATIENCE} s, which memory holds: a shorter path, one with fewer corners, \
+             or a faster drive"
+        );
+        let time = format!("of {} m, which may take {patience} s", path.length());
+        return Err(Error::option("path", &time, expected));
+    }
     let end = start.t + options.time_limit.unwrap_or(patience);
     let mut belief = Belief::new(options.estimate, steering, start.pose);
     let mut watch = Watch { path, tracker, travelled: 0.0, before: None, cross_track: Vec::new() };

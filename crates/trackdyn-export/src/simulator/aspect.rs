@@ -17,6 +17,8 @@ pub enum Aspect {
     Gravity,
     /// Ratio of belt speed to encoder speed.
     BeltGain,
+    /// Belt gains that depend on direction or time.
+    BeltGainVaries,
     /// Time constant of the belts.
     BeltLag,
     /// Speed that belts lose under traction.
@@ -79,6 +81,7 @@ impl Aspect {
             (Self::Friction, ground.friction != level.friction && !is_ground_varied),
             (Self::Gravity, is_gravity),
             (Self::BeltGain, drive.gain != direct.gain),
+            (Self::BeltGainVaries, !drive.has_one_gain()),
             (Self::BeltLag, drive.time_constant != direct.time_constant),
             (Self::BeltSlip, drive.slip_per_traction != direct.slip_per_traction),
             (Self::Mount, (sensor.lever, sensor.yaw) != (at_origin.lever, at_origin.yaw)),

@@ -38,6 +38,7 @@ impl Effect for DrivetrainLag {
 
     fn drive(&self, drive: &mut Drive) {
         // T dV/dt = V_e − V
-        drive.time_constant += self.time_constant;
+        drive.time_constant.left += self.time_constant;
+        drive.time_constant.right += self.time_constant;
     }
 }

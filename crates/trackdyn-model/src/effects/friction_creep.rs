@@ -15,11 +15,14 @@ pub struct FrictionCreep {
 impl Effect for FrictionCreep {
     const CARD: Card = Card {
         id: "friction-creep",
-        title: "Friction that is reached only above a slip speed",
+        title: "Friction that is reached only above a slip speed, as soft contacts have it",
         law: "τ = −[μ] p (1 − (1 + |s|/(n v_c))^−n) s/|s|",
         assumes: "Viscous creep at small slip, Coulomb friction at large slip; the same in both \
                   directions. Friction is full soon above v_c where n is large, as 1 − \
-                  exp(−|s|/v_c) is, and comes slowly, as 1/|s|, where n = 1.",
+                  exp(−|s|/v_c) is, and comes slowly, as 1/|s|, where n = 1. Soft contacts of \
+                  simulators (slip1 and slip2 of ODE; solref, solimp and impratio of MuJoCo) rise \
+                  alike whatever their load: under an even load, this law with v_c = slip1 · μ N \
+                  of a contact.",
         shows: "Slow turns see less friction near the ICRs, which move outwards; fast turns do \
                 not.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
@@ -44,7 +47,11 @@ impl Effect for FrictionCreep {
                 typical: 20.0,
             },
         ],
-        sources: &["Persson, Sliding Friction, 2000", "Dahl, AIAA Journal 14(12), 1976"],
+        sources: &[
+            "Persson, Sliding Friction, 2000",
+            "Dahl, AIAA Journal 14(12), 1976",
+            "Smith, Open Dynamics Engine, manual: contact.surface, slip1 and slip2",
+        ],
     };
 
     fn from_values(values: &[f64]) -> Self {

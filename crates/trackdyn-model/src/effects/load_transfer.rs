@@ -15,9 +15,9 @@ impl Effect for LoadTransfer {
         id: "load-transfer",
         title: "Load transfer of a centre of gravity above the ground",
         law: "(x_p, y_p) = (x_c, y_c) + h (g_along − a)/g_normal, a = ω × v_cog + dv_cog/dt",
-        assumes: "No suspension: the load shifts at once. dv_cog/dt \
-                  counts where inertia does. The pressure is linear along the part of the track \
-                  that bears; what would have to pull has lifted.",
+        assumes: "The load shifts at once; a suspension that leans late differs only while speeds \
+                  change. dv_cog/dt counts where inertia does. The pressure is linear along the \
+                  part of the track that bears; what would have to pull has lifted.",
         shows: "Fast turns: the outer track gains load, so its ICR comes closer.",
         breaks: &[Symmetry::SpeedScale, Symmetry::Manoeuvre],
         stages: &[Stage::Load],

@@ -1,6 +1,6 @@
 //! Mechanisms and forms.
 
-use super::{CATALOGUE, INERTIAL, NATURES, TERMS};
+use super::{CATALOGUE, INERTIAL, NATURES, RARE, TERMS};
 use crate::effect::{Card, Nature, Parameter, Role, Term};
 
 impl Card {
@@ -17,6 +17,11 @@ impl Card {
     /// Whether it is a term of Newton's second law, which owners know without a measurement.
     pub fn is_inertia(&self) -> bool {
         self.place().is_some_and(|place| INERTIAL[place])
+    }
+
+    /// Whether it is an error of instruments that few robots have.
+    pub fn is_rare(&self) -> bool {
+        self.place().is_some_and(|place| RARE[place])
     }
 
     /// Terms of a form; empty for a mechanism.

@@ -25,7 +25,8 @@ impl GridError {
         match self {
             Self::Points(_) => format!("2 to {} points per track", Grid::MAX_POINTS),
             Self::Speed(_) => {
-                format!("a positive largest track speed in m/s, at most {}", Grid::MAX_SPEED)
+                let (least, most) = (Grid::MIN_SPEED, Grid::MAX_SPEED);
+                format!("a positive largest track speed in m/s, at least {least}, at most {most}")
             }
         }
     }
@@ -38,6 +39,10 @@ impl Grid {
     /// Most points per track: four million pairs.
     pub const MAX_POINTS: usize = 2001;
 
+    /// Smallest largest speed of a grid, m/s: a metre in twelve days. Squares of far smaller speeds
+    /// are zero in the memory of a computer.
+    pub const MIN_SPEED: f64 = 1e-6;
+
     /// Largest speed of a grid, m/s.
     pub const MAX_SPEED: f64 = 1000.0;
 
@@ -49,7 +54,7 @@ impl Grid {
         if !(2..=Self::MAX_POINTS).contains(&points) {
             return Err(GridError::Points(points));
         }
-        if !(max_speed > 0.0 && max_speed <= Self::MAX_SPEED) {
+        if !(Self::MIN_SPEED..=Self::MAX_SPEED).contains(&max_speed) {
             return Err(GridError::Speed(max_speed));
         }
         Ok(Self { points, max_speed })

@@ -3,6 +3,39 @@
 use crate::contact::pressure::Footprint;
 use crate::vehicle::{RunningGear, Vehicle};
 use trackdyn_core::Side;
+use trackdyn_core::lines::shortened;
+
+/// Values that a vehicle can have, from a model on a table to the largest excavators of mines
+/// (10⁷ kg), and beyond them where experiments of thought go. Far outside, sums of forces and
+/// moments leave the range of numbers.
+struct Range {
+    what: &'static str,
+    least: f64,
+    most: f64,
+}
+
+/// Largest length of a vehicle, m.
+const MAX_LENGTH: f64 = 100.0;
+
+/// Smallest length or width, m.
+const MIN_LENGTH: f64 = 1e-6;
+
+/// Most axles of a side: trains of many trailers have less.
+const MAX_AXLES: usize = 100;
+
+/// Most characters of a name.
+const MAX_NAME: usize = 200;
+
+const MASS: Range = Range { what: "a positive mass in kg", least: 1e-3, most: 1e8 };
+const GAUGE: Range = Range {
+    what: "a positive distance between the track centre-lines in m",
+    least: MIN_LENGTH,
+    most: MAX_LENGTH,
+};
+const LENGTH: Range =
+    Range { what: "a positive contact length in m", least: MIN_LENGTH, most: MAX_LENGTH };
+const WIDTH: Range = Range { what: "a positive width in m", least: MIN_LENGTH, most: MAX_LENGTH };
+const FRICTION: Range = Range { what: "a positive friction coefficient", least: 1e-6, most: 1e3 };
 
 /// An invalid value of a vehicle.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -23,37 +56,48 @@ impl Vehicle {
     /// The first invalid value; for a centre of gravity outside the limits, the error names the end
     /// or side over which it tips.
     pub fn check(&self) -> Result<(), VehicleError> {
-        positive("mass_kg", self.mass, "a positive mass in kg")?;
-        positive("gauge_m", self.gauge, "a positive distance between the track centre-lines in m")?;
+        self.check_name()?;
+        MASS.check("mass_kg", self.mass)?;
+        GAUGE.check("gauge_m", self.gauge)?;
         self.check_running_gear()?;
-        let friction = "a positive friction coefficient";
-        positive("friction.mu_x", self.friction.across, friction)?;
-        positive("friction.mu_y", self.friction.along, friction)?;
+        FRICTION.check("friction.mu_x", self.friction.across)?;
+        FRICTION.check("friction.mu_y", self.friction.along)?;
         self.check_support()?;
         self.uncertainty.check()
     }
 
+    fn check_name(&self) -> Result<(), VehicleError> {
+        if self.name.chars().count() <= MAX_NAME {
+            return Ok(());
+        }
+        Err(VehicleError {
+            key: "name",
+            value: shortened(&self.name, MAX_NAME),
+            expected: format!("a name of at most {MAX_NAME} characters"),
+        })
+    }
+
     fn check_running_gear(&self) -> Result<(), VehicleError> {
-        let (length, width) = ("a positive contact length in m", "a positive width in m");
         let (width_key, width) = match &self.running_gear {
             RunningGear::Track { contact_length, belt_width } => {
-                positive("track.contact_length_m", *contact_length, length)?;
-                positive("track.belt_width_m", *belt_width, width)?;
+                LENGTH.check("track.contact_length_m", *contact_length)?;
+                WIDTH.check("track.belt_width_m", *belt_width)?;
                 ("track.belt_width_m", *belt_width)
             }
             RunningGear::Wheels { contact_length, width: wheel_width, axles } => {
-                positive("wheels.contact_length_m", *contact_length, length)?;
-                positive("wheels.width_m", *wheel_width, width)?;
+                LENGTH.check("wheels.contact_length_m", *contact_length)?;
+                WIDTH.check("wheels.width_m", *wheel_width)?;
                 let mut sorted = axles.clone();
                 sorted.sort_by(f64::total_cmp);
                 let apart = sorted.windows(2).all(|pair| pair[1] - pair[0] >= *contact_length);
-                if axles.is_empty() || !axles.iter().all(|y| y.is_finite()) || !apart {
+                let are_near = axles.iter().all(|y| y.abs() <= MAX_LENGTH);
+                if !(1..=MAX_AXLES).contains(&axles.len()) || !are_near || !apart {
                     return Err(VehicleError {
                         key: "wheels.axles_m",
-                        value: format!("{axles:?}"),
+                        value: shortened(&format!("{axles:?}"), MAX_NAME),
                         expected: format!(
-                            "the y of one or more axles in m, at least a contact length \
-                             ({contact_length} m) apart"
+                            "the y of one to {MAX_AXLES} axles in m, up to {MAX_LENGTH}, at \
+                             least a contact length ({contact_length} m) apart"
                         ),
                     });
                 }
@@ -103,10 +147,13 @@ impl Vehicle {
     }
 }
 
-fn positive(key: &'static str, value: f64, expected: &str) -> Result<(), VehicleError> {
-    if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(VehicleError { key, value: value.to_string(), expected: expected.to_owned() })
+impl Range {
+    fn check(&self, key: &'static str, value: f64) -> Result<(), VehicleError> {
+        let Self { what, least, most } = *self;
+        if (least..=most).contains(&value) {
+            return Ok(());
+        }
+        let expected = format!("{what}, from {least} to {most}");
+        Err(VehicleError { key, value: value.to_string(), expected })
     }
 }

@@ -2,6 +2,9 @@
 
 use crate::vehicle::VehicleError;
 
+/// Largest standard deviation: the largest mass, kg.
+const MAX_DEVIATION: f64 = 1e8;
+
 /// Standard deviations of measured values of a vehicle; none where unknown.
 ///
 /// Zero means exact.
@@ -42,7 +45,7 @@ impl Uncertainty {
             ("friction.mu_x_sd", friction.across.as_slice(), coefficient),
             ("friction.mu_y_sd", friction.along.as_slice(), coefficient),
         ] {
-            if !deviations.iter().all(|deviation| deviation.is_finite() && *deviation >= 0.0) {
+            if !deviations.iter().all(|deviation| (0.0..=MAX_DEVIATION).contains(deviation)) {
                 let value = match deviations {
                     [deviation] => deviation.to_string(),
                     several => format!("{several:?}"),

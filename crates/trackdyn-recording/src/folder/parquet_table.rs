@@ -13,8 +13,8 @@ use parquet::data_type::{ByteArray, DataType};
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::path::Path;
+use trackdyn_core::input;
 
 /// Reads a file with the columns of `S`, maybe `run`, and any others.
 ///
@@ -25,7 +25,7 @@ pub(super) fn read_rows<S: Sample>(path: &Path) -> Result<Rows<S>, Error> {
         path: path.to_owned(),
         message: format!("not a readable Parquet file: {error}"),
     };
-    let file = File::open(path).map_err(|cause| unreadable(path, cause))?;
+    let file = input::open(path).map_err(|cause| unreadable(path, cause))?;
     let reader = SerializedFileReader::new(file).map_err(refused)?;
     if reader.num_row_groups() == 0 {
         return Err(Error::Empty { path: path.to_owned(), message: "no rows".to_owned() });

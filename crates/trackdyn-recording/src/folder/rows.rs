@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::sample::{Cells, Column, Sample, Series};
 use crate::table::{Table, number};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 
 /// The series of every run in a file.
@@ -23,15 +23,15 @@ pub(crate) fn read_rows<S: Sample>(path: &Path) -> Result<Rows<S>, Error> {
     loop {
         match attempt(path, &texts)? {
             Attempt::Done(rows) => return Ok(rows),
-            Attempt::IsText(column) => texts.insert(column),
-        };
+            Attempt::AreTexts(columns) => texts.extend(columns),
+        }
     }
 }
 
 enum Attempt<S> {
     Done(Rows<S>),
-    /// A further column that was taken for numbers and is not.
-    IsText(usize),
+    /// Columns in which a row has text where rows before it had numbers.
+    AreTexts(Vec<usize>),
 }
 
 /// One pass over the file that takes all further columns but `texts` for numbers.
@@ -59,6 +59,7 @@ fn attempt<S: Sample>(path: &Path, texts: &BTreeSet<usize>) -> Result<Attempt<S>
     let pattern = empty();
 
     let mut ids: Vec<i64> = Vec::new();
+    let mut places: HashMap<i64, usize> = HashMap::new();
     let mut series: Vec<Series<S>> = Vec::new();
     let mut current = 0;
     let mut columns = vec![0.0; known.len()];
@@ -68,24 +69,28 @@ fn attempt<S: Sample>(path: &Path, texts: &BTreeSet<usize>) -> Result<Attempt<S>
         }
         let id = run_column.map_or(Ok(0), |column| table.integer(column))?;
         if ids.get(current) != Some(&id) {
-            current = ids.iter().rposition(|known| *known == id).unwrap_or_else(|| {
+            current = *places.entry(id).or_insert(ids.len());
+            if current == ids.len() {
                 ids.push(id);
                 series.push(pattern.clone());
-                ids.len() - 1
-            });
+            }
         }
         let target = &mut series[current];
+        let mut are_texts = Vec::new();
         target.samples.push(S::from_columns(&columns));
         for (column, &at) in target.extra.iter_mut().zip(&further) {
             match &mut column.cells {
                 Cells::Numbers(cells) => match number(table.cell(at)) {
                     Some(value) => cells.push(value),
-                    None => return Ok(Attempt::IsText(at)),
+                    None => are_texts.push(at),
                 },
                 Cells::Texts(cells) => {
                     cells.push(String::from_utf8_lossy(table.cell(at)).into_owned());
                 }
             }
+        }
+        if !are_texts.is_empty() {
+            return Ok(Attempt::AreTexts(are_texts));
         }
     }
     if ids.is_empty() {

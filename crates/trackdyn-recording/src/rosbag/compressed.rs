@@ -4,31 +4,40 @@
 //! without the metadata of the bag, which a file alone may lack.
 
 use super::payload::is_zstd;
+use super::stream::MAX_SIZE;
 use super::topic::Topic;
+use super::unpacked::max_unpacked;
 use super::visitor::Visitor;
+use crate::table::MAX_ROWS;
 use std::io::Read;
 use zstd::bulk::Decompressor;
 
-/// Largest size of a message, bytes: a frame that announces more is damaged.
-const MAX_MESSAGE_SIZE: usize = 1 << 28;
+/// Payload that counts as a further message, bytes: one message may hold the states of many joints.
+const SHARE_SIZE: u64 = 4096;
 
-/// Shows messages to a visitor, decompressed.
+/// Shows messages to a visitor, decompressed, and no more of them than memory holds.
 pub(super) struct Decompressing<'a> {
     visitor: &'a mut dyn Visitor,
+    shown: u64,
     decompressor: Option<Decompressor<'static>>,
     buffer: Vec<u8>,
 }
 
 impl<'a> Decompressing<'a> {
     pub(super) fn new(visitor: &'a mut dyn Visitor) -> Self {
-        Self { visitor, decompressor: None, buffer: Vec::new() }
+        Self { visitor, shown: 0, decompressor: None, buffer: Vec::new() }
+    }
+
+    /// Whether messages were left out, since memory would not hold them.
+    pub(super) fn is_full(&self) -> bool {
+        self.shown > MAX_ROWS
     }
 
     /// Fills the buffer; false where the frame is damaged.
     fn decompress(&mut self, payload: &[u8]) -> bool {
         self.buffer.clear();
         let Some(size) = Decompressor::upper_bound(payload) else { return self.stream(payload) };
-        if size > MAX_MESSAGE_SIZE {
+        if size as u64 > max_unpacked(payload.len() as u64).min(MAX_SIZE) {
             return false;
         }
         self.buffer.reserve(size);
@@ -42,8 +51,9 @@ impl<'a> Decompressing<'a> {
     /// A frame that does not announce its size.
     fn stream(&mut self, payload: &[u8]) -> bool {
         let Ok(decoder) = zstd::stream::read::Decoder::with_buffer(payload) else { return false };
-        let size = decoder.take(MAX_MESSAGE_SIZE as u64 + 1).read_to_end(&mut self.buffer);
-        size.is_ok_and(|size| size <= MAX_MESSAGE_SIZE)
+        let most = max_unpacked(payload.len() as u64).min(MAX_SIZE);
+        let size = decoder.take(most + 1).read_to_end(&mut self.buffer);
+        size.is_ok_and(|size| size as u64 <= most)
     }
 }
 
@@ -57,6 +67,10 @@ impl Visitor for Decompressing<'_> {
     }
 
     fn message(&mut self, topic: &Topic, log_ns: i64, payload: &[u8]) {
+        self.shown += 1 + payload.len() as u64 / SHARE_SIZE;
+        if self.is_full() {
+            return;
+        }
         if topic.encoding == "cdr" && is_zstd(payload) && self.decompress(payload) {
             self.visitor.message(topic, log_ns, &self.buffer);
         } else {

@@ -1,6 +1,7 @@
 //! Chunks of `.mcap` files: checked as a whole before any of their records is used.
 
 use super::stream::{Dropped, MAX_SIZE};
+use super::unpacked::max_unpacked;
 use std::io::Read;
 use zstd::bulk::Decompressor;
 
@@ -91,16 +92,17 @@ impl Chunks {
     pub(super) fn cut<'a>(&'a mut self, data: &'a [u8]) -> Option<&'a [u8]> {
         let chunk = Chunk::of(data)?;
         self.buffer.clear();
+        let most = max_unpacked(chunk.packed.len() as u64).min(MAX_SIZE);
         // Decompression ends with an error where the file does: what came before counts.
         match chunk.compression {
             b"" => return Some(chunk.packed),
             b"zstd" => {
                 let decoder = zstd::stream::read::Decoder::with_buffer(chunk.packed).ok()?;
-                let _ = decoder.take(MAX_SIZE).read_to_end(&mut self.buffer);
+                let _ = decoder.take(most).read_to_end(&mut self.buffer);
             }
             b"lz4" => {
                 let decoder = lz4::Decoder::new(chunk.packed).ok()?;
-                let _ = decoder.take(MAX_SIZE).read_to_end(&mut self.buffer);
+                let _ = decoder.take(most).read_to_end(&mut self.buffer);
             }
             _ => return None,
         }
@@ -109,8 +111,10 @@ impl Chunks {
 
     /// Checks a chunk; its records stand in the buffer, where they are compressed.
     fn decompress(&mut self, chunk: &Chunk) -> Result<(), String> {
-        if chunk.size > MAX_SIZE {
-            return Err(format!("it claims to hold {} bytes", chunk.size));
+        let most = max_unpacked(chunk.packed.len() as u64).min(MAX_SIZE);
+        if chunk.size > most {
+            let packed = chunk.packed.len();
+            return Err(format!("it claims to hold {} bytes in {packed}", chunk.size));
         }
         if chunk.packed.len() as u64 != chunk.packed_size {
             return Err("its compressed size is wrong".to_owned());

@@ -1,11 +1,13 @@
 //! A file of a bag: what it holds, and whether it is packed.
 
+use super::unpacked::max_unpacked;
 use crate::Error;
 use crate::table::unreadable;
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::{BufReader, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
+use trackdyn_core::input;
 
 /// Bytes taken from a file at a time; longer reads pass the buffer by.
 const BUFFER_SIZE: usize = 1 << 16;
@@ -87,9 +89,11 @@ impl Part {
     /// [`Error::Unreadable`].
     pub(super) fn open(&self) -> Result<Box<dyn Read>, Error> {
         let refused = |cause| unreadable(&self.path, cause);
-        let file = File::open(&self.path).map_err(refused)?;
+        let file = input::open(&self.path).map_err(refused)?;
         Ok(if self.is_packed {
+            let most = max_unpacked(file.metadata().map_err(refused)?.len());
             let unpacking = zstd::stream::read::Decoder::new(file).map_err(refused)?;
+            let unpacking = AtMost { most, left: most, content: unpacking };
             Box::new(BufReader::with_capacity(BUFFER_SIZE, unpacking))
         } else {
             Box::new(BufReader::with_capacity(BUFFER_SIZE, file))
@@ -125,6 +129,29 @@ impl Part {
             std::fs::copy(sibling(ending), copy).map_err(refused)?;
         }
         Ok(OnDisk { path, copy: Some(folder) })
+    }
+}
+
+/// A content that ends with an error where it is larger than it may be.
+struct AtMost<R> {
+    content: R,
+    most: u64,
+    left: u64,
+}
+
+impl<R: Read> Read for AtMost<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let count = self.content.read(buffer)?;
+        let Some(left) = self.left.checked_sub(count as u64) else {
+            let most = self.most >> 20;
+            let expected = format!(
+                "it unpacks to more than {most} MiB, far more than its size: expected less, or the \
+                 file unpacked (zstd -d)"
+            );
+            return Err(std::io::Error::new(ErrorKind::FileTooLarge, expected));
+        };
+        self.left = left;
+        Ok(count)
     }
 }
 

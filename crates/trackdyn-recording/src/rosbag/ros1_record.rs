@@ -7,6 +7,7 @@
 //! ROS wiki, "Bags/Format/2.0".
 
 use super::stream::MAX_SIZE;
+use super::unpacked::max_unpacked;
 use std::io::Read;
 
 /// Operation codes of the records that are read.
@@ -82,7 +83,11 @@ pub(super) fn split_sized(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
 pub(super) fn decompress(head: Fields, data: &[u8], buffer: &mut Vec<u8>) -> Result<(), String> {
     buffer.clear();
     let size = head.u32("size").ok_or("its head has no size")?;
-    let limit = u64::from(size).saturating_add(1).min(MAX_SIZE);
+    let most = max_unpacked(data.len() as u64).min(MAX_SIZE);
+    if u64::from(size) > most {
+        return Err(format!("it claims to hold {size} bytes in {}", data.len()));
+    }
+    let limit = u64::from(size) + 1;
     let decompressed = match head.get("compression") {
         Some(b"none") => data.take(limit).read_to_end(buffer),
         Some(b"bz2") => bzip2::read::BzDecoder::new(data).take(limit).read_to_end(buffer),

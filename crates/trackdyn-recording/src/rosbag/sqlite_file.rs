@@ -10,7 +10,7 @@ use super::topic::Topic;
 use super::visitor::Visitor;
 use crate::Error;
 use crate::recording::Warning;
-use rusqlite::{Connection, OpenFlags};
+use rusqlite::{Connection, OpenFlags, OptionalExtension};
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::path::Path;
@@ -29,6 +29,7 @@ pub(super) fn scan(part: &Part, visitor: &mut dyn Visitor) -> Result<Option<Warn
     // The copy, if it is one, lives until the connection is closed.
     let file = part.on_disk(&COMPANIONS)?;
     let connection = connect(&file).map_err(refused)?;
+    require_tables(&connection).map_err(|message| Error::Bag { path: path.to_owned(), message })?;
     let topics = topics(&connection).map_err(refused)?;
     // Bags before ROS 2 Jazzy have no such table.
     for (kind, text) in definitions(&connection).unwrap_or_default() {
@@ -74,6 +75,21 @@ fn immutable(path: &Path) -> String {
     address.push_str("?immutable=1");
     address
 }
+
+/// Refuses rows that a database computes instead of holding them: a view, a virtual table or a
+/// generated column may have rows without end, or cells of any size.
+fn require_tables(connection: &Connection) -> Result<(), String> {
+    const COMPUTED: &str = "SELECT name FROM sqlite_schema \
+         WHERE lower(name) IN ('topics', 'messages', 'message_definitions') \
+         AND type IN ('table', 'view') AND (type = 'view' OR rootpage = 0 OR EXISTS \
+         (SELECT 1 FROM pragma_table_xinfo(sqlite_schema.name) WHERE hidden <> 0))";
+    let found = connection.query_row(COMPUTED, [], |row| row.get::<_, String>(0)).optional();
+    match found.map_err(|error| error.to_string())? {
+        None => Ok(()),
+        Some(name) => Err(format!("the rows of {name} are computed: expected a table of rows")),
+    }
+}
+
 fn topics(connection: &Connection) -> rusqlite::Result<Vec<(i64, Topic)>> {
     let mut statement = connection
         .prepare("SELECT id, name, type, serialization_format FROM topics ORDER BY id")?;

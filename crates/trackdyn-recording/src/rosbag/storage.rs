@@ -6,8 +6,9 @@ use super::visitor::Visitor;
 use super::{mcap_file, ros1_file, sqlite_file};
 use crate::Error;
 use crate::recording::Warning;
-use crate::table::unreadable;
+use crate::table::{too_many, unreadable};
 use std::path::{Path, PathBuf};
+use trackdyn_core::input;
 
 const METADATA: &str = "metadata.yaml";
 
@@ -41,6 +42,9 @@ pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Vec<Warning
     let mut visitor = Decompressing::new(visitor);
     for listed in parts {
         let Some(part) = listed.clone().present() else {
+            if !path.is_dir() {
+                input::open(path).map_err(|cause| unreadable(path, cause))?;
+            }
             warnings.push(Warning::PartMissing { path: listed.path().to_owned() });
             continue;
         };
@@ -49,6 +53,10 @@ pub(super) fn scan(path: &Path, visitor: &mut dyn Visitor) -> Result<Vec<Warning
             Storage::Sqlite => sqlite_file::scan(&part, &mut visitor)?.into_iter().collect(),
             Storage::Ros1 => ros1_file::scan(&part, &mut visitor)?,
         });
+        if visitor.is_full() {
+            let path = path.to_owned();
+            return Err(Error::Bag { path, message: too_many("messages of motion") });
+        }
     }
     Ok(warnings)
 }
@@ -59,7 +67,7 @@ fn parts(path: &Path) -> Result<Vec<Part>, Error> {
     if !path.is_dir() {
         return Ok(Part::of(path).into_iter().collect());
     }
-    if let Ok(text) = std::fs::read_to_string(path.join(METADATA)) {
+    if let Ok(text) = input::text(&path.join(METADATA)) {
         let listed = listed_files(&text).filter_map(|name| Part::of(&path.join(name)));
         let listed: Vec<Part> = listed.collect();
         if listed.iter().any(|part| part.clone().present().is_some()) {

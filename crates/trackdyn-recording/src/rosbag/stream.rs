@@ -7,8 +7,9 @@ use crate::table::unreadable;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-/// Largest size of a piece that is looked into, bytes: a longer one is damage.
-pub(super) const MAX_SIZE: u64 = 1 << 30;
+/// Largest size of a piece that is looked into, bytes: a longer one is damage. Chunks of recorders
+/// hold 1 to 64 MiB, and an image some 25.
+pub(super) const MAX_SIZE: u64 = 1 << 28;
 
 /// What is wrong with a file whose records end before it says that they do.
 pub(super) const ENDS_EARLY: &str = "it ends early, or is damaged from there on";

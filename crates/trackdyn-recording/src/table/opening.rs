@@ -2,12 +2,15 @@
 
 use super::unreadable;
 use crate::Error;
-use std::fs::File;
 use std::io::{Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
+use trackdyn_core::input;
 
 /// Longest beginning of a file that is looked at, bytes.
 const MAX_START: u64 = 1 << 16;
+
+/// Largest text in UTF-16, bytes, which is converted as a whole.
+const MAX_UTF16_SIZE: u64 = 1 << 26;
 
 /// Most lines above a header.
 const MAX_PREAMBLE: usize = 100;
@@ -31,7 +34,7 @@ pub(super) struct Text {
 /// [`Error::Unreadable`], [`Error::Empty`] for files that are no text.
 pub(super) fn open(path: &Path, required: &[&str]) -> Result<Text, Error> {
     let failed = |cause| unreadable(path, cause);
-    let mut file = File::open(path).map_err(failed)?;
+    let mut file = input::open(path).map_err(failed)?;
     let mut start = Vec::new();
     file.by_ref().take(MAX_START).read_to_end(&mut start).map_err(failed)?;
     if let Some(kind) = binary(&start) {
@@ -42,7 +45,10 @@ pub(super) fn open(path: &Path, required: &[&str]) -> Result<Text, Error> {
         && first != second
     {
         let mut bytes = start.split_off(2);
-        file.read_to_end(&mut bytes).map_err(failed)?;
+        file.take(MAX_UTF16_SIZE).read_to_end(&mut bytes).map_err(failed)?;
+        if bytes.len() as u64 >= MAX_UTF16_SIZE {
+            return Err(failed(input::too_large(MAX_UTF16_SIZE)));
+        }
         let pair = |pair: &[u8]| match first {
             0xff => u16::from_le_bytes([pair[0], pair[1]]),
             _ => u16::from_be_bytes([pair[0], pair[1]]),

@@ -101,7 +101,7 @@ fn in_a_symmetric_room_the_guess_decides() {
     }
 }
 
-/// The table of `docs/theory/localisation.md`: run with `--release -- --ignored --nocapture`.
+/// The table of `README.md`: run with `--release -- --ignored --nocapture`.
 #[test]
 #[ignore = "matches 6000 scans"]
 fn matches_are_off_by_what_is_documented() {

@@ -164,7 +164,7 @@ fn nonsense_is_refused() {
     assert!(localise(&[], &[], &Localisation::default()).expect("nothing").is_empty());
 }
 
-/// The figures of `docs/theory/localisation.md`, and those of other overlaps: run with
+/// The figures of `README.md`, and those of other overlaps: run with
 /// `--release -- --ignored --nocapture`.
 #[test]
 #[ignore = "drives 77 paths"]

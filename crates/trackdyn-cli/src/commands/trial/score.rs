@@ -3,11 +3,12 @@
 use super::{figures, key_to_open};
 use crate::commands::Outcome;
 use crate::exit::Exit;
+use crate::folder::prepare_folder;
 use crate::stderr::say;
 use crate::stdout::show;
 use clap::Args;
 use std::path::{Path, PathBuf};
-use trackdyn::crates::core::output::{prepare_folder, write_file};
+use trackdyn::crates::core::output::write_file;
 use trackdyn_blind_trial::{Entry, Opened, Score, folder, score};
 
 /// Options of `trackdyn trial score`.

@@ -5,6 +5,7 @@ use crate::Error;
 use crate::table::unreadable;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use trackdyn_core::input;
 
 /// Deepest folder that is looked into.
 const MAX_FOLDERS: usize = 8;
@@ -60,7 +61,8 @@ impl Texts {
             } else if path.extension().is_some_and(|ending| ending == "msg")
                 && let Some(kind) = kind_of_file(&path)
             {
-                let text = std::fs::read(&path).map_err(|cause| unreadable(&path, cause))?;
+                let text = input::bytes(&path, input::MAX_TEXT_SIZE)
+                    .map_err(|cause| unreadable(&path, cause))?;
                 let text = String::from_utf8_lossy(&text).into_owned();
                 self.of_folder.entry(kind).or_insert(text);
             }

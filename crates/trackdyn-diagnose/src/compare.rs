@@ -26,11 +26,10 @@ pub use remainder::Remainder;
 
 use crate::diagnosis::{Diagnosis, Examination};
 use crate::locate::cells::Cell;
-use crate::place::plain_words;
 use crate::progress::{Cancelled, Stage, Watch};
 use crate::resampling::Resampling;
 use choice::Choice;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use trackdyn_model::effect::Symmetry;
 use trackdyn_model::{EffectId, VehicleFile};
 
@@ -46,7 +45,7 @@ pub enum Status {
     Explained,
     /// Something differs, and more than one effect explains it.
     Ambiguous,
-    /// They differ in a way outside the catalogue; what was named stays named.
+    /// They differ in a way that nothing named explains; what was named stays named.
     Unexplained,
 }
 
@@ -87,8 +86,10 @@ pub struct Comparison {
     pub not_shown: Vec<(EffectId, usize)>,
     /// Encoders and pose sensor in each set: instruments, not physics.
     pub instruments: Vec<Group>,
-    /// Where they differ, whatever the reason: with all sizes in common.
+    /// Where they differ beside constant ICRs, whatever the reason: with all sizes in common.
     pub before: Remainder,
+    /// Where they differ beside what is named: with all other numbers in common.
+    pub beside_named: Remainder,
     /// Where they differ in a way that no size explains.
     pub after: Remainder,
     /// ICRs by cells of driving in each set, against what both have in common.
@@ -113,15 +114,27 @@ pub fn compare(
     let (groups, moved) = watch.stage(Stage::Differences, || quantity::groups(both, &choice))?;
     let moved = moved.as_ref();
     let judged = difference::judge(both, &choice, groups.clone(), moved, resampling);
+    let judged = closer::judge(both, &choice, judged);
     let (differences, alike): (Vec<_>, Vec<_>) =
         judged.into_iter().partition(|one| one.refused.is_none());
     watch.stage(Stage::Differences, || ())?;
     let icrs = remainder::icrs(both, &choice);
+    let beside = |is_free: &dyn Fn(Subject) -> bool| {
+        let free = groups.iter().filter(|group| is_free(group.subject));
+        difference::joint_beside(both, &choice, &groups, moved, free)
+    };
+    let is_named = |subject: Subject| differences.iter().any(|one| one.group.subject == subject);
+    let is_constants = |subject: Subject| subject == Subject::Constants;
+    let beside_named = beside(&is_named);
+    // constants of slow driving are exact: the form of laws is that of all other differences
+    let of_laws = remainder::misfit(&beside(&|one| is_constants(one) && is_named(one)))
+        - remainder::misfit(&beside_named);
     let of =
-        |joint, is_strict| remainder::remainder(both, &choice, joint, &icrs, is_strict, resampling);
-    let before = of(difference::joint(both, &choice, &groups, moved), false);
-    let after = of(remainder::apart(both, &choice), true);
-    let left = difference::left_in_common(both, &choice, &groups, moved);
+        |joint, explained| remainder::remainder(both, &choice, joint, &icrs, explained, resampling);
+    let before = of(beside(&is_constants), 0.0);
+    let beside_named = of(beside_named, of_laws.max(0.0));
+    let after = of(remainder::apart(both, &choice), 0.0);
+    let left = difference::joint(both, &choice, &groups, moved).left();
     let cells = remainder::cells(both, &icrs, &left);
     let closer = Closer::of(both, &choice, &differences, file);
     let not_shown = choice.effects.iter().flat_map(|&effect| {
@@ -141,6 +154,7 @@ pub fn compare(
         not_shown,
         instruments,
         before,
+        beside_named,
         after,
         cells,
         closer,
@@ -166,7 +180,7 @@ fn smallest(diagnoses: &[Diagnosis; 2]) -> Vec<Smallest> {
 impl Comparison {
     /// What it says in a word.
     pub fn status(&self) -> Status {
-        if !self.after.broken().is_empty() {
+        if !self.left().is_empty() {
             Status::Unexplained
         } else if self.differences.iter().any(|one| one.one_of.len() > 1) {
             Status::Ambiguous
@@ -175,6 +189,11 @@ impl Comparison {
         } else {
             Status::Explained
         }
+    }
+
+    /// Whether they differ in a way that no size of an effect explains.
+    pub fn is_outside_the_catalogue(&self) -> bool {
+        !self.after.surely_broken().is_empty()
     }
 
     /// Effects that both sets have alike and the vehicle file lacks.
@@ -190,25 +209,29 @@ impl Comparison {
         })
     }
 
-    /// Symmetries in which the sets differ, ascending.
+    /// Symmetries in which the sets differ beside constant ICRs, ascending.
     pub fn broken(&self) -> Vec<Symmetry> {
-        let mut broken = [self.before.broken(), self.after.broken()].concat();
-        broken.sort_unstable();
-        broken.dedup();
-        broken
+        both_of(self.before.broken(), self.left())
     }
 
-    /// One sentence on where they differ: driving, symmetries.
+    /// Symmetries in which they surely differ beside what is named, ascending.
+    pub fn left(&self) -> Vec<Symmetry> {
+        both_of(self.beside_named.surely_broken(), self.after.surely_broken())
+    }
+
+    /// One sentence on where they differ: the driving, and what the difference depends on.
     pub fn place(&self) -> String {
-        let mut parts = Vec::new();
-        if !self.differences.is_empty() || !self.broken().is_empty() {
-            parts.extend(self.largest());
-        }
-        parts.extend(self.broken().into_iter().map(|one| plain_words(one).to_owned()));
-        if parts.is_empty() {
+        let broken = self.broken();
+        if self.differences.is_empty() && broken.is_empty() {
             return "nowhere: one model with the instruments of each explains both".to_owned();
         }
-        parts.join("; ")
+        let on = if broken.is_empty() {
+            "it is the same in all driving".to_owned()
+        } else {
+            let on: Vec<&str> = broken.into_iter().map(words::depends_on).collect();
+            format!("it depends on {}", on.join(", "))
+        };
+        self.largest().into_iter().chain([on]).collect::<Vec<_>>().join("; ")
     }
 
     /// The cell of driving whose ICRs differ most surely, in words.
@@ -226,7 +249,7 @@ impl Comparison {
                 if best.as_ref().is_none_or(|(most, _)| z > *most) && z.is_finite() {
                     let direction = if cell.forward { "forward" } else { "backward" };
                     let words = format!(
-                        "largest in {} {direction} at {:.2} m/s, where the ICRs differ by {:.0} mm",
+                        "the ICRs differ most surely in {} {direction} at {:.2} m/s, by {:.0} mm",
                         cell.manoeuvre.name(),
                         cell.mean_speed,
                         1e3 * (b - a).abs()
@@ -237,4 +260,10 @@ impl Comparison {
         }
         best.map(|(_, words)| words)
     }
+}
+
+/// All symmetries of two lists, ascending.
+fn both_of(first: Vec<Symmetry>, second: Vec<Symmetry>) -> Vec<Symmetry> {
+    let all: BTreeSet<Symmetry> = first.into_iter().chain(second).collect();
+    all.into_iter().collect()
 }

@@ -12,9 +12,9 @@ use trackdyn_model::effect::Symmetry;
 /// Channels in words, in the order of a motion.
 pub const CHANNELS: [&str; 3] = ["longitudinal", "lateral", "yaw"];
 
-/// A broken symmetry in words, without the place of a wave.
-pub fn plain_words(symmetry: Symmetry) -> &'static str {
-    match symmetry {
+/// A broken symmetry in words.
+pub fn words(symmetry: Symmetry, location: &Location) -> String {
+    let words = match symmetry {
         Symmetry::SpeedScale => "the ICRs move with speed",
         Symmetry::Reversal => "the ICRs differ between one direction and the reverse",
         Symmetry::Manoeuvre => "the ICRs differ between arcs, counter-rotation and spins",
@@ -26,12 +26,7 @@ pub fn plain_words(symmetry: Symmetry) -> &'static str {
         Symmetry::Straight => {
             "straight driving is not straight, or not as fast as the encoders say"
         }
-    }
-}
-
-/// A broken symmetry in words.
-pub fn words(symmetry: Symmetry, location: &Location) -> String {
-    let words = plain_words(symmetry);
+    };
     match location.wave.filter(|_| symmetry == Symmetry::Place) {
         Some(Wave { length, direction, .. }) => {
             let direction = direction.to_degrees();

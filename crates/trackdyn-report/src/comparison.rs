@@ -45,7 +45,8 @@ struct Page<'a> {
     common: Option<String>,
     instruments: Option<String>,
     not_shown: Vec<String>,
-    smallest: String,
+    nothing: String,
+    refused: Vec<String>,
     figures: Vec<Picture<'a>>,
     sides: Vec<Side>,
     caption: &'a str,
@@ -141,11 +142,8 @@ fn page<'a>(subject: &Compared<'a>, figures: &'a [Figure]) -> Result<Page<'a>, E
     let status = comparison.status();
     let differs = comparison.differences.iter().map(|one| Named {
         sentence: words::sentence(one),
-        settings: words::settings(one),
-        support: format!(
-            "ln Bayes factor {:.1}, probability of chance {:.4}",
-            one.support.ln_bayes_factor, one.support.p
-        ),
+        settings: words::settings(comparison, one),
+        support: words::support(one),
     });
     let alike = comparison.alike.iter().map(|one| {
         let numbers: Vec<String> = one.group.numbers.iter().map(words::number).collect();
@@ -191,7 +189,8 @@ fn page<'a>(subject: &Compared<'a>, figures: &'a [Figure]) -> Result<Page<'a>, E
         common: words::common(comparison),
         instruments: words::instruments(comparison),
         not_shown: words::not_shown(comparison),
-        smallest: words::smallest(comparison),
+        nothing: words::nothing_named(comparison),
+        refused: words::refused(comparison),
         figures: figures.collect::<Result<_, Error>>()?,
         sides: vec![side(0), side(1)],
         caption: subject.caption,

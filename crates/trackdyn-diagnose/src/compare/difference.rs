@@ -44,10 +44,12 @@ pub enum NoDifference {
         /// Least share needed.
         needed: f64,
     },
-    /// One set cannot show it.
-    NotShown {
-        /// That set: 0 or 1.
-        set: usize,
+    /// With it, the first set's model predicts the second set no better.
+    NotCloser {
+        /// Error without it, in units of the noise.
+        without: f64,
+        /// Error with it.
+        with: f64,
     },
 }
 
@@ -63,9 +65,11 @@ impl std::fmt::Display for NoDifference {
                 100.0 * share,
                 100.0 * needed
             ),
-            Self::NotShown { set } => {
-                write!(f, "the {} set cannot show it", if *set == 0 { "first" } else { "second" })
-            }
+            Self::NotCloser { without, with } => write!(
+                f,
+                "with it SIM predicts REAL no better: error {with:.2} times the noise, {without:.2} \
+                 without"
+            ),
         }
     }
 }
@@ -197,8 +201,7 @@ pub(super) fn joint<'a>(
         let factors = quantity.each.map(|one| one.value - common);
         joint.add_back(0, &first, factors[0]);
         joint.add_back(1, &second, factors[1]);
-        let width = 2.0_f64.sqrt() * quantity.prior.deviation;
-        joint.free_in_both([&first, &second], Prior::normal(0.0, width));
+        joint.free_in_both([&first, &second], prior_of_difference(quantity));
     }
     joint
 }
@@ -207,10 +210,32 @@ pub(super) fn joint<'a>(
 fn more(joint: &Joint, fits: Fits, groups: &[Group]) -> Vec<Vec<(Column, Prior)>> {
     let of = |quantity: &Quantity| {
         let column = joint.alone(1, &fits.of(1, quantity.number)?);
-        let width = 2.0_f64.sqrt() * quantity.prior.deviation;
-        Some((column, Prior::normal(0.0, width)))
+        Some((column, prior_of_difference(quantity)))
     };
     groups.iter().map(|group| group.numbers.iter().filter_map(of).collect()).collect()
+}
+
+/// Two independent numbers with this prior differ by √2 of its deviation.
+fn prior_of_difference(quantity: &Quantity) -> Prior {
+    Prior::normal(0.0, 2.0_f64.sqrt() * quantity.prior.deviation)
+}
+
+/// Both sets with all groups in common but some of them, which are free in each.
+pub(super) fn joint_beside<'a, 'b>(
+    sets: [&'a Examination; 2],
+    choice: &'a Choice,
+    groups: &[Group],
+    moved: Option<&[Gradients; 2]>,
+    free: impl Iterator<Item = &'b Group>,
+) -> Joint<'a> {
+    let mut joint = joint(sets, choice, groups, moved);
+    let fits = Fits { fits: [&choice.fits[0].fit, &choice.fits[1].fit], moved };
+    for quantity in free.flat_map(|group| &group.numbers) {
+        if let Some(column) = fits.of(1, quantity.number) {
+            joint.free_in(1, &column, prior_of_difference(quantity));
+        }
+    }
+    joint
 }
 
 /// Judges all groups: as one family, each beside the differences of all others.
@@ -366,14 +391,4 @@ fn one_of(group: &Group, claims: &[Vec<Claimed>; 2], members: &[Member]) -> Vec<
             }
         }
     }
-}
-
-/// What is left of both sets where they share all sizes.
-pub(super) fn left_in_common(
-    sets: [&Examination; 2],
-    choice: &Choice,
-    groups: &[Group],
-    moved: Option<&[Gradients; 2]>,
-) -> [Vec<Vector3<f64>>; 2] {
-    joint(sets, choice, groups, moved).left()
 }

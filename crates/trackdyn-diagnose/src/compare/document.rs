@@ -47,7 +47,7 @@ pub struct ComparisonFile {
 pub struct LocatedTable {
     /// Letters of the symmetries in which they differ.
     pub broken: Vec<String>,
-    /// Letters of those that no size explains.
+    /// Letters of those that nothing named explains.
     pub left: Vec<String>,
     /// One sentence.
     #[serde(rename = "where")]
@@ -165,7 +165,7 @@ impl ComparisonFile {
             status: comparison.status().name().to_owned(),
             located: LocatedTable {
                 broken: letters(comparison.broken()),
-                left: letters(comparison.after.broken()),
+                left: letters(comparison.left()),
                 place: comparison.place(),
             },
             differs: comparison.differences.iter().map(difference).collect(),

@@ -175,10 +175,7 @@ pub(super) fn groups(
     let mut groups = Vec::new();
     for &effect in &effects {
         let numbers = sizes(effect).filter_map(|unknown| {
-            let of = |k: usize| {
-                let mut own = intervals[k].iter();
-                own.find(|one| one.unknown == unknown).copied().map(Estimate::from)
-            };
+            let of = |k: usize| size(fits[k], unknown, &intervals[k], &spreads[k]);
             let parameter = unknown.parameter()?;
             let known = prior(hypothesis, unknown, evidence);
             let known = Prior { mean: neutral(parameter), ..known };
@@ -194,10 +191,10 @@ pub(super) fn groups(
         (Subject::CentreOfGravity, &[Unknown::Cog(0), Unknown::Cog(1)]),
     ] {
         let numbers = unknowns.iter().filter_map(|&unknown| {
-            let of = |k: usize| free(fits[k], unknown, &spreads[k]);
-            let known = prior(hypothesis, unknown, evidence);
-            let typical = known.deviation;
-            Some(Quantity::new(Number::Unknown(unknown), [of(0)?, of(1)?], known, typical))
+            let of = |k: usize| known(fits[k], unknown, &spreads[k]);
+            let prior = prior(hypothesis, unknown, evidence);
+            let typical = prior.deviation;
+            Some(Quantity::new(Number::Unknown(unknown), [of(0)?, of(1)?], prior, typical))
         });
         groups.push(Group { subject, numbers: numbers.collect() });
     }
@@ -205,8 +202,25 @@ pub(super) fn groups(
     (groups, gradients)
 }
 
-/// Estimate of an unknown; none where it is not free.
-fn free(found: &Found, unknown: Unknown, spread: &Spread) -> Option<Estimate> {
+/// Estimate of a size: by its profile where it is free, by the normal equations where it is held at
+/// a bound; none where the fit does not have it.
+fn size(
+    found: &Found,
+    unknown: Unknown,
+    intervals: &[Interval],
+    spread: &Spread,
+) -> Option<Estimate> {
+    let place = found.fit.unknowns.iter().position(|one| *one == unknown)?;
+    if found.fit.free.contains(&place) {
+        return intervals.iter().find(|one| one.unknown == unknown).copied().map(Estimate::from);
+    }
+    let Estimate { value, low, high } = known(found, unknown, spread)?;
+    let range = found.fit.hypothesis.range(unknown);
+    Some(Estimate { value, low: low.max(range[0]), high: high.min(range[1]) })
+}
+
+/// Estimate of an unknown by the normal equations; none where the fit does not have it.
+fn known(found: &Found, unknown: Unknown, spread: &Spread) -> Option<Estimate> {
     let place = found.fit.unknowns.iter().position(|one| *one == unknown)?;
     let mut gradient = vec![0.0; found.fit.unknowns.len()];
     gradient[place] = 1.0;
@@ -298,15 +312,13 @@ pub(super) fn instruments(sets: [&Examination; 2], choice: &Choice) -> Vec<Group
     };
     let both: Vec<EffectId> =
         EffectId::all().filter(|&effect| is_one(effect, 0) && is_one(effect, 1)).collect();
-    let intervals =
-        [0, 1].map(|k| Uncertainty::of(&sets[k].search, &choice.fits[k]).intervals(&both));
+    let fits = [&choice.fits[0], &choice.fits[1]];
+    let spreads = [0, 1].map(|k| Spread::of(&sets[k].search, fits[k]));
+    let intervals = [0, 1].map(|k| Uncertainty::of(&sets[k].search, fits[k]).intervals(&both));
     let evidence = &sets[0].search.evidence;
     let group = |effect: EffectId| {
         let numbers = sizes(effect).filter_map(|unknown| {
-            let of = |k: usize| {
-                let mut own = intervals[k].iter();
-                own.find(|one| one.unknown == unknown).copied().map(Estimate::from)
-            };
+            let of = |k: usize| size(fits[k], unknown, &intervals[k], &spreads[k]);
             let known = prior(hypothesis, unknown, evidence);
             let typical = typical_size(unknown.parameter()?);
             Some(Quantity::new(Number::Unknown(unknown), [of(0)?, of(1)?], known, typical))

@@ -25,19 +25,28 @@ use trackdyn_model::effect::Symmetry;
 pub struct Remainder {
     /// Tests of all symmetries for which both sets have contrasts.
     pub tests: Vec<SymmetryTest>,
-    /// Largest family-wise p of a broken symmetry.
-    pub max_p: f64,
+    /// Largest family-wise p of a symmetry in which they differ, and of one in which they surely do.
+    pub max_p: [f64; 2],
     /// Chi-squared that may be left in one symmetry: by the form of the laws and of what both sets
     /// depart by alike, and by the noise.
     pub tolerated: f64,
 }
 
 impl Remainder {
-    /// Symmetries in which the sets surely differ, ascending.
+    /// Symmetries in which the sets differ, ascending.
     pub fn broken(&self) -> Vec<Symmetry> {
+        self.below(self.max_p[0])
+    }
+
+    /// Symmetries in which they surely differ: as sure as of what a corrected model leaves.
+    pub fn surely_broken(&self) -> Vec<Symmetry> {
+        self.below(self.max_p[1])
+    }
+
+    fn below(&self, max_p: f64) -> Vec<Symmetry> {
         let is_broken = |one: &&SymmetryTest| {
             let beyond = one.test.statistic - real(one.test.degrees);
-            one.test.p < self.max_p && beyond > self.tolerated
+            one.test.p < max_p && beyond > self.tolerated
         };
         let mut broken: Vec<Symmetry> =
             self.tests.iter().filter(is_broken).map(|one| one.symmetry).collect();
@@ -51,14 +60,14 @@ pub(super) fn icrs(sets: [&Examination; 2], choice: &Choice) -> [IcrColumns; 2] 
     [0, 1].map(|k| icr_columns(&sets[k].search.evidence, &choice.fits[k].fit))
 }
 
-/// Tests contrasts between two sets, beside what is free in `joint`. `is_strict` tests what a model
-/// leaves.
+/// Tests contrasts between two sets, beside what is free in `joint`. `explained` is the chi-squared
+/// of named differences: their laws are known to a part, too.
 pub(super) fn remainder(
     sets: [&Examination; 2],
     choice: &Choice,
     mut joint: Joint,
     icrs: &[IcrColumns; 2],
-    is_strict: bool,
+    explained: f64,
     resampling: Resampling,
 ) -> Remainder {
     let evidence = sets.map(|set| &set.search.evidence);
@@ -101,12 +110,11 @@ pub(super) fn remainder(
                 other.beside.is_empty() && kind.beside.contains(&other.symmetry)
             });
             let beside: Vec<usize> = plain.flat_map(|(_, columns)| columns.clone()).collect();
-            let cleared = if beside.is_empty() {
+            if beside.is_empty() {
                 Scores::new(&projected, own, &settings.location)
             } else {
                 Scores::new(&projected.cleared(own, &beside), own, &settings.location)
-            };
-            cleared
+            }
         })
         .collect();
     let mut tests: Vec<SymmetryTest> = Vec::new();
@@ -119,15 +127,16 @@ pub(super) fn remainder(
     }
     let location = &settings.location;
     let measured: usize = evidence.iter().map(|evidence| evidence.measured()).sum();
-    let form = location.max_form_left.powi(2) * (departure + alike);
+    let form = location.max_form_left.powi(2) * (departure + alike + explained);
     Remainder {
         tests,
-        max_p: if is_strict { location.max_p_left_over } else { location.max_p },
+        max_p: [location.max_p, location.max_p_left_over],
         tolerated: form + location.max_noise_left * real(measured),
     }
 }
 
-fn misfit(joint: &Joint) -> f64 {
+/// Chi-squared that is left beside what is free.
+pub(super) fn misfit(joint: &Joint) -> f64 {
     joint.equations(Vec::new()).fit_with(&[]).misfit
 }
 

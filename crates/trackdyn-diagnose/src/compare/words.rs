@@ -1,9 +1,10 @@
-//! A comparison in words: of the screen and of the page.
+//! A comparison in words: of the screen and of the page. SIM is the simulator, REAL the robot.
 
 use super::{Comparison, Difference, Estimate, Member, Number, Quantity, Status, Subject, Which};
-use crate::hypothesis::Unknown;
+use crate::hypothesis::{Unknown, find};
 use crate::proposal::words::decimals;
 use trackdyn_model::EffectId;
+use trackdyn_model::effect::{Role, Symmetry};
 
 /// Most digits behind the point that a size has.
 const MAX_DECIMALS: usize = 6;
@@ -13,13 +14,42 @@ const LISTED: usize = 6;
 
 /// The status as a sentence.
 pub fn headline(comparison: &Comparison) -> &'static str {
+    let is_named = !comparison.differences.is_empty();
     match comparison.status() {
-        Status::NothingDiffers => "Nothing differs that these recordings could have shown.",
-        Status::Explained => "They differ, and what differs is named.",
-        Status::Ambiguous => "They differ, and more than one cause explains it.",
-        Status::Unexplained => {
-            "They differ in a way outside the catalogue. What is named beside it differs, too."
+        Status::NothingDiffers => {
+            "SIM and REAL differ in nothing that these recordings could have shown."
         }
+        Status::Explained => "SIM and REAL differ, and what differs is named.",
+        Status::Ambiguous => "SIM and REAL differ, and more than one cause explains it.",
+        Status::Unexplained if is_named => {
+            "SIM and REAL differ, and what is named explains a part of it only."
+        }
+        Status::Unexplained => "SIM and REAL differ, and nothing in the catalogue explains it.",
+    }
+}
+
+/// What is said where nothing is named.
+pub fn nothing_named(comparison: &Comparison) -> String {
+    if comparison.status() == Status::Unexplained {
+        "something outside the catalogue: no effect and no number of the vehicle explains it"
+            .to_owned()
+    } else {
+        format!("nothing; {}", smallest(comparison))
+    }
+}
+
+/// What a difference depends on that breaks a symmetry.
+pub fn depends_on(symmetry: Symmetry) -> &'static str {
+    match symmetry {
+        Symmetry::SpeedScale => "speed",
+        Symmetry::Reversal => "direction (forward or backward)",
+        Symmetry::Manoeuvre => "manoeuvre (arc, counter-rotation or spin)",
+        Symmetry::Mirror => "side (left or right turns)",
+        Symmetry::Heading => "heading",
+        Symmetry::Place => "place",
+        Symmetry::Time => "time",
+        Symmetry::Transient => "changes of speed or what was driven before",
+        Symmetry::Straight => "straight driving (its speed or its drift)",
     }
 }
 
@@ -27,15 +57,38 @@ pub fn headline(comparison: &Comparison) -> &'static str {
 fn with_interval(of: &Estimate, unit: &str) -> String {
     let Estimate { value, low, high } = *of;
     let digits = decimals((high - low) / 2.0).min(MAX_DECIMALS);
+    // no minus before a zero
+    let shown = |value: f64| {
+        let text = format!("{value:.digits$}");
+        let is_zero = text.chars().all(|one| matches!(one, '-' | '0' | '.'));
+        if is_zero { text.trim_start_matches('-').to_owned() } else { text }
+    };
     let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-    format!("{value:.digits$} [{low:.digits$}, {high:.digits$}]{unit}")
+    format!("{} [{}, {}]{unit}", shown(value), shown(low), shown(high))
+}
+
+/// A number of a logarithm as a factor.
+fn factor(of: &Estimate) -> Estimate {
+    let Estimate { value, low, high } = *of;
+    Estimate { value: value.exp(), low: low.exp(), high: high.exp() }
 }
 
 /// A number in both sets.
 pub fn number(quantity: &Quantity) -> String {
+    if quantity.number == Number::Unknown(Unknown::FrictionLevel) {
+        let [sim, real] =
+            quantity.each.each_ref().map(|one| with_interval(&factor(one), "1"));
+        return format!("{sim} times the vehicle file's in SIM, {real} times in REAL");
+    }
     let [sim, real] =
         quantity.each.each_ref().map(|one| with_interval(one, quantity.number.unit()));
-    format!("{} is {sim} in SIM and {real} in REAL", quantity.number.name())
+    let name = match quantity.number {
+        Number::Icr(0) => "middle between the ICRs",
+        Number::Icr(1) => "half the distance of the ICRs",
+        Number::Icr(_) => "y of the ICRs",
+        Number::Unknown(_) => quantity.number.name(),
+    };
+    format!("{name} = {sim} in SIM, {real} in REAL")
 }
 
 fn names(effects: &[EffectId]) -> String {
@@ -47,55 +100,100 @@ fn names(effects: &[EffectId]) -> String {
 pub fn sentence(one: &Difference) -> String {
     let numbers: Vec<String> = one.group.numbers.iter().map(number).collect();
     let numbers = numbers.join("; ");
+    let names = names(&one.one_of);
     match one.group.subject {
         Subject::Constants => {
             let is_alone = one.members.iter().any(|member| !member.sizes.is_empty());
-            let how = if is_alone { "each of" } else { "several of" };
-            format!("constant ICRs differ: {how} {} explains it ({numbers})", names(&one.one_of))
-        }
-        Subject::FrictionLevel => format!("the friction by which they slide differs ({numbers})"),
-        Subject::CentreOfGravity => {
-            format!("the centre of gravity that inertia shows differs ({numbers})")
-        }
-        Subject::Effect(_) => {
-            let which = match one.which {
-                Which::First => "SIM has it, REAL lacks it",
-                Which::Second => "REAL has it, SIM lacks it",
-                Which::Both => "both have it, in different sizes",
+            let by = match (is_alone, one.one_of.len()) {
+                (_, 0) => String::new(),
+                (true, 1) => format!(", by {names}"),
+                (true, _) => format!(", by one of {names}"),
+                (false, _) => format!(", by several of {names} together"),
             };
-            format!("{}: {which} ({numbers})", names(&one.one_of))
+            format!("the constant ICRs differ{by}: {numbers}")
+        }
+        Subject::FrictionLevel => format!("the friction differs on which they slide: {numbers}"),
+        Subject::CentreOfGravity => {
+            format!("the centre of gravity differs that inertia shows: {numbers}")
+        }
+        Subject::Effect(effect) => {
+            let what = match one.which {
+                Which::First => format!("SIM has {names}, which REAL lacks"),
+                Which::Second => format!("SIM lacks {names}, which REAL has"),
+                Which::Both => format!("SIM and REAL have {names}, in different sizes"),
+            };
+            let as_one = if one.one_of.len() > 1 && one.one_of.contains(&effect) {
+                format!("as {effect}, ")
+            } else {
+                String::new()
+            };
+            format!("{what}: {as_one}{numbers}")
         }
     }
 }
 
-/// What to set in the simulator.
-pub fn settings(one: &Difference) -> Vec<String> {
+/// What speaks for a difference.
+pub fn support(one: &Difference) -> String {
+    format!(
+        "probability of chance {:.4}, ln Bayes factor {:.1}",
+        one.support.p, one.support.ln_bayes_factor
+    )
+}
+
+/// What to set in the simulator, to be read behind the word "set".
+pub fn settings(comparison: &Comparison, one: &Difference) -> Vec<String> {
     match one.group.subject {
-        Subject::Constants => one.members.iter().filter_map(setting_of).collect(),
+        Subject::Constants => {
+            let all = one.members.iter().filter_map(setting_of).enumerate();
+            all.map(|(k, setting)| if k == 0 { setting } else { format!("or {setting}") }).collect()
+        }
         Subject::FrictionLevel => one.group.numbers.iter().map(level).collect(),
-        Subject::CentreOfGravity | Subject::Effect(_) => {
+        Subject::CentreOfGravity => {
             let of = |quantity: &Quantity| {
                 let real = with_interval(&quantity.each[1], quantity.number.unit());
-                let what = match quantity.number {
-                    Number::Unknown(Unknown::Effect(effect, place)) => {
-                        effect.card().parameters[place].meaning
-                    }
-                    _ => "centre of gravity, as a shift against the vehicle file",
-                };
-                format!("{} = {real} ({what})", quantity.number.name())
+                format!("{} = {real}", quantity.number.name())
             };
-            one.group.numbers.iter().map(of).collect()
+            let both: Vec<String> = one.group.numbers.iter().map(of).collect();
+            vec![format!(
+                "the centre of gravity to that of the vehicle file, moved by {}",
+                both.join(", ")
+            )]
+        }
+        Subject::Effect(effect) => {
+            if one.which == Which::First {
+                return vec![format!("no {effect}")];
+            }
+            vec![format!("{effect}: {}", sizes(comparison, one, effect).join(", "))]
         }
     }
+}
+
+/// Sizes of an effect as in the second set, then its other parameters.
+fn sizes(comparison: &Comparison, one: &Difference, effect: EffectId) -> Vec<String> {
+    let parameters = effect.card().parameters;
+    let of = |quantity: &Quantity| {
+        let real = with_interval(&quantity.each[1], quantity.number.unit());
+        let name = quantity.number.name();
+        let meaning = quantity.number.parameter().map_or("", |parameter| parameter.meaning);
+        format!("{name} = {real} ({meaning})")
+    };
+    let sizes = one.group.numbers.iter().map(of);
+    let active = find(&comparison.closer.vehicle.effects, effect);
+    let others = parameters.iter().enumerate().filter_map(|(place, parameter)| {
+        let world = match parameter.role {
+            Role::Size { .. } => return None,
+            Role::Shape => "",
+            Role::Place { .. } | Role::Direction | Role::Time => "; of the world of REAL",
+        };
+        let value = active?.values()[place];
+        let (key, unit, meaning) = (parameter.key, parameter.unit_behind(), parameter.meaning);
+        Some(format!("{key} = {value:.3}{unit} ({meaning}{world})"))
+    });
+    sizes.chain(others).collect()
 }
 
 fn level(quantity: &Quantity) -> String {
-    let factor = Estimate {
-        value: quantity.difference.value.exp(),
-        low: quantity.difference.low.exp(),
-        high: quantity.difference.high.exp(),
-    };
-    format!("all friction times {}", with_interval(&factor, "1"))
+    format!("both coefficients of friction times {}", with_interval(&factor(&quantity.difference), "1"))
 }
 
 /// Sizes of an effect that the robot has more than the simulator.
@@ -107,7 +205,7 @@ fn setting_of(member: &Member) -> Option<String> {
         format!("{} = {size} ({})", parameter.key, parameter.meaning)
     });
     let sizes: Vec<String> = sizes.collect();
-    (!sizes.is_empty()).then(|| format!("on what it has, {}: {}", card.id, sizes.join(", ")))
+    (!sizes.is_empty()).then(|| format!("{} on top of what SIM has: {}", card.id, sizes.join(", ")))
 }
 
 /// How much closer the simulator would be; none where nothing was named.
@@ -116,14 +214,16 @@ pub fn closer(comparison: &Comparison) -> Option<String> {
         return None;
     }
     let closer = &comparison.closer;
-    let runs = if closer.are_held_out { "held-out runs" } else { "the runs of the fit" };
+    let runs = if closer.are_held_out { "held-out runs" } else { "runs" };
     let [sim, corrected, real] = closer.errors;
     let mut text = format!(
-        "{runs} of REAL: error {sim:.2} times the noise by the model of SIM, {corrected:.2} with \
-         what is named, {real:.2} by the model of REAL"
+        "SIM predicts the {runs} of REAL with an error of {sim:.2} times the noise as it is, \
+         {corrected:.2} so set; REAL's own model with {real:.2}"
     );
-    let drifts =
-        [(closer.drift.place, 100.0, "m per 100 m"), (closer.drift.yaw, 360.0, "deg per turn")];
+    let drifts = [
+        (closer.drift.place, 100.0, "m of place per 100 m"),
+        (closer.drift.yaw, 360.0, "deg of heading per turn"),
+    ];
     for (drift, scale, unit) in drifts {
         let Some(drift) = drift else { continue };
         let [before, after] = [drift.before, drift.after].map(|one| {
@@ -135,7 +235,7 @@ pub fn closer(comparison: &Comparison) -> Option<String> {
                 format!("{:.digits$}", scale * one.value)
             }
         });
-        text += &format!("; {before} {unit} by SIM, {after} with what is named");
+        text += &format!("; dead reckoning loses {before} {unit} as it is, {after} so set");
     }
     Some(text)
 }
@@ -149,17 +249,33 @@ pub fn common(comparison: &Comparison) -> Option<String> {
 
 /// Instruments that differ, which is no physics of the simulator; none where none does.
 pub fn instruments(comparison: &Comparison) -> Option<String> {
-    let numbers = comparison.instruments.iter().flat_map(|group| &group.numbers);
-    let other = numbers.filter(|one| !one.difference.holds(0.0));
-    let words: Vec<String> = other.map(number).collect();
+    let other = comparison.instruments.iter().flat_map(|group| {
+        let differ = group.numbers.iter().filter(|one| !one.difference.holds(0.0));
+        differ.map(|one| format!("{}: {}", group.subject.name(), number(one)))
+    });
+    let words: Vec<String> = other.collect();
     (!words.is_empty()).then(|| words.join("; "))
+}
+
+/// What was compared, is not claimed, and yet is no chance, where something is left unexplained.
+pub fn refused(comparison: &Comparison) -> Vec<String> {
+    if comparison.status() != Status::Unexplained {
+        return Vec::new();
+    }
+    let max_p = comparison.before.max_p[0];
+    let close = comparison.alike.iter().filter(|one| one.support.p < max_p);
+    let words = close.filter_map(|one| {
+        let why = one.refused.as_ref()?;
+        Some(format!("{}: {why}", one.group.subject.name()))
+    });
+    words.collect()
 }
 
 /// What one set has and the other cannot show.
 pub fn not_shown(comparison: &Comparison) -> Vec<String> {
     let words = comparison.not_shown.iter().map(|(effect, set)| {
         let [lacking, has] = if *set == 0 { ["SIM", "REAL"] } else { ["REAL", "SIM"] };
-        format!("{effect}: {has} has it, and the recordings of {lacking} cannot show it")
+        format!("{has} has {effect}; the recordings of {lacking} cannot show it")
     });
     words.collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::wrapped::wrapped;
 use trackdyn::Comparison;
-use trackdyn::crates::diagnose::compare::{Status, words};
+use trackdyn::crates::diagnose::compare::words;
 
 /// The text of a comparison.
 pub fn text(comparison: &Comparison) -> String {
@@ -15,25 +15,17 @@ pub fn text(comparison: &Comparison) -> String {
         &wrapped("\nstatus   ", &format!("{}: {}", found.status().name(), words::headline(found)));
     text += &wrapped("where    ", &found.place());
     if found.differences.is_empty() {
-        let nothing = if found.status() == Status::Unexplained {
-            "something outside the catalogue".to_owned()
-        } else {
-            format!("nothing; {}", words::smallest(found))
-        };
-        text += &wrapped("differs  ", &nothing);
+        text += &wrapped("differs  ", &words::nothing_named(found));
     }
     for one in &found.differences {
-        let support = &one.support;
-        let sentence = format!(
-            "{}; ln Bayes factor {:.1}, p = {:.4}",
-            words::sentence(one),
-            support.ln_bayes_factor,
-            support.p
-        );
+        let sentence = format!("{} ({})", words::sentence(one), words::support(one));
         text += &wrapped("differs  ", &sentence);
-        for setting in words::settings(one) {
+        for setting in words::settings(found, one) {
             text += &wrapped("  set    ", &setting);
         }
+    }
+    for one in words::refused(found) {
+        text += &wrapped("refused  ", &one);
     }
     for one in words::not_shown(found) {
         text += &wrapped("unknown  ", &one);

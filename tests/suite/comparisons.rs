@@ -1,9 +1,10 @@
 //! Comparisons of two sets of drives on the second simulator, with other schedules.
 
 use std::sync::LazyLock;
+use trackdyn_core::document::Document;
 use trackdyn_diagnose::Resampling;
 use trackdyn_diagnose::compare::document::ComparisonFile;
-use trackdyn_diagnose::compare::{Comparison, Status, Subject, Which, compare};
+use trackdyn_diagnose::compare::{Comparison, Status, Subject, compare};
 use trackdyn_diagnose::diagnosis::Examination;
 use trackdyn_diagnose::progress::Watch;
 use trackdyn_drive::sensors::Preset;
@@ -35,10 +36,6 @@ fn set(concealed: &[&str], seed: u64, change: impl FnOnce(&mut Vehicle)) -> Exam
 
 static PLAIN: LazyLock<Examination> = LazyLock::new(|| set(&[], 3, |_| ()));
 
-/// A centre of gravity above the ground, which the owner does not know of.
-static HIGH: LazyLock<Examination> =
-    LazyLock::new(|| set(&["load-transfer:cog_height_m=0.2"], 4, |_| ()));
-
 fn compared(sim: &Examination, real: &Examination) -> Comparison {
     let file = owned(&[]);
     compare([sim, real], &file, Resampling::default(), &Watch::none()).expect("an answer")
@@ -57,33 +54,16 @@ fn nothing_differs_between_equal_robots_on_other_schedules() {
 }
 
 #[test]
-fn what_the_robot_alone_has_is_named_and_brings_the_simulator_closer() {
-    let found = compared(&PLAIN, &HIGH);
-    let [one] = &found.differences[..] else { panic!("{}: {:?}", found.place(), found.effects) };
-    assert!(one.one_of.contains(&effect("load-transfer")), "{:?}", one.one_of);
-    assert_eq!(one.which, Which::Second);
-    let height = &one.group.numbers[0].each[1];
-    assert!((height.low..=height.high).contains(&0.2), "{height:?}");
-    let [sim, corrected, _] = found.closer.errors;
-    assert!(corrected < sim, "{sim} {corrected}");
-    let file = ComparisonFile::new(&found, [&Source::default(), &Source::default()]);
-    assert_eq!(file.differs[0].which, "real");
-    // the other way round the simulator has it alone
-    let found = compared(&HIGH, &PLAIN);
-    assert!(matches!(&found.differences[..], [one] if one.which == Which::First));
-}
-
-#[test]
-fn what_both_have_is_no_difference_even_if_the_file_lacks_it() {
-    let found = compared(&HIGH, &set(&["load-transfer:cog_height_m=0.2"], 6, |_| ()));
-    assert_eq!(found.status(), Status::NothingDiffers, "{}", found.place());
-    assert_eq!(found.common().collect::<Vec<_>>(), [effect("load-transfer")]);
-}
-
-#[test]
 fn another_friction_ratio_stands_among_the_constants() {
     let found = compared(&PLAIN, &set(&[], 7, |vehicle| vehicle.friction.across *= 1.25));
     let [one] = &found.differences[..] else { panic!("{}: {:?}", found.place(), found.effects) };
     assert_eq!(one.group.subject, Subject::Constants);
     assert!(one.one_of.contains(&effect("friction-anisotropy")), "{:?}", one.one_of);
+    let [sim, corrected, _] = found.closer.errors;
+    assert!(corrected < sim, "{sim} {corrected}");
+    let file = ComparisonFile::new(&found, [&Source::default(), &Source::default()]);
+    let text = file.to_toml();
+    let read = ComparisonFile::from_document(&Document::new("compare.toml", &text));
+    assert_eq!(read.expect("its own file").to_toml(), text);
+    assert_eq!(file.differs[0].what, "constants");
 }

@@ -62,11 +62,8 @@ pub(super) fn judge(
     let evidence = &sets[1].search.evidence;
     let with = |claimed: &[Subject]| error(&first_with(choice, claimed), evidence);
     let without = with(&[]);
-    let mut claimed: Vec<Subject> = judged
-        .iter()
-        .filter(|one| one.refused.is_none())
-        .map(|one| one.group.subject)
-        .collect();
+    let mut claimed: Vec<Subject> =
+        judged.iter().filter(|one| one.refused.is_none()).map(|one| one.group.subject).collect();
     let mut refused = Vec::new();
     while !claimed.is_empty() {
         let here = with(&claimed);
@@ -81,7 +78,8 @@ pub(super) fn judge(
         });
         let worst = others.min_by(|a, b| a.1.total_cmp(&b.1));
         let (place, error) = worst.expect("a claim");
-        refused.push((claimed.remove(place), NoDifference::NotCloser { without: error, with: here }));
+        refused
+            .push((claimed.remove(place), NoDifference::NotCloser { without: error, with: here }));
     }
     for one in &mut judged {
         let own = refused.iter().find(|(subject, _)| *subject == one.group.subject);

@@ -144,13 +144,11 @@ mod tests {
     /// the prediction by the second: the second is held at a bound.
     fn held_at_its_bound(slope: f64, deviation: f64) -> Spread {
         let samples = BLOCKS * SAMPLES;
-        let columns =
-            [vec![Vector3::x(); samples], vec![Vector3::new(0.5, slope, 0.0); samples]];
+        let columns = [vec![Vector3::x(); samples], vec![Vector3::new(0.5, slope, 0.0); samples]];
         // noise of deviation one, the same in every run of the test
         let noise = |k: usize| f64::from(u32::try_from(k * 37 % 101).expect("small")) / 29.2 - 1.71;
-        let residual: Vec<Vector3<f64>> = (0..samples)
-            .map(|k| Vector3::new(noise(k), noise(k + 13), noise(k + 57)))
-            .collect();
+        let residual: Vec<Vector3<f64>> =
+            (0..samples).map(|k| Vector3::new(noise(k), noise(k + 13), noise(k + 57))).collect();
         let normal = Normal::new(&Columns {
             residual: &residual,
             columns: &columns,

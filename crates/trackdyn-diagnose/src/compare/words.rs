@@ -76,8 +76,7 @@ fn factor(of: &Estimate) -> Estimate {
 /// A number in both sets.
 pub fn number(quantity: &Quantity) -> String {
     if quantity.number == Number::Unknown(Unknown::FrictionLevel) {
-        let [sim, real] =
-            quantity.each.each_ref().map(|one| with_interval(&factor(one), "1"));
+        let [sim, real] = quantity.each.each_ref().map(|one| with_interval(&factor(one), "1"));
         return format!("{sim} times the vehicle file's in SIM, {real} times in REAL");
     }
     let [sim, real] =
@@ -193,7 +192,10 @@ fn sizes(comparison: &Comparison, one: &Difference, effect: EffectId) -> Vec<Str
 }
 
 fn level(quantity: &Quantity) -> String {
-    format!("both coefficients of friction times {}", with_interval(&factor(&quantity.difference), "1"))
+    format!(
+        "both coefficients of friction times {}",
+        with_interval(&factor(&quantity.difference), "1")
+    )
 }
 
 /// Sizes of an effect that the robot has more than the simulator.

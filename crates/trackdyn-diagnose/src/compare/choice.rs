@@ -172,7 +172,8 @@ fn fitted(
 /// in the world: each set has its own.
 fn from_other(set: &Examination, beside: &Found, other: &Found, effect: EffectId) -> Option<Found> {
     let there = other.fit.hypothesis.effect(effect)?;
-    let of_the_world = |role: Role| matches!(role, Role::Place { .. } | Role::Direction);
+    let of_the_world =
+        |role: Role| matches!(role, Role::Place { .. } | Role::Direction | Role::Time);
     if effect.card().parameters.iter().any(|parameter| of_the_world(parameter.role)) {
         return None;
     }

@@ -13,8 +13,8 @@ use trackdyn_model::kinematics::Source;
 use trackdyn_model::{EffectId, Vehicle};
 use trackdyn_tests::concealed::{Drive, examined, owned, sensors};
 
-const RUNS: usize = 6;
-const RUN_TIME: f64 = 15.0;
+const RUNS: usize = 4;
+const RUN_TIME: f64 = 12.0;
 
 /// Drives by hand of this robot, with this concealed, examined against the vehicle as its owner
 /// knows it.

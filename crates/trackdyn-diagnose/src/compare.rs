@@ -225,13 +225,15 @@ impl Comparison {
         if self.differences.is_empty() && broken.is_empty() {
             return "nowhere: one model with the instruments of each explains both".to_owned();
         }
-        let on = if broken.is_empty() {
-            "it is the same in all driving".to_owned()
-        } else {
+        let are_constants =
+            self.differences.iter().all(|one| !matches!(one.group.subject, Subject::Effect(_)));
+        let on = if !broken.is_empty() {
             let on: Vec<&str> = broken.into_iter().map(words::depends_on).collect();
-            format!("it depends on {}", on.join(", "))
+            Some(format!("it depends on {}", on.join(", ")))
+        } else {
+            are_constants.then(|| "it is the same in all driving".to_owned())
         };
-        self.largest().into_iter().chain([on]).collect::<Vec<_>>().join("; ")
+        self.largest().into_iter().chain(on).collect::<Vec<_>>().join("; ")
     }
 
     /// The cell of driving whose ICRs differ most surely, in words.

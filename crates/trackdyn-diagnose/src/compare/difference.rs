@@ -15,7 +15,6 @@ use crate::prior::priors;
 use crate::resampling::Resampling;
 use crate::significance::{Group as Scores, test_family};
 use crate::verdict::{Refusal, Support};
-use nalgebra::Vector3;
 use trackdyn_model::EffectId;
 
 /// Which set has it.

@@ -227,11 +227,11 @@ impl Comparison {
         }
         let are_constants =
             self.differences.iter().all(|one| !matches!(one.group.subject, Subject::Effect(_)));
-        let on = if !broken.is_empty() {
+        let on = if broken.is_empty() {
+            are_constants.then(|| "it is the same in all driving".to_owned())
+        } else {
             let on: Vec<&str> = broken.into_iter().map(words::depends_on).collect();
             Some(format!("it depends on {}", on.join(", ")))
-        } else {
-            are_constants.then(|| "it is the same in all driving".to_owned())
         };
         self.largest().into_iter().chain(on).collect::<Vec<_>>().join("; ")
     }

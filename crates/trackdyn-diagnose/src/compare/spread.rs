@@ -49,7 +49,8 @@ impl Spread {
             groupings(&search.evidence, |block| normal.block(block)[(last, last)] != 0.0);
         let blocks = groupings[0].len();
         let enough = search.settings().limits.min_groups;
-        let groupings = groupings.into_iter().filter(|groups| groups.len() >= enough).collect();
+        let groupings: Vec<_> =
+            groupings.into_iter().filter(|groups| groups.len() >= enough).collect();
         let with_free = Covariances::of(
             &normal,
             &priors,
@@ -117,7 +118,7 @@ impl Covariances {
         priors: &[Prior],
         unknowns: Vec<usize>,
         forms: Range<usize>,
-        groupings: &Vec<Vec<Range<usize>>>,
+        groupings: &[Vec<Range<usize>>],
     ) -> Self {
         let Solution { estimate: whole, covariance, .. } = normal.fit(&unknowns, priors);
         let with_forms: Vec<usize> = unknowns.iter().copied().chain(forms).collect();
@@ -157,7 +158,7 @@ mod tests {
             count: BLOCKS,
         });
         let priors = vec![Prior::normal(0.0, 10.0), Prior::normal(0.0, deviation)];
-        let groupings = vec![(0..BLOCKS).map(|block| block..block + 1).collect()];
+        let groupings = vec![(0..BLOCKS).map(|block| block..block + 1).collect::<Vec<_>>()];
         let with_free = Covariances::of(&normal, &priors, vec![0], 2..2, &groupings);
         Spread {
             normal,

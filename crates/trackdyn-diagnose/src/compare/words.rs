@@ -73,6 +73,17 @@ fn factor(of: &Estimate) -> Estimate {
     Estimate { value: value.exp(), low: low.exp(), high: high.exp() }
 }
 
+/// A number in a word or a few.
+pub fn name(number: Number) -> &'static str {
+    match number {
+        Number::Icr(0) => "middle between the ICRs",
+        Number::Icr(1) => "half the distance of the ICRs",
+        Number::Icr(_) => "y of the ICRs",
+        Number::Unknown(Unknown::FrictionLevel) => "ln of the friction",
+        Number::Unknown(_) => number.name(),
+    }
+}
+
 /// A number in both sets.
 pub fn number(quantity: &Quantity) -> String {
     if quantity.number == Number::Unknown(Unknown::FrictionLevel) {
@@ -81,13 +92,7 @@ pub fn number(quantity: &Quantity) -> String {
     }
     let [sim, real] =
         quantity.each.each_ref().map(|one| with_interval(one, quantity.number.unit()));
-    let name = match quantity.number {
-        Number::Icr(0) => "middle between the ICRs",
-        Number::Icr(1) => "half the distance of the ICRs",
-        Number::Icr(_) => "y of the ICRs",
-        Number::Unknown(_) => quantity.number.name(),
-    };
-    format!("{name} = {sim} in SIM, {real} in REAL")
+    format!("{} = {sim} in SIM, {real} in REAL", name(quantity.number))
 }
 
 fn names(effects: &[EffectId]) -> String {
@@ -150,7 +155,7 @@ pub fn settings(comparison: &Comparison, one: &Difference) -> Vec<String> {
         Subject::CentreOfGravity => {
             let of = |quantity: &Quantity| {
                 let real = with_interval(&quantity.each[1], quantity.number.unit());
-                format!("{} = {real}", quantity.number.name())
+                format!("{} = {real}", name(quantity.number))
             };
             let both: Vec<String> = one.group.numbers.iter().map(of).collect();
             vec![format!(
@@ -172,7 +177,7 @@ fn sizes(comparison: &Comparison, one: &Difference, effect: EffectId) -> Vec<Str
     let parameters = effect.card().parameters;
     let of = |quantity: &Quantity| {
         let real = with_interval(&quantity.each[1], quantity.number.unit());
-        let name = quantity.number.name();
+        let name = name(quantity.number);
         let meaning = quantity.number.parameter().map_or("", |parameter| parameter.meaning);
         format!("{name} = {real} ({meaning})")
     };

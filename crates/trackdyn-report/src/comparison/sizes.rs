@@ -5,12 +5,12 @@ use crate::colour::{FRAME, GRID, INK};
 use crate::figure::{Area, Axis, Estimates, Figure, Legend, Panel, Rule, Swatch};
 use crate::sheet::{self, AFTER, BEFORE, rows};
 use trackdyn_core::real;
-use trackdyn_diagnose::compare::{Estimate, Quantity, Subject};
+use trackdyn_diagnose::compare::{Estimate, Quantity, Subject, words};
 
 const TOP: i32 = sheet::TOP + 110;
 const ROW: i32 = 54;
-const LABELS: i32 = 900;
-const WIDTH: i32 = 1400;
+const LABELS: i32 = 700;
+const WIDTH: i32 = 1600;
 /// Largest distance that is drawn, typical sizes: beyond it a size is not physical.
 const FARTHEST: f64 = 20.0;
 
@@ -61,7 +61,11 @@ pub(super) fn figure(subject: &Compared) -> Option<Figure> {
         panel.show_as(["SIM", "REAL"][entry], Estimates::of_entry(entry, estimates).across());
     }
     for (row, (subject, number)) in all.iter().enumerate() {
-        let name = format!("{}: {}", subject.name(), number.number.name());
+        let own = words::name(number.number);
+        let name = match subject {
+            Subject::Effect(effect) => format!("{effect}: {own}"),
+            _ => own.to_owned(),
+        };
         panel.name(&name, [-limit, real(row) + 0.5], 20);
     }
     figure.panels.push(panel);

@@ -142,7 +142,7 @@ fn with_cog_of(other: &Hypothesis, own: Hypothesis) -> Hypothesis {
 /// its constant ICRs.
 fn vehicle(file: &VehicleFile, hypothesis: &Hypothesis, added: &[EffectId]) -> VehicleFile {
     let mut vehicle = file.clone();
-    for effect in hypothesis.effects.iter() {
+    for effect in &hypothesis.effects {
         vehicle.effects.insert(effect.clone());
     }
     correct_constants(&mut vehicle, hypothesis, added, hypothesis.friction_level);

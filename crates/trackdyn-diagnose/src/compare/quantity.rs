@@ -290,7 +290,6 @@ fn step(hypothesis: &Hypothesis, unknown: Unknown, beside: &[EffectId]) -> Optio
     const SHARE: f64 = 1e-3;
     match unknown {
         Unknown::Offset(_) | Unknown::Cog(_) => Some(SHARE * hypothesis.vehicle.gauge),
-        Unknown::FrictionLevel => None,
         Unknown::Effect(effect, _) if beside.contains(&effect) => {
             let parameter = unknown.parameter()?;
             let [_, high] = parameter.range;
@@ -298,7 +297,7 @@ fn step(hypothesis: &Hypothesis, unknown: Unknown, beside: &[EffectId]) -> Optio
             let is_over = hypothesis.get(unknown) + step > high;
             Some(if is_over { -step } else { step })
         }
-        Unknown::Effect(..) => None,
+        Unknown::FrictionLevel | Unknown::Effect(..) => None,
     }
 }
 

@@ -223,10 +223,10 @@ pub fn closer(comparison: &Comparison) -> Option<String> {
     let closer = &comparison.closer;
     let runs = if closer.are_held_out { "held-out runs" } else { "runs" };
     let [sim, corrected, real] = closer.errors;
-    let mut text = format!(
+    let mut parts = vec![format!(
         "SIM predicts the {runs} of REAL with an error of {sim:.2} times the noise as it is, \
          {corrected:.2} so set; REAL's own model with {real:.2}"
-    );
+    )];
     let drifts = [
         (closer.drift.place, 100.0, "m of place per 100 m"),
         (closer.drift.yaw, 360.0, "deg of heading per turn"),
@@ -242,14 +242,14 @@ pub fn closer(comparison: &Comparison) -> Option<String> {
                 format!("{:.digits$}", scale * one.value)
             }
         });
-        text += &format!("; dead reckoning loses {before} {unit} as it is, {after} so set");
+        parts.push(format!("dead reckoning loses {before} {unit} as it is, {after} so set"));
     }
-    Some(text)
+    Some(parts.join("; "))
 }
 
 /// What both have alike and the vehicle file lacks; none where there is nothing.
 pub fn common(comparison: &Comparison) -> Option<String> {
-    let common: Vec<&str> = comparison.common().map(|effect| effect.name()).collect();
+    let common: Vec<&str> = comparison.common().map(EffectId::name).collect();
     (!common.is_empty())
         .then(|| format!("both have {}, which the vehicle file lacks", common.join(" and ")))
 }

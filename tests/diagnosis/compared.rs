@@ -31,6 +31,11 @@ fn named(comparison: &Comparison) -> Vec<Vec<&'static str>> {
     of.collect()
 }
 
+/// Seeds of cases, one after the other.
+fn seed_of(first: u64, place: usize) -> u64 {
+    first + place as u64
+}
+
 fn say(what: &str, comparison: &Comparison) {
     println!("{what}: {} {:?}", comparison.status().name(), named(comparison));
     for one in &comparison.differences {
@@ -70,9 +75,9 @@ fn what_differs_is_named_or_stands_in_its_class() {
     ];
     let wrong: Vec<_> = cases
         .into_par_iter()
-        .zip(21..)
-        .filter_map(|((expected, concealed, change), seed)| {
-            let found = compared(&plain, &set(concealed, seed, change));
+        .enumerate()
+        .filter_map(|(place, (expected, concealed, change))| {
+            let found = compared(&plain, &set(concealed, seed_of(21, place), change));
             say(expected, &found);
             let is_named = named(&found).iter().any(|class| class.contains(&expected));
             (!is_named).then(|| (expected, found.status().name(), named(&found)))
@@ -114,9 +119,9 @@ fn what_no_catalogue_has_is_a_difference_all_the_same() {
     let laws = ["brushed-ground", "steering-grip", "warm-rubber:softening=1"];
     let wrong: Vec<_> = laws
         .into_par_iter()
-        .zip(31..)
-        .filter_map(|(law, seed)| {
-            let found = compared(&plain, &set(&[law], seed, |_| ()));
+        .enumerate()
+        .filter_map(|(place, law)| {
+            let found = compared(&plain, &set(&[law], seed_of(31, place), |_| ()));
             say(law, &found);
             (found.status() != Status::Unexplained).then(|| (law, found.status().name()))
         })

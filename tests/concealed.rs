@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use trackdyn::diagnose::every_fourth;
 use trackdyn_core::{Plant, Pose, Trajectory};
-use trackdyn_diagnose::diagnosis::{Kind, Missing};
+use trackdyn_diagnose::diagnosis::{Examination, Kind, Missing, examine};
 use trackdyn_diagnose::{Diagnosis, Error, Evidence, Options, Settings, diagnose, unobserved};
 use trackdyn_drive::schedules::as_commanded;
 use trackdyn_drive::sensors::{PoseFrame, Preset, Sensors, Views};
@@ -170,6 +170,15 @@ pub fn diagnosed_by(
     let held_out = every_fourth(recording.runs().len());
     let evidence = Evidence::of_recording(recording, file.vehicle.gauge, settings)?;
     diagnose(&evidence, file, &Options { held_out, ..Options::default() }, &unobserved)
+}
+
+/// The diagnosis of a recording with its search, nothing held out.
+///
+/// # Errors
+/// Why there is none.
+pub fn examined(recording: &Recording, file: &VehicleFile) -> Result<Examination, Error> {
+    let evidence = Evidence::of_recording(recording, file.vehicle.gauge, &Settings::default())?;
+    examine(&evidence, file, &Options::default(), &unobserved)
 }
 
 /// Members of an answer by their names.

@@ -4,6 +4,7 @@ mod bad_input;
 #[cfg(target_os = "linux")]
 mod bounds;
 mod check;
+mod compare;
 mod diagnose;
 mod documents;
 mod export;

@@ -10,7 +10,7 @@ use trackdyn_recording::folder;
 const WIDTH: usize = 120;
 
 /// All commands, with those that have commands of their own.
-const COMMANDS: [&str; 29] = [
+const COMMANDS: [&str; 30] = [
     "map",
     "kinematics",
     "simulate",
@@ -32,6 +32,7 @@ const COMMANDS: [&str; 29] = [
     "inspect",
     "identify",
     "diagnose",
+    "compare",
     "plan",
     "trial",
     "trial make",

@@ -1,6 +1,7 @@
 //! A diagnosis says no more than the evidence bears.
 
 mod candidates;
+mod compared;
 mod held_out;
 mod images;
 mod inertia;

@@ -3,6 +3,7 @@
 //! A test that needs private items stands in the file that it tests. All others stand here, those
 //! of the program in `cli`, and the long ones of the diagnosis in `diagnosis`.
 
+mod comparisons;
 mod conformance;
 mod diagnoses;
 mod driving;

@@ -66,6 +66,8 @@ pub enum Command {
     Identify(commands::identify::Options),
     /// Locate where a model and recordings differ, and say which physics was left out
     Diagnose(commands::diagnose::Options),
+    /// Compare a simulator's recordings with the robot's: what differs, and what to set
+    Compare(commands::compare::Options),
     /// Propose the driving that tells apart what a diagnosis could not
     Plan(commands::plan::Options),
     /// Prove the diagnosis on concealed physics: make sealed cases, run it on them, score its
@@ -93,6 +95,7 @@ impl Command {
             Self::Inspect(options) => commands::inspect::run(options),
             Self::Identify(options) => commands::identify::run(options),
             Self::Diagnose(options) => commands::diagnose::run(options),
+            Self::Compare(options) => commands::compare::run(options),
             Self::Plan(options) => commands::plan::run(options),
             Self::Trial(options) => commands::trial::run(options),
             Self::Completions(options) => commands::completions::run(options, Arguments::command()),

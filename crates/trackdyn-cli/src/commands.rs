@@ -1,6 +1,7 @@
 //! The commands.
 
 pub mod check;
+pub mod compare;
 pub mod completions;
 pub mod diagnose;
 pub mod drive;

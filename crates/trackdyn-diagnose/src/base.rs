@@ -274,7 +274,8 @@ fn spin(vehicle: &Vehicle) -> Option<Vector3<f64>> {
     spin_with(vehicle, Effects::none())
 }
 
-fn spin_with(vehicle: &Vehicle, effects: Effects) -> Option<Vector3<f64>> {
+/// Constant ICRs of a vehicle with effects, in a slow spin, m.
+pub(crate) fn spin_with(vehicle: &Vehicle, effects: Effects) -> Option<Vector3<f64>> {
     let model = Model::new(vehicle.clone(), effects);
     let solution = Stationary::new(&model, &Circumstance::default()).solve(PerSide::new(-0.1, 0.1));
     solution.icrs.map(Icrs::to_array).map(Vector3::from)

@@ -11,7 +11,7 @@ mod tested;
 pub use crate::answer::{Kind, Missing, Status};
 pub use crate::held_out::{HeldOut, Unseen};
 pub use limits::Limits;
-pub use pipeline::{STAGES, diagnose};
+pub use pipeline::{Examination, STAGES, diagnose, examine};
 
 use crate::base::Base;
 use crate::drift::Drift;

@@ -21,6 +21,7 @@
 //! - [`answer`], [`held_out`]: the status, and errors on runs that were not fitted.
 //! - [`mod@diagnosis`]: all stages in order and their result; [`document`]: the result as a file;
 //!   [`exposure`]: series for figures.
+//! - [`mod@compare`]: what differs between two sets of recordings.
 //! - [`mod@plan`]: driving that separates rival effects; [`error`]: why a diagnosis is impossible.
 //!
 //! No effect is known by name here: the simulator is asked what an effect does.
@@ -28,6 +29,7 @@
 pub mod answer;
 pub mod base;
 pub mod candidate;
+pub mod compare;
 mod corrected;
 pub mod diagnosis;
 pub mod document;

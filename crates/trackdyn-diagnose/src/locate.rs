@@ -12,7 +12,7 @@ mod departures;
 mod past;
 mod waves;
 
-pub use contrasts::{Manoeuvre, contrasts};
+pub use contrasts::{Manoeuvre, Scales, contrasts, contrasts_within};
 pub use departures::Contrasts;
 pub use waves::Wave;
 

@@ -24,10 +24,12 @@ pub enum Stage {
     Proposal,
     /// Detection limits.
     Limits,
+    /// Differences between two sets of recordings.
+    Differences,
 }
 
 impl Stage {
-    /// All stages, in order.
+    /// All stages of a diagnosis, in order.
     pub const ALL: [Self; 9] = [
         Self::Noise,
         Self::Readings,
@@ -52,6 +54,7 @@ impl Stage {
             Self::HeldOut => "held-out runs",
             Self::Proposal => "proposal",
             Self::Limits => "limits",
+            Self::Differences => "differences",
         }
     }
 }

@@ -322,7 +322,7 @@ impl Search {
 
     /// Refits after constant ICR offsets were converted to the vehicle's own numbers: friction and
     /// centre of gravity had absorbed what an added effect now explains.
-    fn recalibrated(&self, effects: Vec<EffectId>, mut fit: Fit) -> Found {
+    pub(crate) fn recalibrated(&self, effects: Vec<EffectId>, mut fit: Fit) -> Found {
         let settings = &self.settings().search;
         for _ in 0..settings.recalibrations {
             let calibration = self.base.calibration;

@@ -58,7 +58,10 @@ pub struct Uncertainty<'a> {
 }
 
 /// Candidates for independent groups, as ranges of blocks: single blocks, and runs.
-fn groupings(evidence: &Evidence, counts: impl Fn(usize) -> bool) -> [Vec<Range<usize>>; 2] {
+pub(crate) fn groupings(
+    evidence: &Evidence,
+    counts: impl Fn(usize) -> bool,
+) -> [Vec<Range<usize>>; 2] {
     let blocks = (0..evidence.blocks()).filter(|&block| counts(block));
     let blocks: Vec<Range<usize>> = blocks.map(|block| block..block + 1).collect();
     let mut runs: BTreeMap<usize, Range<usize>> = BTreeMap::new();
@@ -77,7 +80,7 @@ fn groupings(evidence: &Evidence, counts: impl Fn(usize) -> bool) -> [Vec<Range<
 ///
 /// # Law
 /// That of I_g = wᵀ J_g w, the information of a group, w the covariance of the unknown with all.
-fn shown_by(
+pub(crate) fn shown_by(
     normal: &Normal,
     groups: &[Range<usize>],
     columns: &[usize],

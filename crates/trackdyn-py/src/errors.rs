@@ -28,6 +28,7 @@ fn class(error: &Error) -> &'static str {
         | Error::Time(_)
         | Error::NoRecording
         | Error::RecordingTwice { .. }
+        | Error::ComparedWithItself { .. }
         | Error::PointsNotAlone => "RecordingError",
         Error::HeldOut { .. } | Error::AllHeldOut | Error::NoRunsToHoldOut { .. } => "HeldOutError",
         Error::Effect(_) | Error::EffectTwice { .. } => "EffectError",

@@ -2,7 +2,7 @@
 
 mod answer;
 mod candidates;
-mod cells;
+pub(crate) mod cells;
 mod errors;
 mod evidence;
 mod first;

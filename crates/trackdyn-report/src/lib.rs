@@ -11,9 +11,11 @@
 //! - [`odometry()`]: the figure of an odometry replay.
 //! - [`path_tracking()`]: the figure of drives along a path.
 //! - [`diagnosis_figures()`], [`diagnosis_html()`]: the figures and the report of a diagnosis.
+//! - [`comparison_figures()`], [`comparison_html()`]: those of a comparison of two sets.
 //! - [`power()`], [`shares()`], [`confusion()`]: figures of what programs find of what is there.
 
 pub mod colour;
+mod comparison;
 mod diagnosis;
 mod draw;
 mod error;
@@ -28,6 +30,7 @@ mod sheet;
 pub mod text;
 pub mod ticks;
 
+pub use comparison::{Compared, comparison_figures, comparison_html};
 pub use diagnosis::{Subject, diagnosis_figures, diagnosis_html};
 pub use error::Error;
 pub use figure::Figure;

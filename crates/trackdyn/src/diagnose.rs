@@ -1,6 +1,7 @@
 //! Which physics a model of the robot lacks, from recordings.
 
 mod claim;
+mod examined;
 mod held_out;
 mod layers;
 

@@ -122,6 +122,12 @@ pub enum Error {
         /// The recording.
         recording: String,
     },
+    /// A recording of the simulator that is one of the robot, too.
+    #[error("{recording}: expected in one of both sets: it cannot differ from itself")]
+    ComparedWithItself {
+        /// The recording.
+        recording: String,
+    },
     /// A table of steady operating points among several recordings.
     #[error("a table of steady points is diagnosed alone: expected one")]
     PointsNotAlone,

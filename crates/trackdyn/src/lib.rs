@@ -52,6 +52,7 @@
 //! | identify the kinematics | [`identify()`] | [`IdentifySettings`] | [`Identification`] |
 //! | replay a log by dead reckoning | [`odometry()`] | [`OdometrySettings`] | [`Odometry`] |
 //! | find the physics that a model lacks | [`diagnose()`] | [`DiagnoseSettings`] | [`Diagnosis`] |
+//! | compare a simulator with the robot | [`compare()`] | [`CompareSettings`] | [`Comparison`] |
 //! | plan the driving that decides what is open | [`plan()`] | [`PlanSettings`] | [`Plan`] |
 //! | follow a path | [`drive()`] | [`DriveSettings`] | [`Drives`] |
 //! | write files of ROS 2, Gazebo, URDF | [`Export`] | [`export`] | text files |
@@ -83,6 +84,7 @@ mod sketch;
 mod vehicle;
 
 pub mod check;
+pub mod compare;
 pub mod diagnose;
 pub mod drive;
 pub mod export;
@@ -108,6 +110,7 @@ pub mod crates {
 
 pub use change::{Change, prepare_folder};
 pub use check::{Reference, check};
+pub use compare::{CompareSettings, Comparison, compare};
 pub use diagnose::{Claim, DiagnoseSettings, Diagnosis, HeldOut, diagnose};
 pub use drive::{DriveSettings, Drives, drive};
 pub use error::Error;

@@ -12,7 +12,10 @@ use crate::error::Error;
 use crate::evidence::Evidence;
 use crate::progress::{Observer, Stage, Watch};
 use crate::proposal::{Unexplained, propose};
+use crate::search::Search;
+use crate::verdict::Constants;
 use crate::weighted::Weighted;
+use std::sync::Arc;
 use trackdyn_model::VehicleFile;
 
 /// Stages in one round of search and verdicts.
@@ -21,6 +24,16 @@ const ROUND: usize = searched::STAGES_SHARPENED + 1;
 /// Stages of the longest course: noise, readings, two rounds, location, held-out runs, proposal and
 /// limits.
 pub const STAGES: usize = 2 + 2 * ROUND + 4;
+
+/// A diagnosis with the search that it rests on, for further questions to the same evidence.
+pub struct Examination {
+    /// The diagnosis.
+    pub diagnosis: Diagnosis,
+    /// Evidence, base and catalogue of candidates, with all refits that were made.
+    pub search: Search,
+    /// Effects that act as constant ICRs.
+    pub constants: Constants,
+}
 
 /// Diagnoses evidence. `observer` receives the progress and may cancel.
 ///
@@ -33,6 +46,19 @@ pub fn diagnose(
     options: &Options,
     observer: &Observer,
 ) -> Result<Diagnosis, Error> {
+    examine(evidence, file, options, observer).map(|examined| examined.diagnosis)
+}
+
+/// Diagnoses evidence and keeps the search.
+///
+/// # Errors
+/// Those of [`diagnose`].
+pub fn examine(
+    evidence: &Evidence,
+    file: &VehicleFile,
+    options: &Options,
+    observer: &Observer,
+) -> Result<Examination, Error> {
     let resampling = options.resampling;
     let watch = &Watch::new(observer, STAGES);
 
@@ -101,12 +127,11 @@ pub fn diagnose(
     let judging = tested.unseen.as_ref().map_or(&judged.search.evidence, |unseen| &unseen.evidence);
     let drift = Drift::of(judging, file, &corrected);
 
-    let Judged { search, screened: _, constants: _, best, friction_level, missing, refused } =
-        judged;
+    let Judged { search, screened: _, constants, best, friction_level, missing, refused } = judged;
     let place = located.sentence(&search);
     let broken = located.broken();
     let Located { filed, before, after, left_over, cells } = located;
-    Ok(Diagnosis {
+    let diagnosis = Diagnosis {
         answer: Answer {
             status: super::status(&left_over, &missing),
             broken,
@@ -117,7 +142,7 @@ pub fn diagnose(
             corrected,
         },
         evidence: Examined {
-            seen: search.evidence,
+            seen: search.evidence.clone(),
             unseen: tested.unseen,
             filed,
             before,
@@ -127,7 +152,8 @@ pub fn diagnose(
             errors: tested.errors,
             drift,
         },
-        models: Models { base: search.base, best, friction_level },
+        models: Models { base: Arc::clone(&search.base), best, friction_level },
         limits,
-    })
+    };
+    Ok(Examination { diagnosis, search, constants })
 }

@@ -40,7 +40,7 @@ pub struct ComparedTable {
 
 impl DriftTable {
     /// Whether nothing is known of either.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 

@@ -27,14 +27,32 @@ pub struct Cell {
 
 /// All cells with enough samples that turn.
 pub fn cells(evidence: &Weighted, residual: &[Vector3<f64>], icrs: &IcrColumns) -> Vec<Cell> {
-    let (samples, settings) = (evidence.samples(), &evidence.settings().location);
-    let fast = |sample: &Sample| sample.speeds.left.abs().max(sample.speeds.right.abs());
-    let mut speeds: Vec<f64> = samples.iter().map(fast).filter(|speed| *speed > 0.0).collect();
+    let bounds = thirds(evidence.samples());
+    bounds.map_or_else(Vec::new, |bounds| cells_within(bounds, evidence, residual, icrs))
+}
+
+/// Speed of the faster track, m/s.
+fn fast(sample: &Sample) -> f64 {
+    sample.speeds.left.abs().max(sample.speeds.right.abs())
+}
+
+/// Speeds between the thirds of the samples that move, m/s; none where none does.
+pub fn thirds<'a>(samples: impl IntoIterator<Item = &'a Sample>) -> Option<[f64; 2]> {
+    let speeds = samples.into_iter().map(fast).filter(|speed| *speed > 0.0);
+    let mut speeds: Vec<f64> = speeds.collect();
     speeds.sort_by(f64::total_cmp);
-    if speeds.is_empty() {
-        return Vec::new();
-    }
-    let bounds = [speeds[speeds.len() / 3], speeds[2 * speeds.len() / 3]];
+    let count = speeds.len();
+    (count > 0).then(|| [speeds[count / 3], speeds[2 * count / 3]])
+}
+
+/// All cells with enough samples that turn, between these speeds, m/s.
+pub fn cells_within(
+    bounds: [f64; 2],
+    evidence: &Weighted,
+    residual: &[Vector3<f64>],
+    icrs: &IcrColumns,
+) -> Vec<Cell> {
+    let (samples, settings) = (evidence.samples(), &evidence.settings().location);
     let columns: Vec<Vec<Vector3<f64>>> =
         icrs.iter().map(|column| evidence.white(column.clone())).collect();
     let weights = evidence.weights(residual);

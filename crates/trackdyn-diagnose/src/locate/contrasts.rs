@@ -59,10 +59,59 @@ impl Manoeuvre {
 ///
 /// `icrs` is the Jacobian of the prediction by x_l, x_r and y.
 pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Contrasts> {
+    let mut all = contrasts_within(&Scales::of(evidence), evidence, icrs);
+    for one in &mut all {
+        one.columns.retain(|column| column.iter().any(|value| value.norm() > 0.0));
+    }
+    all.retain(|one| !one.columns.is_empty());
+    all
+}
+
+/// Ranges to which the functions of the driving are scaled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scales {
+    /// Largest track speed, m/s.
+    fastest: f64,
+    /// Ranges of x (m), y (m) and time (s).
+    ranges: [[f64; 2]; 3],
+}
+
+impl Scales {
+    /// Those of evidence.
+    pub fn of(evidence: &Evidence) -> Self {
+        let of: [fn(&Sample) -> f64; 3] = [|s| s.pose.x, |s| s.pose.y, |s| s.start];
+        let ranges = of.map(|of| {
+            let values = evidence.samples().iter().map(of);
+            values.fold([f64::MAX, f64::MIN], |[low, high], v| [low.min(v), high.max(v)])
+        });
+        Self { fastest: evidence.fastest().max(f64::MIN_POSITIVE), ranges }
+    }
+
+    /// Ranges that hold those of both.
+    pub fn joined(&self, other: &Self) -> Self {
+        let range = |k: usize| {
+            let ([a, b], [c, d]) = (self.ranges[k], other.ranges[k]);
+            [a.min(c), b.max(d)]
+        };
+        Self { fastest: self.fastest.max(other.fastest), ranges: [0, 1, 2].map(range) }
+    }
+
+    /// A coordinate of a sample, scaled to the range from −1 to 1.
+    fn scaled(&self, axis: usize, of: impl Fn(&Sample) -> f64) -> impl Fn(&Sample) -> f64 {
+        let [low, high] = self.ranges[axis];
+        let (middle, half) =
+            (f64::midpoint(low, high), ((high - low) / 2.0).max(f64::MIN_POSITIVE));
+        move |sample| (of(sample) - middle) / half
+    }
+}
+
+/// Contrasts scaled to these ranges. Each has all its columns, also those that are zero here: two
+/// sets of recordings have the same ones.
+pub fn contrasts_within(scales: &Scales, evidence: &Evidence, icrs: &IcrColumns) -> Vec<Contrasts> {
     let moved = &middle_half_y(icrs);
     let (samples, settings) = (evidence.samples(), &evidence.settings().location);
-    let mut collector = Collector { samples, settings, moved, all: Vec::new() };
-    let fastest = evidence.fastest().max(f64::MIN_POSITIVE);
+    let mut collector = Collector { samples, settings, moved, scales, all: Vec::new() };
+    let fastest = scales.fastest;
     collector.of_speed_and_direction(fastest);
     collector.of_straight_driving();
     if matches!(evidence.origin(), Origin::SteadyPoints(_)) {
@@ -76,7 +125,7 @@ pub fn contrasts(evidence: &Evidence, icrs: &IcrColumns) -> Vec<Contrasts> {
     collector.of_changes_of_speed(fastest);
     collector.of_turning_round(&turned(evidence));
     let mut all = collector.all;
-    all.extend(past::contrasts(evidence, moved));
+    all.push(past::contrasts(evidence, moved));
     all
 }
 
@@ -86,17 +135,15 @@ struct Collector<'a> {
     settings: &'a settings::Location,
     /// Jacobian by a, h and y.
     moved: &'a [Vec<Vector3<f64>>; 3],
+    scales: &'a Scales,
     all: Vec<Contrasts>,
 }
 
 impl Collector<'_> {
-    /// Adds a column multiplied by a function of the sample's index, unless the product is zero.
+    /// Adds a column multiplied by a function of the sample's index.
     fn add_each(&mut self, symmetry: Symmetry, of: &[Vector3<f64>], by: impl Fn(usize) -> f64) {
         let column: Vec<Vector3<f64>> =
             of.iter().enumerate().map(|(index, value)| value * by(index)).collect();
-        if column.iter().all(|value| value.norm() == 0.0) {
-            return;
-        }
         match self.all.iter_mut().find(|one| one.symmetry == symmetry) {
             Some(contrasts) => contrasts.columns.push(column),
             None => self.all.push(Contrasts { symmetry, beside: &[], columns: vec![column] }),
@@ -156,8 +203,8 @@ impl Collector<'_> {
     }
 
     fn of_place(&mut self) {
-        let x = scaled(self.samples, |s: &Sample| s.pose.x);
-        let y = scaled(self.samples, |s: &Sample| s.pose.y);
+        let x = self.scales.scaled(0, |s| s.pose.x);
+        let y = self.scales.scaled(1, |s| s.pose.y);
         for of in self.moved {
             self.add(Symmetry::Place, of, &x);
             self.add(Symmetry::Place, of, &y);
@@ -168,7 +215,7 @@ impl Collector<'_> {
     }
 
     fn of_time(&mut self) {
-        let time = scaled(self.samples, |s: &Sample| s.start);
+        let time = self.scales.scaled(2, |s| s.start);
         for of in self.moved {
             self.add(Symmetry::Time, of, &time);
             self.add(Symmetry::Time, of, |s| time(s).powi(2) - 0.3);
@@ -238,15 +285,6 @@ fn turned(evidence: &Evidence) -> Vec<PerSide<f64>> {
 
 fn sign(value: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value.signum() }
-}
-
-/// A coordinate of the samples, scaled to the range from −1 to 1.
-fn scaled(samples: &[Sample], of: impl Fn(&Sample) -> f64) -> impl Fn(&Sample) -> f64 {
-    let range = samples.iter().map(&of);
-    let (low, high) =
-        range.fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
-    let (middle, half) = (f64::midpoint(low, high), ((high - low) / 2.0).max(f64::MIN_POSITIVE));
-    move |sample| (of(sample) - middle) / half
 }
 
 #[cfg(test)]

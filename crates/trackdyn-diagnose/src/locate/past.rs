@@ -12,10 +12,7 @@ const SPEED_SYMMETRIES: &[Symmetry] =
     &[Symmetry::SpeedScale, Symmetry::Reversal, Symmetry::Manoeuvre, Symmetry::Mirror];
 
 /// Contrasts of a, h and y by past track speeds, not whitened.
-pub fn contrasts(
-    evidence: &Evidence,
-    [middle, half, y]: &[Vec<Vector3<f64>>; 3],
-) -> Option<Contrasts> {
+pub fn contrasts(evidence: &Evidence, [middle, half, y]: &[Vec<Vector3<f64>>; 3]) -> Contrasts {
     let mut columns: Vec<Vec<Vector3<f64>>> = Vec::new();
     for seconds in evidence.settings().location.memories {
         let past = past(evidence, seconds);
@@ -28,9 +25,7 @@ pub fn contrasts(
         }
         add(middle, |past| past.uneven);
     }
-    columns.retain(|column| column.iter().any(|value| value.norm() > 0.0));
-    let symmetry = Symmetry::Transient;
-    (!columns.is_empty()).then_some(Contrasts { symmetry, beside: SPEED_SYMMETRIES, columns })
+    Contrasts { symmetry: Symmetry::Transient, beside: SPEED_SYMMETRIES, columns }
 }
 
 /// Exponentially forgotten averages of track speeds, m/s.

@@ -60,6 +60,11 @@ impl Constants {
         Self { only, mostly: within(settings.max_mostly_constant_share), class }
     }
 
+    /// Effects that constant ICRs may stand for, ascending.
+    pub(crate) fn class(&self) -> &[EffectId] {
+        &self.class
+    }
+
     /// Whether an effect mostly acts as constant ICRs, and breaks no symmetry that they keep.
     pub(super) fn could_be_constant(&self, effect: EffectId) -> bool {
         self.mostly.contains(&effect) && self.class.contains(&effect)

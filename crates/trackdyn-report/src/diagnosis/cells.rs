@@ -23,18 +23,42 @@ const HALF: f64 = 1.96;
 const NAMES: [&str; 3] =
     ["xₗ, ICR of the left track", "xᵣ, ICR of the right track", "y of both ICRs (forward)"];
 
-/// One row per cell, one panel per number of the triple.
+/// What a figure of cells is of.
+pub(crate) struct Words<'a> {
+    /// Title of the figure.
+    pub title: &'a str,
+    /// What the two entries are.
+    pub entries: [&'a str; 2],
+    /// Their short names.
+    pub names: [&'a str; 2],
+    /// Stands below.
+    pub caption: &'a str,
+}
+
+/// One row per cell, one panel per number of the triple, before and after.
 pub(super) fn figure(subject: &Subject) -> Figure {
-    let [before, after] = subject.cells();
+    let words = Words {
+        title: "How the centres of rotation move with the way of driving",
+        entries: [
+            "before, against the constant ICRs fitted to all",
+            "after: what the corrected model leaves",
+        ],
+        names: ["before", "after"],
+        caption: subject.caption,
+    };
+    drawn(&subject.cells(), &words)
+}
+
+/// One row per cell, one panel per number of the triple, with two entries for each cell.
+pub(crate) fn drawn([before, after]: &[Vec<Cell>; 2], words: &Words) -> Figure {
     let height = TOP + rows(before.len().max(1)) * ROW + 130 + sheet::FOOT;
     let explanation = "ICR: the point of each track about which the robot turns, to the right and \
                        forward of its centre. By the constancy theorem it stays put in slow \
                        driving on level ground.";
-    let title = "How the centres of rotation move with the way of driving";
-    let mut figure = sheet::sheet("cells", height, title, explanation, subject.caption);
+    let mut figure = sheet::sheet("cells", height, words.title, explanation, words.caption);
     let entries = [
-        (Swatch::entry(BEFORE), "before, against the constant ICRs fitted to all"),
-        (Swatch::entry(AFTER), "after: what the corrected model leaves"),
+        (Swatch::entry(BEFORE), words.entries[0]),
+        (Swatch::entry(AFTER), words.entries[1]),
         (Swatch::Line(INK, 3.0), "bars: 95 % intervals"),
     ];
     figure.legends.push(Legend::of_marks([LABELS, sheet::TOP + 20], sheet::RIGHT, entries));
@@ -43,8 +67,8 @@ pub(super) fn figure(subject: &Subject) -> Figure {
         figure.write(text, [LABELS, TOP + ROW / 2], Style::new(TITLE_SIZE));
         return figure;
     }
-    let limit = limit(&[&before, &after]);
-    let panels = (0..3).map(|k| panel(&[&before, &after], k, limit));
+    let limit = limit(&[before, after]);
+    let panels = (0..3).map(|k| panel(&[before, after], k, limit, words.names));
     figure.panels.extend(panels);
     for (row, cell) in before.iter().enumerate() {
         let at = [-limit, real(row) + 0.5];
@@ -56,7 +80,7 @@ pub(super) fn figure(subject: &Subject) -> Figure {
 }
 
 /// One number of the triple, before and after.
-fn panel(cells: &[&[Cell]; 2], k: usize, limit: f64) -> Panel {
+fn panel(cells: &[&[Cell]; 2], k: usize, limit: f64, names: [&str; 2]) -> Panel {
     let count = cells[BEFORE].len();
     let left = LABELS + rows(k) * (PANEL + GAP);
     let place = Area::new(left, TOP, PANEL, rows(count) * ROW);
@@ -83,8 +107,7 @@ fn panel(cells: &[&[Cell]; 2], k: usize, limit: f64) -> Panel {
                 panel.labels.push(beyond(entry, [value, half], row, limit));
             }
         }
-        let name = ["before", "after"][entry];
-        panel.show_as(name, Estimates::of_entry(entry, estimates).across());
+        panel.show_as(names[entry], Estimates::of_entry(entry, estimates).across());
     }
     panel
 }

@@ -1,0 +1,271 @@
+//! What differs between two sets of recordings of nominally the same robot: a simulator's and the
+//! robot's.
+//!
+//! Each set is diagnosed against the same vehicle file, with its own noise, clock, instruments and
+//! constants. All effects that either has are then fitted to both, and a claim is about the
+//! difference of their sizes: what both have alike is none, even if the file lacks it.
+
+mod bayes;
+mod choice;
+mod closer;
+mod constants;
+mod difference;
+pub mod document;
+mod joint;
+mod quantity;
+mod remainder;
+mod spread;
+pub mod words;
+
+pub use bayes::Alternatives;
+pub use closer::Closer;
+pub use constants::Member;
+pub use difference::{Difference, NoDifference, Which};
+pub use quantity::{Estimate, Group, Number, Quantity, Subject};
+pub use remainder::Remainder;
+
+use crate::diagnosis::{Diagnosis, Examination};
+use crate::locate::cells::Cell;
+use crate::progress::{Cancelled, Stage, Watch};
+use crate::resampling::Resampling;
+use choice::Choice;
+use std::collections::{BTreeMap, BTreeSet};
+use trackdyn_model::effect::Symmetry;
+use trackdyn_model::{EffectId, VehicleFile};
+
+/// Stages of a comparison, after the diagnoses of both sets.
+pub const STAGES: usize = 3;
+
+/// What a comparison says in a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// Nothing differs that these recordings could have shown.
+    NothingDiffers,
+    /// What differs is named.
+    Explained,
+    /// Something differs, and more than one effect explains it.
+    Ambiguous,
+    /// They differ in a way that nothing named explains; what was named stays named.
+    Unexplained,
+}
+
+impl Status {
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NothingDiffers => "nothing-differs",
+            Self::Explained => "explained",
+            Self::Ambiguous => "ambiguous",
+            Self::Unexplained => "unexplained",
+        }
+    }
+}
+
+/// Smallest difference of a size that both sets together would have shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Smallest {
+    /// The effect.
+    pub effect: EffectId,
+    /// Index of the size among its parameters.
+    pub parameter: usize,
+    /// The difference, in the parameter's unit; none where one set can show no physical size.
+    pub size: Option<f64>,
+}
+
+/// What differs between two sets of recordings.
+pub struct Comparison {
+    /// The diagnosis of each set.
+    pub diagnoses: [Diagnosis; 2],
+    /// Effects that either set has.
+    pub effects: Vec<EffectId>,
+    /// What differs.
+    pub differences: Vec<Difference>,
+    /// What was compared and is not claimed to differ.
+    pub alike: Vec<Difference>,
+    /// Effects of one set that the other (0 or 1) cannot show.
+    pub not_shown: Vec<(EffectId, usize)>,
+    /// Encoders and pose sensor in each set: instruments, not physics.
+    pub instruments: Vec<Group>,
+    /// Where they differ beside constant ICRs, whatever the reason: with all sizes in common.
+    pub before: Remainder,
+    /// Where they differ beside what is named: with all other numbers in common.
+    pub beside_named: Remainder,
+    /// Where they differ in a way that no size explains.
+    pub after: Remainder,
+    /// ICRs by cells of driving in each set, against what both have in common.
+    pub cells: [Vec<Cell>; 2],
+    /// How much closer the first set's model comes to the second set.
+    pub closer: Closer,
+    /// Smallest differences that would have shown.
+    pub smallest: Vec<Smallest>,
+}
+
+/// Compares two examined sets of recordings: the first is the simulator's.
+///
+/// # Errors
+/// [`Cancelled`], by the observer of the watch.
+pub fn compare(
+    both: [&Examination; 2],
+    file: &VehicleFile,
+    resampling: Resampling,
+    watch: &Watch,
+) -> Result<Comparison, Cancelled> {
+    let choice = watch.try_stage(Stage::Differences, || Choice::best(both, watch))?;
+    let (groups, moved) = watch.stage(Stage::Differences, || quantity::groups(both, &choice))?;
+    let moved = moved.as_ref();
+    let judged = difference::judge(both, &choice, groups.clone(), moved, resampling);
+    let judged = closer::judge(both, &choice, judged);
+    let (differences, alike): (Vec<_>, Vec<_>) =
+        judged.into_iter().partition(|one| one.refused.is_none());
+    watch.stage(Stage::Differences, || ())?;
+    let icrs = remainder::icrs(both, &choice);
+    let beside = |is_free: &dyn Fn(Subject) -> bool| {
+        let free = groups.iter().filter(|group| is_free(group.subject));
+        difference::joint_beside(both, &choice, &groups, moved, free)
+    };
+    let is_named = |subject: Subject| differences.iter().any(|one| one.group.subject == subject);
+    let is_constants = |subject: Subject| subject == Subject::Constants;
+    let beside_named = beside(&is_named);
+    // constants of slow driving are exact: the form of laws is that of all other differences
+    let of_laws = remainder::misfit(&beside(&|one| is_constants(one) && is_named(one)))
+        - remainder::misfit(&beside_named);
+    let of =
+        |joint, explained| remainder::remainder(both, &choice, joint, &icrs, explained, resampling);
+    let before = of(beside(&is_constants), 0.0);
+    let beside_named = of(beside_named, of_laws.max(0.0));
+    let after = of(remainder::apart(both, &choice), 0.0);
+    let left = difference::joint(both, &choice, &groups, moved).left();
+    let cells = remainder::cells(both, &icrs, &left);
+    let closer = Closer::of(both, &choice, &differences, file);
+    let not_shown = choice.effects.iter().flat_map(|&effect| {
+        let lacking = [0, 1].into_iter();
+        let lacking = lacking.filter(|&k| !choice.fits[k].effects.contains(&effect));
+        lacking.map(|k| (effect, k)).collect::<Vec<_>>()
+    });
+    let not_shown = not_shown.collect();
+    let instruments = quantity::instruments(both, &choice);
+    let diagnoses = both.map(|set| set.diagnosis.clone());
+    Ok(Comparison {
+        smallest: smallest(&diagnoses),
+        effects: choice.effects,
+        diagnoses,
+        differences,
+        alike,
+        not_shown,
+        instruments,
+        before,
+        beside_named,
+        after,
+        cells,
+        closer,
+    })
+}
+
+/// Smallest differences of each size: the variances of both sets add.
+fn smallest(diagnoses: &[Diagnosis; 2]) -> Vec<Smallest> {
+    let of = |diagnosis: &Diagnosis| -> BTreeMap<(EffectId, usize), Option<f64>> {
+        let detectable = diagnosis.limits.detectable.iter();
+        detectable.map(|one| ((one.effect, one.parameter), one.size)).collect()
+    };
+    let [first, second] = [0, 1].map(|k| of(&diagnoses[k]));
+    let both = first.into_iter().filter_map(|(key, a)| Some((key, a, *second.get(&key)?)));
+    both.map(|((effect, parameter), a, b)| Smallest {
+        effect,
+        parameter,
+        size: a.zip(b).map(|(a, b)| a.hypot(b)),
+    })
+    .collect()
+}
+
+impl Comparison {
+    /// What it says in a word.
+    pub fn status(&self) -> Status {
+        if !self.left().is_empty() {
+            Status::Unexplained
+        } else if self.differences.iter().any(|one| one.one_of.len() > 1) {
+            Status::Ambiguous
+        } else if self.differences.is_empty() {
+            Status::NothingDiffers
+        } else {
+            Status::Explained
+        }
+    }
+
+    /// Whether they differ in a way that no size of an effect explains.
+    pub fn is_outside_the_catalogue(&self) -> bool {
+        !self.after.surely_broken().is_empty()
+    }
+
+    /// Effects that both sets have alike and the vehicle file lacks.
+    pub fn common(&self) -> impl Iterator<Item = EffectId> {
+        self.alike.iter().filter_map(|one| match one.group.subject {
+            Subject::Effect(effect) => {
+                let has = |k: usize| {
+                    one.group.numbers.iter().any(|number| !number.each[k].holds(number.prior.mean))
+                };
+                (has(0) && has(1)).then_some(effect)
+            }
+            Subject::Constants | Subject::FrictionLevel | Subject::CentreOfGravity => None,
+        })
+    }
+
+    /// Symmetries in which the sets differ beside constant ICRs, ascending.
+    pub fn broken(&self) -> Vec<Symmetry> {
+        both_of(self.before.broken(), self.left())
+    }
+
+    /// Symmetries in which they surely differ beside what is named, ascending.
+    pub fn left(&self) -> Vec<Symmetry> {
+        both_of(self.beside_named.surely_broken(), self.after.surely_broken())
+    }
+
+    /// One sentence on where they differ: the driving, and what the difference depends on.
+    pub fn place(&self) -> String {
+        let broken = self.broken();
+        if self.differences.is_empty() && broken.is_empty() {
+            return "nowhere: one model with the instruments of each explains both".to_owned();
+        }
+        let are_constants =
+            self.differences.iter().all(|one| !matches!(one.group.subject, Subject::Effect(_)));
+        let on = if broken.is_empty() {
+            are_constants.then(|| "it is the same in all driving".to_owned())
+        } else {
+            let on: Vec<&str> = broken.into_iter().map(words::depends_on).collect();
+            Some(format!("it depends on {}", on.join(", ")))
+        };
+        self.largest().into_iter().chain(on).collect::<Vec<_>>().join("; ")
+    }
+
+    /// The cell of driving whose ICRs differ most surely, in words.
+    fn largest(&self) -> Option<String> {
+        let [first, second] = &self.cells;
+        let mut best: Option<(f64, String)> = None;
+        for cell in first {
+            let is_same = |other: &&Cell| {
+                (other.manoeuvre, other.speed, other.forward)
+                    == (cell.manoeuvre, cell.speed, cell.forward)
+            };
+            let Some(other) = second.iter().find(is_same) else { continue };
+            for ((a, s), (b, t)) in cell.departure.into_iter().zip(other.departure) {
+                let z = (b - a).abs() / s.hypot(t);
+                if best.as_ref().is_none_or(|(most, _)| z > *most) && z.is_finite() {
+                    let direction = if cell.forward { "forward" } else { "backward" };
+                    let words = format!(
+                        "the ICRs differ most surely in {} {direction} at {:.2} m/s, by {:.0} mm",
+                        cell.manoeuvre.name(),
+                        cell.mean_speed,
+                        1e3 * (b - a).abs()
+                    );
+                    best = Some((z, words));
+                }
+            }
+        }
+        best.map(|(_, words)| words)
+    }
+}
+
+/// All symmetries of two lists, ascending.
+fn both_of(first: Vec<Symmetry>, second: Vec<Symmetry>) -> Vec<Symmetry> {
+    let all: BTreeSet<Symmetry> = first.into_iter().chain(second).collect();
+    all.into_iter().collect()
+}

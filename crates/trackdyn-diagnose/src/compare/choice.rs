@@ -1,0 +1,200 @@
+//! The effects of both sets: one hypothesis that either has, fitted to each.
+//!
+//! Instruments, constants and sizes are free in each set, so the likelihood of both is the product
+//! of two likelihoods. What couples them is which effects there are, and whether a size is the same
+//! in both: a rival that makes the sets equal needs one size where another needs two.
+
+use super::bayes::shared_gain;
+use crate::diagnosis::Examination;
+use crate::diagnosis::Kind;
+use crate::fit::{Fit, Point};
+use crate::hypothesis::{Unknown, beyond_none};
+use crate::prior::prior;
+use crate::progress::{Cancelled, Watch};
+use crate::search::Found;
+use std::collections::BTreeSet;
+use trackdyn_model::EffectId;
+use trackdyn_model::effect::Role;
+
+/// A claim of one diagnosis: the effect, and all that explain it as well.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Claimed {
+    pub effect: EffectId,
+    pub one_of: Vec<EffectId>,
+}
+
+/// The effects that either set has, with the fit of each set.
+pub(super) struct Choice {
+    /// The effects, ascending.
+    pub effects: Vec<EffectId>,
+    /// The fit of each set: without the effects that it cannot show.
+    pub fits: [Found; 2],
+}
+
+/// Physics that a diagnosis claims.
+pub(super) fn claimed(set: &Examination) -> Vec<Claimed> {
+    let missing = set.diagnosis.answer.missing.iter();
+    let physics = missing.filter(|missing| missing.kind == Kind::Physics);
+    physics
+        .map(|missing| Claimed {
+            effect: missing.verdict.effect,
+            one_of: missing.verdict.one_of.clone(),
+        })
+        .collect()
+}
+
+impl Choice {
+    /// The choice with the highest evidence of both sets together.
+    pub fn best(sets: [&Examination; 2], watch: &Watch) -> Result<Self, Cancelled> {
+        let mut best: Option<(f64, Self)> = None;
+        for effects in candidates(sets.map(claimed)) {
+            let choice = Self::of(sets, effects, watch)?;
+            let evidence = choice.evidence(sets);
+            if best.as_ref().is_none_or(|(most, _)| evidence > *most) {
+                best = Some((evidence, choice));
+            }
+        }
+        Ok(best.expect("the union of the claims is a choice").1)
+    }
+
+    /// Fits these effects to both sets. Each fit starts once more from the sizes of the other.
+    fn of(
+        sets: [&Examination; 2],
+        effects: Vec<EffectId>,
+        watch: &Watch,
+    ) -> Result<Self, Cancelled> {
+        let own =
+            [fitted(sets[0], &effects, None, watch)?, fitted(sets[1], &effects, None, watch)?];
+        let again = [
+            fitted(sets[0], &effects, Some(&own[1]), watch)?,
+            fitted(sets[1], &effects, Some(&own[0]), watch)?,
+        ];
+        let [[a, b], [c, d]] = [own, again];
+        let better = |own: Found, again: Found| {
+            if again.ln_evidence > own.ln_evidence { again } else { own }
+        };
+        Ok(Self { effects, fits: [better(a, c), better(b, d)] })
+    }
+
+    /// ln evidence of both sets, where each effect has either one size or two.
+    fn evidence(&self, sets: [&Examination; 2]) -> f64 {
+        let of_fits: f64 = self.fits.iter().map(|fit| fit.ln_evidence).sum();
+        let gains = self.effects.iter().map(|&effect| {
+            let gain: f64 = sizes(effect)
+                .map(|unknown| {
+                    let [Some(a), Some(b)] = self.fits.each_ref().map(|fit| normal(fit, unknown))
+                    else {
+                        return 0.0;
+                    };
+                    let hypothesis = &self.fits[0].fit.hypothesis;
+                    let known = prior(hypothesis, unknown, &sets[0].search.evidence);
+                    shared_gain([a, b], &known)
+                })
+                .sum();
+            gain.max(0.0)
+        });
+        of_fits + gains.sum::<f64>()
+    }
+}
+
+/// Sizes of an effect, as unknowns.
+pub(super) fn sizes(effect: EffectId) -> impl Iterator<Item = Unknown> {
+    crate::candidate::sizes(effect).into_iter().map(move |place| Unknown::Effect(effect, place))
+}
+
+/// Posterior mean and variance of a fitted unknown; none where it is not free.
+fn normal(found: &Found, unknown: Unknown) -> Option<[f64; 2]> {
+    let place = found.fit.unknowns.iter().position(|one| *one == unknown)?;
+    let variance = found.fit.solution.covariance[(place, place)];
+    Some([found.fit.hypothesis.get(unknown), variance])
+}
+
+/// Sets of effects that are tried: all claims of both, those of one alone, and all claims with one
+/// effect in place of two that may be the same.
+fn candidates([first, second]: [Vec<Claimed>; 2]) -> Vec<Vec<EffectId>> {
+    let effects = |claims: &[Claimed]| -> BTreeSet<EffectId> {
+        claims.iter().map(|claim| claim.effect).collect()
+    };
+    let [of_first, of_second] = [effects(&first), effects(&second)];
+    let all: BTreeSet<EffectId> = of_first.union(&of_second).copied().collect();
+    let mut tried = vec![all.clone(), of_first, of_second];
+    for a in &first {
+        for b in second.iter().filter(|b| b.effect != a.effect) {
+            for &member in a.one_of.iter().filter(|member| b.one_of.contains(member)) {
+                let mut merged = all.clone();
+                merged.remove(&a.effect);
+                merged.remove(&b.effect);
+                merged.insert(member);
+                tried.push(merged);
+            }
+        }
+    }
+    let mut distinct: Vec<Vec<EffectId>> = Vec::new();
+    for one in tried.into_iter().map(Vec::from_iter) {
+        if !distinct.contains(&one) {
+            distinct.push(one);
+        }
+    }
+    distinct
+}
+
+/// The best hypothesis of a diagnosis with these effects in place of its claims. An effect that the
+/// set cannot show is left out. Effects that are added start from `other`, where given.
+fn fitted(
+    set: &Examination,
+    effects: &[EffectId],
+    other: Option<&Found>,
+    watch: &Watch,
+) -> Result<Found, Cancelled> {
+    let search = &set.search;
+    let mut found = set.diagnosis.models.best.clone();
+    for claim in claimed(set).iter().filter(|claim| !effects.contains(&claim.effect)) {
+        watch.go_on()?;
+        found = search.without(&found, claim.effect);
+    }
+    let lacking: Vec<EffectId> =
+        effects.iter().copied().filter(|effect| !found.effects.contains(effect)).collect();
+    for effect in lacking {
+        watch.go_on()?;
+        let screened = search.screen(&found);
+        let shown = screened.iter().find(|one| one.effect == effect && one.gain.is_finite());
+        let Some(shown) = shown else { continue };
+        found = match other.and_then(|other| from_other(set, &found, other, effect)) {
+            Some(found) => found,
+            None => search.refit(&found, std::slice::from_ref(shown)),
+        };
+    }
+    Ok(found)
+}
+
+/// A hypothesis with one more effect, whose sizes are free from those of another set on and whose
+/// shapes are those of the other set; none for an effect that the other set lacks, or that stands
+/// in the world: each set has its own.
+fn from_other(set: &Examination, beside: &Found, other: &Found, effect: EffectId) -> Option<Found> {
+    let there = other.fit.hypothesis.effect(effect)?;
+    let of_the_world =
+        |role: Role| matches!(role, Role::Place { .. } | Role::Direction | Role::Time);
+    if effect.card().parameters.iter().any(|parameter| of_the_world(parameter.role)) {
+        return None;
+    }
+    let (search, evidence) = (&set.search, &set.search.evidence);
+    let mut unknowns = beside.fit.unknowns.clone();
+    unknowns.extend(sizes(effect));
+    let starts = [1.0, search.settings().search.near_start].map(|share| {
+        let hypothesis = beside.fit.hypothesis.with_effect(there.clone());
+        let hypothesis = sizes(effect).fold(hypothesis.clone(), |moved, unknown| {
+            let Unknown::Effect(_, place) = unknown else { return moved };
+            let away = (share - 1.0) * beyond_none(there, place);
+            moved.with(unknown, hypothesis.get(unknown) + away)
+        });
+        Point::new(hypothesis, &unknowns, evidence, Some(&beside.fit.mechanics))
+    });
+    let mut effects = [&beside.effects[..], &[effect]].concat();
+    effects.sort_unstable();
+    let fits = starts.into_iter().filter(|start| start.objective.is_finite());
+    let fits = fits.map(|start| {
+        let fit = Fit::from_point(start, &unknowns, evidence);
+        search.recalibrated(effects.clone(), fit)
+    });
+    fits.max_by(|a, b| a.ln_evidence.total_cmp(&b.ln_evidence))
+}

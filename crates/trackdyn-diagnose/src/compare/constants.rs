@@ -1,0 +1,115 @@
+//! Which single number moves the constant ICRs of one set to those of the other.
+
+use super::quantity::{Estimate, Group, HALF, middle_half_y};
+use crate::base::spin_with;
+use crate::candidate::sizes;
+use crate::diagnosis::Examination;
+use crate::hypothesis::{active, neutral, typical_size};
+use nalgebra::{DMatrix, DVector, Vector3};
+use trackdyn_core::real;
+use trackdyn_model::{EffectId, Effects, Vehicle};
+
+/// An effect that explains a difference of constant ICRs by itself, with the sizes that do.
+#[derive(Clone, Debug)]
+pub struct Member {
+    /// The effect.
+    pub effect: EffectId,
+    /// Index of each size among its parameters, and its value with an interval: what the second set
+    /// has more than the first.
+    pub sizes: Vec<(usize, Estimate)>,
+}
+
+/// Effects of the class of constants that explain the difference of constant ICRs alone. All of the
+/// class, without sizes, where none does: then it takes several.
+pub(super) fn members(sets: [&Examination; 2], group: &Group) -> Vec<Member> {
+    let [first, second] = sets.map(|set| set.constants.class());
+    let both = first.iter().copied().filter(|effect| second.contains(effect));
+    let class: Vec<EffectId> = both.collect();
+    let vehicle = &sets[0].search.base.as_filed.hypothesis.vehicle;
+    let settings = sets[0].search.settings();
+    let moved = Vector3::from_fn(|n, _| group.numbers[n].difference.value);
+    // ICRs are known to a part of the gauge, beside the noise.
+    let form = settings.verdict.min_icr_difference * vehicle.gauge / HALF;
+    let deviation = Vector3::from_fn(|n, _| group.numbers[n].difference.deviation().hypot(form));
+    let alone: Vec<Member> =
+        class.iter().filter_map(|&effect| member(vehicle, effect, moved, deviation)).collect();
+    if alone.is_empty() {
+        return class.into_iter().map(|effect| Member { effect, sizes: Vec::new() }).collect();
+    }
+    alone
+}
+
+/// Sizes of an effect that move the constant ICRs by `moved`; none where no size in its range does,
+/// within the deviations.
+///
+/// Gauss-Newton steps from none, with sizes held in their ranges.
+fn member(
+    vehicle: &Vehicle,
+    effect: EffectId,
+    moved: Vector3<f64>,
+    deviation: Vector3<f64>,
+) -> Option<Member> {
+    const ROUNDS: usize = 30;
+    const STEP: f64 = 1e-3;
+    let parameters = effect.card().parameters;
+    let places = sizes(effect);
+    let start: Vec<f64> = parameters.iter().map(neutral).collect();
+    let none = spin_with(vehicle, Effects::none())?;
+    let shift = |values: &[f64]| -> Option<Vector3<f64>> {
+        let effects: Effects = std::iter::once(active(effect, values)).collect();
+        let spin = spin_with(vehicle, effects)? - none;
+        Some(Vector3::from(middle_half_y(spin.into())).component_div(&deviation))
+    };
+    let wanted = moved.component_div(&deviation);
+    let slopes = |values: &[f64]| -> Option<DMatrix<f64>> {
+        let here = shift(values)?;
+        let mut slopes = DMatrix::zeros(3, places.len());
+        for (column, &place) in places.iter().enumerate() {
+            let parameter = &parameters[place];
+            let step = STEP * typical_size(parameter);
+            let step = if values[place] + step > parameter.range[1] { -step } else { step };
+            let mut there = values.to_vec();
+            there[place] += step;
+            slopes.set_column(column, &((shift(&there)? - here) / step));
+        }
+        Some(slopes)
+    };
+    let mut values = start;
+    let mut left = wanted - shift(&values)?;
+    for _ in 0..ROUNDS {
+        let slopes = slopes(&values)?;
+        let step = slopes.svd(true, true).solve(&DVector::from_row_slice(left.as_slice()), 1e-9);
+        let step = step.ok()?;
+        let mut share = 1.0;
+        let (mut better, before) = (None, left.norm());
+        while share > 1e-3 && better.is_none() {
+            let mut tried = values.clone();
+            for (column, &place) in places.iter().enumerate() {
+                let [low, high] = parameters[place].range;
+                tried[place] = (tried[place] + share * step[column]).clamp(low, high);
+            }
+            let rest = shift(&tried).map(|shift| wanted - shift);
+            better = rest.filter(|rest| rest.norm() < before).map(|rest| (tried, rest));
+            share /= 2.0;
+        }
+        let Some((tried, rest)) = better else { break };
+        (values, left) = (tried, rest);
+        if before - left.norm() < 1e-6 {
+            break;
+        }
+    }
+    // χ² of three numbers less those that were fitted, at three standard deviations
+    let degrees = real(3_usize.saturating_sub(places.len()).max(1));
+    if left.norm_squared() > degrees + 3.0 * (2.0 * degrees).sqrt() || left.norm() >= wanted.norm()
+    {
+        return None;
+    }
+    let slopes = slopes(&values)?;
+    let covariance = slopes.tr_mul(&slopes).pseudo_inverse(1e-12).ok()?;
+    let sizes = places.iter().enumerate().map(|(column, &place)| {
+        let half = HALF * covariance[(column, column)].max(0.0).sqrt();
+        let value = values[place];
+        (place, Estimate { value, low: value - half, high: value + half })
+    });
+    Some(Member { effect, sizes: sizes.collect() })
+}

@@ -1,0 +1,69 @@
+//! Comparisons of two sets of drives on the second simulator, with other schedules.
+
+use std::sync::LazyLock;
+use trackdyn_core::document::Document;
+use trackdyn_diagnose::Resampling;
+use trackdyn_diagnose::compare::document::ComparisonFile;
+use trackdyn_diagnose::compare::{Comparison, Status, Subject, compare};
+use trackdyn_diagnose::diagnosis::Examination;
+use trackdyn_diagnose::progress::Watch;
+use trackdyn_drive::sensors::Preset;
+use trackdyn_drive::{ScheduleKind, ScheduleOptions};
+use trackdyn_model::kinematics::Source;
+use trackdyn_model::{EffectId, Vehicle};
+use trackdyn_tests::concealed::{Drive, examined, owned, sensors};
+
+const RUNS: usize = 4;
+const RUN_TIME: f64 = 12.0;
+
+/// Drives by hand of this robot, with this concealed, examined against the vehicle as its owner
+/// knows it.
+fn set(concealed: &[&str], seed: u64, change: impl FnOnce(&mut Vehicle)) -> Examination {
+    let options = ScheduleOptions {
+        runs: Some(RUNS),
+        seed,
+        duration: Some(RUN_TIME),
+        ..ScheduleOptions::default()
+    };
+    let runs = ScheduleKind::Manual.generate(&options).expect("a schedule");
+    let file = owned(&[]);
+    let mut vehicle = file.vehicle.clone();
+    change(&mut vehicle);
+    let drive = Drive::new(&vehicle, concealed, &runs, seed).expect("it drives");
+    let recording = drive.recording(&sensors(Preset::Laboratory), seed);
+    examined(&recording, &file).expect("an answer")
+}
+
+static PLAIN: LazyLock<Examination> = LazyLock::new(|| set(&[], 3, |_| ()));
+
+fn compared(sim: &Examination, real: &Examination) -> Comparison {
+    let file = owned(&[]);
+    compare([sim, real], &file, Resampling::default(), &Watch::none()).expect("an answer")
+}
+
+fn effect(id: &str) -> EffectId {
+    EffectId::of(id).expect("an effect")
+}
+
+#[test]
+fn nothing_differs_between_equal_robots_on_other_schedules() {
+    let found = compared(&PLAIN, &set(&[], 5, |_| ()));
+    let differences: Vec<_> = found.differences.iter().map(|one| one.group.subject).collect();
+    assert_eq!(found.status(), Status::NothingDiffers, "{differences:?}, {}", found.place());
+    assert!(found.smallest.iter().any(|one| one.size.is_some()));
+}
+
+#[test]
+fn another_friction_ratio_stands_among_the_constants() {
+    let found = compared(&PLAIN, &set(&[], 7, |vehicle| vehicle.friction.across *= 1.25));
+    let [one] = &found.differences[..] else { panic!("{}: {:?}", found.place(), found.effects) };
+    assert_eq!(one.group.subject, Subject::Constants);
+    assert!(one.one_of.contains(&effect("friction-anisotropy")), "{:?}", one.one_of);
+    let [sim, corrected, _] = found.closer.errors;
+    assert!(corrected < sim, "{sim} {corrected}");
+    let file = ComparisonFile::new(&found, [&Source::default(), &Source::default()]);
+    let text = file.to_toml();
+    let read = ComparisonFile::from_document(&Document::new("compare.toml", &text));
+    assert_eq!(read.expect("its own file").to_toml(), text);
+    assert_eq!(file.differs[0].what, "constants");
+}

@@ -13,7 +13,8 @@ use crate::evidence::Evidence;
 use crate::progress::{Observer, Stage, Watch};
 use crate::proposal::{Unexplained, propose};
 use crate::weighted::Weighted;
-use trackdyn_model::VehicleFile;
+use std::collections::BTreeSet;
+use trackdyn_model::{ActiveEffect, EffectId, VehicleFile};
 
 /// Stages in one round of search and verdicts.
 const ROUND: usize = searched::STAGES_SHARPENED + 1;
@@ -21,6 +22,13 @@ const ROUND: usize = searched::STAGES_SHARPENED + 1;
 /// Stages of the longest course: noise, readings, two rounds, location, held-out runs, proposal and
 /// limits.
 pub const STAGES: usize = 2 + 2 * ROUND + 4;
+
+/// Candidates: the catalogue, then the laws of a user that are given or that the file has.
+fn suspects(laws: &[EffectId], file: &VehicleFile) -> Vec<EffectId> {
+    let filed = file.effects.iter().map(ActiveEffect::effect);
+    let own = filed.chain(laws.iter().copied()).filter(|effect| effect.custom().is_some());
+    EffectId::all().chain(own.collect::<BTreeSet<_>>()).collect()
+}
 
 /// Diagnoses evidence. `observer` receives the progress and may cancel.
 ///
@@ -34,6 +42,7 @@ pub fn diagnose(
     observer: &Observer,
 ) -> Result<Diagnosis, Error> {
     let resampling = options.resampling;
+    let suspects = suspects(&options.laws, file);
     let watch = &Watch::new(observer, STAGES);
 
     // Evidence: runs to fit, and held-out runs.
@@ -51,7 +60,7 @@ pub fn diagnose(
     // noise was overestimated. Then the verdicts.
     let judged_in = |seen: &Weighted| -> Result<Judged, Error> {
         let base = base.refitted(seen);
-        let searched = Searched::sharpened(seen, base, watch)?;
+        let searched = Searched::sharpened(seen, base, &suspects, watch)?;
         let judged = || Judged::of(searched, file, resampling, watch);
         watch.try_stage(Stage::Verdicts, judged).map_err(Error::from)
     };
